@@ -1,0 +1,37 @@
+# make demo   set up and run the lab on a shipped MATLAB file   (ARGS=--once ends by itself)
+# make test   set up and run every test                         (ARGS passes options to pytest)
+# make bench  run every benchmark                               (ARGS=--quick for a minute each)
+# make lint   ruff and mypy
+# make lock   write the lock files anew from requirements*.in
+# make clean  remove everything that set-up made
+
+SHELL := /bin/bash
+ENV := . .venv/mrlab.sh &&
+
+.PHONY: demo test bench lint lock setup clean
+
+setup:
+	@python3 scripts/bootstrap.py
+
+demo: setup
+	@$(ENV) exec mrlab demo $(ARGS)
+
+test:
+	@python3 scripts/bootstrap.py --dev --test-tools
+	@$(ENV) exec python -m pytest $(ARGS)
+
+lint:
+	@python3 scripts/bootstrap.py --dev
+	@$(ENV) ruff check . && ruff format --check . && mypy
+
+bench:
+	@python3 scripts/bootstrap.py --dev
+	@$(ENV) for b in bench/[a-z]*.py; do echo "== $$b"; python "$$b" $(ARGS) || exit 1; done
+
+lock:
+	@python3 scripts/bootstrap.py --dev
+	@$(ENV) uv pip compile -q --universal --python-version 3.10 --generate-hashes requirements.in -o requirements.lock
+	@$(ENV) uv pip compile -q --universal --python-version 3.10 --generate-hashes requirements-dev.in -o requirements-dev.lock
+
+clean:
+	rm -rf .venv build install log

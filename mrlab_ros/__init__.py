@@ -1,0 +1,1 @@
+"""MR-Lab: a mixed-reality robotics laboratory without robots."""

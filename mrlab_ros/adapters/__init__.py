@@ -1,0 +1,1 @@
+"""One module for each outside world the lab touches."""

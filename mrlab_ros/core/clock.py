@@ -1,0 +1,68 @@
+"""The clock of a trajectory: one pair (stamp, position) and a rate.
+
+position(t) = position0 + rate * (t - stamp0), held inside [0, duration]. Stamps are integer
+nanoseconds of whatever clock the caller uses; positions are seconds from the first frame.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, replace
+
+from mrlab_ros.core.errors import BadInput
+
+SECOND = 1_000_000_000
+RATE_RANGE = (0.1, 4.0)
+
+
+def checked_rate(rate: float) -> float:
+    """Return `rate` where it lies in RATE_RANGE; raise BadInput otherwise."""
+    low, high = RATE_RANGE
+    if not low <= rate <= high:
+        raise BadInput(f"the rate is {rate}; expected {low} to {high}, 1 is the declared speed")
+    return rate
+
+
+def checked_position(position: float, duration: float) -> float:
+    """Return `position` (s) where it lies on the timeline; raise BadInput otherwise."""
+    if not (math.isfinite(position) and 0 <= position <= duration):
+        raise BadInput(
+            f"the position is {position} s; expected 0 to {duration:g} s, the length of the "
+            "timeline"
+        )
+    return position
+
+
+@dataclass(frozen=True)
+class PlaybackClock:
+    """The pair and the rate; every change returns a new clock re-taken at `now_ns`.
+
+    rate is 0 while the clock stands. A stamp in the future means the clock starts then: until
+    that instant the position is the pair's own.
+    """
+
+    stamp_ns: int = 0
+    position: float = 0.0
+    rate: float = 0.0
+
+    def at(self, now_ns: int) -> float:
+        """Return the position, s, at `now_ns`; it may lie past either end of the timeline."""
+        if now_ns <= self.stamp_ns:
+            return self.position
+        return self.position + self.rate * ((now_ns - self.stamp_ns) / SECOND)
+
+    def due(self, position: float) -> int:
+        """Return the instant, ns, at which the clock shows `position`; rate must not be 0."""
+        return self.stamp_ns + round((position - self.position) / self.rate * SECOND)
+
+    def start(self, now_ns: int, rate: float) -> PlaybackClock:
+        """Run at `rate` from the present position on, beginning at `now_ns`."""
+        return PlaybackClock(now_ns, self.at(now_ns), rate)
+
+    def stop(self, now_ns: int) -> PlaybackClock:
+        """Stand still at the position shown at `now_ns`."""
+        return PlaybackClock(now_ns, self.at(now_ns), 0.0)
+
+    def jump(self, now_ns: int, position: float) -> PlaybackClock:
+        """Show `position` at `now_ns` and go on at the same rate."""
+        return replace(self, stamp_ns=now_ns, position=position)

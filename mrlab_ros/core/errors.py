@@ -1,0 +1,19 @@
+"""The errors of the lab: each text says what was found, what was expected, what to do next."""
+
+from __future__ import annotations
+
+
+class LabError(Exception):
+    """Base of every error that the lab raises on purpose; its text is for a person."""
+
+
+class BadInput(LabError):
+    """Something from outside (a file, a request) is not what it must be."""
+
+
+class Misuse(LabError):
+    """A call that the present state does not allow; nothing was changed."""
+
+
+class IllegalEvent(Misuse):
+    """A state machine was asked for an event that its present state does not know."""

@@ -1,0 +1,290 @@
+#!/usr/bin/env python3
+"""Set up everything MR-Lab needs inside this clone, and nothing outside it.
+
+Each step leaves a stamp with a fingerprint of its inputs, so a second run skips what is
+done, an interrupted run resumes at the step it was in, and a finished set-up needs no
+network. Runs on any Python 3.6 or newer, before anything is installed.
+"""
+
+import argparse
+import fcntl
+import hashlib
+import json
+import os
+import re
+import shutil
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parent.parent
+VENV = ROOT / ".venv"
+STAMPS = VENV / ".mrlab"
+INSTALL = ROOT / "install"
+# pybullet has wheels up to 3.11, so 3.11 comes first.
+PYTHONS = ("3.11", "3.12", "3.13", "3.10")
+PROBE = (
+    "import json, os, platform, sys, sysconfig\n"
+    "try:\n import ensurepip, venv; venv_ok = True\n"
+    "except ImportError: venv_ok = False\n"
+    "include = sysconfig.get_path('include')\n"
+    "print(json.dumps({'version': '%d.%d' % sys.version_info[:2], 'include': include,"
+    " 'headers': os.path.exists(os.path.join(include, 'Python.h')), 'venv': venv_ok,"
+    " 'executable': os.path.realpath(sys.executable), 'machine': platform.machine()}))"
+)
+
+
+class SetupError(Exception):
+    """A prerequisite is missing or a step failed; the text says what to do."""
+
+
+def say(text):
+    print("setup: " + text, flush=True)
+
+
+def probe(command):
+    """Describe the interpreter `command`, or None where it does not run."""
+    try:
+        done = subprocess.run(
+            [command, "-c", PROBE], stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, timeout=30
+        )
+    except (OSError, subprocess.TimeoutExpired):
+        return None
+    return json.loads(done.stdout.decode()) if done.returncode == 0 else None
+
+
+def find_python():
+    """Return the best interpreter found, described as PROBE does."""
+    chosen = os.environ.get("MRLAB_PYTHON")
+    commands = [chosen] if chosen else ["python" + v for v in PYTHONS] + [sys.executable]
+    found = [info for info in map(probe, commands) if info and info["version"] in PYTHONS]
+    if not found:
+        raise SetupError(
+            "found no Python 3.10 to 3.13{}; install one (Debian and Ubuntu: sudo apt install "
+            "python3.11 python3.11-venv python3.11-dev) or name it with MRLAB_PYTHON=/path/to/"
+            "python3.11".format(" at MRLAB_PYTHON=" + chosen if chosen else "")
+        )
+    complete = [info for info in found if info["venv"] and info["headers"]]
+    if not complete:
+        info = found[0]
+        lacks = "the venv module" if not info["venv"] else "its C headers (Python.h)"
+        raise SetupError(
+            "Python {0} at {1} lacks {2}; sudo apt install python{0}-venv python{0}-dev".format(
+                info["version"], info["executable"], lacks
+            )
+        )
+    if complete[0]["machine"] != "x86_64":
+        raise SetupError(
+            "this machine is {}; the ROS 2 Jazzy wheels exist for x86_64 Linux only, so build on "
+            "a ROS machine instead (README, 'The ROS way')".format(complete[0]["machine"])
+        )
+    return complete[0]
+
+
+def require_tools():
+    for tool, package in (("gcc", "gcc"), ("g++", "g++"), ("make", "make")):
+        if shutil.which(tool) is None:
+            raise SetupError(
+                "found no {}; it builds the ROS messages: sudo apt install {}".format(tool, package)
+            )
+
+
+def fingerprint(*inputs):
+    digest = hashlib.sha256()
+    for item in inputs:
+        if isinstance(item, Path):
+            digest.update(str(item.relative_to(ROOT)).encode() + b"\0" + item.read_bytes())
+        else:
+            digest.update(repr(item).encode())
+        digest.update(b"\0")
+    return digest.hexdigest()
+
+
+def run(command, **kwargs):
+    """Run a command quietly; show what it printed only when it fails."""
+    log = STAMPS / "last-command.log"
+    with log.open("wb") as out:
+        code = subprocess.run(command, stdout=out, stderr=subprocess.STDOUT, **kwargs).returncode
+    if code:
+        tail = "\n".join(log.read_text(errors="replace").splitlines()[-30:])
+        raise SetupError(
+            "this command failed with exit code {}:\n  {}\n{}\nRun the same make command again "
+            "to resume here; the whole output is in {}".format(
+                code, " ".join(map(str, command)), tail, log
+            )
+        )
+
+
+class Setup:
+    """The steps, in order; each is a method that does the work, run only when stale."""
+
+    def __init__(self, dev):
+        self.dev = dev
+        self.python = find_python()
+        self.venv_python = VENV / "bin" / "python"
+        self.site = VENV / "lib" / ("python" + self.python["version"]) / "site-packages"
+
+    def step(self, name, mark, action, says):
+        stamp = STAMPS / name
+        if stamp.exists() and stamp.read_text() == mark:
+            return
+        say(says)
+        begin = time.monotonic()
+        action()
+        STAMPS.mkdir(parents=True, exist_ok=True)
+        stamp.write_text(mark)
+        say("  done in {:.0f} s".format(time.monotonic() - begin))
+
+    def all(self):
+        locks = [ROOT / "requirements.lock"] + ([ROOT / "requirements-dev.lock"] * self.dev)
+        python = self.python["executable"], self.python["version"], str(ROOT)
+        self.step("venv", fingerprint(*python), self.make_venv, "making .venv with Python "
+                  + self.python["version"])
+        for lock in locks:
+            self.step(lock.name, fingerprint(lock, *python), lambda lock=lock: self.install(lock),
+                      "installing {} (about a minute)".format(lock.name))
+        self.step("patch", fingerprint(locks[0], *python), self.patch,
+                  "pointing the ROS build files at this Python")
+        sources = sorted(ROOT.joinpath("msg_schemas").rglob("*.*"))
+        self.step("messages", fingerprint(locks[0], *python, *filter(Path.is_file, sources)),
+                  lambda: self.colcon("mrlab_msgs"), "building the ROS messages (about a minute)")
+        self.step("package", fingerprint(ROOT / "setup.py", ROOT / "package.xml",
+                                         *python, self.data_files()),
+                  lambda: self.colcon("mrlab_ros"), "building the ROS package")
+        self.step("environment", fingerprint(Path(__file__).resolve(), *python),
+                  self.environment, "writing .venv/mrlab.sh and .venv/bin/mrlab")
+
+    def data_files(self):
+        """Name the files that setup.py installs as data: a new one means a new install."""
+        folders = ("config", "robots", "launch", "examples", "msg_schemas")
+        return [str(p.relative_to(ROOT)) for f in folders for p in sorted(ROOT.joinpath(f).rglob("*"))]
+
+    def make_venv(self):
+        shutil.rmtree(str(VENV), ignore_errors=True)
+        STAMPS.mkdir(parents=True)
+        run([self.python["executable"], "-m", "venv", str(VENV)])
+        # colcon looks for packages below the workspace; the venv holds none of ours.
+        (VENV / "COLCON_IGNORE").touch()
+
+    def install(self, lock):
+        # empy is published as source only.
+        # The cache lets an interrupted download resume; afterwards it is only weight.
+        cache = VENV / ".cache"
+        env = dict(os.environ, PIP_CACHE_DIR=str(cache), PIP_DISABLE_PIP_VERSION_CHECK="1")
+        run([str(self.venv_python), "-m", "pip", "install", "--require-hashes",
+             "--only-binary=:all:", "--no-binary=empy", "-r", str(lock)], env=env)
+        shutil.rmtree(str(cache), ignore_errors=True)
+
+    def patch(self):
+        """Rewrite the wheel builder's Python paths in the installed CMake files."""
+        numpy_include = subprocess.run(
+            [str(self.venv_python), "-c", "import numpy; print(numpy.get_include())"],
+            stdout=subprocess.PIPE, check=True, env=self.env()).stdout.decode().strip()
+        numpy_path = re.compile(r"/opt/python/cp\d+-cp\d+/lib/python[\d.]+/site-packages/numpy/"
+                                r"(?:_core|core)/include")
+        python_path = re.compile(r"/opt/python/cp\d+-cp\d+/include/python[\d.]+\d")
+        for path in sorted((VENV / "share").rglob("*.cmake")):
+            text = path.read_text()
+            new = python_path.sub(self.python["include"], numpy_path.sub(numpy_include, text))
+            if "/opt/python/" in new:
+                raise SetupError("{} names a Python path that set-up does not know; the ROS "
+                                 "wheels changed, please report it".format(path))
+            if new != text:
+                path.write_text(new)
+
+    def colcon(self, package):
+        run([str(VENV / "bin" / "colcon"), "--log-base", str(ROOT / "log"), "build",
+             "--base-paths", ".", "msg_schemas", "--packages-select", package,
+             "--symlink-install", "--cmake-args", "-DCMAKE_BUILD_TYPE=Release",
+             "-DBUILD_TESTING=OFF", "-DPython3_EXECUTABLE=" + str(self.venv_python)],
+            cwd=str(ROOT), env=self.env())
+
+    def env(self):
+        """Return the environment in which the ROS wheels build and run.
+
+        Setting the bootstrapper's guard spares every Python start a second exec.
+        """
+        libraries = [VENV / "lib"] + sorted(self.site.glob("ros_*.libs"))
+        prefixes = [INSTALL / "mrlab_ros", INSTALL / "mrlab_msgs", VENV]
+        packages = "lib/python{}/site-packages".format(self.python["version"])
+        # colcon's symlink install leaves an egg-link in build/; the sources are the package.
+        paths = [INSTALL / "mrlab_msgs" / packages, ROOT]
+        libraries.insert(0, INSTALL / "mrlab_msgs" / "lib")
+        env = dict(os.environ)
+        env.pop("PYTHONHOME", None)
+        env.update({
+            "VIRTUAL_ENV": str(VENV),
+            "PATH": "{}:{}".format(VENV / "bin", os.environ.get("PATH", "")),
+            "LD_LIBRARY_PATH": ":".join(map(str, libraries)),
+            "_ROS_WHEELS_BOOTSTRAP_COMPLETE": "1",
+            "AMENT_PREFIX_PATH": ":".join(map(str, prefixes)),
+            "CMAKE_PREFIX_PATH": str(VENV),
+            "PYTHONPATH": ":".join(map(str, paths)),
+        })
+        return env
+
+    def environment(self):
+        env = self.env()
+        lines = ["# Written by scripts/bootstrap.py: source it to use the lab from a shell."]
+        for key in ("VIRTUAL_ENV", "LD_LIBRARY_PATH", "_ROS_WHEELS_BOOTSTRAP_COMPLETE",
+                    "AMENT_PREFIX_PATH", "CMAKE_PREFIX_PATH", "PYTHONPATH"):
+            lines.append("export {}='{}'".format(key, env[key]))
+        lines.append("export PATH='{}':\"$PATH\"".format(VENV / "bin"))
+        script = VENV / "mrlab.sh"
+        script.write_text("\n".join(lines) + "\n")
+        command = VENV / "bin" / "mrlab"
+        command.write_text("#!/bin/sh\n. '{}'\nexec '{}' -m mrlab_ros.cli \"$@\"\n".format(
+            script, self.venv_python))
+        command.chmod(0o755)
+
+
+# What only the tests use; the lab itself runs without.
+TEST_TOOLS = (("octave-cli", "octave", "runs the MATLAB examples"),
+              ("check_urdf", "liburdfdom-tools", "checks the robot descriptions"))
+
+
+def install_test_tools():
+    missing = [(tool, package, why) for tool, package, why in TEST_TOOLS
+               if shutil.which(tool) is None]
+    if not missing:
+        return
+    packages = [package for _, package, _ in missing]
+    for tool, _, why in missing:
+        say("the tests need {}, which {}".format(tool, why))
+    command = "apt-get install -y --no-install-recommends " + " ".join(packages)
+    if os.geteuid() != 0 or shutil.which("apt-get") is None:
+        raise SetupError("please run: sudo {}   and then make test again".format(command))
+    say("installing them: " + command)
+    env = dict(os.environ, DEBIAN_FRONTEND="noninteractive")
+    run(["apt-get", "update", "-q"], env=env)
+    run(command.split(), env=env)
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("--dev", action="store_true",
+                        help="also install what the tests, checks and benchmarks need")
+    parser.add_argument("--test-tools", action="store_true",
+                        help="also install the system programs that the tests run")
+    options = parser.parse_args()
+    try:
+        require_tools()
+        ROOT.joinpath("build").mkdir(exist_ok=True)
+        with ROOT.joinpath("build", ".setup.lock").open("w") as lock:
+            try:
+                fcntl.flock(lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
+            except OSError:
+                say("another set-up runs in this clone; waiting for it")
+                fcntl.flock(lock, fcntl.LOCK_EX)
+            Setup(options.dev).all()
+            if options.test_tools:
+                install_test_tools()
+    except SetupError as error:
+        sys.exit("setup: " + str(error))
+    except KeyboardInterrupt:
+        sys.exit("\nsetup: interrupted; the same command resumes where it stopped")
+
+
+if __name__ == "__main__":
+    main()
