@@ -86,7 +86,9 @@ def require_tools():
     for tool, package in (("gcc", "gcc"), ("g++", "g++"), ("make", "make")):
         if shutil.which(tool) is None:
             raise SetupError(
-                "found no {}; it builds the ROS messages: sudo apt install {}".format(tool, package)
+                "found no {}; it builds the ROS messages: sudo apt install {}".format(
+                    tool, package
+                )
             )
 
 
@@ -139,26 +141,51 @@ class Setup:
     def all(self):
         locks = [ROOT / "requirements.lock"] + ([ROOT / "requirements-dev.lock"] * self.dev)
         python = self.python["executable"], self.python["version"], str(ROOT)
-        self.step("venv", fingerprint(*python), self.make_venv, "making .venv with Python "
-                  + self.python["version"])
+        self.step(
+            "venv",
+            fingerprint(*python),
+            self.make_venv,
+            "making .venv with Python " + self.python["version"],
+        )
         for lock in locks:
-            self.step(lock.name, fingerprint(lock, *python), lambda lock=lock: self.install(lock),
-                      "installing {} (about a minute)".format(lock.name))
-        self.step("patch", fingerprint(locks[0], *python), self.patch,
-                  "pointing the ROS build files at this Python")
+            self.step(
+                lock.name,
+                fingerprint(lock, *python),
+                lambda lock=lock: self.install(lock),
+                "installing {} (about a minute)".format(lock.name),
+            )
+        self.step(
+            "patch",
+            fingerprint(locks[0], *python),
+            self.patch,
+            "pointing the ROS build files at this Python",
+        )
         sources = sorted(ROOT.joinpath("msg_schemas").rglob("*.*"))
-        self.step("messages", fingerprint(locks[0], *python, *filter(Path.is_file, sources)),
-                  lambda: self.colcon("mrlab_msgs"), "building the ROS messages (about a minute)")
-        self.step("package", fingerprint(ROOT / "setup.py", ROOT / "package.xml",
-                                         *python, self.data_files()),
-                  lambda: self.colcon("mrlab_ros"), "building the ROS package")
-        self.step("environment", fingerprint(Path(__file__).resolve(), *python),
-                  self.environment, "writing .venv/mrlab.sh and .venv/bin/mrlab")
+        self.step(
+            "messages",
+            fingerprint(locks[0], *python, *filter(Path.is_file, sources)),
+            lambda: self.colcon("mrlab_msgs"),
+            "building the ROS messages (about a minute)",
+        )
+        self.step(
+            "package",
+            fingerprint(ROOT / "setup.py", ROOT / "package.xml", *python, self.data_files()),
+            lambda: self.colcon("mrlab_ros"),
+            "building the ROS package",
+        )
+        self.step(
+            "environment",
+            fingerprint(Path(__file__).resolve(), *python),
+            self.environment,
+            "writing .venv/mrlab.sh and .venv/bin/mrlab",
+        )
 
     def data_files(self):
         """Name the files that setup.py installs as data: a new one means a new install."""
         folders = ("config", "robots", "launch", "examples", "msg_schemas")
-        return [str(p.relative_to(ROOT)) for f in folders for p in sorted(ROOT.joinpath(f).rglob("*"))]
+        return [
+            str(p.relative_to(ROOT)) for f in folders for p in sorted(ROOT.joinpath(f).rglob("*"))
+        ]
 
     def make_venv(self):
         shutil.rmtree(str(VENV), ignore_errors=True)
@@ -172,33 +199,71 @@ class Setup:
         # The cache lets an interrupted download resume; afterwards it is only weight.
         cache = VENV / ".cache"
         env = dict(os.environ, PIP_CACHE_DIR=str(cache), PIP_DISABLE_PIP_VERSION_CHECK="1")
-        run([str(self.venv_python), "-m", "pip", "install", "--require-hashes",
-             "--only-binary=:all:", "--no-binary=empy", "-r", str(lock)], env=env)
+        run(
+            [
+                str(self.venv_python),
+                "-m",
+                "pip",
+                "install",
+                "--require-hashes",
+                "--only-binary=:all:",
+                "--no-binary=empy",
+                "-r",
+                str(lock),
+            ],
+            env=env,
+        )
         shutil.rmtree(str(cache), ignore_errors=True)
 
     def patch(self):
         """Rewrite the wheel builder's Python paths in the installed CMake files."""
-        numpy_include = subprocess.run(
-            [str(self.venv_python), "-c", "import numpy; print(numpy.get_include())"],
-            stdout=subprocess.PIPE, check=True, env=self.env()).stdout.decode().strip()
-        numpy_path = re.compile(r"/opt/python/cp\d+-cp\d+/lib/python[\d.]+/site-packages/numpy/"
-                                r"(?:_core|core)/include")
+        numpy_include = (
+            subprocess.run(
+                [str(self.venv_python), "-c", "import numpy; print(numpy.get_include())"],
+                stdout=subprocess.PIPE,
+                check=True,
+                env=self.env(),
+            )
+            .stdout.decode()
+            .strip()
+        )
+        numpy_path = re.compile(
+            r"/opt/python/cp\d+-cp\d+/lib/python[\d.]+/site-packages/numpy/"
+            r"(?:_core|core)/include"
+        )
         python_path = re.compile(r"/opt/python/cp\d+-cp\d+/include/python[\d.]+\d")
         for path in sorted((VENV / "share").rglob("*.cmake")):
             text = path.read_text()
             new = python_path.sub(self.python["include"], numpy_path.sub(numpy_include, text))
             if "/opt/python/" in new:
-                raise SetupError("{} names a Python path that set-up does not know; the ROS "
-                                 "wheels changed, please report it".format(path))
+                raise SetupError(
+                    "{} names a Python path that set-up does not know; the ROS "
+                    "wheels changed, please report it".format(path)
+                )
             if new != text:
                 path.write_text(new)
 
     def colcon(self, package):
-        run([str(VENV / "bin" / "colcon"), "--log-base", str(ROOT / "log"), "build",
-             "--base-paths", ".", "msg_schemas", "--packages-select", package,
-             "--symlink-install", "--cmake-args", "-DCMAKE_BUILD_TYPE=Release",
-             "-DBUILD_TESTING=OFF", "-DPython3_EXECUTABLE=" + str(self.venv_python)],
-            cwd=str(ROOT), env=self.env())
+        run(
+            [
+                str(VENV / "bin" / "colcon"),
+                "--log-base",
+                str(ROOT / "log"),
+                "build",
+                "--base-paths",
+                ".",
+                "msg_schemas",
+                "--packages-select",
+                package,
+                "--symlink-install",
+                "--cmake-args",
+                "-DCMAKE_BUILD_TYPE=Release",
+                "-DBUILD_TESTING=OFF",
+                "-DPython3_EXECUTABLE=" + str(self.venv_python),
+            ],
+            cwd=str(ROOT),
+            env=self.env(),
+        )
 
     def env(self):
         """Return the environment in which the ROS wheels build and run.
@@ -213,40 +278,54 @@ class Setup:
         libraries.insert(0, INSTALL / "mrlab_msgs" / "lib")
         env = dict(os.environ)
         env.pop("PYTHONHOME", None)
-        env.update({
-            "VIRTUAL_ENV": str(VENV),
-            "PATH": "{}:{}".format(VENV / "bin", os.environ.get("PATH", "")),
-            "LD_LIBRARY_PATH": ":".join(map(str, libraries)),
-            "_ROS_WHEELS_BOOTSTRAP_COMPLETE": "1",
-            "AMENT_PREFIX_PATH": ":".join(map(str, prefixes)),
-            "CMAKE_PREFIX_PATH": str(VENV),
-            "PYTHONPATH": ":".join(map(str, paths)),
-        })
+        env.update(
+            {
+                "VIRTUAL_ENV": str(VENV),
+                "PATH": "{}:{}".format(VENV / "bin", os.environ.get("PATH", "")),
+                "LD_LIBRARY_PATH": ":".join(map(str, libraries)),
+                "_ROS_WHEELS_BOOTSTRAP_COMPLETE": "1",
+                "AMENT_PREFIX_PATH": ":".join(map(str, prefixes)),
+                "CMAKE_PREFIX_PATH": str(VENV),
+                "PYTHONPATH": ":".join(map(str, paths)),
+            }
+        )
         return env
 
     def environment(self):
         env = self.env()
         lines = ["# Written by scripts/bootstrap.py: source it to use the lab from a shell."]
-        for key in ("VIRTUAL_ENV", "LD_LIBRARY_PATH", "_ROS_WHEELS_BOOTSTRAP_COMPLETE",
-                    "AMENT_PREFIX_PATH", "CMAKE_PREFIX_PATH", "PYTHONPATH"):
+        for key in (
+            "VIRTUAL_ENV",
+            "LD_LIBRARY_PATH",
+            "_ROS_WHEELS_BOOTSTRAP_COMPLETE",
+            "AMENT_PREFIX_PATH",
+            "CMAKE_PREFIX_PATH",
+            "PYTHONPATH",
+        ):
             lines.append("export {}='{}'".format(key, env[key]))
         lines.append("export PATH='{}':\"$PATH\"".format(VENV / "bin"))
         script = VENV / "mrlab.sh"
         script.write_text("\n".join(lines) + "\n")
         command = VENV / "bin" / "mrlab"
-        command.write_text("#!/bin/sh\n. '{}'\nexec '{}' -m mrlab_ros.cli \"$@\"\n".format(
-            script, self.venv_python))
+        command.write_text(
+            "#!/bin/sh\n. '{}'\nexec '{}' -m mrlab_ros.cli \"$@\"\n".format(
+                script, self.venv_python
+            )
+        )
         command.chmod(0o755)
 
 
 # What only the tests use; the lab itself runs without.
-TEST_TOOLS = (("octave-cli", "octave", "runs the MATLAB examples"),
-              ("check_urdf", "liburdfdom-tools", "checks the robot descriptions"))
+TEST_TOOLS = (
+    ("octave-cli", "octave", "runs the MATLAB examples"),
+    ("check_urdf", "liburdfdom-tools", "checks the robot descriptions"),
+)
 
 
 def install_test_tools():
-    missing = [(tool, package, why) for tool, package, why in TEST_TOOLS
-               if shutil.which(tool) is None]
+    missing = [
+        (tool, package, why) for tool, package, why in TEST_TOOLS if shutil.which(tool) is None
+    ]
     if not missing:
         return
     packages = [package for _, package, _ in missing]
@@ -263,10 +342,16 @@ def install_test_tools():
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("--dev", action="store_true",
-                        help="also install what the tests, checks and benchmarks need")
-    parser.add_argument("--test-tools", action="store_true",
-                        help="also install the system programs that the tests run")
+    parser.add_argument(
+        "--dev",
+        action="store_true",
+        help="also install what the tests, checks and benchmarks need",
+    )
+    parser.add_argument(
+        "--test-tools",
+        action="store_true",
+        help="also install the system programs that the tests run",
+    )
     options = parser.parse_args()
     try:
         require_tools()

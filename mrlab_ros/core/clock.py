@@ -7,7 +7,7 @@ nanoseconds of whatever clock the caller uses; positions are seconds from the fi
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 from mrlab_ros.core.errors import BadInput
 
@@ -35,7 +35,7 @@ def checked_position(position: float, duration: float) -> float:
 
 @dataclass(frozen=True)
 class PlaybackClock:
-    """The pair and the rate; every change returns a new clock re-taken at `now_ns`.
+    """The pair and the rate; a change of either is a new clock.
 
     rate is 0 while the clock stands. A stamp in the future means the clock starts then: until
     that instant the position is the pair's own.
@@ -54,15 +54,3 @@ class PlaybackClock:
     def due(self, position: float) -> int:
         """Return the instant, ns, at which the clock shows `position`; rate must not be 0."""
         return self.stamp_ns + round((position - self.position) / self.rate * SECOND)
-
-    def start(self, now_ns: int, rate: float) -> PlaybackClock:
-        """Run at `rate` from the present position on, beginning at `now_ns`."""
-        return PlaybackClock(now_ns, self.at(now_ns), rate)
-
-    def stop(self, now_ns: int) -> PlaybackClock:
-        """Stand still at the position shown at `now_ns`."""
-        return PlaybackClock(now_ns, self.at(now_ns), 0.0)
-
-    def jump(self, now_ns: int, position: float) -> PlaybackClock:
-        """Show `position` at `now_ns` and go on at the same rate."""
-        return replace(self, stamp_ns=now_ns, position=position)

@@ -29,42 +29,73 @@ class Event(Enum):
     UNLOAD = "unload"
     STAGE = "move to the start"
     PLAY = "play"
-    ARRIVED = "arrive at the start"
+    ARRIVED = "arrive"
+    STAGED = "arrive and wait"
     PAUSE = "pause"
     STOP = "stop"
     SEEK = "seek"
     COLLIDED = "collide"
-    CLEARED = "become clear"
+    CLEARED = "be clear again"
     FINISHED = "finish"
     REARMED = "be ready again"
 
 
-S, E = State, Event
 TRANSITIONS: dict[tuple[State, Event], State] = {
-    (S.IDLE, E.LOAD): S.READY,
-    (S.READY, E.LOAD): S.READY,
-    (S.READY, E.UNLOAD): S.IDLE,
-    (S.READY, E.STAGE): S.ADJUSTING,
-    (S.READY, E.PLAY): S.PLAYING,
-    (S.READY, E.STOP): S.READY,
-    (S.READY, E.SEEK): S.PAUSED,
-    (S.ADJUSTING, E.ARRIVED): S.PLAYING,
-    (S.ADJUSTING, E.STOP): S.READY,
-    (S.ADJUSTING, E.COLLIDED): S.COLLISION_HALT,
-    (S.PLAYING, E.PAUSE): S.PAUSED,
-    (S.PLAYING, E.STOP): S.READY,
-    (S.PLAYING, E.SEEK): S.PLAYING,
-    (S.PLAYING, E.COLLIDED): S.COLLISION_HALT,
-    (S.PLAYING, E.FINISHED): S.COMPLETE,
-    (S.PAUSED, E.PLAY): S.PLAYING,
-    (S.PAUSED, E.STAGE): S.ADJUSTING,
-    (S.PAUSED, E.PAUSE): S.PAUSED,
-    (S.PAUSED, E.STOP): S.READY,
-    (S.PAUSED, E.SEEK): S.PAUSED,
-    (S.PAUSED, E.LOAD): S.READY,
-    (S.PAUSED, E.UNLOAD): S.IDLE,
-    (S.COLLISION_HALT, E.CLEARED): S.PAUSED,
-    (S.COLLISION_HALT, E.STOP): S.COLLISION_HALT,
-    (S.COMPLETE, E.REARMED): S.READY,
+    (State.IDLE, Event.LOAD): State.READY,
+    (State.READY, Event.LOAD): State.READY,
+    (State.READY, Event.UNLOAD): State.IDLE,
+    (State.READY, Event.STAGE): State.ADJUSTING,
+    (State.READY, Event.PLAY): State.PLAYING,
+    (State.READY, Event.STOP): State.READY,
+    (State.READY, Event.SEEK): State.PAUSED,
+    (State.ADJUSTING, Event.ARRIVED): State.PLAYING,
+    (State.ADJUSTING, Event.STAGED): State.PAUSED,
+    (State.ADJUSTING, Event.PAUSE): State.PAUSED,
+    (State.ADJUSTING, Event.STOP): State.READY,
+    (State.ADJUSTING, Event.SEEK): State.PAUSED,
+    (State.ADJUSTING, Event.COLLIDED): State.COLLISION_HALT,
+    (State.PLAYING, Event.PAUSE): State.PAUSED,
+    (State.PLAYING, Event.STOP): State.READY,
+    (State.PLAYING, Event.SEEK): State.PLAYING,
+    (State.PLAYING, Event.STAGE): State.ADJUSTING,
+    (State.PLAYING, Event.COLLIDED): State.COLLISION_HALT,
+    (State.PLAYING, Event.FINISHED): State.COMPLETE,
+    (State.PAUSED, Event.LOAD): State.READY,
+    (State.PAUSED, Event.UNLOAD): State.IDLE,
+    (State.PAUSED, Event.STAGE): State.ADJUSTING,
+    (State.PAUSED, Event.PLAY): State.PLAYING,
+    (State.PAUSED, Event.PAUSE): State.PAUSED,
+    (State.PAUSED, Event.STOP): State.READY,
+    (State.PAUSED, Event.SEEK): State.PAUSED,
+    (State.COLLISION_HALT, Event.STOP): State.COLLISION_HALT,
+    (State.COLLISION_HALT, Event.SEEK): State.COLLISION_HALT,
+    (State.COLLISION_HALT, Event.CLEARED): State.PAUSED,
+    (State.COMPLETE, Event.REARMED): State.READY,
 }
-del S, E
+
+# What a person can ask for; the other events come from the motion itself or from physics.
+COMMANDS = (Event.LOAD, Event.UNLOAD, Event.PLAY, Event.PAUSE, Event.STOP, Event.SEEK)
+
+
+def possible(state: State) -> tuple[Event, ...]:
+    """Return the commands that `state` allows, in the order of COMMANDS."""
+    return tuple(event for event in COMMANDS if (state, event) in TRANSITIONS)
+
+
+def after(state: State, event: Event) -> State:
+    """Return the state that `event` leads to; raise IllegalEvent where the table has none."""
+    try:
+        return TRANSITIONS[state, event]
+    except KeyError:
+        allowed = ", ".join(e.value for e in possible(state)) or "nothing but waiting"
+        raise IllegalEvent(
+            f"cannot {event.value} in {state.name}; possible now: {allowed}"
+        ) from None
+
+
+def mermaid() -> str:
+    """Draw the table as a Mermaid state diagram."""
+    lines = ["stateDiagram-v2", "    [*] --> IDLE"]
+    for (state, event), target in TRANSITIONS.items():
+        lines.append(f"    {state.name} --> {target.name}: {event.value}")
+    return "\n".join(lines)

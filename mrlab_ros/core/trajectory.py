@@ -17,6 +17,9 @@ from mrlab_ros.core.errors import BadInput
 
 Array = NDArray[np.float64]
 
+# A position this close to a frame, in frames, is that frame: i / f * f need not round to i.
+ON_FRAME = 1e-6
+
 
 @dataclass(frozen=True)
 class Source:
@@ -106,8 +109,7 @@ class Trajectory:
 
         Before the first frame that is 0, after the last frame the last one.
         """
-        # A frame's own time must give that frame, whatever i / f * f rounds to.
-        frame = int(np.floor(position * self.frame_rate + 1e-9))
+        frame = int(np.floor(position * self.frame_rate + ON_FRAME))
         return min(max(frame, 0), self.frame_count - 1)
 
     def sample(self, position: float) -> Array:
@@ -116,12 +118,18 @@ class Trajectory:
         Exactly the frame's values on a frame, linear between two frames, the first frame's
         before it and the last frame's after it.
         """
+        return self._between(self.positions, position)
+
+    def velocity_at(self, position: float) -> Array:
+        """Return the joint velocities, (J,) rad/s, at `position` (s), as sample() does."""
+        return self._between(self.channels.velocities, position)
+
+    def _between(self, rows: Array, position: float) -> Array:
         frame = self.frame_at(position)
         share = position * self.frame_rate - frame
-        if share <= 1e-9 or frame == self.frame_count - 1:
-            return self.positions[frame]
-        here, there = self.positions[frame], self.positions[frame + 1]
-        return here + share * (there - here)
+        if share <= ON_FRAME or frame == self.frame_count - 1:
+            return rows[frame]
+        return rows[frame] + share * (rows[frame + 1] - rows[frame])
 
     def gripper_at(self, position: float) -> bool | None:
         """Return the gripper state at `position` (s): the last frame's, never interpolated."""

@@ -1,0 +1,131 @@
+"""The robots in the scene: their names, places and end effectors."""
+
+from __future__ import annotations
+
+import itertools
+import math
+import re
+from dataclasses import dataclass, replace
+
+from mrlab_ros.core.errors import BadInput, Misuse
+
+NAME = re.compile(r"[a-z][a-z0-9_]{0,62}")
+# Names below which the lab's own topics and services live.
+RESERVED = frozenset(
+    "bridge converter coordinator lab objects physics playback_host recorder robots surfaces "
+    "systems trajectories contacts tf tf_static rosout".split()
+)
+# Robots placed automatically stand this share of their reaches apart, so that two arms can meet
+# but not stand in each other.
+SPACING = 0.75
+GRID = 0.25
+GRID_RADIUS = 80
+
+
+def checked_name(name: str, taken: frozenset[str], what: str) -> str:
+    """Return `name` where it can be a namespace and is free; raise BadInput otherwise."""
+    if not NAME.fullmatch(name) or name.endswith("_") or "__" in name:
+        raise BadInput(
+            f"'{name}' cannot name a {what}; expected lower-case letters, digits and single "
+            "underscores, beginning with a letter, such as ur5e_1"
+        )
+    if name in RESERVED:
+        raise BadInput(f"'{name}' is a name of the lab's own; choose another, such as {name}_1")
+    if name in taken:
+        raise BadInput(f"the name '{name}' is taken; choose another or leave it empty")
+    return name
+
+
+@dataclass(frozen=True)
+class Pose:
+    """A place in the frame world: position in m, unit quaternion (x, y, z, w)."""
+
+    position: tuple[float, float, float] = (0.0, 0.0, 0.0)
+    orientation: tuple[float, float, float, float] = (0.0, 0.0, 0.0, 1.0)
+
+    def __post_init__(self) -> None:
+        if not all(map(math.isfinite, self.position + self.orientation)):
+            raise BadInput(f"the pose {self.position}, {self.orientation} is not finite")
+        norm = math.hypot(*self.orientation)
+        if abs(norm - 1) > 0.01:
+            raise BadInput(
+                f"the orientation {self.orientation} has length {norm:.3g}; expected a unit "
+                "quaternion (x, y, z, w), such as 0, 0, 0, 1"
+            )
+
+
+@dataclass(frozen=True)
+class PlacedRobot:
+    """A robot of the scene; end_effector is None for a bare flange. reach: m."""
+
+    name: str
+    model: str
+    end_effector: str | None
+    pose: Pose
+    reach: float
+    joint_names: tuple[str, ...]
+
+
+class Scene:
+    """The set of robots, in order of arrival; every change is checked before it is made."""
+
+    def __init__(self) -> None:
+        self._robots: dict[str, PlacedRobot] = {}
+
+    @property
+    def robots(self) -> tuple[PlacedRobot, ...]:
+        return tuple(self._robots.values())
+
+    def robot(self, name: str) -> PlacedRobot:
+        """Return the robot called `name`; raise Misuse where there is none."""
+        try:
+            return self._robots[name]
+        except KeyError:
+            known = ", ".join(self._robots) or "none"
+            raise Misuse(f"no robot '{name}' is in the scene; there are: {known}") from None
+
+    def free_name(self, model: str) -> str:
+        """Return the model's id with the first free number: ur5e_1, ur5e_2, ..."""
+        return next(
+            name
+            for number in itertools.count(1)
+            if (name := f"{model}_{number}") not in self._robots
+        )
+
+    def free_pose(self, reach: float) -> Pose:
+        """Return the place nearest to the origin on the floor that keeps clear of all robots."""
+        steps = range(-GRID_RADIUS, GRID_RADIUS + 1)
+        # To the left of the origin before the right, and beside it before behind it.
+        cells = sorted(
+            itertools.product(steps, steps), key=lambda c: (math.hypot(*c), c[0], -c[1])
+        )
+        for i, j in cells:
+            x, y = i * GRID, j * GRID
+            if all(
+                math.hypot(x - r.pose.position[0], y - r.pose.position[1])
+                >= SPACING * (reach + r.reach)
+                for r in self._robots.values()
+            ):
+                return Pose((x, y, 0.0))
+        raise Misuse(
+            f"no free place within {GRID_RADIUS * GRID:g} m of the origin; remove a robot, or "
+            "give a pose"
+        )
+
+    def spawn(self, robot: PlacedRobot) -> PlacedRobot:
+        """Add `robot`; raise BadInput where its name cannot be used."""
+        checked_name(robot.name, frozenset(self._robots), "robot")
+        self._robots[robot.name] = robot
+        return robot
+
+    def place(self, name: str, pose: Pose) -> PlacedRobot:
+        self._robots[name] = replace(self.robot(name), pose=pose)
+        return self._robots[name]
+
+    def set_end_effector(self, name: str, end_effector: str | None) -> PlacedRobot:
+        self._robots[name] = replace(self.robot(name), end_effector=end_effector)
+        return self._robots[name]
+
+    def remove(self, name: str) -> PlacedRobot:
+        self.robot(name)
+        return self._robots.pop(name)

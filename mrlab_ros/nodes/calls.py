@@ -1,0 +1,43 @@
+"""Calls of one node's services by another, with a deadline and a plain error."""
+
+from __future__ import annotations
+
+import threading
+from typing import Any
+
+from rclpy.client import Client
+
+from mrlab_ros.core.errors import LabError
+
+
+class NoAnswer(LabError):
+    """A node of the lab did not answer in time."""
+
+
+def call(client: Client, request: Any, timeout: float = 5.0) -> Any:
+    """Return the service's answer; raise NoAnswer after `timeout` s.
+
+    For use off the executor, or inside a callback whose executor has a thread left; the client
+    must not share a mutually exclusive callback group with the caller.
+    """
+    return call_all([client], request, timeout)[0]
+
+
+def call_all(clients: list[Client], request: Any, timeout: float = 5.0) -> list[Any]:
+    """Send all clients one request at once and return their answers in order, as call() does."""
+    for client in clients:
+        if not client.wait_for_service(timeout_sec=timeout):
+            raise NoAnswer(f"nobody offers {client.srv_name}; is that part of the lab running?")
+    pending = []
+    for client in clients:
+        done = threading.Event()
+        future = client.call_async(request)
+        future.add_done_callback(lambda _, done=done: done.set())
+        pending.append((client, future, done))
+    answers = []
+    for client, future, done in pending:
+        if not done.wait(timeout):
+            client.remove_pending_request(future)
+            raise NoAnswer(f"{client.srv_name} did not answer within {timeout:g} s; try again")
+        answers.append(future.result())
+    return answers

@@ -1,0 +1,351 @@
+"""Playback nodes, one a robot, and the host that makes them."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from mrlab_msgs import msg, srv
+from rclpy.callback_groups import MutuallyExclusiveCallbackGroup
+from rclpy.context import Context
+from rclpy.executors import Executor
+from rclpy.node import Node
+from rclpy.parameter import Parameter
+from sensor_msgs.msg import JointState
+from std_srvs.srv import SetBool, Trigger
+
+from mrlab_ros import conversions, host, qos, share
+from mrlab_ros.adapters.robot_library import RobotLibrary
+from mrlab_ros.adapters.ruckig_motion import RuckigPlanner, StagingLimits
+from mrlab_ros.core.errors import BadInput, Misuse
+from mrlab_ros.core.motion import MotionPlanner
+from mrlab_ros.core.playback import Playback, Sample, Snapshot
+from mrlab_ros.core.playback_states import State
+from mrlab_ros.core.robot_model import RobotModel
+from mrlab_ros.core.trajectory import Trajectory
+from mrlab_ros.nodes.answers import answered
+from mrlab_ros.nodes.calls import call
+from mrlab_ros.scheduler import Player, Scheduler
+
+MOVING = (State.ADJUSTING, State.PLAYING)
+Drive = srv.Drive.Request
+
+
+class PlaybackNode(Node):
+    """Streams one robot's joint states and answers its playback services."""
+
+    def __init__(
+        self,
+        robot: str,
+        model: RobotModel,
+        planner: MotionPlanner,
+        scheduler: Scheduler,
+        fetch: Any,
+        standing_rate: float,
+        *,
+        context: Context | None = None,
+    ) -> None:
+        # A class of fifty has fifty of these: each leaves out what nobody asks a playback for.
+        super().__init__(
+            "playback",
+            namespace=robot,
+            context=context,
+            start_parameter_services=False,
+            enable_rosout=False,
+        )
+        self.robot = robot
+        self.model = model
+        self._scheduler = scheduler
+        self._fetch = fetch
+        self._colliding = False
+        self.playback = Playback(model, planner, standing_rate)
+        self._encoder = conversions.JointStateEncoder(robot, model.joint_names)
+        self._joint_states = self.create_publisher(JointState, "joint_states", qos.STREAM)
+        self._state = self.create_publisher(msg.PlaybackState, "playback_state", qos.LATCHED)
+        self._telemetry = self.create_publisher(msg.Telemetry, "telemetry", qos.STREAM)
+        self._targets = self.create_publisher(msg.GraspTargets, "targets", qos.LATCHED)
+        self.create_subscription(msg.Collision, "collision", self._on_collision, qos.LATCHED)
+        for kind, name, callback in (
+            (srv.LoadTrajectory, "load", self._load),
+            (Trigger, "play", self._play),
+            (Trigger, "pause", self._pause),
+            (Trigger, "stop", self._stop),
+            (srv.Seek, "seek", self._seek),
+            (srv.SetRate, "set_rate", self._set_rate),
+            (SetBool, "set_loop", self._set_loop),
+            (Trigger, "clear_halt", self._clear_halt),
+            (srv.Drive, "drive", self._drive),
+        ):
+            self.create_service(kind, name, callback)
+        self.player = Player(self.playback, self._send, self._announce)
+        scheduler.add(self.player)
+
+    def close(self) -> None:
+        """Leave the scheduler, then the graph."""
+        self._scheduler.remove(self.player)
+        self.destroy_node()
+
+    def publish_telemetry(self) -> None:
+        """Publish the display values of the last joint state, while the robot moves."""
+        with self._scheduler.command() as now_ns:
+            sample, playback = self.player.last, self.playback
+            trajectory = playback.trajectory
+            if sample is None or trajectory is None or playback.state not in MOVING:
+                return
+            sent, lost = playback.sent, playback.lost
+            errors = self.player.error_ns, self.player.error_max_ns
+        closed = trajectory.gripper_at(sample.position)
+        self._telemetry.publish(
+            msg.Telemetry(
+                header=conversions.header(now_ns, self.robot),
+                joint_names=list(trajectory.joint_names),
+                velocities=sample.velocities,
+                effort_proxy=trajectory.channels.effort_proxy[sample.frame],
+                frame=sample.frame,
+                position=sample.position,
+                has_gripper=closed is not None,
+                gripper_closed=bool(closed),
+                tool0=conversions.pose_to_message(self.model.chain.tool0(sample.positions)),
+                deadline_error=errors[0] * 1e-9,
+                deadline_error_max=errors[1] * 1e-9,
+                frames_sent=sent,
+                frames_lost=lost,
+            )
+        )
+
+    def publish_state(self) -> None:
+        """Publish the present state again, while the robot moves."""
+        with self._scheduler.command() as now_ns:
+            if self.playback.state in MOVING:
+                self._announce(now_ns, self.playback.snapshot())
+
+    def _send(self, sample: Sample) -> None:
+        self._joint_states.publish(
+            self._encoder.encode(sample.due_ns, sample.positions, sample.velocities)
+        )
+
+    def _announce(self, now_ns: int, snapshot: Snapshot) -> None:
+        self._state.publish(conversions.snapshot_to_message(now_ns, self.robot, snapshot))
+
+    def _announce_targets(self, now_ns: int, trajectory: Trajectory | None) -> None:
+        targets = []
+        for frame, closed in trajectory.grasp_frames if trajectory else ():
+            assert trajectory is not None
+            tool0 = self.model.chain.tool0(trajectory.positions[frame])
+            targets.append(
+                msg.GraspTarget(
+                    frame=frame,
+                    time=frame / trajectory.frame_rate,
+                    close=closed,
+                    tool0=conversions.pose_to_message(tool0),
+                )
+            )
+        self._targets.publish(
+            msg.GraspTargets(
+                header=conversions.header(now_ns, f"{self.robot}/base_link"),
+                trajectory_id=trajectory.id if trajectory else "",
+                targets=targets,
+            )
+        )
+
+    @answered
+    def _load(self, request: Any, response: Any) -> str:
+        trajectory = self._fetch(request.id) if request.id else None
+        with self._scheduler.command() as now_ns:
+            if trajectory is None:
+                self.playback.unload(now_ns)
+            else:
+                self.playback.load(now_ns, trajectory)
+        self._announce_targets(now_ns, trajectory)
+        if trajectory is None:
+            return "unloaded"
+        return (
+            f"loaded {trajectory.id}: {trajectory.frame_count} frames, {trajectory.duration:g} s"
+        )
+
+    @answered
+    def _play(self, request: Any, response: Any) -> str:
+        with self._scheduler.command() as now_ns:
+            self.playback.play(now_ns)
+            moves = self.playback.state is State.ADJUSTING
+        return "moves to the start, then plays" if moves else "plays"
+
+    @answered
+    def _pause(self, request: Any, response: Any) -> str:
+        with self._scheduler.command() as now_ns:
+            self.playback.pause(now_ns)
+            return f"paused at {self.playback.clock.position:.3f} s"
+
+    @answered
+    def _stop(self, request: Any, response: Any) -> str:
+        with self._scheduler.command() as now_ns:
+            self.playback.stop(now_ns)
+        return "stopped"
+
+    @answered
+    def _seek(self, request: Any, response: Any) -> str:
+        with self._scheduler.command() as now_ns:
+            self.playback.seek(now_ns, request.position)
+        return f"at {request.position:g} s"
+
+    @answered
+    def _set_rate(self, request: Any, response: Any) -> str:
+        with self._scheduler.command() as now_ns:
+            self.playback.set_rate(now_ns, request.rate)
+        return f"rate {request.rate:g}"
+
+    @answered
+    def _set_loop(self, request: Any, response: Any) -> str:
+        with self._scheduler.command():
+            self.playback.set_loop(request.data)
+        return "loops" if request.data else "plays once"
+
+    @answered
+    def _clear_halt(self, request: Any, response: Any) -> str:
+        with self._scheduler.command() as now_ns:
+            if self._colliding and self.playback.state is State.COLLISION_HALT:
+                raise Misuse(
+                    "the arm still touches something; place the robot elsewhere, move what it "
+                    "touches away, or seek back"
+                )
+            self.playback.clear(now_ns)
+        return "clear; play resumes in place"
+
+    @answered
+    def _drive(self, request: Any, response: Any) -> str:
+        playback, by = self.playback, request.system
+        start_ns = conversions.to_ns(request.stamp)
+        with self._scheduler.command() as now_ns:
+            if request.command == Drive.CLAIM:
+                playback.claim(by)
+            elif request.command == Drive.RELEASE:
+                playback.release(now_ns, by)
+            elif request.command == Drive.STAGE:
+                response.duration = playback.stage(now_ns, request.position, by)
+            elif request.command == Drive.PLAY:
+                playback.play(now_ns, start_ns, by)
+            elif request.command == Drive.PAUSE:
+                playback.pause(now_ns, by)
+            elif request.command == Drive.STOP:
+                playback.stop(now_ns, by)
+            elif request.command == Drive.SEEK:
+                playback.seek(now_ns, request.position, by)
+            elif request.command == Drive.SET_RATE:
+                playback.set_rate(now_ns, request.rate, by)
+            elif request.command == Drive.HALT:
+                playback.collide(now_ns, f"another member of system {by} collided")
+            else:
+                raise BadInput(
+                    f"command {request.command} is unknown; expected a constant of Drive.srv"
+                )
+            return f"{playback.state.name}"
+
+    def _on_collision(self, message: msg.Collision) -> None:
+        with self._scheduler.command() as now_ns:
+            self._colliding = message.colliding
+            if message.colliding:
+                contact = message.contact
+                self.playback.collide(now_ns, f"{contact.link} touches {contact.other}")
+            elif self.playback.state is State.COLLISION_HALT:
+                self.playback.clear(now_ns)
+
+
+class PlaybackHostNode(Node):
+    """Keeps one playback node for each robot of the scene, all on one deadline thread."""
+
+    def __init__(
+        self,
+        *,
+        context: Context | None = None,
+        parameter_overrides: list[Parameter] | None = None,
+    ) -> None:
+        super().__init__(
+            "playback_host", context=context, parameter_overrides=parameter_overrides or []
+        )
+
+        def parameter(name: str, default: Any) -> Any:
+            return self.declare_parameter(name, default).value
+
+        self._standing_rate = parameter("standing_rate", 2.0)
+        self._only = set(parameter("robots", [""])) - {""}
+        self._planner = RuckigPlanner(
+            StagingLimits(
+                velocity_share=parameter("staging.velocity_share", 0.5),
+                acceleration=parameter("staging.acceleration", 6.0),
+                jerk=parameter("staging.jerk", 30.0),
+            )
+        )
+        self._library = RobotLibrary(share.directory() / "robots")
+        self.scheduler = Scheduler()
+        self.nodes: dict[str, PlaybackNode] = {}
+        self._executor: Executor | None = None
+        self._get = self.create_client(
+            srv.GetTrajectory, "/converter/get", callback_group=MutuallyExclusiveCallbackGroup()
+        )
+        own = MutuallyExclusiveCallbackGroup()
+        self.create_subscription(
+            msg.Robots, "/robots", self._on_robots, qos.LATCHED, callback_group=own
+        )
+        telemetry_rate = parameter("telemetry_rate", 10.0)
+        self.create_timer(1 / telemetry_rate, self._telemetry, callback_group=own)
+        self.create_timer(1.0, self._states, callback_group=own)
+        self.scheduler.start()
+
+    def adopt(self, executor: Executor) -> None:
+        """Let `executor` spin the playback nodes too, those of now and those to come."""
+        self._executor = executor
+        for node in self.nodes.values():
+            executor.add_node(node)
+
+    def destroy_node(self) -> None:
+        self.scheduler.stop()
+        for robot in list(self.nodes):
+            self._remove(robot)
+        super().destroy_node()
+
+    def _on_robots(self, message: msg.Robots) -> None:
+        wanted = {r.name: r for r in message.robots if not self._only or r.name in self._only}
+        for robot, node in list(self.nodes.items()):
+            if robot not in wanted or wanted[robot].model != node.model.id:
+                self._remove(robot)
+        for robot in wanted.values():
+            if robot.name not in self.nodes:
+                self._add(robot.name, robot.model)
+
+    def _add(self, robot: str, model: str) -> None:
+        node = PlaybackNode(
+            robot,
+            self._library.model(model),
+            self._planner,
+            self.scheduler,
+            self._fetch,
+            self._standing_rate,
+            context=self.context,
+        )
+        self.nodes[robot] = node
+        if self._executor is not None:
+            self._executor.add_node(node)
+        self.get_logger().info(f"plays for {robot} ({model})")
+
+    def _remove(self, robot: str) -> None:
+        node = self.nodes.pop(robot)
+        if self._executor is not None:
+            self._executor.remove_node(node)
+        node.close()
+
+    def _fetch(self, trajectory_id: str) -> Trajectory:
+        answer = call(self._get, srv.GetTrajectory.Request(id=trajectory_id), timeout=10.0)
+        if not answer.success:
+            raise BadInput(answer.message)
+        return conversions.trajectory_from_message(answer.trajectory)
+
+    def _telemetry(self) -> None:
+        for node in self.nodes.values():
+            node.publish_telemetry()
+
+    def _states(self) -> None:
+        for node in self.nodes.values():
+            node.publish_state()
+
+
+def main() -> None:
+    host.main(["playback"])

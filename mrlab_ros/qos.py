@@ -1,0 +1,14 @@
+"""The three qualities of service that the graph uses."""
+
+from rclpy.qos import DurabilityPolicy, QoSProfile, ReliabilityPolicy
+
+# State: the newest value, also for who comes late (a latched topic).
+LATCHED = QoSProfile(
+    depth=1,
+    reliability=ReliabilityPolicy.RELIABLE,
+    durability=DurabilityPolicy.TRANSIENT_LOCAL,
+)
+# Events: every one arrives, in order.
+EVENTS = QoSProfile(depth=100, reliability=ReliabilityPolicy.RELIABLE)
+# Motion: every frame arrives at a reader that keeps up; a reader may ask for best effort.
+STREAM = QoSProfile(depth=100, reliability=ReliabilityPolicy.RELIABLE)

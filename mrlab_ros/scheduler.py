@@ -1,0 +1,158 @@
+"""One thread that lets every playback's joint states leave at their deadlines.
+
+Timers of an executor share a wait set with every service and topic of the process; here a
+deadline depends on nothing but this loop.
+"""
+
+from __future__ import annotations
+
+import ctypes
+import sys
+import threading
+import time
+import traceback
+from collections.abc import Callable
+
+from mrlab_ros.core.clock import SECOND
+from mrlab_ros.core.playback import Playback, Sample, Snapshot
+
+PR_SET_TIMERSLACK = 29
+# The longest the thread sleeps without a deadline, s.
+IDLE_SLEEP = 1.0
+# A thread that runs Python may keep the deadline thread waiting this long, s. Python's own
+# 5 ms would be half a period at 100 Hz.
+SWITCH_INTERVAL = 0.0005
+
+
+class LabClock:
+    """The lab's clock: ROS system time that never jumps while something plays.
+
+    It runs with the monotonic clock from the wall time at which it was last set.
+    """
+
+    def __init__(self) -> None:
+        self._offset_ns = 0
+        self.set()
+
+    def set(self) -> None:
+        """Take the wall time anew."""
+        self._offset_ns = time.time_ns() - time.monotonic_ns()
+
+    def now_ns(self) -> int:
+        return time.monotonic_ns() + self._offset_ns
+
+
+class Player:
+    """A playback with where its output goes, and how punctual it was."""
+
+    def __init__(
+        self,
+        playback: Playback,
+        send: Callable[[Sample], None],
+        announce: Callable[[int, Snapshot], None],
+    ) -> None:
+        self.playback = playback
+        self._send = send
+        self._announce = announce
+        self.last: Sample | None = None
+        self.error_ns = 0
+        self.error_max_ns = 0
+
+    def serve(self, now_ns: Callable[[], int]) -> None:
+        """Send the joint state that is due, then announce what changed."""
+        sample = self.playback.tick(now_ns())
+        if sample is not None:
+            self._send(sample)
+            self.last = sample
+            if sample.streamed:
+                self.error_ns = now_ns() - sample.due_ns
+                first = self.playback.sent <= 1
+                self.error_max_ns = (
+                    self.error_ns if first else max(self.error_max_ns, self.error_ns)
+                )
+        self.announce(now_ns())
+
+    def announce(self, now_ns: int) -> None:
+        for snapshot in self.playback.take_snapshots():
+            self._announce(now_ns, snapshot)
+
+
+class Scheduler:
+    """Serves players at their deadlines; commands run between two of them.
+
+    Use `with scheduler.command() as now_ns:` around every use of a playback.
+    """
+
+    def __init__(self) -> None:
+        self.clock = LabClock()
+        self._changed = threading.Condition(threading.Lock())
+        self._players: list[Player] = []
+        self._running = True
+        self._thread = threading.Thread(target=self._run, name="deadlines", daemon=True)
+
+    def start(self) -> None:
+        sys.setswitchinterval(SWITCH_INTERVAL)
+        self._thread.start()
+
+    def stop(self) -> None:
+        """Stop the thread and wait for it."""
+        with self._changed:
+            self._running = False
+            self._changed.notify()
+        if self._thread.is_alive():
+            self._thread.join()
+
+    def add(self, player: Player) -> None:
+        with self._changed:
+            self._players.append(player)
+            self._changed.notify()
+
+    def remove(self, player: Player) -> None:
+        with self._changed:
+            self._players.remove(player)
+
+    def command(self) -> Command:
+        return Command(self)
+
+    def _run(self) -> None:
+        # The kernel rounds a sleep up by 50 us unless asked not to.
+        ctypes.CDLL(None).prctl(PR_SET_TIMERSLACK, 1, 0, 0, 0)
+        now_ns = self.clock.now_ns
+        with self._changed:
+            while self._running:
+                wait = IDLE_SLEEP * SECOND
+                for player in self._players:
+                    due_ns = player.playback.due_ns()
+                    if due_ns is None:
+                        continue
+                    if due_ns <= now_ns():
+                        try:
+                            player.serve(now_ns)
+                        except Exception:
+                            # One robot's trouble must not stop the others.
+                            traceback.print_exc()
+                        due_ns = player.playback.due_ns()
+                        if due_ns is None:
+                            continue
+                    wait = min(wait, due_ns - now_ns())
+                if wait > 0:
+                    self._changed.wait(wait / SECOND)
+
+
+class Command:
+    """Holds the deadline thread off while a command runs; wakes it afterwards."""
+
+    def __init__(self, scheduler: Scheduler) -> None:
+        self._scheduler = scheduler
+
+    def __enter__(self) -> int:
+        self._scheduler._changed.acquire()
+        return self._scheduler.clock.now_ns()
+
+    def __exit__(self, *exception: object) -> None:
+        scheduler = self._scheduler
+        now_ns = scheduler.clock.now_ns()
+        for player in scheduler._players:
+            player.announce(now_ns)
+        scheduler._changed.notify()
+        scheduler._changed.release()

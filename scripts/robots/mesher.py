@@ -1,0 +1,176 @@
+"""Turns solids into triangle meshes: dual contouring, decimation, normals with creases."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import fast_simplification
+import numpy as np
+from numpy.typing import NDArray
+from solids import Array, Solid
+
+Faces = NDArray[np.int64]
+CREASE_DEG = 38.0
+GRID = 1e-5  # m; positions are rounded to it, so that the last bits of a sum do not matter
+
+
+@dataclass(frozen=True, eq=False)
+class Mesh:
+    """vertices (V, 3) m, faces (F, 3), counter-clockwise from outside; normals (V, 3) or empty."""
+
+    vertices: Array
+    faces: Faces
+    normals: Array
+
+
+def contour(solid: Solid, cell: float) -> Mesh:
+    """Return the surface of `solid`, with its sharp edges, sampled on a grid of `cell`."""
+    low = solid.low - 1.5 * cell
+    counts = np.ceil((solid.high + 1.5 * cell - low) / cell).astype(int) + 1
+    axes = [low[i] + cell * np.arange(counts[i]) for i in range(3)]
+    values = np.empty(counts)
+    for x, layer in enumerate(axes[0]):
+        grid = np.stack(np.meshgrid([layer], axes[1], axes[2], indexing="ij"), axis=-1)
+        values[x] = solid.distance(grid.reshape(-1, 3)).reshape(counts[1:])
+    cells = np.zeros(counts, dtype=np.int64)
+    places, owners, quads = [], [], []
+    for axis in range(3):
+        here = [slice(None)] * 3
+        there = [slice(None)] * 3
+        here[axis], there[axis] = slice(None, -1), slice(1, None)
+        a, b = values[tuple(here)], values[tuple(there)]
+        index = np.argwhere((a < 0) != (b < 0))
+        va, vb = a[tuple(index.T)], b[tuple(index.T)]
+        start = low + index * cell
+        share = va / (va - vb)
+        step = np.zeros(3)
+        step[axis] = cell
+        # Distances are not linear near edges; two secant steps settle the crossing.
+        t0, t1, f0, f1 = np.zeros(len(va)), np.ones(len(va)), va, vb
+        for _ in range(3):
+            f = solid.distance(start + share[:, None] * step)
+            below = (f < 0) == (f0 < 0)
+            t0, f0 = np.where(below, share, t0), np.where(below, f, f0)
+            t1, f1 = np.where(below, t1, share), np.where(below, f1, f)
+            share = t0 + (t1 - t0) * np.clip(f0 / (f0 - f1 + 1e-30), 0.02, 0.98)
+        j, k = (axis + 1) % 3, (axis + 2) % 3
+        around = []
+        for dj, dk in ((0, 0), (-1, 0), (-1, -1), (0, -1)):
+            cell_index = index.copy()
+            cell_index[:, j] += dj
+            cell_index[:, k] += dk
+            around.append(np.ravel_multi_index(tuple(cell_index.T), cells.shape))
+        around_array = np.stack(around, axis=1)
+        places.append(start + share[:, None] * step)
+        owners.append(around_array)
+        quads.append(np.where((va < 0)[:, None], around_array, around_array[:, ::-1]))
+    points, owner = np.concatenate(places), np.concatenate(owners)
+    normals = gradient(solid, points, cell * 1e-3)
+    names, numbered = np.unique(owner, return_inverse=True)
+    numbered = numbered.reshape(owner.shape)
+    corner = low + np.column_stack(np.unravel_index(names, cells.shape)) * cell
+    vertices = _feature_points(points, normals, numbered, len(names), corner, cell)
+    place = np.full(cells.size, -1)
+    place[names] = np.arange(len(names))
+    quad = place[np.concatenate(quads)]
+    return Mesh(vertices, _split(quad, vertices), np.empty((0, 3)))
+
+
+def gradient(solid: Solid, points: Array, step: float) -> Array:
+    """Return the unit gradient of the distance at the points."""
+    result = np.empty_like(points)
+    for i in range(3):
+        shift = np.zeros(3)
+        shift[i] = step
+        result[:, i] = solid.distance(points + shift) - solid.distance(points - shift)
+    return result / np.maximum(np.linalg.norm(result, axis=1, keepdims=True), 1e-30)
+
+
+def _feature_points(
+    points: Array, normals: Array, owner: Faces, count: int, corner: Array, cell: float
+) -> Array:
+    """Place one vertex a cell where the tangent planes of its crossings meet best."""
+    flat = owner.ravel()
+    p, n = np.repeat(points, 4, axis=0), np.repeat(normals, 4, axis=0)
+
+    def total(values: Array) -> Array:
+        return np.bincount(flat, weights=values, minlength=count)
+
+    hits = total(np.ones(len(flat)))
+    middle = np.column_stack([total(p[:, i]) for i in range(3)]) / hits[:, None]
+    offset = (n * (p - middle[flat])).sum(axis=1)
+    matrix = np.empty((count, 3, 3))
+    right = np.empty((count, 3))
+    for i in range(3):
+        right[:, i] = total(n[:, i] * offset)
+        for k in range(3):
+            matrix[:, i, k] = total(n[:, i] * n[:, k])
+    matrix += 0.02 * np.eye(3) * hits[:, None, None]
+    shift = np.linalg.solve(matrix, right[:, :, None])[:, :, 0]
+    return np.clip(middle + shift, corner, corner + cell)
+
+
+def _split(quad: Faces, vertices: Array) -> Faces:
+    """Return two triangles a quad, along the diagonal that bends less."""
+    a, b, c, d = (vertices[quad[:, i]] for i in range(4))
+
+    def bend(n1: Array, n2: Array) -> Array:
+        scale = np.linalg.norm(n1, axis=1) * np.linalg.norm(n2, axis=1)
+        return (n1 * n2).sum(axis=1) / np.maximum(scale, 1e-30)
+
+    first = bend(np.cross(b - a, c - a), np.cross(c - a, d - a))
+    second = bend(np.cross(b - a, d - a), np.cross(c - b, d - b))
+    straight = (first >= second)[:, None]
+    one = np.where(straight, quad[:, [0, 1, 2]], quad[:, [0, 1, 3]])
+    two = np.where(straight, quad[:, [0, 2, 3]], quad[:, [1, 2, 3]])
+    faces = np.concatenate([one, two])
+    return faces[(faces != np.roll(faces, 1, axis=1)).all(axis=1)]
+
+
+def decimated(mesh: Mesh, triangles: int) -> Mesh:
+    """Return the mesh with about `triangles` faces, quadric error smallest first."""
+    if len(mesh.faces) <= triangles:
+        return mesh
+    points, faces = fast_simplification.simplify(
+        mesh.vertices.astype(np.float32),
+        mesh.faces.astype(np.int32),
+        target_count=triangles,
+        agg=4,
+    )
+    return Mesh(points.astype(np.float64), faces.astype(np.int64), np.empty((0, 3)))
+
+
+def creased(mesh: Mesh) -> Mesh:
+    """Return the mesh with normals: smooth, but split where faces meet at more than CREASE_DEG."""
+    vertices = np.round(mesh.vertices / GRID) * GRID
+    faces = mesh.faces
+    a, b, c = (vertices[faces[:, i]] for i in range(3))
+    area = np.cross(b - a, c - a)
+    size = np.linalg.norm(area, axis=1)
+    keep = size > 1e-12
+    faces, area, size = faces[keep], area[keep], size[keep]
+    unit = area / size[:, None]
+    corner_vertex = faces.ravel()
+    corner_face = np.repeat(np.arange(len(faces)), 3)
+    order = np.argsort(corner_vertex, kind="stable")
+    sorted_vertex = corner_vertex[order]
+    begin = np.searchsorted(sorted_vertex, sorted_vertex, side="left")
+    end = np.searchsorted(sorted_vertex, sorted_vertex, side="right")
+    normal = np.zeros((len(order), 3))
+    mine = corner_face[order]
+    limit = np.cos(np.radians(CREASE_DEG))
+    for step in range(int((end - begin).max())):
+        valid = begin + step < end
+        other = corner_face[order[np.minimum(begin + step, len(order) - 1)]]
+        near = valid & ((unit[mine] * unit[other]).sum(axis=1) > limit)
+        normal += np.where(near[:, None], area[other], 0.0)
+    normal /= np.maximum(np.linalg.norm(normal, axis=1, keepdims=True), 1e-30)
+    by_corner = np.empty_like(normal)
+    by_corner[order] = normal
+    key = np.column_stack([corner_vertex, np.round(by_corner * 30).astype(np.int64)])
+    _, first, index = np.unique(key, axis=0, return_index=True, return_inverse=True)
+    return Mesh(
+        vertices[corner_vertex[first]],
+        index.reshape(-1, 3),
+        np.round(by_corner[first], 4),
+    )
