@@ -6,13 +6,14 @@ import importlib
 import os
 import signal
 import sys
-import traceback
 
 import rclpy
+import rclpy.utilities
 from rclpy.executors import ExternalShutdownException, MultiThreadedExecutor
 from rclpy.node import Node
 
 from mrlab_ros.core.errors import LabError
+from mrlab_ros.spinning import spin
 
 NODES = {
     "bridge": "BridgeNode",
@@ -60,14 +61,7 @@ def run(names: list[str]) -> int:
             adopt = getattr(nodes[-1], "adopt", None)
             if adopt is not None:
                 adopt(executor)
-        while rclpy.ok():
-            try:
-                executor.spin()
-            except (KeyboardInterrupt, ExternalShutdownException):
-                break
-            except Exception:
-                # One node's mistake must not take the others of this process down.
-                traceback.print_exc()
+        spin(executor)
         return 0
     except LabError as error:
         print(
@@ -83,7 +77,7 @@ def run(names: list[str]) -> int:
         signal.signal(signal.SIGINT, signal.SIG_IGN)
         for node in reversed(nodes):
             node.destroy_node()
-        rclpy.try_shutdown()
+        rclpy.utilities.try_shutdown()
         sys.stdout.flush()
         sys.stderr.flush()
 

@@ -39,10 +39,10 @@ class RuckigMotion:
         return float(self._trajectory.duration)
 
     def at(self, elapsed: float) -> tuple[Array, Array]:
-        if elapsed <= 0:
-            return self._start, np.zeros_like(self._start)
         if elapsed >= self.duration:
             return self._goal, np.zeros_like(self._goal)
+        if elapsed <= 0:
+            return self._start, np.zeros_like(self._start)
         position, velocity, _ = self._trajectory.at_time(elapsed)
         return np.asarray(position), np.asarray(velocity)
 

@@ -40,12 +40,18 @@ class Solid:
         )
 
     def blend(self, other: Solid, fillet: float) -> Solid:
-        """Unite with `other`; concave edges get about the radius `fillet`."""
-        return Solid(
-            lambda p: _smooth_min(self.distance(p), other.distance(p), fillet),
-            np.minimum(self.low, other.low),
-            np.maximum(self.high, other.high),
-        )
+        """Unite with `other`; concave edges get about the radius `fillet`.
+
+        A blend swells where faces of the two are flush; the box of both stays the limit.
+        """
+        low, high = np.minimum(self.low, other.low), np.maximum(self.high, other.high)
+        middle, half = (low + high) / 2, (high - low) / 2
+
+        def distance(p: Array) -> Array:
+            both = _smooth_min(self.distance(p), other.distance(p), fillet)
+            return both if fillet <= 0 else np.maximum(both, (np.abs(p - middle) - half).max(axis=1))
+
+        return Solid(distance, low, high)
 
     def cut(self, other: Solid, fillet: float = 0.0) -> Solid:
         """Take `other` away; the edges of the cut get about the radius `fillet`."""

@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 from mrlab_ros.core.errors import BadInput, LabError, Misuse
 from mrlab_ros.core.playback import LOST_AFTER_NS, Playback, Sample
 from mrlab_ros.core.playback_states import COMMANDS, TRANSITIONS, Event, State
-from test.unit.fakes import SECOND, StraightPlanner, make_model, make_trajectory
+from fakes import SECOND, StraightPlanner, make_model, make_trajectory
 
 PERIOD = SECOND // 100
 START = 7 * SECOND

@@ -1,0 +1,178 @@
+"""Punctuality of playback: how late joint states leave, how many are lost, what it costs.
+
+The lab's deadline thread beside what it replaces, a plain rclpy timer per robot that fills a
+message, in the same run. Each case has a process of its own; deadline error is the time from a
+joint state's deadline to the moment its publish call has returned.
+"""
+
+from __future__ import annotations
+
+import argparse
+import json
+import os
+import subprocess
+import sys
+import time
+from typing import Any
+
+import numpy as np
+import rclpy
+import report
+from rclpy.executors import SingleThreadedExecutor
+from sensor_msgs.msg import JointState
+
+from mrlab_ros import qos, share
+from mrlab_ros.adapters.robot_library import RobotLibrary
+from mrlab_ros.adapters.ruckig_motion import RuckigPlanner
+from mrlab_ros.conversions import JointStateEncoder, stamp
+from mrlab_ros.core.playback import Playback, Sample
+from mrlab_ros.core.playback_states import State
+from mrlab_ros.core.trajectory import Channels, Source, Trajectory
+from mrlab_ros.scheduler import Player, Scheduler
+
+
+def trajectory(model: Any, frame_rate: float, seconds: float) -> Trajectory:
+    """Return a slow sine around the home pose."""
+    t = np.arange(round(frame_rate * seconds) + 1) / frame_rate
+    wave = 0.2 * np.sin(t)[:, None] * np.ones(len(model.joints))
+    positions, zeros = model.home + wave, np.zeros_like(wave)
+    return Trajectory(
+        "sine", model.id, None, model.joint_names, frame_rate, positions, None,
+        Channels(np.gradient(positions, 1 / frame_rate, axis=0), zeros, zeros.copy()),
+        Source("sine.mat", "q", "0" * 64),
+    )  # fmt: skip
+
+
+def deadline_thread(robots: int, rate: float, seconds: float) -> dict[str, Any]:
+    """Play on `robots` robots through the scheduler; return errors in ms and counts."""
+    node = rclpy.create_node("bench")
+    model = RobotLibrary(share.directory() / "robots").model("ur5e")
+    motion = trajectory(model, rate, seconds)
+    scheduler = Scheduler()
+    errors: list[int] = []
+    last_error = [0]
+    players = []
+    for i in range(robots):
+        playback = Playback(model, RuckigPlanner(), 0.0)
+        encoder = JointStateEncoder(f"robot_{i}", model.joint_names)
+        publisher = node.create_publisher(JointState, f"robot_{i}/joint_states", qos.STREAM)
+
+        def send(sample: Sample, encoder: Any = encoder, publisher: Any = publisher) -> None:
+            publisher.publish(encoder.encode(sample.due_ns, sample.positions, sample.velocities))
+            if sample.streamed:
+                last_error[0] = scheduler.clock.now_ns() - sample.due_ns
+                errors.append(last_error[0])
+
+        playback.load(0, motion)
+        players.append(Player(playback, send, lambda now_ns, snapshot: None))
+        scheduler.add(players[-1])
+    scheduler.start()
+    begin = time.process_time()
+    with scheduler.command() as now_ns:
+        for player in players:
+            player.playback.play(now_ns, now_ns + 200_000_000)
+    deadline = time.monotonic() + seconds + 30
+    while any(p.playback.state is not State.READY for p in players):
+        if time.monotonic() > deadline:
+            raise SystemExit("the playback did not end")
+        time.sleep(0.05)
+    cpu = time.process_time() - begin
+    scheduler.stop()
+    return {
+        "errors_ms": [e * 1e-6 for e in errors],
+        "last_ms": last_error[0] * 1e-6,
+        "lost": robots * motion.frame_count - len(errors),
+        "cpu": cpu / (seconds + 0.2),
+    }
+
+
+def plain_timers(robots: int, rate: float, seconds: float) -> dict[str, Any]:
+    """Play with one rclpy timer a robot; its call k is due (k + 1)/f after it was made."""
+    node = rclpy.create_node("bench")
+    model = RobotLibrary(share.directory() / "robots").model("ur5e")
+    motion = trajectory(model, rate, seconds)
+    period = round(1e9 / rate)
+    errors: list[int] = []
+    executor = SingleThreadedExecutor()
+    executor.add_node(node)
+    running = [robots]
+    for i in range(robots):
+        publisher = node.create_publisher(JointState, f"robot_{i}/joint_states", qos.STREAM)
+        state = {"frame": 0, "start": time.monotonic_ns() + period}
+
+        def tick(state: dict[str, int] = state, publisher: Any = publisher) -> None:
+            frame = state["frame"]
+            if frame >= motion.frame_count:
+                if frame == motion.frame_count:
+                    running[0] -= 1
+                    state["frame"] += 1
+                return
+            now = time.monotonic_ns()
+            message = JointState(name=list(motion.joint_names))
+            message.header.stamp = stamp(now)
+            message.position = motion.positions[frame].tolist()
+            message.velocity = motion.channels.velocities[frame].tolist()
+            publisher.publish(message)
+            errors.append(time.monotonic_ns() - state["start"] - frame * period)
+            state["frame"] += 1
+
+        node.create_timer(1 / rate, tick)
+    begin, deadline = time.process_time(), time.monotonic() + 3 * seconds + 10
+    while running[0] > 0 and time.monotonic() < deadline:
+        executor.spin_once(timeout_sec=0.1)
+    return {
+        "errors_ms": [e * 1e-6 for e in errors],
+        "last_ms": errors[-1] * 1e-6,
+        "lost": robots * motion.frame_count - len(errors),
+        "cpu": (time.process_time() - begin) / seconds,
+    }
+
+
+METHODS = {"deadline thread": deadline_thread, "rclpy timers": plain_timers}
+
+
+def run_case(method: str, robots: int, rate: float, seconds: float) -> dict[str, Any]:
+    """Run one case in a process of its own and return its row."""
+    case = json.dumps([method, robots, rate, seconds])
+    done = subprocess.run(
+        [sys.executable, __file__, "--case", case], stdout=subprocess.PIPE, check=True
+    )
+    result = json.loads(done.stdout)
+    errors = report.percentiles(result["errors_ms"])
+    return {
+        "method": method,
+        "robots": robots,
+        "Hz": rate,
+        "frames": len(result["errors_ms"]),
+        "error p50 ms": errors["p50"],
+        "p99 ms": errors["p99"],
+        "max ms": errors["max"],
+        "last ms": result["last_ms"],
+        "lost": result["lost"],
+        "CPU %": 100 * result["cpu"],
+    }
+
+
+def main() -> None:
+    parser = report.options(__doc__)
+    parser.add_argument("--case", help=argparse.SUPPRESS)
+    options = parser.parse_args()
+    if options.case:
+        method, robots, rate, seconds = json.loads(options.case)
+        rclpy.init()
+        sys.stdout.write(json.dumps(METHODS[method](robots, rate, seconds)))
+        sys.stdout.flush()
+        os._exit(0)
+    seconds = 2.0 if options.quick else 10.0
+    cases = [(1, 100.0), (13, 100.0), (50, 100.0), (1, 250.0), (1, 500.0), (1, 1000.0)]
+    rows = [
+        run_case(method, robots, rate, seconds) for robots, rate in cases for method in METHODS
+    ]
+    # 10,000 frames: at 100 Hz that takes 100 s, so the quick run asks the same of 1000 Hz.
+    rate = 1000.0 if options.quick else 100.0
+    rows.append(run_case("deadline thread", 1, rate, 9999 / rate))
+    report.show("Playback punctuality", rows, options.json)
+
+
+if __name__ == "__main__":
+    main()

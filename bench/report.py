@@ -1,0 +1,52 @@
+"""What every benchmark shares: options, a table with the machine's load, figures as JSON."""
+
+from __future__ import annotations
+
+import argparse
+import json
+import os
+import platform
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from rich.console import Console
+from rich.table import Table
+
+
+def options(description: str) -> argparse.ArgumentParser:
+    """Return the parser with the options that every benchmark has."""
+    parser = argparse.ArgumentParser(description=description)
+    parser.add_argument("--quick", action="store_true", help="end within 60 s")
+    parser.add_argument("--json", type=Path, metavar="FILE", help="also write the figures here")
+    return parser
+
+
+def percentiles(values: Sequence[float]) -> dict[str, float]:
+    """Return p50, p99 and max."""
+    p50, p99, high = np.percentile(values, [50, 99, 100])
+    return {"p50": float(p50), "p99": float(p99), "max": float(high)}
+
+
+def machine() -> str:
+    """Describe the machine and how busy it is, for a figure cannot be read without."""
+    load = ", ".join(f"{x:.2f}" for x in os.getloadavg())
+    return (
+        f"{os.cpu_count()} cores, {platform.machine()}, Python {platform.python_version()}, "
+        f"load average {load}"
+    )
+
+
+def show(title: str, rows: list[dict[str, Any]], file: Path | None) -> None:
+    """Print `rows` (all with the same keys) as a table; write them to `file` as JSON."""
+    table = Table(title=title, caption=machine(), title_justify="left", caption_justify="left")
+    for key in rows[0]:
+        table.add_column(key, justify="left" if isinstance(rows[0][key], str) else "right")
+    for row in rows:
+        table.add_row(*(f"{v:.3g}" if isinstance(v, float) else str(v) for v in row.values()))
+    Console(width=None if os.isatty(1) else 120).print(table)
+    if file is not None:
+        known = json.loads(file.read_text()) if file.exists() else {}
+        known[title] = {"machine": machine(), "rows": rows}
+        file.write_text(json.dumps(known, indent=1))

@@ -1,0 +1,87 @@
+"""A graph of real nodes in this process, for the node tests."""
+
+from __future__ import annotations
+
+import threading
+import time
+from collections.abc import Callable
+from typing import Any, TypeVar
+
+import rclpy
+from rclpy.executors import MultiThreadedExecutor
+from rclpy.node import Node
+from rclpy.qos import QoSProfile
+
+from mrlab_ros.spinning import spin
+
+Value = TypeVar("Value")
+
+
+def wait_for(condition: Callable[[], Value], what: str, timeout: float = 15.0) -> Value:
+    """Return the condition's first true value; fail the test after `timeout` s."""
+    deadline = time.monotonic() + timeout
+    while not (value := condition()):
+        if time.monotonic() > deadline:
+            raise AssertionError(f"waited {timeout:g} s in vain for {what}")
+        time.sleep(0.005)
+    return value
+
+
+class Inbox(list[Any]):
+    """The messages of one topic, oldest first."""
+
+    def last(self) -> Any:
+        return self[-1] if self else None
+
+
+class Graph:
+    """Spins nodes in a private context; calls services and listens as a client would."""
+
+    def __init__(self) -> None:
+        self.context = rclpy.Context()
+        self.context.init()
+        self.executor = MultiThreadedExecutor(num_threads=6, context=self.context)
+        self._nodes: list[Node] = []
+        self.client = Node("test_client", context=self.context)
+        self.executor.add_node(self.client)
+        self._thread = threading.Thread(target=spin, args=(self.executor,), daemon=True)
+        self._thread.start()
+
+    def add(self, make: Callable[..., Node], **parameters: Any) -> Any:
+        """Make a node of the lab in this graph, with parameters."""
+        overrides = [rclpy.parameter.Parameter(k, value=v) for k, v in parameters.items()]
+        node = make(context=self.context, parameter_overrides=overrides)
+        self._nodes.append(node)
+        self.executor.add_node(node)
+        adopt = getattr(node, "adopt", None)
+        if adopt is not None:
+            adopt(self.executor)
+        return node
+
+    def drop(self, node: Node) -> None:
+        self._nodes.remove(node)
+        self.executor.remove_node(node)
+        node.destroy_node()
+
+    def call(self, kind: Any, service: str, /, timeout: float = 15.0, **fields: Any) -> Any:
+        """Call a service and return its answer."""
+        client = self.client.create_client(kind, service)
+        assert client.wait_for_service(timeout_sec=timeout), f"nobody offers {service}"
+        future = client.call_async(kind.Request(**fields))
+        wait_for(future.done, f"an answer of {service}", timeout)
+        self.client.destroy_client(client)
+        return future.result()
+
+    def listen(self, kind: Any, name: str, qos: QoSProfile) -> Inbox:
+        """Collect the messages of a topic."""
+        inbox = Inbox()
+        self.client.create_subscription(kind, name, inbox.append, qos)
+        return inbox
+
+    def close(self) -> None:
+        for node in reversed(self._nodes):
+            self.executor.remove_node(node)
+            node.destroy_node()
+        self.executor.shutdown()
+        self._thread.join(10)
+        self.context.try_shutdown()

@@ -1,0 +1,338 @@
+"""The playback host and its nodes, in a real graph with a lab and a catalogue."""
+
+from __future__ import annotations
+
+from types import SimpleNamespace
+
+import numpy as np
+import pytest
+from graph import Graph, wait_for
+from mrlab_msgs import msg, srv
+from rclpy.node import Node
+from rclpy.serialization import serialize_message
+from sensor_msgs.msg import JointState
+from std_srvs.srv import SetBool, Trigger
+
+from mrlab_ros import conversions, qos, share
+from mrlab_ros.adapters.robot_library import RobotLibrary
+from mrlab_ros.core.trajectory import Channels, Source, Trajectory
+from mrlab_ros.nodes.coordinator import CoordinatorNode
+from mrlab_ros.nodes.lab import LabNode
+from mrlab_ros.nodes.playback import PlaybackHostNode
+
+LIBRARY = RobotLibrary(share.directory() / "robots")
+
+
+def make(model_id: str, name: str, frames: int = 60, gripper: bool = False) -> Trajectory:
+    """A small wave around the home pose."""
+    model = LIBRARY.model(model_id)
+    wave = 0.1 * np.sin(np.linspace(0, 3, frames))[:, None]
+    positions = model.home + 0.05 + wave * np.linspace(1, 2, len(model.joints))
+    velocities = np.gradient(positions, 0.01, axis=0)
+    closed = np.arange(frames) >= frames // 2
+    return Trajectory(
+        name, model_id, None, model.joint_names, 100.0, positions,
+        closed if gripper else None,
+        Channels(velocities, np.zeros_like(positions), np.ones_like(positions)),
+        Source("wave.mat", "q", "0" * 64),
+    )  # fmt: skip
+
+
+TRAJECTORIES = {
+    "wave": make("ur5e", "wave"),
+    "pick": make("ur5e", "pick", gripper=True),
+    "long": make("ur5e", "long", frames=1000),
+    "kuka": make("kuka_kr6_r900_sixx", "kuka", frames=90),
+}
+
+
+class Catalogue(Node):
+    """Answers /converter/get from TRAJECTORIES."""
+
+    def __init__(self, **kwargs) -> None:
+        super().__init__("converter", **kwargs)
+        self.create_service(srv.GetTrajectory, "~/get", self._get)
+
+    def _get(self, request, response):
+        trajectory = TRAJECTORIES.get(request.id)
+        response.success = trajectory is not None
+        response.message = f"there is no trajectory '{request.id}'"
+        if trajectory is not None:
+            response.trajectory = conversions.trajectory_to_message(trajectory)
+        return response
+
+
+@pytest.fixture
+def lab(graph: Graph):
+    graph.add(Catalogue)
+    lab = graph.add(LabNode)
+    host = graph.add(PlaybackHostNode)
+    coordinator = graph.add(CoordinatorNode)
+    return SimpleNamespace(lab=lab, host=host, coordinator=coordinator)
+
+
+def spawn(graph: Graph, model: str = "ur5e") -> str:
+    answer = graph.call(srv.SpawnRobot, "/lab/spawn_robot", model=model, automatic=True)
+    assert answer.success, answer.message
+    return answer.robot.name
+
+
+def load(graph: Graph, robot: str, trajectory: str) -> None:
+    answer = graph.call(srv.LoadTrajectory, f"/{robot}/load", id=trajectory)
+    assert answer.success, answer.message
+
+
+def labels(inbox) -> list[str]:
+    seen: list[str] = []
+    for state in inbox:
+        if not seen or seen[-1] != state.label:
+            seen.append(state.label)
+    return seen
+
+
+def listen_state(graph: Graph, robot: str):
+    return graph.listen(msg.PlaybackState, f"/{robot}/playback_state", qos.EVENTS)
+
+
+def test_streams_exactly_the_frames_of_the_trajectory(graph, lab):
+    robot = spawn(graph)
+    states = listen_state(graph, robot)
+    joints = graph.listen(JointState, f"/{robot}/joint_states", qos.STREAM)
+    load(graph, robot, "wave")
+    assert graph.call(Trigger, f"/{robot}/play").success
+    wait_for(lambda: "COMPLETE" in labels(states), "the end")
+    trajectory = TRAJECTORIES["wave"]
+    wait_for(
+        lambda: joints and np.array_equal(joints[-1].position, trajectory.positions[-1]), "frames"
+    )
+    start = conversions.to_ns(
+        next(s for s in states if s.label == "PLAYING" and s.clock.rate == 1.0).clock.stamp
+    )
+    played = [j for j in joints if conversions.to_ns(j.header.stamp) >= start][:60]
+    assert np.array_equal([j.position for j in played], trajectory.positions)
+    assert np.array_equal([j.velocity for j in played], trajectory.channels.velocities)
+    assert tuple(played[0].name) == trajectory.joint_names
+    assert list(played[0].effort) == []
+    stamps = [conversions.to_ns(j.header.stamp) - start for j in played]
+    assert stamps == [i * 10_000_000 for i in range(60)]
+    wait_for(
+        lambda: labels(states)[-5:] == ["READY", "ADJUSTING", "PLAYING", "COMPLETE", "READY"],
+        "the states in order",
+    )
+
+
+def test_the_encoder_writes_what_rclpy_would():
+    encoder = conversions.JointStateEncoder("ur5e_1", ("a", "bb", "ccc"))
+    q, dq = np.array([0.1, -2.0, 3.5]), np.array([1.0, 0.0, -1e-9])
+    message = JointState(
+        header=conversions.header(1_700_000_000_123_456_789, "ur5e_1"),
+        name=["a", "bb", "ccc"],
+        position=q,
+        velocity=dq,
+    )
+    assert encoder.encode(1_700_000_000_123_456_789, q, dq) == serialize_message(message)
+
+
+def test_pause_seek_rate_loop_and_stop_answer_and_take_effect(graph, lab):
+    robot = spawn(graph)
+    states = listen_state(graph, robot)
+    load(graph, robot, "long")
+    assert graph.call(Trigger, f"/{robot}/play").success
+    wait_for(lambda: states.last().label == "PLAYING" and states.last().frame > 5, "frames")
+    assert graph.call(Trigger, f"/{robot}/pause").success
+    wait_for(lambda: states.last().label == "PAUSED", "the pause")
+    assert states.last().clock.rate == 0.0
+    answer = graph.call(srv.Seek, f"/{robot}/seek", position=5.0)
+    assert answer.success
+    wait_for(lambda: states.last().frame == 500, "the place")
+    assert graph.call(srv.SetRate, f"/{robot}/set_rate", rate=4.0).success
+    assert graph.call(SetBool, f"/{robot}/set_loop", data=True).success
+    wait_for(lambda: states.last().loop and states.last().rate == 4.0, "rate and loop")
+    assert graph.call(Trigger, f"/{robot}/stop").success
+    wait_for(lambda: states.last().label == "READY", "the stop")
+
+
+def test_a_command_in_the_wrong_state_is_refused_with_what_is_possible(graph, lab):
+    robot = spawn(graph)
+    answer = graph.call(Trigger, f"/{robot}/play")
+    assert (answer.success, answer.message) == (False, "cannot play in IDLE; possible now: load")
+    answer = graph.call(srv.LoadTrajectory, f"/{robot}/load", id="nothing")
+    assert not answer.success
+    assert "no trajectory 'nothing'" in answer.message
+    answer = graph.call(srv.LoadTrajectory, f"/{robot}/load", id="kuka")
+    assert not answer.success
+    assert "made for kuka_kr6_r900_sixx, this robot is a ur5e" in answer.message
+
+
+def test_grasp_targets_are_announced_with_the_trajectory(graph, lab):
+    robot = spawn(graph)
+    targets = graph.listen(msg.GraspTargets, f"/{robot}/targets", qos.LATCHED)
+    load(graph, robot, "pick")
+    wait_for(lambda: targets and targets[-1].targets, "targets")
+    (target,) = targets[-1].targets
+    assert (target.frame, target.close, target.time) == (30, True, 0.3)
+    tool0 = LIBRARY.model("ur5e").chain.tool0(TRAJECTORIES["pick"].positions[30])
+    p = target.tool0.position
+    assert np.allclose([p.x, p.y, p.z], tool0[:3, 3])
+
+
+def test_telemetry_reports_the_motion(graph, lab):
+    robot = spawn(graph)
+    telemetry = graph.listen(msg.Telemetry, f"/{robot}/telemetry", qos.STREAM)
+    load(graph, robot, "long")
+    assert graph.call(Trigger, f"/{robot}/play").success
+    wait_for(lambda: telemetry and telemetry[-1].frames_sent > 20, "telemetry")
+    last = telemetry[-1]
+    assert last.frames_lost == 0
+    assert 0 < last.deadline_error <= last.deadline_error_max
+    assert list(last.effort_proxy) == [1.0] * 6
+
+
+def test_a_collision_halts_and_its_end_pauses(graph, lab):
+    robot = spawn(graph)
+    states = listen_state(graph, robot)
+    load(graph, robot, "long")
+    graph.call(Trigger, f"/{robot}/play")
+    wait_for(lambda: states.last().label == "PLAYING" and states.last().frame > 5, "frames")
+    collision = graph.client.create_publisher(msg.Collision, f"/{robot}/collision", qos.LATCHED)
+    contact = msg.Contact(link="forearm_link", other="cube_1")
+    collision.publish(msg.Collision(colliding=True, contact=contact))
+    wait_for(lambda: states.last().label == "COLLISION_HALT", "the halt")
+    assert states.last().message == "forearm_link touches cube_1"
+    answer = graph.call(Trigger, f"/{robot}/clear_halt")
+    assert not answer.success
+    assert "still touches" in answer.message
+    collision.publish(msg.Collision(colliding=False))
+    wait_for(lambda: states.last().label == "PAUSED", "the pause")
+
+
+def test_playback_nodes_come_and_go_with_their_robots(graph, lab):
+    robot = spawn(graph)
+    wait_for(lambda: robot in lab.host.nodes, "the playback node")
+    assert graph.call(srv.Remove, "/lab/remove_robot", name=robot).success
+    wait_for(lambda: robot not in lab.host.nodes, "its end")
+    assert spawn(graph) == robot
+    load(graph, robot, "wave")
+
+
+def test_a_new_playback_host_finds_the_robots_and_starts_idle(graph, lab):
+    robot = spawn(graph)
+    load(graph, robot, "wave")
+    graph.drop(lab.host)
+    graph.add(PlaybackHostNode)
+    states = graph.listen(msg.PlaybackState, f"/{robot}/playback_state", qos.LATCHED)
+    wait_for(lambda: states and states[-1].label == "IDLE", "a fresh playback")
+
+
+def make_system(graph: Graph, members: dict[str, str], name: str = "cell"):
+    return graph.call(
+        srv.CreateSystem,
+        "/coordinator/create_system",
+        name=name,
+        members=[msg.SystemMember(robot=r, trajectory_id=t) for r, t in members.items()],
+    )
+
+
+def test_a_system_stages_its_members_and_starts_them_at_one_stamp(graph, lab):
+    ur, kuka = spawn(graph), spawn(graph, "kuka_kr6_r900_sixx")
+    states = {robot: listen_state(graph, robot) for robot in (ur, kuka)}
+    systems = graph.listen(msg.RobotSystems, "/systems", qos.EVENTS)
+    answer = make_system(graph, {ur: "wave", kuka: "kuka"})
+    assert answer.success, answer.message
+    refused = graph.call(Trigger, f"/{ur}/play")
+    assert not refused.success
+    assert "driven by system 'cell'" in refused.message
+    answer = graph.call(Trigger, "/cell/play")
+    assert answer.success, answer.message
+    wait_for(
+        lambda: [s.label for m in systems for s in m.systems][-2:] == ["COMPLETE", "READY"],
+        "the system's end",
+    )
+    starts = {
+        s.clock.stamp.sec * 10**9 + s.clock.stamp.nanosec
+        for inbox in states.values()
+        for s in inbox
+        if s.label == "PLAYING"
+    }
+    assert len(starts) == 1
+    for inbox in states.values():
+        assert "COMPLETE" in labels(inbox)
+    order = [s.label for m in systems for s in m.systems]
+    assert [x for i, x in enumerate(order) if i == 0 or order[i - 1] != x] == [
+        "READY", "STAGING", "PLAYING", "COMPLETE", "READY",
+    ]  # fmt: skip
+
+
+def test_a_system_pauses_plays_on_and_stops_as_one(graph, lab):
+    a, b = spawn(graph), spawn(graph)
+    states = {robot: listen_state(graph, robot) for robot in (a, b)}
+    assert make_system(graph, {a: "long", b: "long"}).success
+    assert graph.call(Trigger, "/cell/play").success
+    wait_for(lambda: all(s.last().frame > 5 for s in states.values()), "frames")
+    assert graph.call(Trigger, "/cell/pause").success
+    wait_for(lambda: {s.last().label for s in states.values()} == {"PAUSED"}, "the pause")
+    frames = {s.last().frame for s in states.values()}
+    assert max(frames) - min(frames) <= 1
+    assert graph.call(Trigger, "/cell/play").success
+    wait_for(lambda: {s.last().label for s in states.values()} == {"PLAYING"}, "playing on")
+    assert graph.call(Trigger, "/cell/stop").success
+    wait_for(lambda: {s.last().label for s in states.values()} == {"READY"}, "the stop")
+
+
+def test_a_robot_is_in_one_system_and_free_after_it(graph, lab):
+    a, b = spawn(graph), spawn(graph)
+    assert make_system(graph, {a: "wave", b: "wave"}).success
+    answer = make_system(graph, {a: "wave"}, "other")
+    assert not answer.success
+    assert "member of system 'cell' already" in answer.message
+    assert graph.call(srv.Remove, "/lab/remove_robot", name=b).success
+    wait_for(lambda: graph.call(Trigger, f"/{a}/play").success, "independence")
+
+
+@pytest.mark.parametrize(
+    ("members", "says"),
+    [
+        ({}, "at least one member"),
+        ({"ghost": "wave"}, "no robot 'ghost' is in the scene"),
+        ({"ur5e_1": "nothing"}, "no trajectory 'nothing'"),
+        ({"ur5e_1": "kuka"}, "made for kuka_kr6_r900_sixx"),
+    ],
+)
+def test_a_system_that_cannot_be_is_refused_and_leaves_nothing_behind(graph, lab, members, says):
+    robot = spawn(graph)
+    load(graph, robot, "wave")
+    answer = make_system(graph, members)
+    assert not answer.success
+    assert says in answer.message
+    assert graph.call(Trigger, f"/{robot}/play").success
+
+
+@pytest.mark.parametrize(
+    ("request_fields", "says"),
+    [
+        ({"model": "r2d2"}, "r2d2"),
+        ({"model": "ur5e", "name": "UR 5"}, "lower-case letters"),
+        ({"model": "ur5e", "name": "lab"}, "name of the lab's own"),
+        ({"model": "ur5e", "end_effector": "chainsaw"}, "chainsaw"),
+    ],
+)
+def test_a_robot_that_cannot_be_is_refused(graph, lab, request_fields, says):
+    answer = graph.call(srv.SpawnRobot, "/lab/spawn_robot", automatic=True, **request_fields)
+    assert not answer.success
+    assert says in answer.message
+    assert not lab.host.nodes
+
+
+def test_robots_are_placed_apart_and_a_restarted_lab_has_them_back(graph, tmp_path):
+    first = graph.add(LabNode, state_dir=str(tmp_path))
+    a, b = spawn(graph), spawn(graph, "kuka_kr6_r900_sixx")
+    robots = graph.listen(msg.Robots, "/robots", qos.LATCHED)
+    wait_for(lambda: robots and len(robots[-1].robots) == 2, "two robots")
+    before, seen = robots[-1].robots, robots[-1].header
+    p, q = (r.pose.position for r in before)
+    assert np.hypot(p.x - q.x, p.y - q.y) > 0.9
+    graph.drop(first)
+    graph.add(LabNode, state_dir=str(tmp_path))
+    wait_for(lambda: robots[-1].header != seen, "the new lab's robots")
+    assert [r.name for r in robots[-1].robots] == [a, b]
+    assert robots[-1].robots == before
