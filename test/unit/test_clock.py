@@ -1,0 +1,109 @@
+"""The playback clock: its pair, and the instants at which it shows a position."""
+
+from __future__ import annotations
+
+import math
+from fractions import Fraction
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from mrlab_ros.core.clock import (
+    RATE_RANGE,
+    SECOND,
+    PlaybackClock,
+    checked_position,
+    checked_rate,
+)
+from mrlab_ros.core.errors import BadInput
+
+# Wall time in ns is about 1.8e18; a session lasts a day at most.
+stamps = st.integers(0, 4_000_000_000_000_000_000)
+rates = st.floats(*RATE_RANGE)
+positions = st.floats(0, 3600)
+elapsed = st.integers(0, 86_400 * SECOND)
+
+
+@given(stamps, positions, rates, elapsed)
+def test_position_grows_with_the_rate(
+    stamp: int, position: float, rate: float, after: int
+) -> None:
+    clock = PlaybackClock(stamp, position, rate)
+    expected = position + rate * after / SECOND
+    assert clock.at(stamp + after) == pytest.approx(expected, rel=1e-12, abs=1e-12)
+
+
+@given(stamps, positions, rates, st.integers(0, 10 * SECOND))
+def test_before_its_stamp_it_shows_its_own_position(
+    stamp: int, position: float, rate: float, before: int
+) -> None:
+    assert PlaybackClock(stamp, position, rate).at(stamp - before) == position
+
+
+@given(stamps, positions, elapsed)
+def test_a_standing_clock_stands(stamp: int, position: float, after: int) -> None:
+    assert PlaybackClock(stamp, position, 0.0).at(stamp + after) == position
+
+
+@given(stamps, positions, rates, elapsed, elapsed)
+def test_it_never_runs_backwards(
+    stamp: int, position: float, rate: float, first: int, second: int
+) -> None:
+    clock = PlaybackClock(stamp, position, rate)
+    early, late = sorted((first, second))
+    assert clock.at(stamp + early) <= clock.at(stamp + late)
+
+
+@given(stamps, positions, rates, st.floats(0, 3600))
+def test_due_is_the_instant_at_which_it_shows_a_position(
+    stamp: int, position: float, rate: float, ahead: float
+) -> None:
+    clock = PlaybackClock(stamp, position, rate)
+    due = clock.due(position + ahead)
+    assert clock.at(due) == pytest.approx(position + ahead, abs=rate / SECOND + 1e-9)
+
+
+@given(stamps, positions, rates, rates, elapsed, elapsed)
+def test_taking_the_pair_anew_makes_no_jump(
+    stamp: int, position: float, rate: float, other: float, until: int, after: int
+) -> None:
+    first = PlaybackClock(stamp, position, rate)
+    change = stamp + until
+    second = PlaybackClock(change, first.at(change), other)
+    assert second.at(change) == first.at(change)
+    expected = first.at(change) + other * after / SECOND
+    assert second.at(change + after) == pytest.approx(expected, rel=1e-12, abs=1e-9)
+
+
+@pytest.mark.parametrize("frame_rate", [100.0, 250.0, 500.0, 1000.0, 29.97])
+def test_ten_thousand_deadlines_do_not_drift(frame_rate: float) -> None:
+    stamp = 1_800_000_000_123_456_789
+    clock = PlaybackClock(stamp, 0.0, 1.0)
+    for frame in range(0, 10_000, 7):
+        exact = Fraction(frame * SECOND) / Fraction(frame_rate)
+        assert abs(clock.due(frame / frame_rate) - stamp - exact) <= 1
+
+
+@given(rates)
+def test_a_rate_in_range_is_taken(rate: float) -> None:
+    assert checked_rate(rate) == rate
+
+
+@pytest.mark.parametrize("rate", [0.0, -1.0, 0.0999, 4.001, math.nan, math.inf, -math.inf])
+def test_a_rate_out_of_range_is_refused(rate: float) -> None:
+    with pytest.raises(BadInput, match=r"expected 0\.1 to 4\.0") as refusal:
+        checked_rate(rate)
+    assert str(rate) in str(refusal.value)
+
+
+@given(st.data(), st.floats(0, 3600))
+def test_a_position_on_the_timeline_is_taken(data: st.DataObject, duration: float) -> None:
+    position = data.draw(st.floats(0, duration))
+    assert checked_position(position, duration) == position
+
+
+@pytest.mark.parametrize("position", [-0.001, 2.501, math.nan, math.inf, -math.inf])
+def test_a_position_off_the_timeline_is_refused(position: float) -> None:
+    with pytest.raises(BadInput, match=r"expected 0 to 2\.5 s"):
+        checked_position(position, 2.5)
