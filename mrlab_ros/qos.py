@@ -1,4 +1,4 @@
-"""The three qualities of service that the graph uses."""
+"""The qualities of service that the graph uses."""
 
 from rclpy.qos import DurabilityPolicy, QoSProfile, ReliabilityPolicy
 
@@ -12,3 +12,9 @@ LATCHED = QoSProfile(
 EVENTS = QoSProfile(depth=100, reliability=ReliabilityPolicy.RELIABLE)
 # Motion: every frame arrives at a reader that keeps up; a reader may ask for best effort.
 STREAM = QoSProfile(depth=100, reliability=ReliabilityPolicy.RELIABLE)
+# State whose every change counts: as latched, and changes in quick succession all arrive.
+LATCHED_EVENTS = QoSProfile(
+    depth=10,
+    reliability=ReliabilityPolicy.RELIABLE,
+    durability=DurabilityPolicy.TRANSIENT_LOCAL,
+)

@@ -258,6 +258,9 @@ class Setup:
                 "--symlink-install",
                 "--cmake-args",
                 "-DCMAKE_BUILD_TYPE=Release",
+                # Generated code: optimising it further takes longer than it ever saves.
+                "-DCMAKE_C_FLAGS_RELEASE=-O1",
+                "-DCMAKE_CXX_FLAGS_RELEASE=-O1",
                 "-DBUILD_TESTING=OFF",
                 "-DPython3_EXECUTABLE=" + str(self.venv_python),
             ],

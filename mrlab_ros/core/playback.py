@@ -85,6 +85,7 @@ class Playback:
         self._motion: Motion | None = None
         self._motion_start_ns = 0
         self._play_on_arrival = False
+        self._until: float | None = None
         self._snapshots: list[Snapshot] = []
         self._announce("")
 
@@ -114,28 +115,48 @@ class Playback:
         self.trajectory = None
         self._stand(now_ns, state, 0.0, "unloaded")
 
-    def play(self, now_ns: int, start_ns: int = 0, by: str = "") -> None:
-        """Play on from the clock's position at `start_ns` (0: now).
+    def play(
+        self,
+        now_ns: int,
+        start_ns: int | None = None,
+        rate: float | None = None,
+        until: float | None = None,
+        by: str = "",
+    ) -> None:
+        """Play on from the clock's position: the clock shows it at `start_ns` (default: now).
 
         An arm that stands elsewhere moves there first, in ADJUSTING, and plays when it arrives.
+        A system may set the rate with it, have the clock pair begin a little in the past, and
+        have the arm wait in PAUSED at the position `until` (s).
         """
         self._require_master(by)
         after(self.state, Event.PLAY)
         position = self.clock.position
+        if until is not None:
+            checked_position(until, self._loaded().duration)
+        self.rate = self.rate if rate is None else checked_rate(rate)
         if by and not self._on_trajectory(position):
             raise Misuse(f"does not stand at {position:g} s of its trajectory; stage it first")
         if self._on_trajectory(position):
-            self._begin(max(start_ns, now_ns), position, after(self.state, Event.PLAY))
+            self._until = until
+            self._begin(
+                now_ns if start_ns is None else start_ns, position, after(self.state, Event.PLAY)
+            )
         else:
             self._move_to(now_ns, position, play_on_arrival=True)
 
     def stage(self, now_ns: int, position: float, by: str = "") -> float:
-        """Move to `position` (s) and wait there in PAUSED; return how long that takes, s."""
+        """Move to `position` (s) and wait there in PAUSED; return how long that takes, s.
+
+        An arm that is paused there already stays as it is.
+        """
         self._require_master(by)
         after(self.state, Event.STAGE)
-        return self._move_to(
-            now_ns, checked_position(position, self._loaded().duration), play_on_arrival=False
-        )
+        checked_position(position, self._loaded().duration)
+        there = self.clock.position == position and self._on_trajectory(position)
+        if self.state is State.PAUSED and there:
+            return 0.0
+        return self._move_to(now_ns, position, play_on_arrival=False)
 
     def pause(self, now_ns: int, by: str = "") -> None:
         """Stand still where the last joint state left the arm."""
@@ -165,15 +186,35 @@ class Playback:
         else:
             self._jump(now_ns, state, position, f"stands at {position:g} s")
 
-    def set_rate(self, now_ns: int, rate: float, by: str = "") -> None:
-        """Set the speed of playback, 0.1 to 4, without a jump."""
+    def set_rate(
+        self, now_ns: int, rate: float, since_ns: int | None = None, by: str = ""
+    ) -> None:
+        """Set the speed of playback, 0.1 to 4, without a jump.
+
+        A system names the instant, a little in the past, from which on the new rate holds, so
+        that its members stay together.
+        """
         self._require_master(by)
         self.rate = checked_rate(rate)
         if self.state is State.PLAYING:
-            start_ns = max(now_ns, self.clock.stamp_ns)
-            self.clock = PlaybackClock(start_ns, self.clock.at(now_ns), rate)
-            self._aim(self.clock.position, skip=self._streamed is not None)
+            start_ns = max(now_ns if since_ns is None else since_ns, self.clock.stamp_ns)
+            self.clock = PlaybackClock(start_ns, self.clock.at(start_ns), rate)
+            if self._streamed is None:
+                self._aim(self.clock.position, skip=False)
+            else:
+                self._aim(max(self.clock.position, self._streamed), skip=True)
         self._announce(f"rate {rate:g}")
+
+    def hold_at(self, until: float | None, by: str = "") -> None:
+        """Wait in PAUSED at a later position than now, `until` (s); None: play to the end."""
+        self._require_master(by)
+        if until is not None:
+            checked_position(until, self._loaded().duration)
+            if self._streamed is not None and until <= self._streamed:
+                raise Misuse(f"has passed {until:g} s already; pause, then seek back")
+        self._until = until
+        if self.state is State.PLAYING:
+            self._next_ns = self._due(self._tick)
 
     def set_loop(self, loop: bool, by: str = "") -> None:
         """Set whether the trajectory starts over after its last frame."""
@@ -285,6 +326,7 @@ class Playback:
         self.state = state
         self._motion = None
         self._streamed = None
+        self._until = None
         self.clock = PlaybackClock(now_ns, position, 0.0)
         self._next_ns = now_ns
         self._announce(message)
@@ -332,11 +374,16 @@ class Playback:
         self._tick = math.floor(ticks + 1e-6) + 1 if skip else math.ceil(ticks - 1e-6)
         self._next_ns = self._due(self._tick)
 
+    @property
+    def _end(self) -> float:
+        """Return where this run ends, s."""
+        return self._loaded().duration if self._until is None else self._until
+
     def _place(self, tick: int) -> float:
         """Return the position of a joint state, s; the last one's is the duration itself."""
         trajectory = self._loaded()
         position = tick * self.rate / trajectory.frame_rate
-        end = trajectory.duration
+        end = self._end
         return end if position > end - ON_FRAME / trajectory.frame_rate else position
 
     def _due(self, tick: int) -> int:
@@ -345,7 +392,7 @@ class Playback:
     def _stream(self, now_ns: int) -> Sample:
         trajectory = self._loaded()
         if now_ns - self._due(self._tick) > LOST_AFTER_NS:
-            newest = math.floor(min(self.clock.at(now_ns), trajectory.duration) / self._step)
+            newest = math.floor(min(self.clock.at(now_ns), self._end) / self._step)
             self.lost += max(newest - self._tick, 0)
             self._tick = max(newest, self._tick)
         position = self._place(self._tick)
@@ -360,6 +407,8 @@ class Playback:
         self._next_ns = max(self._due(self._tick), now_ns + round(CATCH_UP_SPACING * period_ns))
         if position >= trajectory.duration:
             self._finish(due_ns, round(period_ns))
+        elif position == self._until:
+            self._halt(now_ns, after(self.state, Event.PAUSE), "waits for its signal")
         return sample
 
     def _finish(self, end_ns: int, period_ns: int) -> None:

@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import threading
+import time
+from collections.abc import Sequence
 from typing import Any
 
 from rclpy.client import Client
@@ -20,23 +22,24 @@ def call(client: Client, request: Any, timeout: float = 5.0) -> Any:
     For use off the executor, or inside a callback whose executor has a thread left; the client
     must not share a mutually exclusive callback group with the caller.
     """
-    return call_all([client], request, timeout)[0]
+    return call_all([(client, request)], timeout)[0]
 
 
-def call_all(clients: list[Client], request: Any, timeout: float = 5.0) -> list[Any]:
-    """Send all clients one request at once and return their answers in order, as call() does."""
-    for client in clients:
-        if not client.wait_for_service(timeout_sec=timeout):
+def call_all(calls: Sequence[tuple[Client, Any]], timeout: float = 5.0) -> list[Any]:
+    """Send every request at once and return the answers in order, as call() does."""
+    deadline = time.monotonic() + timeout
+    for client, _ in calls:
+        if not client.service_is_ready() and not client.wait_for_service(timeout_sec=timeout):
             raise NoAnswer(f"nobody offers {client.srv_name}; is that part of the lab running?")
     pending = []
-    for client in clients:
+    for client, request in calls:
         done = threading.Event()
         future = client.call_async(request)
         future.add_done_callback(lambda _, done=done: done.set())
         pending.append((client, future, done))
     answers = []
     for client, future, done in pending:
-        if not done.wait(timeout):
+        if not done.wait(max(deadline - time.monotonic(), 0.0)):
             client.remove_pending_request(future)
             raise NoAnswer(f"{client.srv_name} did not answer within {timeout:g} s; try again")
         answers.append(future.result())

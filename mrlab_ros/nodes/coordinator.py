@@ -1,68 +1,133 @@
-"""The coordinator node: systems of robots that are staged and then play as one."""
+"""The coordinator node: systems of robots that play as one."""
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from concurrent.futures import ThreadPoolExecutor
+from collections.abc import Callable, Sequence
 from typing import Any
 
 from mrlab_msgs import msg, srv
 from rclpy.callback_groups import MutuallyExclusiveCallbackGroup, ReentrantCallbackGroup
-from rclpy.client import Client
 from rclpy.context import Context
 from rclpy.node import Node
 from rclpy.parameter import Parameter
 from rclpy.service import Service
-from rclpy.subscription import Subscription
-from std_srvs.srv import Trigger
+from std_srvs.srv import SetBool, Trigger
 
 from mrlab_ros import conversions, host, qos
-from mrlab_ros.core.clock import PlaybackClock
 from mrlab_ros.core.errors import BadInput, LabError, Misuse
 from mrlab_ros.core.playback_states import State
-from mrlab_ros.core.robot_systems import Member, RobotSystem, SystemEvent, Systems, SystemState
+from mrlab_ros.core.robot_systems import (
+    Loaded,
+    Member,
+    Mode,
+    Order,
+    Policy,
+    Reply,
+    RobotSystem,
+    Systems,
+    SystemState,
+)
+from mrlab_ros.core.waits import parse
 from mrlab_ros.nodes.answers import answered
 from mrlab_ros.nodes.calls import call, call_all
+from mrlab_ros.nodes.worker import Worker
 
 Drive = srv.Drive.Request
-# A common start lies this far ahead, so that every member knows of it in time, s.
-LEAD = 0.1
+# How often a moving system looks for what time has made due, s.
+POLL = 0.02
+LOAD_TIMEOUT = 15.0
 
 
 class Link:
-    """What the coordinator holds of one member: its services and its newest state."""
+    """What the coordinator holds of one robot: its services and its newest state."""
 
     def __init__(self, node: CoordinatorNode, robot: str) -> None:
         self.robot = robot
         self.state: msg.PlaybackState | None = None
-        # States older than the last order say nothing of how it went, ns.
-        self.ordered_ns = 0
+        # A state from before the last reply says nothing of how things are now.
+        self.replied_ns = 0
         self._node = node
         group = node.client_group
-        self.load: Client = node.create_client(
-            srv.LoadTrajectory, f"/{robot}/load", callback_group=group
-        )
-        self.drive: Client = node.create_client(srv.Drive, f"/{robot}/drive", callback_group=group)
-        self._subscription: Subscription = node.create_subscription(
-            msg.PlaybackState,
-            f"/{robot}/playback_state",
-            self._on_state,
-            qos.LATCHED,
-            callback_group=node.state_group,
-        )
+        self.load = node.create_client(srv.LoadTrajectory, f"/{robot}/load", callback_group=group)
+        self.drive = node.create_client(srv.Drive, f"/{robot}/drive", callback_group=group)
+        self._subscriptions = [
+            node.create_subscription(
+                kind, f"/{robot}/{topic}", callback, qos.LATCHED, callback_group=node.state_group
+            )
+            for kind, topic, callback in (
+                (msg.PlaybackState, "playback_state", self._on_state),
+                (msg.Grasp, "grasp", self._on_grasp),
+            )
+        ]
 
     def _on_state(self, message: msg.PlaybackState) -> None:
-        self.state = message
-        self._node.member_changed(self.robot)
+        self._node.worker.later(lambda: self._node.follow(self, message))
+
+    def _on_grasp(self, message: msg.Grasp) -> None:
+        held = message.object if message.state == msg.Grasp.HOLDING else None
+        self._node.worker.later(lambda: self._node.grasped(self.robot, held))
 
     def close(self) -> None:
-        self._node.destroy_subscription(self._subscription)
+        for subscription in self._subscriptions:
+            self._node.destroy_subscription(subscription)
         self._node.destroy_client(self.load)
         self._node.destroy_client(self.drive)
 
 
+class RosFleet:
+    """The members of one system, reached through their services."""
+
+    def __init__(self, system: str, links: dict[str, Link]) -> None:
+        self._system = system
+        self._links = links
+
+    def prepare(self, robot: str, trajectory_id: str) -> Loaded:
+        link = self._links[robot]
+        if trajectory_id and (link.state is None or link.state.trajectory_id != trajectory_id):
+            request = srv.LoadTrajectory.Request(id=trajectory_id)
+            self._checked(robot, call(link.load, request, LOAD_TIMEOUT))
+        answer = self._checked(robot, call(link.drive, self._request(command=Drive.CLAIM)))
+        if not answer.trajectory_id:
+            raise Misuse(f"{robot} has no trajectory; load one, or name one for the system")
+        return Loaded(answer.trajectory_id, answer.trajectory_duration, answer.frame_rate)
+
+    def release(self, robot: str) -> None:
+        self._checked(
+            robot, call(self._links[robot].drive, self._request(command=Drive.RELEASE), 2.0)
+        )
+
+    def drive(self, orders: Sequence[Order]) -> list[Reply]:
+        requests = [
+            self._request(
+                command=order.command.value,
+                stamp=conversions.stamp(order.stamp_ns),
+                position=order.position,
+                rate=order.rate,
+                until=order.until or 0.0,
+            )
+            for order in orders
+        ]
+        links = [self._links[order.robot] for order in orders]
+        answers = call_all([(k.drive, r) for k, r in zip(links, requests, strict=True)])
+        for link, answer in zip(links, answers, strict=True):
+            link.replied_ns = conversions.to_ns(answer.stamp)
+        return [
+            Reply(State(a.state), a.position, a.duration)
+            for a in (self._checked(k.robot, a) for k, a in zip(links, answers, strict=True))
+        ]
+
+    def _request(self, **fields: Any) -> Any:
+        return srv.Drive.Request(system=self._system, **fields)
+
+    @staticmethod
+    def _checked(robot: str, answer: Any) -> Any:
+        if not answer.success:
+            raise Misuse(f"{robot}: {answer.message}")
+        return answer
+
+
 class CoordinatorNode(Node):
-    """Creates and dissolves systems; plays, pauses and stops each as one."""
+    """Creates and dissolves systems and offers each one's services below its name."""
 
     def __init__(
         self,
@@ -77,11 +142,12 @@ class CoordinatorNode(Node):
         self.state_group = MutuallyExclusiveCallbackGroup()
         self._systems = Systems()
         self._links: dict[str, Link] = {}
+        self._fleets: dict[str, RosFleet] = {}
         self._offered: dict[str, list[Service]] = {}
         self._robots: frozenset[str] = frozenset()
-        # All decisions are made in one thread, one after another: no locks, no races.
-        self._work = ThreadPoolExecutor(1, "coordinator")
-        self._topic = self.create_publisher(msg.RobotSystems, "/systems", qos.LATCHED)
+        # All decisions are made in one thread, one after another.
+        self.worker = Worker("coordinator", self._poll, self._patience)
+        self._topic = self.create_publisher(msg.RobotSystems, "/systems", qos.LATCHED_EVENTS)
         self.create_subscription(
             msg.Robots, "/robots", self._on_robots, qos.LATCHED, callback_group=self.state_group
         )
@@ -93,189 +159,189 @@ class CoordinatorNode(Node):
         self._publish()
 
     def destroy_node(self) -> None:
-        self._work.shutdown(cancel_futures=True)
+        self.worker.close()
         super().destroy_node()
-
-    def member_changed(self, robot: str) -> None:
-        self._later(lambda: self._follow(robot))
 
     # services -------------------------------------------------------------------------------
 
     @answered
     def _create(self, request: Any, response: Any) -> str:
-        return self._now(lambda: self._do_create(request, response))
+        return str(self.worker.do(lambda: self._do_create(request, response)))
 
     @answered
     def _dissolve(self, request: Any, response: Any) -> str:
-        return self._now(lambda: self._do_dissolve(request.name, "dissolved"))
+        return str(self.worker.do(lambda: self._do_dissolve(request.name, "dissolved")))
 
     def _do_create(self, request: Any, response: Any) -> str:
-        if request.mode != msg.RobotSystem.PARALLEL:
-            raise BadInput(f"mode {request.mode} is unknown to this lab; expected 0, parallel")
-        if request.policy != msg.RobotSystem.HALT_ALL:
-            raise BadInput(f"policy {request.policy} is unknown to this lab; expected 0, halt all")
-        if request.loop:
-            raise BadInput("this lab's systems play once; create the system without loop")
-        members = [Member(m.robot, m.trajectory_id) for m in request.members]
-        system = self._systems.create(request.name, members, self._robots)
         try:
-            for member in members:
-                link = self._links[member.robot] = Link(self, member.robot)
-                if member.trajectory_id:
-                    self._checked(
-                        member.robot,
-                        call(link.load, srv.LoadTrajectory.Request(id=member.trajectory_id), 15.0),
-                    )
-                self._order(system, [member], Drive.CLAIM)
+            mode, policy = Mode(request.mode), Policy(request.policy)
+        except ValueError:
+            raise BadInput(
+                f"mode {request.mode} with policy {request.policy} is unknown; expected 0 "
+                "(parallel) or 1 (sequential), and 0 (halt all) or 1 (halt member)"
+            ) from None
+        members = [
+            Member(m.robot, m.trajectory_id, self._dwell(m.dwell), tuple(map(parse, m.waits)))
+            for m in request.members
+        ]
+        robots = [member.robot for member in members]
+        name = self._systems.check(request.name, robots, self._robots)
+        fleet = self._fleets[name] = RosFleet(name, self._links)
+        system = RobotSystem(name, members, fleet, mode, policy, request.loop)
+        self._systems.add(system)
+        try:
+            for robot in robots:
+                self._links[robot] = Link(self, robot)
+            system.prepare()
         except LabError:
-            self._do_dissolve(system.name, "could not be created")
+            self._do_dissolve(name, "could not be created")
             raise
-        self._offered[system.name] = [
-            self.create_service(
-                Trigger, f"/{system.name}/{name}", self._trigger(system.name, action)
-            )
-            for name, action in (
-                ("play", self._play),
-                ("pause", self._pause),
-                ("stop", self._stop),
+        self._offered[name] = [
+            self.create_service(kind, f"/{name}/{service}", self._callback(name, action))
+            for kind, service, action in (
+                (Trigger, "play", self._play),
+                (Trigger, "pause", self._pause),
+                (Trigger, "stop", self._stop),
+                (srv.Seek, "seek", self._seek),
+                (srv.Step, "step", self._step),
+                (srv.SetRate, "set_rate", self._set_rate),
+                (srv.SetMode, "set_mode", self._set_mode),
+                (SetBool, "set_loop", self._set_loop),
             )
         ]
-        response.system = self._message(system)
         self._publish()
-        return f"{system.name} drives {', '.join(system.members)}"
+        response.system = self._message(system)
+        return f"{name} drives {', '.join(robots)}: {system.duration:g} s, {mode.name.lower()}"
 
-    def _trigger(
-        self, name: str, action: Callable[[RobotSystem], str]
+    @staticmethod
+    def _dwell(dwell: float) -> float:
+        if not 0 <= dwell < 3600:
+            raise BadInput(f"the dwell is {dwell} s; expected 0 to 3600 s")
+        return float(dwell)
+
+    def _callback(
+        self, name: str, action: Callable[[RobotSystem, Any], str]
     ) -> Callable[[Any, Any], Any]:
+        def work(request: Any) -> str:
+            try:
+                return action(self._systems.get(name), request)
+            finally:
+                self._publish()
+
         @answered
         def callback(node: Any, request: Any, response: Any) -> str:
-            return self._now(lambda: action(self._systems.get(name)))
+            return str(self.worker.do(lambda: work(request)))
 
         return lambda request, response: callback(self, request, response)
 
     def _do_dissolve(self, name: str, why: str) -> str:
         system = self._systems.dissolve(name)
+        fleet = self._fleets.pop(name)
         for robot in system.members:
-            link = self._links.pop(robot, None)
+            link = self._links.get(robot)
             if link is None:
                 continue
             if robot in self._robots:
                 try:
-                    self._ask(link, system, Drive.RELEASE)
+                    fleet.release(robot)
                 except LabError as error:
                     self.get_logger().warning(f"{robot} was not released: {error}")
             link.close()
+            del self._links[robot]
         for service in self._offered.pop(name, []):
             self.destroy_service(service)
         self._publish()
         self.get_logger().info(f"system {name}: {why}")
         return f"{name} is dissolved"
 
-    def _play(self, system: RobotSystem) -> str:
-        if system.state is SystemState.PAUSED:
-            system.fire(SystemEvent.RESUME)
-            self._start(system)
-            return "plays on"
-        system.fire(SystemEvent.STAGE, "members move to their starts")
-        missing = [r for r in system.members if not self._state(r).trajectory_id]
-        if missing:
-            system.fire(SystemEvent.ABORT)
-            raise Misuse(f"{', '.join(missing)} has no trajectory; load one, then play again")
-        for member in system.members.values():
-            member.trajectory_id = self._state(member.robot).trajectory_id
-            member.duration = self._state(member.robot).duration
-            self._links[member.robot].ordered_ns = self.get_clock().now().nanoseconds
-            member.state = State.ADJUSTING.value
-        system.clock = PlaybackClock(self.get_clock().now().nanoseconds, 0.0, 0.0)
-        try:
-            answers = self._order(system, list(system.members.values()), Drive.STAGE)
-        except LabError:
-            self._abort(system, "a member could not move to its start")
-            raise
-        self._publish()
-        longest = max(answer.duration for answer in answers)
-        return f"stages for {longest:.1f} s, then plays {system.duration:g} s"
+    def _play(self, system: RobotSystem, request: Any) -> str:
+        staging = system.play(self._now_ns())
+        return f"stages for {staging:.1f} s, then plays" if staging else "plays"
 
-    def _pause(self, system: RobotSystem) -> str:
-        system.fire(SystemEvent.PAUSE)
-        now_ns = self.get_clock().now().nanoseconds
-        system.clock = PlaybackClock(now_ns, min(system.clock.at(now_ns), system.duration), 0.0)
-        playing = [m for m in system.members.values() if m.state == State.PLAYING.value]
-        self._order(system, playing, Drive.PAUSE)
-        self._publish()
+    def _pause(self, system: RobotSystem, request: Any) -> str:
+        system.pause(self._now_ns())
         return f"paused at {system.clock.position:.3f} s"
 
-    def _stop(self, system: RobotSystem) -> str:
-        system.fire(SystemEvent.STOP, "stopped")
-        system.clock = PlaybackClock(self.get_clock().now().nanoseconds, 0.0, 0.0)
-        self._order(system, list(system.members.values()), Drive.STOP)
-        self._publish()
+    def _stop(self, system: RobotSystem, request: Any) -> str:
+        system.stop(self._now_ns())
         return "stopped"
 
-    # what members do ------------------------------------------------------------------------
+    def _seek(self, system: RobotSystem, request: Any) -> str:
+        system.seek(self._now_ns(), request.position)
+        return f"at {request.position:g} s"
 
-    def _follow(self, robot: str) -> None:
-        """Move the system on when its members have arrived, ended or collided."""
-        link, system = self._links.get(robot), self._systems.of(robot)
-        if link is None or link.state is None or system is None:
-            return
-        if conversions.to_ns(link.state.header.stamp) < link.ordered_ns:
-            return
-        system.members[robot].state = link.state.state
-        states = {State(m.state) for m in system.members.values()}
-        if State.COLLISION_HALT in states:
-            self._halt(system, robot)
-        elif system.state is SystemState.COLLISION_HALT:
-            system.fire(SystemEvent.CLEAR, "clear again")
-        elif system.state is SystemState.STAGING and states == {State.PAUSED}:
-            system.fire(SystemEvent.START)
-            self._start(system)
-        elif system.state is SystemState.PLAYING and states == {State.READY}:
-            system.clock = PlaybackClock(self.get_clock().now().nanoseconds, system.duration, 0.0)
-            system.fire(SystemEvent.FINISH, "played to the end")
-            self._publish()
-            system.fire(SystemEvent.REARM, "played to the end")
-        self._publish()
+    def _step(self, system: RobotSystem, request: Any) -> str:
+        return f"at {system.step(self._now_ns(), request.frames):g} s"
 
-    def _halt(self, system: RobotSystem, robot: str) -> None:
-        if system.state not in (SystemState.STAGING, SystemState.PLAYING):
-            return
-        system.fire(SystemEvent.COLLIDE, f"{robot} collided")
-        now_ns = self.get_clock().now().nanoseconds
-        system.clock = PlaybackClock(now_ns, min(system.clock.at(now_ns), system.duration), 0.0)
-        others = [
-            m
-            for m in system.members.values()
-            if m.state in (State.PLAYING.value, State.ADJUSTING.value)
-        ]
-        self._order(system, others, Drive.PAUSE)
+    def _set_rate(self, system: RobotSystem, request: Any) -> str:
+        system.set_rate(self._now_ns(), request.rate)
+        return f"rate {request.rate:g}"
 
-    def _start(self, system: RobotSystem) -> None:
-        """Let every member that has not reached its end play from one common stamp on."""
-        start_ns = self.get_clock().now().nanoseconds + round(LEAD * 1e9)
-        system.clock = PlaybackClock(start_ns, system.clock.position, 1.0)
-        waiting = [m for m in system.members.values() if m.state == State.PAUSED.value]
+    def _set_mode(self, system: RobotSystem, request: Any) -> str:
         try:
-            self._order(system, waiting, Drive.PLAY, stamp=conversions.stamp(start_ns))
-        except LabError as error:
-            self.get_logger().error(f"system {system.name}: {error}")
-            self._abort(system, str(error))
-        self._publish()
+            mode = Mode(request.mode)
+        except ValueError:
+            raise BadInput(
+                f"mode {request.mode} is unknown; expected 0 (parallel) or 1 (sequential)"
+            ) from None
+        system.set_mode(mode)
+        return f"{mode.name.lower()}, {system.duration:g} s"
 
-    def _abort(self, system: RobotSystem, why: str) -> None:
-        """Bring every member to rest after one of them failed."""
-        event = SystemEvent.ABORT if system.state is SystemState.STAGING else SystemEvent.STOP
-        system.fire(event, why)
-        for member in system.members.values():
-            try:
-                self._ask(self._links[member.robot], system, Drive.STOP)
-            except LabError as error:
-                self.get_logger().warning(f"{member.robot} was not stopped: {error}")
-        self._publish()
+    def _set_loop(self, system: RobotSystem, request: Any) -> str:
+        system.loop = request.data
+        return "loops" if request.data else "plays once"
+
+    # what happens, in the worker's thread ---------------------------------------------------
+
+    def follow(self, link: Link, message: msg.PlaybackState) -> None:
+        """Take a member's state as its playback tells it."""
+        link.state = message
+        system = self._systems.of(link.robot)
+        stamp_ns = conversions.to_ns(message.header.stamp)
+        if system is None or link.robot not in self._links or stamp_ns < link.replied_ns:
+            return
+        before = system.state, system.message, self._held(system)
+        self._guarded(
+            lambda: system.member_changed(
+                self._now_ns(), link.robot, State(message.state), message.clock.position
+            )
+        )
+        self._announce(system, before)
+
+    def grasped(self, robot: str, held: str | None) -> None:
+        """Tell every system what `robot` holds: a wait may name a robot of another system."""
+        for system in self._systems:
+            before = system.state, system.message, self._held(system)
+            self._guarded(lambda system=system: system.grasped(self._now_ns(), robot, held))
+            self._announce(system, before)
+
+    def _poll(self) -> None:
+        for system in self._systems:
+            before = system.state, system.message, self._held(system)
+            self._guarded(lambda system=system: system.poll(self._now_ns()))
+            self._announce(system, before)
+
+    def _patience(self) -> float | None:
+        active = (SystemState.STAGING, SystemState.PLAYING)
+        return POLL if any(system.state in active for system in self._systems) else None
+
+    def _guarded(self, work: Callable[[], None]) -> None:
+        """Do something nobody waits for: a refusal is in the system's message, and logged."""
+        try:
+            work()
+        except LabError as error:
+            self.get_logger().warning(str(error))
+
+    def _announce(self, system: RobotSystem, before: Any) -> None:
+        if system.state is SystemState.COMPLETE:
+            self._publish()
+            self._guarded(lambda: system.rearm(self._now_ns()))
+        if (system.state, system.message, self._held(system)) != before:
+            self._publish()
 
     def _on_robots(self, message: msg.Robots) -> None:
         robots = frozenset(robot.name for robot in message.robots)
-        self._later(lambda: self._set_robots(robots))
+        self.worker.later(lambda: self._set_robots(robots))
 
     def _set_robots(self, robots: frozenset[str]) -> None:
         self._robots = robots
@@ -284,75 +350,48 @@ class CoordinatorNode(Node):
             if gone:
                 self._do_dissolve(system.name, f"{', '.join(gone)} left the scene")
 
-    # plumbing -------------------------------------------------------------------------------
+    # messages -------------------------------------------------------------------------------
 
-    def _now(self, work: Callable[[], str]) -> str:
-        return self._work.submit(work).result()
+    def _now_ns(self) -> int:
+        return int(self.get_clock().now().nanoseconds)
 
-    def _later(self, work: Callable[[], None]) -> None:
-        def guarded() -> None:
-            try:
-                work()
-            except Exception as error:
-                self.get_logger().error(f"coordinator: {error!r}")
-
-        try:
-            self._work.submit(guarded)
-        except RuntimeError:
-            self.get_logger().debug("shutting down")
-
-    def _state(self, robot: str) -> msg.PlaybackState:
-        state = self._links[robot].state
-        if state is None:
-            raise Misuse(f"{robot} has not told its state yet; try again")
-        return state
-
-    def _checked(self, robot: str, answer: Any) -> Any:
-        if not answer.success:
-            raise Misuse(f"{robot}: {answer.message}")
-        return answer
-
-    def _request(self, system: RobotSystem, command: int, **fields: Any) -> Any:
-        return srv.Drive.Request(system=system.name, command=command, rate=1.0, **fields)
-
-    def _ask(self, link: Link, system: RobotSystem, command: int) -> None:
-        self._checked(link.robot, call(link.drive, self._request(system, command)))
-
-    def _order(
-        self, system: RobotSystem, members: list[Member], command: int, **fields: Any
-    ) -> list[Any]:
-        """Give all `members` one command at once; raise where one refuses."""
-        request = self._request(system, command, **fields)
-        answers = call_all([self._links[m.robot].drive for m in members], request)
-        return [self._checked(m.robot, a) for m, a in zip(members, answers, strict=True)]
+    @staticmethod
+    def _held(system: RobotSystem) -> list[str]:
+        return [w.text if (w := m.held_by) else "" for m in system.members.values()]
 
     def _message(self, system: RobotSystem) -> msg.RobotSystem:
+        playing = system.state is SystemState.PLAYING
         return msg.RobotSystem(
             name=system.name,
             members=[
                 msg.SystemMember(
                     robot=m.robot,
                     trajectory_id=m.trajectory_id,
+                    start=m.start,
                     duration=m.duration,
-                    state=m.state,
+                    dwell=m.dwell,
+                    state=m.state.value,
+                    position=m.position,
+                    waits=[wait.text for wait in m.waits],
+                    waiting_for=m.held_by.text if playing and m.held_by else "",
                 )
                 for m in system.members.values()
             ],
-            mode=msg.RobotSystem.PARALLEL,
-            policy=msg.RobotSystem.HALT_ALL,
+            mode=system.mode.value,
+            policy=system.policy.value,
             state=system.state.value,
             label=system.state.name,
             message=system.message,
             clock=conversions.clock_to_message(system.clock),
             duration=system.duration,
-            rate=1.0,
+            rate=system.rate,
+            loop=system.loop,
         )
 
     def _publish(self) -> None:
-        now_ns = self.get_clock().now().nanoseconds
         self._topic.publish(
             msg.RobotSystems(
-                header=conversions.header(now_ns),
+                header=conversions.header(self._now_ns()),
                 systems=[self._message(system) for system in self._systems],
             )
         )

@@ -60,7 +60,9 @@ class PlaybackNode(Node):
         self.playback = Playback(model, planner, standing_rate)
         self._encoder = conversions.JointStateEncoder(robot, model.joint_names)
         self._joint_states = self.create_publisher(JointState, "joint_states", qos.STREAM)
-        self._state = self.create_publisher(msg.PlaybackState, "playback_state", qos.LATCHED)
+        self._state = self.create_publisher(
+            msg.PlaybackState, "playback_state", qos.LATCHED_EVENTS
+        )
         self._telemetry = self.create_publisher(msg.Telemetry, "telemetry", qos.STREAM)
         self._targets = self.create_publisher(msg.GraspTargets, "targets", qos.LATCHED)
         self.create_subscription(msg.Collision, "collision", self._on_collision, qos.LATCHED)
@@ -213,8 +215,9 @@ class PlaybackNode(Node):
     @answered
     def _drive(self, request: Any, response: Any) -> str:
         playback, by = self.playback, request.system
-        start_ns = conversions.to_ns(request.stamp)
+        start_ns = conversions.to_ns(request.stamp) or None
         with self._scheduler.command() as now_ns:
+            response.stamp = conversions.stamp(now_ns)
             if request.command == Drive.CLAIM:
                 playback.claim(by)
             elif request.command == Drive.RELEASE:
@@ -222,7 +225,7 @@ class PlaybackNode(Node):
             elif request.command == Drive.STAGE:
                 response.duration = playback.stage(now_ns, request.position, by)
             elif request.command == Drive.PLAY:
-                playback.play(now_ns, start_ns, by)
+                playback.play(now_ns, start_ns, request.rate, request.until or None, by)
             elif request.command == Drive.PAUSE:
                 playback.pause(now_ns, by)
             elif request.command == Drive.STOP:
@@ -230,14 +233,21 @@ class PlaybackNode(Node):
             elif request.command == Drive.SEEK:
                 playback.seek(now_ns, request.position, by)
             elif request.command == Drive.SET_RATE:
-                playback.set_rate(now_ns, request.rate, by)
-            elif request.command == Drive.HALT:
-                playback.collide(now_ns, f"another member of system {by} collided")
+                playback.set_rate(now_ns, request.rate, start_ns, by)
+            elif request.command == Drive.HOLD:
+                playback.hold_at(request.until or None, by)
             else:
                 raise BadInput(
                     f"command {request.command} is unknown; expected a constant of Drive.srv"
                 )
-            return f"{playback.state.name}"
+            response.state = playback.state.value
+            response.position = playback.clock.position
+            trajectory = playback.trajectory
+            if trajectory is not None:
+                response.trajectory_id = trajectory.id
+                response.trajectory_duration = trajectory.duration
+                response.frame_rate = trajectory.frame_rate
+            return playback.state.name
 
     def _on_collision(self, message: msg.Collision) -> None:
         with self._scheduler.command() as now_ns:

@@ -262,6 +262,70 @@ def test_staging_waits_at_the_start_until_the_common_stamp():
     assert [s.frame for s in samples] == list(range(11))
 
 
+def test_a_member_waits_at_a_hold_and_goes_on_with_the_next_frame():
+    playback = on_start()
+    playback.play(START, until=0.04)
+    before = streamed(run(playback, START + SECOND))
+    assert playback.state is State.PAUSED
+    assert playback.clock.position == 0.04
+    playback.play(START + 2 * SECOND)
+    after = streamed(run(playback, START + 9 * SECOND))
+    assert [s.frame for s in before + after] == list(range(11))
+    assert [s.frame for s in before] == list(range(5))
+
+
+def test_a_hold_that_is_lifted_in_time_is_not_felt():
+    playback = on_start()
+    playback.play(START, until=0.04)
+    before = run(playback, START + 2 * PERIOD)
+    playback.hold_at(None)
+    samples = before + run(playback, START + SECOND)
+    assert [s.due_ns for s in samples if s.streamed] == [START + i * PERIOD for i in range(11)]
+
+
+def test_a_hold_can_be_moved_ahead_but_not_behind():
+    playback = on_start()
+    playback.play(START, until=0.04)
+    run(playback, START + 2 * PERIOD)
+    with pytest.raises(Misuse, match="has passed 0.01 s already"):
+        playback.hold_at(0.01)
+    playback.hold_at(0.06)
+    run(playback, START + SECOND)
+    assert playback.clock.position == 0.06
+
+
+def test_members_that_resume_on_a_pair_in_the_past_stay_on_one_timeline():
+    playback = on_start()
+    playback.play(START)
+    run(playback, START + 4 * PERIOD)
+    playback.pause(START + 4 * PERIOD + PERIOD // 2)
+    playback.play(START + SECOND, START + SECOND - PERIOD // 2)
+    after = streamed(run(playback, START + 9 * SECOND))
+    assert after[0].frame == 5
+    assert after[0].due_ns == START + SECOND + PERIOD // 2
+
+
+def test_a_rate_set_since_an_instant_in_the_past_is_exact_and_never_goes_back():
+    playback = on_start(make_trajectory(np.arange(200.0).reshape(100, 2)))
+    playback.play(START)
+    before = run(playback, START + 10 * PERIOD)
+    playback.set_rate(START + 10 * PERIOD, 0.1, START + 8 * PERIOD)
+    assert playback.clock.at(START + 18 * PERIOD) == pytest.approx(0.09)
+    after = run(playback, START + 60 * PERIOD)
+    assert after[0].position > before[-1].position
+    assert all(np.diff([s.position for s in after]) > 0)
+
+
+def test_staging_where_it_is_paused_already_changes_nothing():
+    playback = on_start()
+    playback.play(START)
+    run(playback, START + 4 * PERIOD)
+    playback.pause(START + 4 * PERIOD)
+    playback.take_snapshots()
+    assert playback.stage(START + SECOND, playback.clock.position) == 0.0
+    assert playback.take_snapshots() == []
+
+
 def test_a_system_cannot_play_a_member_it_has_not_staged():
     playback = loaded()
     playback.claim("cell")

@@ -1,0 +1,63 @@
+"""What a member of a robot system waits for before it plays past a frame.
+
+Written as `frame 0: after kr6_1.frame 120`, `frame 200: object cube_1 held by ur5e_1` or
+`frame 310: object cube_1 free`.
+"""
+
+from __future__ import annotations
+
+import re
+from dataclasses import dataclass
+
+from mrlab_ros.core.errors import BadInput
+
+GRAMMAR = re.compile(
+    r"frame (?P<frame>\d+): (?:"
+    r"after (?P<other>\w+)\.frame (?P<number>\d+)"
+    r"|object (?P<held>\w+) held by (?P<holder>\w+)"
+    r"|object (?P<free>\w+) free"
+    r")"
+)
+
+
+@dataclass(frozen=True)
+class AfterFrame:
+    """True once `robot`, a member of the same system, has reached its source frame."""
+
+    robot: str
+    frame: int
+
+
+@dataclass(frozen=True)
+class Held:
+    """True while `robot` holds `object`; robot None: while nobody does."""
+
+    object: str
+    robot: str | None
+
+
+@dataclass(frozen=True)
+class Wait:
+    """Before playing past `frame`, the condition must have been true once."""
+
+    frame: int
+    condition: AfterFrame | Held
+    text: str
+
+
+def parse(text: str) -> Wait:
+    """Return the wait that `text` says; raise BadInput where it says none."""
+    match = GRAMMAR.fullmatch(" ".join(text.split()))
+    if match is None:
+        raise BadInput(
+            f"'{text}' is no wait; expected 'frame 0: after kr6_1.frame 120', 'frame 200: object "
+            "cube_1 held by ur5e_1' or 'frame 310: object cube_1 free'"
+        )
+    condition: AfterFrame | Held
+    if match["other"]:
+        condition = AfterFrame(match["other"], int(match["number"]))
+    elif match["held"]:
+        condition = Held(match["held"], match["holder"])
+    else:
+        condition = Held(match["free"], None)
+    return Wait(int(match["frame"]), condition, " ".join(text.split()))
