@@ -49,48 +49,48 @@ class Kind:
     remedy: str = ""
 
 
-I, W, E = Severity.INFO, Severity.WARNING, Severity.ERROR
+INFO, WARNING, ERROR = Severity
 KINDS: dict[str, Kind] = {
     # the file
     "missing": Kind(
-        E,
+        ERROR,
         "There is no such file.",
         "There is no file '{file}'.",
         "Check the folder and the name; the file ends in .mat.",
     ),
     "unsupported_format": Kind(
-        E,
+        ERROR,
         "The file is not a MATLAB workspace, and what it is instead.",
         "'{file}' is {found}, not a MATLAB workspace.",
         "In MATLAB: save('traj.mat', 'q') and convert traj.mat.",
     ),
     "unreadable": Kind(
-        E,
+        ERROR,
         "The file is a workspace but damaged or cut short; nothing of it is taken.",
         "'{file}' is damaged: {problem}.",
         "Copy the file again, or save it again in MATLAB: save('traj.mat', 'q').",
     ),
     "reader_died": Kind(
-        E,
+        ERROR,
         "The process that reads files ended while reading this one; the lab goes on.",
         "'{file}' brought the file reader down ({problem}); the file is damaged or made to do so.",
         "Save it again in MATLAB: save('traj.mat', 'q').",
     ),
     "too_large": Kind(
-        E,
+        ERROR,
         "The file, or what it inflates to, passes the limit on size or memory.",
         "'{file}' is too large: {problem}.",
         "Save only the trajectory: save('traj.mat', 'q').",
     ),
     "too_slow": Kind(
-        E,
+        ERROR,
         "Reading the file passed the time limit and was stopped.",
         "'{file}' could not be read within {limit:g} s and was stopped.",
         "Save only the trajectory: save('traj.mat', 'q').",
     ),
     # finding the matrix
     "no_trajectory": Kind(
-        E,
+        ERROR,
         "No variable looks like joint positions of the robot.",
         "No variable of '{file}' looks like the joint positions of {robot}, an N x {joints} "
         "matrix of radians with N >= 2. {found}",
@@ -98,98 +98,98 @@ KINDS: dict[str, Kind] = {
         "variables is what you want, name it: --variable NAME.",
     ),
     "ambiguous": Kind(
-        E,
+        ERROR,
         "More than one matrix could be the trajectory, or the only one is doubtful: choose one.",
         "{count} in '{file}' could be the trajectory: {found}.",
         "Say which one it is (--variable NAME), or save only that one: save('traj.mat', 'q').",
     ),
     "unknown_variable": Kind(
-        E,
+        ERROR,
         "The variable that was asked for is not in the file.",
         "'{file}' has no variable '{variable}'. {found}",
         "Take one of these names, written the same way.",
     ),
     "unsupported_object": Kind(
-        E,
+        ERROR,
         "The values sit in a MATLAB object, which only MATLAB can open.",
         "{found} can be opened by MATLAB alone, and no plain matrix of '{file}' is the "
         "trajectory.",
         "In MATLAB, save the numbers in it: {code}",
     ),
     "object_ignored": Kind(
-        I,
+        INFO,
         "An object in the file was left out; the trajectory is a plain matrix beside it.",
         "{found} can be opened by MATLAB alone and was left out.",
         "Nothing to do, unless the trajectory is in there: {code}",
     ),
     "inside_container": Kind(
-        E,
+        ERROR,
         "The samples are kept one by one in a struct array or a cell array.",
         "The samples are kept one by one, as {found} ...",
         "Put them into one matrix in MATLAB: {code}",
     ),
     "wrong_shape": Kind(
-        E,
+        ERROR,
         "The matrix has the wrong number of columns or dimensions for the robot.",
         "'{variable}' is {size}; {robot} needs {joints} columns, one a joint, or {more} with "
         "the gripper last.{hint}",
         "Save one row a sample and one column a joint, or pick columns: --columns 1:{joints}.",
     ),
     "empty": Kind(
-        E,
+        ERROR,
         "The matrix holds no samples.",
         "'{variable}' is empty ({size}).",
         "Run the program that fills it before you save it.",
     ),
     "single_sample": Kind(
-        E,
+        ERROR,
         "The matrix holds one configuration, not a motion.",
         "'{variable}' is {size}, a single configuration; a trajectory has at least 2 rows.",
         "Save a motion, for example q = jtraj(qStart, qEnd, 100).",
     ),
     "not_real": Kind(
-        E,
+        ERROR,
         "The matrix holds complex numbers.",
         "'{variable}' holds complex numbers; joint positions are real.",
         "An inverse kinematics out of reach often gives them. Check the path; if the imaginary "
         "parts are only rounding: {variable} = real({variable}).",
     ),
     "wrong_class": Kind(
-        E,
+        ERROR,
         "The variable has a class that is not taken as radians: integer, logical, char, sparse.",
         "'{variable}' has the class {kind}; joint positions are double or single.",
         "Save radians as double: {variable} = {fix}({variable}).",
     ),
     "non_finite": Kind(
-        E,
+        ERROR,
         "The matrix holds NaN or Inf.",
         "'{variable}' holds {count} that are NaN or Inf, the first at {where}.",
         "Remove those samples or find what made them: any(~isfinite({variable}), 2).",
     ),
     "transposed": Kind(
-        E,
+        ERROR,
         "The samples are columns instead of rows.",
         "'{variable}' is {size}: its samples are columns, {robot} needs one row a sample.",
         "In MATLAB {variable} = {variable}.', or convert with the option transpose "
         "(--transpose{columns}).",
     ),
     "time_column": Kind(
-        E,
+        ERROR,
         "The first column counts time, so the joints begin at the second.",
         "Column 1 of '{variable}' is time ({first:g} to {last:g}, evenly spaced), not a joint.",
         "In MATLAB q = {variable}(:, 2:end), or convert with the option columns "
         "(--columns {columns}).",
     ),
     "seven_axes": Kind(
-        E,
-        "The last column moves like a joint and not like a gripper: an arm with one axis more?",
+        ERROR,
+        "The last column moves like a joint and not like a gripper.",
         "Column {column} of '{variable}' moves like a joint ({first:g} to {last:g}, {levels}), "
         "not like a gripper that is open or closed; {robot} has {joints} joints.",
         "Choose the robot that the file was made for, or convert the joints alone "
         "(--columns 1:{joints}).",
     ),
     "degrees": Kind(
-        E,
+        ERROR,
         "The values are degrees; the lab takes radians.",
         "'{variable}' reaches {value:g} and is within the limits of {robot} only if it is in "
         "degrees; radians are expected.",
@@ -197,51 +197,51 @@ KINDS: dict[str, Kind] = {
         "(--degrees).",
     ),
     "bad_columns": Kind(
-        E,
+        ERROR,
         "The columns that were asked for do not exist or cannot be read.",
         "The columns '{columns}' cannot be taken from '{variable}', which is {size}: {problem}.",
         "Write columns as in MATLAB: 2:7, or 1,3,5, or 2:end.",
     ),
     "bad_rate": Kind(
-        E,
+        ERROR,
         "The frame rate that was asked for is no number above 0.",
         "The frame rate is {value:g}; expected a number of samples per second above 0, up to "
         "100000.",
         "Say how many rows a second you recorded: --rate 100.",
     ),
     "doubtful_name": Kind(
-        W,
+        WARNING,
         "The name of the matrix speaks against joint positions.",
         "'{variable}' was taken as joint positions, but {why}.",
         "Check that it is what you meant; joint positions are usually named q.",
     ),
     "other_candidates": Kind(
-        I,
+        INFO,
         "Other matrices could have been meant; the clearly likelier one was taken.",
         "'{variable}' was taken; {found} could have been meant too.",
         "To take another one: --variable NAME.",
     ),
     # the frame rate
     "rate_default": Kind(
-        I,
+        INFO,
         "The file does not say how many rows make a second; the lab's default was taken.",
         "'{file}' does not say how many rows make a second; {rate:g} was taken.",
         "Save it with the trajectory: fs = 100; save('traj.mat', 'q', 'fs'), or use --rate.",
     ),
     "rate_found": Kind(
-        I,
+        INFO,
         "The frame rate was taken from a variable of the file.",
         "{rate:g} rows a second, from '{variable}'.",
     ),
     "rate_conflict": Kind(
-        W,
+        WARNING,
         "Two variables of the file give different frame rates.",
         "'{variable}' says {rate:g} rows a second, but '{other}' says {other_rate:g}; the first "
         "was taken.",
         "Save only one of them, or use --rate.",
     ),
     "time_uneven": Kind(
-        W,
+        WARNING,
         "The samples are not evenly spaced in time; they are played at one rate.",
         "The steps of '{variable}' go from {least:g} to {most:g} s; the rows are played evenly "
         "at {rate:g} a second.",
@@ -249,35 +249,35 @@ KINDS: dict[str, Kind] = {
     ),
     # against the robot
     "joint_limit": Kind(
-        E,
+        ERROR,
         "A joint leaves its range.",
         "{joint} goes to {value:.4g} rad ({degrees:.4g} deg) at frame {frame} ({time:.3f} s); "
         "its range is {lower:.4g} to {upper:.4g} rad, and {count} are outside.",
         "Plan the motion inside the range, or choose the robot that it was made for.",
     ),
     "velocity_limit": Kind(
-        W,
+        WARNING,
         "A joint moves faster than the robot can.",
         "{joint} moves at {value:.4g} rad/s at frame {frame} ({time:.3f} s); {robot} reaches "
         "{limit:.4g} rad/s. {count} are too fast.",
         "Use more samples for the motion, or check that {rate:g} rows a second is right.",
     ),
     "discontinuity": Kind(
-        E,
+        ERROR,
         "A joint jumps from one sample to the next.",
         "{joint} jumps by {value:.4g} rad between frame {frame} and the next ({time:.3f} s); its "
         "other steps stay below {usual:.4g} rad.",
         "Look for a piece that is missing or was joined at the wrong place.",
     ),
     "jump_2pi": Kind(
-        E,
+        ERROR,
         "A joint jumps by a full turn, as atan2 makes it.",
         "{joint} jumps by a full turn ({value:.4g} rad) between frame {frame} and the next "
         "({time:.3f} s).",
         "In MATLAB {variable} = unwrap({variable}), or convert with the option unwrap (--unwrap).",
     ),
     "gripper_range": Kind(
-        W,
+        WARNING,
         "The gripper column is not 0 and 1.",
         "The gripper column goes from {first:g} to {last:g}; it was taken as closed above "
         "{threshold:g}.",
@@ -285,21 +285,21 @@ KINDS: dict[str, Kind] = {
         "it.",
     ),
     "gripper_constant": Kind(
-        I,
+        INFO,
         "The gripper column never changes; the gripper stays open.",
         "The gripper column is {first:g} throughout; the gripper stays open.",
     ),
     # what an option did
     "option_applied": Kind(
-        I,
+        INFO,
         "A change that was asked for was made.",
         "{what}.",
     ),
 }
-del I, W, E
+del INFO, WARNING, ERROR
 
 
-def finding(code: str, *, variable: str = "", where: str = "", **values: object) -> Diagnostic:
+def finding(code: str, /, *, variable: str = "", where: str = "", **values: object) -> Diagnostic:
     """Return the finding `code` with its texts filled in from `values`."""
     kind = KINDS[code]
     words = {**values, "variable": variable, "where": where}

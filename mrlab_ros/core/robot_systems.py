@@ -377,8 +377,8 @@ class RobotSystem:
             try:
                 self._take(self._fleet.drive([Order(robot, Command.STOP)]), [robot])
             except LabError:
-                # It moves no more than it answers; the reason given above is the cause.
-                continue
+                # Nobody is there who knows of the system; the next play claims it anew.
+                member.state = State.IDLE
         self._rewind(now_ns)
 
     @property

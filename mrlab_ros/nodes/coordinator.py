@@ -82,14 +82,20 @@ class RosFleet:
         self._links = links
 
     def prepare(self, robot: str, trajectory_id: str) -> Loaded:
-        link = self._links[robot]
-        if trajectory_id and (link.state is None or link.state.trajectory_id != trajectory_id):
+        answer = self._claim(robot)
+        if trajectory_id not in ("", answer.trajectory_id):
+            # A member loads nothing by itself: it is let go for that.
+            self.release(robot)
             request = srv.LoadTrajectory.Request(id=trajectory_id)
-            self._checked(robot, call(link.load, request, LOAD_TIMEOUT))
-        answer = self._checked(robot, call(link.drive, self._request(command=Drive.CLAIM)))
+            self._checked(robot, call(self._links[robot].load, request, LOAD_TIMEOUT))
+            answer = self._claim(robot)
         if not answer.trajectory_id:
             raise Misuse(f"{robot} has no trajectory; load one, or name one for the system")
         return Loaded(answer.trajectory_id, answer.trajectory_duration, answer.frame_rate)
+
+    def _claim(self, robot: str) -> Any:
+        request = self._request(command=Drive.CLAIM)
+        return self._checked(robot, call(self._links[robot].drive, request))
 
     def release(self, robot: str) -> None:
         self._checked(

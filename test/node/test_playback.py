@@ -2,96 +2,24 @@
 
 from __future__ import annotations
 
-from types import SimpleNamespace
-
 import numpy as np
 import pytest
+import small_lab
 from graph import Graph, wait_for
 from mrlab_msgs import msg, srv
-from rclpy.node import Node
 from rclpy.serialization import serialize_message
 from sensor_msgs.msg import JointState
+from small_lab import LIBRARY, TRAJECTORIES, labels, listen_state, load, spawn
 from std_srvs.srv import SetBool, Trigger
 
-from mrlab_ros import conversions, qos, share
-from mrlab_ros.adapters.robot_library import RobotLibrary
-from mrlab_ros.core.trajectory import Channels, Source, Trajectory
-from mrlab_ros.nodes.coordinator import CoordinatorNode
+from mrlab_ros import conversions, qos
 from mrlab_ros.nodes.lab import LabNode
 from mrlab_ros.nodes.playback import PlaybackHostNode
-
-LIBRARY = RobotLibrary(share.directory() / "robots")
-
-
-def make(model_id: str, name: str, frames: int = 60, gripper: bool = False) -> Trajectory:
-    """A small wave around the home pose."""
-    model = LIBRARY.model(model_id)
-    wave = 0.1 * np.sin(np.linspace(0, 3, frames))[:, None]
-    positions = model.home + 0.05 + wave * np.linspace(1, 2, len(model.joints))
-    velocities = np.gradient(positions, 0.01, axis=0)
-    closed = np.arange(frames) >= frames // 2
-    return Trajectory(
-        name, model_id, None, model.joint_names, 100.0, positions,
-        closed if gripper else None,
-        Channels(velocities, np.zeros_like(positions), np.ones_like(positions)),
-        Source("wave.mat", "q", "0" * 64),
-    )  # fmt: skip
-
-
-TRAJECTORIES = {
-    "wave": make("ur5e", "wave"),
-    "pick": make("ur5e", "pick", gripper=True),
-    "long": make("ur5e", "long", frames=1000),
-    "kuka": make("kuka_kr6_r900_sixx", "kuka", frames=90),
-}
-
-
-class Catalogue(Node):
-    """Answers /converter/get from TRAJECTORIES."""
-
-    def __init__(self, **kwargs) -> None:
-        super().__init__("converter", **kwargs)
-        self.create_service(srv.GetTrajectory, "~/get", self._get)
-
-    def _get(self, request, response):
-        trajectory = TRAJECTORIES.get(request.id)
-        response.success = trajectory is not None
-        response.message = f"there is no trajectory '{request.id}'"
-        if trajectory is not None:
-            response.trajectory = conversions.trajectory_to_message(trajectory)
-        return response
 
 
 @pytest.fixture
 def lab(graph: Graph):
-    graph.add(Catalogue)
-    lab = graph.add(LabNode)
-    host = graph.add(PlaybackHostNode)
-    coordinator = graph.add(CoordinatorNode)
-    return SimpleNamespace(lab=lab, host=host, coordinator=coordinator)
-
-
-def spawn(graph: Graph, model: str = "ur5e") -> str:
-    answer = graph.call(srv.SpawnRobot, "/lab/spawn_robot", model=model, automatic=True)
-    assert answer.success, answer.message
-    return answer.robot.name
-
-
-def load(graph: Graph, robot: str, trajectory: str) -> None:
-    answer = graph.call(srv.LoadTrajectory, f"/{robot}/load", id=trajectory)
-    assert answer.success, answer.message
-
-
-def labels(inbox) -> list[str]:
-    seen: list[str] = []
-    for state in inbox:
-        if not seen or seen[-1] != state.label:
-            seen.append(state.label)
-    return seen
-
-
-def listen_state(graph: Graph, robot: str):
-    return graph.listen(msg.PlaybackState, f"/{robot}/playback_state", qos.EVENTS)
+    return small_lab.start(graph)
 
 
 def test_streams_exactly_the_frames_of_the_trajectory(graph, lab):
@@ -222,89 +150,6 @@ def test_a_new_playback_host_finds_the_robots_and_starts_idle(graph, lab):
     graph.add(PlaybackHostNode)
     states = graph.listen(msg.PlaybackState, f"/{robot}/playback_state", qos.LATCHED)
     wait_for(lambda: states and states[-1].label == "IDLE", "a fresh playback")
-
-
-def make_system(graph: Graph, members: dict[str, str], name: str = "cell"):
-    return graph.call(
-        srv.CreateSystem,
-        "/coordinator/create_system",
-        name=name,
-        members=[msg.SystemMember(robot=r, trajectory_id=t) for r, t in members.items()],
-    )
-
-
-def test_a_system_stages_its_members_and_starts_them_at_one_stamp(graph, lab):
-    ur, kuka = spawn(graph), spawn(graph, "kuka_kr6_r900_sixx")
-    states = {robot: listen_state(graph, robot) for robot in (ur, kuka)}
-    systems = graph.listen(msg.RobotSystems, "/systems", qos.EVENTS)
-    answer = make_system(graph, {ur: "wave", kuka: "kuka"})
-    assert answer.success, answer.message
-    refused = graph.call(Trigger, f"/{ur}/play")
-    assert not refused.success
-    assert "driven by system 'cell'" in refused.message
-    answer = graph.call(Trigger, "/cell/play")
-    assert answer.success, answer.message
-    wait_for(
-        lambda: [s.label for m in systems for s in m.systems][-2:] == ["COMPLETE", "READY"],
-        "the system's end",
-    )
-    starts = {
-        s.clock.stamp.sec * 10**9 + s.clock.stamp.nanosec
-        for inbox in states.values()
-        for s in inbox
-        if s.label == "PLAYING"
-    }
-    assert len(starts) == 1
-    for inbox in states.values():
-        assert "COMPLETE" in labels(inbox)
-    order = [s.label for m in systems for s in m.systems]
-    assert [x for i, x in enumerate(order) if i == 0 or order[i - 1] != x] == [
-        "READY", "STAGING", "PLAYING", "COMPLETE", "READY",
-    ]  # fmt: skip
-
-
-def test_a_system_pauses_plays_on_and_stops_as_one(graph, lab):
-    a, b = spawn(graph), spawn(graph)
-    states = {robot: listen_state(graph, robot) for robot in (a, b)}
-    assert make_system(graph, {a: "long", b: "long"}).success
-    assert graph.call(Trigger, "/cell/play").success
-    wait_for(lambda: all(s.last().frame > 5 for s in states.values()), "frames")
-    assert graph.call(Trigger, "/cell/pause").success
-    wait_for(lambda: {s.last().label for s in states.values()} == {"PAUSED"}, "the pause")
-    frames = {s.last().frame for s in states.values()}
-    assert max(frames) - min(frames) <= 1
-    assert graph.call(Trigger, "/cell/play").success
-    wait_for(lambda: {s.last().label for s in states.values()} == {"PLAYING"}, "playing on")
-    assert graph.call(Trigger, "/cell/stop").success
-    wait_for(lambda: {s.last().label for s in states.values()} == {"READY"}, "the stop")
-
-
-def test_a_robot_is_in_one_system_and_free_after_it(graph, lab):
-    a, b = spawn(graph), spawn(graph)
-    assert make_system(graph, {a: "wave", b: "wave"}).success
-    answer = make_system(graph, {a: "wave"}, "other")
-    assert not answer.success
-    assert "member of system 'cell' already" in answer.message
-    assert graph.call(srv.Remove, "/lab/remove_robot", name=b).success
-    wait_for(lambda: graph.call(Trigger, f"/{a}/play").success, "independence")
-
-
-@pytest.mark.parametrize(
-    ("members", "says"),
-    [
-        ({}, "at least one member"),
-        ({"ghost": "wave"}, "no robot 'ghost' is in the scene"),
-        ({"ur5e_1": "nothing"}, "no trajectory 'nothing'"),
-        ({"ur5e_1": "kuka"}, "made for kuka_kr6_r900_sixx"),
-    ],
-)
-def test_a_system_that_cannot_be_is_refused_and_leaves_nothing_behind(graph, lab, members, says):
-    robot = spawn(graph)
-    load(graph, robot, "wave")
-    answer = make_system(graph, members)
-    assert not answer.success
-    assert says in answer.message
-    assert graph.call(Trigger, f"/{robot}/play").success
 
 
 @pytest.mark.parametrize(

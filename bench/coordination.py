@@ -1,0 +1,200 @@
+"""Robot systems: how far apart members start, how fast they pause, stage and spawn.
+
+Real nodes and services: the lab and the coordinator in one process, the playback host in this
+one, where the instants of sending are taken. Marks: start skew p99 < 1 ms, pause to last frame
+p99 < 15 ms, staging computed < 200 ms, spawn to first joint state < 1 s.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import json
+import os
+import signal
+import subprocess
+import sys
+import threading
+import time
+from collections.abc import Callable, Iterator
+from typing import Any
+
+import numpy as np
+import rclpy
+import report
+from mrlab_msgs import msg, srv
+from rclpy.executors import MultiThreadedExecutor
+from rclpy.node import Node
+from std_srvs.srv import Trigger
+
+from mrlab_ros import conversions, qos, share
+from mrlab_ros.adapters.robot_library import RobotLibrary
+from mrlab_ros.core.trajectory import Channels, Source, Trajectory
+from mrlab_ros.nodes.playback import PlaybackHostNode
+from mrlab_ros.spinning import spin
+
+MODEL = "ur5e"
+SECONDS = 20.0
+
+
+def motion() -> Trajectory:
+    model = RobotLibrary(share.directory() / "robots").model(MODEL)
+    t = np.arange(round(100 * SECONDS) + 1) / 100
+    positions = model.home + 0.2 * np.sin(t)[:, None] * np.ones(len(model.joints))
+    zeros = np.zeros_like(positions)
+    channels = Channels(zeros.copy(), zeros.copy(), zeros.copy())
+    source = Source("sine.mat", "q", "0" * 64)
+    return Trajectory(
+        "sine", MODEL, None, model.joint_names, 100.0, positions, None, channels, source
+    )
+
+
+class Bench(Node):
+    """Answers for the converter, spawns robots, commands the system, notes who sent when."""
+
+    def __init__(self) -> None:
+        super().__init__("converter")
+        self._motion = conversions.trajectory_to_message(motion())
+        self.create_service(srv.GetTrajectory, "~/get", self._get)
+        self.systems: list[Any] = []
+        self.create_subscription(
+            msg.RobotSystems, "/systems", self.systems.append, qos.LATCHED_EVENTS
+        )
+
+    def _get(self, request: Any, response: Any) -> Any:
+        response.success, response.trajectory = True, self._motion
+        return response
+
+    def ask(self, kind: Any, service: str, /, **fields: Any) -> Any:
+        client = self.create_client(kind, service)
+        if not client.wait_for_service(timeout_sec=20.0):
+            raise SystemExit(f"nobody offers {service}")
+        future = client.call_async(kind.Request(**fields))
+        wait(future.done, f"an answer of {service}")
+        self.destroy_client(client)
+        answer = future.result()
+        if not answer.success:
+            raise SystemExit(f"{service}: {answer.message}")
+        return answer
+
+    def label(self) -> str:
+        systems = self.systems[-1].systems if self.systems else []
+        return str(systems[0].label) if systems else ""
+
+
+def wait(condition: Callable[[], Any], what: str, timeout: float = 60.0) -> None:
+    deadline = time.monotonic() + timeout
+    while not condition():
+        if time.monotonic() > deadline:
+            raise SystemExit(f"waited {timeout:g} s in vain for {what}")
+        time.sleep(0.0005)
+
+
+@contextlib.contextmanager
+def lab() -> Iterator[None]:
+    """Run the lab and the coordinator in a process of their own."""
+    process = subprocess.Popen(
+        [sys.executable, "-m", "mrlab_ros.host", "lab", "coordinator"],
+        stdout=subprocess.DEVNULL,
+        stderr=subprocess.DEVNULL,
+    )
+    try:
+        yield
+    finally:
+        process.send_signal(signal.SIGINT)
+        with contextlib.suppress(subprocess.TimeoutExpired):
+            process.wait(5)
+        process.kill()
+
+
+def measure(members: int, rounds: int) -> dict[str, Any]:
+    """Measure a system of `members` robots over `rounds` starts and pauses."""
+    rclpy.init()
+    host, bench = PlaybackHostNode(), Bench()
+    executor = MultiThreadedExecutor(num_threads=4)
+    for node in (host, bench):
+        executor.add_node(node)
+    host.adopt(executor)
+    threading.Thread(target=spin, args=(executor,), daemon=True).start()
+    sent: dict[str, list[int]] = {}
+
+    def watch(robot: str) -> None:
+        """Note the instant at which each streamed joint state of `robot` has left."""
+        player, times = host.nodes[robot].player, sent.setdefault(robot, [])
+        send = player._send
+
+        def timed(sample: Any) -> None:
+            send(sample)
+            if sample.streamed:
+                times.append(time.monotonic_ns())
+
+        player._send = timed
+
+    with lab():
+        spawns = []
+        for i in range(members):
+            name = f"robot_{i}"
+            begin = time.monotonic()
+            bench.ask(srv.SpawnRobot, "/lab/spawn_robot", model=MODEL, name=name, automatic=True)
+            wait(lambda name=name: name in host.nodes, "the playback node")
+            wait(lambda name=name: host.nodes[name].player.last, "a joint state")
+            spawns.append(time.monotonic() - begin)
+            watch(name)
+        bench.ask(
+            srv.CreateSystem,
+            "/coordinator/create_system",
+            name="cell",
+            members=[
+                msg.SystemMember(robot=f"robot_{i}", trajectory_id="sine") for i in range(members)
+            ],
+        )
+        skews, pauses, stagings = [], [], []
+        for _ in range(rounds):
+            bench.ask(Trigger, "/cell/stop")
+            for times in sent.values():
+                times.clear()
+            begin = time.monotonic()
+            bench.ask(Trigger, "/cell/play")
+            stagings.append(time.monotonic() - begin)
+            wait(lambda: all(len(times) > 20 for times in sent.values()), "frames")
+            skews.extend(
+                np.ptp([[times[k] for times in sent.values()] for k in range(20)], axis=1)
+            )
+            begin_ns = time.monotonic_ns()
+            bench.ask(Trigger, "/cell/pause")
+            pauses.append(max(times[-1] for times in sent.values()) - begin_ns)
+            wait(lambda: bench.label() == "PAUSED", "the pause")
+    skew = report.percentiles([s * 1e-6 for s in skews])
+    pause = report.percentiles([max(p, 0) * 1e-6 for p in pauses])
+    return {
+        "members": members,
+        "skew p50 ms": skew["p50"],
+        "skew p99 ms": skew["p99"],
+        "pause p50 ms": pause["p50"],
+        "pause p99 ms": pause["p99"],
+        "staging max ms": max(stagings) * 1e3,
+        "spawn max ms": max(spawns) * 1e3,
+    }
+
+
+def main() -> None:
+    parser = report.options(__doc__)
+    parser.add_argument("--members", type=int, help="measure one size, print it as JSON")
+    options = parser.parse_args()
+    rounds = 5 if options.quick else 40
+    if options.members:
+        sys.stdout.write(json.dumps(measure(options.members, rounds)))
+        sys.stdout.flush()
+        os._exit(0)
+    rows = []
+    for domain, members in enumerate((2, 13, 50)):
+        command = [sys.executable, __file__, "--members", str(members)]
+        env = dict(os.environ, ROS_DOMAIN_ID=str(90 + domain))
+        done = subprocess.run(
+            command + ["--quick"] * options.quick, stdout=subprocess.PIPE, check=True, env=env
+        )
+        rows.append(json.loads(done.stdout))
+    report.show("Coordination", rows, options.json)
+
+
+if __name__ == "__main__":
+    main()

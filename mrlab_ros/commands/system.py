@@ -1,0 +1,274 @@
+"""`mrlab system`: robots of the running lab that play as one."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any
+
+import typer
+
+from mrlab_ros.core.errors import BadInput, Misuse
+
+if TYPE_CHECKING:
+    from mrlab_ros.graph_client import Graph
+
+app = typer.Typer(
+    no_args_is_help=True,
+    help="Robots that play as one: create from a YAML file, play, pause, seek, dissolve.",
+)
+Name = Annotated[str, typer.Argument(help="A system of the lab; mrlab system list shows them.")]
+
+
+@app.command("list")
+def list_systems(
+    as_json: Annotated[
+        bool, typer.Option("--json", help="Print one JSON object a system.")
+    ] = False,
+) -> None:
+    """List the systems, their members and each one's share of the timeline."""
+    from rich.console import Console
+    from rich.table import Table
+
+    from mrlab_ros.graph_client import Graph
+
+    with Graph() as graph:
+        systems = _systems(graph)
+    if as_json:
+        for system in systems:
+            print(json.dumps(_document(system)))
+        return
+    table = Table(
+        "system", "state", "mode", "at", "robot", "trajectory", "from", "to", "waits for"
+    )
+    for system in systems:
+        for i, member in enumerate(system.members):
+            head = (
+                (system.name, system.label, _mode(system), f"{system.duration:g} s")
+                if i == 0
+                else ("", "", "", "")
+            )
+            table.add_row(
+                *head,
+                member.robot,
+                member.trajectory_id,
+                f"{member.start:.2f} s",
+                f"{member.start + member.duration:.2f} s",
+                member.waiting_for,
+            )
+    Console().print(table if systems else "no systems; mrlab system create cell.yaml makes one")
+
+
+@app.command()
+def create(
+    file: Annotated[
+        Path, typer.Argument(help="The system's YAML file; docs/systems.md explains.")
+    ],
+) -> None:
+    """Make a system as its YAML file describes it."""
+    import yaml
+    from mrlab_msgs import msg, srv
+
+    from mrlab_ros.core.cell_file import read
+    from mrlab_ros.graph_client import Graph
+
+    try:
+        document = yaml.safe_load(file.read_text())
+    except OSError as error:
+        raise BadInput(f"cannot read {file}: {error.strerror}") from None
+    except (UnicodeDecodeError, yaml.YAMLError) as error:
+        raise BadInput(f"{file} is not YAML: {' '.join(str(error).split())}") from None
+    cell = read(document)
+    request = srv.CreateSystem.Request(
+        name=cell.name,
+        mode=cell.mode.value,
+        policy=cell.policy.value,
+        loop=cell.loop,
+        members=[
+            msg.SystemMember(
+                robot=m.robot,
+                trajectory_id=m.trajectory_id,
+                dwell=m.dwell,
+                waits=[wait.text for wait in m.waits],
+            )
+            for m in cell.members
+        ],
+    )
+    with Graph() as graph:
+        answer = graph.order(srv.CreateSystem, "/coordinator/create_system", request, 30.0)
+    print(answer.message)
+    print(f"next: mrlab system play {answer.system.name}")
+
+
+@app.command()
+def play(
+    name: Name,
+    wait: Annotated[
+        bool, typer.Option("--wait/--no-wait", help="Follow the system to its end.")
+    ] = True,
+) -> None:
+    """Stage all members, then play; play on where the system is paused."""
+    from mrlab_msgs import msg
+    from std_srvs.srv import Trigger
+
+    from mrlab_ros import qos
+    from mrlab_ros.graph_client import Graph
+
+    with Graph() as graph:
+        _system(graph, name)
+        seen: list[Any] = []
+        watch = graph.watch(msg.RobotSystems, "/systems", qos.LATCHED_EVENTS)
+
+        def note(message: Any) -> bool:
+            state = next((s for s in message.systems if s.name == name), None)
+            if state is None or not seen or seen[-1].label != state.label:
+                seen.append(state)
+                if state is not None and len(seen) > 1:
+                    print(f"{name}: {state.label}{': ' * bool(state.message)}{state.message}")
+            return state is None or (
+                len(seen) > 1 and state.label in ("READY", "PAUSED", "COLLISION_HALT")
+            )
+
+        watch.wait(lambda m: note(m) or True, 5.0, "the systems")
+        print(graph.order(Trigger, f"/{name}/play", Trigger.Request(), 30.0).message)
+        if not wait:
+            return
+        last = watch.wait(note, 24 * 3600.0, f"the end of {name}")
+        state = next((s for s in last.systems if s.name == name), None)
+    if state is None:
+        raise Misuse(f"{name} was dissolved while it played")
+    if state.message != "played to the end":
+        raise Misuse(f"{name} is {state.label}: {state.message}")
+
+
+def _simple(verb: str, words: str) -> None:
+    @app.command(verb, help=words)
+    def command(name: Name) -> None:
+        from std_srvs.srv import Trigger
+
+        from mrlab_ros.graph_client import Graph
+
+        with Graph() as graph:
+            _system(graph, name)
+            print(graph.order(Trigger, f"/{name}/{verb}", Trigger.Request()).message)
+
+
+_simple("pause", "Let all members stand; play goes on from there.")
+_simple("stop", "End the run; the next play begins at the start.")
+
+
+@app.command()
+def seek(
+    name: Name, position: Annotated[float, typer.Argument(help="Place on the timeline, s.")]
+) -> None:
+    """Show another place on the timeline at once."""
+    from mrlab_msgs import srv
+
+    _order(name, "seek", srv.Seek, srv.Seek.Request(position=position))
+
+
+@app.command()
+def step(
+    name: Name, frames: Annotated[int, typer.Argument(help="Frames; negative: backwards.")] = 1
+) -> None:
+    """Step a standing system frame by frame."""
+    from mrlab_msgs import srv
+
+    _order(name, "step", srv.Step, srv.Step.Request(frames=frames))
+
+
+@app.command()
+def rate(
+    name: Name, rate: Annotated[float, typer.Argument(help="0.1 to 4; 1 is the declared speed.")]
+) -> None:
+    """Set the speed of the timeline."""
+    from mrlab_msgs import srv
+
+    _order(name, "set_rate", srv.SetRate, srv.SetRate.Request(rate=rate))
+
+
+@app.command()
+def mode(name: Name, mode: Annotated[str, typer.Argument(help="parallel or sequential.")]) -> None:
+    """Set how the members share the timeline."""
+    from mrlab_msgs import srv
+
+    from mrlab_ros.core.robot_systems import Mode
+
+    if mode.upper() not in Mode.__members__:
+        raise BadInput(f"the mode is '{mode}'; expected parallel or sequential")
+    _order(name, "set_mode", srv.SetMode, srv.SetMode.Request(mode=Mode[mode.upper()].value))
+
+
+@app.command()
+def loop(name: Name, on: Annotated[bool, typer.Argument(help="true or false.")] = True) -> None:
+    """Have the system start over after its end, or not."""
+    from std_srvs.srv import SetBool
+
+    _order(name, "set_loop", SetBool, SetBool.Request(data=on))
+
+
+@app.command()
+def dissolve(name: Name) -> None:
+    """Set the members free, paused where they are."""
+    from mrlab_msgs import srv
+
+    from mrlab_ros.graph_client import Graph
+
+    with Graph() as graph:
+        request = srv.Remove.Request(name=name)
+        print(graph.order(srv.Remove, "/coordinator/dissolve_system", request).message)
+
+
+def _order(name: str, service: str, kind: Any, request: Any) -> None:
+    from mrlab_ros.graph_client import Graph
+
+    with Graph() as graph:
+        _system(graph, name)
+        print(graph.order(kind, f"/{name}/{service}", request).message)
+
+
+def _systems(graph: Graph) -> list[Any]:
+    from mrlab_msgs import msg
+
+    watch = graph.watch(msg.RobotSystems, "/systems")
+    systems: list[Any] = watch.wait(lambda _: True, 5.0, "the systems").systems
+    return systems
+
+
+def _system(graph: Graph, name: str) -> Any:
+    systems = _systems(graph)
+    for system in systems:
+        if system.name == name:
+            return system
+    known = ", ".join(system.name for system in systems) or "none"
+    raise Misuse(f"there is no system '{name}'; there are: {known}")
+
+
+def _mode(system: Any) -> str:
+    from mrlab_ros.core.robot_systems import Mode
+
+    return Mode(system.mode).name.lower()
+
+
+def _document(system: Any) -> dict[str, Any]:
+    return {
+        "name": system.name,
+        "state": system.label,
+        "message": system.message,
+        "mode": _mode(system),
+        "duration": system.duration,
+        "rate": system.rate,
+        "loop": system.loop,
+        "members": [
+            {
+                "robot": m.robot,
+                "trajectory": m.trajectory_id,
+                "start": m.start,
+                "duration": m.duration,
+                "dwell": m.dwell,
+                "waits": list(m.waits),
+                "waiting_for": m.waiting_for,
+            }
+            for m in system.members
+        ],
+    }

@@ -1,0 +1,194 @@
+"""The port to a physics engine: what the world asks of it, and nothing more.
+
+Everything has a name: arms, objects and surfaces each have names of their own. SI units; poses
+are in the frame world; an object's frame is its centre of mass.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from enum import Enum
+from typing import Protocol
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mrlab_ros.core.kinematics import Array
+from mrlab_ros.core.physics.poses import Vector
+from mrlab_ros.core.scene import Pose
+
+
+class Kind(Enum):
+    """What an arm touches; the values are those of mrlab_msgs/Contact."""
+
+    OBJECT = 0
+    SURFACE = 1
+    ROBOT = 2
+    SELF = 3
+
+
+class Shape(Enum):
+    """How a part is shaped. size: box edge lengths; cylinder radius, length along z; sphere
+    radius; hull and mesh: none, they have vertices. A mesh may be hollow and is always fixed."""
+
+    BOX = "box"
+    CYLINDER = "cylinder"
+    SPHERE = "sphere"
+    HULL = "hull"
+    MESH = "mesh"
+
+
+@dataclass(frozen=True, eq=False)
+class Part:
+    """One shape of a body. vertices: (V, 3) m; triangles: (T, 3) vertex indices."""
+
+    shape: Shape
+    size: tuple[float, ...] = ()
+    pose: Pose = Pose()
+    vertices: Array | None = None
+    triangles: NDArray[np.int32] | None = None
+
+
+@dataclass(frozen=True, eq=False)
+class Body:
+    """What the engine needs of an object or a surface. mass: kg, 0 is fixed."""
+
+    parts: tuple[Part, ...]
+    mass: float
+    friction: float = 0.6
+    restitution: float = 0.1
+
+
+@dataclass(frozen=True)
+class Motion:
+    """A rigid body's pose and its velocities in world, m/s and rad/s, at its centre of mass."""
+
+    pose: Pose
+    linear: Vector = (0.0, 0.0, 0.0)
+    angular: Vector = (0.0, 0.0, 0.0)
+
+
+@dataclass(frozen=True)
+class Finger:
+    """A force-driven joint: `lower` is open, `upper` is closed. m or rad; max_force: N or N*m."""
+
+    joint: str
+    link: str
+    lower: float
+    upper: float
+    max_velocity: float
+    max_force: float
+
+
+@dataclass(frozen=True)
+class Arm:
+    """What the engine found in a robot's description.
+
+    fingers: its joints that the trajectory does not prescribe. hand: the link an object is fixed
+    to. tool_links: all links beyond tool0. fixed_links: links that no joint moves.
+    """
+
+    fingers: tuple[Finger, ...]
+    hand: str
+    tool_links: frozenset[str]
+    fixed_links: frozenset[str]
+
+
+@dataclass(frozen=True)
+class FingerState:
+    """position: m or rad; force: N or N*m that the drive had to apply in the last step."""
+
+    position: float
+    force: float
+
+
+@dataclass(frozen=True)
+class Touch:
+    """One contact point of an arm. normal: unit, from the other towards the arm; depth: m,
+    positive where they overlap; impulse: N*s of the step."""
+
+    link: str
+    kind: Kind
+    other: str
+    other_link: str
+    point: Vector
+    normal: Vector
+    depth: float
+    impulse: float
+
+
+class Engine(Protocol):
+    """A rigid body engine. Names are those the world gave; poses and numbers are checked."""
+
+    def add_arm(self, name: str, urdf: str, joints: tuple[str, ...], pose: Pose) -> Arm:
+        """Load an arm whose `joints` are prescribed; raise BadInput where the URDF has none."""
+        ...
+
+    def place_arm(self, name: str, pose: Pose) -> None: ...
+
+    def remove_arm(self, name: str) -> None: ...
+
+    def move_arm(self, name: str, positions: Array, velocities: Array) -> None:
+        """Put the arm's joints at `positions`, (J,) rad, moving with `velocities`, (J,) rad/s."""
+        ...
+
+    def travel(self, name: str) -> float:
+        """Return how far the arm's fastest point moved since the last call, m."""
+        ...
+
+    def drive_fingers(self, name: str, velocities: Sequence[float]) -> None:
+        """Let the fingers move at `velocities` as far as their force allows."""
+        ...
+
+    def set_fingers(self, name: str, positions: Sequence[float]) -> None:
+        """Put the fingers at `positions` at once, at rest."""
+        ...
+
+    def fingers(self, name: str) -> tuple[FingerState, ...]: ...
+
+    def link(self, arm: str, link: str) -> Motion:
+        """Return a link's centre of mass: its pose and how it moves."""
+        ...
+
+    def touches(self, name: str) -> list[Touch]:
+        """Return the arm's contact points of the last step."""
+        ...
+
+    def distance(self, arm: str, kind: Kind, other: str, look: float) -> float:
+        """Return the distance from the arm's moving links to something, m, at most `look`."""
+        ...
+
+    def add_object(self, name: str, body: Body, motion: Motion) -> None: ...
+
+    def remove_object(self, name: str) -> None: ...
+
+    def object(self, name: str) -> Motion: ...
+
+    def set_object(self, name: str, motion: Motion) -> None: ...
+
+    def add_surface(self, name: str, body: Body, pose: Pose) -> None: ...
+
+    def remove_surface(self, name: str) -> None: ...
+
+    def hold(self, arm: str, link: str, name: str) -> None:
+        """Fix an object to an arm's link where it is now; the two no longer touch."""
+        ...
+
+    def release(self, name: str) -> None:
+        """Undo hold()."""
+        ...
+
+    def below(self, point: Vector) -> float | None:
+        """Return the height of the first thing below `point`, m; None where there is nothing."""
+        ...
+
+    def overlapping(self, low: Vector, high: Vector) -> set[str]:
+        """Return the names of arms and objects whose bounding boxes reach into this box."""
+        ...
+
+    def step(self, duration: float) -> None:
+        """Find the contacts of the present poses, then let `duration` s pass."""
+        ...
+
+    def close(self) -> None: ...

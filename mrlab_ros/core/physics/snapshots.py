@@ -1,0 +1,71 @@
+"""What the objects looked like along a run, so that a timeline can be scrubbed."""
+
+from __future__ import annotations
+
+import bisect
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+from mrlab_ros.core.physics.engine import Motion
+from mrlab_ros.core.scene import Pose
+
+
+@dataclass(frozen=True)
+class Kept:
+    """An object at one instant. held_by: the robot that held it, with its pose in the hand's
+    frame; empty: free."""
+
+    motion: Motion
+    held_by: str = ""
+    in_hand: Pose | None = None
+
+
+@dataclass(frozen=True)
+class Snapshot:
+    position: float
+    objects: Mapping[str, Kept]
+    closed: bool
+
+
+class Snapshots:
+    """The snapshots of one run, by position on the timeline (s), bounded in number.
+
+    When they are full every second one goes and the spacing doubles: a long run keeps its whole
+    length, more coarsely.
+    """
+
+    def __init__(self, rate: float, count: int) -> None:
+        self._first_spacing = 1.0 / rate
+        self._count = max(count, 4)
+        self.clear()
+
+    def clear(self) -> None:
+        self._spacing = self._first_spacing
+        self._taken: list[Snapshot] = []
+
+    def __len__(self) -> int:
+        return len(self._taken)
+
+    def wants(self, position: float) -> bool:
+        """Return whether a snapshot at `position` would be kept."""
+        i = bisect.bisect_right(self._taken, position, key=lambda s: s.position)
+        return i == 0 or position - self._taken[i - 1].position >= self._spacing * (1 - 1e-6)
+
+    def add(self, snapshot: Snapshot) -> None:
+        """Keep a snapshot; what an earlier run left behind it is no longer the future."""
+        i = bisect.bisect_left(self._taken, snapshot.position, key=lambda s: s.position)
+        self._taken[i:] = [snapshot]
+        if len(self._taken) > self._count:
+            del self._taken[1::2]
+            self._spacing *= 2
+
+    def cut(self, position: float) -> None:
+        """Forget everything after `position`: the run goes on from there, differently."""
+        i = bisect.bisect_right(self._taken, position, key=lambda s: s.position)
+        del self._taken[i:]
+
+    def at(self, position: float) -> Snapshot | None:
+        """Return the last snapshot not after `position`, where the run has passed there."""
+        i = bisect.bisect_right(self._taken, position + 1e-6, key=lambda s: s.position)
+        passed = self._taken and position <= self._taken[-1].position + self._spacing
+        return self._taken[i - 1] if i and passed else None

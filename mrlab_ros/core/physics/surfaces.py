@@ -1,0 +1,76 @@
+"""The static surfaces of a room, as a headset detects them, made into bodies."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mrlab_ros.core.errors import BadInput
+from mrlab_ros.core.kinematics import Array
+from mrlab_ros.core.physics.engine import Body, Part, Shape
+from mrlab_ros.core.scene import Pose
+
+# A detected plane gets this thickness behind it, m: a headset sees no back side.
+THICKNESS = 0.02
+FLOOR_SIZE = 200.0  # m
+MAX_OUTLINE = 1000
+FLOOR = "floor"
+
+
+@dataclass(frozen=True, eq=False)
+class Surface:
+    """A plane with outline `vertices` (V, 3) m in its own frame, z its normal; or, with
+    `triangles` (T, 3), a mesh. Without vertices the plane has no end."""
+
+    name: str
+    label: str
+    pose: Pose
+    vertices: Array
+    triangles: NDArray[np.int32]
+
+    @property
+    def endless(self) -> bool:
+        return len(self.vertices) == 0
+
+
+def floor() -> Surface:
+    """Return the floor of a lab that no headset has looked at yet."""
+    return Surface(FLOOR, FLOOR, Pose(), np.zeros((0, 3)), np.zeros((0, 3), np.int32))
+
+
+def body(surface: Surface, max_triangles: int) -> Body:
+    """Return the surface as a static body; raise BadInput where it is none.
+
+    A plane becomes a slab behind its front: the convex hull of its outline.
+    """
+    name, vertices, triangles = surface.name, surface.vertices, surface.triangles
+    if not np.isfinite(vertices).all() or (len(vertices) and np.abs(vertices).max() > 1000):
+        raise BadInput(f"surface '{name}' has a vertex that is not finite or beyond 1 km")
+    if len(triangles):
+        if len(triangles) > max_triangles:
+            raise BadInput(
+                f"surface '{name}' has {len(triangles)} triangles; expected {max_triangles} at "
+                "most: simplify the mesh, or send the planes of the room instead"
+            )
+        if triangles.min() < 0 or triangles.max() >= len(vertices):
+            raise BadInput(
+                f"surface '{name}' names vertex {triangles.max()} of {len(vertices)}; expected "
+                "indices of its own vertices"
+            )
+        part = Part(Shape.MESH, vertices=vertices, triangles=triangles)
+    elif surface.endless:
+        part = Part(Shape.BOX, (FLOOR_SIZE, FLOOR_SIZE, 1.0), Pose((0.0, 0.0, -0.5)))
+    else:
+        if not 3 <= len(vertices) <= MAX_OUTLINE:
+            raise BadInput(
+                f"surface '{name}' has an outline of {len(vertices)} points; expected 3 to "
+                f"{MAX_OUTLINE}, or triangles"
+            )
+        across = vertices - vertices.mean(axis=0)
+        if np.linalg.svd(across, compute_uv=False)[1] < 1e-4:
+            raise BadInput(f"the outline of surface '{name}' is a line; expected an area")
+        behind = vertices - [0.0, 0.0, THICKNESS]
+        part = Part(Shape.HULL, vertices=np.concatenate([vertices, behind]))
+    return Body((part,), 0.0)

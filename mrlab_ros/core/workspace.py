@@ -1,0 +1,52 @@
+"""What a file holds, as MATLAB would name it; the readers fill it, discovery searches it."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+
+@dataclass(frozen=True, eq=False)
+class Variable:
+    """One variable of a workspace, or one part of a struct, a cell or an array of structs.
+
+    path: as MATLAB writes it, such as `out.q.signals.values`. kind: MATLAB's class, such as
+    double; of an object its class name. shape: as MATLAB's size() gives it, empty if unknown.
+    values: the numbers of a real double or single matrix in MATLAB's orientation, else None.
+    note: why there are no values, such as complex or sparse.
+    """
+
+    path: str
+    kind: str
+    shape: tuple[int, ...] = ()
+    values: NDArray[Any] | None = None
+    is_object: bool = False
+    note: str = ""
+
+    @property
+    def size(self) -> str:
+        """Return the dimensions as MATLAB's whos writes them, such as 450x6."""
+        return "x".join(str(n) for n in self.shape)
+
+
+@dataclass(frozen=True, eq=False)
+class Workspace:
+    """The variables of a file in their order. omitted: how many more there are than listed."""
+
+    file_format: str
+    variables: tuple[Variable, ...]
+    omitted: int = 0
+    sha256: str = ""
+
+    def find(self, path: str) -> Variable | None:
+        """Return the variable with this path, or None."""
+        return next((v for v in self.variables if v.path == path), None)
+
+    def scalar(self, variable: Variable) -> float | None:
+        """Return the number that `variable` holds where it holds exactly one, else None."""
+        if variable.values is None or variable.values.size != 1:
+            return None
+        return float(np.asarray(variable.values).reshape(-1)[0])

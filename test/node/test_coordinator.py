@@ -1,0 +1,191 @@
+"""The coordinator in a real graph with a lab, playbacks and a catalogue."""
+
+from __future__ import annotations
+
+import pytest
+import small_lab
+from graph import Graph, wait_for
+from mrlab_msgs import msg, srv
+from small_lab import labels, listen_state, load, spawn
+from std_srvs.srv import SetBool, Trigger
+
+from mrlab_ros import qos
+from mrlab_ros.nodes.playback import PlaybackHostNode
+
+
+@pytest.fixture
+def lab(graph: Graph):
+    return small_lab.start(graph)
+
+
+def make_system(graph: Graph, members: dict[str, str], name: str = "cell", waits=None, mode=0):
+    return graph.call(
+        srv.CreateSystem,
+        "/coordinator/create_system",
+        name=name,
+        mode=mode,
+        members=[
+            msg.SystemMember(robot=r, trajectory_id=t, waits=(waits or {}).get(r, []))
+            for r, t in members.items()
+        ],
+    )
+
+
+def test_a_system_stages_its_members_and_starts_them_at_one_stamp(graph, lab):
+    ur, kuka = spawn(graph), spawn(graph, "kuka_kr6_r900_sixx")
+    states = {robot: listen_state(graph, robot) for robot in (ur, kuka)}
+    systems = graph.listen(msg.RobotSystems, "/systems", qos.EVENTS)
+    answer = make_system(graph, {ur: "wave", kuka: "kuka"})
+    assert answer.success, answer.message
+    refused = graph.call(Trigger, f"/{ur}/play")
+    assert not refused.success
+    assert "driven by system 'cell'" in refused.message
+    answer = graph.call(Trigger, "/cell/play")
+    assert answer.success, answer.message
+    wait_for(
+        lambda: [s.label for m in systems for s in m.systems][-2:] == ["COMPLETE", "READY"],
+        "the system's end",
+    )
+    starts = {
+        s.clock.stamp.sec * 10**9 + s.clock.stamp.nanosec
+        for inbox in states.values()
+        for s in inbox
+        if s.label == "PLAYING"
+    }
+    assert len(starts) == 1
+    for inbox in states.values():
+        assert "COMPLETE" in labels(inbox)
+    order = [s.label for m in systems for s in m.systems]
+    assert [x for i, x in enumerate(order) if i == 0 or order[i - 1] != x] == [
+        "READY", "STAGING", "PLAYING", "COMPLETE", "READY",
+    ]  # fmt: skip
+
+
+def test_a_system_pauses_plays_on_and_stops_as_one(graph, lab):
+    a, b = spawn(graph), spawn(graph)
+    states = {robot: listen_state(graph, robot) for robot in (a, b)}
+    assert make_system(graph, {a: "long", b: "long"}).success
+    assert graph.call(Trigger, "/cell/play").success
+    wait_for(lambda: all(s.last().frame > 5 for s in states.values()), "frames")
+    assert graph.call(Trigger, "/cell/pause").success
+    wait_for(lambda: {s.last().label for s in states.values()} == {"PAUSED"}, "the pause")
+    frames = {s.last().frame for s in states.values()}
+    assert max(frames) - min(frames) <= 1
+    assert graph.call(Trigger, "/cell/play").success
+    wait_for(lambda: {s.last().label for s in states.values()} == {"PLAYING"}, "playing on")
+    assert graph.call(Trigger, "/cell/stop").success
+    wait_for(lambda: {s.last().label for s in states.values()} == {"READY"}, "the stop")
+
+
+def test_a_robot_is_in_one_system_and_free_after_it(graph, lab):
+    a, b = spawn(graph), spawn(graph)
+    assert make_system(graph, {a: "wave", b: "wave"}).success
+    answer = make_system(graph, {a: "wave"}, "other")
+    assert not answer.success
+    assert "member of system 'cell' already" in answer.message
+    assert graph.call(srv.Remove, "/lab/remove_robot", name=b).success
+    wait_for(lambda: graph.call(Trigger, f"/{a}/play").success, "independence")
+
+
+@pytest.mark.parametrize(
+    ("members", "says"),
+    [
+        ({}, "at least one member"),
+        ({"ghost": "wave"}, "no robot 'ghost' is in the scene"),
+        ({"ur5e_1": "nothing"}, "no trajectory 'nothing'"),
+        ({"ur5e_1": "kuka"}, "made for kuka_kr6_r900_sixx"),
+    ],
+)
+def test_a_system_that_cannot_be_is_refused_and_leaves_nothing_behind(graph, lab, members, says):
+    robot = spawn(graph)
+    load(graph, robot, "wave")
+    answer = make_system(graph, members)
+    assert not answer.success
+    assert says in answer.message
+    assert graph.call(Trigger, f"/{robot}/play").success
+
+
+def listen_systems(graph: Graph):
+    return graph.listen(msg.RobotSystems, "/systems", qos.LATCHED_EVENTS)
+
+
+def state_of(systems) -> msg.RobotSystem:
+    return systems[-1].systems[0]
+
+
+def test_a_sequential_system_shows_each_share_and_seeks_across_them(graph, lab):
+    a, b = spawn(graph), spawn(graph)
+    systems = listen_systems(graph)
+    answer = make_system(graph, {a: "wave", b: "long"}, mode=msg.RobotSystem.SEQUENTIAL)
+    assert answer.success, answer.message
+    shares = [(m.start, m.duration) for m in answer.system.members]
+    assert shares == [(0.0, 0.59), (0.59, 9.99)]
+    assert graph.call(srv.Seek, "/cell/seek", position=5.59).success
+    states = {
+        robot: graph.listen(msg.PlaybackState, f"/{robot}/playback_state", qos.LATCHED)
+        for robot in (a, b)
+    }
+    wait_for(lambda: states[b] and states[b][-1].frame == 500, "b in the middle")
+    wait_for(lambda: states[a] and states[a][-1].frame == 59, "a at its end")
+    assert graph.call(srv.Step, "/cell/step", frames=-3).message == "at 5.56 s"
+    assert graph.call(srv.SetRate, "/cell/set_rate", rate=4.0).success
+    assert graph.call(Trigger, "/cell/play").success
+    wait_for(lambda: state_of(systems).message == "played to the end", "the end")
+
+
+def test_settings_of_a_system_are_checked(graph, lab):
+    a = spawn(graph)
+    assert make_system(graph, {a: "wave"}).success
+    answer = graph.call(srv.SetMode, "/cell/set_mode", mode=7)
+    assert (answer.success, "expected 0 (parallel)" in answer.message) == (False, True)
+    answer = graph.call(srv.SetRate, "/cell/set_rate", rate=9.0)
+    assert (answer.success, "expected 0.1 to 4" in answer.message) == (False, True)
+    answer = graph.call(srv.Seek, "/cell/seek", position=99.0)
+    assert (answer.success, "expected 0 to 0.59 s" in answer.message) == (False, True)
+    assert graph.call(SetBool, "/cell/set_loop", data=True).success
+
+
+def test_a_collision_of_one_member_halts_the_system_until_it_is_clear(graph, lab):
+    a, b = spawn(graph), spawn(graph)
+    systems = listen_systems(graph)
+    states = {robot: listen_state(graph, robot) for robot in (a, b)}
+    assert make_system(graph, {a: "long", b: "long"}).success
+    assert graph.call(Trigger, "/cell/play").success
+    wait_for(lambda: all(s.last() and s.last().frame > 5 for s in states.values()), "frames")
+    collision = graph.client.create_publisher(msg.Collision, f"/{a}/collision", qos.LATCHED)
+    collision.publish(msg.Collision(colliding=True))
+    wait_for(lambda: state_of(systems).label == "COLLISION_HALT", "the halt")
+    wait_for(lambda: states[b].last().label == "PAUSED", "the other member's pause")
+    assert not graph.call(Trigger, "/cell/play").success
+    collision.publish(msg.Collision(colliding=False))
+    wait_for(lambda: state_of(systems).label == "PAUSED", "the pause")
+    assert graph.call(Trigger, "/cell/play").success
+    wait_for(lambda: {s.last().label for s in states.values()} == {"PLAYING"}, "playing on")
+
+
+def test_a_member_waits_for_what_another_holds(graph, lab):
+    a, b = spawn(graph), spawn(graph)
+    systems = listen_systems(graph)
+    wait = f"frame 20: object cube_1 held by {a}"
+    answer = make_system(graph, {a: "wave", b: "wave"}, waits={b: [wait]})
+    assert answer.success, answer.message
+    assert graph.call(Trigger, "/cell/play").success
+    wait_for(lambda: systems and state_of(systems).members[1].waiting_for == wait, "the wait")
+    grasp = graph.client.create_publisher(msg.Grasp, f"/{a}/grasp", qos.LATCHED)
+    grasp.publish(msg.Grasp(state=msg.Grasp.HOLDING, object="cube_1"))
+    wait_for(lambda: state_of(systems).message == "played to the end", "the end")
+
+
+def test_a_killed_playback_host_ends_the_run_and_the_next_play_recovers(graph, lab):
+    a, b = spawn(graph), spawn(graph)
+    systems = listen_systems(graph)
+    assert make_system(graph, {a: "long", b: "long"}).success
+    assert graph.call(Trigger, "/cell/play").success
+    wait_for(lambda: systems and state_of(systems).label == "PLAYING", "the start")
+    graph.drop(lab.host)
+    graph.add(PlaybackHostNode)
+    wait_for(lambda: "lost its playback" in state_of(systems).message, "the loss")
+    assert state_of(systems).label == "READY"
+    answer = graph.call(Trigger, "/cell/play")
+    assert answer.success, answer.message
+    wait_for(lambda: state_of(systems).label == "PLAYING", "a new run")

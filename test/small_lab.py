@@ -1,0 +1,91 @@
+"""A lab with a catalogue of a few small motions, for the node tests."""
+
+from __future__ import annotations
+
+from types import SimpleNamespace
+
+import numpy as np
+from graph import Graph
+from mrlab_msgs import msg, srv
+from rclpy.node import Node
+
+from mrlab_ros import conversions, qos, share
+from mrlab_ros.adapters.robot_library import RobotLibrary
+from mrlab_ros.core.trajectory import Channels, Source, Trajectory
+from mrlab_ros.nodes.coordinator import CoordinatorNode
+from mrlab_ros.nodes.lab import LabNode
+from mrlab_ros.nodes.playback import PlaybackHostNode
+
+LIBRARY = RobotLibrary(share.directory() / "robots")
+
+
+def make(model_id: str, name: str, frames: int = 60, gripper: bool = False) -> Trajectory:
+    """A small wave around the home pose."""
+    model = LIBRARY.model(model_id)
+    wave = 0.1 * np.sin(np.linspace(0, 3, frames))[:, None]
+    positions = model.home + 0.05 + wave * np.linspace(1, 2, len(model.joints))
+    velocities = np.gradient(positions, 0.01, axis=0)
+    closed = np.arange(frames) >= frames // 2
+    return Trajectory(
+        name, model_id, None, model.joint_names, 100.0, positions,
+        closed if gripper else None,
+        Channels(velocities, np.zeros_like(positions), np.ones_like(positions)),
+        Source("wave.mat", "q", "0" * 64),
+    )  # fmt: skip
+
+
+TRAJECTORIES = {
+    "wave": make("ur5e", "wave"),
+    "pick": make("ur5e", "pick", gripper=True),
+    "long": make("ur5e", "long", frames=1000),
+    "kuka": make("kuka_kr6_r900_sixx", "kuka", frames=90),
+}
+
+
+class Catalogue(Node):
+    """Answers /converter/get from TRAJECTORIES."""
+
+    def __init__(self, **kwargs) -> None:
+        super().__init__("converter", **kwargs)
+        self.create_service(srv.GetTrajectory, "~/get", self._get)
+
+    def _get(self, request, response):
+        trajectory = TRAJECTORIES.get(request.id)
+        response.success = trajectory is not None
+        response.message = f"there is no trajectory '{request.id}'"
+        if trajectory is not None:
+            response.trajectory = conversions.trajectory_to_message(trajectory)
+        return response
+
+
+def start(graph: Graph) -> SimpleNamespace:
+    """Start the catalogue, the lab, the playback host and the coordinator."""
+    graph.add(Catalogue)
+    return SimpleNamespace(
+        lab=graph.add(LabNode),
+        host=graph.add(PlaybackHostNode),
+        coordinator=graph.add(CoordinatorNode),
+    )
+
+
+def spawn(graph: Graph, model: str = "ur5e") -> str:
+    answer = graph.call(srv.SpawnRobot, "/lab/spawn_robot", model=model, automatic=True)
+    assert answer.success, answer.message
+    return answer.robot.name
+
+
+def load(graph: Graph, robot: str, trajectory: str) -> None:
+    answer = graph.call(srv.LoadTrajectory, f"/{robot}/load", id=trajectory)
+    assert answer.success, answer.message
+
+
+def labels(inbox) -> list[str]:
+    seen: list[str] = []
+    for state in inbox:
+        if not seen or seen[-1] != state.label:
+            seen.append(state.label)
+    return seen
+
+
+def listen_state(graph: Graph, robot: str):
+    return graph.listen(msg.PlaybackState, f"/{robot}/playback_state", qos.EVENTS)
