@@ -235,11 +235,12 @@ def _rival(variable: Variable, best: Candidate, robot: RobotModel) -> bool:
 
 
 def _holds_samples(variable: Variable) -> bool:
-    return not re.search(
-        r"seriallink|^link$|revolute|prismatic|robot|tree|quaternion|^sym$|^se[23]$|^so[23]$|camera"
-        r"|^string$|^categorical$|^datetime$|^duration$|figure|function_handle",
-        variable.kind,
-        re.I,
+    """Say whether the object is of a class made to hold numbers, or is named like positions."""
+    kind = variable.kind
+    if kind in OBJECT_CODE or kind.startswith(("Simulink.", "timeseries", "tscollection")):
+        return True
+    return hint(variable.path) is Hint.POSITIONS and not re.search(
+        r"link|robot|tree|quaternion|^se[23]$|^so[23]$|camera", kind, re.I
     )
 
 
@@ -250,7 +251,6 @@ OBJECT_CODE = {
     "Simulink.SimulationData.Dataset": "q = {name}{{1}}.Values.Data; save('traj.mat', 'q')",
     "Simulink.SimulationData.Signal": "q = {name}.Values.Data; save('traj.mat', 'q')",
     "Simulink.SimulationOutput": "q = {name}.get('q').Data; save('traj.mat', 'q')",
-    "sym": "q = double({name}); save('traj.mat', 'q')",
     "dlarray": "q = extractdata({name}); save('traj.mat', 'q')",
     "gpuArray": "q = gather({name}); save('traj.mat', 'q')",
 }

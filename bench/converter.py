@@ -1,0 +1,138 @@
+"""End-to-end conversion beside the least it could cost, in the same run.
+
+The yardstick is scipy.io.loadmat of the file plus orjson.dumps of the numbers that end up in the
+trajectory file (t, q, dq, tau_proxy); beside it, for the sceptic, the same with q alone. The
+conversion parses in the walled-off process, checks, derives and writes JSON to disk. Memory is
+the peak of both processes above what they held before, in a run of its own; its bound is four
+times the matrix plus the file that is written.
+"""
+
+from __future__ import annotations
+
+import os
+import tempfile
+import threading
+import time
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import orjson
+import psutil
+import report
+import scipy.io
+
+from mrlab_ros import share
+from mrlab_ros.adapters.matfile_reader import WorkspaceReader
+from mrlab_ros.adapters.robot_library import RobotLibrary
+from mrlab_ros.adapters.trajectory_store import TrajectoryStore
+from mrlab_ros.conversion import convert_file, load_coefficients
+from mrlab_ros.core.contract import document
+from mrlab_ros.core.selection import Options
+from mrlab_ros.core.trajectory import Trajectory
+
+
+def motion(frames: int) -> Any:
+    """Return (frames, 7): sines of six joints inside any arm's range, and a gripper."""
+    t = np.arange(frames) / 100
+    arm = 0.3 * np.sin(t[:, None] * np.linspace(0.2, 0.7, 6)) + 0.1
+    return np.column_stack([arm, (t % 20) > 10])
+
+
+class PeakMemory:
+    """Samples the memory of this process and its children above what it was at the start."""
+
+    def __enter__(self) -> PeakMemory:
+        self.peak, self._stop = 0, threading.Event()
+        self._start = self._now()
+        self._thread = threading.Thread(target=self._watch)
+        self._thread.start()
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self._stop.set()
+        self._thread.join()
+
+    def _now(self) -> int:
+        total = 0
+        for process in [psutil.Process(), *psutil.Process().children(recursive=True)]:
+            try:
+                total += process.memory_full_info().pss
+            except psutil.Error:
+                continue
+        return total
+
+    def _watch(self) -> None:
+        while not self._stop.wait(0.01):
+            self.peak = max(self.peak, self._now() - self._start)
+
+
+def timed(work: Any, repeats: int) -> tuple[float, Any]:
+    """Return the shortest time of `repeats` runs, s, and the last result."""
+    best = np.inf
+    for _ in range(repeats):
+        begin = time.perf_counter()
+        result = work()
+        best = min(best, time.perf_counter() - begin)
+    return float(best), result
+
+
+def measure(frames: int, reader: WorkspaceReader, folder: Path, repeats: int) -> dict[str, Any]:
+    path = folder / f"n{frames}.mat"
+    matrix = motion(frames)
+    size = matrix.nbytes
+    scipy.io.savemat(path, {"q": matrix}, do_compression=True)
+    del matrix
+    robot = RobotLibrary(share.directory() / "robots").model("ur5e")
+    coefficients = load_coefficients(share.directory() / "config" / "torque_proxy.yaml")
+    store = TrajectoryStore(folder, coefficients)
+
+    def convert() -> Trajectory:
+        result = convert_file(path, Options(), robot, reader=reader, coefficients=coefficients)
+        assert result.trajectory is not None, result.message
+        store.save(result.trajectory)
+        return result.trajectory
+
+    ours, trajectory = timed(convert, repeats)
+    del trajectory
+    with PeakMemory() as memory:
+        trajectory = convert()
+    written = store.path(trajectory.id).stat().st_size
+    numbers = document(trajectory)["frames"]
+    load, _ = timed(lambda: scipy.io.loadmat(path)["q"].sum(), repeats)
+    same, _ = timed(lambda: len(dumps(numbers)), repeats)
+    alone, _ = timed(lambda: len(dumps(numbers["q"])), repeats)
+    return {
+        "frames": frames,
+        "ms": round(ours * 1e3, 1),
+        "loadmat": round(load * 1e3, 1),
+        "dumps": round(same * 1e3, 1),
+        "ratio (at most 3)": ours / (load + same),
+        "with q alone": ours / (load + alone),
+        "MB/s": size / ours / 1e6,
+        "us/frame": ours / frames * 1e6,
+        "peak MB": round(memory.peak / 1e6),
+        "at most": round((4 * size + written) / 1e6),
+    }
+
+
+def dumps(numbers: Any) -> bytes:
+    return orjson.dumps(numbers, option=orjson.OPT_SERIALIZE_NUMPY)
+
+
+def main() -> None:
+    options = report.options(__doc__ or "").parse_args()
+    repeats = 1 if options.quick else 3
+    rows = []
+    with WorkspaceReader() as reader, tempfile.TemporaryDirectory() as folder:
+        reader.start()
+        measure(100, reader, Path(folder), 1)
+        for frames in (1_000, 10_000, 100_000, 1_000_000):
+            fewer = repeats if frames > 10_000 else 5
+            rows.append(measure(frames, reader, Path(folder), fewer))
+            os.sync()
+    report.show("converter: v7 workspace to trajectory file, N x 7", rows, options.json)
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,394 @@
+"""Reads MATLAB's own formats v4 to v7 from bytes; `matfile_hdf5` reads v7.3.
+
+Runs in the walled-off process of `matfile_worker`, on bytes that somebody sent. Every length is
+checked against what there is. The format is that of MathWorks' "MAT-File Format" document.
+"""
+
+from __future__ import annotations
+
+import math
+import struct
+import zlib
+from typing import Protocol
+
+
+class Damaged(Exception):
+    """The bytes contradict the format; the text completes 'the file is damaged: ...'."""
+
+
+class NotAWorkspace(Exception):
+    """The bytes are something else, which the text names."""
+
+
+class TooLarge(Exception):
+    """The bytes declare more than the limit; the text completes 'the file is too large: ...'."""
+
+
+class Sink(Protocol):
+    """Takes what a reader finds, in the order of the file."""
+
+    def add(
+        self,
+        path: str,
+        kind: str,
+        shape: tuple[int, ...],
+        data: memoryview | bytes | None = None,
+        dtype: str = "",
+        *,
+        is_object: bool = False,
+        note: str = "",
+    ) -> None:
+        """Take one variable; `data` is column by column, of numpy type `dtype`."""
+
+
+# data types of the elements: numpy code of the numbers they hold
+ELEMENTS = {
+    1: "i1",
+    2: "u1",
+    3: "i2",
+    4: "u2",
+    5: "i4",
+    6: "u4",
+    7: "f4",
+    9: "f8",
+    12: "i8",
+    13: "u8",
+}
+MI_INT8, MI_INT32, MI_UINT32, MI_MATRIX, MI_COMPRESSED, MI_UTF8 = 1, 5, 6, 14, 15, 16
+CELL, STRUCT, OBJECT, CHAR, SPARSE, DOUBLE, SINGLE = 1, 2, 3, 4, 5, 6, 7
+FUNCTION, OPAQUE = 16, 17
+CLASSES = {
+    CHAR: "char",
+    SPARSE: "sparse",
+    DOUBLE: "double",
+    SINGLE: "single",
+    8: "int8",
+    9: "uint8",
+    10: "int16",
+    11: "uint16",
+    12: "int32",
+    13: "uint32",
+    14: "int64",
+    15: "uint64",
+    FUNCTION: "function_handle",
+}
+COMPLEX_FLAG, LOGICAL_FLAG = 0x08, 0x02
+DEEPEST = 32
+
+
+def index(shape: tuple[int, ...], number: int) -> str:
+    """Return the subscripts of the `number`th element (from 0), such as '3' or '2,1'."""
+    if len([n for n in shape if n != 1]) <= 1:
+        return str(number + 1)
+    subscripts = []
+    for length in shape:
+        number, rest = divmod(number, length)
+        subscripts.append(str(rest + 1))
+    return ",".join(subscripts)
+
+
+def product(shape: tuple[int, ...]) -> int:
+    """Return the number of elements of an array of this shape; raise Damaged if negative."""
+    if any(n < 0 for n in shape):
+        raise Damaged(f"an array has the dimensions {shape}")
+    return math.prod(shape)
+
+
+class Cursor:
+    """Walks over the elements of a stretch of a v5 to v7 file."""
+
+    def __init__(self, data: memoryview, order: str) -> None:
+        self.data = data
+        self.order = order
+        self.at = 0
+
+    def __bool__(self) -> bool:
+        return self.at < len(self.data)
+
+    def next(self) -> tuple[int, memoryview]:
+        """Return the next element's data type and bytes, and step over it and its padding."""
+        if len(self.data) - self.at < 8:
+            raise Damaged("it ends inside an element's tag")
+        kind, size = struct.unpack_from(self.order + "II", self.data, self.at)
+        if kind >> 16:
+            kind, size = kind & 0xFFFF, kind >> 16
+            if size > 4:
+                raise Damaged(f"a small element claims {size} bytes where 4 fit")
+            begin, self.at = self.at + 4, self.at + 8
+        else:
+            begin = self.at + 8
+            left = len(self.data) - begin
+            if size > left:
+                raise Damaged(f"an element claims {size} bytes where {left} are left")
+            self.at = begin + size
+            if kind != MI_COMPRESSED:
+                self.at = min(self.at + -size % 8, len(self.data))
+        return kind, self.data[begin : begin + size]
+
+    def text(self) -> str:
+        kind, data = self.next()
+        if kind not in (MI_INT8, 2, MI_UTF8):
+            raise Damaged(f"a name has the element type {kind}, which is not text")
+        return bytes(data).rstrip(b"\0").decode("utf-8", "replace")
+
+    def integers(self) -> tuple[int, ...]:
+        kind, data = self.next()
+        if kind not in (MI_INT32, MI_UINT32):
+            raise Damaged(f"dimensions have the element type {kind}, which is not int32")
+        letter = "i" if kind == MI_INT32 else "I"
+        return struct.unpack(f"{self.order}{len(data) // 4}{letter}", data[: len(data) // 4 * 4])
+
+
+class Mat5Reader:
+    """Reads a v5, v6 or v7 workspace: `limit` bounds, in bytes, what one variable inflates to."""
+
+    def __init__(self, sink: Sink, limit: int) -> None:
+        self.sink = sink
+        self.limit = limit
+        self.order = "<"
+
+    def read(self, data: memoryview) -> None:
+        """Hand every variable of the file to the sink; raise Damaged or TooLarge."""
+        if len(data) < 128:
+            raise Damaged(f"it has {len(data)} bytes where the header alone has 128")
+        self.order = ">" if bytes(data[126:128]) == b"MI" else "<"
+        (subsystem,) = struct.unpack_from(self.order + "Q", data, 116)
+        cursor = Cursor(data, self.order)
+        cursor.at = 128
+        while cursor:
+            if not any(data[cursor.at : cursor.at + 8]):
+                if any(data[cursor.at :]):
+                    raise Damaged("zeros stand where a variable should begin")
+                return
+            begin = cursor.at
+            kind, body = cursor.next()
+            if kind == MI_COMPRESSED:
+                kind, body = self._inflate(body)
+            if kind != MI_MATRIX:
+                raise Damaged(f"element type {kind} stands where a variable should begin")
+            # objects keep their contents in one nameless variable that only MATLAB can read
+            if begin != subsystem:
+                self._matrix(body, "", 0)
+
+    def _inflate(self, body: memoryview) -> tuple[int, memoryview]:
+        inflater = zlib.decompressobj()
+        try:
+            head = inflater.decompress(body, 8)
+            if len(head) < 8:
+                raise Damaged("a compressed variable ends inside its tag")
+            kind, size = struct.unpack(self.order + "II", head)
+            if size > self.limit:
+                raise TooLarge(
+                    f"a variable inflates to {size / 2**20:.0f} MiB, the limit is "
+                    f"{self.limit / 2**20:.0f} MiB"
+                )
+            inflated = inflater.decompress(inflater.unconsumed_tail, size) if size else b""
+        except zlib.error as error:
+            raise Damaged(f"a compressed variable cannot be inflated ({error})") from error
+        if len(inflated) < size:
+            raise Damaged(
+                f"a compressed variable inflates to {len(inflated)} bytes, it declares {size}"
+            )
+        try:  # the checksum sits behind the last byte
+            inflater.decompress(inflater.unconsumed_tail, 1)
+        except zlib.error as error:
+            raise Damaged(f"a compressed variable does not match its checksum ({error})") from None
+        return kind, memoryview(inflated)
+
+    def _matrix(self, body: memoryview, path: str, depth: int) -> None:
+        if depth > DEEPEST:
+            raise Damaged(f"'{path}' is nested deeper than {DEEPEST} levels")
+        if not len(body):
+            self.sink.add(path, "double", (0, 0))
+            return
+        cursor = Cursor(body, self.order)
+        kind, data = cursor.next()
+        if kind != MI_UINT32 or len(data) < 8:
+            raise Damaged(f"a variable's flags have the element type {kind}, not uint32")
+        (flags,) = struct.unpack_from(self.order + "I", data)
+        array_class, flags = flags & 0xFF, flags >> 8 & 0xFF
+        if array_class == OPAQUE:
+            name, _, class_name = cursor.text(), cursor.text(), cursor.text()
+            self.sink.add(path or name, class_name or "object", is_object=True, shape=())
+            return
+        shape = cursor.integers()
+        if len(shape) < 2:
+            raise Damaged(f"a variable has {len(shape)} dimensions, expected at least 2")
+        name = cursor.text()
+        path = path or name
+        count = product(shape)
+        if array_class == CELL:
+            self.sink.add(path, "cell", shape)
+            for number in range(count):
+                self._child(cursor, f"{path}{{{index(shape, number)}}}", depth)
+        elif array_class in (STRUCT, OBJECT):
+            self._struct(cursor, array_class, path, shape, depth)
+        elif array_class in CLASSES:
+            self._numbers(cursor, array_class, flags, path, shape)
+        else:
+            raise Damaged(
+                f"'{path}' has the class number {array_class}, which MATLAB never writes"
+            )
+
+    def _child(self, cursor: Cursor, path: str, depth: int) -> None:
+        kind, body = cursor.next()
+        if kind != MI_MATRIX:
+            raise Damaged(f"element type {kind} stands where '{path}' should be")
+        self._matrix(body, path, depth + 1)
+
+    def _struct(
+        self, cursor: Cursor, array_class: int, path: str, shape: tuple[int, ...], depth: int
+    ) -> None:
+        if array_class == OBJECT:
+            self.sink.add(path, cursor.text() or "object", shape, is_object=True)
+            return
+        self.sink.add(path, "struct", shape)
+        lengths = cursor.integers()
+        length = lengths[0] if lengths else 0
+        _, names = cursor.next()
+        if length < 1 and len(names):
+            raise Damaged(f"the field names of '{path}' have the length {length}")
+        fields = [
+            bytes(names[i : i + length]).split(b"\0")[0].decode("utf-8", "replace")
+            for i in range(0, len(names), length or 1)
+        ]
+        count = product(shape)
+        for number in range(count if fields else 0):
+            element = path if count == 1 else f"{path}({index(shape, number)})"
+            for name in fields:
+                self._child(cursor, f"{element}.{name}", depth)
+
+    def _numbers(
+        self, cursor: Cursor, array_class: int, flags: int, path: str, shape: tuple[int, ...]
+    ) -> None:
+        kind = "logical" if flags & LOGICAL_FLAG else CLASSES[array_class]
+        if flags & COMPLEX_FLAG:
+            self.sink.add(path, kind, shape, note="complex")
+            return
+        if kind not in ("double", "single"):
+            self.sink.add(path, kind, shape)
+            return
+        element, data = cursor.next()
+        if element not in ELEMENTS:
+            raise Damaged(f"the numbers of '{path}' have the element type {element}, unknown")
+        dtype = self.order + ELEMENTS[element]
+        expected = product(shape) * int(dtype[-1])
+        if len(data) != expected:
+            raise Damaged(
+                f"'{path}' has {len(data)} bytes of numbers where its dimensions "
+                f"{'x'.join(map(str, shape))} need {expected}"
+            )
+        self.sink.add(path, kind, shape, data, dtype)
+
+
+MAT4_NUMBERS = {0: ("f8", 8), 1: ("f4", 4), 2: ("i4", 4), 3: ("i2", 2), 4: ("u2", 2), 5: ("u1", 1)}
+
+
+def mat4_order(data: memoryview | bytes) -> str | None:
+    """Return '<' or '>' where `data` begins like a v4 workspace, else None."""
+    if len(data) < 20:
+        return None
+    for order, machine in (("<", 0), (">", 1)):
+        kind, rows, columns, imaginary, length = struct.unpack_from(order + "5i", data)
+        digits = kind // 1000, kind // 100 % 10, kind // 10 % 10, kind % 10
+        name = bytes(data[20 : 20 + max(length, 0)])
+        if (
+            0 <= kind < 5000
+            and digits[0] == machine
+            and digits[1] == 0
+            and digits[2] in MAT4_NUMBERS
+            and digits[3] <= 2
+            and min(rows, columns) >= 0
+            and imaginary in (0, 1)
+            and 1 <= length <= 1024
+            and (name[:1].isalpha())
+            and name.rstrip(b"\0").replace(b"_", b"a").isalnum()
+        ):
+            return order
+    return None
+
+
+def read_mat4(data: memoryview, sink: Sink) -> None:
+    """Hand every variable of a v4 workspace to the sink; raise Damaged."""
+    at = 0
+    while at < len(data):
+        order = mat4_order(data[at:])
+        if order is None:
+            raise Damaged(f"no variable begins at byte {at}, where one should")
+        kind, rows, columns, imaginary, length = struct.unpack_from(order + "5i", data, at)
+        name = bytes(data[at + 20 : at + 20 + length]).rstrip(b"\0").decode("latin-1")
+        number, size = MAT4_NUMBERS[kind // 10 % 10]
+        begin = at + 20 + length
+        one = rows * columns * size
+        at = begin + one * (1 + imaginary)
+        if at > len(data):
+            raise Damaged(f"'{name}' needs {at - begin} bytes where {len(data) - begin} are left")
+        if kind % 10 == 1:
+            sink.add(name, "char", (rows, columns))
+        elif kind % 10 == 2:
+            sink.add(name, "sparse", (rows, columns))
+        elif imaginary:
+            sink.add(name, "double", (rows, columns), note="complex")
+        else:
+            sink.add(name, "double", (rows, columns), data[begin : begin + one], order + number)
+
+
+SIGNATURES: tuple[tuple[bytes, str], ...] = (
+    (b"PK\x03\x04", "a ZIP archive (or an Office, .mlx or .slx file)"),
+    (b"\x89PNG", "a PNG picture"),
+    (b"\xff\xd8\xff", "a JPEG picture"),
+    (b"GIF8", "a GIF picture"),
+    (b"%PDF", "a PDF document"),
+    (b"version https://git-lfs", "a Git LFS pointer: the file itself was not downloaded"),
+    (b"Octave-1-", "an Octave binary file"),
+    (b"7z\xbc\xaf", "a 7-Zip archive"),
+    (b"Rar!", "a RAR archive"),
+    (b"\x7fELF", "a program"),
+    (b"MZ", "a Windows program"),
+    (b"SQLite format 3", "an SQLite database"),
+    (b"BZh", "a bzip2 archive"),
+    (b"\xfd7zXZ", "an xz archive"),
+    (b"\x89MCAP", "an MCAP recording"),
+)
+HDF5_SIGNATURE = b"\x89HDF\r\n\x1a\n"
+
+
+def recognise(data: memoryview) -> str:
+    """Return mat4, mat5, hdf5, gzip, zip, or in words what else the bytes are."""
+    head = bytes(data[:4096])
+    if not head:
+        return "an empty file"
+    if head[:2] == b"\x1f\x8b":
+        return "gzip"
+    for offset in (0, 512, 1024, 2048):
+        if head[offset : offset + 8] == HDF5_SIGNATURE:
+            return "hdf5"
+    if head[:6] == b"MATLAB" and len(head) >= 128:
+        version = head[124:126] if head[126:128] == b"IM" else head[125:123:-1]
+        if head[126:128] in (b"IM", b"MI"):
+            return {b"\x00\x01": "mat5"}.get(
+                version, f"a MAT file of the version {version.hex()}, which nobody knows"
+            )
+        return "a MATLAB file whose header is damaged"
+    if head[126:128] in (b"IM", b"MI") and head[124:126] in (b"\x00\x01", b"\x01\x00"):
+        return "mat5"
+    if mat4_order(head):
+        return "mat4"
+    for signature, words in SIGNATURES:
+        if head.startswith(signature):
+            return words
+    return _text(head)
+
+
+def _text(head: bytes) -> str:
+    try:
+        text = head.decode("utf-8", "strict" if len(head) < 4096 else "ignore").lstrip()
+    except UnicodeDecodeError:
+        return "a file of an unknown kind"
+    if any(ord(c) < 32 and c not in "\t\r\n\f" for c in text):
+        return "a file of an unknown kind"
+    if "Created by Octave" in text[:200]:
+        return "an Octave text file (save it with: save -7 traj.mat q)"
+    if text[:200].lower().startswith(("<!doctype html", "<html")):
+        return "a web page (was the download page saved instead of the file?)"
+    return "a text file"

@@ -1,0 +1,1 @@
+"""The commands of `mrlab` that are more than a call."""

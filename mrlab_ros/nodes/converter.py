@@ -1,0 +1,240 @@
+"""The converter node: workspace files in, a catalogue of trajectories out."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable
+from concurrent.futures import Future, ThreadPoolExecutor
+from pathlib import Path
+from typing import Any
+
+from mrlab_msgs import msg, srv
+from rclpy.callback_groups import ReentrantCallbackGroup
+from rclpy.context import Context
+from rclpy.node import Node
+from rclpy.parameter import Parameter
+
+from mrlab_ros import conversions, host, qos, share
+from mrlab_ros.adapters.matfile_reader import Limits, MiB, WorkspaceReader
+from mrlab_ros.adapters.robot_library import RobotLibrary
+from mrlab_ros.adapters.trajectory_store import TrajectoryStore
+from mrlab_ros.conversion import (
+    DEFAULT_FRAME_RATE,
+    ConversionResult,
+    convert,
+    load_coefficients,
+)
+from mrlab_ros.core.contract import warnings_of
+from mrlab_ros.core.discovery import Candidate
+from mrlab_ros.core.errors import BadInput, LabError
+from mrlab_ros.core.selection import Options
+
+
+class ConverterNode(Node):
+    """Converts, keeps and announces trajectories; no callback ever holds up the executor."""
+
+    def __init__(
+        self,
+        *,
+        context: Context | None = None,
+        parameter_overrides: list[Parameter] | None = None,
+    ) -> None:
+        super().__init__("converter", context=context, parameter_overrides=parameter_overrides)
+        state = self.declare_parameter("state_dir", "").value
+        folder = Path(state) if state else Path.home() / ".local" / "share" / "mrlab"
+        self._rate = float(self.declare_parameter("default_frame_rate", DEFAULT_FRAME_RATE).value)
+        limits = Limits(
+            memory=int(self.declare_parameter("memory_limit", 1024).value) * MiB,
+            time=float(self.declare_parameter("time_limit", 20.0).value),
+            output=int(self.declare_parameter("output_limit", 1024).value) * MiB,
+            file_size=int(self.declare_parameter("file_size_limit", 1024).value) * MiB,
+        )
+        self._coefficients = load_coefficients(share.directory() / "config" / "torque_proxy.yaml")
+        self._library = RobotLibrary(share.directory() / "robots")
+        self._store = TrajectoryStore(folder / "trajectories", self._coefficients)
+        self._reader = WorkspaceReader(limits)
+        # One thread: conversions and changes of the catalogue happen one after another.
+        self._work = ThreadPoolExecutor(max_workers=1, thread_name_prefix="converter")
+        self._infos: dict[str, msg.TrajectoryInfo] = {}
+
+        self._catalogue = self.create_publisher(
+            msg.TrajectoryCatalogue, "/trajectories", qos.LATCHED
+        )
+        self._converted = self.create_publisher(
+            msg.Trajectory, "/trajectories/converted", qos.EVENTS
+        )
+        self._group = ReentrantCallbackGroup()
+        self._serve(srv.ConvertTrajectory, "~/convert", self._convert)
+        self._serve(srv.GetTrajectory, "~/get", self._get)
+        self._serve(srv.ListTrajectories, "~/list", self._list)
+        self._serve(srv.Remove, "~/delete", self._delete)
+        self._read_catalogue()
+        self._announce()
+        self._work.submit(self._reader.start)
+
+    def destroy_node(self) -> None:
+        """Give up what is being read and end the reading process."""
+        self._work.shutdown(wait=False, cancel_futures=True)
+        self._reader.close()
+        self._work.shutdown()
+        self._reader.close()
+        super().destroy_node()
+
+    def _serve(self, kind: Any, name: str, answer: Callable[[Any, Any], None]) -> None:
+        """Offer a service whose `answer(request, response)` runs on the node's own thread.
+
+        The callback returns at once with a future in place of the response, and the response is
+        sent when the future is done. A coroutine would be polled by the executor without pause,
+        and a callback that waits would hold up the other nodes of the process.
+        """
+
+        def callback(request: Any, response: Any) -> Future[Any]:
+            return self._work.submit(self._answered, answer, request, response)
+
+        service = self.create_service(kind, name, callback, callback_group=self._group)
+        send = service.send_response
+
+        def send_when_done(future: Future[Any], header: Any) -> None:
+            def forward(done: Future[Any]) -> None:
+                if not done.cancelled() and self.context.ok():
+                    send(done.result(), header)
+
+            future.add_done_callback(forward)
+
+        service.send_response = send_when_done  # type: ignore[method-assign, assignment]
+
+    def _answered(self, answer: Callable[[Any, Any], None], request: Any, response: Any) -> Any:
+        try:
+            answer(request, response)
+        except LabError as error:
+            response.success, response.message = False, str(error)
+        except Exception as error:
+            self.get_logger().error(f"{answer.__name__}: {error!r}")
+            if hasattr(response, "success"):
+                response.success = False
+                response.message = f"the converter failed ({error!r}); its log has the details"
+        return response
+
+    def _convert(self, request: Any, response: Any) -> None:
+        robot = self._library.model(request.robot_model)
+        known = self._library.end_effectors()
+        if request.end_effector and request.end_effector not in known:
+            raise BadInput(
+                f"there is no end effector '{request.end_effector}'; known are: "
+                f"{', '.join(known)}; leave it empty for a bare flange"
+            )
+        path = Path(request.path)
+        if request.path:
+            file, read = path.name, lambda: self._reader.read_file(path)
+        else:
+            file = Path(request.file_name).name or "upload.mat"
+            data = memoryview(request.data)
+            read = lambda: self._reader.read_bytes(data, file)  # noqa: E731
+        result = convert(
+            file,
+            read,
+            Options(
+                variable=request.variable,
+                columns=request.columns,
+                transpose=request.transpose,
+                degrees=request.degrees,
+                unwrap=request.unwrap,
+                frame_rate=request.frame_rate,
+            ),
+            robot,
+            self._coefficients,
+            end_effector=request.end_effector or None,
+            trajectory_id=request.id,
+            created_ns=time.time_ns(),
+            default_frame_rate=self._rate,
+        )
+        self._answer(result, response)
+        trajectory = result.trajectory
+        if trajectory is None:
+            self.get_logger().info(f"refused: {result.message}")
+            return
+        self._store.save(trajectory)
+        response.trajectory = conversions.info_to_message(trajectory)
+        self._infos[trajectory.id] = response.trajectory
+        self._announce()
+        self._converted.publish(conversions.trajectory_to_message(trajectory))
+        self.get_logger().info(result.message)
+
+    def _answer(self, result: ConversionResult, response: Any) -> None:
+        response.success = result.trajectory is not None
+        response.message = result.message
+        response.outcome = result.outcome.value
+        response.candidates = [candidate_to_message(c) for c in result.candidates]
+        response.diagnostics = [conversions.diagnostic_to_message(d) for d in result.diagnostics]
+
+    def _get(self, request: Any, response: Any) -> None:
+        response.trajectory = conversions.trajectory_to_message(self._store.load(request.id))
+        response.success = True
+
+    def _list(self, request: Any, response: Any) -> None:
+        infos = [self._infos[key] for key in sorted(self._infos)]
+        if request.robot_model:
+            infos = [
+                info
+                for info in infos
+                if info.robot_model == request.robot_model
+                and info.end_effector in ("", request.end_effector)
+            ]
+        response.trajectories = infos
+
+    def _delete(self, request: Any, response: Any) -> None:
+        self._store.delete(request.name)
+        self._infos.pop(request.name, None)
+        self._announce()
+        response.success, response.message = True, f"'{request.name}' was deleted"
+
+    def _read_catalogue(self) -> None:
+        for trajectory_id in self._store.ids():
+            try:
+                self._infos[trajectory_id] = info_from_head(self._store.head(trajectory_id))
+            except BadInput as error:
+                self.get_logger().error(f"left out of the catalogue: {error}")
+
+    def _announce(self) -> None:
+        infos = [self._infos[key] for key in sorted(self._infos)]
+        self._catalogue.publish(msg.TrajectoryCatalogue(trajectories=infos))
+
+
+def candidate_to_message(candidate: Candidate) -> msg.Candidate:
+    rows, columns = candidate.variable.shape
+    return msg.Candidate(
+        variable=candidate.path,
+        rows=rows,
+        columns=columns,
+        minimum=candidate.minimum,
+        maximum=candidate.maximum,
+        score=candidate.score,
+        why=candidate.why,
+    )
+
+
+def info_from_head(head: dict[str, Any]) -> msg.TrajectoryInfo:
+    """Return the catalogue's entry from the metadata of a trajectory file."""
+    return msg.TrajectoryInfo(
+        id=head["id"],
+        robot_model=head["robot_model"],
+        end_effector=head["end_effector"] or "",
+        source_file=head["source"]["file"],
+        source_variable=head["source"]["variable"],
+        source_sha256=head["source"]["sha256"],
+        created=conversions.stamp(head["created_ns"]),
+        frame_rate=float(head["frame_rate"]),
+        frame_count=head["frame_count"],
+        duration=(head["frame_count"] - 1) / head["frame_rate"],
+        has_gripper=head["has_gripper"],
+        warnings=[conversions.diagnostic_to_message(d) for d in warnings_of(head)],
+    )
+
+
+def main() -> None:
+    """Run the converter alone."""
+    host.main(["converter"])
+
+
+if __name__ == "__main__":
+    main()

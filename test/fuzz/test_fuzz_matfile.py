@@ -1,0 +1,16 @@
+"""A bounded run of the fuzz target; the long one is by hand."""
+
+import pytest
+from fuzz import fuzz_matfile
+
+
+@pytest.mark.parametrize("number", range(7))
+def test_the_seeds_are_read(number):
+    name, data = fuzz_matfile.seeds()[number]
+    assert fuzz_matfile.one(data, name)
+
+
+def test_two_thousand_mutations_are_read_or_refused():
+    taken, refused = fuzz_matfile.bounded(2000, seed=7)
+    assert taken + refused == 2000
+    assert refused > 200

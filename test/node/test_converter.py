@@ -1,0 +1,206 @@
+"""The converter node: services and topics, with real files and a real reading process."""
+
+from concurrent.futures import ThreadPoolExecutor
+
+import numpy as np
+import pytest
+import rclpy
+import scipy.io
+from graph import wait_for
+from mrlab_msgs.msg import Trajectory, TrajectoryCatalogue
+from mrlab_msgs.srv import ConvertTrajectory, GetTrajectory, ListTrajectories, Remove
+from rclpy.context import Context
+from rclpy.executors import MultiThreadedExecutor, SingleThreadedExecutor
+from rclpy.node import Node
+from rclpy.parameter import Parameter
+
+from mrlab_ros import qos
+from mrlab_ros.nodes.converter import ConverterNode
+
+DEADLINE = 60.0  # s; far above what any of this takes
+
+
+class ConverterGraph:
+    """A converter and a client in a context of their own, spun by an executor of either kind."""
+
+    def __init__(self, executor_class, state_dir):
+        self.context = Context()
+        rclpy.init(context=self.context)
+        override = Parameter("state_dir", value=str(state_dir))
+        self.converter = ConverterNode(context=self.context, parameter_overrides=[override])
+        self.client = Node("client", context=self.context)
+        self.executor = executor_class(context=self.context)
+        self.executor.add_node(self.converter)
+        self.executor.add_node(self.client)
+        self.pool = ThreadPoolExecutor(1)
+        self.spinning = self.pool.submit(self.executor.spin)
+
+    def call(self, kind, service, /, **fields):
+        return self.begin(kind, service, **fields)()
+
+    def begin(self, kind, service, /, **fields):
+        client = self.client.create_client(kind, f"/converter/{service}")
+        assert client.wait_for_service(DEADLINE)
+        future = client.call_async(kind.Request(**fields))
+
+        def finish():
+            wait_for(future.done, f"the answer of {service}", DEADLINE)
+            return future.result()
+
+        return finish
+
+    def close(self):
+        self.executor.shutdown()
+        self.spinning.exception(DEADLINE)
+        self.pool.shutdown()
+        self.converter.destroy_node()
+        self.client.destroy_node()
+        rclpy.shutdown(context=self.context)
+
+
+@pytest.fixture(params=[SingleThreadedExecutor, MultiThreadedExecutor])
+def graph(request, tmp_path):
+    graph = ConverterGraph(request.param, tmp_path / "state")
+    yield graph
+    graph.close()
+
+
+def motion(rows=200, joints=6):
+    u = np.linspace(0, 1, rows)[:, None]
+    s = 10 * u**3 - 15 * u**4 + 6 * u**5
+    return s * np.linspace(0.2, 0.9, joints) - 0.3
+
+
+def save(folder, name="pick.mat", **variables):
+    path = folder / name
+    scipy.io.savemat(path, variables, do_compression=True)
+    return path
+
+
+def test_a_file_is_converted_announced_and_fetched(graph, tmp_path):
+    catalogues, converted = [], []
+    graph.client.create_subscription(
+        TrajectoryCatalogue, "/trajectories", catalogues.append, qos.LATCHED
+    )
+    graph.client.create_subscription(
+        Trajectory, "/trajectories/converted", converted.append, qos.EVENTS
+    )
+    wait_for(
+        lambda: catalogues and graph.converter.count_subscribers("/trajectories/converted"),
+        "the topics to be connected",
+    )
+    q = motion()
+    path = save(tmp_path, q=q, fs=50.0)
+
+    answer = graph.call(ConvertTrajectory, "convert", path=str(path), robot_model="ur5e")
+
+    assert answer.success, answer.message
+    assert answer.outcome == ConvertTrajectory.Response.ACCEPTED
+    assert answer.trajectory.id == "pick"
+    assert answer.trajectory.frame_rate == 50.0
+    assert answer.trajectory.source_variable == "q"
+    wait_for(lambda: converted and catalogues[-1].trajectories, "the announcement")
+    assert [t.id for t in catalogues[-1].trajectories] == ["pick"]
+    published = np.array(converted[0].positions).reshape(-1, 6)
+    np.testing.assert_array_equal(published, q)
+
+    fetched = graph.call(GetTrajectory, "get", id="pick")
+    assert fetched.success
+    stored = np.array(fetched.trajectory.positions).reshape(-1, 6)
+    np.testing.assert_allclose(stored, q, rtol=0, atol=1e-12)
+
+
+def test_bytes_with_a_gripper_are_converted_under_the_name_asked_for(graph, tmp_path):
+    q = np.column_stack([motion(), np.arange(200) > 120])
+    data = save(tmp_path, q=q).read_bytes()
+    answer = graph.call(
+        ConvertTrajectory,
+        "convert",
+        data=data,
+        file_name="up load.mat",
+        robot_model="ur5e",
+        end_effector="parallel_gripper",
+        id="mine",
+    )
+    assert answer.success, answer.message
+    assert answer.trajectory.has_gripper
+    gripper = graph.call(GetTrajectory, "get", id="mine").trajectory.gripper
+    np.testing.assert_array_equal(np.array(gripper, bool), np.arange(200) > 120)
+    listed = graph.call(ListTrajectories, "list", robot_model="ur5e")
+    assert not listed.trajectories, "it needs a gripper that is not fitted"
+    listed = graph.call(
+        ListTrajectories, "list", robot_model="ur5e", end_effector="parallel_gripper"
+    )
+    assert [t.id for t in listed.trajectories] == ["mine"]
+
+
+def test_a_doubtful_file_offers_candidates_and_changes_nothing(graph, tmp_path):
+    path = save(tmp_path, q1=motion(), q2=motion() / 2)
+    answer = graph.call(ConvertTrajectory, "convert", path=str(path), robot_model="ur5e")
+    assert not answer.success
+    assert answer.outcome == ConvertTrajectory.Response.AMBIGUOUS
+    assert sorted(c.variable for c in answer.candidates) == ["q1", "q2"]
+    assert answer.diagnostics[0].code == "ambiguous"
+    assert not graph.call(ListTrajectories, "list").trajectories
+
+    chosen = graph.call(
+        ConvertTrajectory, "convert", path=str(path), robot_model="ur5e", variable="q2"
+    )
+    assert chosen.success
+    assert chosen.trajectory.source_variable == "q2"
+
+
+def test_wrong_requests_get_a_sentence(graph, tmp_path):
+    missing = graph.call(
+        ConvertTrajectory, "convert", path=str(tmp_path / "no.mat"), robot_model="ur5e"
+    )
+    assert (missing.outcome, missing.diagnostics[0].code) == (0, "missing")
+    unknown = graph.call(ConvertTrajectory, "convert", path="x.mat", robot_model="r2d2")
+    assert not unknown.success
+    assert "r2d2" in unknown.message
+    assert "ur5e" in unknown.message
+    named = graph.call(
+        ConvertTrajectory, "convert", path="x.mat", robot_model="ur5e", id="../evil"
+    )
+    assert not named.success
+    assert "../evil" in named.message
+    assert not graph.call(GetTrajectory, "get", id="../../etc/passwd").success
+    assert not graph.call(Remove, "delete", name="nothing").success
+
+
+def test_a_trajectory_is_replaced_and_deleted_and_survives_a_restart(tmp_path):
+    path = save(tmp_path, q=motion())
+    for rows in (200, 300):
+        path = save(tmp_path, q=motion(rows))
+        graph = ConverterGraph(SingleThreadedExecutor, tmp_path / "state")
+        answer = graph.call(ConvertTrajectory, "convert", path=str(path), robot_model="ur5e")
+        assert answer.success, answer.message
+        graph.close()
+    graph = ConverterGraph(SingleThreadedExecutor, tmp_path / "state")
+    (info,) = graph.call(ListTrajectories, "list").trajectories
+    assert (info.id, info.frame_count, info.source_file) == ("pick", 300, "pick.mat")
+    assert graph.call(Remove, "delete", name="pick").success
+    assert not graph.call(ListTrajectories, "list").trajectories
+    assert not graph.call(GetTrajectory, "get", id="pick").success
+    graph.close()
+
+
+def test_the_executor_goes_on_while_a_file_is_converted(graph, tmp_path):
+    entered, finish = [], []
+    read = graph.converter._reader.read_file
+
+    def held(path):
+        entered.append(path)
+        wait_for(lambda: finish, "leave to go on", DEADLINE)
+        return read(path)
+
+    graph.converter._reader.read_file = held
+    ticks = []
+    graph.client.create_timer(0.001, lambda: ticks.append(1))
+    path = save(tmp_path, q=motion())
+    answer = graph.begin(ConvertTrajectory, "convert", path=str(path), robot_model="ur5e")
+    wait_for(lambda: entered, "the conversion to begin")
+    seen = len(ticks)
+    wait_for(lambda: len(ticks) > seen + 20, "the timer to go on")
+    finish.append(1)
+    assert answer().success

@@ -1,0 +1,101 @@
+"""The `mrlab convert` command as a student runs it."""
+
+import json
+import subprocess
+import sys
+
+import numpy as np
+import pytest
+import scipy.io
+
+from mrlab_ros.adapters.trajectory_store import parse
+from mrlab_ros.conversion import load_coefficients
+from mrlab_ros.share import directory
+
+
+def motion(rows=200):
+    u = np.linspace(0, 1, rows)[:, None]
+    return (10 * u**3 - 15 * u**4 + 6 * u**5) * np.linspace(0.2, 0.9, 6) - 0.3
+
+
+def run(*arguments):
+    return subprocess.run(
+        [
+            sys.executable,
+            "-m",
+            "mrlab_ros.cli",
+            "convert",
+            "--robot",
+            "ur5e",
+            *map(str, arguments),
+        ],
+        capture_output=True,
+        text=True,
+        timeout=100,
+    )
+
+
+@pytest.fixture
+def folder(tmp_path):
+    inside = tmp_path / "in"
+    inside.mkdir()
+    q = np.column_stack([motion(), np.arange(200) > 100])
+    scipy.io.savemat(inside / "good.mat", {"q": q, "fs": 50.0})
+    scipy.io.savemat(inside / "two.mat", {"q1": motion(), "q2": motion()})
+    (inside / "bad.mat").write_text("q = 1;")
+    return inside
+
+
+def test_one_json_object_a_file_and_the_exit_code_of_the_worst(folder, tmp_path):
+    done = run("--json", "--out", tmp_path / "out", folder)
+    assert done.returncode == 1, done.stderr
+    bad, good, two = (json.loads(line) for line in done.stdout.splitlines())
+    assert (bad["outcome"], bad["diagnostics"][0]["code"]) == ("rejected", "unsupported_format")
+    assert (two["outcome"], two["trajectory"]) == ("ambiguous", None)
+    assert [c["variable"] for c in two["candidates"]] == ["q1", "q2"]
+    assert set(two["candidates"][0]) >= {"variable", "shape", "score", "why"}
+    assert good["outcome"] == "accepted"
+    assert good["variable"] == "q"
+    assert good["shape"] == [200, 7]
+    assert good["has_gripper"] is True
+    assert good["frame_rate"] == 50.0
+    coefficients = load_coefficients(directory() / "config" / "torque_proxy.yaml")
+    with open(good["trajectory"], "rb") as file:
+        trajectory = parse(file.read(), "good.json", coefficients)
+    np.testing.assert_allclose(trajectory.positions, motion(), rtol=0, atol=1e-12)
+
+
+def test_the_choice_is_a_table_and_exit_code_2(folder):
+    done = run(folder / "two.mat")
+    assert done.returncode == 2, done.stderr
+    assert "q1" in done.stdout
+    assert "▁" in done.stdout
+    assert "--variable NAME" in done.stdout.replace("\n", " ")
+
+
+@pytest.mark.parametrize("form", ["csv", "mat", "npz", "json"])
+def test_what_is_written_is_read_again(form, folder, tmp_path):
+    out = tmp_path / "out"
+    done = run("--out", out, "--to", form, "--plot", out, folder / "good.mat")
+    assert done.returncode == 0, done.stderr
+    assert (out / "good.png").stat().st_size > 10_000
+    if form != "json":
+        again = run("--json", out / f"good.{form}")
+        record = json.loads(again.stdout)
+        assert record["outcome"] == "accepted", record
+        assert (record["shape"], record["frame_rate"]) == ([200, 7], 50.0)
+
+
+@pytest.mark.parametrize(
+    ("arguments", "words"),
+    [
+        (["--robot", "r2d2", "x.mat"], "r2d2"),
+        (["--to", "doc", "x.mat"], "csv"),
+        (["--end-effector", "hook", "x.mat"], "hook"),
+    ],
+)
+def test_a_wrong_call_is_one_sentence(arguments, words):
+    done = run(*arguments)
+    assert done.returncode == 1
+    assert words in done.stderr
+    assert "Traceback" not in done.stderr
