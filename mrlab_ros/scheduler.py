@@ -19,6 +19,10 @@ from mrlab_ros.core.playback import Playback, Sample, Snapshot
 PR_SET_TIMERSLACK = 29
 # The longest the thread sleeps without a deadline, s.
 IDLE_SLEEP = 1.0
+# A sleep ends about this much late, and preparing a joint state takes about this long, ns: the
+# thread wakes so much early and lets them leave when they are due.
+WAKE_NS = 150_000
+PREPARE_NS = 15_000
 # A thread that runs Python may keep the deadline thread waiting this long, s. Python's own
 # 5 ms would be half a period at 100 Hz.
 SWITCH_INTERVAL = 0.0005
@@ -58,19 +62,19 @@ class Player:
         self.error_ns = 0
         self.error_max_ns = 0
 
-    def serve(self, now_ns: Callable[[], int]) -> None:
-        """Send the joint state that is due, then announce what changed."""
-        sample = self.playback.tick(now_ns())
-        if sample is not None:
-            self._send(sample)
-            self.last = sample
-            if sample.streamed:
-                self.error_ns = now_ns() - sample.due_ns
-                first = self.playback.sent <= 1
-                self.error_max_ns = (
-                    self.error_ns if first else max(self.error_max_ns, self.error_ns)
-                )
-        self.announce(now_ns())
+    def prepare(self, now_ns: int) -> Sample | None:
+        """Take the joint state that is due, or that will be within moments."""
+        due_ns = self.playback.due_ns()
+        return None if due_ns is None else self.playback.tick(max(now_ns, due_ns))
+
+    def send(self, sample: Sample, now_ns: Callable[[], int]) -> None:
+        """Send a joint state that was prepared; note how punctual that was."""
+        self._send(sample)
+        self.last = sample
+        if sample.streamed:
+            self.error_ns = now_ns() - sample.due_ns
+            first = self.playback.sent <= 1
+            self.error_max_ns = self.error_ns if first else max(self.error_max_ns, self.error_ns)
 
     def announce(self, now_ns: int) -> None:
         for snapshot in self.playback.take_snapshots():
@@ -120,23 +124,46 @@ class Scheduler:
         now_ns = self.clock.now_ns
         with self._changed:
             while self._running:
-                wait = IDLE_SLEEP * SECOND
+                early_ns = WAKE_NS + PREPARE_NS * len(self._players)
+                horizon_ns = now_ns() + early_ns
+                wait_ns = IDLE_SLEEP * SECOND
+                batch = []
                 for player in self._players:
                     due_ns = player.playback.due_ns()
                     if due_ns is None:
                         continue
-                    if due_ns <= now_ns():
-                        try:
-                            player.serve(now_ns)
-                        except Exception:
-                            # One robot's trouble must not stop the others.
-                            traceback.print_exc()
-                        due_ns = player.playback.due_ns()
-                        if due_ns is None:
-                            continue
-                    wait = min(wait, due_ns - now_ns())
-                if wait > 0:
-                    self._changed.wait(wait / SECOND)
+                    if due_ns <= horizon_ns:
+                        batch.append((due_ns, player))
+                    else:
+                        wait_ns = min(wait_ns, due_ns - horizon_ns)
+                if batch:
+                    self._serve(batch)
+                else:
+                    self._changed.wait(wait_ns / SECOND)
+
+    def _serve(self, batch: list[tuple[int, Player]]) -> None:
+        """Prepare what is due together, then let it leave together, each at its deadline."""
+        now_ns = self.clock.now_ns
+        begin_ns = now_ns()
+        ready = []
+        for due_ns, player in sorted(batch, key=lambda item: item[0]):
+            try:
+                sample = player.prepare(begin_ns)
+            except Exception:
+                # One robot's trouble must not stop the others.
+                traceback.print_exc()
+                continue
+            if sample is not None:
+                ready.append((due_ns, player, sample))
+        for due_ns, player, sample in ready:
+            while now_ns() < due_ns:
+                pass
+            try:
+                player.send(sample, now_ns)
+            except Exception:
+                traceback.print_exc()
+        for _, player in batch:
+            player.announce(now_ns())
 
 
 class Command:

@@ -80,7 +80,8 @@ class Playback:
         self._message = ""
         self._arm: Array = model.home
         self._next_ns: int | None = 0
-        self._tick = 0
+        # The next joint state: its number at this rate, its position (s) and its deadline.
+        self._tick, self._place, self._due_ns = 0, 0.0, 0
         self._streamed: float | None = None
         self._motion: Motion | None = None
         self._motion_start_ns = 0
@@ -214,7 +215,8 @@ class Playback:
                 raise Misuse(f"has passed {until:g} s already; pause, then seek back")
         self._until = until
         if self.state is State.PLAYING:
-            self._next_ns = self._due(self._tick)
+            self._take_up(self._tick)
+            self._next_ns = self._due_ns
 
     def set_loop(self, loop: bool, by: str = "") -> None:
         """Set whether the trajectory starts over after its last frame."""
@@ -265,7 +267,7 @@ class Playback:
         if self.state is State.ADJUSTING:
             return self._adjust(now_ns)
         self._next_ns = None if self._standing_ns is None else now_ns + self._standing_ns
-        return self._sample(now_ns, self._arm, np.zeros_like(self._arm), streamed=False)
+        return self._unstreamed(now_ns, np.zeros_like(self._arm))
 
     def take_snapshots(self) -> list[Snapshot]:
         """Return the snapshots of all changes since the last call, oldest first."""
@@ -348,7 +350,6 @@ class Playback:
         self._stand(now_ns, after(self.state, Event.STAGE), position, "moves to the start")
         self._motion, self._motion_start_ns = motion, now_ns
         self._play_on_arrival = play_on_arrival
-        self._tick = 0
         return motion.duration
 
     def _begin(self, start_ns: int, position: float, state: State) -> None:
@@ -371,40 +372,39 @@ class Playback:
     def _aim(self, position: float, *, skip: bool) -> None:
         """Aim at the first joint state at (or, with skip, after) `position` (s)."""
         ticks = position / self._step
-        self._tick = math.floor(ticks + 1e-6) + 1 if skip else math.ceil(ticks - 1e-6)
-        self._next_ns = self._due(self._tick)
+        self._take_up(math.floor(ticks + 1e-6) + 1 if skip else math.ceil(ticks - 1e-6))
+        self._next_ns = self._due_ns
 
     @property
     def _end(self) -> float:
         """Return where this run ends, s."""
         return self._loaded().duration if self._until is None else self._until
 
-    def _place(self, tick: int) -> float:
-        """Return the position of a joint state, s; the last one's is the duration itself."""
+    def _take_up(self, tick: int) -> None:
+        """Make `tick` the next joint state: its position, the last one's being the end itself."""
         trajectory = self._loaded()
-        position = tick * self.rate / trajectory.frame_rate
-        end = self._end
-        return end if position > end - ON_FRAME / trajectory.frame_rate else position
-
-    def _due(self, tick: int) -> int:
-        return self.clock.due(self._place(tick))
+        position, end = tick * self.rate / trajectory.frame_rate, self._end
+        if position > end - ON_FRAME / trajectory.frame_rate:
+            position = end
+        self._tick, self._place = tick, position
+        self._due_ns = self.clock.due(position)
 
     def _stream(self, now_ns: int) -> Sample:
         trajectory = self._loaded()
-        if now_ns - self._due(self._tick) > LOST_AFTER_NS:
+        if now_ns - self._due_ns > LOST_AFTER_NS:
             newest = math.floor(min(self.clock.at(now_ns), self._end) / self._step)
             self.lost += max(newest - self._tick, 0)
-            self._tick = max(newest, self._tick)
-        position = self._place(self._tick)
-        due_ns = self._due(self._tick)
+            self._take_up(max(newest, self._tick))
+        position, due_ns = self._place, self._due_ns
         self._streamed = position
-        self._arm = trajectory.sample(position)
-        velocities = trajectory.velocity_at(position) * self.rate
-        sample = self._sample(due_ns, self._arm, velocities, streamed=True)
+        frame, self._arm, velocities = trajectory.at(position)
+        if self.rate != 1.0:
+            velocities = velocities * self.rate
+        sample = Sample(due_ns, self._arm, velocities, position, frame, True)
         self.sent += 1
-        self._tick += 1
+        self._take_up(self._tick + 1)
         period_ns = SECOND / trajectory.frame_rate
-        self._next_ns = max(self._due(self._tick), now_ns + round(CATCH_UP_SPACING * period_ns))
+        self._next_ns = max(self._due_ns, now_ns + round(CATCH_UP_SPACING * period_ns))
         if position >= trajectory.duration:
             self._finish(due_ns, round(period_ns))
         elif position == self._until:
@@ -430,7 +430,7 @@ class Playback:
         due_ns = self._next_ns
         elapsed = (due_ns - self._motion_start_ns) / SECOND
         self._arm, velocities = self._motion.at(elapsed)
-        sample = self._sample(due_ns, self._arm, velocities, streamed=False)
+        sample = self._unstreamed(due_ns, velocities)
         rate = self.trajectory.frame_rate if self.trajectory else MOTION_RATE
         # A motion that fell behind goes on from the present: nobody counts its joint states.
         self._next_ns = max(due_ns, now_ns - round(SECOND / rate)) + round(SECOND / rate)
@@ -442,9 +442,6 @@ class Playback:
                 self._stand(due_ns, after(self.state, Event.STAGED), position, "at the start")
         return sample
 
-    def _sample(
-        self, due_ns: int, positions: Array, velocities: Array, *, streamed: bool
-    ) -> Sample:
-        position = self._streamed if streamed else self.clock.position
-        assert position is not None
-        return Sample(due_ns, positions, velocities, position, self.frame, streamed)
+    def _unstreamed(self, due_ns: int, velocities: Array) -> Sample:
+        """Return a joint state of an arm that is not on its way along the trajectory."""
+        return Sample(due_ns, self._arm, velocities, self.clock.position, self.frame, False)

@@ -12,8 +12,24 @@ from mrlab_ros.core.errors import BadInput, Misuse
 NAME = re.compile(r"[a-z][a-z0-9_]{0,62}")
 # Names below which the lab's own topics and services live.
 RESERVED = frozenset(
-    "bridge converter coordinator lab objects physics playback_host recorder robots surfaces "
-    "systems trajectories contacts tf tf_static rosout".split()
+    {
+        "bridge",
+        "contacts",
+        "converter",
+        "coordinator",
+        "lab",
+        "objects",
+        "physics",
+        "playback_host",
+        "recorder",
+        "robots",
+        "rosout",
+        "surfaces",
+        "systems",
+        "tf",
+        "tf_static",
+        "trajectories",
+    }
 )
 # Robots placed automatically stand this share of their reaches apart, so that two arms can meet
 # but not stand in each other.

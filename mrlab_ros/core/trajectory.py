@@ -6,6 +6,7 @@ The lab's own unit is the radian. Degrees appear in the trajectory file alone
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass, field
 from functools import cached_property
 
@@ -95,7 +96,7 @@ class Trajectory:
         if self.gripper is not None:
             self.gripper.setflags(write=False)
 
-    @property
+    @cached_property
     def frame_count(self) -> int:
         return len(self.positions)
 
@@ -109,27 +110,29 @@ class Trajectory:
 
         Before the first frame that is 0, after the last frame the last one.
         """
-        frame = int(np.floor(position * self.frame_rate + ON_FRAME))
+        frame = math.floor(position * self.frame_rate + ON_FRAME)
         return min(max(frame, 0), self.frame_count - 1)
 
-    def sample(self, position: float) -> Array:
-        """Return the joint positions, (J,) rad, at `position` (s).
+    def at(self, position: float) -> tuple[int, Array, Array]:
+        """Return the frame, the joint positions and the velocities at `position` (s).
 
-        Exactly the frame's values on a frame, linear between two frames, the first frame's
-        before it and the last frame's after it.
+        Positions (J,) rad and velocities (J,) rad/s are exactly the frame's values on a frame,
+        linear between two frames, the first frame's before it and the last frame's after it.
         """
-        return self._between(self.positions, position)
-
-    def velocity_at(self, position: float) -> Array:
-        """Return the joint velocities, (J,) rad/s, at `position` (s), as sample() does."""
-        return self._between(self.channels.velocities, position)
-
-    def _between(self, rows: Array, position: float) -> Array:
         frame = self.frame_at(position)
+        positions, velocities = self.positions, self.channels.velocities
         share = position * self.frame_rate - frame
         if share <= ON_FRAME or frame == self.frame_count - 1:
-            return rows[frame]
-        return rows[frame] + share * (rows[frame + 1] - rows[frame])
+            return frame, positions[frame], velocities[frame]
+        return (
+            frame,
+            positions[frame] + share * (positions[frame + 1] - positions[frame]),
+            velocities[frame] + share * (velocities[frame + 1] - velocities[frame]),
+        )
+
+    def sample(self, position: float) -> Array:
+        """Return the joint positions, (J,) rad, at `position` (s), as at() does."""
+        return self.at(position)[1]
 
     def gripper_at(self, position: float) -> bool | None:
         """Return the gripper state at `position` (s): the last frame's, never interpolated."""

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from functools import partial
 from typing import Any
 
 from mrlab_msgs import msg, srv
@@ -318,13 +319,13 @@ class CoordinatorNode(Node):
         """Tell every system what `robot` holds: a wait may name a robot of another system."""
         for system in self._systems:
             before = system.state, system.message, self._held(system)
-            self._guarded(lambda system=system: system.grasped(self._now_ns(), robot, held))
+            self._guarded(partial(system.grasped, self._now_ns(), robot, held))
             self._announce(system, before)
 
     def _poll(self) -> None:
         for system in self._systems:
             before = system.state, system.message, self._held(system)
-            self._guarded(lambda system=system: system.poll(self._now_ns()))
+            self._guarded(partial(system.poll, self._now_ns()))
             self._announce(system, before)
 
     def _patience(self) -> float | None:

@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
+from fakes import SECOND, StraightPlanner, make_model, make_trajectory
 from hypothesis import given
 from hypothesis import strategies as st
 
 from mrlab_ros.core.errors import BadInput, LabError, Misuse
 from mrlab_ros.core.playback import LOST_AFTER_NS, Playback, Sample
 from mrlab_ros.core.playback_states import COMMANDS, TRANSITIONS, Event, State
-from fakes import SECOND, StraightPlanner, make_model, make_trajectory
 
 PERIOD = SECOND // 100
 START = 7 * SECOND

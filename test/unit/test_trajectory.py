@@ -49,7 +49,7 @@ def test_on_a_frame_it_gives_exactly_that_frame(trajectory: Trajectory) -> None:
         assert trajectory.frame_at(position) == frame
         assert np.array_equal(trajectory.sample(position), trajectory.positions[frame])
         assert np.array_equal(
-            trajectory.velocity_at(position), trajectory.channels.velocities[frame]
+            trajectory.at(position)[2], trajectory.channels.velocities[frame]
         )
 
 
