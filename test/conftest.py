@@ -7,6 +7,11 @@ from collections.abc import Iterator
 
 import domain_coordinator
 import pytest
+from hypothesis import settings
+
+# How long an example takes is the machine's affair: a timing is a benchmark, never a test.
+settings.register_profile("lab", deadline=None)
+settings.load_profile("lab")
 
 
 @pytest.fixture(scope="session", autouse=True)

@@ -6,6 +6,7 @@ import itertools
 import math
 import re
 from dataclasses import dataclass, replace
+from functools import cache
 
 from mrlab_ros.core.errors import BadInput, Misuse
 
@@ -36,6 +37,15 @@ RESERVED = frozenset(
 SPACING = 0.75
 GRID = 0.25
 GRID_RADIUS = 80
+
+
+@cache
+def _cells() -> tuple[tuple[float, float], ...]:
+    """Return the places of the floor's grid, m, nearest to the origin first."""
+    steps = range(-GRID_RADIUS, GRID_RADIUS + 1)
+    # To the left of the origin before the right, and beside it before behind it.
+    cells = sorted(itertools.product(steps, steps), key=lambda c: (math.hypot(*c), c[0], -c[1]))
+    return tuple((i * GRID, j * GRID) for i, j in cells)
 
 
 def checked_name(name: str, taken: frozenset[str], what: str) -> str:
@@ -110,13 +120,7 @@ class Scene:
 
     def free_pose(self, reach: float) -> Pose:
         """Return the place nearest to the origin on the floor that keeps clear of all robots."""
-        steps = range(-GRID_RADIUS, GRID_RADIUS + 1)
-        # To the left of the origin before the right, and beside it before behind it.
-        cells = sorted(
-            itertools.product(steps, steps), key=lambda c: (math.hypot(*c), c[0], -c[1])
-        )
-        for i, j in cells:
-            x, y = i * GRID, j * GRID
+        for x, y in _cells():
             if all(
                 math.hypot(x - r.pose.position[0], y - r.pose.position[1])
                 >= SPACING * (reach + r.reach)
