@@ -6,14 +6,26 @@ from __future__ import annotations
 import argparse
 import re
 import sys
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
+from enum import Enum
 from pathlib import Path
 
-from mrlab_ros.core import playback_states
+from mrlab_ros.core import playback_states, robot_systems
 
 DOCS = Path(__file__).resolve().parent.parent / "docs"
+
+
+def diagram(transitions: Mapping[tuple[Enum, Enum], Enum], first: str) -> str:
+    """Draw a table of transitions as a Mermaid state diagram."""
+    lines = ["```mermaid", "stateDiagram-v2", f"    [*] --> {first}"]
+    for (state, event), target in transitions.items():
+        lines.append(f"    {state.name} --> {target.name}: {event.value}")
+    return "\n".join([*lines, "```"])
+
+
 BLOCKS: dict[tuple[str, str], Callable[[], str]] = {
-    ("playback.md", "playback states"): lambda: f"```mermaid\n{playback_states.mermaid()}\n```",
+    ("playback.md", "playback states"): lambda: diagram(playback_states.TRANSITIONS, "IDLE"),
+    ("systems.md", "system states"): lambda: diagram(robot_systems.TRANSITIONS, "READY"),
 }
 
 

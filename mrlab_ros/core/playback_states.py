@@ -1,6 +1,6 @@
 """The seven states of a robot's playback, in one table that nothing else decides.
 
-`docs/playback.md` shows the diagram that `mermaid()` draws from the table.
+`docs/playback.md` shows the diagram that is drawn from the table.
 """
 
 from __future__ import annotations
@@ -91,11 +91,3 @@ def after(state: State, event: Event) -> State:
         raise IllegalEvent(
             f"cannot {event.value} in {state.name}; possible now: {allowed}"
         ) from None
-
-
-def mermaid() -> str:
-    """Draw the table as a Mermaid state diagram."""
-    lines = ["stateDiagram-v2", "    [*] --> IDLE"]
-    for (state, event), target in TRANSITIONS.items():
-        lines.append(f"    {state.name} --> {target.name}: {event.value}")
-    return "\n".join(lines)

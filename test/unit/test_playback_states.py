@@ -11,7 +11,6 @@ from mrlab_ros.core.playback_states import (
     Event,
     State,
     after,
-    mermaid,
     possible,
 )
 
@@ -49,8 +48,3 @@ def test_the_design_s_path_is_in_the_table():
 def test_only_physics_ends_a_halt_with_motion_possible_again():
     leaving = {e for (s, e), t in TRANSITIONS.items() if s is State.COLLISION_HALT and t is not s}
     assert leaving == {Event.CLEARED}
-
-
-def test_the_diagram_shows_every_transition_and_nothing_else():
-    arrows = [line for line in mermaid().splitlines() if "-->" in line and "[*]" not in line]
-    assert len(arrows) == len(TRANSITIONS)
