@@ -13,7 +13,6 @@ import os
 import signal
 import subprocess
 import sys
-import threading
 import time
 from collections.abc import Callable, Iterator
 from typing import Any
@@ -22,7 +21,6 @@ import numpy as np
 import rclpy
 import report
 from mrlab_msgs import msg, srv
-from rclpy.executors import MultiThreadedExecutor
 from rclpy.node import Node
 from std_srvs.srv import Trigger
 
@@ -30,7 +28,7 @@ from mrlab_ros import conversions, qos, share
 from mrlab_ros.adapters.robot_library import RobotLibrary
 from mrlab_ros.core.trajectory import Channels, Source, Trajectory
 from mrlab_ros.nodes.playback import PlaybackHostNode
-from mrlab_ros.spinning import spin
+from mrlab_ros.spinning import SpunNode
 
 MODEL = "ur5e"
 SECONDS = 20.0
@@ -112,11 +110,7 @@ def measure(members: int, rounds: int) -> dict[str, Any]:
     """Measure a system of `members` robots over `rounds` starts and pauses."""
     rclpy.init()
     host, bench = PlaybackHostNode(), Bench()
-    executor = MultiThreadedExecutor(num_threads=4)
-    for node in (host, bench):
-        executor.add_node(node)
-    host.adopt(executor)
-    threading.Thread(target=spin, args=(executor,), daemon=True).start()
+    spun = [SpunNode(host), SpunNode(bench)]
     sent: dict[str, list[int]] = {}
 
     def watch(robot: str) -> None:
@@ -168,6 +162,8 @@ def measure(members: int, rounds: int) -> dict[str, Any]:
             bench.ask(Trigger, "/cell/pause")
             pauses.append(max(times[-1] for times in sent.values()) - begin_ns)
             wait(lambda: bench.label() == "PAUSED", "the pause")
+    for node in spun:
+        node.close()
     skew = report.percentiles([s * 1e-6 for s in skews])
     pause = report.percentiles([max(p, 0) * 1e-6 for p in pauses])
     return {

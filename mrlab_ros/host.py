@@ -3,17 +3,16 @@
 from __future__ import annotations
 
 import importlib
-import os
 import signal
 import sys
+import time
 
 import rclpy
 import rclpy.utilities
-from rclpy.executors import ExternalShutdownException, MultiThreadedExecutor
 from rclpy.node import Node
 
 from mrlab_ros.core.errors import LabError
-from mrlab_ros.spinning import spin
+from mrlab_ros.spinning import SpunNode
 
 NODES = {
     "bridge": "BridgeNode",
@@ -22,8 +21,8 @@ NODES = {
     "lab": "LabNode",
     "playback": "PlaybackHostNode",
 }
-# Service callbacks may wait for another node's answer; so many can wait at once.
-THREADS = 4
+# How often a process looks whether it was asked to stop, s.
+LOOK = 0.1
 
 
 def make(name: str) -> Node:
@@ -51,42 +50,29 @@ def main(names: list[str] | None = None) -> None:
 def run(names: list[str]) -> int:
     """Spin the nodes until SIGINT or SIGTERM; return the process's exit code."""
     rclpy.init()
-    nodes: list[Node] = []
+    # rclpy's own handler of SIGTERM shuts the context down and calls nobody.
+    running = rclpy.get_default_context().ok
+    spun: list[SpunNode] = []
     try:
-        executor = MultiThreadedExecutor(num_threads=THREADS)
         for name in names:
-            nodes.append(make(name))
-            executor.add_node(nodes[-1])
-            # A node that makes further nodes has them spun beside it.
-            adopt = getattr(nodes[-1], "adopt", None)
-            if adopt is not None:
-                adopt(executor)
-        spin(executor)
+            spun.append(SpunNode(make(name)))
+        while running():
+            time.sleep(LOOK)
         return 0
     except LabError as error:
-        print(
-            f"{names[len(nodes)] if len(nodes) < len(names) else 'host'}: {error}",
-            file=sys.stderr,
-            flush=True,
-        )
+        print(f"{names[len(spun)]}: {error}", file=sys.stderr, flush=True)
         return 1
-    except (KeyboardInterrupt, ExternalShutdownException):
+    except KeyboardInterrupt:
         return 0
     finally:
         # A second Ctrl-C must not cut the tidying short: the supervisor sets the deadline.
         signal.signal(signal.SIGINT, signal.SIG_IGN)
-        for node in reversed(nodes):
-            node.destroy_node()
         rclpy.utilities.try_shutdown()
+        for node in reversed(spun):
+            node.close()
         sys.stdout.flush()
         sys.stderr.flush()
 
 
 if __name__ == "__main__":
-    try:
-        main()
-    except SystemExit as end:
-        # rclpy's threads may outlive an executor that was interrupted; nothing is left to do.
-        if isinstance(end.code, int):
-            os._exit(end.code)
-        raise
+    main()

@@ -1,27 +1,89 @@
-"""Spins an executor whose nodes come and go while it waits."""
+"""How the lab's nodes are spun: each in a thread of its own, by rclpy's events executor.
+
+The events executor hands on what arrives without building a wait set of everything that could:
+with fifty robots that is 0.03 ms an event instead of several. Two of its ways shape this module:
+waiting without a time-out it never wakes, so it is asked to wait for a moment at a time; and a
+callback that waits for an answer must not be spun by the thread that brings it, so a node that
+calls others does that through a `Caller`.
+"""
 
 from __future__ import annotations
 
+import threading
 import traceback
 
+from rclpy.context import Context
 from rclpy.executors import Executor, ExternalShutdownException
+from rclpy.experimental.events_executor import EventsExecutor
 from rclpy.impl.implementation_singleton import rclpy_implementation
+from rclpy.node import Node
+from rclpy.task import Future
+
+# The longest the executor waits at a time, s; what arrives is handed on at once all the same.
+MOMENT = 0.2
 
 
-def spin(executor: Executor) -> None:
-    """Spin until the context is shut down or the executor is.
+def make_executor(context: Context) -> Executor:
+    """Return the executor that spin() is for."""
+    return EventsExecutor(context=context)
 
-    A node or client that another thread destroys may still be in the wait set; rclpy then raises
-    InvalidHandle, and the next round no longer has it. Whatever else a callback raises is
-    printed: one node's mistake must not take the other nodes of the process down.
+
+def spin(executor: Executor, context: Context, stop: threading.Event | None = None) -> None:
+    """Spin until the context is shut down, SIGINT arrives, or `stop` is set.
+
+    What a callback raises is printed: one robot's trouble must not stop the others. A callback
+    of something that another thread has just destroyed raises InvalidHandle and is forgotten.
     """
-    while executor.context.ok():
+    never = Future()
+    while context.ok() and not (stop is not None and stop.is_set()):
         try:
-            executor.spin()
-            return
+            executor.spin_until_future_complete(never, timeout_sec=MOMENT)
         except (KeyboardInterrupt, ExternalShutdownException):
             return
         except rclpy_implementation.InvalidHandle:
             continue
         except Exception:
             traceback.print_exc()
+
+
+class SpunNode:
+    """A node with an executor and a thread of its own."""
+
+    def __init__(self, node: Node) -> None:
+        self.node = node
+        self.executor = make_executor(node.context)
+        self.executor.add_node(node)
+        adopt = getattr(node, "adopt", None)
+        if adopt is not None:
+            # A node that makes further nodes has them spun beside it.
+            adopt(self.executor)
+        self._stop = threading.Event()
+        self._thread = threading.Thread(
+            target=spin,
+            args=(self.executor, node.context, self._stop),
+            name=node.get_name(),
+            daemon=True,
+        )
+        self._thread.start()
+
+    def close(self) -> None:
+        """Stop spinning, then destroy the node."""
+        self._stop.set()
+        self.executor.wake()
+        self._thread.join()
+        self.node.destroy_node()
+        self.executor.shutdown()
+
+
+class Caller(SpunNode):
+    """A hidden node beside `owner` through which it calls and hears other nodes."""
+
+    def __init__(self, owner: Node) -> None:
+        super().__init__(
+            Node(
+                f"_{owner.get_name()}_caller",
+                context=owner.context,
+                start_parameter_services=False,
+                enable_rosout=False,
+            )
+        )

@@ -2,17 +2,15 @@
 
 from __future__ import annotations
 
-import threading
 import time
 from collections.abc import Callable
 from typing import Any, TypeVar
 
 import rclpy
-from rclpy.executors import MultiThreadedExecutor
 from rclpy.node import Node
 from rclpy.qos import QoSProfile
 
-from mrlab_ros.spinning import spin
+from mrlab_ros.spinning import SpunNode
 
 Value = TypeVar("Value")
 
@@ -40,28 +38,20 @@ class Graph:
     def __init__(self) -> None:
         self.context = rclpy.Context()
         self.context.init()
-        self.executor = MultiThreadedExecutor(num_threads=6, context=self.context)
-        self._nodes: list[Node] = []
+        self._spun: dict[Node, SpunNode] = {}
         self.client = Node("test_client", context=self.context)
-        self.executor.add_node(self.client)
-        self._thread = threading.Thread(target=spin, args=(self.executor,), daemon=True)
-        self._thread.start()
+        self._client_spun = SpunNode(self.client)
 
     def add(self, make: Callable[..., Node], **parameters: Any) -> Any:
         """Make a node of the lab in this graph, with parameters."""
         overrides = [rclpy.parameter.Parameter(k, value=v) for k, v in parameters.items()]
         node = make(context=self.context, parameter_overrides=overrides)
-        self._nodes.append(node)
-        self.executor.add_node(node)
-        adopt = getattr(node, "adopt", None)
-        if adopt is not None:
-            adopt(self.executor)
+        self._spun[node] = SpunNode(node)
         return node
 
     def drop(self, node: Node) -> None:
-        self._nodes.remove(node)
-        self.executor.remove_node(node)
-        node.destroy_node()
+        """Take a node of the lab out of the graph, as if its process had ended."""
+        self._spun.pop(node).close()
 
     def call(self, kind: Any, service: str, /, timeout: float = 15.0, **fields: Any) -> Any:
         """Call a service and return its answer."""
@@ -79,9 +69,6 @@ class Graph:
         return inbox
 
     def close(self) -> None:
-        for node in reversed(self._nodes):
-            self.executor.remove_node(node)
-            node.destroy_node()
-        self.executor.shutdown()
-        self._thread.join(10)
         self.context.try_shutdown()
+        for spun in (*reversed(self._spun.values()), self._client_spun):
+            spun.close()

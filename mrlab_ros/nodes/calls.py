@@ -19,8 +19,7 @@ class NoAnswer(LabError):
 def call(client: Client, request: Any, timeout: float = 5.0) -> Any:
     """Return the service's answer; raise NoAnswer after `timeout` s.
 
-    For use off the executor, or inside a callback whose executor has a thread left; the client
-    must not share a mutually exclusive callback group with the caller.
+    The client must be spun by another thread than this one: a `spinning.Caller` has such.
     """
     return call_all([(client, request)], timeout)[0]
 

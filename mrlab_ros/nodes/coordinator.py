@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
+import threading
 from collections.abc import Callable, Sequence
 from functools import partial
 from typing import Any
 
 from mrlab_msgs import msg, srv
-from rclpy.callback_groups import MutuallyExclusiveCallbackGroup, ReentrantCallbackGroup
+from rclpy.client import Client
 from rclpy.context import Context
 from rclpy.node import Node
 from rclpy.parameter import Parameter
@@ -30,107 +31,134 @@ from mrlab_ros.core.robot_systems import (
 )
 from mrlab_ros.core.waits import parse
 from mrlab_ros.nodes.answers import answered
-from mrlab_ros.nodes.calls import call, call_all
+from mrlab_ros.nodes.calls import NoAnswer, call, call_all
 from mrlab_ros.nodes.worker import Worker
+from mrlab_ros.spinning import Caller
 
-Drive = srv.Drive.Request
+Claim = msg.DriveOrder
 # How often a moving system looks for what time has made due, s.
 POLL = 0.02
 LOAD_TIMEOUT = 15.0
+FIND_TIMEOUT = 5.0
 
 
 class Link:
     """What the coordinator holds of one robot: its services and its newest state."""
 
-    def __init__(self, node: CoordinatorNode, robot: str) -> None:
+    def __init__(self, coordinator: CoordinatorNode, robot: str) -> None:
         self.robot = robot
         self.state: msg.PlaybackState | None = None
+        self._known = threading.Event()
         # A state from before the last reply says nothing of how things are now.
         self.replied_ns = 0
-        self._node = node
-        group = node.client_group
-        self.load = node.create_client(srv.LoadTrajectory, f"/{robot}/load", callback_group=group)
-        self.drive = node.create_client(srv.Drive, f"/{robot}/drive", callback_group=group)
+        self._coordinator = coordinator
+        self._node = coordinator.caller.node
+        self.load = self._node.create_client(srv.LoadTrajectory, f"/{robot}/load")
         self._subscriptions = [
-            node.create_subscription(
-                kind, f"/{robot}/{topic}", callback, qos.LATCHED, callback_group=node.state_group
-            )
+            self._node.create_subscription(kind, f"/{robot}/{topic}", callback, qos.LATCHED_EVENTS)
             for kind, topic, callback in (
                 (msg.PlaybackState, "playback_state", self._on_state),
                 (msg.Grasp, "grasp", self._on_grasp),
             )
         ]
 
+    def host(self) -> str:
+        """Return the node that plays the robot; raise NoAnswer where none says it does."""
+        if not self._known.wait(FIND_TIMEOUT) or self.state is None:
+            raise NoAnswer(
+                f"no playback tells the state of {self.robot}; is the playback running?"
+            )
+        return str(self.state.host)
+
     def _on_state(self, message: msg.PlaybackState) -> None:
-        self._node.worker.later(lambda: self._node.follow(self, message))
+        self.state = message
+        self._known.set()
+        self._coordinator.worker.later(lambda: self._coordinator.follow(self, message))
 
     def _on_grasp(self, message: msg.Grasp) -> None:
         held = message.object if message.state == msg.Grasp.HOLDING else None
-        self._node.worker.later(lambda: self._node.grasped(self.robot, held))
+        self._coordinator.worker.later(lambda: self._coordinator.grasped(self.robot, held))
 
     def close(self) -> None:
         for subscription in self._subscriptions:
             self._node.destroy_subscription(subscription)
         self._node.destroy_client(self.load)
-        self._node.destroy_client(self.drive)
 
 
 class RosFleet:
-    """The members of one system, reached through their services."""
+    """The members of one system, reached through the hosts that play them."""
 
-    def __init__(self, system: str, links: dict[str, Link]) -> None:
+    def __init__(self, system: str, links: dict[str, Link], hosts: Hosts) -> None:
         self._system = system
         self._links = links
+        self._hosts = hosts
 
     def prepare(self, robot: str, trajectory_id: str) -> Loaded:
-        answer = self._claim(robot)
-        if trajectory_id not in ("", answer.trajectory_id):
+        reply = self._send([msg.DriveOrder(robot=robot, command=Claim.CLAIM)])[0]
+        if trajectory_id not in ("", reply.trajectory_id):
             # A member loads nothing by itself: it is let go for that.
             self.release(robot)
             request = srv.LoadTrajectory.Request(id=trajectory_id)
-            self._checked(robot, call(self._links[robot].load, request, LOAD_TIMEOUT))
-            answer = self._claim(robot)
-        if not answer.trajectory_id:
+            answer = call(self._links[robot].load, request, LOAD_TIMEOUT)
+            if not answer.success:
+                raise Misuse(f"{robot}: {answer.message}")
+            reply = self._send([msg.DriveOrder(robot=robot, command=Claim.CLAIM)])[0]
+        if not reply.trajectory_id:
             raise Misuse(f"{robot} has no trajectory; load one, or name one for the system")
-        return Loaded(answer.trajectory_id, answer.trajectory_duration, answer.frame_rate)
-
-    def _claim(self, robot: str) -> Any:
-        request = self._request(command=Drive.CLAIM)
-        return self._checked(robot, call(self._links[robot].drive, request))
+        return Loaded(reply.trajectory_id, reply.trajectory_duration, reply.frame_rate)
 
     def release(self, robot: str) -> None:
-        self._checked(
-            robot, call(self._links[robot].drive, self._request(command=Drive.RELEASE), 2.0)
-        )
+        self._send([msg.DriveOrder(robot=robot, command=Claim.RELEASE)])
 
     def drive(self, orders: Sequence[Order]) -> list[Reply]:
-        requests = [
-            self._request(
-                command=order.command.value,
-                stamp=conversions.stamp(order.stamp_ns),
-                position=order.position,
-                rate=order.rate,
-                until=order.until or 0.0,
-            )
-            for order in orders
-        ]
-        links = [self._links[order.robot] for order in orders]
-        answers = call_all([(k.drive, r) for k, r in zip(links, requests, strict=True)])
-        for link, answer in zip(links, answers, strict=True):
-            link.replied_ns = conversions.to_ns(answer.stamp)
-        return [
-            Reply(State(a.state), a.position, a.duration)
-            for a in (self._checked(k.robot, a) for k, a in zip(links, answers, strict=True))
-        ]
+        replies = self._send(
+            [
+                msg.DriveOrder(
+                    robot=order.robot,
+                    command=order.command.value,
+                    stamp=conversions.stamp(order.stamp_ns),
+                    position=order.position,
+                    rate=order.rate,
+                    until=order.until or 0.0,
+                )
+                for order in orders
+            ]
+        )
+        return [Reply(State(r.state), r.position, r.duration) for r in replies]
 
-    def _request(self, **fields: Any) -> Any:
-        return srv.Drive.Request(system=self._system, **fields)
+    def _send(self, orders: Sequence[msg.DriveOrder]) -> list[msg.DriveReply]:
+        """Give each host its members' orders, all hosts at once; return the replies in order."""
+        by_host: dict[str, list[msg.DriveOrder]] = {}
+        for order in orders:
+            by_host.setdefault(self._links[order.robot].host(), []).append(order)
+        answers = call_all(
+            [
+                (self._hosts.client(host), srv.Drive.Request(system=self._system, orders=part))
+                for host, part in by_host.items()
+            ]
+        )
+        replies = {}
+        for answer in answers:
+            for reply in answer.replies:
+                self._links[reply.robot].replied_ns = conversions.to_ns(answer.stamp)
+                replies[reply.robot] = reply
+        for answer in answers:
+            if not answer.success:
+                raise Misuse(answer.message)
+        return [replies[order.robot] for order in orders]
 
-    @staticmethod
-    def _checked(robot: str, answer: Any) -> Any:
-        if not answer.success:
-            raise Misuse(f"{robot}: {answer.message}")
-        return answer
+
+class Hosts:
+    """The drive services of the playback hosts, one client each."""
+
+    def __init__(self, node: Node) -> None:
+        self._node = node
+        self._clients: dict[str, Client] = {}
+
+    def client(self, host: str) -> Client:
+        if host not in self._clients:
+            self._clients[host] = self._node.create_client(srv.Drive, f"{host}/drive")
+        return self._clients[host]
 
 
 class CoordinatorNode(Node):
@@ -145,8 +173,8 @@ class CoordinatorNode(Node):
         super().__init__(
             "coordinator", context=context, parameter_overrides=parameter_overrides or []
         )
-        self.client_group = ReentrantCallbackGroup()
-        self.state_group = MutuallyExclusiveCallbackGroup()
+        self.caller = Caller(self)
+        self._hosts = Hosts(self.caller.node)
         self._systems = Systems()
         self._links: dict[str, Link] = {}
         self._fleets: dict[str, RosFleet] = {}
@@ -155,18 +183,14 @@ class CoordinatorNode(Node):
         # All decisions are made in one thread, one after another.
         self.worker = Worker("coordinator", self._poll, self._patience)
         self._topic = self.create_publisher(msg.RobotSystems, "/systems", qos.LATCHED_EVENTS)
-        self.create_subscription(
-            msg.Robots, "/robots", self._on_robots, qos.LATCHED, callback_group=self.state_group
-        )
-        group = MutuallyExclusiveCallbackGroup()
-        self.create_service(
-            srv.CreateSystem, "~/create_system", self._create, callback_group=group
-        )
-        self.create_service(srv.Remove, "~/dissolve_system", self._dissolve, callback_group=group)
+        self.create_subscription(msg.Robots, "/robots", self._on_robots, qos.LATCHED)
+        self.create_service(srv.CreateSystem, "~/create_system", self._create)
+        self.create_service(srv.Remove, "~/dissolve_system", self._dissolve)
         self._publish()
 
     def destroy_node(self) -> None:
         self.worker.close()
+        self.caller.close()
         super().destroy_node()
 
     # services -------------------------------------------------------------------------------
@@ -193,7 +217,7 @@ class CoordinatorNode(Node):
         ]
         robots = [member.robot for member in members]
         name = self._systems.check(request.name, robots, self._robots)
-        fleet = self._fleets[name] = RosFleet(name, self._links)
+        fleet = self._fleets[name] = RosFleet(name, self._links, self._hosts)
         system = RobotSystem(name, members, fleet, mode, policy, request.loop)
         self._systems.add(system)
         try:
@@ -302,7 +326,6 @@ class CoordinatorNode(Node):
 
     def follow(self, link: Link, message: msg.PlaybackState) -> None:
         """Take a member's state as its playback tells it."""
-        link.state = message
         system = self._systems.of(link.robot)
         stamp_ns = conversions.to_ns(message.header.stamp)
         if system is None or link.robot not in self._links or stamp_ns < link.replied_ns:

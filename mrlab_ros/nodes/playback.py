@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from typing import Any
 
 from mrlab_msgs import msg, srv
-from rclpy.callback_groups import MutuallyExclusiveCallbackGroup
 from rclpy.context import Context
 from rclpy.executors import Executor
 from rclpy.node import Node
@@ -16,7 +16,7 @@ from std_srvs.srv import SetBool, Trigger
 from mrlab_ros import conversions, host, qos, share
 from mrlab_ros.adapters.robot_library import RobotLibrary
 from mrlab_ros.adapters.ruckig_motion import RuckigPlanner, StagingLimits
-from mrlab_ros.core.errors import BadInput, Misuse
+from mrlab_ros.core.errors import BadInput, LabError, Misuse
 from mrlab_ros.core.motion import MotionPlanner
 from mrlab_ros.core.playback import Playback, Sample, Snapshot
 from mrlab_ros.core.playback_states import State
@@ -25,9 +25,10 @@ from mrlab_ros.core.trajectory import Trajectory
 from mrlab_ros.nodes.answers import answered
 from mrlab_ros.nodes.calls import call
 from mrlab_ros.scheduler import Player, Scheduler
+from mrlab_ros.spinning import Caller
 
 MOVING = (State.ADJUSTING, State.PLAYING)
-Drive = srv.Drive.Request
+Order = msg.DriveOrder
 
 
 class PlaybackNode(Node):
@@ -39,9 +40,10 @@ class PlaybackNode(Node):
         model: RobotModel,
         planner: MotionPlanner,
         scheduler: Scheduler,
-        fetch: Any,
+        fetch: Callable[[str], Trajectory],
         standing_rate: float,
         *,
+        host: str,
         context: Context | None = None,
     ) -> None:
         # A class of fifty has fifty of these: each leaves out what nobody asks a playback for.
@@ -56,6 +58,7 @@ class PlaybackNode(Node):
         self.model = model
         self._scheduler = scheduler
         self._fetch = fetch
+        self._host = host
         self._colliding = False
         self.playback = Playback(model, planner, standing_rate)
         self._encoder = conversions.JointStateEncoder(robot, model.joint_names)
@@ -75,7 +78,6 @@ class PlaybackNode(Node):
             (srv.SetRate, "set_rate", self._set_rate),
             (SetBool, "set_loop", self._set_loop),
             (Trigger, "clear_halt", self._clear_halt),
-            (srv.Drive, "drive", self._drive),
         ):
             self.create_service(kind, name, callback)
         self.player = Player(self.playback, self._send, self._announce)
@@ -126,7 +128,9 @@ class PlaybackNode(Node):
         )
 
     def _announce(self, now_ns: int, snapshot: Snapshot) -> None:
-        self._state.publish(conversions.snapshot_to_message(now_ns, self.robot, snapshot))
+        message = conversions.snapshot_to_message(now_ns, self.robot, snapshot)
+        message.host = self._host
+        self._state.publish(message)
 
     def _announce_targets(self, now_ns: int, trajectory: Trajectory | None) -> None:
         targets = []
@@ -212,42 +216,39 @@ class PlaybackNode(Node):
             self.playback.clear(now_ns)
         return "clear; play resumes in place"
 
-    @answered
-    def _drive(self, request: Any, response: Any) -> str:
-        playback, by = self.playback, request.system
-        start_ns = conversions.to_ns(request.stamp) or None
-        with self._scheduler.command() as now_ns:
-            response.stamp = conversions.stamp(now_ns)
-            if request.command == Drive.CLAIM:
-                playback.claim(by)
-            elif request.command == Drive.RELEASE:
-                playback.release(now_ns, by)
-            elif request.command == Drive.STAGE:
-                response.duration = playback.stage(now_ns, request.position, by)
-            elif request.command == Drive.PLAY:
-                playback.play(now_ns, start_ns, request.rate, request.until or None, by)
-            elif request.command == Drive.PAUSE:
-                playback.pause(now_ns, by)
-            elif request.command == Drive.STOP:
-                playback.stop(now_ns, by)
-            elif request.command == Drive.SEEK:
-                playback.seek(now_ns, request.position, by)
-            elif request.command == Drive.SET_RATE:
-                playback.set_rate(now_ns, request.rate, start_ns, by)
-            elif request.command == Drive.HOLD:
-                playback.hold_at(request.until or None, by)
-            else:
-                raise BadInput(
-                    f"command {request.command} is unknown; expected a constant of Drive.srv"
-                )
-            response.state = playback.state.value
-            response.position = playback.clock.position
-            trajectory = playback.trajectory
-            if trajectory is not None:
-                response.trajectory_id = trajectory.id
-                response.trajectory_duration = trajectory.duration
-                response.frame_rate = trajectory.frame_rate
-            return playback.state.name
+    def drive(self, now_ns: int, by: str, order: msg.DriveOrder) -> msg.DriveReply:
+        """Carry out an order of the system `by`; the caller holds the deadline thread off."""
+        playback, start_ns, duration = self.playback, conversions.to_ns(order.stamp) or None, 0.0
+        if order.command == Order.CLAIM:
+            playback.claim(by)
+        elif order.command == Order.RELEASE:
+            playback.release(now_ns, by)
+        elif order.command == Order.STAGE:
+            duration = playback.stage(now_ns, order.position, by)
+        elif order.command == Order.PLAY:
+            playback.play(now_ns, start_ns, order.rate, order.until or None, by)
+        elif order.command == Order.PAUSE:
+            playback.pause(now_ns, by)
+        elif order.command == Order.STOP:
+            playback.stop(now_ns, by)
+        elif order.command == Order.SEEK:
+            playback.seek(now_ns, order.position, by)
+        elif order.command == Order.SET_RATE:
+            playback.set_rate(now_ns, order.rate, start_ns, by)
+        elif order.command == Order.HOLD:
+            playback.hold_at(order.until or None, by)
+        else:
+            raise BadInput(f"command {order.command} is unknown; expected one of DriveOrder.msg")
+        trajectory = playback.trajectory
+        return msg.DriveReply(
+            robot=self.robot,
+            state=playback.state.value,
+            position=playback.clock.position,
+            duration=duration,
+            trajectory_id=trajectory.id if trajectory else "",
+            trajectory_duration=trajectory.duration if trajectory else 0.0,
+            frame_rate=trajectory.frame_rate if trajectory else 0.0,
+        )
 
     def _on_collision(self, message: msg.Collision) -> None:
         with self._scheduler.command() as now_ns:
@@ -288,16 +289,13 @@ class PlaybackHostNode(Node):
         self.scheduler = Scheduler()
         self.nodes: dict[str, PlaybackNode] = {}
         self._executor: Executor | None = None
-        self._get = self.create_client(
-            srv.GetTrajectory, "/converter/get", callback_group=MutuallyExclusiveCallbackGroup()
-        )
-        own = MutuallyExclusiveCallbackGroup()
-        self.create_subscription(
-            msg.Robots, "/robots", self._on_robots, qos.LATCHED, callback_group=own
-        )
+        self._caller = Caller(self)
+        self._get = self._caller.node.create_client(srv.GetTrajectory, "/converter/get")
+        self.create_subscription(msg.Robots, "/robots", self._on_robots, qos.LATCHED)
+        self.create_service(srv.Drive, "~/drive", self._drive)
         telemetry_rate = parameter("telemetry_rate", 10.0)
-        self.create_timer(1 / telemetry_rate, self._telemetry, callback_group=own)
-        self.create_timer(1.0, self._states, callback_group=own)
+        self.create_timer(1 / telemetry_rate, self._telemetry)
+        self.create_timer(1.0, self._states)
         self.scheduler.start()
 
     def adopt(self, executor: Executor) -> None:
@@ -307,6 +305,7 @@ class PlaybackHostNode(Node):
             executor.add_node(node)
 
     def destroy_node(self) -> None:
+        self._caller.close()
         self.scheduler.stop()
         for robot in list(self.nodes):
             self._remove(robot)
@@ -329,6 +328,7 @@ class PlaybackHostNode(Node):
             self.scheduler,
             self._fetch,
             self._standing_rate,
+            host=self.get_fully_qualified_name(),
             context=self.context,
         )
         self.nodes[robot] = node
@@ -343,10 +343,24 @@ class PlaybackHostNode(Node):
         node.close()
 
     def _fetch(self, trajectory_id: str) -> Trajectory:
-        answer = call(self._get, srv.GetTrajectory.Request(id=trajectory_id), timeout=10.0)
+        answer = call(self._get, srv.GetTrajectory.Request(id=trajectory_id), timeout=5.0)
         if not answer.success:
             raise BadInput(answer.message)
         return conversions.trajectory_from_message(answer.trajectory)
+
+    @answered
+    def _drive(self, request: Any, response: Any) -> str:
+        with self.scheduler.command() as now_ns:
+            response.stamp = conversions.stamp(now_ns)
+            for order in request.orders:
+                node = self.nodes.get(order.robot)
+                if node is None:
+                    raise Misuse(f"{order.robot}: is not played here; is it still in the scene?")
+                try:
+                    response.replies.append(node.drive(now_ns, request.system, order))
+                except LabError as error:
+                    raise Misuse(f"{order.robot}: {error}") from error
+        return "done"
 
     def _telemetry(self) -> None:
         for node in self.nodes.values():
