@@ -1,0 +1,167 @@
+#!/usr/bin/env python3
+"""A client of the lab that needs nothing of the lab but its .msg and .srv files.
+
+    pip install eclipse-zenoh rosbags
+    python mrlab_client.py watch ur5e_1/joint_states sensor_msgs/msg/JointState
+    python mrlab_client.py watch robots mrlab_msgs/msg/Robots --latched --definitions msg_schemas
+    python mrlab_client.py call ur5e_1/play std_srvs/srv/Trigger
+    python mrlab_client.py call ur5e_1/seek mrlab_msgs/srv/Seek position=1.5 \\
+        --definitions msg_schemas
+
+A key is the topic's or service's name without its leading slash; a payload is CDR.
+"""
+
+from __future__ import annotations
+
+import argparse
+import json
+import sys
+import threading
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import zenoh
+from rosbags.interfaces import Nodetype
+from rosbags.typesys import Stores, get_types_from_msg, get_typestore
+from rosbags.typesys.store import Typestore
+from zenoh import ext
+
+STD_SRVS = {
+    "std_srvs/srv/Empty": "---\n",
+    "std_srvs/srv/SetBool": "bool data\n---\nbool success\nstring message\n",
+    "std_srvs/srv/Trigger": "---\nbool success\nstring message\n",
+}
+
+
+def typestore(definitions: Path | None, package: str = "mrlab_msgs") -> Typestore:
+    """Return the standard types and those of `definitions`, a folder with msg/ and srv/."""
+    store = get_typestore(Stores.ROS2_JAZZY)
+    services = dict(STD_SRVS)
+    found: dict[str, Any] = {}
+    if definitions is not None:
+        for file in sorted(definitions.glob("msg/*.msg")):
+            found |= get_types_from_msg(file.read_text(), f"{package}/msg/{file.stem}")
+        for file in sorted(definitions.glob("srv/*.srv")):
+            services[f"{package}/srv/{file.stem}"] = file.read_text()
+    for name, text in services.items():
+        request, _, response = text.partition("---\n")
+        for half, part in (("Request", request), ("Response", response)):
+            # A message without fields has no CDR of its own: nothing is sent for it.
+            if any(line.split("#")[0].strip() for line in part.splitlines()):
+                found |= get_types_from_msg(part, f"{name}_{half}".replace("/srv/", "/msg/"))
+    store.register(found)
+    return store
+
+
+def connect(endpoint: str) -> zenoh.Session:
+    """Open a session with the lab's bridge."""
+    config = zenoh.Config()
+    config.insert_json5("mode", '"client"')
+    config.insert_json5("connect/endpoints", json.dumps([endpoint]))
+    config.insert_json5("scouting/multicast/enabled", "false")
+    return zenoh.open(config)
+
+
+def watch(
+    session: zenoh.Session, store: Typestore, key: str, kind: str, latched: bool, count: int
+) -> int:
+    """Print the messages of a topic; of a latched one, first the newest from before now."""
+    done = threading.Event()
+    seen = 0
+
+    def show(sample: zenoh.Sample) -> None:
+        nonlocal seen
+        if done.is_set():
+            return
+        print(store.deserialize_cdr(sample.payload.to_bytes(), kind), flush=True)
+        seen += 1
+        if seen == count:
+            done.set()
+
+    if latched:
+        history = ext.HistoryConfig(detect_late_publishers=True)
+        subscriber = ext.declare_advanced_subscriber(session, key, show, history=history)
+    else:
+        subscriber = session.declare_subscriber(key, show)
+    done.wait()
+    subscriber.undeclare()
+    return 0
+
+
+def call(
+    session: zenoh.Session, store: Typestore, key: str, kind: str, values: dict[str, Any]
+) -> int:
+    """Call a service and print its answer; return 0 where it succeeded."""
+    request = None
+    # The halves of a service are registered as messages, so that they find their package's own.
+    kind = kind.replace("/srv/", "/msg/")
+    if f"{kind}_Request" in store.types:
+        request = store.serialize_cdr(fill(store, f"{kind}_Request", values), f"{kind}_Request")
+    for reply in session.get(key, payload=request and bytes(request), timeout=70.0):
+        if reply.ok is None:
+            print(reply.err.payload.to_string(), file=sys.stderr)
+            return 1
+        answer = store.deserialize_cdr(reply.ok.payload.to_bytes(), f"{kind}_Response")
+        print(answer)
+        return 0 if getattr(answer, "success", True) else 1
+    print(f"nobody answers {key}; is the robot there, and does the lab run?", file=sys.stderr)
+    return 1
+
+
+def fill(store: Typestore, kind: str, values: dict[str, Any]) -> Any:
+    """Return a message with `values` in it and zeros elsewhere; exit where a field is unknown."""
+    definition = dict(store.get_msgdef(kind).fields)
+    strangers = set(values) - set(definition)
+    if strangers:
+        sys.exit(f"{kind} has no field {', '.join(strangers)}; it has {', '.join(definition)}")
+    parts = {name: part(store, field, values.get(name)) for name, field in definition.items()}
+    return store.types[kind](**parts)
+
+
+def part(store: Typestore, field: Any, value: Any) -> Any:
+    """Return `value` as a field holds it; None becomes a number, text, array or message of 0."""
+    form, detail = field
+    if form is Nodetype.NAME:
+        return fill(store, detail, value or {})
+    if form is Nodetype.BASE:
+        name = detail[0]
+        return value if value is not None else "" if name == "string" else np.zeros(1, name)[0]
+    (inner, inner_detail), length = detail
+    values = value or [None] * (length if form is Nodetype.ARRAY else 0)
+    parts = [part(store, (inner, inner_detail), each) for each in values]
+    numbers = inner is Nodetype.BASE and inner_detail[0] != "string"
+    return np.array(parts, inner_detail[0]) if numbers else parts
+
+
+def main() -> int:
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("action", choices=("watch", "call"))
+    parser.add_argument("key")
+    parser.add_argument("type")
+    parser.add_argument("values", nargs="*", help="fields of a request, such as position=1.5")
+    parser.add_argument("--connect", default="tcp/127.0.0.1:7447")
+    parser.add_argument("--definitions", type=Path, help="folder with msg/ and srv/")
+    parser.add_argument("--latched", action="store_true", help="ask for the newest state first")
+    parser.add_argument("--count", type=int, default=0, help="messages to watch; 0: no end")
+    arguments = parser.parse_intermixed_args()
+    store = typestore(arguments.definitions)
+    with connect(arguments.connect) as session:
+        if arguments.action == "watch":
+            kind, latched, count = arguments.type, arguments.latched, arguments.count
+            return watch(session, store, arguments.key, kind, latched, count)
+        values = {}
+        for text in arguments.values:
+            name, _, value = text.partition("=")
+            try:
+                values[name] = json.loads(value)
+            except ValueError:
+                values[name] = value
+        return call(session, store, arguments.key, arguments.type, values)
+
+
+if __name__ == "__main__":
+    try:
+        sys.exit(main())
+    except KeyboardInterrupt:
+        sys.exit(0)

@@ -1,0 +1,269 @@
+"""zenoh behind a small port: publish, subscribe, answer, announce."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any, Protocol
+
+import zenoh
+from zenoh import ext
+
+from mrlab_ros.core.bridge_rules import Congestion, Reliability, TopicRule
+from mrlab_ros.core.errors import BadInput
+
+LOOPBACK = ("tcp/127.0.0.1:7447",)
+# A put waits so long, us, for a full link before its message is lost, and so long before the
+# link's dead client is cut off. zenoh's own are 1,000 and 5,000,000.
+WAIT_BEFORE_DROP = 0
+WAIT_BEFORE_CLOSE = 1_000_000
+CONGESTION = {
+    Congestion.DROP: zenoh.CongestionControl.DROP,
+    Congestion.BLOCK: zenoh.CongestionControl.BLOCK,
+}
+RELIABILITY = {
+    Reliability.RELIABLE: zenoh.Reliability.RELIABLE,
+    Reliability.BEST_EFFORT: zenoh.Reliability.BEST_EFFORT,
+}
+# In the order of their numbers, 1 to 7.
+PRIORITY = (
+    zenoh.Priority.REAL_TIME,
+    zenoh.Priority.INTERACTIVE_HIGH,
+    zenoh.Priority.INTERACTIVE_LOW,
+    zenoh.Priority.DATA_HIGH,
+    zenoh.Priority.DATA,
+    zenoh.Priority.DATA_LOW,
+    zenoh.Priority.BACKGROUND,
+)
+
+
+class Declared(Protocol):
+    """Something declared on a session."""
+
+    def undeclare(self) -> None: ...
+
+
+class Publisher(Declared, Protocol):
+    """A key to publish on."""
+
+    def put(self, payload: bytes) -> None: ...
+
+    def heard(self) -> bool:
+        """Return whether anybody subscribes to the key."""
+        ...
+
+
+class Query(Protocol):
+    """A question that waits for its one answer. `payload` is None where it came without."""
+
+    @property
+    def payload(self) -> bytes | None: ...
+
+    def reply(self, payload: bytes) -> None: ...
+
+    def refuse(self, reason: str) -> None: ...
+
+
+class Session(Protocol):
+    """What the bridge needs of zenoh. Callbacks run in threads of the session's own."""
+
+    @property
+    def zid(self) -> str: ...
+
+    def publisher(self, key: str, rule: TopicRule, cache: int) -> Publisher:
+        """Declare a publisher that keeps the newest `cache` messages for late joiners."""
+        ...
+
+    def subscriber(self, key: str, on_payload: Callable[[bytes], None], late: bool) -> Declared:
+        """Declare a subscriber to other sessions' messages; `late`: those before it, too."""
+        ...
+
+    def queryable(self, key: str, on_query: Callable[[Query], None]) -> Declared: ...
+
+    def token(self, key: str) -> Declared:
+        """Declare a liveliness token."""
+        ...
+
+    def close(self) -> None: ...
+
+
+def configuration(
+    file: Path | None = None,
+    *,
+    mode: str = "peer",
+    listen: tuple[str, ...] = LOOPBACK,
+    connect: tuple[str, ...] = (),
+) -> zenoh.Config:
+    """Return zenoh's configuration: `file` (json5) where given, else from the other arguments.
+
+    Without a file nobody is looked for by multicast. Raises BadInput where zenoh refuses one.
+    """
+    config = zenoh.Config()
+    try:
+        if file is not None:
+            return zenoh.Config.from_file(str(file))
+        config.insert_json5("mode", json.dumps(mode))
+        config.insert_json5("listen/endpoints", json.dumps(listen))
+        config.insert_json5("connect/endpoints", json.dumps(connect))
+        config.insert_json5("scouting/multicast/enabled", "false")
+        queue = "transport/link/tx/queue/congestion_control"
+        config.insert_json5(f"{queue}/drop/wait_before_drop", json.dumps(WAIT_BEFORE_DROP))
+        config.insert_json5(f"{queue}/block/wait_before_close", json.dumps(WAIT_BEFORE_CLOSE))
+    except (zenoh.ZError, OSError) as error:
+        raise BadInput(
+            f"zenoh does not accept {file or f'mode {mode}, listen {listen}, connect {connect}'}: "
+            f"{_first_line(error)}; see docs/bridge.md for examples"
+        ) from error
+    return config
+
+
+class ZenohSession:
+    """A Session on zenoh itself."""
+
+    def __init__(self, config: zenoh.Config) -> None:
+        # The publisher's cache for late joiners orders its messages by time.
+        config.insert_json5("timestamping/enabled", "true")
+        try:
+            self._session = zenoh.open(config)
+        except zenoh.ZError as error:
+            raise BadInput(_why_not_open(config, error)) from error
+
+    @property
+    def zid(self) -> str:
+        return str(self._session.zid())
+
+    def publisher(self, key: str, rule: TopicRule, cache: int) -> Publisher:
+        if cache:
+            return _LatchedPublisher(self._session, key, rule, cache)
+        return _Publisher(self._session, key, rule)
+
+    def subscriber(self, key: str, on_payload: Callable[[bytes], None], late: bool) -> Declared:
+        def on_sample(sample: zenoh.Sample) -> None:
+            if sample.kind == zenoh.SampleKind.PUT:
+                on_payload(sample.payload.to_bytes())
+
+        # Other sessions' only: the bridge must not hear itself.
+        origin = zenoh.Locality.REMOTE
+        if late:
+            history = ext.HistoryConfig(detect_late_publishers=True, max_samples=1)
+            return ext.declare_advanced_subscriber(
+                self._session, key, on_sample, allowed_origin=origin, history=history
+            )
+        return self._session.declare_subscriber(key, on_sample, allowed_origin=origin)
+
+    def queryable(self, key: str, on_query: Callable[[Query], None]) -> Declared:
+        return self._session.declare_queryable(key, lambda query: on_query(_Query(key, query)))
+
+    def token(self, key: str) -> Declared:
+        return self._session.liveliness().declare_token(key)
+
+    def close(self) -> None:
+        self._session.close()
+
+
+class _Publisher:
+    """Publishes a stream: nothing is kept."""
+
+    def __init__(self, session: zenoh.Session, key: str, rule: TopicRule) -> None:
+        self._publisher = session.declare_publisher(
+            key,
+            congestion_control=CONGESTION[rule.congestion],
+            reliability=RELIABILITY[rule.reliability],
+            priority=PRIORITY[rule.priority - 1],
+            express=rule.express,
+        )
+
+    def put(self, payload: bytes) -> None:
+        self._publisher.put(payload)
+
+    def heard(self) -> bool:
+        # Its annotation says bool, but it is an object that is always true.
+        status: Any = self._publisher.matching_status
+        return bool(status.matching)
+
+    def undeclare(self) -> None:
+        self._publisher.undeclare()
+
+
+class _LatchedPublisher:
+    """Publishes a state: late joiners get the newest messages from an advanced publisher's cache.
+
+    A client that simply asks for the key, without an advanced subscriber, gets the newest one.
+    """
+
+    def __init__(self, session: zenoh.Session, key: str, rule: TopicRule, cache: int) -> None:
+        self._key = key
+        self._newest: bytes | None = None
+        # An advanced publisher does not tell whether anybody listens; this one is there for it.
+        self._probe = _Publisher(session, key, rule)
+        self._publisher = ext.declare_advanced_publisher(
+            session,
+            key,
+            congestion_control=CONGESTION[rule.congestion],
+            reliability=RELIABILITY[rule.reliability],
+            priority=PRIORITY[rule.priority - 1],
+            express=rule.express,
+            cache=ext.CacheConfig(cache),
+            publisher_detection=True,
+        )
+        self._queryable = session.declare_queryable(key, self._answer)
+
+    def put(self, payload: bytes) -> None:
+        self._newest = payload
+        self._publisher.put(payload)
+
+    def heard(self) -> bool:
+        return self._probe.heard()
+
+    def _answer(self, query: zenoh.Query) -> None:
+        if self._newest is not None:
+            query.reply(self._key, self._newest)
+
+    def undeclare(self) -> None:
+        self._queryable.undeclare()
+        self._publisher.undeclare()
+        self._probe.undeclare()
+
+
+class _Query:
+    def __init__(self, key: str, query: zenoh.Query) -> None:
+        self._key = key
+        self._query = query
+
+    @property
+    def payload(self) -> bytes | None:
+        payload = self._query.payload
+        return None if payload is None else payload.to_bytes()
+
+    def reply(self, payload: bytes) -> None:
+        self._query.reply(self._key, payload)
+        # zenoh ends the caller's wait only when the query is let go.
+        self._query.drop()
+
+    def refuse(self, reason: str) -> None:
+        self._query.reply_err(reason.encode(), encoding=zenoh.Encoding.TEXT_PLAIN)
+        self._query.drop()
+
+
+def _first_line(error: Exception) -> str:
+    return str(error).split(" at /", 1)[0].strip()
+
+
+def _why_not_open(config: zenoh.Config, error: zenoh.ZError) -> str:
+    endpoints = ", ".join(_endpoints(config.get_json("listen/endpoints")))
+    if "Address already in use" in str(error):
+        return (
+            f"the bridge cannot listen on {endpoints}: another program has that port, perhaps a "
+            "lab that still runs; stop it, or choose another port with the parameter listen"
+        )
+    return (
+        f"the bridge cannot open zenoh on {endpoints}: {_first_line(error)}; check the "
+        "parameters listen, connect and zenoh_config"
+    )
+
+
+def _endpoints(text: str) -> list[str]:
+    """Return the endpoints of zenoh's JSON, a list or one a mode."""
+    found = json.loads(text)
+    return found if isinstance(found, list) else [e for each in found.values() for e in each or ()]

@@ -1,0 +1,405 @@
+"""The bridge between a real graph and real zenoh sessions, some in processes of their own."""
+
+from __future__ import annotations
+
+import json
+import os
+import signal
+import socket
+import subprocess
+import sys
+import threading
+from pathlib import Path
+
+import pytest
+import yaml
+import zenoh
+from graph import wait_for
+from mrlab_msgs.msg import Robot, Robots
+from rclpy.serialization import deserialize_message, serialize_message
+from sensor_msgs.msg import JointState
+from std_msgs.msg import String
+from std_srvs.srv import SetBool, Trigger
+from zenoh import ext
+
+from mrlab_ros import qos
+from mrlab_ros.core.bridge_rules import Congestion
+from mrlab_ros.core.errors import BadInput
+from mrlab_ros.nodes.bridge import BridgeNode
+
+ROOT = Path(__file__).parents[2]
+CLIENT = ROOT / "examples" / "clients" / "python" / "mrlab_client.py"
+JOINTS = "ur5e_1/joint_states"
+STATISTICS = "@mrlab/bridge/statistics"
+
+
+@pytest.fixture
+def endpoint():
+    with socket.socket() as probe:
+        probe.bind(("127.0.0.1", 0))
+        return f"tcp/127.0.0.1:{probe.getsockname()[1]}"
+
+
+@pytest.fixture
+def bridge(graph, endpoint):
+    return graph.add(BridgeNode, listen=[endpoint], discovery_period=0.02)
+
+
+@pytest.fixture
+def session(bridge, endpoint):
+    with connect(endpoint) as session:
+        yield session
+
+
+@pytest.fixture
+def listed(graph, endpoint, tmp_path):
+    """Make a bridge with an allow-list of the test's own."""
+
+    def make(document, **parameters):
+        path = tmp_path / "bridge.yaml"
+        path.write_text(yaml.safe_dump(document))
+        settings = {"listen": [endpoint], "discovery_period": 0.02, "allow_list": str(path)}
+        return graph.add(BridgeNode, **(settings | parameters))
+
+    return make
+
+
+def connect(endpoint):
+    config = zenoh.Config()
+    config.insert_json5("mode", '"client"')
+    config.insert_json5("connect/endpoints", json.dumps([endpoint]))
+    return zenoh.open(config)
+
+
+def client(endpoint, *arguments):
+    """Start the stock client, which sees nothing of the lab's packages."""
+    ours = ("PYTHONPATH", "AMENT_PREFIX_PATH", "LD_LIBRARY_PATH")
+    return subprocess.Popen(
+        [sys.executable, CLIENT, "--connect", endpoint, *arguments],
+        env={k: v for k, v in os.environ.items() if k not in ours},
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+        text=True,
+    )
+
+
+def ask(session, key, payload=None):
+    """Return a query's one answer as (payload, None) or (None, reason)."""
+    replies = list(session.get(key, payload=payload, timeout=10.0))
+    assert len(replies) == 1, f"{len(replies)} answers on {key}"
+    if replies[0].ok is None:
+        return None, replies[0].err.payload.to_string()
+    return replies[0].ok.payload.to_bytes(), None
+
+
+def statistics(session):
+    return json.loads(ask(session, STATISTICS)[0])
+
+
+def heard(session, key):
+    return statistics(session)["keys"].get(key, {}).get("heard", False)
+
+
+def tokens(session):
+    return {str(r.ok.key_expr) for r in session.liveliness().get("@/*/@ros2_lv/**") if r.ok}
+
+
+def joints(position):
+    message = JointState(name=["shoulder"], position=[position])
+    message.header.frame_id = "ur5e_1"
+    return message
+
+
+def test_a_stock_client_receives_the_frames(graph, bridge, session, endpoint):
+    publisher = graph.client.create_publisher(JointState, JOINTS, qos.STREAM)
+    watcher = client(endpoint, "watch", JOINTS, "sensor_msgs/msg/JointState", "--count", "5")
+    wait_for(lambda: heard(session, JOINTS), "the bridge to hear of the client")
+    for i in range(5):
+        publisher.publish(joints(0.125 * i))
+    out, err = watcher.communicate(timeout=30)
+    assert watcher.returncode == 0, err
+    lines = out.splitlines()
+    assert len(lines) == 5
+    assert all("0.125" in lines[1] and "shoulder" in line for line in lines)
+
+
+def test_frames_arrive_in_order_and_untouched(graph, bridge, session):
+    got = []
+    session.declare_subscriber(JOINTS, lambda s: got.append(s.payload.to_bytes()))
+    publisher = graph.client.create_publisher(JointState, JOINTS, qos.STREAM)
+    wait_for(lambda: heard(session, JOINTS), "the bridge to hear of the subscriber")
+    sent = [serialize_message(joints(float(i))) for i in range(500)]
+    for i, payload in enumerate(sent):
+        publisher.publish(payload)
+        wait_for(lambda i=i: len(got) > i, f"frame {i}")
+    assert got == sent
+
+
+def test_a_late_joiner_gets_the_newest_state_and_only_that(graph, bridge, session):
+    publisher = graph.client.create_publisher(Robots, "robots", qos.LATCHED)
+    for name in ("ur5e_1", "ur5e_2", "kr6_1"):
+        publisher.publish(Robots(robots=[Robot(name=name)]))
+    wait_for(lambda: list(session.get("robots")), "the newest state")
+
+    def newest():
+        return deserialize_message(ask(session, "robots")[0], Robots).robots[0].name
+
+    wait_for(lambda: newest() == "kr6_1", "the newest state")
+    got = []
+    late = ext.declare_advanced_subscriber(
+        session,
+        "robots",
+        lambda s: got.append(deserialize_message(s.payload.to_bytes(), Robots)),
+        history=ext.HistoryConfig(detect_late_publishers=True),
+    )
+    wait_for(lambda: got, "the state from before the subscription")
+    publisher.publish(Robots(robots=[Robot(name="kr3_1")]))
+    wait_for(lambda: len(got) > 1, "the next state")
+    assert [message.robots[0].name for message in got] == ["kr6_1", "kr3_1"]
+    late.undeclare()
+
+
+def test_a_stock_client_reads_a_state_with_the_msg_files_alone(graph, bridge, session, endpoint):
+    publisher = graph.client.create_publisher(Robots, "robots", qos.LATCHED)
+    publisher.publish(Robots(robots=[Robot(name="ur5e_1", joint_names=["shoulder"])]))
+    wait_for(lambda: list(session.get("robots")), "the state on zenoh")
+    definitions = ("--definitions", str(ROOT / "msg_schemas"), "--latched", "--count", "1")
+    watcher = client(endpoint, "watch", "robots", "mrlab_msgs/msg/Robots", *definitions)
+    out, err = watcher.communicate(timeout=30)
+    assert watcher.returncode == 0, err
+    assert "ur5e_1" in out
+
+
+def test_a_stock_client_calls_a_service(graph, bridge, session, endpoint):
+    def answer(request, response):
+        response.success, response.message = request.data, "said " + "yes" * request.data
+        return response
+
+    graph.client.create_service(SetBool, "ur5e_1/set_loop", answer)
+    wait_for(lambda: any("set_loop" in t for t in tokens(session)), "the service on zenoh")
+    caller = client(endpoint, "call", "ur5e_1/set_loop", "std_srvs/srv/SetBool", "data=true")
+    out, err = caller.communicate(timeout=30)
+    assert caller.returncode == 0, err
+    assert "said yes" in out
+
+
+def test_a_request_without_fields_needs_no_payload(graph, bridge, session):
+    def answer(request, response):
+        response.success, response.message = True, "plays"
+        return response
+
+    graph.client.create_service(Trigger, "ur5e_1/play", answer)
+    wait_for(lambda: any("SS/ur5e_1§play/" in t for t in tokens(session)), "the service")
+    for payload in (None, b"\0\1\0\0", b"\0\1\0\0\0", bytes(serialize_message(Trigger.Request()))):
+        reply, reason = ask(session, "ur5e_1/play", payload)
+        assert reason is None
+        assert deserialize_message(reply, Trigger.Response).message == "plays"
+
+
+def test_a_wrong_request_is_refused_in_words_and_changes_nothing(graph, bridge, session):
+    asked = []
+
+    def answer(request, response):
+        asked.append(request)
+        return response
+
+    graph.client.create_service(SetBool, "ur5e_1/set_loop", answer)
+    wait_for(lambda: any("set_loop" in t for t in tokens(session)), "the service")
+    _, reason = ask(session, "ur5e_1/set_loop")
+    assert "without a request" in reason
+    _, reason = ask(session, "ur5e_1/set_loop", b"not CDR at all")
+    assert "not a request of std_srvs/srv/SetBool" in reason
+    assert asked == []
+
+
+def test_a_service_that_does_not_answer_is_given_up(graph, listed, endpoint):
+    listed({"services": [{"name": "/slow", "timeout": 0.1}]})
+    released = threading.Event()
+
+    def answer(request, response):
+        released.wait(20)
+        return response
+
+    graph.client.create_service(Trigger, "slow", answer)
+    with connect(endpoint) as session:
+        wait_for(lambda: any("SS/slow/" in t for t in tokens(session)), "the service")
+        _, reason = ask(session, "slow")
+    released.set()
+    assert "/slow did not answer within 0.1 s" in reason
+
+
+def test_what_is_not_named_stays_inside(graph, bridge, session):
+    graph.client.create_publisher(String, "secret", qos.LATCHED).publish(String(data="x"))
+    graph.client.create_service(Trigger, "ur5e_1/drive", lambda q, r: r)
+    graph.client.create_publisher(Robots, "robots", qos.LATCHED)
+    wait_for(lambda: any("MP/robots/" in t for t in tokens(session)), "a topic that is named")
+    announced = "".join(tokens(session))
+    assert "secret" not in announced
+    assert "drive" not in announced
+    assert "rosout" not in announced
+    assert list(session.get("secret")) == []
+
+
+def test_a_topic_of_another_type_than_the_list_says_stays_inside(graph, bridge, session):
+    graph.client.create_publisher(String, "robots", qos.LATCHED)
+    graph.client.create_publisher(String, "ur5e_1/robot_description", qos.LATCHED)
+    wait_for(lambda: any("robot_description" in t for t in tokens(session)), "the other topic")
+    assert not any("MP/robots/" in t for t in tokens(session))
+
+
+def test_topics_and_services_that_go_take_their_tokens_along(graph, bridge, session):
+    publisher = graph.client.create_publisher(JointState, JOINTS, qos.STREAM)
+    service = graph.client.create_service(Trigger, "ur5e_1/play", lambda q, r: r)
+    own = f"@/{bridge._session.zid}/@ros2_lv"
+    wait_for(lambda: len(tokens(session)) == 3, "the tokens of both and of the bridge")
+    assert own in tokens(session)
+    graph.client.destroy_publisher(publisher)
+    graph.client.destroy_service(service)
+    wait_for(lambda: tokens(session) == {own}, "the tokens to go")
+    graph.client.create_publisher(JointState, JOINTS, qos.STREAM)
+    wait_for(lambda: len(tokens(session)) == 2, "the topic to come back")
+
+
+def test_a_topic_comes_in_and_rubbish_does_not(graph, listed, endpoint):
+    bridge = listed({"topics": [{"name": "/hello", "direction": "in"}]}, prefix="lab_1")
+    got = graph.listen(String, "hello", qos.EVENTS)
+    with connect(endpoint) as session:
+        wait_for(lambda: any("MS/lab_1§hello/" in t for t in tokens(session)), "the token")
+        graph_side = graph.client.count_publishers
+        wait_for(lambda: graph_side("hello"), "the bridge's publisher")
+        session.put("lab_1/hello", b"rubbish")
+        session.put("lab_1/hello", bytes(serialize_message(String(data="from zenoh"))))
+        wait_for(lambda: got, "the message from zenoh")
+        assert [m.data for m in got] == ["from zenoh"]
+        assert bridge.statistics()["keys"]["lab_1/hello"]["refused"] == 1
+
+
+def test_a_capped_topic_sends_the_newest_value_in_the_end(graph, listed, endpoint):
+    listed({"topics": [{"name": "/fast", "max_rate": 5}]})
+    publisher = graph.client.create_publisher(String, "fast", qos.EVENTS)
+    got = []
+    with connect(endpoint) as session:
+        session.declare_subscriber("fast", lambda s: got.append(s.payload.to_bytes()))
+        wait_for(lambda: heard(session, "fast"), "the bridge to hear of the subscriber")
+        last = serialize_message(String(data="99"))
+        for i in range(100):
+            publisher.publish(String(data=f"{i}"))
+        wait_for(lambda: got and got[-1] == last, "the last value")
+        assert len(got) < 50
+
+
+def test_statistics_count_what_was_carried(graph, bridge, session):
+    got = []
+    session.declare_subscriber(JOINTS, got.append)
+    publisher = graph.client.create_publisher(JointState, JOINTS, qos.STREAM)
+    wait_for(lambda: heard(session, JOINTS), "the bridge to hear of the subscriber")
+    for i in range(7):
+        publisher.publish(joints(float(i)))
+    wait_for(lambda: len(got) == 7, "seven frames")
+    counted = statistics(session)
+    size = len(got[0].payload.to_bytes())
+    assert counted["keys"][JOINTS]["messages"] == counted["messages"] == 7
+    assert counted["keys"][JOINTS]["bytes"] == counted["bytes"] == 7 * size
+
+
+class StuckSession:
+    """A zenoh whose blocking keys never take a message: its client is dead."""
+
+    zid = "ab"
+
+    def __init__(self):
+        self.moved = []
+        self.released = threading.Event()
+
+    def publisher(self, key, rule, cache):
+        return self.Publisher(self, rule.congestion is Congestion.BLOCK)
+
+    def queryable(self, key, on_query):
+        return self.Publisher(self, False)
+
+    def token(self, key):
+        return self.Publisher(self, False)
+
+    def close(self):
+        pass
+
+    class Publisher:
+        def __init__(self, session, stuck):
+            self._session = session
+            self._stuck = stuck
+
+        def put(self, payload):
+            if self._stuck:
+                self._session.released.wait(20)
+            else:
+                self._session.moved.append(payload)
+
+        def heard(self):
+            return True
+
+        def undeclare(self):
+            pass
+
+
+def test_a_client_that_takes_no_states_holds_up_no_motion(graph):
+    session = StuckSession()
+    graph.add(lambda **settings: BridgeNode(session=session, **settings), discovery_period=0.02)
+    state = graph.client.create_publisher(Robots, "robots", qos.LATCHED)
+    motion = graph.client.create_publisher(JointState, JOINTS, qos.STREAM)
+    wait_for(lambda: motion.get_subscription_count() and state.get_subscription_count(), "routes")
+    for i in range(20):
+        state.publish(Robots())
+        motion.publish(joints(float(i)))
+        wait_for(lambda i=i: len(session.moved) > i, f"frame {i}")
+    session.released.set()
+
+
+def test_an_occupied_port_is_said_in_one_sentence(graph, bridge, endpoint):
+    with pytest.raises(BadInput) as caught:
+        BridgeNode(
+            context=graph.context,
+            parameter_overrides=[_parameter("listen", [endpoint])],
+        )
+    assert "another program has that port" in str(caught.value)
+    assert endpoint in str(caught.value)
+
+
+@pytest.mark.parametrize(
+    ("setting", "value", "words"),
+    [
+        ("listen", ["tcp/0.0.0.0:7447"], "anybody in the network"),
+        ("listen", ["7447"], "expected protocol/address:port"),
+        ("mode", "server", "zenoh does not accept"),
+        ("allow_list", "/nowhere/bridge.yaml", "cannot read its allow-list"),
+        ("zenoh_config", "/nowhere/zenoh.json5", "zenoh does not accept"),
+        ("prefix", "lab/*", "the bridge's prefix"),
+    ],
+)
+def test_a_wrong_parameter_is_said_in_one_sentence(graph, setting, value, words):
+    with pytest.raises(BadInput, match=words):
+        BridgeNode(context=graph.context, parameter_overrides=[_parameter(setting, value)])
+
+
+def _parameter(name, value):
+    from rclpy.parameter import Parameter
+
+    return Parameter(name, value=value)
+
+
+@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
+def test_the_process_ends_when_asked_and_tells_what_it_carried(graph, endpoint, number):
+    graph.client.create_publisher(JointState, JOINTS, qos.STREAM)
+    process = subprocess.Popen(
+        f"{sys.executable} -m mrlab_ros.host bridge --ros-args -p listen:=['{endpoint}']".split(),
+        stdout=subprocess.PIPE,
+        stderr=subprocess.STDOUT,
+        text=True,
+        cwd=ROOT,
+    )
+    assert "carries" in process.stdout.readline()
+    with connect(endpoint) as session:
+        wait_for(lambda: any("joint_states" in t for t in tokens(session)), "the topic on zenoh")
+    process.send_signal(number)
+    rest, _ = process.communicate(timeout=20)
+    assert process.returncode == 0, rest
+    assert "carried 0 messages" in rest
