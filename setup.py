@@ -30,6 +30,7 @@ setup(
     entry_points={
         "console_scripts": [
             "mrlab = mrlab_ros.cli:main",
+            "host = mrlab_ros.host:main",
             *(f"{node} = mrlab_ros.nodes.{node}:main" for node in NODES),
         ],
     },

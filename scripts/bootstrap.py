@@ -262,6 +262,7 @@ class Setup:
                 "-DCMAKE_C_FLAGS_RELEASE=-O1",
                 "-DCMAKE_CXX_FLAGS_RELEASE=-O1",
                 "-DBUILD_TESTING=OFF",
+                "-DMRLAB_FOR_PYTHON_ONLY=ON",
                 "-DPython3_EXECUTABLE=" + str(self.venv_python),
             ],
             cwd=str(ROOT),
