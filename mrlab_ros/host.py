@@ -51,7 +51,7 @@ def run(names: list[str]) -> int:
     """Spin the nodes until SIGINT or SIGTERM; return the process's exit code."""
     rclpy.init()
     # rclpy's own handler of SIGTERM shuts the context down and calls nobody.
-    running = rclpy.get_default_context().ok
+    running = rclpy.utilities.get_default_context().ok
     spun: list[SpunNode] = []
     try:
         for name in names:

@@ -43,7 +43,9 @@ def spin(executor: Executor, context: Context, stop: threading.Event | None = No
         except rclpy_implementation.InvalidHandle:
             continue
         except Exception:
-            traceback.print_exc()
+            # What fails because the context was shut down beneath it is no mistake.
+            if context.ok():
+                traceback.print_exc()
 
 
 class SpunNode:

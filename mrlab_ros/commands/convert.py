@@ -11,17 +11,23 @@ from mrlab_ros.core.selection import Options
 
 
 def convert(
-    files: Annotated[list[Path], typer.Argument(help="Workspace files, or folders of them.")],
     robot: Annotated[str, typer.Option(help="Robot that the trajectory is for, such as ur5e.")],
+    files: Annotated[
+        list[Path] | None, typer.Argument(help="Workspace files, bags, or folders of them.")
+    ] = None,
+    topic: Annotated[
+        str, typer.Option(help="Take the next JointTrajectory of this topic instead of a file.")
+    ] = "",
+    timeout: Annotated[float, typer.Option(help="How long to wait for the topic, s.")] = 10.0,
     variable: Annotated[str, typer.Option(help="The matrix to take, as MATLAB writes it.")] = "",
     columns: Annotated[str, typer.Option(help="Columns that hold the joints: 2:7.")] = "",
     transpose: Annotated[bool, typer.Option("--transpose", help="Samples are columns.")] = False,
     degrees: Annotated[bool, typer.Option("--degrees", help="Values are degrees.")] = False,
     unwrap: Annotated[bool, typer.Option("--unwrap", help="Remove jumps of 2*pi.")] = False,
-    rate: Annotated[float, typer.Option(help="Rows a second; 0: from the file, or 100.")] = 0.0,
+    rate: Annotated[float, typer.Option(help="Frames a second; 0: the file's, or 100.")] = 0.0,
     end_effector: Annotated[str, typer.Option(help="End effector; empty: none.")] = "",
     out: Annotated[Path | None, typer.Option(help="Folder for what is written.")] = None,
-    to: Annotated[str, typer.Option(help="json, csv, mat or npz.")] = "json",
+    to: Annotated[str, typer.Option(help="json, csv, mat, npz or jointtrajectory.")] = "json",
     plot: Annotated[
         Path | None, typer.Option(help="Write plots: a .png or .svg, or a folder.")
     ] = None,
@@ -29,14 +35,16 @@ def convert(
     memory: Annotated[int, typer.Option(help="Memory limit for reading a file, MiB.")] = 1024,
     time_limit: Annotated[float, typer.Option(help="Time limit for reading a file, s.")] = 20.0,
 ) -> None:
-    """Find the trajectory in MATLAB workspaces, check it against a robot, and write it out.
+    """Find the trajectory in a workspace, table or bag, check it against a robot, write it out.
 
     Ends with 0 when every file was accepted, 2 when you must choose, 1 when one was rejected.
     """
     from mrlab_ros.commands import conversion_run  # scipy and others; not for a mere --help
 
     request = conversion_run.Request(
-        files=files,
+        files=files or [],
+        topic=topic,
+        timeout=timeout,
         robot=robot,
         options=Options(variable, columns, transpose, degrees, unwrap, rate),
         end_effector=end_effector,

@@ -1,0 +1,78 @@
+"""What a command shows of one robot: its state, its progress and how punctual it is."""
+
+from __future__ import annotations
+
+import math
+from statistics import median
+from typing import Any
+
+from mrlab_msgs import msg
+from rclpy.qos import DurabilityPolicy, QoSProfile, ReliabilityPolicy
+
+from mrlab_ros import conversions, qos
+from mrlab_ros.core.clock import SECOND
+from mrlab_ros.graph_client import Graph, Watch
+
+# Latched like the publisher, and deep enough to see every state that follows another closely.
+EVERY_STATE = QoSProfile(
+    depth=100,
+    reliability=ReliabilityPolicy.RELIABLE,
+    durability=DurabilityPolicy.TRANSIENT_LOCAL,
+)
+
+
+class Follower:
+    """Follows one robot's playback_state and telemetry."""
+
+    def __init__(self, graph: Graph, robot: str) -> None:
+        self.robot = robot
+        self.watch: Watch[Any] = Watch(f"/{robot}/playback_state")
+        self.states: list[Any] = []
+        self.telemetry: Any = None
+        # How late each joint state was that telemetry told of, s.
+        self.errors: list[float] = []
+        self.error_max = math.nan
+        # When frame 0 of the present run was due, ns on the lab's clock.
+        self.start_ns: int | None = None
+        graph.subscribe(msg.PlaybackState, self.watch.topic, self._on_state, EVERY_STATE)
+        graph.subscribe(msg.Telemetry, f"/{robot}/telemetry", self._on_telemetry, qos.STREAM)
+
+    def _on_state(self, state: Any) -> None:
+        if state.state == msg.PlaybackState.PLAYING and state.clock.rate > 0:
+            offset = round(state.clock.position / state.clock.rate * SECOND)
+            self.start_ns = conversions.to_ns(state.clock.stamp) - offset
+        self.states.append(state)
+        self.watch.set(state)
+
+    def _on_telemetry(self, telemetry: Any) -> None:
+        self.telemetry = telemetry
+        if telemetry.frames_sent:
+            self.errors.append(telemetry.deadline_error)
+            self.error_max = telemetry.deadline_error_max
+
+    @property
+    def state(self) -> Any:
+        """The newest playback_state, or an empty one while none came."""
+        return self.watch.value or msg.PlaybackState(label="?")
+
+    @property
+    def frame(self) -> int:
+        """The newest frame heard of; a state tells of it once a second, telemetry oftener."""
+        state = self.state
+        if state.state == msg.PlaybackState.PLAYING and self.telemetry is not None:
+            return int(max(state.frame, self.telemetry.frame))
+        return int(state.frame)
+
+    @property
+    def frames_lost(self) -> int:
+        return int(self.telemetry.frames_lost) if self.telemetry is not None else 0
+
+    @property
+    def error_p50(self) -> float:
+        """The median of the deadline errors that telemetry told, s; NaN before the first."""
+        return median(self.errors) if self.errors else math.nan
+
+
+def milliseconds(seconds: float) -> str:
+    """Write a time in s as ms; a dash where there is none."""
+    return "-" if math.isnan(seconds) else f"{seconds * 1e3:.2f} ms"

@@ -1,0 +1,158 @@
+"""`mrlab robots`: the library of robot models: list, show, check, import."""
+
+from __future__ import annotations
+
+import json
+import sys
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+
+from mrlab_ros import share
+from mrlab_ros.core.diagnostics import Diagnostic, Severity
+from mrlab_ros.core.errors import BadInput
+
+if TYPE_CHECKING:
+    from mrlab_ros.adapters.robot_library import RobotLibrary
+
+app = typer.Typer(help="The robots of the library: list, show, check, import.")
+
+WORDS = {Severity.INFO: "note", Severity.WARNING: "warning", Severity.ERROR: "error"}
+
+
+def _library() -> RobotLibrary:
+    from mrlab_ros.adapters.robot_library import RobotLibrary
+
+    return RobotLibrary(share.directory() / "robots")
+
+
+@app.callback(invoke_without_command=True)
+def overview(
+    context: typer.Context,
+    as_json: Annotated[
+        bool, typer.Option("--json", help="Print JSON instead of a table.")
+    ] = False,
+) -> None:
+    """List the robots: id, class, payload, reach (from kinematics), joints."""
+    if context.invoked_subcommand is None:
+        list_robots(as_json)
+
+
+@app.command("list")
+def list_robots(
+    as_json: Annotated[
+        bool, typer.Option("--json", help="Print JSON instead of a table.")
+    ] = False,
+) -> None:
+    """List the robots: id, class, payload, reach (from kinematics), joints."""
+    from mrlab_ros.core.reach import reach
+
+    library = _library()
+    rows = []
+    for robot in library.ids():
+        model, facts = library.model(robot), library.facts(robot)
+        rows.append(
+            {
+                "id": robot,
+                "product": f"{model.manufacturer} {model.product}",
+                "class": model.robot_class,
+                "payload_kg": model.payload,
+                "reach_mm": round(reach(model, facts["reach_definition"]) * 1e3, 1),
+                "joints": len(model.joints),
+            }
+        )
+    tools = list(library.end_effectors())
+    if as_json:
+        sys.stdout.write(json.dumps({"robots": rows, "end_effectors": tools}, indent=2) + "\n")
+        return
+    from rich.console import Console
+    from rich.table import Table
+
+    table = Table()
+    for heading in ("id", "product", "class", "payload, kg", "reach, mm", "joints"):
+        table.add_column(heading, no_wrap=heading == "id")
+    for row in rows:
+        payload, reach_mm = f"{row['payload_kg']:g}", f"{row['reach_mm']:.1f}"
+        table.add_row(
+            *(str(row[key]) for key in ("id", "product", "class")),
+            payload,
+            reach_mm,
+            str(row["joints"]),
+        )
+    console = Console()
+    console.print(table)
+    console.print(f"end effectors: {', '.join(tools)}")
+
+
+@app.command()
+def show(
+    robot: Annotated[str, typer.Argument(help="Id of the robot.")],
+    end_effector: Annotated[str, typer.Option("--tool", help="Id of an end effector.")] = "",
+    output: Annotated[Path | None, typer.Option("--output", "-o", help="Name of the PNG.")] = None,
+    collision: Annotated[
+        bool, typer.Option("--collision", help="Draw the convex hulls instead of the bodies.")
+    ] = False,
+) -> None:
+    """Write a PNG of a robot at home beside a person of 1.8 m."""
+    from mrlab_ros.adapters.robot_picture import take
+
+    path = output or Path(f"{robot}.png")
+    take(_library(), robot, path, end_effector or None, collision=collision)
+    print(path)
+
+
+@app.command()
+def check(
+    robots: Annotated[list[str] | None, typer.Argument(help="Ids; none: all robots.")] = None,
+) -> None:
+    """Check robots: meshes, limits, inertias, units. Ends with 1 where one has an error."""
+    from mrlab_ros.adapters import robot_checks
+
+    library = _library()
+    worst = 0
+    for robot in robots or library.ids():
+        text = library.description(robot)
+        found = robot_checks.check(text, f"{robot}/robot.urdf", library.mesh_path)
+        library.model(robot)
+        shown = [one for one in found if one.severity is not Severity.INFO]
+        print(f"{robot}: {'ok' if not shown else ''}".rstrip())
+        _tell(shown)
+        worst += len(robot_checks.errors(found))
+    if worst:
+        raise BadInput(f"{worst} errors were found; each line above says what to do")
+
+
+@app.command("import")
+def import_robot(
+    source: Annotated[str, typer.Argument(help="A URDF, or the name of a ROS package.")],
+    robot_id: Annotated[str, typer.Option("--id", help="Id in the lab; empty: the name.")] = "",
+    package: Annotated[
+        list[str] | None,
+        typer.Option("--package", help="NAME=FOLDER for package:// meshes; repeatable."),
+    ] = None,
+) -> None:
+    """Check a URDF of one's own and install it as a robot of the lab."""
+    from mrlab_ros.adapters import robot_checks, robot_import
+
+    folders = {}
+    for pair in package or []:
+        name, equals, folder = pair.partition("=")
+        if not equals:
+            raise BadInput(f"--package is '{pair}'; expected NAME=FOLDER")
+        folders[name] = Path(folder)
+    path = robot_import.find_urdf(source)
+    library = _library()
+    wanted = robot_id or path.stem.lower().replace("-", "_")
+    found = robot_import.bring(path, wanted, library, folders)
+    _tell(found)
+    wrong = robot_checks.errors(found)
+    if wrong:
+        raise BadInput(f"{path.name} was not imported: {len(wrong)} errors, listed above")
+    print(f"{wanted} is a robot of the lab; its files: {library.imported / wanted}")
+
+
+def _tell(found: list[Diagnostic] | tuple[Diagnostic, ...]) -> None:
+    for one in found:
+        remedy = f"; {one.remedy}" if one.remedy else ""
+        print(f"  {WORDS[one.severity]}: {one.message}{remedy}")

@@ -1,0 +1,238 @@
+"""`mrlab status`: the graph at a glance."""
+
+from __future__ import annotations
+
+import json
+import math
+import sys
+import time
+from typing import TYPE_CHECKING, Annotated, Any
+
+import typer
+
+from mrlab_ros.supervisor import RunFile
+
+if TYPE_CHECKING:
+    from rich.console import RenderableType
+
+    from mrlab_ros.commands.follow import Follower
+    from mrlab_ros.graph_client import Graph, Watch
+
+REFRESH_RATE = 4.0
+# What a robot that was just found has to say is there by then, s.
+SETTLE_TIMEOUT = 6.0
+
+
+def status(
+    once: Annotated[bool, typer.Option("--once", help="Print the table once and end.")] = False,
+    as_json: Annotated[
+        bool, typer.Option("--json", help="Print one JSON object and end.")
+    ] = False,
+) -> None:
+    """Show robots, trajectories, systems and processes of the running lab.
+
+    Ends with 0 where a lab answers, 1 where none does.
+    """
+    from rich.console import Console
+    from rich.live import Live
+
+    from mrlab_ros.graph_client import Graph
+
+    console = Console()
+    with Graph() as graph:
+        graph.robots()
+        view = View(graph)
+        view.settle()
+        if as_json:
+            sys.stdout.write(json.dumps(view.facts(), indent=2) + "\n")
+        elif once or not console.is_terminal:
+            console.print(view.table())
+        else:
+            with Live(view.table(), console=console, auto_refresh=False) as live:
+                try:
+                    while True:
+                        time.sleep(1 / REFRESH_RATE)
+                        live.update(view.table(), refresh=True)
+                except KeyboardInterrupt:
+                    return
+
+
+class View:
+    """Everything `mrlab status` shows, kept up to date by the graph."""
+
+    def __init__(self, graph: Graph) -> None:
+        from mrlab_msgs import msg
+
+        self._graph = graph
+        self._run_file = RunFile(graph.domain)
+        self._robots: Watch[Any] = graph.watch(msg.Robots, "/robots")
+        self._catalogue: Watch[Any] = graph.watch(msg.TrajectoryCatalogue, "/trajectories")
+        self._systems: Watch[Any] = graph.watch(msg.RobotSystems, "/systems")
+        self._followers: dict[str, Follower] = {}
+
+    def settle(self) -> None:
+        """Wait until all that is announced has been heard, or SETTLE_TIMEOUT is over."""
+        deadline = time.monotonic() + SETTLE_TIMEOUT
+        watches = (self._robots, self._catalogue, self._systems)
+        while time.monotonic() < deadline:
+            followers = [follower for _, follower in self.robots()]
+            if all(w.value is not None for w in (*watches, *(f.watch for f in followers))):
+                return
+            time.sleep(0.02)
+
+    def robots(self) -> list[tuple[Any, Follower]]:
+        """Return the robots of the scene, each with what is known of its playback."""
+        from mrlab_ros.commands.follow import Follower
+
+        robots = self._robots.value.robots if self._robots.value else []
+        for robot in robots:
+            if robot.name not in self._followers:
+                self._followers[robot.name] = Follower(self._graph, robot.name)
+        return [(robot, self._followers[robot.name]) for robot in robots]
+
+    def facts(self) -> dict[str, Any]:
+        """Return what is known, ready for JSON: SI units, null where nothing is known."""
+        return {
+            "domain": self._graph.domain,
+            "supervisor": self._run_file.read(),
+            "robots": [_robot_facts(robot, follower) for robot, follower in self.robots()],
+            "trajectories": [
+                {
+                    "id": t.id,
+                    "robot_model": t.robot_model,
+                    "frame_rate": t.frame_rate,
+                    "frame_count": t.frame_count,
+                    "duration": t.duration,
+                    "warnings": [w.message for w in t.warnings],
+                }
+                for t in (self._catalogue.value.trajectories if self._catalogue.value else ())
+            ],
+            "systems": [
+                {
+                    "name": s.name,
+                    "state": s.label,
+                    "message": s.message,
+                    "members": [m.robot for m in s.members],
+                    "duration": s.duration,
+                }
+                for s in (self._systems.value.systems if self._systems.value else ())
+            ],
+        }
+
+    def table(self) -> RenderableType:
+        """Return the facts as tables."""
+        from rich.console import Group
+        from rich.text import Text
+
+        facts = self.facts()
+        supervisor = facts["supervisor"]
+        kept = f"kept by process {supervisor['pid']}" if supervisor else "not kept by mrlab"
+        parts: list[RenderableType] = [Text(f"Lab on ROS domain {facts['domain']}, {kept}")]
+        sections: tuple[tuple[str, tuple[str, ...], list[tuple[str, ...]]], ...] = (
+            ("Robots", ROBOT_COLUMNS, [_robot_row(r) for r in facts["robots"]]),
+            (
+                "Trajectories",
+                ("id", "for", "frames", "Hz", "duration", "warnings"),
+                [
+                    (
+                        t["id"],
+                        t["robot_model"],
+                        str(t["frame_count"]),
+                        f"{t['frame_rate']:g}",
+                        f"{t['duration']:.2f} s",
+                        str(len(t["warnings"])),
+                    )
+                    for t in facts["trajectories"]
+                ],
+            ),
+            (
+                "Systems",
+                ("name", "state", "members", "duration", "message"),
+                [
+                    (
+                        s["name"],
+                        s["state"],
+                        ", ".join(s["members"]),
+                        f"{s['duration']:.2f} s",
+                        s["message"],
+                    )
+                    for s in facts["systems"]
+                ],
+            ),
+            (
+                "Processes",
+                ("name", "state", "process", "for", "restarts", "last end"),
+                [_process_row(p) for p in (supervisor or {}).get("processes", ())],
+            ),
+        )
+        for title, columns, rows in sections:
+            if rows or title == "Robots":
+                parts += ["", _table(title, columns, rows)]
+        return Group(*parts)
+
+
+ROBOT_COLUMNS = ("robot", "at x, y", "state", "trajectory", "time", "late", "max")
+
+
+def _robot_facts(robot: Any, follower: Follower) -> dict[str, Any]:
+    state, position = follower.state, robot.pose.position
+    known = follower.watch.value is not None
+    moving = bool(follower.errors)
+    return {
+        "name": robot.name,
+        "model": robot.model,
+        "end_effector": robot.end_effector,
+        "position": [position.x, position.y, position.z],
+        "state": state.label if known else None,
+        "message": state.message,
+        "trajectory": state.trajectory_id or None,
+        "frame": follower.frame,
+        "frame_count": state.frame_count,
+        "duration": state.duration,
+        "rate": state.rate,
+        "system": state.system or None,
+        "deadline_error": follower.errors[-1] if moving else None,
+        "deadline_error_max": follower.error_max if moving else None,
+        "frames_lost": follower.frames_lost,
+    }
+
+
+def _robot_row(robot: dict[str, Any]) -> tuple[str, ...]:
+    from mrlab_ros.commands.follow import milliseconds
+
+    position = robot["frame"] * robot["duration"] / max(robot["frame_count"] - 1, 1)
+    errors = (robot["deadline_error"], robot["deadline_error_max"])
+    return (
+        robot["name"],
+        "{:g}, {:g}".format(*robot["position"][:2]),
+        robot["state"] or "no playback",
+        robot["trajectory"] or "-",
+        f"{position:.2f} of {robot['duration']:.2f} s" if robot["frame_count"] else "-",
+        *(milliseconds(math.nan if error is None else error) for error in errors),
+    )
+
+
+def _process_row(process: dict[str, Any]) -> tuple[str, ...]:
+    return (
+        process["name"],
+        process["phase"],
+        str(process["pid"] or "-"),
+        f"{time.time() - process['since']:.0f} s",
+        str(process["restarts"]),
+        process["last_exit"] or "-",
+    )
+
+
+def _table(title: str, columns: tuple[str, ...], rows: list[tuple[str, ...]]) -> RenderableType:
+    from rich import box
+    from rich.table import Table
+    from rich.text import Text
+
+    table = Table(title=title, title_justify="left", title_style="bold", box=box.SIMPLE_HEAD)
+    for index, column in enumerate(columns):
+        table.add_column(column, no_wrap=index == 0, overflow="fold")
+    for row in rows:
+        table.add_row(*map(Text, row))
+    if not rows:
+        table.add_row(Text("none yet"), *[""] * (len(columns) - 1))
+    return table

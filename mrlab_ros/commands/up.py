@@ -1,0 +1,233 @@
+"""`mrlab up`: the lab's processes under the supervisor, until Ctrl-C."""
+
+from __future__ import annotations
+
+import json
+import os
+import signal
+import sys
+import tempfile
+import threading
+import time
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any
+
+import typer
+
+from mrlab_ros.core.errors import BadInput
+from mrlab_ros.supervisor import SELF, ProcessSpec, RunFile, Supervisor, domain_id
+
+if TYPE_CHECKING:
+    from rich.console import Console
+
+    from mrlab_ros.graph_client import Graph
+
+LISTEN = "tcp/127.0.0.1:7447"
+COLOURS = {SELF: "bold", "lab": "cyan", "playback": "green", "bridge": "magenta"}
+# A lab that is not complete by then has trouble, s.
+READY_TIMEOUT = 20.0
+# Any of these says that the user has chosen whom the graph can see.
+DISCOVERY = (
+    "ROS_AUTOMATIC_DISCOVERY_RANGE",
+    "ROS_DISCOVERY_SERVER",
+    "ROS_LOCALHOST_ONLY",
+    "ROS_STATIC_PEERS",
+)
+
+
+def up(
+    config: Annotated[
+        Path | None, typer.Option(help="ROS parameter file; the shipped lab.yaml if not given.")
+    ] = None,
+    robots: Annotated[
+        str, typer.Option(help="Robots to begin with, such as ur5e,kuka_kr3_r540.")
+    ] = "",
+    bridge: Annotated[bool, typer.Option(help="Carry the graph over zenoh.")] = True,
+    zenoh_listen: Annotated[
+        str, typer.Option(help="Where the bridge listens for zenoh clients.")
+    ] = LISTEN,
+    state_dir: Annotated[
+        Path | None,
+        typer.Option(help="Folder for scene and trajectories; not given: gone with the lab."),
+    ] = None,
+) -> None:
+    """Start the lab and keep it running until Ctrl-C.
+
+    Every line of output says which process it came from. A process that dies is started again.
+    The graph stays on this machine unless ROS_AUTOMATIC_DISCOVERY_RANGE says otherwise, and is
+    on the domain of ROS_DOMAIN_ID.
+    """
+    models = checked_robots(robots)
+    stay_on_this_machine()
+    domain = domain_id()
+    run_file = RunFile(domain)
+    say = Speaker()
+    with folder_for_state(state_dir) as folder, stop_signals() as stop:
+        specs = lab_processes(
+            config=checked_config(config),
+            robots=models,
+            listen=zenoh_listen if bridge else None,
+            state_dir=folder,
+        )
+        run_file.claim(state_dir=str(folder), zenoh=zenoh_listen if bridge else None)
+        begin = time.monotonic()
+        try:
+            with Supervisor(specs, say, run_file.write):
+                say(SELF, f"starts the lab on ROS domain {domain}; Ctrl-C stops it")
+                missing = wait_until_complete(stop, len(models), bridge)
+                if missing:
+                    say(SELF, f"not complete after {READY_TIMEOUT:g} s: {missing} missing")
+                elif not stop.is_set():
+                    took = time.monotonic() - begin
+                    zenoh = f"; zenoh clients connect to {zenoh_listen}" if bridge else ""
+                    say(SELF, f"the lab is ready after {took:.1f} s{zenoh}")
+                stop.wait()
+                say(SELF, "stops")
+        finally:
+            run_file.release()
+
+
+class Speaker:
+    """Prints lines with the coloured name of the process that said them."""
+
+    def __init__(self, console: Console | None = None) -> None:
+        from rich.console import Console
+
+        self._console = console or Console()
+
+    def __call__(self, name: str, line: str) -> None:
+        from rich.text import Text
+
+        text = Text.assemble((f"{name:<9}", COLOURS.get(name, "blue")), Text.from_ansi(line))
+        self._console.print(text, soft_wrap=True)
+
+
+def stay_on_this_machine() -> None:
+    """Keep the graph off the network unless the user has chosen otherwise."""
+    if not any(os.environ.get(name) for name in DISCOVERY):
+        os.environ["ROS_AUTOMATIC_DISCOVERY_RANGE"] = "LOCALHOST"
+
+
+def checked_config(config: Path | None) -> Path:
+    """Return the parameter file; raise BadInput where there is none."""
+    if config is None:
+        from mrlab_ros import share
+
+        config = share.directory() / "config" / "lab.yaml"
+    if not config.is_file():
+        raise BadInput(
+            f"there is no parameter file {config}; name one with --config, or leave it out"
+        )
+    return config.resolve()
+
+
+def checked_robots(robots: str) -> tuple[str, ...]:
+    """Return the ids in a list such as 'ur5e,kuka_kr3_r540'; raise BadInput for an unknown one."""
+    models = tuple(model for model in (part.strip() for part in robots.split(",")) if model)
+    if models:
+        from mrlab_ros import share
+        from mrlab_ros.adapters.robot_library import RobotLibrary
+
+        library = RobotLibrary(share.directory() / "robots")
+        for model in models:
+            library.model(model)
+    return models
+
+
+def lab_processes(
+    *, config: Path, robots: tuple[str, ...], listen: str | None, state_dir: Path
+) -> list[ProcessSpec]:
+    """Return the processes of a lab; `listen` is None for one without a bridge."""
+
+    def host(name: str, nodes: str, *parameters: str) -> ProcessSpec:
+        options = [o for p in (f"state_dir:={state_dir}", *parameters) for o in ("-p", p)]
+        argv = (sys.executable, "-m", "mrlab_ros.host", *nodes.split(), "--ros-args")
+        # One short line a message: the process's name stands before it already.
+        env = {
+            "PYTHONUNBUFFERED": "1",
+            "RCUTILS_CONSOLE_OUTPUT_FORMAT": os.environ.get(
+                "RCUTILS_CONSOLE_OUTPUT_FORMAT", "[{severity}] [{name}]: {message}"
+            ),
+        }
+        return ProcessSpec(name, (*argv, "--params-file", str(config), *options), env)
+
+    spawn = [f"lab:robots:={json.dumps(robots)}"] if robots else []
+    specs = [
+        host("lab", "converter lab coordinator", *spawn),
+        host("playback", "playback"),
+    ]
+    if listen is not None:
+        specs.append(host("bridge", "bridge", f"listen:={json.dumps([listen])}"))
+    return specs
+
+
+@contextmanager
+def folder_for_state(chosen: Path | None) -> Iterator[Path]:
+    """Make the folder for scene and trajectories; a temporary one goes with the lab."""
+    if chosen is not None:
+        chosen.mkdir(parents=True, exist_ok=True)
+        yield chosen.resolve()
+        return
+    with tempfile.TemporaryDirectory(prefix="mrlab-", ignore_cleanup_errors=True) as made:
+        yield Path(made)
+
+
+@contextmanager
+def stop_signals() -> Iterator[threading.Event]:
+    """Yield an event that Ctrl-C, SIGTERM and a closed terminal set."""
+    stop = threading.Event()
+    numbers = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
+    before = {number: signal.signal(number, lambda *_: stop.set()) for number in numbers}
+    try:
+        yield stop
+    finally:
+        for number, handler in before.items():
+            signal.signal(number, handler)
+
+
+def wait_until_complete(stop: threading.Event, robots: int, bridge: bool) -> str:
+    """Wait until every node of the lab speaks; return what is missing after READY_TIMEOUT."""
+    from mrlab_ros.graph_client import Graph
+
+    with Graph() as graph:
+        missing = lab_is_missing(graph, robots, bridge)
+        deadline = time.monotonic() + READY_TIMEOUT
+        while not stop.wait(0.05):
+            what = missing()
+            if not what or time.monotonic() > deadline:
+                return what
+    return ""
+
+
+def lab_is_missing(graph: Graph, robots: int, bridge: bool) -> Callable[[], str]:
+    """Return a function that names what of a lab has not spoken yet; empty: all is there."""
+    from mrlab_msgs import msg
+
+    scene = graph.watch(msg.Robots, "/robots")
+    watches = {
+        "lab": scene,
+        "converter": graph.watch(msg.TrajectoryCatalogue, "/trajectories"),
+        "coordinator": graph.watch(msg.RobotSystems, "/systems"),
+    }
+    quiet = ("playback_host", "bridge") if bridge else ("playback_host",)
+    playbacks: dict[str, Any] = {}
+
+    def missing() -> str:
+        silent = [name for name, watch in watches.items() if watch.value is None]
+        names = set(graph.node.get_node_names())
+        silent += [name for name in quiet if name not in names]
+        if silent:
+            return ", ".join(silent)
+        present = scene.value.robots if scene.value else ()
+        for robot in present:
+            if robot.name not in playbacks:
+                playbacks[robot.name] = graph.watch(
+                    msg.PlaybackState, f"/{robot.name}/playback_state"
+                )
+            if playbacks[robot.name].value is None:
+                return f"the playback of {robot.name}"
+        return "" if len(present) >= robots else "a robot"
+
+    return missing

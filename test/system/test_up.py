@@ -1,0 +1,171 @@
+"""`mrlab up` as a user runs it: real processes, a real graph, signals."""
+
+from __future__ import annotations
+
+import json
+import os
+import signal
+import subprocess
+import sys
+import time
+from collections.abc import Callable, Iterator
+from pathlib import Path
+from typing import Any
+
+import psutil
+import pytest
+
+from mrlab_ros.commands.demo import claim_free_domain, free_port
+
+DEADLINE = 60.0
+MRLAB = (sys.executable, "-m", "mrlab_ros.cli")
+
+
+def wait_for(condition: Callable[[], object], what: str) -> None:
+    end = time.monotonic() + DEADLINE
+    while not condition():
+        assert time.monotonic() < end, f"not within {DEADLINE} s: {what}"
+        time.sleep(0.05)
+
+
+def mrlab(*arguments: str, timeout: float = DEADLINE) -> subprocess.CompletedProcess[str]:
+    return subprocess.run(
+        (*MRLAB, *arguments), capture_output=True, text=True, timeout=timeout, check=False
+    )
+
+
+class Lab:
+    """A `mrlab up` with what it prints, on a domain and port of its own."""
+
+    def __init__(self, folder: Path) -> None:
+        self._output = folder / "up.log"
+        self.endpoint = f"tcp/127.0.0.1:{free_port(0)}"
+        with open(self._output, "wb") as output:
+            self.process = subprocess.Popen(
+                (*MRLAB, "up", "--robots", "ur5e", "--zenoh-listen", self.endpoint),
+                stdout=output,
+                stderr=subprocess.STDOUT,
+            )
+        self.children: list[psutil.Process] = []
+
+    @property
+    def said(self) -> str:
+        return self._output.read_text()
+
+    @property
+    def ended(self) -> bool:
+        return self.process.poll() is not None
+
+    def wait_until_ready(self) -> None:
+        words = ("is ready", "not complete")
+        wait_for(lambda: any(word in self.said for word in words) or self.ended, "ready")
+        assert "is ready" in self.said, self.said
+        self.children = psutil.Process(self.process.pid).children(recursive=True)
+        assert len(self.children) >= 3
+
+    def all_gone(self) -> bool:
+        def alive(child: psutil.Process) -> bool:
+            try:
+                return bool(child.status() != psutil.STATUS_ZOMBIE)
+            except psutil.NoSuchProcess:
+                return False
+
+        return not any(map(alive, self.children))
+
+    def status(self) -> dict[str, Any]:
+        done = mrlab("status", "--json")
+        assert done.returncode == 0, done.stderr
+        found: dict[str, Any] = json.loads(done.stdout)
+        return found
+
+
+@pytest.fixture
+def lab(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Lab]:
+    monkeypatch.setenv("XDG_RUNTIME_DIR", str(tmp_path))
+    monkeypatch.setenv("ROS_AUTOMATIC_DISCOVERY_RANGE", "LOCALHOST")
+    monkeypatch.delenv("ROS_DOMAIN_ID", raising=False)
+    run_file, domain = claim_free_domain()
+    run_file.release()
+    monkeypatch.setenv("ROS_DOMAIN_ID", str(domain))
+    started = Lab(tmp_path)
+    try:
+        started.wait_until_ready()
+        yield started
+    finally:
+        started.process.kill()
+        started.process.wait()
+
+
+@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
+def test_a_lab_stops_cleanly_and_leaves_nothing(lab: Lab, number: signal.Signals) -> None:
+    lab.process.send_signal(number)
+    assert lab.process.wait(DEADLINE) == 0
+    assert lab.all_gone()
+    done = mrlab("status", "--once")
+    assert done.returncode == 1
+    assert "start a lab with: mrlab up" in done.stderr
+    assert "Traceback" not in lab.said + done.stderr
+
+
+def test_no_process_outlives_a_killed_supervisor(lab: Lab) -> None:
+    lab.process.kill()
+    lab.process.wait()
+    wait_for(lab.all_gone, "all processes of the lab gone")
+
+
+def test_the_graph_heals_when_a_process_dies(lab: Lab) -> None:
+    before = lab.status()
+    assert [robot["state"] for robot in before["robots"]] == ["IDLE"]
+    victim = next(p for p in before["supervisor"]["processes"] if p["name"] == "lab")
+    os.kill(victim["pid"], signal.SIGKILL)
+    wait_for(lambda: "the scene is back" in lab.said, "the scene back")
+    after = lab.status()
+    assert [robot["name"] for robot in after["robots"]] == ["ur5e_1"]
+    restarts = {p["name"]: p["restarts"] for p in after["supervisor"]["processes"]}
+    assert restarts == {"lab": 1, "playback": 0, "bridge": 0}
+    assert "lab ended (SIGKILL); restarts in 0.5 s" in lab.said
+
+
+def test_play_follows_a_workspace_file_to_its_end(lab: Lab) -> None:
+    file = Path(__file__).parents[2] / "examples" / "quintic_ur5e.mat"
+    done = mrlab("play", "ur5e_1", str(file), "--rate", "4")
+    assert done.returncode == 0, done.stderr
+    assert "ur5e_1 played 601 frames" in done.stdout
+    for arguments, words in (
+        (("play", "nobody", "quintic_ur5e"), "no robot 'nobody' is in the scene"),
+        (("play", "ur5e_1", "nothing"), "no trajectory 'nothing'"),
+        (("play", "ur5e_1", "quintic_ur5e", "--rate", "9"), "expected 0.1 to 4"),
+        (("up",), "a lab runs on ROS domain"),
+    ):
+        refused = mrlab(*arguments)
+        assert refused.returncode == 1
+        assert words in refused.stderr
+        assert refused.stderr.count("\n") == 1
+
+
+def test_help_teaches() -> None:
+    done = mrlab("--help")
+    assert done.returncode == 0
+    for word in ("up", "demo", "convert", "play", "robots", "status", "Exit codes"):
+        assert word in done.stdout
+
+
+@pytest.mark.parametrize(
+    ("arguments", "words"),
+    [
+        (("up", "--robots", "ur6"), "there is no robot 'ur6'; known are:"),
+        (("up", "--config", "/nowhere.yaml"), "there is no parameter file /nowhere.yaml"),
+        (("demo", "--once", "--file", "/nowhere.mat"), "there is no file /nowhere.mat"),
+    ],
+)
+def test_a_wrong_argument_is_one_sentence(arguments: tuple[str, ...], words: str) -> None:
+    done = mrlab(*arguments)
+    assert done.returncode == 1
+    assert words in done.stderr
+    assert done.stderr.count("\n") == 1
+
+
+def test_debug_shows_where() -> None:
+    done = mrlab("--debug", "up", "--robots", "ur6")
+    assert done.returncode == 1
+    assert "Traceback" in done.stderr
