@@ -109,7 +109,7 @@ class KinematicChain:
                 "one value a moving joint"
             )
         shape = positions.shape[:-1]
-        columns = positions.reshape(-1, self.joint_count).T
+        columns = positions.reshape(int(np.prod(shape)), self.joint_count).T
         count = columns.shape[1]
         # Component-major, so that each step is one matrix product and a few row operations.
         pose = np.zeros((3, 4, count))

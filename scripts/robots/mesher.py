@@ -7,6 +7,8 @@ from dataclasses import dataclass
 import fast_simplification
 import numpy as np
 from numpy.typing import NDArray
+from scipy.sparse import coo_matrix
+from scipy.sparse.csgraph import connected_components
 from solids import Array, Solid
 
 Faces = NDArray[np.int64]
@@ -150,27 +152,24 @@ def creased(mesh: Mesh) -> Mesh:
     keep = size > 1e-12
     faces, area, size = faces[keep], area[keep], size[keep]
     unit = area / size[:, None]
-    corner_vertex = faces.ravel()
-    corner_face = np.repeat(np.arange(len(faces)), 3)
-    order = np.argsort(corner_vertex, kind="stable")
-    sorted_vertex = corner_vertex[order]
-    begin = np.searchsorted(sorted_vertex, sorted_vertex, side="left")
-    end = np.searchsorted(sorted_vertex, sorted_vertex, side="right")
-    normal = np.zeros((len(order), 3))
-    mine = corner_face[order]
-    limit = np.cos(np.radians(CREASE_DEG))
-    for step in range(int((end - begin).max())):
-        valid = begin + step < end
-        other = corner_face[order[np.minimum(begin + step, len(order) - 1)]]
-        near = valid & ((unit[mine] * unit[other]).sum(axis=1) > limit)
-        normal += np.where(near[:, None], area[other], 0.0)
+    corner = np.arange(faces.size).reshape(-1, 3)
+    # Two corners at one vertex share a normal where a smooth edge joins their faces.
+    edges = np.concatenate([np.sort(faces[:, [i, (i + 1) % 3]], axis=1) for i in range(3)])
+    owner = np.tile(np.arange(len(faces)), 3)
+    sides = np.concatenate([corner[:, [i, (i + 1) % 3]] for i in range(3)])
+    flipped = np.concatenate([faces[:, i] > faces[:, (i + 1) % 3] for i in range(3)])
+    sides = np.where(flipped[:, None], sides[:, ::-1], sides)
+    order = np.lexsort((edges[:, 1], edges[:, 0]))
+    one, two = order[:-1], order[1:]
+    same = (edges[one] == edges[two]).all(axis=1)
+    flat = (unit[owner[one]] * unit[owner[two]]).sum(axis=1) > np.cos(np.radians(CREASE_DEG))
+    one, two = one[same & flat], two[same & flat]
+    links = (sides[one].ravel(), sides[two].ravel())
+    graph = coo_matrix((np.ones(len(links[0])), links), shape=(faces.size, faces.size))
+    count, index = connected_components(graph, directed=False)
+    normal = np.zeros((count, 3))
+    np.add.at(normal, index, np.repeat(area, 3, axis=0))
     normal /= np.maximum(np.linalg.norm(normal, axis=1, keepdims=True), 1e-30)
-    by_corner = np.empty_like(normal)
-    by_corner[order] = normal
-    key = np.column_stack([corner_vertex, np.round(by_corner * 30).astype(np.int64)])
-    _, first, index = np.unique(key, axis=0, return_index=True, return_inverse=True)
-    return Mesh(
-        vertices[corner_vertex[first]],
-        index.reshape(-1, 3),
-        np.round(by_corner[first], 4),
-    )
+    vertex = np.empty(count, dtype=np.int64)
+    vertex[index] = faces.ravel()
+    return Mesh(vertices[vertex], index.reshape(-1, 3), np.round(normal, 4))

@@ -49,7 +49,9 @@ class Solid:
 
         def distance(p: Array) -> Array:
             both = _smooth_min(self.distance(p), other.distance(p), fillet)
-            return both if fillet <= 0 else np.maximum(both, (np.abs(p - middle) - half).max(axis=1))
+            return (
+                both if fillet <= 0 else np.maximum(both, (np.abs(p - middle) - half).max(axis=1))
+            )
 
         return Solid(distance, low, high)
 

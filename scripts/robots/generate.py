@@ -1,0 +1,172 @@
+"""Makes robot.urdf and meshes/ of every robot and end effector: `generate.py [ID ...]`.
+
+The same figures and descriptions give the same bytes.
+"""
+
+from __future__ import annotations
+
+import shutil
+import struct
+import sys
+from collections.abc import Callable
+from dataclasses import replace
+from pathlib import Path
+from typing import Any
+
+import cobots
+import glb
+import hulls
+import kuka_large
+import kuka_medium
+import kuka_small
+import numpy as np
+import tools
+import yaml
+from body import Body
+from figure import SKIN, figure
+from mesher import GRID, Mesh, contour, creased, decimated
+from solids import Array, Solid
+from urdf_writer import LinkFiles, urdf
+
+from mrlab_ros.core.kinematics import inverse, transform
+
+ROBOTS = Path(__file__).resolve().parents[2] / "robots"
+TRIANGLES = 15_200  # a model; the files of a robot stay below 400 kB
+CELLS = 56  # along the longest side of a part
+
+BODIES: dict[str, Callable[[], Body]] = {
+    "kuka_kr3_r540": kuka_small.kr3_r540,
+    "kuka_kr6_r900_sixx": kuka_small.kr6_r900_sixx,
+    "kuka_kr10_r900_2": kuka_small.kr10_r900_2,
+    "kuka_kr16_r1610_2": kuka_medium.kr16_r1610_2,
+    "kuka_kr20_r1810_2": kuka_medium.kr20_r1810_2,
+    "kuka_kr50_r2100": kuka_medium.kr50_r2100,
+    "kuka_kr70_r2100": kuka_medium.kr70_r2100,
+    "kuka_kr120_r2500_pro": kuka_large.kr120_r2500_pro,
+    "kuka_kr150_r2700_2": kuka_large.kr150_r2700_2,
+    "kuka_kr300_r2700_2": kuka_large.kr300_r2700_2,
+    "kuka_kr560_r3100_2": kuka_large.kr560_r3100_2,
+    "kuka_lbr_iisy15_r930": cobots.lbr_iisy15,
+    "ur5e": cobots.ur5e,
+    "parallel_gripper": tools.parallel_gripper,
+    "centric_gripper": tools.centric_gripper,
+    "vacuum_cup": tools.vacuum_cup,
+}
+
+
+def zero_poses(figures: dict[str, Any]) -> dict[str, Array]:
+    """Return T_base_link of every link with all joints at zero."""
+    joints = figures["joints"]
+    poses = {joints[0]["parent"]: np.eye(4)}
+    for joint in joints:
+        poses[joint["child"]] = poses[joint["parent"]] @ transform(joint["xyz"], joint["rpy"])
+    return poses
+
+
+def _area(mesh: Mesh) -> float:
+    a, b, c = (mesh.vertices[mesh.faces[:, i]] for i in range(3))
+    return float(np.linalg.norm(np.cross(b - a, c - a), axis=1).sum())
+
+
+def _placed(mesh: Mesh, pose: Array) -> Mesh:
+    vertices = mesh.vertices @ pose[:3, :3].T + pose[:3, 3]
+    return replace(
+        mesh,
+        vertices=np.round(vertices / GRID) * GRID + 0.0,
+        normals=np.round(mesh.normals @ pose[:3, :3].T, 4) + 0.0,
+    )
+
+
+def _stl(path: Path, triangles: Array) -> None:
+    normal = np.cross(triangles[:, 1] - triangles[:, 0], triangles[:, 2] - triangles[:, 0])
+    normal = normal / np.maximum(np.linalg.norm(normal, axis=1, keepdims=True), 1e-30)
+    record = np.zeros(
+        len(triangles), dtype=[("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("extra", "<u2")]
+    )
+    record["normal"], record["corners"] = np.round(normal, 4) + 0.0, triangles
+    path.write_bytes(
+        b"convex hull".ljust(80, b"\0") + struct.pack("<I", len(record)) + record.tobytes()
+    )
+
+
+def _hull_files(
+    folder: Path, link: str, parts: list[tuple[Solid, Array]], pose: Array
+) -> list[str]:
+    """Write the convex hulls of a link and return the names of their files."""
+    names = []
+    for number, vertices in enumerate(hulls.cover_all(parts)):
+        placed = vertices @ pose[:3, :3].T + pose[:3, 3]
+        names.append(f"{link}_hull_{number}.stl")
+        _stl(folder / names[-1], hulls.triangles(np.round(placed, 5) + 0.0))
+    return names
+
+
+def make(folder: Path, source: str, target: str) -> None:
+    """Make the meshes and the URDF of one model from its figures and its body."""
+    figures = yaml.safe_load((folder / source).read_text())
+    body = BODIES[figures["id"]]()
+    poses = zero_poses(figures)
+    # Made aside and put in place at the end: a robot is whole at any time.
+    meshes = folder / "meshes.new"
+    shutil.rmtree(meshes, ignore_errors=True)
+    meshes.mkdir()
+    raw = []
+    for link, parts in body.links.items():
+        for part in parts:
+            cell = max(float((part.solid.high - part.solid.low).max()) / CELLS, 0.0006)
+            raw.append((link, part, contour(part.solid, cell)))
+    weight = np.array([_area(mesh) ** 0.5 for _, _, mesh in raw])
+    budget = TRIANGLES if source == "robot.yaml" else TRIANGLES / 3
+    files: dict[str, LinkFiles] = {}
+    triangles = 0
+    for link, parts in body.links.items():
+        pose = inverse(poses[link])
+        by_material: dict[str, list[Mesh]] = {}
+        materials = {part.material.name: part.material for part in parts}
+        for (owner, part, mesh), share in zip(raw, weight / weight.sum(), strict=True):
+            if owner == link:
+                small = creased(decimated(mesh, max(int(share * budget), 60)))
+                by_material.setdefault(part.material.name, []).append(_placed(small, pose))
+        pieces = [(materials[name], _joined(group)) for name, group in by_material.items()]
+        triangles += sum(len(mesh.faces) for _, mesh in pieces)
+        glb.write(meshes / f"{link}.glb", pieces)
+        shells = [(part.solid, mesh.vertices) for owner, part, mesh in raw if owner == link]
+        names = _hull_files(meshes, link, shells, pose)
+        files[link] = LinkFiles(f"{link}.glb", tuple(names))
+    place = folder.relative_to(ROBOTS.parent)
+    text = urdf(figures, files, f"package://mrlab_ros/{place.as_posix()}/meshes")
+    shutil.rmtree(folder / "meshes", ignore_errors=True)
+    meshes = meshes.rename(folder / "meshes")
+    (folder / target).write_text(text)
+    size = sum(file.stat().st_size for file in meshes.glob("*.glb"))
+    count = sum(len(file.collision) for file in files.values())
+    print(f"{figures['id']}: {triangles} triangles, {size / 1e3:.0f} kB, {count} hulls")
+
+
+def _joined(meshes: list[Mesh]) -> Mesh:
+    offsets = np.cumsum([0, *(len(mesh.vertices) for mesh in meshes)])
+    return Mesh(
+        np.concatenate([mesh.vertices for mesh in meshes]),
+        np.concatenate([mesh.faces + at for mesh, at in zip(meshes, offsets, strict=False)]),
+        np.concatenate([mesh.normals for mesh in meshes]),
+    )
+
+
+def main() -> None:
+    """Make the models named on the command line, or all."""
+    wanted = sys.argv[1:] or list(BODIES)
+    unknown = sorted(set(wanted) - set(BODIES))
+    if unknown:
+        sys.exit(f"no body is described for {', '.join(unknown)}; known: {', '.join(BODIES)}")
+    person = creased(decimated(contour(figure(), 0.016), 2400))
+    glb.write(ROBOTS / "figure.glb", [(SKIN, person)])
+    for name in wanted:
+        if (ROBOTS / name).is_dir():
+            make(ROBOTS / name, "robot.yaml", "robot.urdf")
+        else:
+            tool = ROBOTS / "end_effectors" / name
+            make(tool, "end_effector.yaml", "end_effector.urdf")
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,90 @@
+"""Writes a binary glTF file, the same bytes for the same mesh."""
+
+from __future__ import annotations
+
+import json
+import struct
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from body import Material
+from mesher import Mesh
+
+FLOAT, SHORT, INT = 5126, 5123, 5125
+
+
+def _linear(srgb: float) -> float:
+    return srgb / 12.92 if srgb <= 0.04045 else ((srgb + 0.055) / 1.055) ** 2.4
+
+
+def write(path: Path, pieces: list[tuple[Material, Mesh]]) -> None:
+    """Write one mesh with a primitive a piece, in the link's own frame, metres."""
+    blob = bytearray()
+    views: list[dict[str, Any]] = []
+    accessors: list[dict[str, Any]] = []
+
+    def store(array: np.ndarray, kind: str, component: int, target: int) -> int:
+        data = np.ascontiguousarray(array).tobytes()
+        views.append(
+            {"buffer": 0, "byteOffset": len(blob), "byteLength": len(data), "target": target}
+        )
+        blob.extend(data)
+        blob.extend(b"\0" * (-len(blob) % 4))
+        accessor: dict[str, Any] = {
+            "bufferView": len(views) - 1,
+            "componentType": component,
+            "count": len(array),
+            "type": kind,
+        }
+        if kind == "VEC3" and target == 34962:
+            accessor["min"] = [float(v) for v in array.min(axis=0)]
+            accessor["max"] = [float(v) for v in array.max(axis=0)]
+        accessors.append(accessor)
+        return len(accessors) - 1
+
+    primitives, materials = [], []
+    for material, mesh in pieces:
+        wide = len(mesh.vertices) > 65535
+        indices = mesh.faces.ravel().astype(np.uint32 if wide else np.uint16)
+        primitives.append(
+            {
+                "attributes": {
+                    "POSITION": store(mesh.vertices.astype(np.float32), "VEC3", FLOAT, 34962),
+                    "NORMAL": store(mesh.normals.astype(np.float32), "VEC3", FLOAT, 34962),
+                },
+                "indices": store(indices, "SCALAR", INT if wide else SHORT, 34963),
+                "material": len(materials),
+            }
+        )
+        materials.append(
+            {
+                "name": material.name,
+                "pbrMetallicRoughness": {
+                    "baseColorFactor": [round(_linear(c), 5) for c in material.colour] + [1.0],
+                    "metallicFactor": material.metalness,
+                    "roughnessFactor": material.roughness,
+                },
+            }
+        )
+    document = {
+        "asset": {"version": "2.0", "generator": "mrlab scripts/robots"},
+        "scene": 0,
+        "scenes": [{"nodes": [0]}],
+        "nodes": [{"mesh": 0, "name": path.stem}],
+        "meshes": [{"name": path.stem, "primitives": primitives}],
+        "materials": materials,
+        "buffers": [{"byteLength": len(blob)}],
+        "bufferViews": views,
+        "accessors": accessors,
+    }
+    text = json.dumps(document, separators=(",", ":")).encode()
+    text += b" " * (-len(text) % 4)
+    size = 12 + 8 + len(text) + 8 + len(blob)
+    path.write_bytes(
+        struct.pack("<4sII", b"glTF", 2, size)
+        + struct.pack("<I4s", len(text), b"JSON")
+        + text
+        + struct.pack("<I4s", len(blob), b"BIN\0")
+        + bytes(blob)
+    )
