@@ -7,26 +7,27 @@ from collections.abc import Callable
 from dataclasses import dataclass, replace
 from enum import Enum
 from pathlib import Path
-from typing import Any, Protocol
+from typing import Any
 
 import numpy as np
 import yaml
 from numpy.typing import NDArray
 
-from mrlab_ros.core import channels, checks, discovery
+from mrlab_ros.core import channels, checks, discovery, frame_rate, waypoints
 from mrlab_ros.core.channels import ProxyCoefficients
 from mrlab_ros.core.diagnostics import Diagnostic, Refused, Severity, finding
-from mrlab_ros.core.discovery import Candidate, FrameRate
 from mrlab_ros.core.errors import BadInput
+from mrlab_ros.core.layout import Layout, lay_out, reshaped
+from mrlab_ros.core.likeness import Candidate
 from mrlab_ros.core.names import Hint, hint
+from mrlab_ros.core.near_misses import bad_message
 from mrlab_ros.core.robot_model import RobotModel
-from mrlab_ros.core.selection import Options, parse_columns
-from mrlab_ros.core.trajectory import Array, Source, Trajectory
+from mrlab_ros.core.selection import Options
+from mrlab_ros.core.trajectory import Source, Trajectory
 from mrlab_ros.core.workspace import Variable, Workspace
 
 DEFAULT_FRAME_RATE = 100.0  # Hz
-# Two turns: radians that went astray by a full turn stay below it, degrees of a motion do not.
-LEAST_DEGREES = 4 * np.pi
+MOST_FRAMES = 2_000_000  # of a message that is sampled: five hours and a half at 100 Hz
 ID = re.compile(r"[A-Za-z0-9][A-Za-z0-9._-]{0,127}$")
 
 
@@ -36,14 +37,6 @@ class Outcome(Enum):
     REJECTED = 0
     ACCEPTED = 1
     AMBIGUOUS = 2
-
-
-class Reader(Protocol):
-    """Reads a workspace file; `adapters.matfile_reader` does so in a walled-off process."""
-
-    def read_file(self, path: Path) -> Workspace:
-        """Return the file's variables; raise Refused."""
-        ...
 
 
 @dataclass(frozen=True, eq=False)
@@ -83,27 +76,9 @@ def load_coefficients(path: Path) -> ProxyCoefficients:
 
 def id_from(file: str) -> str:
     """Return a name for the catalogue from a file's name: its letters, digits, '.', '_', '-'."""
-    stem = re.sub(r"(\.(mat|csv|txt|tsv|npz|json|mcap|gz|db3))+$", "", file, flags=re.I)
+    stem = re.sub(r"(\.(mat|csv|txt|tsv|npz|json|mcap|gz|db3|cdr))+$", "", file, flags=re.I)
     cleaned = re.sub(r"[^A-Za-z0-9._-]+", "_", stem).strip("._-")[:128]
     return cleaned or "trajectory"
-
-
-def convert_file(
-    path: Path,
-    options: Options,
-    robot: RobotModel,
-    *,
-    reader: Reader,
-    coefficients: ProxyCoefficients,
-    **words: Any,
-) -> ConversionResult:
-    """Convert the file at `path` for `robot`; a refusal is a result, never an exception.
-
-    words: what `convert` takes beside the file's contents.
-    """
-    return convert(
-        path.name, lambda: reader.read_file(path), options, robot, coefficients, **words
-    )
 
 
 def convert(
@@ -118,8 +93,9 @@ def convert(
     created_ns: int = 0,
     default_frame_rate: float = DEFAULT_FRAME_RATE,
 ) -> ConversionResult:
-    """Convert what `read` returns, a file called `file`.
+    """Convert what `read` returns, a file called `file`; a refusal is a result, not an exception.
 
+    read: returns the file's variables or raises Refused, as WorkspaceReader.read_file does.
     trajectory_id: name in the catalogue, empty: from the file's name; raises BadInput where it
     cannot be a name. default_frame_rate: Hz, where neither the options nor the file have one.
     """
@@ -140,9 +116,11 @@ def convert(
             outcome = Outcome.AMBIGUOUS if offered else Outcome.REJECTED
             return ConversionResult(file, outcome, None, tuple(offered), _worst_first(notes))
         source = Source(file, variable.path, workspace.sha256)
-        arm, gripper, times = _matrix(variable, options, robot, notes)
-        rate = _frame_rate(workspace, variable, times, options, default_frame_rate, file, notes)
-        arm = _apply(arm, options, robot, variable.path, notes)
+        layout = lay_out(variable, options, robot, notes)
+        layout, rate = _at_a_rate(
+            workspace, variable, layout, options, default_frame_rate, file, notes
+        )
+        arm = layout.arm
         notes += checks.against_robot(arm, rate, robot.joints, variable.path, robot.id)
         if any(n.severity is Severity.ERROR for n in notes):
             return ConversionResult(file, Outcome.REJECTED, None, (), _worst_first(notes))
@@ -153,7 +131,7 @@ def convert(
             joint_names=robot.joint_names,
             frame_rate=rate,
             positions=arm,
-            gripper=gripper,
+            gripper=layout.gripper,
             channels=channels.derive(arm, rate, coefficients),
             source=source,
             created_ns=created_ns,
@@ -176,185 +154,86 @@ def _find(
     if options.variable:
         variable = discovery.named(workspace, options.variable, file)
         said = hint(variable.path)
-        if said in (Hint.AGAINST, Hint.DOUBTFUL):
+        if said in (Hint.AGAINST, Hint.DOUBTFUL) and not variable.is_message:
             return variable, [], [finding("doubtful_name", variable=variable.path, why=said.value)]
         return variable, [], []
-    laid_out = workspace
-    if options.transpose or options.columns:
-        laid_out = _reshaped(workspace, options)
+    laid_out = reshaped(workspace, options)
     ranked = discovery.candidates(laid_out, robot)
     choice, offered, notes = discovery.choose(laid_out, robot, file, ranked)
     return workspace.find(choice.path) if choice else None, offered, notes
 
 
-def _reshaped(workspace: Workspace, options: Options) -> Workspace:
-    """Return the workspace as it is once the options that change a shape were applied.
-
-    Matrices that lack the columns are left out: they cannot be what was meant.
-    """
-    reshaped = []
-    for v in workspace.variables:
-        if v.values is None or v.values.size == 1 or 1 in v.shape:
-            reshaped.append(v)
-            continue
-        values = v.values.T if options.transpose else v.values
-        if options.columns:
-            try:
-                picked = parse_columns(options.columns, values.shape[1], v.path, v.size)
-            except Refused:
-                continue
-            values = values[:, picked]
-        reshaped.append(replace(v, values=values, shape=values.shape))
-    return replace(workspace, variables=tuple(reshaped))
-
-
-def _matrix(
-    variable: Variable, options: Options, robot: RobotModel, notes: list[Diagnostic]
-) -> tuple[Array, NDArray[np.bool_] | None, NDArray[Any] | None]:
-    """Return positions (N, J) as stored, the gripper or None, and a time column or None.
-
-    Applies the options that change a shape. Raises Refused where the outcome does not fit.
-    """
-    path, joints = variable.path, len(robot.joints)
-    if variable.values is None or min(variable.shape) == 0:
-        raise Refused(_misfit(variable, robot))
-    values, times = variable.values, None
-    if options.transpose:
-        values = values.T
-        notes.append(finding("option_applied", variable=path, what=f"'{path}' was transposed"))
-    if options.columns:
-        picked = parse_columns(options.columns, values.shape[1], path, variable.size)
-        if 0 not in picked and discovery.is_time(values[:, 0]):
-            times = values[:, 0]
-        values = values[:, picked]
-        what = f"columns {options.columns} of '{path}' were taken"
-        notes.append(finding("option_applied", variable=path, what=what))
-    laid_out = replace(variable, values=values, shape=values.shape)
-    if not discovery.fits(laid_out, robot):
-        raise Refused(_misfit(laid_out, robot))
-    bad = checks.non_finite(values, path)
-    if bad is not None:
-        raise Refused(bad)
-    if not options.columns:
-        miss = discovery.near_miss(laid_out, robot)
-        if miss is not None and miss.code == "time_column":
-            raise Refused(miss)
-    arm = np.array(values[:, :joints], dtype=np.float64, order="C")
-    if values.shape[1] == joints:
-        return arm, None, times
-    return arm, _gripper(values[:, joints], options, robot, path, notes), times
-
-
-def _misfit(variable: Variable, robot: RobotModel) -> Diagnostic:
-    joints = len(robot.joints)
-    return discovery.near_miss(variable, robot) or finding(
-        "wrong_shape",
-        variable=variable.path,
-        size=" ".join(filter(None, (variable.size, variable.kind))),
-        robot=robot.id,
-        joints=joints,
-        more=joints + 1,
-        hint="",
-    )
-
-
-def _gripper(
-    column: NDArray[Any],
-    options: Options,
-    robot: RobotModel,
-    path: str,
-    notes: list[Diagnostic],
-) -> NDArray[np.bool_]:
-    """Return true where closed: above the middle of the column's range, open if it is constant."""
-    low, high = float(column.min()), float(column.max())
-    joints = len(robot.joints)
-    where = f"column {joints + 1}"
-    if low == high:
-        notes.append(finding("gripper_constant", variable=path, where=where, first=low))
-        return np.zeros(len(column), dtype=np.bool_)
-    if not options.columns and not discovery.is_gripper(column):
-        levels = f"{len(np.unique(column))} values"
-        words: dict[str, Any] = {"first": float(column[0]), "last": float(column[-1])}
-        words |= {"levels": levels, "robot": robot.id, "joints": joints, "column": joints + 1}
-        raise Refused(finding("seven_axes", variable=path, where=where, **words))
-    threshold = (low + high) / 2
-    if (low, high) != (0.0, 1.0):
-        notes.append(
-            finding(
-                "gripper_range",
-                variable=path,
-                where=where,
-                first=low,
-                last=high,
-                threshold=threshold,
-            )
-        )
-    return np.asarray(column > threshold)
-
-
-def _apply(
-    arm: Array, options: Options, robot: RobotModel, path: str, notes: list[Diagnostic]
-) -> Array:
-    """Apply the options that change values; raise Refused where degrees were not declared."""
-    limits = np.array([(j.lower, j.upper) for j in robot.joints])
-    if options.degrees:
-        np.radians(arm, out=arm)
-        what = f"'{path}' was taken as degrees"
-        notes.append(finding("option_applied", variable=path, what=what))
-    else:
-        low, high = arm.min(axis=0), arm.max(axis=0)
-        largest = float(np.abs([low, high]).max())
-        inside = (np.radians(low) >= limits[:, 0]).all() and (
-            np.radians(high) <= limits[:, 1]
-        ).all()
-        if inside and largest > max(LEAST_DEGREES, 2 * float(np.abs(limits).max())):
-            raise Refused(finding("degrees", variable=path, value=largest, robot=robot.id))
-    if options.unwrap:
-        arm = np.unwrap(arm, axis=0)
-        what = f"jumps of 2*pi in '{path}' were removed"
-        notes.append(finding("option_applied", variable=path, what=what))
-    return arm
-
-
-def _frame_rate(
+def _at_a_rate(
     workspace: Workspace,
     variable: Variable,
-    times: NDArray[Any] | None,
+    layout: Layout,
     options: Options,
     default: float,
     file: str,
     notes: list[Diagnostic],
-) -> float:
-    """Return the frame rate, Hz: asked for, from the time column, from the file, the default."""
+) -> tuple[Layout, float]:
+    """Return the samples as frames at an even rate, and that rate, Hz."""
+    if variable.is_message:
+        return _resampled(workspace, variable, layout, options, default, notes)
     if options.frame_rate:
-        return options.frame_rate
-    rows = variable.shape[1 if options.transpose else 0]
-    found = discovery.frame_rates(workspace, variable.path, rows)
-    if times is not None:
-        column = discovery.rate_of_times(times, f"{variable.path}(:, 1)")
+        return layout, options.frame_rate
+    found = frame_rate.frame_rates(workspace, variable.path, len(layout.arm))
+    if layout.times is not None:
+        column = frame_rate.rate_of_times(layout.times, f"{variable.path}(:, 1)")
         found = ([column] if column else []) + found
-    if not found:
-        notes.append(finding("rate_default", file=file, rate=default))
-        return default
-    best = found[0]
-    notes.append(finding("rate_found", variable=best.source, rate=best.rate))
-    for other in found[1:]:
-        if abs(other.rate - best.rate) > 0.01 * best.rate:
-            notes.append(_conflict(best, other))
-            break
-    if best.uneven:
-        least, most = best.uneven
-        notes.append(
-            finding("time_uneven", variable=best.source, least=least, most=most, rate=best.rate)
-        )
-    return best.rate
+    rate, said = frame_rate.agreed(found, default, file)
+    notes += said
+    return layout, rate
 
 
-def _conflict(best: FrameRate, other: FrameRate) -> Diagnostic:
-    return finding(
-        "rate_conflict",
-        variable=best.source,
-        rate=best.rate,
-        other=other.source,
-        other_rate=other.rate,
-    )
+def _resampled(
+    workspace: Workspace,
+    variable: Variable,
+    layout: Layout,
+    options: Options,
+    default: float,
+    notes: list[Diagnostic],
+) -> tuple[Layout, float]:
+    """Return the points of a message as frames.
+
+    The rate is the one asked for; else that of the points, where they come evenly and as often
+    as the default or more, so that none is lost; else the default.
+    """
+    times = _part(workspace, variable, "time_from_start")
+    assert times is not None
+    times_ns = np.rint(times.reshape(-1).astype(np.float64) * 1e9).astype(np.int64)
+    late = np.flatnonzero(np.diff(times_ns) <= 0)
+    if len(late):
+        point = int(late[0]) + 2
+        note = f"point {point} ({times_ns[point - 1] * 1e-9:g} s) is not after the one before it"
+        raise Refused(bad_message(variable, note))
+    velocities = _part(workspace, variable, "velocities")
+    if velocities is not None:
+        velocities = velocities[:, layout.source_columns].astype(np.float64)
+        bad = checks.non_finite(velocities, f"{variable.path}.velocities")
+        if bad is not None:
+            raise Refused(bad)
+        if options.degrees:
+            velocities = np.radians(velocities)
+    own = waypoints.even_rate(times_ns) or 0.0
+    kept = own if default <= own <= frame_rate.RATE_RANGE[1] else default
+    rate = options.frame_rate or kept
+    frames = waypoints.frame_count(times_ns, rate)
+    duration = float(times_ns[-1] - times_ns[0]) * 1e-9
+    words: dict[str, Any] = {"duration": duration, "rate": rate}
+    if frames > MOST_FRAMES:
+        words |= {"most": MOST_FRAMES}
+        raise Refused(finding("too_long", variable=variable.path, **words))
+    how = "straight lines" if velocities is None else "cubic splines through their velocities"
+    words |= {"points": len(times_ns), "frames": frames, "how": how}
+    notes.append(finding("resampled", variable=variable.path, **words))
+    arm = waypoints.resample(times_ns, layout.arm, velocities, rate)
+    gripper = layout.gripper
+    if gripper is not None:
+        gripper = waypoints.hold(times_ns, gripper, rate)
+    return replace(layout, arm=arm, gripper=gripper), rate
+
+
+def _part(workspace: Workspace, message: Variable, name: str) -> NDArray[Any] | None:
+    found = workspace.find(f"{message.path}.{name}")
+    return found.values if found else None

@@ -37,6 +37,7 @@ class Sink(Protocol):
         *,
         is_object: bool = False,
         note: str = "",
+        columns: tuple[str, ...] = (),
     ) -> None:
         """Take one variable; `data` is column by column, of numpy type `dtype`."""
 
@@ -345,16 +346,17 @@ SIGNATURES: tuple[tuple[bytes, str], ...] = (
     (b"Rar!", "a RAR archive"),
     (b"\x7fELF", "a program"),
     (b"MZ", "a Windows program"),
-    (b"SQLite format 3", "an SQLite database"),
+    (b"SQLite format 3", "sqlite3"),
     (b"BZh", "a bzip2 archive"),
     (b"\xfd7zXZ", "an xz archive"),
-    (b"\x89MCAP", "an MCAP recording"),
+    (b"\x89MCAP", "mcap"),
+    (b"\x28\xb5\x2f\xfd", "a Zstandard archive (unpack it first: unzstd)"),
 )
 HDF5_SIGNATURE = b"\x89HDF\r\n\x1a\n"
 
 
 def recognise(data: memoryview) -> str:
-    """Return mat4, mat5, hdf5, gzip, zip, or in words what else the bytes are."""
+    """Return mat4, mat5, hdf5, gzip, mcap, sqlite3, or in words what else the bytes are."""
     head = bytes(data[:4096])
     if not head:
         return "an empty file"

@@ -211,12 +211,13 @@ def _variable(
     dtype: str,
     is_object: bool,
     note: str,
+    columns: list[str],
 ) -> Variable:
     values = None
     if offset >= 0:
         flat = np.frombuffer(numbers, np.dtype(dtype), shape[0] * shape[1], offset)
         values = flat.reshape(tuple(shape), order="F")
-    return Variable(path, kind, tuple(shape), values, is_object, note)
+    return Variable(path, kind, tuple(shape), values, is_object, note, tuple(columns))
 
 
 def _sha256(source: int, size: int) -> str:

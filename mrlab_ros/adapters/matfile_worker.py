@@ -25,7 +25,7 @@ from typing import Any
 
 import numpy as np
 
-from mrlab_ros.adapters import matfile, tables
+from mrlab_ros.adapters import joint_trajectories, matfile, tables
 from mrlab_ros.adapters.matfile_hdf5 import read_hdf5
 
 MOST_VARIABLES = 20_000
@@ -54,6 +54,7 @@ class OutputFile:
         *,
         is_object: bool = False,
         note: str = "",
+        columns: tuple[str, ...] = (),
     ) -> None:
         if len(self.index) >= MOST_VARIABLES:
             self.omitted += 1
@@ -67,7 +68,7 @@ class OutputFile:
             padding = -len(data) % 8
             self.file.write(bytes(padding))
             self.at += len(data) + padding
-        self.index.append([path, kind, shape, offset, dtype, is_object, note])
+        self.index.append([path, kind, shape, offset, dtype, is_object, note, columns])
 
     def finish(self, **words: Any) -> None:
         words |= {"variables": self.index, "omitted": self.omitted}
@@ -104,6 +105,12 @@ def read(data: memoryview, name: str, sink: matfile.Sink, limit: int) -> str:
     if form == "hdf5":
         read_hdf5(io.BytesIO(data), sink, limit)
         return "MATLAB v7.3"
+    if form in joint_trajectories.SUFFIXES:
+        joint_trajectories.read_bag(data, form, sink, limit)
+        return "rosbag2"
+    if name.lower().endswith(".cdr"):
+        joint_trajectories.read_cdr(data, name[: -len(".cdr")], sink)
+        return "CDR"
     if name.lower().endswith(".npz"):
         tables.read_npz(data, sink, limit)
         return "NumPy npz"

@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 import scipy.io
 
+from mrlab_ros.adapters import joint_trajectories
 from mrlab_ros.adapters.trajectory_store import TrajectoryStore
 from mrlab_ros.core.channels import ProxyCoefficients
 from mrlab_ros.core.errors import BadInput
@@ -74,11 +75,19 @@ def write_npz(trajectory: Trajectory, folder: Path, _: ProxyCoefficients) -> Pat
     return path
 
 
+def write_joint_trajectory(trajectory: Trajectory, folder: Path, _: ProxyCoefficients) -> Path:
+    """Write a rosbag2 bag with one trajectory_msgs/JointTrajectory."""
+    path = folder / f"{trajectory.id}.mcap"
+    joint_trajectories.write_bag(trajectory, path)
+    return path
+
+
 WRITERS: dict[str, Writer] = {
     "json": write_json,
     "csv": write_csv,
     "mat": write_mat,
     "npz": write_npz,
+    "jointtrajectory": write_joint_trajectory,
 }
 
 

@@ -247,6 +247,40 @@ KINDS: dict[str, Kind] = {
         "at {rate:g} a second.",
         "Resample in MATLAB: tq = t(1):1/{rate:g}:t(end); q = interp1(t, q, tq).",
     ),
+    # messages and tables that name their joints
+    "joint_names": Kind(
+        ERROR,
+        "The joints that the file names are not those of the robot.",
+        "The joints of '{variable}' are not those of {robot}: {problem}.",
+        "Choose the robot that it was made for, or name the columns as the robot does: {joints}. "
+        "Of a table, columns can be taken by number as well: --columns 1:6.",
+    ),
+    "joints_matched": Kind(
+        INFO,
+        "The columns were put into the robot's order, by the names of its joints.",
+        "The columns of '{variable}' were matched to {robot} by the names of its joints: columns "
+        "{order} in this order.{left_out}",
+    ),
+    "resampled": Kind(
+        INFO,
+        "The points of a message, which have times of their own, became frames at an even rate.",
+        "The {points} points of '{variable}' ({duration:g} s) were joined by {how} and became "
+        "{frames} frames at {rate:g} Hz.",
+        "For another rate: --rate 250.",
+    ),
+    "bad_message": Kind(
+        ERROR,
+        "A JointTrajectory contradicts itself.",
+        "'{variable}' is a JointTrajectory that cannot be played: {problem}.",
+        "Every point needs a position for each joint, and a time_from_start later than that of "
+        "the point before it.",
+    ),
+    "too_long": Kind(
+        ERROR,
+        "A JointTrajectory lasts too long for the rate.",
+        "'{variable}' lasts {duration:g} s, which is more than {most} frames at {rate:g} Hz.",
+        "Check the time_from_start of its last point, or take a lower rate: --rate 10.",
+    ),
     # against the robot
     "joint_limit": Kind(
         ERROR,
@@ -283,6 +317,14 @@ KINDS: dict[str, Kind] = {
         "{threshold:g}.",
         "Save 0 for open and 1 for closed. If it is an opening width, larger means open: invert "
         "it.",
+    ),
+    "gripper_between": Kind(
+        WARNING,
+        "The gripper column is not always at one of its two ends; it may be a joint, or a ramp.",
+        "{count} of {rows} in the gripper column lie between its ends {first:g} and {last:g}; "
+        "the gripper was taken as closed above {threshold:g}.",
+        "Save 0 for open and 1 for closed, without ramps. If the column is a joint, take the "
+        "joints alone (--columns).",
     ),
     "gripper_constant": Kind(
         INFO,

@@ -8,6 +8,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+JOINT_TRAJECTORY = "trajectory_msgs/msg/JointTrajectory"
+
 
 @dataclass(frozen=True, eq=False)
 class Variable:
@@ -16,7 +18,12 @@ class Variable:
     path: as MATLAB writes it, such as `out.q.signals.values`. kind: MATLAB's class, such as
     double; of an object its class name. shape: as MATLAB's size() gives it, empty if unknown.
     values: the numbers of a real double or single matrix in MATLAB's orientation, else None.
-    note: why there are no values, such as complex or sparse.
+    note: why there are no values, such as complex or sparse. columns: their names, where the
+    file names them: the headings of a table, the joints of a message.
+
+    A message of the kind JOINT_TRAJECTORY has its positions as values; its times and velocities
+    are the variables `path.time_from_start` (s) and, where every point has them,
+    `path.velocities`.
     """
 
     path: str
@@ -25,6 +32,12 @@ class Variable:
     values: NDArray[Any] | None = None
     is_object: bool = False
     note: str = ""
+    columns: tuple[str, ...] = ()
+
+    @property
+    def is_message(self) -> bool:
+        """Say whether this is a JointTrajectory: points at times, of joints with names."""
+        return self.kind == JOINT_TRAJECTORY
 
     @property
     def size(self) -> str:

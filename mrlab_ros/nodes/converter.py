@@ -25,8 +25,8 @@ from mrlab_ros.conversion import (
     load_coefficients,
 )
 from mrlab_ros.core.contract import warnings_of
-from mrlab_ros.core.discovery import Candidate
 from mrlab_ros.core.errors import BadInput, LabError
+from mrlab_ros.core.likeness import Candidate
 from mrlab_ros.core.selection import Options
 
 

@@ -1,30 +1,44 @@
-"""Fuzz the readers of workspace files: they refuse or read, and do nothing else.
+"""Fuzz the readers of files from outside: they refuse or read, and do nothing else.
 
     python test/fuzz/fuzz_matfile.py --runs 100000     a bounded run, without any extra package
-    python test/fuzz/fuzz_matfile.py --atheris CORPUS  coverage-guided, needs atheris; the
-                                                       options of libFuzzer may follow
+    python test/fuzz/fuzz_matfile.py --atheris CORPUS -max_total_time=3600
+                                                       coverage-guided, needs atheris; options of
+                                                       libFuzzer follow the folder
 
-The seeds are made here, by this project's own writers, with every kind of variable in them.
+The seeds are made here, by this project's own writers, with every kind of variable in them. In a
+corpus the first byte of an input chooses the file's name, as the name chooses some readers.
 """
 
 from __future__ import annotations
 
 import argparse
 import gzip
+import inspect
 import io
 import random
 import sys
+import tempfile
 from pathlib import Path
-from typing import Any
 
 import h5py
 import numpy as np
 import scipy.io
+from fakes import make_trajectory
+from rosbags.rosbag2 import Writer
+from rosbags.typesys import Stores, get_typestore
 
-from mrlab_ros.adapters import matfile_worker
+from mrlab_ros.adapters import (
+    joint_trajectories,
+    matfile,
+    matfile_hdf5,
+    matfile_worker,
+    tables,
+)
 from mrlab_ros.adapters.matfile import Damaged, NotAWorkspace, TooLarge
+from mrlab_ros.core.workspace import JOINT_TRAJECTORY
 
 LIMIT = 1 << 24
+NAMES = ("fuzz.mat", "fuzz.npz", "fuzz.csv", "fuzz.cdr")
 EXPECTED = (Damaged, TooLarge, NotAWorkspace, MemoryError)
 
 
@@ -41,6 +55,7 @@ class Discard:
         *,
         is_object: bool = False,
         note: str = "",
+        columns: tuple[str, ...] = (),
     ) -> None:
         if data is not None:
             np.frombuffer(data, dtype).reshape(shape, order="F")
@@ -72,6 +87,18 @@ def seeds() -> list[tuple[str, bytes]]:
     np.savez(buffer, q=q, fs=50.0)
     files.append(("seed.npz", buffer.getvalue()))
     files.append(("seed.csv", b"t,a,b\n0,1,2\n0.1,3,4\n"))
+    trajectory = make_trajectory()
+    files.append(("seed.cdr", joint_trajectories.serialized(trajectory)))
+    with tempfile.TemporaryDirectory() as folder:
+        path = Path(folder, "seed.mcap")
+        joint_trajectories.write_bag(trajectory, path)
+        files.append((path.name, path.read_bytes()))
+        with Writer(Path(folder, "seed"), version=9) as writer:
+            topic = writer.add_connection(
+                "/q", JOINT_TRAJECTORY, typestore=get_typestore(Stores.ROS2_JAZZY)
+            )
+            writer.write(topic, 1, joint_trajectories.serialized(trajectory))
+        files.append(("seed.db3", Path(folder, "seed", "seed.db3").read_bytes()))
     return files
 
 
@@ -120,28 +147,41 @@ def bounded(runs: int, seed: int) -> tuple[int, int]:
     return taken, runs - taken
 
 
+def guided(corpus: Path, options: list[str]) -> None:
+    """Run libFuzzer on the folder `corpus`, with the seeds in it; does not return."""
+    import atheris
+
+    corpus.mkdir(parents=True, exist_ok=True)
+    for number, (name, data) in enumerate(seeds()):
+        kind = next((i for i, n in enumerate(NAMES) if Path(n).suffix == Path(name).suffix), 0)
+        (corpus / f"seed-{number}").write_bytes(bytes([kind]) + data)
+    # the rest of what is loaded would take minutes and teach the fuzzer nothing
+    for module in (joint_trajectories, matfile, matfile_hdf5, matfile_worker, tables):
+        for name, member in vars(module).items():
+            if inspect.isfunction(member) and member.__module__ == module.__name__:
+                setattr(module, name, atheris.instrument_func(member))
+            elif inspect.isclass(member) and member.__module__ == module.__name__:
+                for part, method in vars(member).items():
+                    if inspect.isfunction(method):
+                        setattr(member, part, atheris.instrument_func(method))
+
+    def target(data: bytes) -> None:
+        one(data[1:], NAMES[data[0] % len(NAMES)] if data else NAMES[0])
+
+    atheris.Setup([sys.argv[0], str(corpus), *options], target)
+    atheris.Fuzz()
+
+
 def main() -> None:
     parser = argparse.ArgumentParser(description=(__doc__ or "").splitlines()[0])
     parser.add_argument("--runs", type=int, default=10_000)
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--atheris", type=Path, metavar="CORPUS")
     options, rest = parser.parse_known_args()
-    if options.atheris is None:
-        taken, refused = bounded(options.runs, options.seed)
-        print(f"{options.runs} mutations: {taken} read, {refused} refused, nothing else")
-        return
-    import atheris
-
-    options.atheris.mkdir(parents=True, exist_ok=True)
-    for number, (_, data) in enumerate(seeds()):
-        (options.atheris / f"seed-{number}").write_bytes(data)
-    atheris.instrument_all()
-
-    def target(data: Any) -> None:
-        one(bytes(data))
-
-    atheris.Setup([sys.argv[0], str(options.atheris), *rest], target)
-    atheris.Fuzz()
+    if options.atheris is not None:
+        guided(options.atheris, rest)
+    taken, refused = bounded(options.runs, options.seed)
+    print(f"{options.runs} mutations: {taken} read, {refused} refused, nothing else")
 
 
 if __name__ == "__main__":

@@ -4,9 +4,8 @@ import pytest
 from fuzz import fuzz_matfile
 
 
-@pytest.mark.parametrize("number", range(7))
-def test_the_seeds_are_read(number):
-    name, data = fuzz_matfile.seeds()[number]
+@pytest.mark.parametrize(("name", "data"), fuzz_matfile.seeds())
+def test_the_seeds_are_read(name, data):
     assert fuzz_matfile.one(data, name)
 
 

@@ -6,8 +6,13 @@ import sys
 
 import numpy as np
 import pytest
+import rclpy
 import scipy.io
+from builtin_interfaces.msg import Duration
+from trajectory_msgs.msg import JointTrajectory, JointTrajectoryPoint
 
+from mrlab_ros import qos
+from mrlab_ros.adapters.robot_library import RobotLibrary
 from mrlab_ros.adapters.trajectory_store import parse
 from mrlab_ros.conversion import load_coefficients
 from mrlab_ros.share import directory
@@ -73,17 +78,39 @@ def test_the_choice_is_a_table_and_exit_code_2(folder):
     assert "--variable NAME" in done.stdout.replace("\n", " ")
 
 
-@pytest.mark.parametrize("form", ["csv", "mat", "npz", "json"])
-def test_what_is_written_is_read_again(form, folder, tmp_path):
+def test_what_is_written_is_read_again_and_drawn(folder, tmp_path):
     out = tmp_path / "out"
-    done = run("--out", out, "--to", form, "--plot", out, folder / "good.mat")
+    done = run("--out", out, "--to", "jointtrajectory", "--plot", out, folder / "good.mat")
     assert done.returncode == 0, done.stderr
     assert (out / "good.png").stat().st_size > 10_000
-    if form != "json":
-        again = run("--json", out / f"good.{form}")
-        record = json.loads(again.stdout)
-        assert record["outcome"] == "accepted", record
-        assert (record["shape"], record["frame_rate"]) == ([200, 7], 50.0)
+    again = run("--json", "--rate", "50", out)
+    record = json.loads(again.stdout)
+    assert record["outcome"] == "accepted", record
+    assert (record["shape"], record["frame_rate"]) == ([200, 7], 50.0)
+
+
+def test_a_joint_trajectory_comes_from_a_topic(tmp_path):
+    names = RobotLibrary(directory() / "robots").model("ur5e").joint_names
+    context = rclpy.Context()
+    context.init()
+    node = rclpy.create_node("planner", context=context)
+    points = [
+        JointTrajectoryPoint(positions=row.tolist(), time_from_start=Duration(sec=second))
+        for second, row in enumerate(motion(3))
+    ]
+    topic = "/ur5e_1/joint_trajectory"
+    node.create_publisher(JointTrajectory, topic, qos.LATCHED).publish(
+        JointTrajectory(joint_names=names, points=points)
+    )
+    try:
+        done = run("--json", "--out", tmp_path, "--topic", topic, "--timeout", "30")
+    finally:
+        node.destroy_node()
+        context.try_shutdown()
+    assert done.returncode == 0, done.stderr
+    record = json.loads(done.stdout)
+    assert (record["variable"], record["shape"]) == (topic, [201, 6])
+    assert record["trajectory"].endswith("ur5e_1_joint_trajectory.json")
 
 
 @pytest.mark.parametrize(
@@ -92,6 +119,7 @@ def test_what_is_written_is_read_again(form, folder, tmp_path):
         (["--robot", "r2d2", "x.mat"], "r2d2"),
         (["--to", "doc", "x.mat"], "csv"),
         (["--end-effector", "hook", "x.mat"], "hook"),
+        ([], "--topic"),
     ],
 )
 def test_a_wrong_call_is_one_sentence(arguments, words):

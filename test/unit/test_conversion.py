@@ -6,13 +6,8 @@ import numpy as np
 import pytest
 from fakes import make_model
 
-from mrlab_ros.conversion import (
-    ConversionResult,
-    Outcome,
-    convert_file,
-    id_from,
-    load_coefficients,
-)
+from mrlab_ros import conversion
+from mrlab_ros.conversion import ConversionResult, Outcome, id_from, load_coefficients
 from mrlab_ros.core.diagnostics import Refused, Severity, finding
 from mrlab_ros.core.errors import BadInput
 from mrlab_ros.core.selection import Options, parse_columns
@@ -20,16 +15,6 @@ from mrlab_ros.core.workspace import Variable, Workspace
 
 COEFFICIENTS = load_coefficients(Path(__file__).parents[2] / "config" / "torque_proxy.yaml")
 ARM = make_model(6)  # 6 joints, -3 to 3 rad, 2 rad/s
-
-
-class FakeReader:
-    """Returns the workspace it was made with, whatever the file."""
-
-    def __init__(self, variables):
-        self.variables = variables
-
-    def read_file(self, path):
-        return Workspace("fake", tuple(self.variables), 0, "0" * 64)
 
 
 def motion(rows=300, joints=6, reach=1.0):
@@ -46,13 +31,9 @@ def var(path, values=None, kind="double", shape=None, **more):
 
 
 def convert(*variables, robot=ARM, **options) -> ConversionResult:
-    result = convert_file(
-        Path("folder/traj.mat"),
-        Options(**options),
-        robot,
-        reader=FakeReader(variables),
-        coefficients=COEFFICIENTS,
-        created_ns=1,
+    workspace = Workspace("fake", variables, 0, "0" * 64)
+    result = conversion.convert(
+        "traj.mat", lambda: workspace, Options(**options), robot, COEFFICIENTS, created_ns=1
     )
     assert result.message
     return result
@@ -235,13 +216,10 @@ def test_an_empty_workspace_says_so():
 
 
 def test_what_the_reader_refuses_is_a_result():
-    class Broken:
-        def read_file(self, path):
-            raise Refused(finding("unreadable", file=path.name, problem="it ends"))
+    def read():
+        raise Refused(finding("unreadable", file="x.mat", problem="it ends"))
 
-    result = convert_file(
-        Path("x.mat"), Options(), ARM, reader=Broken(), coefficients=COEFFICIENTS
-    )
+    result = conversion.convert("x.mat", read, Options(), ARM, COEFFICIENTS)
     assert (result.outcome, codes(result)) == (Outcome.REJECTED, {"unreadable"})
 
 
@@ -300,6 +278,19 @@ def test_the_gripper_is_closed_above_the_middle():
     assert "gripper_range" in codes(result)
     ramp = np.concatenate([np.zeros(140), np.linspace(0, 1, 20), np.ones(140)])
     np.testing.assert_array_equal(accepted(gripper_motion(ramp)).gripper, ramp > 0.5)
+
+
+@pytest.mark.parametrize(("ends", "between"), [((0.0, 1.0), 18), ((0.01, 0.09), 18)])
+def test_samples_between_the_gripper_s_ends_are_counted(ends, between):
+    column = np.interp(np.arange(300), [140, 159], ends)
+    (found,) = [d for d in convert(gripper_motion(column)).diagnostics if "between" in d.code]
+    assert (found.severity, found.where) == (Severity.WARNING, "column 7")
+    assert f"{between} samples of 300" in found.message
+
+
+def test_a_noisy_gripper_is_at_its_ends():
+    noise = np.random.default_rng(1).uniform(0, 0.01, 300)
+    assert "gripper_between" not in codes(convert(gripper_motion((np.arange(300) > 150) + noise)))
 
 
 @pytest.mark.parametrize("value", [0.0, 1.0, 85.0])
@@ -401,14 +392,7 @@ def test_a_file_gives_the_name(file, name):
 @pytest.mark.parametrize("name", ["../x", "a/b", ".hidden", "x" * 129, "a b", "ü"])
 def test_impossible_names_are_misuse_of_the_request(name):
     with pytest.raises(BadInput, match="cannot be used"):
-        convert_file(
-            Path("q.mat"),
-            Options(),
-            ARM,
-            reader=FakeReader([]),
-            coefficients=COEFFICIENTS,
-            trajectory_id=name,
-        )
+        conversion.convert("q.mat", lambda: None, Options(), ARM, COEFFICIENTS, trajectory_id=name)
 
 
 def test_the_course_of_a_candidate_is_drawn():

@@ -29,7 +29,8 @@ EXAMPLES = [
 class Collected(dict):
     """A sink: path -> (kind, shape, values or None, is_object, note)."""
 
-    def add(self, path, kind, shape, data=None, dtype="", *, is_object=False, note=""):
+    def add(self, path, kind, shape, data=None, dtype="", *, is_object=False, note="", columns=()):
+        del columns
         values = None
         if data is not None:
             values = np.frombuffer(bytes(data), dtype).reshape(shape, order="F")
@@ -239,6 +240,7 @@ def test_v7_3_containers_and_objects():
     [
         (b"", "an empty file"),
         (b"PK\x03\x04rest", "ZIP"),
+        (b"\x28\xb5\x2f\xfd", "Zstandard"),
         (b"\x89PNG\r\n\x1a\n", "PNG"),
         (b"version https://git-lfs.github.com/spec/v1\n", "Git LFS"),
         (b"# Created by Octave 8.4.0\n# name: q\n", "Octave text"),
@@ -247,7 +249,7 @@ def test_v7_3_containers_and_objects():
         (b"q = [1 2 3];\n", "text file"),
         (b"\x00\x9f\x92\x96" * 20, "unknown kind"),
         (b"MATLAB 5.0 MAT-file".ljust(128, b" "), "header is damaged"),
-        (b"SQLite format 3\0", "SQLite"),
+        (b"SQLite format 3\0", "SQLite database"),
     ],
 )
 def test_other_files_are_named_for_what_they_are(data, words):
@@ -347,6 +349,10 @@ def test_a_table_with_headings():
     assert form == "CSV"
     np.testing.assert_array_equal(sink.values("t"), [[0.0], [0.1]])
     np.testing.assert_array_equal(sink.values("q"), [[0.5, 1.0], [0.25, 2.0]])
+    _, sink = read(b"a,b\r1,2\r3,4\r", "run.csv")
+    np.testing.assert_array_equal(sink.values("q"), [[1.0, 2.0], [3.0, 4.0]])
+    with pytest.raises(Damaged, match="first row cannot be read"):
+        read(b"'a'," + b"x" * 200_000 + b"\n1,2\n", "run.csv")
     with pytest.raises(Damaged):
         read(b"a,b\n1,2\n3\n", "run.csv")
     with pytest.raises(Damaged):
@@ -360,6 +366,10 @@ def test_npz_never_unpickles():
     assert form == "NumPy npz"
     np.testing.assert_array_equal(sink.values("q"), np.ones((3, 6)))
     assert sink.values("fs").item() == 50.0
+    encrypted = bytearray(buffer.getvalue())
+    encrypted[encrypted.index(b"PK\1\2") + 8] |= 1
+    with pytest.raises(Damaged, match="encrypted"):
+        read(encrypted, "run.npz")
     buffer = io.BytesIO()
     np.savez(buffer, q=np.array([{}, 1], dtype=object))
     with pytest.raises(Damaged, match="npz"):
