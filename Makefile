@@ -1,6 +1,8 @@
 # make demo   set up and run the lab on a shipped MATLAB file   (ARGS=--once ends by itself)
 # make test   set up and run every test                         (ARGS passes options to pytest)
 # make bench  run every benchmark                               (ARGS=--quick for a minute each)
+# make robots  generate the robots' bodies anew from their descriptions (tens of minutes)
+# make gallery render every robot into docs/gallery (minutes)
 # make lint   ruff and mypy
 # make lock   write the lock files anew from requirements*.in
 # make clean  remove everything that set-up made
@@ -8,7 +10,7 @@
 SHELL := /bin/bash
 ENV := . .venv/mrlab.sh &&
 
-.PHONY: demo test bench lint lock setup clean
+.PHONY: demo test bench robots gallery lint lock setup clean
 
 setup:
 	@python3 scripts/bootstrap.py
@@ -27,6 +29,14 @@ lint:
 bench:
 	@python3 scripts/bootstrap.py --dev
 	@$(ENV) for b in $(filter-out bench/report.py,$(wildcard bench/*.py)); do echo "== $$b"; python "$$b" $(ARGS) || exit 1; done
+
+robots:
+	@python3 scripts/bootstrap.py --dev
+	@$(ENV) python scripts/robots/generate.py $(ARGS)
+
+gallery:
+	@python3 scripts/bootstrap.py --dev
+	@$(ENV) python scripts/robots/gallery.py $(ARGS)
 
 lock:
 	@python3 scripts/bootstrap.py --dev

@@ -31,6 +31,12 @@ def generate_launch_description():
                 description="carry the graph over zenoh",
             ),
             DeclareLaunchArgument(
+                "physics",
+                default_value="false",
+                choices=flags,
+                description="simulate contacts and grasps",
+            ),
+            DeclareLaunchArgument(
                 "web", default_value="false", choices=flags, description="start the web gateway"
             ),
             DeclareLaunchArgument(
@@ -70,6 +76,8 @@ def processes(context):
         host("converter lab coordinator", **({"robots": robots} if robots else {})),
         host("playback"),
     ]
+    if value("physics") == "true":
+        started.append(host("physics"))
     if value("bridge") == "true":
         started.append(host("bridge"))
     return started

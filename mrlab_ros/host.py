@@ -19,6 +19,7 @@ NODES = {
     "converter": "ConverterNode",
     "coordinator": "CoordinatorNode",
     "lab": "LabNode",
+    "physics": "PhysicsNode",
     "playback": "PlaybackHostNode",
 }
 # How often a process looks whether it was asked to stop, s.

@@ -46,7 +46,7 @@ def play(
         found = graph.robot(robot)
         follower = Follower(graph, robot)
         state = follower.watch.wait(lambda _: True, MOVE_TIMEOUT, f"the state of {robot}")
-        wanted = _in_catalogue(graph, found, trajectory)
+        wanted = in_catalogue(graph, found, trajectory)
         begin(graph, robot, state, wanted, rate, loop)
         since = len(follower.states)
         if not wait:
@@ -61,7 +61,7 @@ def play(
             raise typer.Exit(130) from None
 
 
-def _in_catalogue(graph: Graph, robot: Any, trajectory: str) -> str:
+def in_catalogue(graph: Graph, robot: Any, trajectory: str) -> str:
     """Return the trajectory's id; convert it first where it is a file."""
     from mrlab_msgs import srv
 

@@ -11,6 +11,7 @@ import typer
 from mrlab_ros.core.errors import BadInput, Misuse
 
 if TYPE_CHECKING:
+    from mrlab_ros.core.robot_systems import Member
     from mrlab_ros.graph_client import Graph
 
 app = typer.Typer(
@@ -79,25 +80,35 @@ def create(
     except (UnicodeDecodeError, yaml.YAMLError) as error:
         raise BadInput(f"{file} is not YAML: {' '.join(str(error).split())}") from None
     cell = read(document)
-    request = srv.CreateSystem.Request(
-        name=cell.name,
-        mode=cell.mode.value,
-        policy=cell.policy.value,
-        loop=cell.loop,
-        members=[
-            msg.SystemMember(
-                robot=m.robot,
-                trajectory_id=m.trajectory_id,
-                dwell=m.dwell,
-                waits=[wait.text for wait in m.waits],
-            )
-            for m in cell.members
-        ],
-    )
     with Graph() as graph:
+        request = srv.CreateSystem.Request(
+            name=cell.name,
+            mode=cell.mode.value,
+            policy=cell.policy.value,
+            loop=cell.loop,
+            members=[
+                msg.SystemMember(
+                    robot=m.robot,
+                    trajectory_id=_trajectory(graph, file.parent, m),
+                    dwell=m.dwell,
+                    waits=[wait.text for wait in m.waits],
+                )
+                for m in cell.members
+            ],
+        )
         answer = graph.order(srv.CreateSystem, "/coordinator/create_system", request, 30.0)
     print(answer.message)
     print(f"next: mrlab system play {answer.system.name}")
+
+
+def _trajectory(graph: Graph, folder: Path, member: Member) -> str:
+    """Return the id of the member's trajectory; convert it where the file names a workspace."""
+    from mrlab_ros.commands.play import in_catalogue
+
+    name = member.trajectory_id
+    if Path(name).suffix.lower() != ".mat":
+        return name
+    return in_catalogue(graph, graph.robot(member.robot), str(folder / name))
 
 
 @app.command()

@@ -25,7 +25,13 @@ if TYPE_CHECKING:
     from mrlab_ros.graph_client import Graph
 
 LISTEN = "tcp/127.0.0.1:7447"
-COLOURS = {SELF: "bold", "lab": "cyan", "playback": "green", "bridge": "magenta"}
+COLOURS = {
+    SELF: "bold",
+    "lab": "cyan",
+    "playback": "green",
+    "physics": "yellow",
+    "bridge": "magenta",
+}
 # A lab that is not complete by then has trouble, s.
 READY_TIMEOUT = 20.0
 # Any of these says that the user has chosen whom the graph can see.
@@ -45,6 +51,9 @@ def up(
         str, typer.Option(help="Robots to begin with, such as ur5e,kuka_kr3_r540.")
     ] = "",
     bridge: Annotated[bool, typer.Option(help="Carry the graph over zenoh.")] = True,
+    physics: Annotated[
+        bool, typer.Option(help="Simulate contacts and grasps; takes about half a core.")
+    ] = False,
     zenoh_listen: Annotated[
         str, typer.Option(help="Where the bridge listens for zenoh clients.")
     ] = LISTEN,
@@ -69,6 +78,7 @@ def up(
             config=checked_config(config),
             robots=models,
             listen=zenoh_listen if bridge else None,
+            physics=physics,
             state_dir=folder,
         )
         run_file.claim(state_dir=str(folder), zenoh=zenoh_listen if bridge else None)
@@ -137,7 +147,12 @@ def checked_robots(robots: str) -> tuple[str, ...]:
 
 
 def lab_processes(
-    *, config: Path, robots: tuple[str, ...], listen: str | None, state_dir: Path
+    *,
+    config: Path,
+    robots: tuple[str, ...],
+    listen: str | None,
+    state_dir: Path,
+    physics: bool = False,
 ) -> list[ProcessSpec]:
     """Return the processes of a lab; `listen` is None for one without a bridge."""
 
@@ -158,6 +173,8 @@ def lab_processes(
         host("lab", "converter lab coordinator", *spawn),
         host("playback", "playback"),
     ]
+    if physics:
+        specs.append(host("physics", "physics"))
     if listen is not None:
         specs.append(host("bridge", "bridge", f"listen:={json.dumps([listen])}"))
     return specs

@@ -48,9 +48,7 @@ def test_on_a_frame_it_gives_exactly_that_frame(trajectory: Trajectory) -> None:
         position = frame / trajectory.frame_rate
         assert trajectory.frame_at(position) == frame
         assert np.array_equal(trajectory.sample(position), trajectory.positions[frame])
-        assert np.array_equal(
-            trajectory.at(position)[2], trajectory.channels.velocities[frame]
-        )
+        assert np.array_equal(trajectory.at(position)[2], trajectory.channels.velocities[frame])
 
 
 @given(trajectories(), st.floats(0.001, 0.999), st.data())

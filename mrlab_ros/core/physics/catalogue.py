@@ -14,7 +14,20 @@ from mrlab_ros.core.scene import NAME, Pose
 
 SOLID = (Shape.BOX, Shape.CYLINDER, Shape.SPHERE)
 COUNTS = {Shape.BOX: 3, Shape.CYLINDER: 2, Shape.SPHERE: 1}
-FIELDS = frozenset("shape size parts mass fixed color mesh friction restitution about".split())
+FIELDS = frozenset(
+    (
+        "shape",
+        "size",
+        "parts",
+        "mass",
+        "fixed",
+        "color",
+        "mesh",
+        "friction",
+        "restitution",
+        "about",
+    )
+)
 SIZE_RANGE = (0.002, 5.0)
 MASS_RANGE = (0.001, 500.0)
 

@@ -18,6 +18,8 @@ from mrlab_ros.core.kinematics import Array
 from mrlab_ros.core.physics.poses import Vector
 from mrlab_ros.core.scene import Pose
 
+IDENTITY = Pose()
+
 
 class Kind(Enum):
     """What an arm touches; the values are those of mrlab_msgs/Contact."""
@@ -45,7 +47,7 @@ class Part:
 
     shape: Shape
     size: tuple[float, ...] = ()
-    pose: Pose = Pose()
+    pose: Pose = IDENTITY
     vertices: Array | None = None
     triangles: NDArray[np.int32] | None = None
 
@@ -81,18 +83,20 @@ class Finger:
     max_force: float
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Arm:
     """What the engine found in a robot's description.
 
     fingers: its joints that the trajectory does not prescribe. hand: the link an object is fixed
-    to. tool_links: all links beyond tool0. fixed_links: links that no joint moves.
+    to. tool_links: all links beyond tool0. fixed_links: links that no joint moves. levers: (J,) m,
+    of each prescribed joint the longest way from it to the arm's end.
     """
 
     fingers: tuple[Finger, ...]
     hand: str
     tool_links: frozenset[str]
     fixed_links: frozenset[str]
+    levers: Array
 
 
 @dataclass(frozen=True)
@@ -180,7 +184,7 @@ class Engine(Protocol):
         ...
 
     def below(self, point: Vector) -> float | None:
-        """Return the height of the first thing below `point`, m; None where there is nothing."""
+        """Return the height of the first fixed thing below `point`, m; None without one."""
         ...
 
     def overlapping(self, low: Vector, high: Vector) -> set[str]:

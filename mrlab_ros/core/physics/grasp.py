@@ -8,7 +8,7 @@ from enum import Enum
 from mrlab_ros.core.clock import SECOND
 from mrlab_ros.core.errors import IllegalEvent
 from mrlab_ros.core.physics.engine import Finger, FingerState, Kind, Touch
-from mrlab_ros.core.physics.poses import dot
+from mrlab_ros.core.physics.poses import Vector, dot
 
 # Two fingers oppose each other when the cosine between their contact normals is below this;
 # three fingers 120 degrees apart have -0.5.
@@ -72,44 +72,49 @@ def after(state: Grasp, event: GraspEvent) -> Grasp:
         ) from None
 
 
-def mermaid() -> str:
-    """Draw the table as a Mermaid state diagram."""
-    lines = ["stateDiagram-v2", "    [*] --> OPEN"]
-    for (state, event), target in TRANSITIONS.items():
-        lines.append(f"    {state.name} --> {target.name}: {event.value}")
-    return "\n".join(lines)
-
-
 class StallWatch:
-    """Tells which fingers make no progress: less than `distance` (m or rad) in `span_ns`."""
+    """Tells which fingers make no progress, and what they touched meanwhile.
 
-    def __init__(self, fingers: Sequence[Finger], distance: float, span_ns: int) -> None:
+    A finger is stalled when it closed by less than `share` of what it would have covered freely
+    in `span_ns`. Contacts count for the same span: a finger pressed against something hard loses
+    touch with it every few steps.
+    """
+
+    def __init__(self, fingers: Sequence[Finger], share: float, span_ns: int) -> None:
         self._fingers = tuple(fingers)
-        self._distance = distance
+        self._least = [share * f.max_velocity * span_ns / SECOND for f in self._fingers]
         self._span_ns = span_ns
-        self._from: list[tuple[int, float]] | None = None
-        self._all_since_ns: int | None = None
+        self._links = frozenset(finger.link for finger in self._fingers)
+        self.reset()
 
     def reset(self) -> None:
-        self._from = None
-        self._all_since_ns = None
+        self._from: list[tuple[int, float]] | None = None
+        self._stalled: set[str] = set()
+        self._all_since_ns: int | None = None
+        self._touched: dict[tuple[str, str], tuple[int, Vector]] = {}
 
-    def look(self, now_ns: int, states: Sequence[FingerState]) -> frozenset[str]:
+    def look(
+        self, now_ns: int, states: Sequence[FingerState], touches: Sequence[Touch]
+    ) -> frozenset[str]:
         """Return the links of the fingers that are stalled at `now_ns`."""
+        for touch in touches:
+            if touch.kind is Kind.OBJECT and touch.link in self._links:
+                self._touched[touch.link, touch.other] = (now_ns, touch.normal)
         if self._from is None:
             self._from = [(now_ns, state.position) for state in states]
-        stalled = set()
-        for i, state in enumerate(states):
+        for i, (finger, state) in enumerate(zip(self._fingers, states, strict=True)):
             since_ns, position = self._from[i]
-            if abs(state.position - position) > self._distance:
+            if state.position - position > self._least[i]:
+                self._stalled.discard(finger.link)
                 self._from[i] = (now_ns, state.position)
             elif now_ns - since_ns >= self._span_ns:
-                stalled.add(self._fingers[i].link)
-        if len(stalled) < len(self._fingers):
+                self._stalled.add(finger.link)
+                self._from[i] = (now_ns, state.position)
+        if len(self._stalled) < len(self._fingers):
             self._all_since_ns = None
         elif self._all_since_ns is None:
             self._all_since_ns = now_ns
-        return frozenset(stalled)
+        return frozenset(self._stalled)
 
     def all_stalled_for(self, now_ns: int) -> float:
         """Return how long all fingers have been stalled, s."""
@@ -118,21 +123,18 @@ class StallWatch:
     def shut(self, states: Sequence[FingerState]) -> bool:
         """Return whether all fingers are at their closed end."""
         return all(
-            f.upper - s.position <= self._distance
-            for f, s in zip(self._fingers, states, strict=True)
+            finger.upper - state.position <= least
+            for finger, state, least in zip(self._fingers, states, self._least, strict=True)
         )
 
-
-def pinched(touches: Sequence[Touch], stalled: frozenset[str]) -> str | None:
-    """Return the object that two opposing stalled fingers touch; the first by name, or None."""
-    by_object: dict[str, list[Touch]] = {}
-    for touch in touches:
-        if touch.kind is Kind.OBJECT and touch.link in stalled:
-            by_object.setdefault(touch.other, []).append(touch)
-    for name in sorted(by_object):
-        found = by_object[name]
-        for i, a in enumerate(found):
-            for b in found[i + 1 :]:
-                if a.link != b.link and dot(a.normal, b.normal) < OPPOSED:
-                    return name
-    return None
+    def pinched(self, now_ns: int) -> str | None:
+        """Return the first object, by name, that two opposing stalled fingers touch."""
+        by_object: dict[str, list[tuple[str, Vector]]] = {}
+        for (link, other), (seen_ns, normal) in self._touched.items():
+            if link in self._stalled and now_ns - seen_ns <= self._span_ns:
+                by_object.setdefault(other, []).append((link, normal))
+        for name in sorted(by_object):
+            normals = [normal for _, normal in by_object[name]]
+            if any(dot(a, b) < OPPOSED for i, a in enumerate(normals) for b in normals[i + 1 :]):
+                return name
+        return None

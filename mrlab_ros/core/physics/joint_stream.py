@@ -20,6 +20,8 @@ JUMP_EXCESS = 5.0
 RESTART_NS = SECOND
 # An arm that has sent nothing for this long stands, ns.
 STALE_NS = SECOND // 4
+# Shorter than this, ns, no period says how fast something moved.
+LEAST_NS = SECOND // 1000
 KEPT = 64
 
 
@@ -97,12 +99,11 @@ class JointStream:
         slope = v
         if moved.any() and period_ns > 0:
             slope = moved / (period_ns / SECOND)
-        jump = restarted or float(np.abs(moved).max()) > JUMP_SPEED * max(period_ns, 0) / SECOND
+        reach = JUMP_SPEED * max(period_ns, LEAST_NS) / SECOND
+        jump = restarted or float(np.abs(moved).max()) > reach
         if reported.size and moved.any() and not jump:
             excess = float(np.abs(slope - v).max()) - float(np.abs(v).max())
             jump = excess > JUMP_EXCESS
-        if jump and not moved.any():
-            jump = restarted
         if jump:
             self._pieces.append(_Piece(stamp_ns, stamp_ns, q, q, np.zeros_like(q), True))
         else:
@@ -112,7 +113,7 @@ class JointStream:
                 self._pieces.popleft()
             self._fresh = True
         self._last = (stamp_ns, q)
-        self._moves = moving and not jump
+        self._moves = bool(v.any()) or (moving and not jump)
         if not self._moves:
             self.delay_ns = 0
         return True
@@ -123,6 +124,14 @@ class JointStream:
             return None
         until = self._last[0] + self.delay_ns
         return None if now_ns - until > STALE_NS else until
+
+    def shown_ns(self, now_ns: int) -> int:
+        """Return the stamp of the motion that is shown at the world's time `now_ns`.
+
+        It stays behind where a moving arm's next joint state is late.
+        """
+        shown = now_ns - self.delay_ns
+        return min(shown, self._last[0]) if self._moves and self._last else shown
 
     def at(self, now_ns: int) -> Placed | None:
         """Return where the arm is at the world's time `now_ns`; None before the first state."""

@@ -17,7 +17,8 @@ class Settings:
     step_rate: Hz of the world. max_travel: m that the fastest point of an arm may move between
     two looks for contacts; a faster step is divided, into max_divisions at most.
     clear_margin: m that must lie between an arm and what it hit, for clear_time s, before the
-    halt ends. stall_distance: m (or rad) below which a finger makes no progress in stall_time s.
+    halt ends. stall_share: a finger that closed by less than this share of its free way in
+    stall_time s is stalled.
     grasp_timeout: s after which stalled fingers that hold nothing count as closed on nothing.
     max_objects: active at once. max_triangles: of one surface. max_lag: s that the world waits
     for the next joint state of a moving arm. max_catch_up: s of backlog beyond which time is
@@ -29,7 +30,7 @@ class Settings:
     max_divisions: int = 10
     clear_margin: float = 0.01
     clear_time: float = 0.2
-    stall_distance: float = 0.0002
+    stall_share: float = 0.1
     stall_time: float = 0.1
     grasp_timeout: float = 0.5
     max_objects: int = 32
@@ -59,6 +60,7 @@ class Settings:
                 raise BadInput(f"the physics has no '{name}'; it has: {', '.join(known)}")
             if type(value) not in (int, float):
                 raise BadInput(f"{name} of the physics is {value!r}; expected a number")
-        return cls(
-            **{k: int(v) if known[k].type == "int" else float(v) for k, v in values.items()}
-        )
+        typed: dict[str, Any] = {
+            k: int(v) if known[k].type == "int" else float(v) for k, v in values.items()
+        }
+        return cls(**typed)

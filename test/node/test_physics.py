@@ -1,0 +1,286 @@
+"""The physics node in a real graph: a lab, a playback host, a catalogue, and things to hit."""
+
+from __future__ import annotations
+
+from types import SimpleNamespace
+
+import numpy as np
+import pytest
+from geometry_msgs.msg import Point, Pose, Quaternion, Twist, Vector3
+from graph import Graph, wait_for
+from mrlab_msgs import msg, srv
+from rclpy.node import Node
+from sensor_msgs.msg import JointState
+from std_srvs.srv import Trigger
+
+from mrlab_ros import conversions, qos, share
+from mrlab_ros.adapters.robot_library import RobotLibrary
+from mrlab_ros.core.trajectory import Channels, Source, Trajectory
+from mrlab_ros.nodes.coordinator import CoordinatorNode
+from mrlab_ros.nodes.lab import LabNode
+from mrlab_ros.nodes.physics import PhysicsNode
+from mrlab_ros.nodes.playback import PlaybackHostNode
+
+LIBRARY = RobotLibrary(share.directory() / "robots")
+MODEL = LIBRARY.model("ur5e")
+RATE = 100.0
+
+
+def make(name: str, waypoints: list[tuple[float, np.ndarray, bool]]) -> Trajectory:
+    """Smooth motion through (time, joints, gripper closed from here on)."""
+    times = [w[0] for w in waypoints]
+    t = np.arange(round(times[-1] * RATE) + 1) / RATE
+    i = np.clip(np.searchsorted(times, t, side="right") - 1, 0, len(times) - 2)
+    start, end = np.array(times)[i], np.array(times)[i + 1]
+    share_ = (t - start) / (end - start)
+    smooth = share_ * share_ * (3 - 2 * share_)
+    q = np.array([w[1] for w in waypoints])
+    positions = q[i] + smooth[:, None] * (q[i + 1] - q[i])
+    closed = np.array([w[2] for w in waypoints])[i]
+    velocities = np.gradient(positions, 1 / RATE, axis=0)
+    zeros = np.zeros_like(positions)
+    return Trajectory(
+        name, "ur5e", None, MODEL.joint_names, RATE, positions, closed if closed.any() else None,
+        Channels(velocities, zeros, zeros.copy()), Source("q.mat", "q", "0" * 64),
+    )  # fmt: skip
+
+
+def turned(pan: float, lift: float = 0.0) -> np.ndarray:
+    return MODEL.home + np.array([pan, lift, 0, 0, 0, 0])
+
+
+TRAJECTORIES = {
+    "sweep": make("sweep", [(0, turned(0), False), (2, turned(1.2), False)]),
+    "still": make("still", [(0, turned(0), False), (1, turned(0), False)]),
+    "pick": make(
+        "pick",
+        [
+            (0.0, turned(0), False),
+            (0.3, turned(0), True),
+            (2.0, turned(0), True),
+            (3.5, turned(0.6), True),
+            (3.8, turned(0.6), False),
+            (4.8, turned(0.6), False),
+        ],
+    ),
+}
+
+
+class Catalogue(Node):
+    """Answers /converter/get from TRAJECTORIES."""
+
+    def __init__(self, **kwargs) -> None:
+        super().__init__("converter", **kwargs)
+        self.create_service(srv.GetTrajectory, "~/get", self._get)
+
+    def _get(self, request, response):
+        response.success = True
+        trajectory = TRAJECTORIES[request.id]
+        response.trajectory = conversions.trajectory_to_message(trajectory)
+        return response
+
+
+@pytest.fixture
+def lab(graph: Graph, tmp_path):
+    graph.add(Catalogue)
+    return SimpleNamespace(
+        lab=graph.add(LabNode),
+        host=graph.add(PlaybackHostNode),
+        coordinator=graph.add(CoordinatorNode),
+        physics=graph.add(PhysicsNode, state_dir=str(tmp_path)),
+    )
+
+
+def spawn(graph: Graph, end_effector: str = "", **fields) -> str:
+    answer = graph.call(
+        srv.SpawnRobot, "/lab/spawn_robot", model="ur5e", end_effector=end_effector, **fields
+    )
+    assert answer.success, answer.message
+    return answer.robot.name
+
+
+def load(graph: Graph, robot: str, trajectory: str) -> None:
+    answer = graph.call(srv.LoadTrajectory, f"/{robot}/load", id=trajectory)
+    assert answer.success, answer.message
+
+
+def pose(position, turn=(0.0, 0.0, 0.0, 1.0)) -> Pose:
+    x, y, z = (float(v) for v in position)
+    a, b, c, d = turn
+    return Pose(position=Point(x=x, y=y, z=z), orientation=Quaternion(x=a, y=b, z=c, w=d))
+
+
+def place(graph: Graph, kind: str, position, *, held: bool = False) -> str:
+    """Put an object somewhere; `held` keeps it in the air."""
+    answer = graph.call(srv.SpawnObject, "/physics/spawn_object", type=kind, pose=pose(position))
+    assert answer.success, answer.message
+    if held:
+        move(graph, answer.object.name, position, held=True)
+    return answer.object.name
+
+
+def move(graph: Graph, name: str, position, *, held: bool, velocity=(0.0, 0.0, 0.0)) -> None:
+    x, y, z = velocity
+    answer = graph.call(
+        srv.MoveObject, "/physics/move_object", name=name, pose=pose(position), held=held,
+        twist=Twist(linear=Vector3(x=x, y=y, z=z)),
+    )  # fmt: skip
+    assert answer.success, answer.message
+
+
+def tool(pan: float, below: float = 0.0) -> np.ndarray:
+    """Return the place of tool0, `below` m further along its z."""
+    pose = MODEL.chain.tool0(turned(pan))
+    return pose[:3, 3] + below * pose[:3, 2]
+
+
+def test_a_box_in_the_way_halts_the_arm_and_moving_it_away_lets_it_play_on(graph, lab):
+    robot = spawn(graph)
+    states = graph.listen(msg.PlaybackState, f"/{robot}/playback_state", qos.EVENTS)
+    collisions = graph.listen(msg.Collision, f"/{robot}/collision", qos.EVENTS)
+    contacts = graph.listen(msg.Contacts, "/contacts", qos.EVENTS)
+    joints = graph.listen(JointState, f"/{robot}/joint_states", qos.STREAM)
+    box = place(graph, "cube_large", tool(0.7), held=True)
+    load(graph, robot, "sweep")
+    assert graph.call(Trigger, f"/{robot}/play").success
+    wait_for(lambda: states.last() and states.last().label == "COLLISION_HALT", "the halt")
+    halted = states.last()
+    first = wait_for(lambda: next((c for c in collisions if c.colliding), None), "a collision")
+    assert first.contact.other == box
+    assert first.contact.kind == msg.Contact.OBJECT
+    assert first.contact.depth >= 0
+    assert halted.message == f"{first.contact.link} touches {box}"
+    # How many frames later is a matter of timing: bench/physics.py.
+    assert 0 <= halted.frame - first.contact.frame < 20
+    point = first.contact.point
+    assert np.allclose([point.x, point.y, point.z], tool(0.7), atol=0.12)
+    wait_for(lambda: contacts, "contacts")
+    sent = len(joints)
+    wait_for(lambda: len(joints) > sent, "a standing joint state")
+    trajectory = TRAJECTORIES["sweep"]
+    assert np.array_equal(joints[-1].position, trajectory.positions[halted.frame])
+    assert not graph.call(Trigger, f"/{robot}/clear_halt").success
+
+    move(graph, box, (-2, 0, 1), held=False)
+    wait_for(lambda: states.last().label == "PAUSED", "the pause")
+    assert [c.colliding for c in collisions if c.contact.link or not c.colliding][-1] is False
+    assert graph.call(Trigger, f"/{robot}/play").success
+    wait_for(lambda: any(s.label == "COMPLETE" for s in states), "the end")
+    wait_for(lambda: np.array_equal(joints[-1].position, trajectory.positions[-1]), "its frame")
+    start = next(s for s in states if s.label == "PLAYING" and s.clock.position > 0)
+    assert start.clock.position == pytest.approx(halted.frame / RATE)
+
+
+def grasped(graph: Graph, robot: str):
+    return graph.listen(msg.Grasp, f"/{robot}/grasp", qos.LATCHED)
+
+
+def where(objects, name: str) -> np.ndarray:
+    p = next(o for o in objects.last().objects if o.name == name).pose.position
+    return np.array([p.x, p.y, p.z])
+
+
+def test_a_gripper_picks_carries_and_releases_and_the_timeline_can_be_scrubbed(graph, lab):
+    robot = spawn(graph, "parallel_gripper")
+    grasp = grasped(graph, robot)
+    objects = graph.listen(msg.SceneObjects, "/objects", qos.LATCHED)
+    states = graph.listen(msg.PlaybackState, f"/{robot}/playback_state", qos.EVENTS)
+    wait_for(lambda: grasp.last() and len(grasp.last().fingers) == 2, "the gripper")
+    # 12 mm of adapter plate, then 154 mm to the tool centre point. A cube on a pedestal.
+    center = tool(0, 0.012 + 0.150)
+    pedestal = place(graph, "pedestal", center - [0, 0, 0.2251])
+    assert pedestal == "pedestal_1"
+    cube = place(graph, "cube", center)
+    load(graph, robot, "pick")
+    assert graph.call(Trigger, f"/{robot}/play").success
+    wait_for(lambda: grasp.last().state == msg.Grasp.HOLDING, "the grasp")
+    assert grasp.last().object == cube
+    start = where(objects, cube)
+    wait_for(lambda: states.last().label == "PLAYING" and states.last().frame > 350, "the way")
+    wait_for(lambda: grasp.last().state == msg.Grasp.OPEN, "the release")
+    moved = where(objects, cube)
+    reach = np.hypot(*center[:2])
+    assert np.hypot(*(moved - start)[:2]) == pytest.approx(2 * reach * np.sin(0.3), abs=0.03)
+    wait_for(lambda: states.last().label == "READY", "the end")
+    wait_for(lambda: where(objects, cube)[2] < 0.1, "the fall")
+
+    assert graph.call(srv.Seek, f"/{robot}/seek", position=3.0).success
+    wait_for(lambda: grasp.last().state == msg.Grasp.HOLDING, "the cube back in the hand")
+    assert graph.call(srv.Seek, f"/{robot}/seek", position=0.2).success
+    wait_for(lambda: np.abs(where(objects, cube) - start).max() < 0.003, "it back on the table")
+    assert grasp.last().state == msg.Grasp.OPEN
+
+
+def test_objects_come_and_go_by_service_and_bad_requests_are_refused_in_words(graph, lab):
+    objects = graph.listen(msg.SceneObjects, "/objects", qos.LATCHED)
+    surfaces = graph.listen(msg.Surfaces, "/surfaces", qos.LATCHED)
+    wait_for(lambda: surfaces and surfaces[-1].surfaces[0].label == "floor", "the floor")
+    spawn_object = "/physics/spawn_object"
+    answer = graph.call(
+        srv.SpawnObject, spawn_object, type="cube", automatic=True, pose=pose((1, 1, 0))
+    )
+    assert answer.success
+    assert answer.object.mass == pytest.approx(0.1)
+    wait_for(lambda: objects and [o.name for o in objects[-1].objects] == ["cube_1"], "a cube")
+    for kind, service, fields, says in (
+        (srv.SpawnObject, spawn_object, {"type": "cow"}, "no object 'cow'"),
+        (srv.SpawnObject, spawn_object, {"type": "cube", "pose": pose((np.nan, 0, 0))}, "finite"),
+        (srv.SpawnObject, spawn_object, {"type": "cube", "name": "cube_1"}, "taken"),
+        (srv.MoveObject, "/physics/move_object", {"name": "x", "pose": pose((0, 0, 0))}, "'x'"),
+        (srv.Remove, "/physics/remove_object", {"name": "x"}, "there are: cube_1"),
+        (srv.Attach, "/physics/attach", {"robot": "r", "object": "cube_1"}, "no robot 'r'"),
+        (srv.Detach, "/physics/detach", {"robot": "r"}, "no robot 'r'"),
+        (srv.SceneFile, "/physics/load_scene", {"name": "nothing"}, "there are: empty"),
+        (srv.SceneFile, "/physics/save_scene", {"name": "../x"}, "cannot name a scene"),
+        (srv.SetSurfaces, "/physics/set_surfaces", {"surfaces": [msg.Surface()]}, "no name"),
+    ):
+        answer = graph.call(kind, service, **fields)
+        assert not answer.success
+        assert says in answer.message
+    move(graph, "cube_1", (2, 2, 0.5), held=False, velocity=(0.0, 0.0, 1.0))
+    wait_for(lambda: where(objects, "cube_1")[0] > 1.9, "the throw")
+    assert graph.call(Trigger, "/physics/clear_objects").success
+    wait_for(lambda: not objects[-1].objects, "an empty room")
+
+
+def test_a_scene_is_saved_and_loaded_and_a_restarted_physics_has_its_objects_back(
+    graph, lab, tmp_path
+):
+    robots = graph.listen(msg.Robots, "/robots", qos.LATCHED)
+    objects = graph.listen(msg.SceneObjects, "/objects", qos.LATCHED)
+    answer = graph.call(srv.SceneFile, "/physics/load_scene", name="handover", timeout=30)
+    assert answer.success, answer.message
+    wait_for(lambda: robots and len(robots[-1].robots) == 2, "two robots")
+    wait_for(lambda: lab.physics._world.robots == ("ur5e_1", "ur5e_2"), "their physics")
+    wait_for(lambda: objects and len(objects[-1].objects) == 2, "the objects")
+    assert graph.call(srv.SceneFile, "/physics/save_scene", name="mine").success
+    assert graph.call(srv.SceneFile, "/physics/load_scene", name="empty", timeout=30).success
+    wait_for(lambda: not robots[-1].robots and not objects[-1].objects, "an empty room")
+    assert graph.call(srv.SceneFile, "/physics/load_scene", name="mine", timeout=30).success
+    wait_for(lambda: [r.name for r in robots[-1].robots] == ["ur5e_1", "ur5e_2"], "the robots")
+    wait_for(lambda: len(objects[-1].objects) == 2, "the objects")
+    cube = where(objects, "cube_1")
+    graph.drop(lab.physics)
+    objects.clear()
+    graph.add(PhysicsNode, state_dir=str(tmp_path))
+    wait_for(lambda: objects and len(objects[-1].objects) == 2, "the objects again")
+    assert np.allclose(where(objects, "cube_1"), cube, atol=0.005)
+
+
+def test_a_robot_that_goes_while_it_holds_something_leaves_it_and_may_come_back(graph, lab):
+    robot = spawn(graph, "vacuum_cup")
+    objects = graph.listen(msg.SceneObjects, "/objects", qos.LATCHED)
+    grasp = grasped(graph, robot)
+    cube = place(graph, "cube", tool(0, 0.2))
+    joints = graph.listen(JointState, f"/{robot}/joint_states", qos.STREAM)
+    wait_for(lambda: joints, "a joint state")
+    wait_for(
+        lambda: graph.call(srv.Attach, "/physics/attach", robot=robot, object=cube).success,
+        "the attachment",
+    )
+    wait_for(lambda: grasp.last() and grasp.last().object == cube, "its news")
+    wait_for(lambda: objects.last().objects[0].held_by == robot, "the holder")
+    assert graph.call(srv.Remove, "/lab/remove_robot", name=robot).success
+    wait_for(lambda: objects.last().objects[0].held_by == "", "the fall")
+    assert spawn(graph) == robot
+    wait_for(lambda: robot in lab.physics._world.robots, "the robot")
