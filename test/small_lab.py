@@ -19,7 +19,13 @@ from mrlab_ros.nodes.playback import PlaybackHostNode
 LIBRARY = RobotLibrary(share.directory() / "robots")
 
 
-def make(model_id: str, name: str, frames: int = 60, gripper: bool = False) -> Trajectory:
+def make(
+    model_id: str,
+    name: str,
+    frames: int = 60,
+    gripper: bool = False,
+    end_effector: str | None = None,
+) -> Trajectory:
     """A small wave around the home pose."""
     model = LIBRARY.model(model_id)
     wave = 0.1 * np.sin(np.linspace(0, 3, frames))[:, None]
@@ -27,7 +33,7 @@ def make(model_id: str, name: str, frames: int = 60, gripper: bool = False) -> T
     velocities = np.gradient(positions, 0.01, axis=0)
     closed = np.arange(frames) >= frames // 2
     return Trajectory(
-        name, model_id, None, model.joint_names, 100.0, positions,
+        name, model_id, end_effector, model.joint_names, 100.0, positions,
         closed if gripper else None,
         Channels(velocities, np.zeros_like(positions), np.ones_like(positions)),
         Source("wave.mat", "q", "0" * 64),
@@ -38,6 +44,7 @@ TRAJECTORIES = {
     "wave": make("ur5e", "wave"),
     "pick": make("ur5e", "pick", gripper=True),
     "long": make("ur5e", "long", frames=1000),
+    "tool": make("ur5e", "tool", gripper=True, end_effector="parallel_gripper"),
     "kuka": make("kuka_kr6_r900_sixx", "kuka", frames=90),
 }
 

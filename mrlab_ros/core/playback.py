@@ -19,9 +19,9 @@ from mrlab_ros.core.playback_states import Event, State, after
 from mrlab_ros.core.robot_model import RobotModel
 from mrlab_ros.core.trajectory import ON_FRAME, Trajectory
 
-# A joint state that is this late is left out rather than sent: showing it would only delay
-# the ones that matter.
-LOST_AFTER_NS = SECOND // 4
+# A machine that stalls for less than this delays joint states but loses none; what is later than
+# this is left out, for catching up would take longer than it is worth.
+LOST_AFTER_NS = 2 * SECOND
 # Late joint states follow each other no closer than this share of the period: the stream
 # catches up without a burst.
 CATCH_UP_SPACING = 0.5

@@ -17,7 +17,7 @@ from std_msgs.msg import String
 
 from mrlab_ros import conversions, host, qos, share
 from mrlab_ros.adapters.robot_library import RobotLibrary
-from mrlab_ros.core.errors import LabError
+from mrlab_ros.core.errors import BadInput, LabError
 from mrlab_ros.core.scene import PlacedRobot, Pose, Scene
 from mrlab_ros.nodes.answers import answered
 
@@ -141,6 +141,11 @@ class LabNode(Node):
 
     @answered
     def _on_spawn(self, request: Any, response: Any) -> str:
+        if request.automatic and request.surface not in ("", "floor"):
+            raise BadInput(
+                f"the surface '{request.surface}' is unknown to the lab; leave it empty for the "
+                "floor, or give a pose"
+            )
         pose = None if request.automatic else pose_from_message(request.pose)
         robot = self._spawn(request.model, request.end_effector or None, request.name, pose)
         self._announce()

@@ -60,6 +60,7 @@ class PlaybackNode(Node):
         self._fetch = fetch
         self._host = host
         self._colliding = False
+        self.end_effector = ""
         self.playback = Playback(model, planner, standing_rate)
         self._encoder = conversions.JointStateEncoder(robot, model.joint_names)
         self._joint_states = self.create_publisher(JointState, "joint_states", qos.STREAM)
@@ -156,6 +157,12 @@ class PlaybackNode(Node):
     @answered
     def _load(self, request: Any, response: Any) -> str:
         trajectory = self._fetch(request.id) if request.id else None
+        if trajectory is not None and trajectory.end_effector not in (None, self.end_effector):
+            raise BadInput(
+                f"trajectory '{trajectory.id}' was made for the end effector "
+                f"{trajectory.end_effector}, this robot carries {self.end_effector or 'none'}; "
+                "exchange the end effector, or convert the file again"
+            )
         with self._scheduler.command() as now_ns:
             if trajectory is None:
                 self.playback.unload(now_ns)
@@ -319,6 +326,7 @@ class PlaybackHostNode(Node):
         for robot in wanted.values():
             if robot.name not in self.nodes:
                 self._add(robot.name, robot.model)
+            self.nodes[robot.name].end_effector = robot.end_effector
 
     def _add(self, robot: str, model: str) -> None:
         node = PlaybackNode(

@@ -92,6 +92,23 @@ def test_a_command_in_the_wrong_state_is_refused_with_what_is_possible(graph, la
     assert "made for kuka_kr6_r900_sixx, this robot is a ur5e" in answer.message
 
 
+def test_a_trajectory_for_another_end_effector_is_refused_until_it_is_fitted(graph, lab):
+    robot = spawn(graph)
+    answer = graph.call(srv.LoadTrajectory, f"/{robot}/load", id="tool")
+    assert not answer.success
+    assert "made for the end effector parallel_gripper, this robot carries none" in answer.message
+    answer = graph.call(
+        srv.SetEndEffector,
+        "/lab/set_end_effector",
+        robot=robot,
+        end_effector="parallel_gripper",
+    )
+    assert answer.success, answer.message
+    wait_for(
+        lambda: graph.call(srv.LoadTrajectory, f"/{robot}/load", id="tool").success, "the load"
+    )
+
+
 def test_grasp_targets_are_announced_with_the_trajectory(graph, lab):
     robot = spawn(graph)
     targets = graph.listen(msg.GraspTargets, f"/{robot}/targets", qos.LATCHED)
@@ -159,6 +176,7 @@ def test_a_new_playback_host_finds_the_robots_and_starts_idle(graph, lab):
         ({"model": "ur5e", "name": "UR 5"}, "lower-case letters"),
         ({"model": "ur5e", "name": "lab"}, "name of the lab's own"),
         ({"model": "ur5e", "end_effector": "chainsaw"}, "chainsaw"),
+        ({"model": "ur5e", "surface": "table_1"}, "surface 'table_1' is unknown"),
     ],
 )
 def test_a_robot_that_cannot_be_is_refused(graph, lab, request_fields, says):
