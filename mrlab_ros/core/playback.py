@@ -392,7 +392,8 @@ class Playback:
     def _stream(self, now_ns: int) -> Sample:
         trajectory = self._loaded()
         if now_ns - self._due_ns > LOST_AFTER_NS:
-            newest = math.floor(min(self.clock.at(now_ns), self._end) / self._step)
+            shown = min(self.clock.at(now_ns), self._end)
+            newest = math.floor(shown / self._step + ON_FRAME)
             self.lost += max(newest - self._tick, 0)
             self._take_up(max(newest, self._tick))
         position, due_ns = self._place, self._due_ns
