@@ -10,8 +10,9 @@ LATCHED = QoSProfile(
 )
 # Events: every one arrives, in order.
 EVENTS = QoSProfile(depth=100, reliability=ReliabilityPolicy.RELIABLE)
-# Motion: every frame arrives at a reader that keeps up; a reader may ask for best effort.
-STREAM = QoSProfile(depth=100, reliability=ReliabilityPolicy.RELIABLE)
+# Motion: every frame arrives, also at a reader that stalls for seconds; one that wants the newest
+# only asks for best effort.
+STREAM = QoSProfile(depth=1000, reliability=ReliabilityPolicy.RELIABLE)
 # State whose every change counts: as latched, and changes in quick succession all arrive.
 LATCHED_EVENTS = QoSProfile(
     depth=10,

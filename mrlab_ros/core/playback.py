@@ -21,7 +21,7 @@ from mrlab_ros.core.trajectory import ON_FRAME, Trajectory
 
 # A machine that stalls for less than this delays joint states but loses none; what is later than
 # this is left out, for catching up would take longer than it is worth.
-LOST_AFTER_NS = 2 * SECOND
+LOST_AFTER_NS = 10 * SECOND
 # Late joint states follow each other no closer than this share of the period: the stream
 # catches up without a burst.
 CATCH_UP_SPACING = 0.5

@@ -156,7 +156,7 @@ def test_late_service_sends_all_frames_without_a_burst():
 
 
 def test_what_is_far_too_late_is_left_out_and_counted():
-    playback = on_start(make_trajectory(np.arange(2000.0).reshape(1000, 2)))
+    playback = on_start(make_trajectory(np.arange(6000.0).reshape(3000, 2)))
     playback.play(START)
     run(playback, START + 10 * PERIOD)
     sample = playback.tick(START + 10 * PERIOD + 2 * LOST_AFTER_NS)
