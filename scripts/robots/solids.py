@@ -63,10 +63,6 @@ class Solid:
             self.high,
         )
 
-    def grown(self, by: float) -> Solid:
-        """Return the solid thicker by `by` on all sides."""
-        return Solid(lambda p: self.distance(p) - by, self.low - by, self.high + by)
-
     def moved(self, *xyz: float) -> Solid:
         """Return the solid shifted by xyz."""
         shift = np.array(xyz)
