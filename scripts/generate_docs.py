@@ -10,7 +10,7 @@ from collections.abc import Callable, Mapping
 from enum import Enum
 from pathlib import Path
 
-from mrlab_ros.core import playback_states, robot_systems
+from mrlab_ros.core import playback_states, system_states
 from mrlab_ros.core.physics import grasp
 
 DOCS = Path(__file__).resolve().parent.parent / "docs"
@@ -27,7 +27,7 @@ def diagram(transitions: Mapping[tuple[Enum, Enum], Enum], first: str) -> str:
 BLOCKS: dict[tuple[str, str], Callable[[], str]] = {
     ("playback.md", "playback states"): lambda: diagram(playback_states.TRANSITIONS, "IDLE"),
     ("physics.md", "grasp states"): lambda: diagram(grasp.TRANSITIONS, "OPEN"),
-    ("systems.md", "system states"): lambda: diagram(robot_systems.TRANSITIONS, "READY"),
+    ("systems.md", "system states"): lambda: diagram(system_states.TRANSITIONS, "READY"),
 }
 
 

@@ -11,12 +11,13 @@ import itertools
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, field
 from enum import Enum
-from typing import Protocol
 
 from mrlab_ros.core.clock import SECOND, PlaybackClock, checked_position, checked_rate
-from mrlab_ros.core.errors import BadInput, IllegalEvent, LabError, Misuse
+from mrlab_ros.core.errors import BadInput, LabError, Misuse
+from mrlab_ros.core.fleet import Command, Fleet, Order, Reply
 from mrlab_ros.core.playback_states import State
 from mrlab_ros.core.scene import checked_name
+from mrlab_ros.core.system_states import SystemEvent, SystemState, after
 from mrlab_ros.core.waits import AfterFrame, Held, Wait
 
 # A common start lies this far ahead, so that every member knows of it in time, s.
@@ -30,75 +31,6 @@ STAGING_PATIENCE = 5.0
 SAME_INSTANT = 1e-6
 
 
-class SystemState(Enum):
-    """The values are those of mrlab_msgs/RobotSystem."""
-
-    READY = 1
-    STAGING = 2
-    PLAYING = 3
-    PAUSED = 4
-    COLLISION_HALT = 5
-    COMPLETE = 6
-
-
-class SystemEvent(Enum):
-    """What can happen to a system. The value says it as a person would."""
-
-    STAGE = "play"
-    START = "start"
-    ABORT = "give up"
-    PAUSE = "pause"
-    STOP = "stop"
-    SEEK = "seek"
-    FINISH = "finish"
-    REARM = "be ready again"
-    COLLIDE = "collide"
-    CLEAR = "be clear again"
-
-
-S, E = SystemState, SystemEvent
-TRANSITIONS: dict[tuple[SystemState, SystemEvent], SystemState] = {
-    (S.READY, E.STAGE): S.STAGING,
-    (S.READY, E.STOP): S.READY,
-    (S.READY, E.SEEK): S.PAUSED,
-    (S.READY, E.ABORT): S.READY,
-    (S.STAGING, E.START): S.PLAYING,
-    (S.STAGING, E.ABORT): S.READY,
-    (S.STAGING, E.PAUSE): S.PAUSED,
-    (S.STAGING, E.STOP): S.READY,
-    (S.STAGING, E.COLLIDE): S.COLLISION_HALT,
-    (S.PLAYING, E.PAUSE): S.PAUSED,
-    (S.PLAYING, E.STOP): S.READY,
-    (S.PLAYING, E.SEEK): S.PLAYING,
-    (S.PLAYING, E.FINISH): S.COMPLETE,
-    (S.PLAYING, E.COLLIDE): S.COLLISION_HALT,
-    (S.PLAYING, E.ABORT): S.READY,
-    (S.PAUSED, E.STAGE): S.STAGING,
-    (S.PAUSED, E.PAUSE): S.PAUSED,
-    (S.PAUSED, E.STOP): S.READY,
-    (S.PAUSED, E.SEEK): S.PAUSED,
-    (S.PAUSED, E.ABORT): S.READY,
-    (S.COLLISION_HALT, E.STOP): S.COLLISION_HALT,
-    (S.COLLISION_HALT, E.SEEK): S.COLLISION_HALT,
-    (S.COLLISION_HALT, E.CLEAR): S.PAUSED,
-    (S.COLLISION_HALT, E.ABORT): S.READY,
-    (S.COMPLETE, E.REARM): S.READY,
-}
-COMMANDS = (E.STAGE, E.PAUSE, E.STOP, E.SEEK)
-del S, E
-
-
-def after(state: SystemState, event: SystemEvent) -> SystemState:
-    """Return the state that `event` leads to; raise IllegalEvent where the table has none."""
-    try:
-        return TRANSITIONS[state, event]
-    except KeyError:
-        allowed = ", ".join(e.value for e in COMMANDS if (state, e) in TRANSITIONS)
-        raise IllegalEvent(
-            f"cannot {event.value} in {state.name}; possible now: {allowed or 'only waiting'}"
-        ) from None
-
-
 class Mode(Enum):
     PARALLEL = 0
     SEQUENTIAL = 1
@@ -109,60 +41,6 @@ class Policy(Enum):
 
     HALT_ALL = 0
     HALT_MEMBER = 1
-
-
-class Command(Enum):
-    """The values are those of mrlab_msgs/Drive."""
-
-    STAGE = 2
-    PLAY = 3
-    PAUSE = 4
-    STOP = 5
-    SEEK = 6
-    SET_RATE = 7
-    HOLD = 8
-
-
-@dataclass(frozen=True)
-class Order:
-    """One command to one member; position and until in s on its own trajectory."""
-
-    robot: str
-    command: Command
-    stamp_ns: int = 0
-    position: float = 0.0
-    rate: float = 1.0
-    until: float | None = None
-
-
-@dataclass(frozen=True)
-class Reply:
-    """What a member says after an order; duration is how long its staging takes, s."""
-
-    state: State
-    position: float
-    duration: float = 0.0
-
-
-@dataclass(frozen=True)
-class Loaded:
-    """What a member has loaded."""
-
-    trajectory_id: str
-    duration: float
-    frame_rate: float
-
-
-class Fleet(Protocol):
-    """The members, as the system reaches them."""
-
-    def prepare(self, robot: str, trajectory_id: str) -> Loaded:
-        """Claim the robot and load the trajectory (empty: what it has); raise LabError."""
-        ...
-
-    def drive(self, orders: Sequence[Order]) -> list[Reply]:
-        """Give all orders at once; raise LabError where one is refused or unanswered."""
-        ...
 
 
 @dataclass

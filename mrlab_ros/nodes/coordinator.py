@@ -17,18 +17,10 @@ from std_srvs.srv import SetBool, Trigger
 
 from mrlab_ros import conversions, host, qos
 from mrlab_ros.core.errors import BadInput, LabError, Misuse
+from mrlab_ros.core.fleet import Loaded, Order, Reply
 from mrlab_ros.core.playback_states import State
-from mrlab_ros.core.robot_systems import (
-    Loaded,
-    Member,
-    Mode,
-    Order,
-    Policy,
-    Reply,
-    RobotSystem,
-    Systems,
-    SystemState,
-)
+from mrlab_ros.core.robot_systems import Member, Mode, Policy, RobotSystem, Systems
+from mrlab_ros.core.system_states import SystemState
 from mrlab_ros.core.waits import parse
 from mrlab_ros.nodes.answers import answered
 from mrlab_ros.nodes.calls import NoAnswer, call, call_all

@@ -11,23 +11,11 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from mrlab_ros.core.errors import BadInput, IllegalEvent, LabError, Misuse
+from mrlab_ros.core.fleet import Command, Loaded, Order, Reply
 from mrlab_ros.core.playback import Playback
 from mrlab_ros.core.playback_states import State
-from mrlab_ros.core.robot_systems import (
-    TRANSITIONS,
-    Command,
-    Loaded,
-    Member,
-    Mode,
-    Order,
-    Policy,
-    Reply,
-    RobotSystem,
-    SystemEvent,
-    Systems,
-    SystemState,
-    after,
-)
+from mrlab_ros.core.robot_systems import Member, Mode, Policy, RobotSystem, Systems
+from mrlab_ros.core.system_states import TRANSITIONS, SystemEvent, SystemState, after
 from mrlab_ros.core.waits import parse
 
 MS = SECOND // 1000
