@@ -16,8 +16,8 @@ from mrlab_ros.supervisor import SELF
 if TYPE_CHECKING:
     from rich.console import Console
 
+    from mrlab_ros.commands.demo_arrivals import Arrivals
     from mrlab_ros.commands.demo_lab import Stage
-    from mrlab_ros.commands.demo_run import Arrivals
     from mrlab_ros.commands.follow import Follower
 
 PROGRESS_PERIOD = 1.0

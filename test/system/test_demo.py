@@ -14,13 +14,13 @@ from rclpy.serialization import serialize_message
 from sensor_msgs.msg import JointState
 
 from mrlab_ros import conversions
+from mrlab_ros.commands.demo_arrivals import frames_in_order
 from mrlab_ros.commands.demo_lab import (
     ZENOH_PORT,
     claim_free_domain,
     domain_is_free,
     free_port,
 )
-from mrlab_ros.commands.demo_run import frames_in_order
 from mrlab_ros.core.trajectory import Channels, Source, Trajectory
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
