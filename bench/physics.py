@@ -1,9 +1,9 @@
 """What physics costs and how soon it halts an arm.
 
-Three questions: how long a step takes with a full scene, beside how long it may take; how much
-faster than real time a small scene runs headless; how long it is from the contact's step to the
-last joint state of a halted arm, through the graph. --soak runs a full scene for long and
-watches memory and step time.
+Four questions: what a step costs with a full scene, beside how long it may take; how much faster
+than real time a small scene runs headless; what the whole node costs; how long it is from the
+contact's step to the last joint state of a halted arm, through the graph. --soak runs a full,
+busy scene for long and watches memory and what a step costs.
 """
 
 from __future__ import annotations
@@ -11,275 +11,293 @@ from __future__ import annotations
 import argparse
 import json
 import os
-import signal
 import subprocess
 import sys
 import time
+from pathlib import Path
 from typing import Any
 
 import numpy as np
+import psutil
 import report
 
 from mrlab_ros import share
 from mrlab_ros.adapters.bullet import BulletEngine
 from mrlab_ros.adapters.robot_library import RobotLibrary, read_yaml
-from mrlab_ros.core.clock import SECOND
+from mrlab_ros.core.clock import SECOND, PlaybackClock
 from mrlab_ros.core.physics import catalogue
+from mrlab_ros.core.physics.engine import Motion
 from mrlab_ros.core.physics.grasp import Gripper
+from mrlab_ros.core.physics.robot import Playing
 from mrlab_ros.core.physics.settings import Settings
+from mrlab_ros.core.physics.surfaces import Surface
 from mrlab_ros.core.physics.world import World
+from mrlab_ros.core.playback_states import State
 from mrlab_ros.core.scene import Pose
 
 ROOT = share.directory()
 LIBRARY = RobotLibrary(ROOT / "robots")
 KINDS = ("cube", "block", "cylinder", "sphere", "cup", "can", "bottle", "carton")
+PERIOD_NS = SECOND // 100
+# The wave that the arms follow repeats after this many joint states.
+WAVE = 628
+LONGEST = 1e5  # s
+# Minutes that a soak takes until all that is bounded has reached its bound.
+FILLING = 5
 
 
-def make_world(models: list[str], objects: int) -> World:
-    """Return a world with robots 3.5 m apart and objects on pedestals' tops and the floor."""
-    types = catalogue.parse(read_yaml(ROOT / "config" / "objects.yaml"))
-    engine = BulletEngine(lambda uri: ROOT / uri.removeprefix("package://mrlab_ros/"))
-    world = World(engine, types, Settings())
-    for i, model_id in enumerate(models):
-        model = LIBRARY.model(model_id)
-        place = Pose((3.5 * (i % 4), 3.5 * (i // 4), 0.0))
-        world.add_robot(
-            f"r{i}", LIBRARY.description(model_id), model.joint_names, place, Gripper.NONE
-        )
-    for i in range(objects):
-        at = (3.5 * (i % 4) + 1.2 + 0.15 * (i // 8), 1.0 + 0.2 * (i // 4), 0.5)
-        world.spawn(KINDS[i % len(KINDS)], pose=Pose(at), automatic=True)
-    return world
+def resolve(uri: str) -> Path:
+    return ROOT / uri.removeprefix("package://mrlab_ros/")
 
 
-def drive(world: World, models: list[str], seconds: float, start_ns: int = 0) -> int:
-    """Send 100 Hz joint states of a slow wave and step along; return the end, ns."""
-    homes = [LIBRARY.model(m).home for m in models]
-    period_ns = SECOND // 100
-    now_ns = start_ns
-    for k in range(round(seconds * 100)):
-        now_ns = start_ns + (k + 1) * period_ns
-        t = now_ns / SECOND
-        for i, home in enumerate(homes):
-            wave = 0.3 * np.sin(t + np.arange(len(home)))
-            speed = 0.3 * np.cos(t + np.arange(len(home)))
-            world.joint_state(f"r{i}", now_ns, home + wave, speed)
-        world.advance(now_ns)
-        world.take_events()
-        world.take_contacts()
-    return now_ns
+class CountedEngine(BulletEngine):
+    """Adds up the time spent in the engine's calls of a step."""
+
+    def __init__(self) -> None:
+        super().__init__(resolve)
+        self.spent_s = 0.0
+        self._inside = False
+        for name in ("step", "move_arm", "speed", "touches", "object", "link", "fingers"):
+            setattr(self, name, self._counted(getattr(self, name)))
+
+    def _counted(self, function: Any) -> Any:
+        def counted(*arguments: Any, **named: Any) -> Any:
+            if self._inside:
+                return function(*arguments, **named)
+            self._inside, begin = True, time.perf_counter()
+            try:
+                return function(*arguments, **named)
+            finally:
+                self.spent_s += time.perf_counter() - begin
+                self._inside = False
+
+        return counted
 
 
-def measured(name: str, models: list[str], objects: int, seconds: float) -> dict[str, Any]:
-    """Run one scene as fast as it goes."""
-    world = make_world(models, objects)
-    end_ns = drive(world, models, 1.0)
-    engine_s = [0.0]
-    step = world._engine.step
+class Lab:
+    """A world with robots 3.5 m apart and objects on the floor between them, driven at 100 Hz."""
 
-    def timed(duration: float) -> None:
-        begin = time.perf_counter()
-        step(duration)
-        engine_s[0] += time.perf_counter() - begin
+    def __init__(self, models: list[str], objects: int, *, counted: bool = False) -> None:
+        types = catalogue.parse(read_yaml(ROOT / "config" / "objects.yaml"))
+        self.engine = CountedEngine() if counted else BulletEngine(resolve)
+        self.world = World(self.engine, types, Settings())
+        self.now_ns = 0
+        self._motions = []
+        for i, model_id in enumerate(models):
+            model = LIBRARY.model(model_id)
+            place = Pose((3.5 * (i % 4), 3.5 * (i // 4), 0.0))
+            description = LIBRARY.description(model_id)
+            self.world.add_robot(f"r{i}", description, model.joint_names, place, Gripper.NONE)
+            self.play(f"r{i}")
+            phase = 2 * np.pi * np.arange(WAVE)[:, None] / WAVE + np.arange(len(model.joints))
+            waves = model.home + 0.3 * np.sin(phase), 0.3 * np.cos(phase)
+            self._motions.append(tuple(wave.tolist() for wave in waves))
+        for i in range(objects):
+            at = (3.5 * (i % 4) + 1.2 + 0.15 * (i // 8), 1.0 + 0.2 * (i // 4), 0.5)
+            self.world.spawn(KINDS[i % len(KINDS)], pose=Pose(at), automatic=True)
 
-    world._engine.step = timed  # type: ignore[method-assign]
-    before, cpu, begin = world.steps, time.process_time(), time.perf_counter()
-    drive(world, models, seconds, end_ns)
-    wall, cpu = time.perf_counter() - begin, time.process_time() - cpu
-    steps = world.steps - before
+    def play(self, robot: str) -> None:
+        """Let a robot's run begin; what it passes is kept for scrubbing."""
+        clock = PlaybackClock(self.now_ns, 0.0, 1.0)
+        frames = round(100 * LONGEST)
+        playing = Playing(State.PLAYING, "wave", clock, 0, frames, 100.0, LONGEST)
+        self.world.playback(robot, playing)
+
+    def frame(self) -> None:
+        """Send every robot's next joint state and step along."""
+        self.now_ns += PERIOD_NS
+        k = self.now_ns // PERIOD_NS % WAVE
+        for i, (positions, velocities) in enumerate(self._motions):
+            self.world.joint_state(f"r{i}", self.now_ns, positions[k], velocities[k])
+        self.world.advance(self.now_ns)
+        self.world.take_events()
+        self.world.take_contacts()
+
+    def run(self, seconds: float, *, stirred: bool = False) -> None:
+        """Run for `seconds` of the world's time; stirred: no object comes to rest."""
+        for k in range(round(100 * seconds)):
+            self.frame()
+            if stirred and k % 100 == 0:
+                self.stir()
+
+    def stir(self) -> None:
+        """Give every object a push that wakes it and leaves it about where it is."""
+        for thing in self.world.objects:
+            pose = self.world.motion(thing.name).pose
+            self.engine.set_object(thing.name, Motion(pose, (0.05, 0.0, 0.1)))
+
+
+def measured(name: str, models: list[str], objects: int, seconds: float, stirred: bool) -> Any:
+    """Run one scene as fast as it goes, once its objects have come to rest.
+
+    CPU time beside wall time, for a machine is seldom one's own.
+    """
+    lab = Lab(models, objects)
+    lab.run(4.0, stirred=stirred)
+    before, cpu, wall = lab.world.steps, time.process_time(), time.perf_counter()
+    lab.run(seconds, stirred=stirred)
+    cpu, wall = time.process_time() - cpu, time.perf_counter() - wall
+    steps = lab.world.steps - before
     return {
         "scene": name,
         "robots": len(models),
         "objects": objects,
         "steps": steps,
-        "engine ms/step": 1e3 * engine_s[0] / steps,
-        "world ms/step": 1e3 * wall / steps,
-        "engine % of a core": 100 * engine_s[0] / seconds,
-        "world % of a core": 100 * cpu / seconds,
-        "x real time": seconds / wall,
+        "engine ms/step": 1e3 * engine_share(models, objects, seconds / 4, stirred) * cpu / steps,
+        "CPU ms/step": 1e3 * cpu / steps,
+        "wall ms/step": 1e3 * wall / steps,
+        "% of a core": 100 * cpu / seconds,
+        "x real time, CPU": seconds / cpu,
+        "wall": seconds / wall,
     }
 
 
-def halt_latencies(runs: int) -> list[float]:
-    """Halt an arm again and again; return contact to last moving joint state, ms."""
-    physics = subprocess.Popen([sys.executable, __file__, "--node"])
-    try:
-        return halted(runs)
-    finally:
-        physics.terminate()
-        physics.wait(20)
+def engine_share(models: list[str], objects: int, seconds: float, stirred: bool) -> float:
+    """Return which share of a step is spent in the engine and what it calls."""
+    lab = Lab(models, objects, counted=True)
+    lab.run(4.0, stirred=stirred)
+    lab.engine.spent_s, begin = 0.0, time.perf_counter()
+    lab.run(seconds, stirred=stirred)
+    return lab.engine.spent_s / (time.perf_counter() - begin)
 
 
-def halted(runs: int) -> list[float]:
-    """Do the work of halt_latencies() with a physics node that runs elsewhere."""
-    import rclpy
-    from geometry_msgs.msg import Point
-    from geometry_msgs.msg import Pose as PoseMessage
-    from mrlab_msgs import msg, srv
-    from rclpy.node import Node
-    from sensor_msgs.msg import JointState
-    from std_srvs.srv import Trigger
+class Churn:
+    """What a busy hour does to a world besides playing: comes, goes, is thrown and is cut off."""
 
-    from mrlab_ros import conversions, qos
-    from mrlab_ros.core.trajectory import Channels, Source, Trajectory
-    from mrlab_ros.nodes.calls import call
-    from mrlab_ros.nodes.lab import LabNode
-    from mrlab_ros.nodes.playback import PlaybackHostNode
-    from mrlab_ros.spinning import SpunNode
+    def __init__(self, lab: Lab) -> None:
+        self._lab = lab
+        self._count = 0
+        square = np.array([[-1, -1, 0], [1, -1, 0], [1, 1, 0], [-1, 1, 0.0]])
+        none = np.zeros((0, 3), np.int32)
+        self._rooms: list[list[Surface]] = [
+            [], [Surface("shelf", "shelf", Pose((50.0, 0.0, 0.5)), square, none)]
+        ]  # fmt: skip
 
-    rclpy.init()
-    model = LIBRARY.model("ur5e")
-    t = np.arange(301) / 100
-    pan = 0.5 * t
-    positions = model.home + pan[:, None] * np.array([1, 0, 0, 0, 0, 0])
-    zeros = np.zeros_like(positions)
-    motion = Trajectory(
-        "sweep", "ur5e", None, model.joint_names, 100.0, positions, None,
-        Channels(np.gradient(positions, 0.01, axis=0), zeros, zeros.copy()),
-        Source("q.mat", "q", "0" * 64),
-    )  # fmt: skip
+    def second(self) -> None:
+        """Do what comes once a second: a new object for the oldest, a throw, at times a room."""
+        self._count += 1
+        n, world = self._count, self._lab.world
+        at = (3.5 * (n % 4) + 1.75, 3.5 * (n // 4 % 3) + 1.75, 0.5)
+        world.spawn(KINDS[n % len(KINDS)], pose=Pose(at), automatic=True)
+        thrown = world.objects[n % len(world.objects)].name
+        pose = world.motion(thrown).pose
+        world.move(thrown, pose, (0.3, 0.0, 1.0), (0.0, 0.0, 1.0), held=False)
+        robot = world.robots[n % len(world.robots)]
+        if n % 5 == 0:
+            held = world.objects[-1].name
+            world.attach(robot, held)
+            self._lab.frame()
+            world.detach(robot)
+        if n % 10 == 0:
+            world.set_surfaces(self._rooms[n // 10 % 2])
+        if n % 60 == 0:
+            self._again(len(world.robots) - 1)
 
-    class Catalogue(Node):
-        def __init__(self) -> None:
-            super().__init__("converter")
-            self.create_service(srv.GetTrajectory, "~/get", self._get)
-
-        def _get(self, request: Any, response: Any) -> Any:
-            response.success = True
-            response.trajectory = conversions.trajectory_to_message(motion)
-            return response
-
-    host, client = PlaybackHostNode(), Node("bench")
-    spun = [SpunNode(node) for node in (Catalogue(), LabNode(), host, client)]
-
-    def ask(kind: Any, name: str, /, **fields: Any) -> Any:
-        answer = call(client.create_client(kind, name), kind.Request(**fields), 20.0)
-        if not answer.success:
-            raise SystemExit(f"{name}: {answer.message}")
-        return answer
-
-    robot = ask(srv.SpawnRobot, "/lab/spawn_robot", model="ur5e").robot.name
-    states: list[Any] = []
-    joints: list[Any] = []
-    collisions: list[Any] = []
-    client.create_subscription(
-        msg.PlaybackState, f"/{robot}/playback_state", states.append, qos.EVENTS
-    )
-    client.create_subscription(JointState, f"/{robot}/joint_states", joints.append, qos.STREAM)
-    client.create_subscription(msg.Collision, f"/{robot}/collision", collisions.append, qos.EVENTS)
-    ask(srv.LoadTrajectory, f"/{robot}/load", id="sweep")
-    place = model.chain.tool0(positions[120])[:3, 3]
-    x, y, z = (float(v) for v in place)
-    box = ask(
-        srv.SpawnObject, "/physics/spawn_object", type="cube_large",
-        pose=PoseMessage(position=Point(x=x, y=y, z=3.0)),
-    ).object.name  # fmt: skip
-
-    def put(height: float) -> None:
-        ask(
-            srv.MoveObject, "/physics/move_object", name=box, held=True,
-            pose=PoseMessage(position=Point(x=x, y=y, z=height)),
-        )  # fmt: skip
-
-    def wait(condition: Any) -> None:
-        deadline = time.monotonic() + 20
-        while not condition():
-            if time.monotonic() > deadline:
-                raise SystemExit(f"waited in vain; the playback is {states[-1].label}")
-            time.sleep(0.01)
-
-    def once() -> float:
-        put(3.0)
-        wait(lambda: states[-1].label in ("READY", "PAUSED"))
-        ask(srv.Seek, f"/{robot}/seek", position=0.6)
-        put(z)
-        collisions.clear()
-        ask(Trigger, f"/{robot}/play")
-        wait(lambda: states[-1].label == "COLLISION_HALT" and collisions)
-        contact_ns = conversions.to_ns(collisions[0].header.stamp)
-        time.sleep(0.1)
-        last = next(j for j in reversed(joints) if np.any(j.velocity))
-        return (conversions.to_ns(last.header.stamp) - contact_ns) * 1e-6
-
-    found = [once() for _ in range(runs)]
-    for each in spun:
-        each.close()
-    return found
-
-
-def run_node() -> None:
-    """Run the physics node until it is asked to stop."""
-    import rclpy
-
-    from mrlab_ros.nodes.physics import PhysicsNode
-    from mrlab_ros.spinning import SpunNode
-
-    rclpy.init()
-    spun = SpunNode(PhysicsNode())
-    signal.sigwait({signal.SIGTERM, signal.SIGINT})
-    spun.close()
-    os._exit(0)
-
-
-def memory_mib() -> float:
-    with open("/proc/self/statm") as file:
-        return int(file.read().split()[1]) * os.sysconf("SC_PAGE_SIZE") / 2**20
+    def _again(self, i: int) -> None:
+        """Take the robot that came last away and put it back."""
+        world, name = self._lab.world, f"r{i}"
+        robot = world.robot(name)
+        world.remove_robot(name)
+        model = next(m for m in LIBRARY.ids() if LIBRARY.model(m).joint_names == robot.joints)
+        description = LIBRARY.description(model)
+        world.add_robot(name, description, robot.joints, robot.pose, Gripper.NONE)
+        self._lab.play(name)
 
 
 def soak(models: list[str], minutes: float) -> list[dict[str, Any]]:
-    """Run a full scene for `minutes` of its own time; a row for each tenth."""
-    world = make_world(models, 32)
-    now_ns, rows = drive(world, models, 5.0), []
-    for part in range(10):
-        begin, before = time.perf_counter(), world.steps
-        now_ns = drive(world, models, 6 * minutes, now_ns)
+    """Run a full, busy scene for `minutes` of its own time; a row for each minute."""
+    lab = Lab(models, 32)
+    churn, process, rows = Churn(lab), psutil.Process(), []
+    lab.run(5.0)
+    while len(rows) < max(round(minutes), 1):
+        cpu_ms, wall_ms = [], []
+        for _ in range(60):
+            churn.second()
+            before, cpu, wall = lab.world.steps, time.process_time(), time.perf_counter()
+            lab.run(1.0)
+            steps = lab.world.steps - before
+            cpu_ms.append(1e3 * (time.process_time() - cpu) / steps)
+            wall_ms.append(1e3 * (time.perf_counter() - wall) / steps)
         rows.append(
             {
-                "tenth": part + 1,
-                "simulated min": (now_ns / SECOND) / 60,
-                "world ms/step": 1e3 * (time.perf_counter() - begin) / (world.steps - before),
-                "memory MiB": memory_mib(),
+                "minute": len(rows) + 1,
+                "CPU ms/step median": float(np.median(cpu_ms)),
+                "CPU ms/step max": max(cpu_ms),
+                "wall ms/step median": float(np.median(wall_ms)),
+                "memory MiB": process.memory_info().rss / 2**20,
             }
         )
+        sys.stderr.write(f"\rminute {len(rows)}")
+    sys.stderr.write("\n")
     return rows
+
+
+def drift(rows: list[dict[str, Any]]) -> list[dict[str, Any]]:
+    """Return first, last and the slope of a straight line through each figure of a soak.
+
+    Of a long one without its first minutes, in which what is kept for scrubbing fills up.
+    """
+    found = []
+    rows = rows[FILLING:] if len(rows) > 2 * FILLING else rows
+    for key in ("CPU ms/step median", "wall ms/step median", "memory MiB"):
+        values = [row[key] for row in rows]
+        slope = float(np.polyfit(range(len(values)), values, 1)[0]) if len(values) > 1 else 0.0
+        first, last = values[0], values[-1]
+        found.append({"figure": key, "first": first, "last": last, "slope per hour": 60 * slope})
+    return found
+
+
+def in_process(*arguments: str) -> Any:
+    """Run a part of this benchmark in a process of its own; return what it found."""
+    command = [sys.executable, __file__, *arguments]
+    done = subprocess.run(command, stdout=subprocess.PIPE, check=True)
+    return json.loads(done.stdout.decode().splitlines()[-1])
+
+
+def answer(found: Any) -> None:
+    # pybullet writes to stdout too, when it likes.
+    sys.stdout.write(f"\n{json.dumps(found)}\n")
+    sys.stdout.flush()
+    os._exit(0)
 
 
 def main() -> None:
     parser = report.options(__doc__)
     parser.add_argument("--soak", type=float, metavar="MINUTES", help="only soak, so long")
-    parser.add_argument("--node", action="store_true", help=argparse.SUPPRESS)
     parser.add_argument("--case", help=argparse.SUPPRESS)
+    parser.add_argument("--load", type=float, help=argparse.SUPPRESS)
+    parser.add_argument("--halt", type=int, help=argparse.SUPPRESS)
     options = parser.parse_args()
-    if options.node:
-        run_node()
     thirteen = (list(LIBRARY.ids()) * 13)[:13]
+    kinds = (KINDS * 4)[:32]
     if options.case:
-        sys.stdout.write(json.dumps(measured(*json.loads(options.case))))
-        sys.stdout.flush()
-        os._exit(0)
+        answer(measured(*json.loads(options.case)))
+    if options.load or options.halt:
+        import physics_node
+
+        if options.halt:
+            answer(physics_node.halt_latencies(options.halt))
+        answer(physics_node.node_load(thirteen, kinds, options.load))
     if options.soak:
-        report.show("Physics soak", soak(thirteen, options.soak), options.json)
+        rows = soak(thirteen, options.soak)
+        report.show("Physics soak", rows, options.json)
+        report.show("Physics soak, drift", drift(rows), options.json)
         return
     seconds = 3.0 if options.quick else 15.0
-    rows = []
-    for case in (
-        ("one robot, headless", ["ur5e"], 10, 3 * seconds),
-        ("thirteen cobots", ["ur5e"] * 13, 32, seconds),
-        ("thirteen models", thirteen, 32, seconds),
-    ):
-        done = subprocess.run(
-            [sys.executable, __file__, "--case", json.dumps(case)],
-            stdout=subprocess.PIPE,
-            check=True,
-        )
-        text = done.stdout.decode()
-        rows.append(json.loads(text[text.index("{") :]))
+    cases = (
+        ("one robot, headless", ["ur5e"], 10, 3 * seconds, False),
+        ("the same, no object at rest", ["ur5e"], 10, 3 * seconds, True),
+        ("thirteen cobots", ["ur5e"] * 13, 32, seconds, False),
+        ("thirteen models", thirteen, 32, seconds, False),
+        ("the same, no object at rest", thirteen, 32, seconds, True),
+    )
+    rows = [in_process("--case", json.dumps(case)) for case in cases]
     report.show("Physics steps", rows, options.json)
-    latencies = report.percentiles(halt_latencies(6 if options.quick else 50))
+    rows = in_process("--load", str(5.0 if options.quick else 30.0))
+    report.show("Physics node", rows, options.json)
+    latencies = report.percentiles(in_process("--halt", str(6 if options.quick else 50)))
     row = {"what": "contact to last moving joint state, 100 Hz"}
     report.show("Physics halt", [row | {f"{k} ms": v for k, v in latencies.items()}], options.json)
-    sys.stdout.flush()
-    os._exit(0)
 
 
 if __name__ == "__main__":

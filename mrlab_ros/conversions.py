@@ -26,6 +26,7 @@ from mrlab_ros.core.clock import SECOND, PlaybackClock
 from mrlab_ros.core.diagnostics import Diagnostic, Severity
 from mrlab_ros.core.kinematics import Array
 from mrlab_ros.core.playback import Snapshot
+from mrlab_ros.core.scene import Pose as Place
 from mrlab_ros.core.trajectory import Channels, Source, Trajectory
 
 
@@ -172,6 +173,17 @@ def pose_to_message(transform: Array) -> Pose:
     )
 
 
+def place_from_message(message: Pose) -> Place:
+    """Return where something is; raise BadInput where the pose is none."""
+    p, q = message.position, message.orientation
+    return Place((p.x, p.y, p.z), (q.x, q.y, q.z, q.w))
+
+
+def place_to_message(place: Place) -> Pose:
+    (x, y, z), (qx, qy, qz, qw) = place.position, place.orientation
+    return Pose(position=Point(x=x, y=y, z=z), orientation=Quaternion(x=qx, y=qy, z=qz, w=qw))
+
+
 def transforms_to_message(now_ns: int, kind: type[Any], robots: list[msg.Robot]) -> Any:
     """Return the robots' base transforms, T_world_base, as a message of `kind` (TFMessage)."""
     transforms = []
@@ -194,7 +206,7 @@ class JointStateEncoder:
 
     The layout of a JointState with fixed names never changes, so the stamp and the two arrays
     are written into a message that was serialised once. That takes a sixth of the time of
-    filling and serialising a message, and the bytes are the same.
+    filling and serialising a message, and the bytes are those that publishing it would send.
     """
 
     def __init__(self, frame_id: str, joint_names: tuple[str, ...]) -> None:
@@ -212,6 +224,9 @@ class JointStateEncoder:
         self._stamp = self._offset(struct.pack("<iI", 0x5A5A5A5A, 0x3C3C3C3C))
         self._position = self._offset(struct.pack(f"<{count}d", *marks[:count]))
         self._velocity = self._offset(struct.pack(f"<{count}d", *marks[count:]))
+        # The length of the empty efforts ends the message. rclpy's serialiser adds the gap before
+        # a double that never comes; readers of CDR other than ROS's own refuse such a message.
+        del self._buffer[self._velocity + self._size + 4 :]
 
     def _offset(self, mark: bytes) -> int:
         return self._buffer.index(mark)

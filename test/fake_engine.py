@@ -6,7 +6,6 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from mrlab_ros.core.kinematics import Array
 from mrlab_ros.core.physics.engine import Arm, Body, Finger, FingerState, Kind, Motion, Touch
 from mrlab_ros.core.physics.poses import Vector
 from mrlab_ros.core.scene import Pose
@@ -38,11 +37,11 @@ class FakeEngine:
     def add_arm(self, name: str, urdf: str, joints: tuple[str, ...], pose: Pose) -> Arm:
         count = len(self.fitted)
         self.arms[name] = {
-            "pose": pose, "q": np.zeros(2), "v": np.zeros(2), "last": np.zeros(2),
+            "pose": pose, "q": (0.0, 0.0), "v": (0.0, 0.0),
             "fingers": [0.0] * count, "drive": [0.0] * count,
         }  # fmt: skip
         links = frozenset(f.link for f in self.fitted)
-        return Arm(self.fitted, "tip", links, frozenset({"base"}), np.ones(len(joints)))
+        return Arm(self.fitted, "tip", links | {"tip"}, frozenset({"base"}), (1.0,) * len(joints))
 
     def place_arm(self, name: str, pose: Pose) -> None:
         self.arms[name]["pose"] = pose
@@ -50,15 +49,19 @@ class FakeEngine:
     def remove_arm(self, name: str) -> None:
         del self.arms[name]
 
-    def move_arm(self, name: str, positions: Array, velocities: Array) -> None:
+    def move_arm(
+        self,
+        name: str,
+        positions: Sequence[float],
+        velocities: Sequence[float],
+        *,
+        jumped: bool = False,
+    ) -> None:
         self.arms[name].update(q=positions, v=velocities)
         self.calls.append("move")
 
-    def travel(self, name: str) -> float:
-        arm = self.arms[name]
-        moved = float(np.linalg.norm(arm["q"] - arm["last"]))
-        arm["last"] = arm["q"]
-        return moved
+    def speed(self, name: str) -> float:
+        return float(np.linalg.norm(self.arms[name]["v"]))
 
     def drive_fingers(self, name: str, velocities: Sequence[float]) -> None:
         self.arms[name]["drive"] = list(velocities)
@@ -80,19 +83,23 @@ class FakeEngine:
         a, b = self.link(arm, "tip").pose.position, self.object(other).pose.position
         return float(np.linalg.norm(np.subtract(a, b))) - self.RADIUS
 
+    def _holds(self, arm: str, name: str) -> bool:
+        return name in self.held and self.held[name][0] == arm
+
     def touches(self, name: str) -> list[Touch]:
         tip = self.link(name, "tip").pose.position
         found = [
             Touch("tip", Kind.OBJECT, o, "", tip, (1.0, 0.0, 0.0), -self._gap(name, o), 0.1)
             for o in self.motions
-            if self._gap(name, o) <= 0 and o != self.pinched and o not in self.held
+            if self._gap(name, o) <= 0 and o != self.pinched and not self._holds(name, o)
         ]
         found += [
             Touch("tip", Kind.SURFACE, s, "", tip, (1.0, 0.0, 0.0), tip[0] - x, 0.1)
             for s, x in self.surfaces.items()
             if tip[0] >= x
         ]
-        if self.pinched and self.arms[name]["fingers"] == [self.block] * len(self.fitted):
+        pinched = self.pinched and not self._holds(name, self.pinched)
+        if pinched and self.arms[name]["fingers"] == [self.block] * len(self.fitted):
             for finger, side in zip(self.fitted, (1.0, -1.0), strict=True):
                 found.append(
                     Touch(finger.link, Kind.OBJECT, self.pinched, "", tip, (0, side, 0), 0, 0.1)

@@ -22,7 +22,7 @@ speed = 0.25;                    % m/s, vertical, at the height of approach
 
 % The hand-over: both tools level on one line, each at its end of the rod.
 height = 0.70;                                   % m
-offer = 0.42;                                    % m, UR5e's tool0 from its base
+offer = 0.38;                                    % m, UR5e's tool0 from its base
 take = between_bases - offer - 2*grip - (rod - 2*held);   % m, KUKA's from its own
 ready = take - 0.10;                             % m, where the KUKA waits
 
@@ -40,7 +40,7 @@ points = [home                                 % home
           offer-0.10  0   height  0  level     % drawn back
           home
           home];
-times = [0; 1.0; 1.5; 1.75; 2.25; 3.85; 4.7; 5.3; 7.0; 8.0];
+times = [0; 1.0; 1.5; 2.0; 2.45; 4.0; 4.75; 5.35; 7.0; 8.0];
 velocities = zeros(size(points));
 velocities(2, 3) = -speed;
 velocities(5, 3) = speed;
@@ -68,7 +68,7 @@ q_kr6 = tool_path(second, quintic_path(fs, times, points, velocities), level);
 
 % Column 7: the UR5e lets go only after the KUKA has closed its fingers.
 t = (0:size(q_ur5e, 1) - 1)' / fs;
-q_ur5e = [q_ur5e double(t >= 1.55 & t < 4.45)];
+q_ur5e = [q_ur5e double(t >= 1.55 & t < 4.65)];
 q_kr6 = [q_kr6 double(t >= 4.15 & t < 6.65)];
 
 check_motion(first, q_ur5e, fs);

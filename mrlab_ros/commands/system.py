@@ -132,13 +132,14 @@ def play(
 
         def note(message: Any) -> bool:
             state = next((s for s in message.systems if s.name == name), None)
-            if state is None or not seen or seen[-1].label != state.label:
+            if state is None:
+                # The latched messages go back to before it was made; gone is what was there.
+                return bool(seen)
+            if not seen or seen[-1].label != state.label:
                 seen.append(state)
-                if state is not None and len(seen) > 1:
+                if len(seen) > 1:
                     print(f"{name}: {state.label}{': ' * bool(state.message)}{state.message}")
-            return state is None or (
-                len(seen) > 1 and state.label in ("READY", "PAUSED", "COLLISION_HALT")
-            )
+            return len(seen) > 1 and state.label in ("READY", "PAUSED", "COLLISION_HALT")
 
         watch.wait(lambda m: note(m) or True, 5.0, "the systems")
         print(graph.order(Trigger, f"/{name}/play", Trigger.Request(), 30.0).message)

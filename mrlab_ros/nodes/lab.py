@@ -6,8 +6,6 @@ import json
 from pathlib import Path
 from typing import Any
 
-from geometry_msgs.msg import Point, Quaternion
-from geometry_msgs.msg import Pose as PoseMessage
 from mrlab_msgs import msg, srv
 from rclpy.context import Context
 from rclpy.node import Node
@@ -25,18 +23,6 @@ try:  # not among the ROS wheels; where it is missing, a client places robots by
     from tf2_msgs.msg import TFMessage
 except ImportError:
     TFMessage = None
-
-
-def pose_from_message(message: PoseMessage) -> Pose:
-    p, q = message.position, message.orientation
-    return Pose((p.x, p.y, p.z), (q.x, q.y, q.z, q.w))
-
-
-def pose_to_message(pose: Pose) -> PoseMessage:
-    (x, y, z), (qx, qy, qz, qw) = pose.position, pose.orientation
-    return PoseMessage(
-        position=Point(x=x, y=y, z=z), orientation=Quaternion(x=qx, y=qy, z=qz, w=qw)
-    )
 
 
 class LabNode(Node):
@@ -100,7 +86,7 @@ class LabNode(Node):
             name=robot.name,
             model=robot.model,
             end_effector=robot.end_effector or "",
-            pose=pose_to_message(robot.pose),
+            pose=conversions.place_to_message(robot.pose),
             joint_names=list(robot.joint_names),
         )
 
@@ -146,7 +132,7 @@ class LabNode(Node):
                 f"the surface '{request.surface}' is unknown to the lab; leave it empty for the "
                 "floor, or give a pose"
             )
-        pose = None if request.automatic else pose_from_message(request.pose)
+        pose = None if request.automatic else conversions.place_from_message(request.pose)
         robot = self._spawn(request.model, request.end_effector or None, request.name, pose)
         self._announce()
         response.robot = self._message(robot)
@@ -155,7 +141,7 @@ class LabNode(Node):
 
     @answered
     def _on_place(self, request: Any, response: Any) -> str:
-        self._scene.place(request.robot, pose_from_message(request.pose))
+        self._scene.place(request.robot, conversions.place_from_message(request.pose))
         self._announce()
         return f"{request.robot} is placed"
 

@@ -15,12 +15,13 @@ from mrlab_ros.core.clock import SECOND, PlaybackClock
 from mrlab_ros.core.errors import BadInput, Misuse
 from mrlab_ros.core.physics import catalogue
 from mrlab_ros.core.physics.engine import Body, Kind, Motion, Part, Shape
+from mrlab_ros.core.physics.events import CollisionChanged, GraspChanged
 from mrlab_ros.core.physics.grasp import Grasp, Gripper
 from mrlab_ros.core.physics.robot import GripperProgram, Playing
 from mrlab_ros.core.physics.scene_document import SceneDocument, parse, plain
 from mrlab_ros.core.physics.settings import Settings
 from mrlab_ros.core.physics.surfaces import Surface
-from mrlab_ros.core.physics.world import CollisionChanged, GraspChanged, World
+from mrlab_ros.core.physics.world import World
 from mrlab_ros.core.playback_states import State
 from mrlab_ros.core.scene import Pose
 

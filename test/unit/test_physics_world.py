@@ -12,6 +12,7 @@ from mrlab_ros.core.clock import SECOND, PlaybackClock
 from mrlab_ros.core.errors import BadInput, IllegalEvent, Misuse
 from mrlab_ros.core.physics import catalogue
 from mrlab_ros.core.physics.engine import Motion
+from mrlab_ros.core.physics.events import CollisionChanged, GraspChanged, ObjectRemoved
 from mrlab_ros.core.physics.grasp import TRANSITIONS, Grasp, GraspEvent, Gripper, after
 from mrlab_ros.core.physics.halt import Clearance, Halt
 from mrlab_ros.core.physics.joint_stream import JointStream
@@ -20,7 +21,7 @@ from mrlab_ros.core.physics.robot import GripperProgram, Playing
 from mrlab_ros.core.physics.settings import Settings
 from mrlab_ros.core.physics.snapshots import Snapshot, Snapshots
 from mrlab_ros.core.physics.surfaces import Surface
-from mrlab_ros.core.physics.world import CollisionChanged, GraspChanged, ObjectRemoved, World
+from mrlab_ros.core.physics.world import World
 from mrlab_ros.core.playback_states import State
 from mrlab_ros.core.scene import Pose
 
@@ -126,6 +127,8 @@ def test_a_jump_is_no_motion_and_takes_along_what_the_hand_holds():
         ([np.nan, 0], [0, 0], "NaN"),
         ([0.0], [0.0], "expected 2"),
         ([0, 0], [0, 0, 0], "expected 2"),
+        ([1e300, 0], [0, 0], "more than"),
+        ([0, 0], [0, -1e300], "more than"),
     ],
 )
 def test_a_joint_state_that_is_none_is_refused_and_changes_nothing(positions, velocities, says):
@@ -142,7 +145,7 @@ def test_joint_states_that_go_back_in_time_are_left_out_unless_the_clock_began_a
     assert not stream.add(5 * SECOND - 10 * MS, [0.2], [0.0], 0)
     assert not stream.add(5 * SECOND, [0.2], [0.0], 0)
     assert stream.add(1 * SECOND, [0.3], [0.0], 0)
-    assert stream.at(1 * SECOND).positions == [0.3]
+    assert stream.at(1 * SECOND).positions == (0.3,)
 
 
 def test_the_motion_goes_through_every_joint_state_and_is_straight_between():
@@ -222,6 +225,83 @@ def test_attaching_by_hand_takes_from_another_and_detaching_leaves_an_empty_gras
     lab.world.spawn("post", "post", Pose((3.0, 0.0, 0.5)))
     with pytest.raises(Misuse, match="fixed to the room"):
         lab.world.attach("a", "post")
+
+
+class Pair(Lab):
+    """A lab with a second robot, `b`, whose base is 1 m further along x; it holds its tip at x."""
+
+    def __init__(self, gripper: Gripper) -> None:
+        super().__init__(gripper=gripper)
+        self.world.add_robot("b", "<robot/>", ("j1", "j2"), Pose((1.0, 0, 0)), gripper)
+        self.world.spawn("ball", "ball", Pose((0.5, 0.0, 0.5)))
+
+    def both(self, a: float, b: float, duration_ns: int) -> None:
+        self.world.joint_state("b", self.now_ns, (b - 1.0, 0.0), (0.0, 0.0))
+        self.go(a, duration_ns)
+
+    def close(self, robot: str, *opens: float) -> None:
+        """Let a robot close from here on, and open so many seconds later."""
+        self.world.set_program(
+            robot, GripperProgram((0.0, *opens), (True, *(False for _ in opens)))
+        )
+        clock = PlaybackClock(self.now_ns, 0.0, 1.0)
+        playing = Playing(State.PLAYING, "t", clock, 0, 1001, 100.0, 10.0)
+        self.world.playback(robot, playing)
+
+    def grasps(self, robot: str) -> list[Grasp]:
+        return [e.state for e in self.of(GraspChanged) if e.robot == robot]
+
+
+def test_a_cup_takes_from_another_that_does_not_take_it_back():
+    lab = Pair(Gripper.VACUUM)
+    lab.both(0.46, 1.0, 100 * MS)
+    lab.close("a")
+    lab.both(0.46, 0.56, 100 * MS)
+    lab.close("b")
+    lab.both(0.46, 0.54, 300 * MS)
+    assert lab.world.object("ball").held_by == "b"
+    assert lab.grasps("a") == [Grasp.OPEN, Grasp.CLOSING, Grasp.HOLDING, Grasp.EMPTY]
+    assert lab.grasps("b") == [Grasp.OPEN, Grasp.CLOSING, Grasp.HOLDING]
+    lab.world.detach("b")
+    lab.both(0.46, 0.54, 100 * MS)
+    assert lab.world.object("ball").held_by == ""
+    assert not lab.of(CollisionChanged)
+
+
+def test_fingers_take_an_object_over_from_fingers_that_open_later():
+    lab = Pair(Gripper.FINGERS)
+    lab.engine.pinched, lab.engine.block = "ball", 0.02
+    lab.both(0.46, 1.5, 100 * MS)
+    lab.close("a", 3.0)
+    lab.both(0.46, 0.54, 1000 * MS)
+    assert lab.world.object("ball").held_by == "a"
+    lab.close("b")
+    before = lab.world.motion("ball").pose
+    lab.both(0.46, 0.54, 1000 * MS)
+    assert lab.world.object("ball").held_by == "b"
+    assert lab.world.motion("ball").pose.position == pytest.approx(before.position, abs=1e-4)
+    lab.both(0.46, 0.54, 1500 * MS)
+    assert lab.grasps("a")[2:] == [Grasp.HOLDING, Grasp.EMPTY, Grasp.OPEN]
+    lab.both(0.46, 0.9, 200 * MS)
+    assert lab.world.motion("ball").pose.position[0] > 0.8
+    assert not lab.of(CollisionChanged)
+
+
+def test_a_robot_put_into_a_surface_may_move_out_of_it():
+    lab = Lab()
+    lab.world.set_surfaces([wall(1.4)])
+    lab.world.add_robot("b", "<robot/>", ("j1", "j2"), Pose((1.0, 0, 0)), Gripper.NONE)
+
+    def turn(start: int, stop: int, way: int) -> list[CollisionChanged]:
+        for i in range(start, stop, way):
+            lab.now_ns += 10 * MS
+            lab.world.joint_state("b", lab.now_ns, (i / 200, 0.0), (0.5 * way, 0.0))
+            lab.world.advance(lab.now_ns)
+        return [e for e in lab.world.take_events() if isinstance(e, CollisionChanged)]
+
+    assert not turn(100, 60, -1)
+    (hit,) = turn(60, 100, 1)
+    assert (hit.robot, hit.colliding) == ("b", True)
 
 
 def test_a_robot_removed_while_holding_leaves_the_object_behind():

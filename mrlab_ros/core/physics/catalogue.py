@@ -3,11 +3,15 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
+import numpy as np
+from numpy.typing import NDArray
+
 from mrlab_ros.core.errors import BadInput
+from mrlab_ros.core.kinematics import Array
 from mrlab_ros.core.physics.engine import Body, Part, Shape
 from mrlab_ros.core.physics.poses import Vector, add, subtract, turned
 from mrlab_ros.core.scene import NAME, Pose
@@ -30,6 +34,19 @@ FIELDS = frozenset(
 )
 SIZE_RANGE = (0.002, 5.0)
 MASS_RANGE = (0.001, 500.0)
+# A hull of more corners than this costs time at every step and is no better.
+HULL_CORNERS = 128
+
+
+@dataclass(frozen=True, eq=False)
+class Mesh:
+    """vertices: (V, 3) m, in the object's frame; triangles: (T, 3) vertex indices."""
+
+    vertices: Array
+    triangles: NDArray[np.int32]
+
+
+ReadMesh = Callable[[str], Mesh]
 
 
 @dataclass(frozen=True, eq=False)
@@ -78,22 +95,25 @@ class Catalogue:
             ) from None
 
 
-def parse(document: object) -> Catalogue:
-    """Read the catalogue from what the YAML file holds; raise BadInput where it is not one."""
+def parse(document: object, read_mesh: ReadMesh | None = None) -> Catalogue:
+    """Read the catalogue from what the YAML file holds; raise BadInput where it is not one.
+
+    read_mesh: returns the mesh of a URI or raises BadInput; without it meshes are not looked at,
+    and none can be collided with.
+    """
     if not isinstance(document, Mapping) or not isinstance(document.get("objects"), Mapping):
         raise BadInput("the object catalogue has no mapping 'objects'; see config/objects.yaml")
-    return Catalogue({str(k): _type(str(k), v) for k, v in document["objects"].items()})
+    types = {str(k): _type(str(k), v, read_mesh) for k, v in document["objects"].items()}
+    return Catalogue(types)
 
 
-def _type(type_id: str, entry: object) -> ObjectType:
+def _type(type_id: str, entry: object, read_mesh: ReadMesh | None) -> ObjectType:
     where = f"object '{type_id}' of the catalogue"
     if not NAME.fullmatch(type_id):
         raise BadInput(f"{where} has no usable id; expected lower-case letters, digits and _")
     if not isinstance(entry, Mapping) or set(entry) - FIELDS:
         found = ", ".join(sorted(set(entry) - FIELDS)) if isinstance(entry, Mapping) else entry
         raise BadInput(f"{where} has {found}; expected {', '.join(sorted(FIELDS))}")
-    described = entry.get("parts") or [entry]
-    parts = [_part(f"{where}, part {i + 1}", p) for i, p in enumerate(described)]
     fixed = entry.get("fixed", False) is True
     mass = _number(where, "mass", entry.get("mass", 0.0), 0.0, MASS_RANGE[1])
     if fixed and mass:
@@ -103,9 +123,14 @@ def _type(type_id: str, entry: object) -> ObjectType:
             f"{where} has a mass of {mass:g} kg; expected {MASS_RANGE[0]:g} to "
             f"{MASS_RANGE[1]:g} kg, or fixed: true for what never moves"
         )
+    uri = str(entry.get("mesh", ""))
+    mesh = read_mesh(uri) if uri and read_mesh is not None else None
+    if mesh is not None and not ("shape" in entry or entry.get("parts")):
+        parts = [_of_mesh(mesh, fixed)]
+    else:
+        described = entry.get("parts") or [entry]
+        parts = [_part(f"{where}, part {i + 1}", p) for i, p in enumerate(described)]
     boxes = [_bounds(part) for part in parts]
-    low = _corner(min, [b[0] for b in boxes])
-    high = _corner(max, [b[1] for b in boxes])
     color = _numbers(where, "color", entry.get("color", (0.7, 0.7, 0.7, 1.0)), 4, 0.0, 1.0)
     return ObjectType(
         id=type_id,
@@ -115,12 +140,33 @@ def _type(type_id: str, entry: object) -> ObjectType:
             _number(where, "friction", entry.get("friction", 0.6), 0.0, 5.0),
             _number(where, "restitution", entry.get("restitution", 0.1), 0.0, 1.0),
         ),
-        low=low,
-        high=high,
+        low=_corner(min, [b[0] for b in boxes]),
+        high=_corner(max, [b[1] for b in boxes]),
         color=(color[0], color[1], color[2], color[3]),
-        mesh=str(entry.get("mesh", "")),
+        mesh=uri,
         about=str(entry.get("about", "")),
     )
+
+
+def _of_mesh(mesh: Mesh, fixed: bool) -> Part:
+    """Return what collides of a mesh: itself where it is fixed, else its corners' convex hull."""
+    if fixed:
+        return Part(Shape.MESH, vertices=mesh.vertices, triangles=mesh.triangles)
+    return Part(Shape.HULL, vertices=_extreme(mesh.vertices))
+
+
+def _extreme(vertices: Array) -> Array:
+    """Return the vertices that reach furthest, each in one of HULL_CORNERS even directions.
+
+    Directions: a Fibonacci lattice on the sphere.
+    """
+    k = np.arange(HULL_CORNERS) + 0.5
+    z = 1 - 2 * k / HULL_CORNERS
+    turn = math.pi * (1 + math.sqrt(5)) * k
+    across = np.sqrt(1 - z * z)
+    directions = np.stack([across * np.cos(turn), across * np.sin(turn), z])
+    kept: Array = vertices[np.unique((vertices @ directions).argmax(axis=0))]
+    return kept
 
 
 def _part(where: str, entry: Mapping[str, Any]) -> Part:
@@ -172,6 +218,12 @@ def _half(part: Part) -> Vector:
 
 def _bounds(part: Part) -> tuple[Vector, Vector]:
     """Return the corners of a box around the part, in the object's frame."""
+    if part.vertices is not None:
+        (x, y, z), (a, b, c) = (
+            part.vertices.min(axis=0).tolist(),
+            part.vertices.max(axis=0).tolist(),
+        )
+        return (x, y, z), (a, b, c)
     half = _half(part)
     reach = [0.0, 0.0, 0.0]
     for axis in range(3):

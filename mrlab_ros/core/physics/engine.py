@@ -88,15 +88,15 @@ class Arm:
     """What the engine found in a robot's description.
 
     fingers: its joints that the trajectory does not prescribe. hand: the link an object is fixed
-    to. tool_links: all links beyond tool0. fixed_links: links that no joint moves. levers: (J,) m,
-    of each prescribed joint the longest way from it to the arm's end.
+    to. tool_links: all links beyond tool0. fixed_links: links that no joint moves. levers: m, of
+    each prescribed joint the longest way from it to the arm's end.
     """
 
     fingers: tuple[Finger, ...]
     hand: str
     tool_links: frozenset[str]
     fixed_links: frozenset[str]
-    levers: Array
+    levers: tuple[float, ...]
 
 
 @dataclass(frozen=True)
@@ -133,12 +133,22 @@ class Engine(Protocol):
 
     def remove_arm(self, name: str) -> None: ...
 
-    def move_arm(self, name: str, positions: Array, velocities: Array) -> None:
-        """Put the arm's joints at `positions`, (J,) rad, moving with `velocities`, (J,) rad/s."""
+    def move_arm(
+        self,
+        name: str,
+        positions: Sequence[float],
+        velocities: Sequence[float],
+        *,
+        jumped: bool = False,
+    ) -> None:
+        """Put the arm's joints at `positions`, rad, moving with `velocities`, rad/s.
+
+        jumped: it did not move there from where it was, it was put there.
+        """
         ...
 
-    def travel(self, name: str) -> float:
-        """Return how far the arm's fastest point moved since the last call, m."""
+    def speed(self, name: str) -> float:
+        """Return how fast the arm's fastest point moves with its present velocities, m/s."""
         ...
 
     def drive_fingers(self, name: str, velocities: Sequence[float]) -> None:

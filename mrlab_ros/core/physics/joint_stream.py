@@ -3,13 +3,15 @@
 from __future__ import annotations
 
 from collections import deque
+from collections.abc import Sequence
 from dataclasses import dataclass
-
-import numpy as np
+from typing import NamedTuple
 
 from mrlab_ros.core.clock import SECOND
 from mrlab_ros.core.errors import BadInput
-from mrlab_ros.core.kinematics import Array
+
+# rad, or rad/s, in order of the joints. Tuples: numpy takes longer for so few numbers.
+Joints = tuple[float, ...]
 
 # No arm turns faster, rad/s, not even at rate 4: what does was put elsewhere (a seek).
 JUMP_SPEED = 50.0
@@ -22,27 +24,34 @@ RESTART_NS = SECOND
 STALE_NS = SECOND // 4
 # Shorter than this, ns, no period says how fast something moved.
 LEAST_NS = SECOND // 1000
-KEPT = 64
+# A second of backlog at 500 Hz.
+KEPT = 512
+# No joint is turned this far, rad, or turns so fast, rad/s.
+LIMIT = 1e5
 
 
-@dataclass(frozen=True, eq=False)
-class Placed:
+def between(start: Joints, end: Joints, share: float) -> Joints:
+    """Return what lies `share` of the straight way from `start` to `end`."""
+    return tuple([a + share * (b - a) for a, b in zip(start, end, strict=True)])
+
+
+class Placed(NamedTuple):
     """Where the arm is at one instant. jumped: it did not move there, it was put there."""
 
-    positions: Array
-    velocities: Array
+    positions: Joints
+    velocities: Joints
     jumped: bool = False
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, slots=True)
 class _Piece:
     """A straight motion in joint space; of a jump only its end counts."""
 
     start_ns: int
     end_ns: int
-    start: Array
-    end: Array
-    velocities: Array
+    start: Joints
+    end: Joints
+    velocities: Joints
     jump: bool
 
 
@@ -56,38 +65,34 @@ class JointStream:
 
     def __init__(self, joints: int, max_lag_ns: int) -> None:
         self._joints = joints
+        self._rest: Joints = (0.0,) * joints
         self._max_lag_ns = max_lag_ns
         self._pieces: deque[_Piece] = deque(maxlen=KEPT)
-        self._last: tuple[int, Array] | None = None
+        self._last: tuple[int, Joints] | None = None
         self._moves = False
         self._fresh = True
         self.delay_ns = 0
 
-    def add(self, stamp_ns: int, positions: Array, velocities: Array, now_ns: int) -> bool:
+    def add(
+        self, stamp_ns: int, positions: Sequence[float], velocities: Sequence[float], now_ns: int
+    ) -> bool:
         """Take a joint state; return False for one that is not newer than the last.
 
-        now_ns: the world's time. Raises BadInput where the arrays are no joint state.
+        now_ns: the world's time. Raises BadInput where the numbers are no joint state.
         """
-        q = np.array(positions, dtype=np.float64)
-        reported = np.array(velocities, dtype=np.float64)
-        v = reported if reported.size else np.zeros_like(q)
-        if q.shape != (self._joints,) or v.shape != q.shape:
-            raise BadInput(
-                f"a joint state has {q.size} positions and {v.size} velocities; expected "
-                f"{self._joints} of each"
-            )
-        if not (np.isfinite(q).all() and np.isfinite(v).all()):
-            raise BadInput("a joint state holds NaN or Inf; the arm stays where it is")
+        q, v = self._checked(positions, velocities)
         if self._last is None:
-            self._last = (stamp_ns, q)
-            self._pieces.append(_Piece(stamp_ns, stamp_ns, q, q, np.zeros_like(q), True))
+            self._put(stamp_ns, q)
             return True
         before_ns, before = self._last
         restarted = before_ns - stamp_ns >= RESTART_NS
         if stamp_ns <= before_ns and not restarted:
             return False
-        moved = q - before
-        moving = bool(moved.any() or v.any())
+        moved = q != before
+        moving = moved or any(v)
+        if not moving and not self._moves and not restarted:
+            self._last = (stamp_ns, q)
+            return True
         period_ns = stamp_ns - before_ns
         if moving and self._moves and not restarted:
             self.delay_ns = period_ns if self._max_lag_ns < period_ns < STALE_NS else 0
@@ -97,26 +102,47 @@ class JointStream:
             start_ns = max(start_ns, stamp_ns - SECOND // 50)
             period_ns = stamp_ns - start_ns
         slope = v
-        if moved.any() and period_ns > 0:
-            slope = moved / (period_ns / SECOND)
-        reach = JUMP_SPEED * max(period_ns, LEAST_NS) / SECOND
-        jump = restarted or float(np.abs(moved).max()) > reach
-        if reported.size and moved.any() and not jump:
-            excess = float(np.abs(slope - v).max()) - float(np.abs(v).max())
-            jump = excess > JUMP_EXCESS
+        if moved and period_ns > 0:
+            seconds = period_ns / SECOND
+            slope = tuple([(b - a) / seconds for a, b in zip(before, q, strict=True)])
+        jump = restarted or (moved and _too_far(before, q, period_ns))
+        if len(velocities) and moved and not jump:
+            jump = _too_fast(slope, v)
         if jump:
-            self._pieces.append(_Piece(stamp_ns, stamp_ns, q, q, np.zeros_like(q), True))
+            if restarted:
+                self._pieces.clear()
+                self._fresh = True
+            self._put(stamp_ns, q)
         else:
             self._pieces.append(_Piece(start_ns, stamp_ns, before, q, slope, False))
-        if restarted:
-            while len(self._pieces) > 1:
-                self._pieces.popleft()
-            self._fresh = True
-        self._last = (stamp_ns, q)
-        self._moves = bool(v.any()) or (moving and not jump)
+            self._last = (stamp_ns, q)
+        self._moves = any(v) or (moving and not jump)
         if not self._moves:
             self.delay_ns = 0
         return True
+
+    def _checked(
+        self, positions: Sequence[float], velocities: Sequence[float]
+    ) -> tuple[Joints, Joints]:
+        q = tuple(map(float, positions))
+        v = tuple(map(float, velocities)) or self._rest
+        if len(q) != self._joints or len(v) != self._joints:
+            raise BadInput(
+                f"a joint state has {len(q)} positions and {len(v)} velocities; expected "
+                f"{self._joints} of each"
+            )
+        # Written so that NaN is refused too.
+        if not all(-LIMIT <= x <= LIMIT for x in q + v):
+            raise BadInput(
+                f"a joint state holds NaN, Inf or more than {LIMIT:g} rad; the arm stays where "
+                "it is"
+            )
+        return q, v
+
+    def _put(self, stamp_ns: int, q: Joints) -> None:
+        """Note that the arm was put somewhere, without a way there."""
+        self._pieces.append(_Piece(stamp_ns, stamp_ns, q, q, self._rest, True))
+        self._last = (stamp_ns, q)
 
     def known_until(self, now_ns: int) -> int | None:
         """Return the time, ns, up to which the motion is known; None: for ever, the arm stands."""
@@ -135,18 +161,29 @@ class JointStream:
 
     def at(self, now_ns: int) -> Placed | None:
         """Return where the arm is at the world's time `now_ns`; None before the first state."""
-        if not self._pieces:
+        pieces = self._pieces
+        if not pieces:
             return None
         now_ns -= self.delay_ns
         jumped, self._fresh = self._fresh, False
-        while len(self._pieces) > 1 and self._pieces[1].start_ns <= now_ns:
-            self._pieces.popleft()
-            jumped |= self._pieces[0].jump
-        piece = self._pieces[0]
+        while len(pieces) > 1 and pieces[1].start_ns <= now_ns:
+            pieces.popleft()
+            jumped |= pieces[0].jump
+        piece = pieces[0]
         if now_ns > piece.end_ns or piece.jump:
-            return Placed(piece.end, np.zeros_like(piece.end), jumped)
+            return Placed(piece.end, self._rest, jumped)
         if now_ns == piece.end_ns:
             return Placed(piece.end, piece.velocities, jumped)
         share = max((now_ns - piece.start_ns) / (piece.end_ns - piece.start_ns), 0.0)
-        positions = piece.start + share * (piece.end - piece.start)
-        return Placed(positions, piece.velocities, jumped)
+        return Placed(between(piece.start, piece.end, share), piece.velocities, jumped)
+
+
+def _too_far(start: Joints, end: Joints, period_ns: int) -> bool:
+    reach = JUMP_SPEED * max(period_ns, LEAST_NS) / SECOND
+    return max([abs(b - a) for a, b in zip(start, end, strict=True)]) > reach
+
+
+def _too_fast(slope: Joints, reported: Joints) -> bool:
+    """Return whether positions ran away from the velocities that came with them."""
+    excess = max([abs(s - r) for s, r in zip(slope, reported, strict=True)])
+    return excess - max(map(abs, reported)) > JUMP_EXCESS

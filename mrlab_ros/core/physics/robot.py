@@ -6,11 +6,10 @@ import bisect
 from dataclasses import dataclass, field
 
 from mrlab_ros.core.clock import SECOND, PlaybackClock
-from mrlab_ros.core.kinematics import Array
 from mrlab_ros.core.physics.engine import Arm, Kind, Touch
 from mrlab_ros.core.physics.grasp import Grasp, GraspEvent, Gripper, StallWatch, after
 from mrlab_ros.core.physics.halt import Clearance
-from mrlab_ros.core.physics.joint_stream import JointStream
+from mrlab_ros.core.physics.joint_stream import Joints, JointStream
 from mrlab_ros.core.physics.settings import Settings
 from mrlab_ros.core.physics.snapshots import Snapshot, Snapshots
 from mrlab_ros.core.playback_states import State
@@ -87,15 +86,21 @@ class Robot:
     playing: Playing = field(default_factory=Playing)
     program: GripperProgram = field(default_factory=GripperProgram)
     # Where the arm was put last; None before its first joint state: it is not there yet.
-    placed: Array | None = None
+    placed: Joints | None = None
     partners: set[tuple[Kind, str]] = field(default_factory=set)
     tolerated: set[str] = field(default_factory=set)
     touches: list[Touch] = field(default_factory=list)
     raise_again: bool = False
+    # How fast the arm's fastest point is, as a share of what it would be at full stretch, and of
+    # which velocities that is the share.
+    share: float = 1.0
+    share_of: Joints | None = None
     grasp: Grasp = Grasp.OPEN
     closed: bool = False
     closing_since_ns: int = 0
     held: str = ""
+    # What was taken from the closed gripper; empty once it is commanded anew.
+    lost: str = ""
     in_hand: Pose | None = None
     pending: tuple[int, Snapshot] | None = None
 
@@ -106,6 +111,13 @@ class Robot:
         self.watch = StallWatch(self.arm.fingers, s.stall_share, round(s.stall_time * SECOND))
         self.snapshots = Snapshots(s.snapshot_rate, s.snapshot_count)
         self.finger_links = frozenset(f.link for f in self.arm.fingers)
+
+    def reach(self, end: Joints, start: Joints | None = None) -> float:
+        """Return how far the arm's end moves at most from `start` (all 0 if None) to `end`, m."""
+        if start is None:
+            return sum([abs(q) * lever for q, lever in zip(end, self.arm.levers, strict=True)])
+        ways = zip(start, end, self.arm.levers, strict=True)
+        return sum([abs(b - a) * lever for a, b, lever in ways])
 
     def fire(self, event: GraspEvent) -> bool:
         """Take the transition of the gripper; return whether its state changed."""

@@ -11,38 +11,62 @@ import numpy as np
 from mrlab_ros.core.errors import BadInput
 from mrlab_ros.core.physics.poses import Quaternion, Vector
 from mrlab_ros.core.physics.surfaces import Surface
-from mrlab_ros.core.scene import NAME, Pose
+from mrlab_ros.core.scene import NAME, Pose, checked_name
+from mrlab_ros.core.waits import parse as parsed_wait
 
+# The rates a playback has, and the longest that a place on a timeline or a dwell can be, s.
+RATES = (0.1, 4.0)
+LONGEST = 1e6
 PARTS = ("about", "robots", "objects", "surfaces", "systems")
+POSE = ("position", "orientation")
 
 
 @dataclass(frozen=True)
 class RobotEntry:
+    """trajectory: what it has loaded, empty for nothing; at: where it stood on that, s."""
+
     name: str
     model: str
     end_effector: str
     pose: Pose
+    trajectory: str = ""
+    at: float = 0.0
 
 
 @dataclass(frozen=True)
 class ObjectEntry:
-    """automatic: on the nearest surface below the pose."""
+    """automatic: on the nearest surface below the pose. held_by: the robot that holds it, and
+    in_hand its pose in the frame of that robot's hand; empty and None: free."""
 
     name: str
     type: str
     pose: Pose
     automatic: bool = False
+    held_by: str = ""
+    in_hand: Pose | None = None
+
+
+@dataclass(frozen=True)
+class MemberEntry:
+    """dwell: s; waits: each as in mrlab_msgs/SystemMember."""
+
+    robot: str
+    trajectory: str
+    dwell: float = 0.0
+    waits: tuple[str, ...] = ()
 
 
 @dataclass(frozen=True)
 class SystemEntry:
-    """members: robot and trajectory id of each. mode, policy: as in mrlab_msgs/RobotSystem."""
+    """mode, policy: as in mrlab_msgs/RobotSystem. at: where it stood on its timeline, s."""
 
     name: str
-    members: tuple[tuple[str, str], ...]
+    members: tuple[MemberEntry, ...]
     mode: int = 0
     policy: int = 0
     loop: bool = False
+    rate: float = 1.0
+    at: float = 0.0
 
 
 @dataclass(frozen=True)
@@ -61,50 +85,52 @@ def parse(document: object, origin: str) -> SceneDocument:
     if not isinstance(document, Mapping) or set(document) - set(PARTS):
         found = sorted(set(document) - set(PARTS)) if isinstance(document, Mapping) else document
         raise BadInput(f"{origin} holds {found}; expected {', '.join(PARTS)}")
-    robots = tuple(
-        RobotEntry(
-            _name(e, "name", w),
-            _name(e, "model", w),
-            str(e.get("end_effector") or ""),
-            _pose(e, w),
-        )
-        for e, w in _entries(document, "robots", origin)
+    scene = SceneDocument(
+        tuple(_robot(e, w) for e, w in _entries(document, "robots", origin)),
+        tuple(_object(e, w) for e, w in _entries(document, "objects", origin)),
+        tuple(_surface(e, w) for e, w in _entries(document, "surfaces", origin)),
+        tuple(_system(e, w) for e, w in _entries(document, "systems", origin)),
+        str(document.get("about", "")),
     )
-    objects = tuple(
-        ObjectEntry(
-            _name(e, "name", w), _name(e, "type", w), _pose(e, w), e.get("automatic") is True
-        )
-        for e, w in _entries(document, "objects", origin)
-    )
-    surfaces = tuple(
-        Surface(
-            _name(e, "name", w),
-            str(e.get("label", "")),
-            _pose(e, w),
-            _matrix(e, "vertices", w, np.float64),
-            _matrix(e, "triangles", w, np.int32),
-        )
-        for e, w in _entries(document, "surfaces", origin)
-    )
-    systems = tuple(_system(e, w) for e, w in _entries(document, "systems", origin))
-    for what, entries in (("robot", robots), ("object", objects), ("surface", surfaces)):
-        names = [entry.name for entry in entries]
-        twice = sorted({name for name in names if names.count(name) > 1})
+    _consistent(scene, origin)
+    return scene
+
+
+def _consistent(scene: SceneDocument, origin: str) -> None:
+    """Raise BadInput where names clash or a part names a robot that the scene does not have."""
+    robots = {robot.name for robot in scene.robots}
+    parts = (("robot", scene.robots), ("object", scene.objects), ("system", scene.systems))
+    for what, entries in parts:
+        # Objects and systems may share a name with each other, but not with a robot.
+        taken = set() if what == "robot" else set(robots)
+        for entry in entries:
+            if entry.name in taken:
+                raise BadInput(f"{origin} names the {what} {entry.name} twice; rename one")
+            checked_name(entry.name, frozenset(), f"{what} of {origin}")
+            taken.add(entry.name)
+    surfaces = [surface.name for surface in scene.surfaces]
+    if len(set(surfaces)) != len(surfaces):
+        raise BadInput(f"{origin} has two surfaces of one name; give each its own")
+    needed = [(thing.name, thing.held_by) for thing in scene.objects if thing.held_by]
+    driven = [(system.name, m.robot) for system in scene.systems for m in system.members]
+    for name, robot in needed + driven:
+        if robot not in robots:
+            known = ", ".join(sorted(robots)) or "none"
+            raise BadInput(
+                f"{origin}: {name} names the robot '{robot}'; the robots of the scene: {known}"
+            )
+    for names, what in ((needed, "holds two objects"), (driven, "is a member twice")):
+        several = [robot for _, robot in names]
+        twice = sorted({robot for robot in several if several.count(robot) > 1})
         if twice:
-            raise BadInput(f"{origin} names the {what} {', '.join(twice)} twice; rename one")
-    return SceneDocument(robots, objects, surfaces, systems, str(document.get("about", "")))
+            raise BadInput(f"{origin}: {', '.join(twice)} {what}; leave one out")
 
 
 def plain(scene: SceneDocument) -> dict[str, Any]:
     """Return the scene as mappings, lists and numbers, for a YAML file."""
     result: dict[str, Any] = {"about": scene.about} if scene.about else {}
-    result["robots"] = [
-        {"name": r.name, "model": r.model, "end_effector": r.end_effector, **_plain_pose(r.pose)}
-        for r in scene.robots
-    ]
-    result["objects"] = [
-        {"name": o.name, "type": o.type, **_plain_pose(o.pose)} for o in scene.objects
-    ]
+    result["robots"] = [_plain_robot(robot) for robot in scene.robots]
+    result["objects"] = [_plain_object(thing) for thing in scene.objects]
     result["surfaces"] = [
         {
             "name": s.name,
@@ -118,13 +144,44 @@ def plain(scene: SceneDocument) -> dict[str, Any]:
     result["systems"] = [
         {
             "name": s.name,
-            "members": [{"robot": r, "trajectory_id": t} for r, t in s.members],
+            "members": [
+                {
+                    "robot": m.robot,
+                    "trajectory": m.trajectory,
+                    "dwell": m.dwell,
+                    "waits": list(m.waits),
+                }
+                for m in s.members
+            ],
             "mode": s.mode,
             "policy": s.policy,
             "loop": s.loop,
+            "rate": s.rate,
+            "at": s.at,
         }
         for s in scene.systems
     ]
+    return result
+
+
+def _plain_robot(robot: RobotEntry) -> dict[str, Any]:
+    result: dict[str, Any] = {
+        "name": robot.name,
+        "model": robot.model,
+        "end_effector": robot.end_effector,
+    }
+    result |= _plain_pose(robot.pose)
+    if robot.trajectory:
+        result |= {"trajectory": robot.trajectory, "at": robot.at}
+    return result
+
+
+def _plain_object(thing: ObjectEntry) -> dict[str, Any]:
+    result: dict[str, Any] = {"name": thing.name, "type": thing.type, **_plain_pose(thing.pose)}
+    if thing.automatic:
+        result["automatic"] = True
+    if thing.held_by and thing.in_hand is not None:
+        result |= {"held_by": thing.held_by, "in_hand": _plain_pose(thing.in_hand)}
     return result
 
 
@@ -173,17 +230,99 @@ def _matrix(entry: Mapping[str, Any], key: str, where: str, kind: Any) -> Any:
     return rows
 
 
-def _system(entry: Mapping[str, Any], where: str) -> SystemEntry:
-    members = tuple(
-        (_name(m, "robot", w), str(m.get("trajectory_id", "")))
-        for m, w in _entries(entry, "members", where)
+def _robot(entry: Mapping[str, Any], where: str) -> RobotEntry:
+    _known(entry, ("name", "model", "end_effector", "trajectory", "at", *POSE), where)
+    return RobotEntry(
+        _name(entry, "name", where),
+        _name(entry, "model", where),
+        str(entry.get("end_effector") or ""),
+        _pose(entry, where),
+        str(entry.get("trajectory") or ""),
+        _number(entry, "at", 0.0, (0.0, LONGEST), where),
     )
+
+
+def _object(entry: Mapping[str, Any], where: str) -> ObjectEntry:
+    _known(entry, ("name", "type", "automatic", "held_by", "in_hand", *POSE), where)
+    holder, in_hand = str(entry.get("held_by") or ""), entry.get("in_hand")
+    if bool(holder) != isinstance(in_hand, Mapping):
+        raise BadInput(f"{where}: held_by and in_hand belong together; leave out both or none")
+    return ObjectEntry(
+        _name(entry, "name", where),
+        _name(entry, "type", where),
+        _pose(entry, where),
+        _flag(entry, "automatic", where),
+        holder,
+        _pose(in_hand, f"{where}, in_hand") if isinstance(in_hand, Mapping) else None,
+    )
+
+
+def _surface(entry: Mapping[str, Any], where: str) -> Surface:
+    _known(entry, ("name", "label", "vertices", "triangles", *POSE), where)
+    return Surface(
+        _name(entry, "name", where),
+        str(entry.get("label", "")),
+        _pose(entry, where),
+        _matrix(entry, "vertices", where, np.float64),
+        _matrix(entry, "triangles", where, np.int32),
+    )
+
+
+def _system(entry: Mapping[str, Any], where: str) -> SystemEntry:
+    _known(entry, ("name", "members", "mode", "policy", "loop", "rate", "at"), where)
     mode, policy = entry.get("mode", 0), entry.get("policy", 0)
     if mode not in (0, 1) or policy not in (0, 1):
         raise BadInput(f"{where}: mode {mode!r}, policy {policy!r}; expected 0 or 1 each")
+    members = tuple(_member(m, w) for m, w in _entries(entry, "members", where))
+    if not members:
+        raise BadInput(f"{where} has no members; expected a robot and a trajectory at least")
     return SystemEntry(
-        _name(entry, "name", where), members, mode, policy, entry.get("loop") is True
+        _name(entry, "name", where),
+        members,
+        mode,
+        policy,
+        _flag(entry, "loop", where),
+        _number(entry, "rate", 1.0, RATES, where),
+        _number(entry, "at", 0.0, (0.0, LONGEST), where),
     )
+
+
+def _member(entry: Mapping[str, Any], where: str) -> MemberEntry:
+    _known(entry, ("robot", "trajectory", "dwell", "waits"), where)
+    trajectory, waits = entry.get("trajectory"), entry.get("waits") or []
+    if not isinstance(trajectory, str) or not trajectory:
+        raise BadInput(f"{where}: trajectory is {trajectory!r}; expected an id of the catalogue")
+    if not isinstance(waits, list):
+        raise BadInput(f"{where}: waits is {waits!r}; expected a list of waits")
+    dwell = _number(entry, "dwell", 0.0, (0.0, LONGEST), where)
+    texts = tuple(parsed_wait(str(wait)).text for wait in waits)
+    return MemberEntry(_name(entry, "robot", where), trajectory, dwell, texts)
+
+
+def _known(entry: Mapping[str, Any], keys: Sequence[str], where: str) -> None:
+    unknown = [str(key) for key in entry if key not in keys]
+    if unknown:
+        raise BadInput(f"{where} has {', '.join(unknown)}; expected {', '.join(keys)}")
+
+
+def _flag(entry: Mapping[str, Any], key: str, where: str) -> bool:
+    value = entry.get(key, False)
+    if not isinstance(value, bool):
+        raise BadInput(f"{where}: {key} is {value!r}; expected true or false")
+    return value
+
+
+def _number(
+    entry: Mapping[str, Any],
+    key: str,
+    default: float,
+    limits: tuple[float, float],
+    where: str,
+) -> float:
+    value, (low, high) = entry.get(key, default), limits
+    if type(value) not in (int, float) or not low <= value <= high:
+        raise BadInput(f"{where}: {key} is {value!r}; expected a number of {low:g} to {high:g}")
+    return float(value)
 
 
 def _plain_pose(pose: Pose) -> dict[str, list[float]]:

@@ -36,7 +36,7 @@ class Settings:
     max_objects: int = 32
     max_triangles: int = 20_000
     max_lag: float = 0.05
-    max_catch_up: float = 0.25
+    max_catch_up: float = 1.0
     snapshot_rate: float = 10.0
     snapshot_count: int = 600
 

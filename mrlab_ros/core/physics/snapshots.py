@@ -22,9 +22,15 @@ class Kept:
 
 @dataclass(frozen=True)
 class Snapshot:
+    """All objects when one robot's run passed `position`, s. closed: that robot's gripper."""
+
     position: float
     objects: Mapping[str, Kept]
     closed: bool
+
+    def held_by(self, robot: str) -> frozenset[str]:
+        """Return the names of the objects that `robot` held."""
+        return frozenset(name for name, kept in self.objects.items() if kept.held_by == robot)
 
 
 class Snapshots:

@@ -1,0 +1,221 @@
+"""`mrlab scene` and `mrlab objects`: what stands in the running lab beside its robots."""
+
+from __future__ import annotations
+
+import json
+import math
+from collections.abc import Sequence
+from typing import TYPE_CHECKING, Annotated, Any
+
+import typer
+
+from mrlab_ros.core.errors import BadInput, Misuse
+
+if TYPE_CHECKING:
+    from mrlab_ros.graph_client import Graph
+
+# Loading a scene spawns its robots and loads their trajectories, one after another, s.
+LOAD_TIMEOUT = 120.0
+
+scene = typer.Typer(no_args_is_help=True, help="Whole scenes: list, save, load.")
+objects = typer.Typer(
+    no_args_is_help=True, help="Objects of the scene: list, types, spawn, remove, clear."
+)
+AsJson = Annotated[bool, typer.Option("--json", help="Print JSON instead of a table.")]
+Scene = Annotated[str, typer.Argument(help="A scene; mrlab scene list shows them.")]
+
+
+@scene.command("list")
+def list_scenes(as_json: AsJson = False) -> None:
+    """List the scenes: those that came with the lab, and those saved in it."""
+    with _graph() as graph:
+        names = list(_catalogue(graph).scenes)
+    print(json.dumps(names) if as_json else "\n".join(names))
+
+
+@scene.command()
+def save(name: Scene) -> None:
+    """Save robots, places, trajectories, objects, surfaces and systems under a name."""
+    print(_scene_file("save", name, 15.0))
+
+
+@scene.command()
+def load(name: Scene) -> None:
+    """Bring the lab to a saved or shipped scene; what is there now goes."""
+    print(_scene_file("load", name, LOAD_TIMEOUT))
+
+
+def _scene_file(verb: str, name: str, timeout: float) -> str:
+    from mrlab_msgs import srv
+
+    with _graph() as graph:
+        request = srv.SceneFile.Request(name=name)
+        service = f"/physics/{verb}_scene"
+        return str(graph.order(srv.SceneFile, service, request, timeout).message)
+
+
+@objects.command("list")
+def list_objects(as_json: AsJson = False) -> None:
+    """List the objects in the scene: where each one is, and who holds it."""
+    from mrlab_msgs import msg
+
+    with _graph() as graph:
+        watch = graph.watch(msg.SceneObjects, "/objects")
+        found = watch.wait(lambda _: True, 5.0, "the objects").objects
+    if as_json:
+        print(json.dumps([_document(thing) for thing in found], indent=2))
+        return
+    rows = [
+        (
+            thing.name,
+            thing.type,
+            ", ".join(f"{v:.3f}" for v in _position(thing)),
+            _mass(thing.mass),
+            thing.held_by,
+        )
+        for thing in found
+    ]
+    _show(("name", "type", "x, y, z in m", "mass", "held by"), rows, "no objects in the scene")
+
+
+@objects.command()
+def types(as_json: AsJson = False) -> None:
+    """List what can be spawned: the catalogue config/objects.yaml."""
+    with _graph() as graph:
+        catalogue = _catalogue(graph)
+    if as_json:
+        rows = [
+            {"id": t.id, "about": t.about, "size": _size(t), "mass": t.mass, "mesh": t.mesh}
+            for t in catalogue.types
+        ]
+        print(json.dumps({"types": rows, "limit": catalogue.limit}, indent=2))
+        return
+    _show(
+        ("type", "about", "size, mm", "mass"),
+        [
+            (t.id, t.about, " x ".join(f"{1e3 * v:.0f}" for v in _size(t)), _mass(t.mass))
+            for t in catalogue.types
+        ],
+        "the catalogue is empty",
+    )
+
+
+@objects.command()
+def spawn(
+    type_id: Annotated[
+        str, typer.Argument(metavar="TYPE", help="A type; mrlab objects types shows them.")
+    ],
+    at: Annotated[
+        str, typer.Option("--at", help="Where its centre goes, x,y,z in m; not given: free floor.")
+    ] = "",
+    on: Annotated[
+        bool, typer.Option("--on", help="On the nearest surface below --at, beside what is there.")
+    ] = False,
+    name: Annotated[str, typer.Option(help="Its name; not given: the type and a number.")] = "",
+    yaw: Annotated[float, typer.Option(help="Turn about the vertical, degrees.")] = 0.0,
+) -> None:
+    """Put an object into the scene."""
+    from geometry_msgs.msg import Point, Pose, Quaternion
+    from mrlab_msgs import srv
+
+    x, y, z = _place(at) if at else (0.0, 0.0, 0.0)
+    half = math.radians(yaw) / 2
+    request = srv.SpawnObject.Request(
+        type=type_id,
+        name=name,
+        automatic=on or not at,
+        pose=Pose(
+            position=Point(x=x, y=y, z=z),
+            orientation=Quaternion(z=math.sin(half), w=math.cos(half)),
+        ),
+    )
+    with _graph() as graph:
+        print(graph.order(srv.SpawnObject, "/physics/spawn_object", request).message)
+
+
+@objects.command()
+def remove(name: Annotated[str, typer.Argument(help="An object of the scene.")]) -> None:
+    """Take an object out of the scene."""
+    from mrlab_msgs import srv
+
+    with _graph() as graph:
+        request = srv.Remove.Request(name=name)
+        print(graph.order(srv.Remove, "/physics/remove_object", request).message)
+
+
+@objects.command()
+def clear() -> None:
+    """Take all objects out of the scene."""
+    from std_srvs.srv import Trigger
+
+    with _graph() as graph:
+        print(graph.order(Trigger, "/physics/clear_objects", Trigger.Request()).message)
+
+
+def _graph() -> Graph:
+    """Return a client of a lab that has physics; raise Misuse where it has none."""
+    from mrlab_msgs import srv
+
+    from mrlab_ros.graph_client import FIND_TIMEOUT, Graph
+
+    graph = Graph()
+    try:
+        graph.robots()
+        client = graph.node.create_client(srv.ListObjects, "/physics/list_objects")
+        if not client.wait_for_service(timeout_sec=FIND_TIMEOUT):
+            raise Misuse("this lab runs without physics; start it with: mrlab up --physics")
+    except BaseException:
+        graph.close()
+        raise
+    return graph
+
+
+def _catalogue(graph: Graph) -> Any:
+    from mrlab_msgs import srv
+
+    return graph.call(srv.ListObjects, "/physics/list_objects", srv.ListObjects.Request())
+
+
+def _place(text: str) -> tuple[float, float, float]:
+    """Return the three numbers of 'x,y,z'; raise BadInput where it has not three."""
+    try:
+        x, y, z = (float(part) for part in text.split(","))
+    except ValueError:
+        raise BadInput(f"the place is '{text}'; expected x,y,z in m, such as 0.5,0,0.8") from None
+    return x, y, z
+
+
+def _position(thing: Any) -> tuple[float, float, float]:
+    p = thing.pose.position
+    return p.x, p.y, p.z
+
+
+def _size(thing: Any) -> list[float]:
+    return [thing.size.x, thing.size.y, thing.size.z]
+
+
+def _mass(mass: float) -> str:
+    return f"{mass:g} kg" if mass else "fixed"
+
+
+def _document(thing: Any) -> dict[str, Any]:
+    q = thing.pose.orientation
+    return {
+        "name": thing.name,
+        "type": thing.type,
+        "position": list(_position(thing)),
+        "orientation": [q.x, q.y, q.z, q.w],
+        "size": _size(thing),
+        "mass": thing.mass,
+        "held_by": thing.held_by,
+    }
+
+
+def _show(headings: tuple[str, ...], rows: Sequence[tuple[str, ...]], empty: str) -> None:
+    from rich.console import Console
+    from rich.table import Table
+
+    table = Table(*headings)
+    for row in rows:
+        table.add_row(*row)
+    Console().print(table if rows else empty)

@@ -1,0 +1,54 @@
+"""What happens in the world, as it is told."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from mrlab_ros.core.physics.engine import Touch
+from mrlab_ros.core.physics.grasp import Grasp
+
+
+@dataclass(frozen=True)
+class Contact:
+    """A touch with when and in which source frame of the robot's trajectory it was."""
+
+    stamp_ns: int
+    robot: str
+    frame: int
+    touch: Touch
+
+
+@dataclass(frozen=True)
+class CollisionChanged:
+    """contact: the first of the collision, None when it ended. clearance: m."""
+
+    stamp_ns: int
+    robot: str
+    colliding: bool
+    contact: Contact | None
+    clearance: float
+
+
+@dataclass(frozen=True)
+class GraspChanged:
+    """What a gripper does now. positions, forces: of the fingers, in the arm's order."""
+
+    stamp_ns: int
+    robot: str
+    state: Grasp
+    object: str
+    positions: tuple[float, ...]
+    forces: tuple[float, ...]
+
+
+@dataclass(frozen=True)
+class ObjectRemoved:
+    """An object that the world itself took away, and why."""
+
+    stamp_ns: int
+    name: str
+    type: str
+    why: str
+
+
+Event = CollisionChanged | GraspChanged | ObjectRemoved
