@@ -9,6 +9,8 @@ from launch.actions import DeclareLaunchArgument, OpaqueFunction
 from launch.substitutions import LaunchConfiguration
 from launch_ros.actions import Node
 
+from mrlab_ros import physics_support
+
 
 def generate_launch_description():
     """Declare the arguments; the processes follow from their values."""
@@ -31,8 +33,25 @@ def generate_launch_description():
                 description="carry the graph over zenoh",
             ),
             DeclareLaunchArgument(
-                "physics",
+                "keys",
+                default_value="",
+                description="keys folder (mrlab keys init); empty: no keys, this machine only",
+            ),
+            DeclareLaunchArgument(
+                "listen",
+                default_value="",
+                description="where zenoh clients connect; empty: tcp/127.0.0.1:7447, with keys "
+                "tls/0.0.0.0:7447",
+            ),
+            DeclareLaunchArgument(
+                "insecure",
                 default_value="false",
+                choices=flags,
+                description="listen beyond this machine without keys",
+            ),
+            DeclareLaunchArgument(
+                "physics",
+                default_value="false" if physics_support.missing() else "true",
                 choices=flags,
                 description="simulate contacts and grasps",
             ),
@@ -75,9 +94,18 @@ def processes(context):
     started = [
         host("converter lab coordinator", **({"robots": robots} if robots else {})),
         host("playback"),
+        host("recorder"),
     ]
     if value("physics") == "true":
+        why_not = physics_support.missing()
+        if why_not:
+            raise RuntimeError(f"{why_not}; or leave physics:=false")
         started.append(host("physics"))
     if value("bridge") == "true":
-        started.append(host("bridge"))
+        chosen = {"insecure": value("insecure") == "true"}
+        if value("keys"):
+            chosen["keys"] = os.path.abspath(os.path.expanduser(value("keys")))
+        if value("listen"):
+            chosen["listen"] = [value("listen")]
+        started.append(host("bridge", **chosen))
     return started

@@ -160,6 +160,12 @@ class Child:
             if self._process is not None:
                 _signal_group(self._process.pid, number)
 
+    def restart(self) -> None:
+        """Have the process end; it is started again like one that ended by itself."""
+        with self._lock:
+            if self._process is not None:
+                _signal_group(self._process.pid, signal.SIGINT)
+
     def join(self, timeout: float) -> bool:
         """Wait up to `timeout` (s) for the end; return whether it came."""
         self._thread.join(max(timeout, 0.0))
@@ -252,6 +258,12 @@ class Supervisor:
     def start(self) -> None:
         for child in self.children:
             child.start()
+
+    def restart(self, name: str) -> None:
+        """Have one process end and start again."""
+        for child in self.children:
+            if child.spec.name == name:
+                child.restart()
 
     def stop(self, grace: float = GRACE) -> None:
         """Stop everything: SIGINT at once to all, SIGKILL to what is left after `grace` s."""

@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from pathlib import Path
 from typing import Any, Protocol
 
 import zenoh
 from zenoh import ext
 
-from mrlab_ros.core.bridge_rules import Congestion, Reliability, TopicRule
+from mrlab_ros.core.bridge_rules import Congestion, Reliability, TopicRule, is_local
 from mrlab_ros.core.errors import BadInput
 
 LOOPBACK = ("tcp/127.0.0.1:7447",)
@@ -18,6 +18,21 @@ LOOPBACK = ("tcp/127.0.0.1:7447",)
 # link's dead client is cut off. zenoh's own are 1,000 and 5,000,000.
 WAIT_BEFORE_DROP = 0
 WAIT_BEFORE_CLOSE = 1_000_000
+# A link that says nothing for so long, s, is given up. Beyond this machine soon, so that what is
+# broken heals within 2 s; within it a link breaks only by its end's death, which is told at once,
+# and a stall of the machine must not look like one. 10 s are zenoh's own.
+LEASE_BEYOND = 1.5
+LEASE_WITHIN = 10.0
+# When a link is tried again, ms, and how long a try may take: beyond a second TCP's own repeats
+# grow rare. zenoh's own are 1 to 4 s, and 10 s.
+OPEN_TIMEOUT = 2000
+RETRY = {"period_init_ms": 250, "period_max_ms": 500, "period_increase_factor": 1.5}
+# Bytes that a link's socket holds before it counts as full. Linux itself would let it grow to
+# megabytes, and who reads slowly would see motion of many seconds ago.
+SEND_BUFFER = 131_072
+# Where zenoh tells of TLS and of people whom access control does not know, and of passwords.
+LOGINS = "error,zenoh_link_tls=debug,zenoh::net::routing::interceptor::access_control=info"
+PASSWORDS = "zenoh_transport::unicast::establishment::accept=debug"
 CONGESTION = {
     Congestion.DROP: zenoh.CongestionControl.DROP,
     Congestion.BLOCK: zenoh.CongestionControl.BLOCK,
@@ -47,7 +62,7 @@ class Declared(Protocol):
 class Publisher(Declared, Protocol):
     """A key to publish on."""
 
-    def put(self, payload: bytes) -> None: ...
+    def put(self, payload: bytes, attachment: bytes) -> None: ...
 
     def heard(self) -> bool:
         """Return whether anybody subscribes to the key."""
@@ -55,7 +70,13 @@ class Publisher(Declared, Protocol):
 
 
 class Query(Protocol):
-    """A question that waits for its one answer. `payload` is None where it came without."""
+    """A question that waits for its one answer. `payload` is None where it came without.
+
+    key: what was asked for, perhaps a pattern such as `*/play`.
+    """
+
+    @property
+    def key(self) -> str: ...
 
     @property
     def payload(self) -> bytes | None: ...
@@ -94,15 +115,20 @@ def configuration(
     mode: str = "peer",
     listen: tuple[str, ...] = LOOPBACK,
     connect: tuple[str, ...] = (),
+    base: Path | None = None,
+    security: Mapping[str, object] | None = None,
+    lease: float = 0.0,
 ) -> zenoh.Config:
     """Return zenoh's configuration: `file` (json5) where given, else from the other arguments.
 
-    Without a file nobody is looked for by multicast. Raises BadInput where zenoh refuses one.
+    base: a json5 file that the others add to. security: path -> value, such as a keys folder's.
+    lease: s after which a silent link is given up; 0: as suits the endpoints. Without a file
+    nobody is looked for by multicast. Raises BadInput where zenoh refuses one.
     """
-    config = zenoh.Config()
     try:
         if file is not None:
             return zenoh.Config.from_file(str(file))
+        config = zenoh.Config() if base is None else zenoh.Config.from_file(str(base))
         config.insert_json5("mode", json.dumps(mode))
         config.insert_json5("listen/endpoints", json.dumps(listen))
         config.insert_json5("connect/endpoints", json.dumps(connect))
@@ -110,12 +136,27 @@ def configuration(
         queue = "transport/link/tx/queue/congestion_control"
         config.insert_json5(f"{queue}/drop/wait_before_drop", json.dumps(WAIT_BEFORE_DROP))
         config.insert_json5(f"{queue}/block/wait_before_close", json.dumps(WAIT_BEFORE_CLOSE))
+        if not lease:
+            within = all(is_local(endpoint) for endpoint in (*listen, *connect))
+            lease = LEASE_WITHIN if within else LEASE_BEYOND
+        config.insert_json5("transport/link/tx/lease", json.dumps(round(1000 * lease)))
+        config.insert_json5("transport/unicast/open_timeout", json.dumps(OPEN_TIMEOUT))
+        config.insert_json5("transport/link/tcp/so_sndbuf", json.dumps(SEND_BUFFER))
+        config.insert_json5("transport/link/tls/so_sndbuf", json.dumps(SEND_BUFFER))
+        config.insert_json5("connect/retry", json.dumps(RETRY))
+        for path, value in (security or {}).items():
+            config.insert_json5(path, json.dumps(value))
     except (zenoh.ZError, OSError) as error:
         raise BadInput(
             f"zenoh does not accept {file or f'mode {mode}, listen {listen}, connect {connect}'}: "
             f"{_first_line(error)}; see docs/bridge.md for examples"
         ) from error
     return config
+
+
+def log_logins(*, passwords: bool) -> None:
+    """Have zenoh say on stdout who connects and who is refused; RUST_LOG, where set, decides."""
+    zenoh.init_log_from_env_or(f"{LOGINS},{PASSWORDS}" if passwords else LOGINS)
 
 
 class ZenohSession:
@@ -174,8 +215,8 @@ class _Publisher:
             express=rule.express,
         )
 
-    def put(self, payload: bytes) -> None:
-        self._publisher.put(payload)
+    def put(self, payload: bytes, attachment: bytes) -> None:
+        self._publisher.put(payload, attachment=attachment)
 
     def heard(self) -> bool:
         # Its annotation says bool, but it is an object that is always true.
@@ -194,7 +235,7 @@ class _LatchedPublisher:
 
     def __init__(self, session: zenoh.Session, key: str, rule: TopicRule, cache: int) -> None:
         self._key = key
-        self._newest: bytes | None = None
+        self._newest: tuple[bytes, bytes] | None = None
         # An advanced publisher does not tell whether anybody listens; this one is there for it.
         self._probe = _Publisher(session, key, rule)
         self._publisher = ext.declare_advanced_publisher(
@@ -209,16 +250,17 @@ class _LatchedPublisher:
         )
         self._queryable = session.declare_queryable(key, self._answer)
 
-    def put(self, payload: bytes) -> None:
-        self._newest = payload
-        self._publisher.put(payload)
+    def put(self, payload: bytes, attachment: bytes) -> None:
+        self._newest = (payload, attachment)
+        self._publisher.put(payload, attachment=attachment)
 
     def heard(self) -> bool:
         return self._probe.heard()
 
     def _answer(self, query: zenoh.Query) -> None:
         if self._newest is not None:
-            query.reply(self._key, self._newest)
+            payload, attachment = self._newest
+            query.reply(self._key, payload, attachment=attachment)
 
     def undeclare(self) -> None:
         self._queryable.undeclare()
@@ -230,6 +272,10 @@ class _Query:
     def __init__(self, key: str, query: zenoh.Query) -> None:
         self._key = key
         self._query = query
+
+    @property
+    def key(self) -> str:
+        return str(self._query.key_expr)
 
     @property
     def payload(self) -> bytes | None:

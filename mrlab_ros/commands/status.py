@@ -21,6 +21,10 @@ if TYPE_CHECKING:
 REFRESH_RATE = 4.0
 # What a robot that was just found has to say is there by then, s.
 SETTLE_TIMEOUT = 6.0
+# Who measures reports once a second; one that has been silent for longer has gone, s.
+LATENCY_AGE = 5.0
+# From where to where, in the order of LatencyHop's constants.
+HOPS = (("published", "bridged"), ("bridged", "received"), ("published", "received"))
 
 
 def status(
@@ -63,12 +67,19 @@ class View:
     def __init__(self, graph: Graph) -> None:
         from mrlab_msgs import msg
 
+        from mrlab_ros import qos
+
         self._graph = graph
         self._run_file = RunFile(graph.domain)
         self._robots: Watch[Any] = graph.watch(msg.Robots, "/robots")
         self._catalogue: Watch[Any] = graph.watch(msg.TrajectoryCatalogue, "/trajectories")
         self._systems: Watch[Any] = graph.watch(msg.RobotSystems, "/systems")
+        self._recorder: Watch[Any] = graph.watch(msg.RecorderState, "/recorder/state")
         self._followers: dict[str, Follower] = {}
+        # The newest report of each observer.
+        self._latencies: dict[str, Any] = {}
+        graph.subscribe(msg.Latency, "/latency", self._hear_of_latency, qos.LATCHED)
+        graph.subscribe(msg.Latency, "/latency/clients", self._hear_of_latency, qos.LATCHED_EVENTS)
 
     def settle(self) -> None:
         """Wait until all that is announced has been heard, or SETTLE_TIMEOUT is over."""
@@ -76,9 +87,20 @@ class View:
         watches = (self._robots, self._catalogue, self._systems)
         while time.monotonic() < deadline:
             followers = [follower for _, follower in self.robots()]
-            if all(w.value is not None for w in (*watches, *(f.watch for f in followers))):
+            heard = all(w.value is not None for w in (*watches, *(f.watch for f in followers)))
+            if heard and (self._latencies or "bridge" not in self._graph.node.get_node_names()):
                 return
             time.sleep(0.02)
+
+    def _hear_of_latency(self, report: Any) -> None:
+        self._latencies[report.observer] = report
+
+    def latencies(self) -> list[Any]:
+        """Return the reports that are not out of date, the bridge's own first."""
+        oldest = time.time() - LATENCY_AGE
+        reports = list(self._latencies.values())
+        fresh = [r for r in reports if r.header.stamp.sec + 1e-9 * r.header.stamp.nanosec > oldest]
+        return sorted(fresh, key=lambda report: (report.observer != "bridge", report.observer))
 
     def robots(self) -> list[tuple[Any, Follower]]:
         """Return the robots of the scene, each with what is known of its playback."""
@@ -117,6 +139,8 @@ class View:
                 }
                 for s in (self._systems.value.systems if self._systems.value else ())
             ],
+            "latency": [_latency_facts(report) for report in self.latencies()],
+            "recorder": _recorder_facts(self._recorder.value),
         }
 
     def table(self) -> RenderableType:
@@ -128,6 +152,8 @@ class View:
         supervisor = facts["supervisor"]
         kept = f"kept by process {supervisor['pid']}" if supervisor else "not kept by mrlab"
         parts: list[RenderableType] = [Text(f"Lab on ROS domain {facts['domain']}, {kept}")]
+        if recorder := _recorder_line(facts["recorder"]):
+            parts.append(Text(recorder))
         sections: tuple[tuple[str, tuple[str, ...], list[tuple[str, ...]]], ...] = (
             ("Robots", ROBOT_COLUMNS, [_robot_row(r) for r in facts["robots"]]),
             (
@@ -158,6 +184,11 @@ class View:
                     )
                     for s in facts["systems"]
                 ],
+            ),
+            (
+                "Latency",
+                ("observer", "way", "count", "p50", "p95", "max", "clock"),
+                [row for report in facts["latency"] for row in _latency_rows(report)],
             ),
             (
                 "Processes",
@@ -195,6 +226,75 @@ def _robot_facts(robot: Any, follower: Follower) -> dict[str, Any]:
         "deadline_error_max": follower.error_max if moving else None,
         "frames_lost": follower.frames_lost,
     }
+
+
+def _recorder_facts(state: Any) -> dict[str, Any] | None:
+    if state is None:
+        return None
+    return {
+        "state": ("STOPPED", "RECORDING", "REPLAYING", "PAUSED")[state.state],
+        "bag": state.bag or None,
+        "position": state.position,
+        "duration": state.duration,
+        "rate": state.rate,
+        "messages": state.messages,
+        "message": state.message,
+    }
+
+
+def _recorder_line(recorder: dict[str, Any] | None) -> str:
+    """Say what the recorder does, or why it ended by itself; nothing while it rests."""
+    if recorder is None or recorder["state"] == "STOPPED":
+        return recorder["message"] if recorder else ""
+    if recorder["state"] == "RECORDING":
+        return (
+            f"Records into {recorder['bag']}: {recorder['position']:.0f} s, "
+            f"{recorder['messages']} messages"
+        )
+    how = "paused" if recorder["state"] == "PAUSED" else f"x {recorder['rate']:g}"
+    return (
+        f"Replays {recorder['bag']}: {recorder['position']:.1f} of {recorder['duration']:.1f} s, "
+        f"{how}; the lab's own robots stand aside until it ends"
+    )
+
+
+def _latency_facts(report: Any) -> dict[str, Any]:
+    return {
+        "observer": report.observer,
+        "window": report.window,
+        "clock_error": report.clock_error,
+        "hops": [
+            {
+                "from": HOPS[hop.hop][0],
+                "to": HOPS[hop.hop][1],
+                "topic": hop.topic or None,
+                "count": hop.count,
+                "p50": hop.p50,
+                "p95": hop.p95,
+                "max": hop.max,
+            }
+            for hop in report.hops
+            if hop.hop < len(HOPS)
+        ],
+    }
+
+
+def _latency_rows(report: dict[str, Any]) -> list[tuple[str, ...]]:
+    """Return a row for each hop of all topics together."""
+    from mrlab_ros.commands.follow import milliseconds
+
+    error = f"±{milliseconds(report['clock_error'])}" if report["clock_error"] else "same"
+    return [
+        (
+            report["observer"],
+            f"{hop['from']} to {hop['to']}",
+            str(hop["count"]),
+            *(milliseconds(hop[level]) for level in ("p50", "p95", "max")),
+            error,
+        )
+        for hop in report["hops"]
+        if hop["topic"] is None
+    ]
 
 
 def _robot_row(robot: dict[str, Any]) -> tuple[str, ...]:

@@ -16,6 +16,13 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
+from mrlab_ros import physics_support
+from mrlab_ros.commands.up_keys import (
+    checked_listen,
+    follow_keys,
+    keys_changed_at,
+    tell_when_keys_expire,
+)
 from mrlab_ros.core.errors import BadInput
 from mrlab_ros.supervisor import SELF, ProcessSpec, RunFile, Supervisor, domain_id
 
@@ -24,13 +31,13 @@ if TYPE_CHECKING:
 
     from mrlab_ros.graph_client import Graph
 
-LISTEN = "tcp/127.0.0.1:7447"
 COLOURS = {
     SELF: "bold",
     "lab": "cyan",
     "playback": "green",
     "physics": "yellow",
     "bridge": "magenta",
+    "recorder": "red",
 }
 # A lab that is not complete by then has trouble, s.
 READY_TIMEOUT = 20.0
@@ -52,11 +59,32 @@ def up(
     ] = "",
     bridge: Annotated[bool, typer.Option(help="Carry the graph over zenoh.")] = True,
     physics: Annotated[
-        bool, typer.Option(help="Simulate contacts and grasps; takes about half a core.")
-    ] = False,
+        bool | None,
+        typer.Option(
+            "--physics/--no-physics",
+            help="Simulate contacts and grasps; not given: where pybullet is installed.",
+        ),
+    ] = None,
+    keys: Annotated[
+        Path | None,
+        typer.Option(
+            help="Keys folder (mrlab keys init): only its people may connect, with TLS, from "
+            "anywhere."
+        ),
+    ] = None,
     zenoh_listen: Annotated[
-        str, typer.Option(help="Where the bridge listens for zenoh clients.")
-    ] = LISTEN,
+        str,
+        typer.Option(
+            help="Where the bridge listens for zenoh clients; not given: tcp/127.0.0.1:7447, "
+            "with --keys tls/0.0.0.0:7447."
+        ),
+    ] = "",
+    insecure: Annotated[
+        bool,
+        typer.Option(
+            "--insecure", help="Listen beyond this machine without keys: anybody may do anything."
+        ),
+    ] = False,
     state_dir: Annotated[
         Path | None,
         typer.Option(help="Folder for scene and trajectories; not given: gone with the lab."),
@@ -69,6 +97,8 @@ def up(
     on the domain of ROS_DOMAIN_ID.
     """
     models = checked_robots(robots)
+    listen = checked_listen(zenoh_listen, keys, insecure) if bridge else None
+    with_physics, no_physics = physics_support.wanted(physics)
     stay_on_this_machine()
     domain = domain_id()
     run_file = RunFile(domain)
@@ -77,23 +107,35 @@ def up(
         specs = lab_processes(
             config=checked_config(config),
             robots=models,
-            listen=zenoh_listen if bridge else None,
-            physics=physics,
+            listen=listen,
+            keys=keys,
+            insecure=insecure,
+            physics=with_physics,
             state_dir=folder,
         )
-        run_file.claim(state_dir=str(folder), zenoh=zenoh_listen if bridge else None)
+        run_file.claim(state_dir=str(folder), zenoh=listen)
         begin = time.monotonic()
+        seen = keys_changed_at(keys) if keys is not None and bridge else ()
         try:
-            with Supervisor(specs, say, run_file.write):
+            with Supervisor(specs, say, run_file.write) as supervisor:
                 say(SELF, f"starts the lab on ROS domain {domain}; Ctrl-C stops it")
-                missing = wait_until_complete(stop, len(models), bridge)
+                if listen is not None and insecure:
+                    say(SELF, f"--insecure: whoever reaches {listen} sees and moves everything")
+                if keys is not None and bridge:
+                    tell_when_keys_expire(keys, say)
+                if no_physics:
+                    say(SELF, no_physics)
+                missing = wait_until_complete(stop, len(models), bridge, with_physics)
                 if missing:
                     say(SELF, f"not complete after {READY_TIMEOUT:g} s: {missing} missing")
                 elif not stop.is_set():
                     took = time.monotonic() - begin
-                    zenoh = f"; zenoh clients connect to {zenoh_listen}" if bridge else ""
+                    zenoh = f"; zenoh clients connect to {listen}" if bridge else ""
                     say(SELF, f"the lab is ready after {took:.1f} s{zenoh}")
-                stop.wait()
+                if keys is None or not bridge:
+                    stop.wait()
+                else:
+                    follow_keys(keys, seen, stop, say, lambda: supervisor.restart("bridge"))
                 say(SELF, "stops")
         finally:
             run_file.release()
@@ -153,6 +195,8 @@ def lab_processes(
     listen: str | None,
     state_dir: Path,
     physics: bool = False,
+    keys: Path | None = None,
+    insecure: bool = False,
 ) -> list[ProcessSpec]:
     """Return the processes of a lab; `listen` is None for one without a bridge."""
 
@@ -172,11 +216,16 @@ def lab_processes(
     specs = [
         host("lab", "converter lab coordinator", *spawn),
         host("playback", "playback"),
+        host("recorder", "recorder"),
     ]
     if physics:
         specs.append(host("physics", "physics"))
     if listen is not None:
-        specs.append(host("bridge", "bridge", f"listen:={json.dumps([listen])}"))
+        security = [f"insecure:={json.dumps(insecure)}"]
+        if keys is not None:
+            # A ROS parameter that looks like a number would be one.
+            security.append(f"keys:={json.dumps(str(keys.expanduser().resolve()))}")
+        specs.append(host("bridge", "bridge", f"listen:={json.dumps([listen])}", *security))
     return specs
 
 
@@ -204,12 +253,14 @@ def stop_signals() -> Iterator[threading.Event]:
             signal.signal(number, handler)
 
 
-def wait_until_complete(stop: threading.Event, robots: int, bridge: bool) -> str:
+def wait_until_complete(
+    stop: threading.Event, robots: int, bridge: bool, physics: bool = False
+) -> str:
     """Wait until every node of the lab speaks; return what is missing after READY_TIMEOUT."""
     from mrlab_ros.graph_client import Graph
 
     with Graph() as graph:
-        missing = lab_is_missing(graph, robots, bridge)
+        missing = lab_is_missing(graph, robots, bridge, physics)
         deadline = time.monotonic() + READY_TIMEOUT
         while not stop.wait(0.05):
             what = missing()
@@ -218,7 +269,9 @@ def wait_until_complete(stop: threading.Event, robots: int, bridge: bool) -> str
     return ""
 
 
-def lab_is_missing(graph: Graph, robots: int, bridge: bool) -> Callable[[], str]:
+def lab_is_missing(
+    graph: Graph, robots: int, bridge: bool, physics: bool = False
+) -> Callable[[], str]:
     """Return a function that names what of a lab has not spoken yet; empty: all is there."""
     from mrlab_msgs import msg
 
@@ -228,7 +281,8 @@ def lab_is_missing(graph: Graph, robots: int, bridge: bool) -> Callable[[], str]
         "converter": graph.watch(msg.TrajectoryCatalogue, "/trajectories"),
         "coordinator": graph.watch(msg.RobotSystems, "/systems"),
     }
-    quiet = ("playback_host", "bridge") if bridge else ("playback_host",)
+    optional = {"bridge": bridge, "physics": physics}
+    quiet = ("playback_host", "recorder", *(name for name, on in optional.items() if on))
     playbacks: dict[str, Any] = {}
 
     def missing() -> str:

@@ -45,6 +45,19 @@ class Reliability(Enum):
     BEST_EFFORT = "best_effort"
 
 
+class Role(Enum):
+    """What a person may do in a lab with keys; a later role may all that an earlier one may."""
+
+    VIEWER = "viewer"  # watch
+    OPERATOR = "operator"  # play robots
+    INSTRUCTOR = "instructor"  # change the scene
+
+    def may(self, needed: Role) -> bool:
+        """Return whether this role includes `needed`."""
+        roles = list(Role)
+        return roles.index(self) >= roles.index(needed)
+
+
 @dataclass(frozen=True)
 class TopicRule:
     """One line of the allow-list for topics.
@@ -53,7 +66,8 @@ class TopicRule:
     type: the only type that is carried, such as sensor_msgs/msg/JointState; empty: any.
     max_rate: Hz; 0: every message. priority: 1 (first) to 7 (last), zenoh's. express: sent at
     once, not batched. depth: messages kept for the bridge before the oldest is lost. history:
-    messages of a latched topic kept for late joiners.
+    messages of a latched topic kept for late joiners. role: who may send a topic that comes in;
+    whoever may connect may receive one that goes out.
     """
 
     name: str
@@ -67,6 +81,7 @@ class TopicRule:
     congestion: Congestion = Congestion.BLOCK
     depth: int = 10
     history: int = 1
+    role: Role = Role.INSTRUCTOR
 
     def __post_init__(self) -> None:
         _check_name(self.name)
@@ -75,6 +90,11 @@ class TopicRule:
         _check(self.name, "priority", self.priority, 1, 7, "1 goes first")
         _check(self.name, "depth", self.depth, 1, 10_000, "messages")
         _check(self.name, "history", self.history, 1, 10_000, "messages")
+        if self.direction is Direction.OUT and self.role is not Role.INSTRUCTOR:
+            raise BadInput(
+                f"the rule for {self.name} has a role but goes out; whoever may connect may "
+                "receive it, so leave the role out, or set direction: in"
+            )
 
     @cached_property
     def pattern(self) -> re.Pattern[str]:
@@ -83,17 +103,24 @@ class TopicRule:
 
 @dataclass(frozen=True)
 class ServiceRule:
-    """One line of the allow-list for services; timeout: s within which the graph must answer."""
+    """One line of the allow-list for services.
+
+    timeout: s within which the graph must answer. waiting: calls that may wait for those before
+    them; further ones are refused. role: who may call it.
+    """
 
     name: str
     about: str = ""
     type: str = ""
     timeout: float = 5.0
+    waiting: int = 64
+    role: Role = Role.INSTRUCTOR
 
     def __post_init__(self) -> None:
         _check_name(self.name)
         _check_type(self.name, self.type, "srv")
         _check(self.name, "timeout", self.timeout, 0.01, 3600, "s")
+        _check(self.name, "waiting", self.waiting, 1, 10_000, "calls")
 
     @cached_property
     def pattern(self) -> re.Pattern[str]:
@@ -216,22 +243,44 @@ def key_of(name: str, prefix: str = "") -> str:
     return f"{prefix}{name}" if prefix else name[1:]
 
 
-def check_endpoints(listen: tuple[str, ...], insecure: bool) -> None:
-    """Raise BadInput where an endpoint is open to other machines without encryption."""
+def is_local(endpoint: str) -> bool:
+    """Return whether an endpoint such as tcp/127.0.0.1:7447 is within this machine."""
+    protocol, _, address = endpoint.partition("/")
+    host = address.rsplit(":", 1)[0]
+    local = host in ("localhost", "[::1]") or host.startswith("127.")
+    return local or protocol == "unixsock-stream"
+
+
+def check_endpoints(listen: tuple[str, ...], insecure: bool, keys: bool = False) -> None:
+    """Raise BadInput where an endpoint is open to other machines without encryption.
+
+    insecure: that is wanted. keys: the lab has a keys folder, and so listens with TLS alone.
+    """
     for endpoint in listen:
-        if not re.fullmatch(r"[a-z]+/[^/]+", endpoint):
+        if not re.fullmatch(r"[a-z][a-z-]*/.+", endpoint):
             raise BadInput(
                 f"the bridge is to listen on {endpoint!r}; expected protocol/address:port, such "
                 "as tcp/127.0.0.1:7447"
             )
         protocol, address = endpoint.split("/", 1)
-        host = address.rsplit(":", 1)[0]
-        local = host in ("localhost", "[::1]") or host.startswith("127.")
-        if not (local or protocol in ("tls", "quic", "unixsock-stream") or insecure):
+        encrypted = protocol in ("tls", "quic")
+        if keys and not encrypted:
+            raise BadInput(
+                f"the lab has keys, and the bridge is to listen on {endpoint}, where nobody can "
+                f"show one; listen on tls/{address}, or leave the keys out"
+            )
+        if encrypted and not keys:
+            raise BadInput(
+                f"the bridge is to listen on {endpoint}, and for {protocol} it needs keys; make "
+                "them with mrlab keys init and name the folder: mrlab up --keys FOLDER, or the "
+                "parameter keys"
+            )
+        if not (is_local(endpoint) or encrypted or insecure):
             raise BadInput(
                 f"the bridge is to listen on {endpoint}, where anybody in the network could watch "
-                "and move the robots; listen on tcp/127.0.0.1, use a zenoh configuration with "
-                "TLS, or set the parameter insecure to true to accept that"
+                "and move the robots; give the lab keys (mrlab keys init, then mrlab up --keys "
+                "FOLDER), listen on tcp/127.0.0.1, or accept it with --insecure (the parameter "
+                "insecure)"
             )
 
 

@@ -2,18 +2,14 @@
 
 from __future__ import annotations
 
-import json
-import os
+import re
 import signal
-import socket
 import subprocess
 import sys
 import threading
 from pathlib import Path
 
 import pytest
-import yaml
-import zenoh
 from graph import wait_for
 from mrlab_msgs.msg import Robot, Robots
 from rclpy.serialization import deserialize_message, serialize_message
@@ -21,6 +17,16 @@ from sensor_msgs.msg import JointState
 from std_msgs.msg import String
 from std_srvs.srv import SetBool, Trigger
 from zenoh import ext
+from zenoh_side import (
+    JOINTS,
+    ask,
+    connect,
+    heard,
+    joints,
+    start_client,
+    statistics,
+    tokens,
+)
 
 from mrlab_ros import qos
 from mrlab_ros.core.bridge_rules import Congestion
@@ -28,86 +34,10 @@ from mrlab_ros.core.errors import BadInput
 from mrlab_ros.nodes.bridge import BridgeNode
 
 ROOT = Path(__file__).parents[2]
-CLIENT = ROOT / "examples" / "clients" / "python" / "mrlab_client.py"
-JOINTS = "ur5e_1/joint_states"
-STATISTICS = "@mrlab/bridge/statistics"
-
-
-@pytest.fixture
-def endpoint():
-    with socket.socket() as probe:
-        probe.bind(("127.0.0.1", 0))
-        return f"tcp/127.0.0.1:{probe.getsockname()[1]}"
-
-
-@pytest.fixture
-def bridge(graph, endpoint):
-    return graph.add(BridgeNode, listen=[endpoint], discovery_period=0.02)
-
-
-@pytest.fixture
-def session(bridge, endpoint):
-    with connect(endpoint) as session:
-        yield session
-
-
-@pytest.fixture
-def listed(graph, endpoint, tmp_path):
-    """Make a bridge with an allow-list of the test's own."""
-
-    def make(document, **parameters):
-        path = tmp_path / "bridge.yaml"
-        path.write_text(yaml.safe_dump(document))
-        settings = {"listen": [endpoint], "discovery_period": 0.02, "allow_list": str(path)}
-        return graph.add(BridgeNode, **(settings | parameters))
-
-    return make
-
-
-def connect(endpoint):
-    config = zenoh.Config()
-    config.insert_json5("mode", '"client"')
-    config.insert_json5("connect/endpoints", json.dumps([endpoint]))
-    return zenoh.open(config)
 
 
 def client(endpoint, *arguments):
-    """Start the stock client, which sees nothing of the lab's packages."""
-    ours = ("PYTHONPATH", "AMENT_PREFIX_PATH", "LD_LIBRARY_PATH")
-    return subprocess.Popen(
-        [sys.executable, CLIENT, "--connect", endpoint, *arguments],
-        env={k: v for k, v in os.environ.items() if k not in ours},
-        stdout=subprocess.PIPE,
-        stderr=subprocess.PIPE,
-        text=True,
-    )
-
-
-def ask(session, key, payload=None):
-    """Return a query's one answer as (payload, None) or (None, reason)."""
-    replies = list(session.get(key, payload=payload, timeout=10.0))
-    assert len(replies) == 1, f"{len(replies)} answers on {key}"
-    if replies[0].ok is None:
-        return None, replies[0].err.payload.to_string()
-    return replies[0].ok.payload.to_bytes(), None
-
-
-def statistics(session):
-    return json.loads(ask(session, STATISTICS)[0])
-
-
-def heard(session, key):
-    return statistics(session)["keys"].get(key, {}).get("heard", False)
-
-
-def tokens(session):
-    return {str(r.ok.key_expr) for r in session.liveliness().get("@/*/@ros2_lv/**") if r.ok}
-
-
-def joints(position):
-    message = JointState(name=["shoulder"], position=[position])
-    message.header.frame_id = "ur5e_1"
-    return message
+    return start_client("mrlab_client.py", "--connect", endpoint, *arguments)
 
 
 def test_a_stock_client_receives_the_frames(graph, bridge, session, endpoint):
@@ -298,8 +228,10 @@ def test_statistics_count_what_was_carried(graph, bridge, session):
     wait_for(lambda: len(got) == 7, "seven frames")
     counted = statistics(session)
     size = len(got[0].payload.to_bytes())
-    assert counted["keys"][JOINTS]["messages"] == counted["messages"] == 7
-    assert counted["keys"][JOINTS]["bytes"] == counted["bytes"] == 7 * size
+    assert counted["keys"][JOINTS]["messages"] == 7
+    assert counted["keys"][JOINTS]["bytes"] == 7 * size
+    assert counted["messages"] == sum(k["messages"] for k in counted["keys"].values())
+    assert counted["bytes"] == sum(k["bytes"] for k in counted["keys"].values())
 
 
 class StuckSession:
@@ -328,7 +260,7 @@ class StuckSession:
             self._session = session
             self._stuck = stuck
 
-        def put(self, payload):
+        def put(self, payload, attachment):
             if self._stuck:
                 self._session.released.wait(20)
             else:
@@ -402,4 +334,4 @@ def test_the_process_ends_when_asked_and_tells_what_it_carried(graph, endpoint, 
     process.send_signal(number)
     rest, _ = process.communicate(timeout=20)
     assert process.returncode == 0, rest
-    assert "carried 0 messages" in rest
+    assert re.search(r"carried \d+ messages and \d+ bytes over \d+ keys", rest)

@@ -122,7 +122,7 @@ def test_the_graph_heals_when_a_process_dies(lab: Lab) -> None:
     after = lab.status()
     assert [robot["name"] for robot in after["robots"]] == ["ur5e_1"]
     restarts = {p["name"]: p["restarts"] for p in after["supervisor"]["processes"]}
-    assert restarts == {"lab": 1, "playback": 0, "bridge": 0}
+    assert restarts == {"lab": 1, "playback": 0, "physics": 0, "bridge": 0, "recorder": 0}
     assert "lab ended (SIGKILL); restarts in 0.5 s" in lab.said
 
 

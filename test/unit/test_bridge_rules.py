@@ -73,6 +73,7 @@ def test_nothing_is_carried_that_is_not_named():
         ({"topics": [{"name": "/a", "direction": "both"}]}, "expected out or in"),
         ({"topics": [{"name": "/a", "type": "std_srvs/srv/Trigger"}]}, "package/msg/Name"),
         ({"services": [{"name": "/a", "timeout": 0}]}, "timeout: 0"),
+        ({"services": [{"name": "/a", "waiting": 0}]}, "waiting: 0"),
         ({"services": [{"name": "/a", "priority": 1}]}, "the field 'priority'"),
     ],
 )
@@ -104,8 +105,10 @@ def test_a_prefix_that_is_no_key_is_refused(prefix):
         br.checked_prefix(prefix)
 
 
-@pytest.mark.parametrize("endpoint", ["tcp/127.0.0.1:7447", "tcp/[::1]:0", "tls/0.0.0.0:7447"])
-def test_loopback_and_encrypted_endpoints_need_no_flag(endpoint):
+@pytest.mark.parametrize(
+    "endpoint", ["tcp/127.0.0.1:7447", "tcp/[::1]:0", "unixsock-stream//tmp/lab.sock"]
+)
+def test_endpoints_of_this_machine_need_no_flag(endpoint):
     br.check_endpoints((endpoint,), insecure=False)
 
 
@@ -114,6 +117,23 @@ def test_an_open_endpoint_needs_the_flag(endpoint):
     with pytest.raises(BadInput, match="insecure"):
         br.check_endpoints((endpoint,), insecure=False)
     br.check_endpoints((endpoint,), insecure=True)
+
+
+@pytest.mark.parametrize("endpoint", ["tls/0.0.0.0:7447", "quic/[::]:7447"])
+def test_encryption_and_keys_go_together(endpoint):
+    br.check_endpoints((endpoint,), insecure=False, keys=True)
+    with pytest.raises(BadInput, match="needs keys"):
+        br.check_endpoints((endpoint,), insecure=True)
+    with pytest.raises(BadInput, match="where nobody can show one"):
+        br.check_endpoints(("tcp/127.0.0.1:7447",), insecure=True, keys=True)
+
+
+def test_who_may_receive_cannot_be_said_topic_by_topic():
+    assert topics({"name": "/a", "direction": "in", "role": "viewer"}).topics[0].role
+    with pytest.raises(BadInput, match="goes out"):
+        topics({"name": "/a", "role": "operator"})
+    with pytest.raises(BadInput, match="viewer or operator or instructor"):
+        topics({"name": "/a", "direction": "in", "role": "boss"})
 
 
 def test_liveliness_tokens_are_those_of_the_stock_bridge():
@@ -173,3 +193,20 @@ def test_every_type_of_the_shipped_list_exists():
         package, folder, name = rule.type.split("/")
         if package == "mrlab_msgs":
             assert (ROOT / "msg_schemas" / folder / f"{name}.{folder}").exists(), rule.type
+
+
+@pytest.mark.parametrize(
+    ("endpoint", "local"),
+    [
+        ("tcp/127.0.0.1:7447", True),
+        ("tls/127.0.1.1:7447", True),
+        ("tcp/[::1]:7447", True),
+        ("tcp/localhost:7447", True),
+        ("unixsock-stream//tmp/lab.sock", True),
+        ("tcp/0.0.0.0:7447", False),
+        ("tls/lab.example.org:7447", False),
+        ("tcp/[::]:7447", False),
+    ],
+)
+def test_an_endpoint_is_within_this_machine_or_beyond(endpoint, local):
+    assert br.is_local(endpoint) is local

@@ -27,6 +27,17 @@ from rosbags.typesys import Stores, get_types_from_msg, get_typestore
 from rosbags.typesys.store import Typestore
 from zenoh import ext
 
+LOOPBACK = "tcp/127.0.0.1:7447"
+# Over a network: a link that is silent for 1.5 s is given up and tried again twice a second.
+HEALING = {
+    "transport/link/tx/lease": 1500,
+    "transport/unicast/open_timeout": 2000,
+    "connect/retry": {
+        "period_init_ms": 250,
+        "period_max_ms": 500,
+        "period_increase_factor": 1.5,
+    },
+}
 STD_SRVS = {
     "std_srvs/srv/Empty": "---\n",
     "std_srvs/srv/SetBool": "bool data\n---\nbool success\nstring message\n",
@@ -54,13 +65,31 @@ def typestore(definitions: Path | None, package: str = "mrlab_msgs") -> Typestor
     return store
 
 
-def connect(endpoint: str) -> zenoh.Session:
-    """Open a session with the lab's bridge."""
-    config = zenoh.Config()
-    config.insert_json5("mode", '"client"')
-    config.insert_json5("connect/endpoints", json.dumps([endpoint]))
-    config.insert_json5("scouting/multicast/enabled", "false")
-    return zenoh.open(config)
+def connect(endpoint: str, file: Path | None = None) -> zenoh.Session:
+    """Open a session with the lab's bridge; exit with the reason where that fails.
+
+    file: what the lab's instructor has handed over (clients/NAME.json5): where the lab is, and
+    the certificate or password. An `endpoint` then says where the lab is instead.
+    """
+    # zenoh's exception does not say why; its log does.
+    zenoh.init_log_from_env_or("off,zenoh::net::runtime::orchestrator=warn")
+    try:
+        config = zenoh.Config() if file is None else zenoh.Config.from_file(str(file))
+        config.insert_json5("mode", '"client"')
+        config.insert_json5("scouting/multicast/enabled", "false")
+        if endpoint or file is None:
+            config.insert_json5("connect/endpoints", json.dumps([endpoint or LOOPBACK]))
+        if "127.0.0.1" not in config.get_json("connect/endpoints"):
+            for path, value in HEALING.items():
+                config.insert_json5(path, json.dumps(value))
+        return zenoh.open(config)
+    except zenoh.ZError as error:
+        sys.exit(
+            f"no connection to the lab: {str(error).split(' at /')[0]}\n"
+            "The lines above say why. 'Connection refused': no lab is there. 'invalid peer "
+            "certificate': not the lab that your file is for. 'fatal alert' or 'close message': "
+            "the lab does not take your certificate or password."
+        )
 
 
 def watch(
@@ -105,7 +134,11 @@ def call(
         answer = store.deserialize_cdr(reply.ok.payload.to_bytes(), f"{kind}_Response")
         print(answer)
         return 0 if getattr(answer, "success", True) else 1
-    print(f"nobody answers {key}; is the robot there, and does the lab run?", file=sys.stderr)
+    print(
+        f"nobody answers {key}: the robot is not there, or in a lab with keys your role may not "
+        "call that",
+        file=sys.stderr,
+    )
     return 1
 
 
@@ -140,13 +173,14 @@ def main() -> int:
     parser.add_argument("key")
     parser.add_argument("type")
     parser.add_argument("values", nargs="*", help="fields of a request, such as position=1.5")
-    parser.add_argument("--connect", default="tcp/127.0.0.1:7447")
+    parser.add_argument("--connect", default="", help=f"endpoint; {LOOPBACK} if not given")
+    parser.add_argument("--config", type=Path, help="file for a lab with keys: NAME.json5")
     parser.add_argument("--definitions", type=Path, help="folder with msg/ and srv/")
     parser.add_argument("--latched", action="store_true", help="ask for the newest state first")
     parser.add_argument("--count", type=int, default=0, help="messages to watch; 0: no end")
     arguments = parser.parse_intermixed_args()
     store = typestore(arguments.definitions)
-    with connect(arguments.connect) as session:
+    with connect(arguments.connect, arguments.config) as session:
         if arguments.action == "watch":
             kind, latched, count = arguments.type, arguments.latched, arguments.count
             return watch(session, store, arguments.key, kind, latched, count)

@@ -1,0 +1,236 @@
+"""`mrlab keys`: who may connect to a lab: init, add, list, revoke, renew, config."""
+
+from __future__ import annotations
+
+import json
+import socket
+import sys
+from datetime import timedelta
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any
+
+import typer
+
+from mrlab_ros.core.access import Login
+from mrlab_ros.core.bridge_rules import Role
+from mrlab_ros.core.errors import BadInput
+
+if TYPE_CHECKING:
+    from mrlab_ros.adapters.keys import Entry
+
+app = typer.Typer(
+    no_args_is_help=True, help="Who may connect to a lab over the network: certificates, roles."
+)
+
+Folder = Annotated[Path, typer.Option("--dir", help="The keys folder.")]
+AsJson = Annotated[bool, typer.Option("--json", help="Print JSON.")]
+Hosts = Annotated[
+    list[str] | None,
+    typer.Option(
+        "--host", help="Name or address by which clients reach this machine; repeatable."
+    ),
+]
+RUNNING = (
+    "A lab that runs under mrlab up takes this over within seconds: its bridge starts again, and "
+    "clients come back by themselves. Any other bridge reads its keys only when it is started."
+)
+
+
+@app.command()
+def init(
+    folder: Folder = Path("keys"),
+    host: Hosts = None,
+    login: Annotated[
+        Login, typer.Option(help="How people prove who they are.")
+    ] = Login.CERTIFICATE,
+    as_json: AsJson = False,
+) -> None:
+    """Make a keys folder: an authority of your own and the lab's certificate.
+
+    The certificate names localhost, this machine's host name, and each --host. Nothing that
+    exists is overwritten.
+    """
+    from mrlab_ros.adapters.keys import Keys, now
+
+    keys = Keys.create(folder, [*(host or []), *this_machine()], login, now())
+    expires = keys.server_expires()
+    if as_json:
+        show(
+            {
+                "folder": str(keys.folder),
+                "login": login.value,
+                "hosts": keys.hosts,
+                "expires": expires.isoformat(),
+            }
+        )
+        return
+    where = "" if folder == Path("keys") else f" --dir {folder}"
+    print(
+        f"{keys.folder} holds an authority and the lab's certificate, for "
+        f"{', '.join(keys.hosts)}, until {expires:%d %B %Y}.\n\n"
+        "Next, in this order:\n"
+        f"  mrlab keys add anna ben --role operator{where}\n"
+        f"      makes keys for people; hand each the file {folder}/clients/NAME.json5\n"
+        f"  mrlab up --keys {folder}\n"
+        "      starts the lab; clients connect with TLS to port 7447\n\n"
+        f"Who has {folder}/ca.key can make a key for anybody: it belongs on this machine alone."
+    )
+    if not host:
+        print(
+            f"Other machines must find this one as {keys.hosts[0]}. Name further addresses with: "
+            f"mrlab keys renew --host ADDRESS{where}, before you add people."
+        )
+
+
+@app.command()
+def add(
+    names: Annotated[list[str], typer.Argument(help="Who may connect; one or several names.")],
+    role: Annotated[
+        Role,
+        typer.Option(help="viewer: watch; operator: play robots too; instructor: everything."),
+    ],
+    folder: Folder = Path("keys"),
+    days: Annotated[int, typer.Option(min=1, max=1825, help="How long, in days.")] = 365,
+    as_json: AsJson = False,
+) -> None:
+    """Let people connect, and write for each the one file that their client needs."""
+    from mrlab_ros.adapters.keys import Keys, now
+
+    keys = Keys(folder)
+    added = [keys.add(name, role, now(), timedelta(days=days)) for name in names]
+    if as_json:
+        show([{**e.record(), "file": str(keys.client_file(e.person.name))} for e in added])
+        return
+    for entry in added:
+        name = entry.person.name
+        print(f"{name}: {role.value} until {entry.expires:%d %B %Y}; {keys.client_file(name)}")
+    print(
+        "\nHand each file over on a way that you trust, then delete it here: who has it is that "
+        "person.\n" + RUNNING
+    )
+
+
+@app.command("list")
+def list_people(folder: Folder = Path("keys"), as_json: AsJson = False) -> None:
+    """List who may connect, as what and until when."""
+    from mrlab_ros.adapters.keys import Keys, now
+
+    keys = Keys(folder)
+    expires = keys.server_expires()
+    if as_json:
+        show(
+            {
+                "login": keys.login.value,
+                "hosts": keys.hosts,
+                "expires": expires.isoformat(),
+                "people": [entry.record() for entry in keys.entries],
+            }
+        )
+        return
+    from rich.console import Console
+    from rich.table import Table
+
+    table = Table("name", "role", "until")
+    for entry in keys.entries:
+        table.add_row(entry.person.name, entry.person.role.value, until(entry))
+    console = Console()
+    console.print(table)
+    late = expires < now()
+    console.print(
+        f"login by {keys.login.value}; the lab's certificate, for {', '.join(keys.hosts)}, "
+        f"{'expired on' if late else 'holds until'} {expires:%d %B %Y}"
+    )
+
+
+@app.command()
+def revoke(
+    names: Annotated[list[str], typer.Argument(help="Who may no longer connect.")],
+    folder: Folder = Path("keys"),
+    as_json: AsJson = False,
+) -> None:
+    """Take keys back: at once under mrlab up; elsewhere they work until the bridge restarts."""
+    from mrlab_ros.adapters.keys import Keys
+
+    keys = Keys(folder)
+    revoked = [keys.revoke(name) for name in names]
+    if as_json:
+        show([entry.record() for entry in revoked])
+        return
+    for entry in revoked:
+        print(f"{entry.person.name}'s key is taken back")
+    print(RUNNING)
+
+
+@app.command()
+def renew(folder: Folder = Path("keys"), host: Hosts = None, as_json: AsJson = False) -> None:
+    """Make the lab's certificate anew: for further --host names, or for another two years.
+
+    Everybody's keys stay valid.
+    """
+    from mrlab_ros.adapters.keys import Keys, now
+
+    keys = Keys(folder)
+    expires = keys.renew(host or [], now())
+    if as_json:
+        show({"hosts": keys.hosts, "expires": expires.isoformat()})
+        return
+    print(f"the lab's certificate is for {', '.join(keys.hosts)}, until {expires:%d %B %Y}")
+    print(RUNNING)
+
+
+@app.command()
+def config(
+    folder: Folder = Path("keys"),
+    prefix: Annotated[str, typer.Option(help="What the lab's keys begin with.")] = "",
+    allow_list: Annotated[
+        Path | None, typer.Option(help="The bridge's YAML file, if not the shipped one.")
+    ] = None,
+) -> None:
+    """Print what the lab tells zenoh, as JSON: to read, or for zenoh's own bridge."""
+    import yaml
+
+    from mrlab_ros import share
+    from mrlab_ros.adapters.keys import EVERYWHERE, Keys, now
+    from mrlab_ros.core import bridge_rules
+
+    path = allow_list or share.directory() / "config" / "bridge.yaml"
+    try:
+        rules = bridge_rules.parse(yaml.safe_load(path.read_text()))
+    except (OSError, yaml.YAMLError) as error:
+        raise BadInput(f"the allow-list {path} cannot be read: {error}") from error
+    keys = Keys(folder)
+    keys.check(now())
+    document: dict[str, Any] = {}
+    put(document, "listen/endpoints", list(EVERYWHERE))
+    for name, value in keys.settings(rules, bridge_rules.checked_prefix(prefix), now()).items():
+        put(document, name, value)
+    show(document)
+
+
+def put(document: dict[str, Any], path: str, value: object) -> None:
+    """Put a value into nested dictionaries at a path such as transport/link/tls."""
+    *folders, last = path.split("/")
+    for part in folders:
+        document = document.setdefault(part, {})
+    document[last] = value
+
+
+def this_machine() -> list[str]:
+    """Return this machine's host name, where a certificate can hold it."""
+    from mrlab_ros.adapters.certificates import is_host
+
+    name = socket.gethostname()
+    return [name] if is_host(name) else []
+
+
+def until(entry: Entry) -> str:
+    """Say until when a key is good."""
+    from mrlab_ros.adapters.keys import now
+
+    text = f"{entry.expires:%d %B %Y}"
+    return f"{text} (expired)" if entry.expires < now() else text
+
+
+def show(document: object) -> None:
+    """Print JSON."""
+    sys.stdout.write(json.dumps(document, indent=2) + "\n")

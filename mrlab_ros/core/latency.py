@@ -1,0 +1,150 @@
+"""How long messages take: the stamps that travel with them, and what became of them in a window.
+
+Pure: every time is an argument, ns since 1970.
+"""
+
+from __future__ import annotations
+
+import struct
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+SECOND = 1_000_000_000
+# Delays kept of one topic in one window. Beyond, every second one is kept, then every fourth.
+SAMPLES = 1024
+# Topics that a report names; those with the largest p95.
+TOPICS = 64
+_STAMPS = struct.Struct("<qqq")
+_CLOCK = struct.Struct("<qq")
+
+
+@dataclass(frozen=True)
+class Stamps:
+    """What the bridge attaches to a message.
+
+    sequence: 1 for the first message of a key that this bridge put, one more for each.
+    published_ns: when it was published in the graph. bridged_ns: when the bridge put it.
+    """
+
+    sequence: int
+    published_ns: int
+    bridged_ns: int
+
+    def __bytes__(self) -> bytes:
+        """Return the 24 bytes of the attachment."""
+        return attachment(self.sequence, self.published_ns, self.bridged_ns)
+
+
+def attachment(sequence: int, published_ns: int, bridged_ns: int) -> bytes:
+    """Return three int64, little-endian, in this order."""
+    return _STAMPS.pack(sequence, published_ns, bridged_ns)
+
+
+def stamps(data: bytes) -> Stamps | None:
+    """Read an attachment; None where it is shorter. Further fields may follow."""
+    return Stamps(*_STAMPS.unpack_from(data)) if len(data) >= _STAMPS.size else None
+
+
+def clock_answer(asked_ns: int, answered_ns: int) -> bytes:
+    """Return the answer to who asks for the time: when the question came, when it is answered."""
+    return _CLOCK.pack(asked_ns, answered_ns)
+
+
+@dataclass(frozen=True)
+class Delays:
+    """The delays of one topic, or of all (topic ""), in one window. s."""
+
+    topic: str
+    count: int
+    p50: float
+    p95: float
+    max: float
+
+
+class _Batch:
+    """Delays since the last report, ns, thinned evenly so that few are kept."""
+
+    __slots__ = ("count", "kept", "max_ns", "skip", "stride")
+
+    def __init__(self) -> None:
+        self.kept: list[int] = []
+        self.count = 0
+        self.max_ns = 0
+        self.stride = 1
+        self.skip = 1
+
+    def add(self, delay_ns: int) -> None:
+        self.count += 1
+        if delay_ns > self.max_ns:
+            self.max_ns = delay_ns
+        self.skip -= 1
+        if self.skip:
+            return
+        self.skip = self.stride
+        self.kept.append(delay_ns)
+        if len(self.kept) == SAMPLES:
+            del self.kept[::2]
+            self.stride *= 2
+            self.skip = self.stride
+
+
+class Window:
+    """Collects the delays of one topic between two reports. `add` takes well under 1 us."""
+
+    def __init__(self) -> None:
+        self._batch = _Batch()
+
+    def add(self, delay_ns: int) -> None:
+        """Note a delay. One that is negative comes from another machine's clock."""
+        self._batch.add(delay_ns)
+
+    def take(self) -> _Batch:
+        """Return what was collected and begin anew. Another thread may add meanwhile."""
+        batch, self._batch = self._batch, _Batch()
+        return batch
+
+
+class Ledger:
+    """The windows of all topics."""
+
+    def __init__(self) -> None:
+        self._windows: dict[str, Window] = {}
+
+    def window(self, topic: str) -> Window:
+        """Return the window of a topic; made where there is none."""
+        return self._windows.setdefault(topic, Window())
+
+    def forget(self, topic: str) -> None:
+        self._windows.pop(topic, None)
+
+    def report(self) -> list[Delays]:
+        """Return the delays since the last report: of all topics first, then of the slowest.
+
+        A topic without a message is left out, and so are those beyond the TOPICS slowest. Empty
+        where nothing moved. Percentiles are by nearest rank; those of all topics weigh each kept
+        delay by how many it stands for.
+        """
+        batches = [(topic, window.take()) for topic, window in list(self._windows.items())]
+        moved = [(topic, batch) for topic, batch in batches if batch.kept]
+        if not moved:
+            return []
+        each = sorted((_delays(topic, [batch]) for topic, batch in moved), key=lambda d: -d.p95)
+        return [_delays("", [batch for _, batch in moved]), *each[:TOPICS]]
+
+
+def _delays(topic: str, batches: Sequence[_Batch]) -> Delays:
+    values = np.concatenate([batch.kept for batch in batches])
+    weights = np.repeat([batch.stride for batch in batches], [len(b.kept) for b in batches])
+    order = np.argsort(values)
+    reached = np.cumsum(weights[order])
+    ranks = np.searchsorted(reached, np.array([0.5, 0.95]) * reached[-1])
+    p50, p95 = values[order][ranks] / SECOND
+    return Delays(
+        topic,
+        sum(batch.count for batch in batches),
+        float(p50),
+        float(p95),
+        max(batch.max_ns for batch in batches) / SECOND,
+    )

@@ -1,0 +1,53 @@
+"""Writes config/zenoh/roles.json5: the access-control rules that follow from the allow-list."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+import yaml
+
+from mrlab_ros.core.access import role_rules
+from mrlab_ros.core.bridge_rules import Role, Rules, parse
+
+HEAD = """\
+// What each role may do, as zenoh's access control says it, for the shipped allow-list without a
+// prefix. Generated from config/bridge.yaml by `python -m mrlab_ros.roles_page`. The bridge does
+// not read this file: it makes the rules from its own allow-list and prefix, and adds the people
+// (`mrlab keys config` prints all). To read, and to begin with for a router of your own.
+"""
+
+
+def page(rules: Rules) -> str:
+    """Return the file's text for an allow-list."""
+    lines = [json.dumps(rule) for role in Role for rule in role_rules(rules, role)]
+    body = ",\n      ".join(lines)
+    return f"""{HEAD}{{
+  access_control: {{
+    enabled: true,
+    default_permission: "deny",
+    rules: [
+      {body}
+    ],
+    // Who is who: {{ id: "anna", cert_common_names: ["anna.1f2e3d4c"] }}
+    subjects: [],
+    // Who is what: {{ id: "viewer", rules: ["viewer_subscribes", ...], subjects: ["anna"] }}
+    policies: [],
+  }},
+}}
+"""
+
+
+def current(root: Path) -> str:
+    """Return the text for the source tree at `root`."""
+    return page(parse(yaml.safe_load((root / "config" / "bridge.yaml").read_text())))
+
+
+def main() -> None:
+    """Write the file in the source tree."""
+    root = Path(__file__).resolve().parent.parent
+    (root / "config" / "zenoh" / "roles.json5").write_text(current(root))
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,110 @@
+"""`mrlab up --keys` as an instructor runs it, and a client with the file it was given."""
+
+from __future__ import annotations
+
+import subprocess
+import sys
+import time
+from collections.abc import Callable, Iterator
+from contextlib import suppress
+from pathlib import Path
+from typing import Any
+
+import pytest
+import zenoh
+
+from mrlab_ros.commands.demo_lab import claim_free_domain, free_port
+
+DEADLINE = 60.0
+MRLAB = (sys.executable, "-m", "mrlab_ros.cli")
+
+
+def mrlab(*arguments: str | Path) -> subprocess.CompletedProcess[str]:
+    return subprocess.run(
+        (*MRLAB, *map(str, arguments)),
+        capture_output=True,
+        text=True,
+        timeout=DEADLINE,
+        check=False,
+    )
+
+
+@pytest.fixture
+def keys(tmp_path: Path) -> Path:
+    folder = tmp_path / "keys"
+    assert mrlab("keys", "init", "--dir", folder).returncode == 0
+    assert mrlab("keys", "add", "anna", "--role", "viewer", "--dir", folder).returncode == 0
+    return folder
+
+
+@pytest.fixture
+def endpoint(keys: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[str]:
+    monkeypatch.setenv("XDG_RUNTIME_DIR", str(tmp_path))
+    run_file, domain = claim_free_domain()
+    run_file.release()
+    monkeypatch.setenv("ROS_DOMAIN_ID", str(domain))
+    where = f"tls/127.0.0.1:{free_port(0)}"
+    log = tmp_path / "up.log"
+    command = (*MRLAB, "up", "--keys", str(keys), "--zenoh-listen", where, "--robots", "ur5e")
+    with open(log, "wb") as output:
+        lab = subprocess.Popen(command, stdout=output, stderr=subprocess.STDOUT)
+    try:
+        end = time.monotonic() + DEADLINE
+        while "is ready" not in log.read_text():
+            assert lab.poll() is None, log.read_text()
+            assert time.monotonic() < end, log.read_text()
+            time.sleep(0.05)
+        yield where
+    finally:
+        lab.kill()
+        lab.wait()
+
+
+def robots(config: zenoh.Config, endpoint: str) -> bytes:
+    """Return the newest state of the robots, as soon as the bridge has one."""
+    config.insert_json5("mode", '"client"')
+    config.insert_json5("connect/endpoints", f'["{endpoint}"]')
+    with zenoh.open(config) as session:
+        end = time.monotonic() + DEADLINE
+        while time.monotonic() < end:
+            for reply in session.get("robots", timeout=5.0):
+                if reply.ok and b"ur5e_1" in reply.ok.payload.to_bytes():
+                    return reply.ok.payload.to_bytes()
+    raise AssertionError("no state of the robots")
+
+
+def patiently(call: Callable[[], Any], what: str = "the bridge") -> Any:
+    """Return the first true value of `call`, which may fail while the bridge starts again."""
+    end = time.monotonic() + DEADLINE
+    while time.monotonic() < end:
+        with suppress(zenoh.ZError):
+            if value := call():
+                return value
+        time.sleep(0.05)
+    raise AssertionError(f"waited {DEADLINE:g} s in vain for {what}")
+
+
+def test_keys_are_given_and_taken_back_while_the_lab_runs(keys: Path, endpoint: str) -> None:
+    with pytest.raises(zenoh.ZError, match="Unable to connect"):
+        robots(zenoh.Config(), endpoint)
+    kept = zenoh.Config.from_file(str(keys / "clients" / "anna.json5"))
+    assert robots(kept, endpoint)
+    with zenoh.open(kept) as anna:
+        # In this order: where ben may see the robots, anna may no longer.
+        assert mrlab("keys", "revoke", "anna", "--dir", keys).returncode == 0
+        assert mrlab("keys", "add", "ben", "--role", "viewer", "--dir", keys).returncode == 0
+        ben = zenoh.Config.from_file(str(keys / "clients" / "ben.json5"))
+        assert patiently(lambda: robots(ben, endpoint))
+        assert patiently(lambda: list(anna.info.peers_zid()), "anna's client to come back")
+        assert not any(reply.ok for reply in anna.get("robots", timeout=5.0))
+
+
+def test_a_lab_that_may_not_listen_so_does_not_start(keys: Path) -> None:
+    for arguments, words in (
+        (("--zenoh-listen", "tcp/0.0.0.0:7447"), "--insecure"),
+        (("--zenoh-listen", "tcp/127.0.0.1:7447", "--keys", str(keys)), "leave the keys out"),
+        (("--keys", str(keys / "clients")), "mrlab keys init"),
+    ):
+        done = mrlab("up", *arguments)
+        assert done.returncode == 1
+        assert words in done.stderr
