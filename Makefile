@@ -2,6 +2,7 @@
 # make test   set up and run every test                         (ARGS passes options to pytest)
 # make bench  run every benchmark                               (ARGS=--quick for a minute each)
 # make robots  generate the robots' bodies anew from their descriptions (tens of minutes)
+# make objects generate the meshes of config/objects anew       (seconds)
 # make gallery render every robot into docs/gallery (minutes)
 # make lint   ruff and mypy
 # make lock   write the lock files anew from requirements*.in
@@ -10,7 +11,7 @@
 SHELL := /bin/bash
 ENV := . .venv/mrlab.sh &&
 
-.PHONY: demo test bench robots gallery lint lock setup clean
+.PHONY: demo test bench robots objects gallery lint lock setup clean
 
 setup:
 	@python3 scripts/bootstrap.py
@@ -28,11 +29,15 @@ lint:
 
 bench:
 	@python3 scripts/bootstrap.py --dev
-	@$(ENV) for b in $(filter-out bench/report.py,$(wildcard bench/*.py)); do echo "== $$b"; python "$$b" $(ARGS) || exit 1; done
+	@$(ENV) for b in $(filter-out bench/report.py bench/physics_node.py,$(wildcard bench/*.py)); do echo "== $$b"; python "$$b" $(ARGS) || exit 1; done
 
 robots:
 	@python3 scripts/bootstrap.py --dev
 	@$(ENV) python scripts/robots/generate.py $(ARGS)
+
+objects:
+	@python3 scripts/bootstrap.py --dev
+	@$(ENV) python scripts/robots/objects.py $(ARGS)
 
 gallery:
 	@python3 scripts/bootstrap.py --dev

@@ -3,7 +3,7 @@ from pathlib import Path
 from setuptools import find_packages, setup
 
 package_name = "mrlab_ros"
-NODES = ("converter", "lab", "playback", "coordinator", "physics", "bridge")
+NODES = ("converter", "lab", "playback", "coordinator", "physics", "bridge", "recorder")
 
 
 def data_tree(*folders):

@@ -8,10 +8,12 @@ from typing import Annotated
 
 import typer
 
-from mrlab_ros.commands import robots, system
+from mrlab_ros.commands import bag, keys, robots, scene, system
 from mrlab_ros.commands.convert import convert
 from mrlab_ros.commands.demo import demo
 from mrlab_ros.commands.play import play
+from mrlab_ros.commands.record import record
+from mrlab_ros.commands.replay import replay
 from mrlab_ros.commands.status import status
 from mrlab_ros.commands.up import up
 from mrlab_ros.core.errors import LabError
@@ -27,6 +29,8 @@ mrlab convert run.mat --robot ur5e — what is in a file, and is it right for th
 
 mrlab play ur5e_1 run.mat — play it (in a second terminal, same ROS_DOMAIN_ID)
 
+mrlab record class.bag — write down what happens; mrlab replay class.bag brings it back
+
 mrlab status — what runs, and how well
 
 **Exit codes**: 0 done, 1 failed (one sentence says why), 2 wrong usage or a choice that
@@ -41,10 +45,14 @@ app = typer.Typer(
     rich_markup_mode="markdown",
     epilog=EPILOG,
 )
-for command in (up, demo, convert, play, status):
+for command in (up, demo, convert, play, record, replay, status):
     app.command(command.__name__)(command)
+app.add_typer(bag.app, name="bag")
+app.add_typer(keys.app, name="keys")
 app.add_typer(robots.app, name="robots")
 app.add_typer(system.app, name="system")
+app.add_typer(scene.scene, name="scene")
+app.add_typer(scene.objects, name="objects")
 
 
 class Settings:

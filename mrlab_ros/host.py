@@ -13,6 +13,7 @@ from rclpy.node import Node
 
 from mrlab_ros.core.errors import LabError
 from mrlab_ros.spinning import SpunNode
+from mrlab_ros.stand_aside import STAYS, StandAside
 
 NODES = {
     "bridge": "BridgeNode",
@@ -21,6 +22,7 @@ NODES = {
     "lab": "LabNode",
     "physics": "PhysicsNode",
     "playback": "PlaybackHostNode",
+    "recorder": "RecorderNode",
 }
 # How often a process looks whether it was asked to stop, s.
 LOOK = 0.1
@@ -49,19 +51,30 @@ def main(names: list[str] | None = None) -> None:
 
 
 def run(names: list[str]) -> int:
-    """Spin the nodes until SIGINT or SIGTERM; return the process's exit code."""
+    """Spin the nodes until SIGINT or SIGTERM; return the process's exit code.
+
+    While a bag is replayed, the nodes that would publish the same topics are not there; made
+    anew, they heal as after a restart.
+    """
     rclpy.init()
     # rclpy's own handler of SIGTERM shuts the context down and calls nobody.
     running = rclpy.utilities.get_default_context().ok
-    spun: list[SpunNode] = []
+    aside = StandAside() if set(names) - STAYS else None
+    spun: dict[str, SpunNode] = {}
+    name = ""
     try:
-        for name in names:
-            spun.append(SpunNode(make(name)))
         while running():
+            replay = aside is not None and aside.wanted
+            wanted = [name for name in names if name in STAYS or not replay]
+            for name in [name for name in reversed(spun) if name not in wanted]:
+                spun.pop(name).close()
+            for name in wanted:
+                if name not in spun:
+                    spun[name] = SpunNode(make(name))
             time.sleep(LOOK)
         return 0
     except LabError as error:
-        print(f"{names[len(spun)]}: {error}", file=sys.stderr, flush=True)
+        print(f"{name}: {error}", file=sys.stderr, flush=True)
         return 1
     except KeyboardInterrupt:
         return 0
@@ -69,8 +82,10 @@ def run(names: list[str]) -> int:
         # A second Ctrl-C must not cut the tidying short: the supervisor sets the deadline.
         signal.signal(signal.SIGINT, signal.SIG_IGN)
         rclpy.utilities.try_shutdown()
-        for node in reversed(spun):
+        for node in reversed(spun.values()):
             node.close()
+        if aside is not None:
+            aside.close()
         sys.stdout.flush()
         sys.stderr.flush()
 

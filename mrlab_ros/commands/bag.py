@@ -1,0 +1,165 @@
+"""`mrlab bag`: what is in a bag, what happened in it, and mending one. Needs no running lab."""
+
+from __future__ import annotations
+
+import json
+import sys
+from datetime import datetime
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any
+
+import typer
+
+from mrlab_ros.core.errors import BadInput
+
+if TYPE_CHECKING:
+    from mrlab_ros.adapters.bag_reader import Bag
+
+app = typer.Typer(help="Look into bags, report what happened, mend them.", no_args_is_help=True)
+BagArgument = Annotated[
+    str, typer.Argument(help="Folder of a bag, an MCAP file, or its name among the recorder's.")
+]
+AsJson = Annotated[bool, typer.Option("--json", help="Print one JSON object.")]
+
+
+def path_of(bag: str) -> Path:
+    """Return where a bag lies that is named by its path, or by its name in the usual folder."""
+    from mrlab_ros.adapters.bag_reader import default_folder
+
+    path = Path(bag).expanduser()
+    usual = default_folder() / bag
+    return usual if not path.exists() and usual.exists() else path
+
+
+@app.command()
+def info(bag: BagArgument, as_json: AsJson = False) -> None:
+    """Show topics, counts, length and attachments of a bag."""
+    from mrlab_ros.adapters.bag_reader import Bag
+
+    found = Bag(path_of(bag))
+    if as_json:
+        sys.stdout.write(json.dumps(_facts(found), indent=2) + "\n")
+        return
+    _print(found)
+
+
+@app.command()
+def repair(bag: BagArgument) -> None:
+    """Write index, summary and metadata.yaml anew; the originals are kept beside them."""
+    from mrlab_ros.adapters.bag_repair import KEPT
+    from mrlab_ros.adapters.bag_repair import repair as mend
+
+    done = mend(path_of(bag))
+    for trouble in done.troubles:
+        print(trouble)
+    kept = f"; the originals are kept as *{KEPT}" if done.files else ""
+    written = ", ".join(done.files) or "no file"
+    print(f"wrote {written} and metadata.yaml anew: {done.messages} messages{kept}")
+
+
+@app.command()
+def extract(
+    bag: BagArgument,
+    out: Annotated[Path, typer.Option(help="Folder to write to.")] = Path("."),
+) -> None:
+    """Write a bag's attachments to files: URDFs, meshes, trajectories, scene, parameters."""
+    from mrlab_ros.adapters.bag_reader import Bag
+
+    found = Bag(path_of(bag))
+    root = out.resolve()
+    names = found.attachments()
+    for name in names:
+        target = (root / name).resolve()
+        if not target.is_relative_to(root):
+            raise BadInput(f"the attachment '{name}' would be written outside of {root}")
+        target.parent.mkdir(parents=True, exist_ok=True)
+        target.write_bytes(found.attachment(name).data)
+    print(f"wrote {len(names)} files to {root}")
+
+
+@app.command()
+def report(
+    bag: BagArgument,
+    out: Annotated[
+        Path | None, typer.Option(help="Folder for report.txt, report.json and report.png.")
+    ] = None,
+    as_json: AsJson = False,
+) -> None:
+    """Tell what happened: states, collisions, grasps, tracking error, latency, per robot."""
+    from mrlab_ros.adapters.bag_reader import Bag
+    from mrlab_ros.adapters.bag_session import read_session
+    from mrlab_ros.core.recording.report import report_lines
+
+    found = Bag(path_of(bag))
+    session = read_session(found)
+    text = "\n".join(report_lines(session)) + "\n"
+    facts = json.dumps(session.facts(), indent=2) + "\n"
+    if out is not None:
+        from mrlab_ros.adapters.bag_plot import draw
+
+        out.mkdir(parents=True, exist_ok=True)
+        (out / "report.txt").write_text(text)
+        (out / "report.json").write_text(facts)
+        draw(session, f"{found.path.name}, {_began(found)}", out / "report.png")
+        print(f"wrote report.txt, report.json and report.png to {out}", file=sys.stderr)
+    sys.stdout.write(facts if as_json else text)
+
+
+def _began(bag: Bag) -> str:
+    return datetime.fromtimestamp(bag.start_ns / 1e9).strftime("%Y-%m-%d %H:%M:%S")
+
+
+def _facts(bag: Bag) -> dict[str, Any]:
+    return {
+        "path": str(bag.path),
+        "start_ns": bag.start_ns,
+        "duration": bag.duration,
+        "messages": bag.message_count,
+        "bytes": bag.size,
+        "files": [file.path.name for file in bag.files],
+        "troubles": bag.troubles,
+        "versions": bag.versions(),
+        "topics": [
+            {
+                "name": topic.name,
+                "type": topic.type,
+                "messages": topic.messages,
+                "latched": topic.latched,
+                "type_hash": topic.type_hash,
+            }
+            for topic in bag.topics.values()
+        ],
+        "attachments": bag.attachments(),
+    }
+
+
+def _print(bag: Bag) -> None:
+    from rich import box
+    from rich.console import Console
+    from rich.table import Table
+
+    console = Console(highlight=False)
+    console.print(
+        f"{bag.path}: {bag.duration:.1f} s from {_began(bag)}, {bag.message_count} messages, "
+        f"{bag.size / 1e6:.1f} MB in {len(bag.files)} file{'s' * (len(bag.files) != 1)}",
+        soft_wrap=True,
+    )
+    for trouble in bag.troubles:
+        console.print(f"{trouble}; mrlab bag repair gives it one", soft_wrap=True)
+    table = Table("topic", "type", box=box.SIMPLE_HEAD)
+    for column in table.columns:
+        column.overflow = "fold"
+    table.add_column("messages", justify="right")
+    table.add_column("Hz", justify="right")
+    for topic in sorted(bag.topics.values(), key=lambda topic: topic.name):
+        rate = "latched" if topic.latched else f"{topic.messages / max(bag.duration, 1e-9):.1f}"
+        table.add_row(topic.name, topic.type, str(topic.messages), rate)
+    console.print(table)
+    attachments = bag.attachments()
+    groups: dict[str, list[int]] = {}
+    for name, size in attachments.items():
+        groups.setdefault(name.split("/")[0], []).append(size)
+    for name, sizes in groups.items():
+        console.print(f"{name}: {len(sizes)} attached, {sum(sizes) / 1e3:.0f} kB")
+    for name, version in bag.versions().items():
+        console.print(f"{name} {version}")

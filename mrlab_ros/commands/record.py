@@ -1,0 +1,104 @@
+"""`mrlab record`: the session of the running lab into a bag, until Ctrl-C."""
+
+from __future__ import annotations
+
+import time
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any
+
+import typer
+
+from mrlab_ros.core.errors import LabError
+
+if TYPE_CHECKING:
+    from mrlab_ros.graph_client import Graph, Watch
+
+REFRESH = 0.25
+# The recorder tells its state once a second; silent for so long, it is gone, s.
+SILENCE = 5.0
+
+
+def record(
+    bag: Annotated[
+        Path | None,
+        typer.Argument(help="Folder to make; not given: one named by date and time."),
+    ] = None,
+    topics: Annotated[
+        str, typer.Option(help="Topics, such as /robots,/*/joint_states; all of the lab's.")
+    ] = "",
+    split: Annotated[
+        float, typer.Option(help="Seconds after which a new file begins; 0: never.")
+    ] = 0.0,
+) -> None:
+    """Record the running lab into a bag until Ctrl-C.
+
+    The bag is one of rosbag2 (MCAP), complete in itself: robots, meshes, trajectories, scene and
+    parameters are in it. Ends with 0 once the bag is closed, 1 when the disk refused.
+    """
+    from mrlab_msgs import msg, srv
+    from rich.console import Console
+    from rich.live import Live
+
+    from mrlab_ros.graph_client import Graph
+
+    console = Console(highlight=False)
+    request = srv.StartRecording.Request(
+        bag=str(bag.absolute()) if bag else "",
+        topics=[topic.strip() for topic in topics.split(",") if topic.strip()],
+        split_duration=split,
+    )
+    with Graph() as graph:
+        watch = graph.watch(msg.RecorderState, "/recorder/state")
+        answer = graph.order(srv.StartRecording, "/recorder/start", request)
+        console.print(f"records into {answer.bag}; Ctrl-C ends it", soft_wrap=True)
+        try:
+            with Live(console=console, auto_refresh=False, transient=True) as live:
+                _follow(watch, lambda line: live.update(line, refresh=True), answer.bag)
+        except KeyboardInterrupt:
+            console.print(_stop(graph), soft_wrap=True)
+
+
+def _follow(watch: Watch[Any], show: Any, bag: str) -> None:
+    """Show the progress until the recording ends; raise LabError where it ended by itself."""
+    from mrlab_msgs import msg
+
+    last, heard, began = None, time.monotonic(), False
+    while True:
+        state = watch.value
+        if state is not last:
+            before, last, heard = last, state, time.monotonic()
+            # What is latched from before this recording says nothing of it.
+            if state.state == msg.RecorderState.RECORDING and state.bag == bag:
+                show(_line(state, before if began else None))
+                began = True
+            elif began:
+                raise LabError(
+                    state.message or f"the recording into {bag} was ended by another client"
+                )
+        if time.monotonic() - heard > SILENCE:
+            said = state.message if state is not None else ""
+            raise LabError(
+                said
+                or f"the recorder has been silent for {SILENCE:g} s; what it wrote into {bag} "
+                "stays readable; mrlab status shows what runs"
+            )
+        time.sleep(REFRESH)
+
+
+def _line(state: Any, before: Any) -> str:
+    rate = ""
+    if before is not None and state.position > before.position:
+        seconds = state.position - before.position
+        rate = f"  {max(state.messages - before.messages, 0) / seconds:.0f} messages/s"
+    return f"{state.position:.0f} s  {state.messages} messages  {megabytes(state.bytes)}{rate}"
+
+
+def _stop(graph: Graph) -> str:
+    from std_srvs.srv import Trigger
+
+    answer = graph.order(Trigger, "/recorder/stop", Trigger.Request(), timeout=30.0)
+    return str(answer.message)
+
+
+def megabytes(size: int) -> str:
+    return f"{size / 1e6:.1f} MB"

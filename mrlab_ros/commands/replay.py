@@ -1,0 +1,184 @@
+"""`mrlab replay`: a recorded session in the running lab's graph, with keys to walk about in it."""
+
+from __future__ import annotations
+
+import os
+import select
+import sys
+import termios
+import time
+import tty
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager, suppress
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any
+
+import typer
+
+from mrlab_ros.core.errors import LabError, Misuse
+
+if TYPE_CHECKING:
+    from mrlab_ros.graph_client import Graph, Watch
+
+REFRESH = 0.1
+# What an arrow key seeks, s, and the rates that + and - go through.
+STEP = 5.0
+RATES = (0.1, 0.2, 0.5, 1.0, 2.0, 4.0, 10.0)
+KEYS = "space pauses, left and right seek 5 s, + and - set the rate, q ends"
+# The lab's own nodes leave first.
+BEGIN_TIMEOUT = 40.0
+BEGUN_TIMEOUT = 3.0
+
+
+def replay(
+    bag: Annotated[str, typer.Argument(help="Folder of a bag, or its name among the recorder's.")],
+    rate: Annotated[float, typer.Option(help="Speed, 0.1 to 10; 1 is as recorded.")] = 1.0,
+    start: Annotated[float, typer.Option(help="Where to begin, s into the bag.")] = 0.0,
+    loop: Annotated[bool, typer.Option("--loop", help="Begin again at the end.")] = False,
+) -> None:
+    """Replay a bag in the running lab: headset, RViz and Foxglove see the session again.
+
+    The lab's own robots stand aside meanwhile, and come back afterwards. Keys, on a terminal:
+    space pauses, arrows seek, + and - set the rate, q ends. Ends with 0 at the bag's end.
+    """
+    from mrlab_msgs import msg, srv
+    from rich.console import Console
+    from rich.live import Live
+
+    from mrlab_ros.graph_client import Graph
+
+    console = Console(highlight=False)
+    path = Path(bag).expanduser()
+    request = srv.Replay.Request(
+        bag=str(path.absolute()) if path.exists() else bag, rate=rate, start=start, loop=loop
+    )
+    with Graph() as graph:
+        watch = graph.watch(msg.RecorderState, "/recorder/state")
+        answer = graph.order(srv.Replay, "/recorder/replay", request, BEGIN_TIMEOUT)
+        console.print(answer.message, soft_wrap=True)
+        keyboard = Keyboard(graph, watch) if sys.stdin.isatty() else None
+        if keyboard is not None:
+            console.print(KEYS)
+        try:
+            with (
+                raw_keys(keyboard is not None),
+                Live(console=console, auto_refresh=False, transient=True) as live,
+            ):
+                _follow(watch, keyboard, lambda line: live.update(line, refresh=True))
+        except KeyboardInterrupt:
+            _end(graph)
+            raise typer.Exit(130) from None
+    console.print("the replay is over")
+
+
+def _follow(watch: Watch[Any], keyboard: Keyboard | None, show: Callable[[str], None]) -> None:
+    from mrlab_msgs import msg
+
+    from mrlab_ros.graph_client import NoAnswer
+
+    working = (msg.RecorderState.REPLAYING, msg.RecorderState.PAUSED)
+    # A short one may be over already; what is latched from before says nothing of it.
+    with suppress(NoAnswer):
+        watch.wait(lambda s: s.state in working, BEGUN_TIMEOUT, "the replay")
+    while (state := watch.value) is not None and state.state in working:
+        show(_line(state, keyboard))
+        if keyboard is None:
+            time.sleep(REFRESH)
+        else:
+            keyboard.serve(state)
+    if state is not None and state.message:
+        raise LabError(state.message)
+
+
+def _line(state: Any, keyboard: Keyboard | None) -> str:
+    from mrlab_msgs import msg
+
+    position = position_now(state)
+    what = "paused" if state.state == msg.RecorderState.PAUSED else f"x {state.rate:g}"
+    words = f"{position:.1f} of {state.duration:.1f} s  {what}  {state.messages} messages"
+    if keyboard is not None:
+        words += f"  {keyboard.said}"
+    return words
+
+
+def position_now(state: Any) -> float:
+    """Return where the replay is by now: its state comes once a second."""
+    from mrlab_msgs import msg
+
+    from mrlab_ros import conversions
+
+    if state.state != msg.RecorderState.REPLAYING:
+        return float(state.position)
+    age = max(time.time() - conversions.to_ns(state.header.stamp) / 1e9, 0.0)
+    return float(min(state.position + state.rate * age, state.duration))
+
+
+class Keyboard:
+    """What the keys do."""
+
+    def __init__(self, graph: Graph, watch: Watch[Any]) -> None:
+        self._graph = graph
+        self._watch = watch
+        self.said = ""
+
+    def serve(self, state: Any) -> None:
+        """Wait a moment for a key and do what it says."""
+        if not select.select([sys.stdin], [], [], REFRESH)[0]:
+            return
+        # An arrow comes as three bytes at once; Python's own buffer would hold them apart.
+        key = os.read(sys.stdin.fileno(), 8)
+        try:
+            self.press(key, state)
+            self.said = ""
+        except Misuse as error:
+            self.said = str(error)
+
+    def press(self, key: bytes, state: Any) -> None:
+        """Do what `key` says; raise Misuse where the recorder refuses."""
+        from mrlab_msgs import msg, srv
+
+        if key == b" ":
+            paused = state.state == msg.RecorderState.PAUSED
+            self._trigger("resume" if paused else "pause")
+        elif key in (b"\x1b[D", b"\x1b[C"):
+            step = STEP if key.endswith(b"C") else -STEP
+            place = min(max(position_now(state) + step, 0.0), state.duration)
+            request = srv.Seek.Request(position=place)
+            self._graph.order(srv.Seek, "/recorder/seek", request)
+        elif key in (b"+", b"-"):
+            request = srv.SetRate.Request(rate=next_rate(state.rate, key == b"+"))
+            self._graph.order(srv.SetRate, "/recorder/set_rate", request)
+        elif key in (b"q", b"Q"):
+            _end(self._graph)
+
+    def _trigger(self, service: str) -> None:
+        from std_srvs.srv import Trigger
+
+        self._graph.order(Trigger, f"/recorder/{service}", Trigger.Request())
+
+
+def next_rate(rate: float, faster: bool) -> float:
+    """Return the next of RATES above or below `rate`; the last one stays."""
+    if faster:
+        return next((r for r in RATES if r > rate), RATES[-1])
+    return next((r for r in reversed(RATES) if r < rate), RATES[0])
+
+
+def _end(graph: Graph) -> None:
+    from std_srvs.srv import Trigger
+
+    graph.call(Trigger, "/recorder/stop", Trigger.Request())
+
+
+@contextmanager
+def raw_keys(wanted: bool) -> Iterator[None]:
+    """Let keys come at once and unseen; the terminal is as before afterwards."""
+    if not wanted:
+        yield
+        return
+    before = termios.tcgetattr(sys.stdin)
+    tty.setcbreak(sys.stdin)
+    try:
+        yield
+    finally:
+        termios.tcsetattr(sys.stdin, termios.TCSADRAIN, before)

@@ -1,0 +1,80 @@
+"""Which topics a recording and a replay take, and when a recording goes on in a new file."""
+
+from __future__ import annotations
+
+import math
+import re
+from collections.abc import Iterable
+from dataclasses import dataclass
+
+from mrlab_ros.core.clock import SECOND
+from mrlab_ros.core.errors import BadInput
+
+PATTERN = re.compile(r"(?:/(?:[A-Za-z_][A-Za-z0-9_]*|\*{1,2}))+")
+# What the lab says: motion, state, events, and how well it went.
+LAB_TOPICS = (
+    "/robots",
+    "/systems",
+    "/trajectories",
+    "/trajectories/converted",
+    "/objects",
+    "/objects/removed",
+    "/surfaces",
+    "/contacts",
+    "/latency",
+    "/latency/clients",
+    "/tf",
+    "/tf_static",
+    "/rosout",
+    "/*/joint_states",
+    "/*/playback_state",
+    "/*/telemetry",
+    "/*/targets",
+    "/*/collision",
+    "/*/grasp",
+    "/*/robot_description",
+)
+# Told of the process that says it, not of the session: replayed, it would be untrue.
+OF_THE_PRESENT = ("/rosout", "/parameter_events", "/latency", "/latency/clients", "/recorder/**")
+
+
+def _expression(pattern: str) -> re.Pattern[str]:
+    if PATTERN.fullmatch(pattern) is None:
+        raise BadInput(
+            f"'{pattern}' names no topic; expected a name such as /robots or /*/joint_states, "
+            "in which * stands for one part and ** for any parts"
+        )
+    parts = {"**": ".+", "*": "[^/]+"}
+    return re.compile("".join("/" + parts.get(part, part) for part in pattern.split("/")[1:]))
+
+
+class Topics:
+    """A set of topics, given by patterns: `*` is one part of a name, `**` any parts."""
+
+    def __init__(self, patterns: Iterable[str]) -> None:
+        self._expressions = [_expression(pattern) for pattern in patterns]
+
+    def __contains__(self, name: str) -> bool:
+        return any(expression.fullmatch(name) for expression in self._expressions)
+
+
+@dataclass(frozen=True)
+class Split:
+    """When a recording goes on in a new file: after `duration` s or `size` bytes; 0 is never."""
+
+    duration: float = 0.0
+    size: int = 0
+
+    def __post_init__(self) -> None:
+        if not (math.isfinite(self.duration) and (self.duration == 0 or self.duration >= 1)):
+            raise BadInput(
+                f"the files are to be split after {self.duration} s; expected 1 or more, or 0 "
+                "for never"
+            )
+        if self.size < 0:
+            raise BadInput(f"the files are to be split at {self.size} bytes; expected 0 or more")
+
+    def due(self, began_ns: int, now_ns: int, size: int) -> bool:
+        """Return whether a file that began at `began_ns` and holds `size` bytes is full."""
+        old = 0 < self.duration * SECOND <= now_ns - began_ns
+        return old or 0 < self.size <= size

@@ -1,0 +1,268 @@
+"""A running recording: it follows the graph's topics and writes what they bring into a bag."""
+
+from __future__ import annotations
+
+import importlib
+import threading
+import time
+from collections.abc import Callable
+from typing import Any
+
+from rclpy.node import Node
+from rclpy.qos import DurabilityPolicy, QoSProfile, ReliabilityPolicy
+from rclpy.subscription import Subscription
+from rclpy.topic_endpoint_info import TopicEndpointInfo
+
+from mrlab_ros.adapters.bag_writer import BagWriter
+from mrlab_ros.core.clock import SECOND
+from mrlab_ros.core.errors import BadInput, LabError
+from mrlab_ros.core.recording.bag_facts import Quality, Topic
+from mrlab_ros.core.recording.selection import Split, Topics
+from mrlab_ros.topic_poll import Received, TopicPoll
+
+# How often subscriptions are looked at, s.
+PERIOD = 0.04
+# Every how many looks at the graph the publishers of known topics are looked at, too.
+LOOKS = 8
+# A killed recorder loses what came in the last so many ns.
+FLUSH_NS = 400_000_000
+# How often metadata.yaml is brought up to date while recording, ns.
+METADATA_NS = 10 * SECOND
+# Messages kept for the recorder while a disk or the machine stalls: 10 s at 100 Hz.
+DEPTH = 1000
+
+
+class Followed:
+    """A topic that is recorded."""
+
+    def __init__(self, subscription: Subscription, topic: Topic, publishers: int) -> None:
+        self.subscription = subscription
+        self.topic = topic
+        self.publishers = publishers
+
+
+class Recording:
+    """Writes the topics of the graph that `topics` names into `writer`.
+
+    `streams` is a node that no executor spins. `observe` gets every message that was written,
+    and must be quick. `on_trouble` is told, from another thread, why the recording ended by
+    itself; the bag is closed by then.
+    """
+
+    def __init__(
+        self,
+        streams: Node,
+        writer: BagWriter,
+        topics: Topics,
+        split: Split,
+        observe: Callable[[Received, str], None],
+        on_trouble: Callable[[LabError], None],
+        complain: Callable[[str], None],
+    ) -> None:
+        self._streams = streams
+        self._writer = writer
+        self._topics = topics
+        self._split = split
+        self._observe = observe
+        self._on_trouble = on_trouble
+        self._complain = complain
+        self._followed: dict[str, Followed] = {}
+        # Topics that are not wanted, or cannot be recorded.
+        self._refused: set[str] = set()
+        self._looks = 0
+        self._lock = threading.Lock()
+        self._began_ns = self._part_ns = self._flushed_ns = self._noted_ns = time.time_ns()
+        self._closed = False
+        self.messages = 0
+        self._poll = TopicPoll("recorder", PERIOD, self._take)
+
+    def start(self) -> bool:
+        """Follow the topics that there are; return False where it ended at once by itself."""
+        if self._guarded(self._writer.flush):
+            self.discover()
+        if not self._closed:
+            self._poll.start()
+        return not self._closed
+
+    @property
+    def folder(self) -> str:
+        return str(self._writer.folder)
+
+    @property
+    def position(self) -> float:
+        """Time since the recording began, s."""
+        return (time.time_ns() - self._began_ns) / SECOND
+
+    @property
+    def size(self) -> int:
+        return self._writer.size
+
+    def discover(self) -> None:
+        """Follow the topics that are new in the graph; now and then look for new publishers."""
+        if self._closed:
+            return
+        changed = False
+        self._looks += 1
+        again = self._looks % LOOKS == 0
+        for name, _ in self._streams.get_topic_names_and_types():
+            if name in self._refused or (name in self._followed and not again):
+                continue
+            if name not in self._topics:
+                self._refused.add(name)
+                continue
+            known = self._followed.get(name)
+            publishers = self._streams.count_publishers(name)
+            if publishers and (known is None or known.publishers != publishers):
+                changed |= self._follow(name, publishers)
+        if changed:
+            self._guarded(self._writer.write_metadata)
+
+    def split(self) -> None:
+        """Go on in a new file of the bag; raise DiskTrouble where that fails."""
+        with self._lock:
+            self._part_ns = time.time_ns()
+            self._writer.split()
+
+    def attach(self, name: str, media_type: str, data: bytes) -> None:
+        """Put a file into the bag, unless it is closed."""
+        with self._lock:
+            if not self._closed:
+                self._writer.attach(name, media_type, data, time.time_ns())
+
+    def close(self) -> None:
+        """Write what came, then index and metadata; raise DiskTrouble where that fails."""
+        self._poll.stop()
+        with self._lock:
+            if self._closed:
+                return
+            self._closed = True
+        self._leave()
+        self._writer.close()
+
+    def _follow(self, name: str, publishers: int) -> bool:
+        ends = self._streams.get_publishers_info_by_topic(name)
+        kinds = {end.topic_type for end in ends}
+        if len(kinds) != 1:
+            if kinds:
+                self._refuse(name, f"{name} has several types ({', '.join(sorted(kinds))})")
+            return False
+        topic = topic_of(name, ends)
+        known = self._followed.get(name)
+        if known is not None:
+            known.publishers = publishers
+            if (known.topic.latched, known.topic.reliable) == (topic.latched, topic.reliable):
+                return False
+            self._poll.remove(known.subscription)
+            self._streams.destroy_subscription(known.subscription)
+        try:
+            kind = message_class(topic.type)
+            with self._lock:
+                self._writer.add_topic(topic)
+        except BadInput as error:
+            self._refuse(name, str(error))
+            return False
+        subscription = self._streams.create_subscription(
+            kind, name, lambda _: None, profile(topic, DEPTH), raw=True
+        )
+        self._followed[name] = Followed(subscription, topic, publishers)
+        self._poll.add(subscription, name)
+        return True
+
+    def _refuse(self, name: str, why: str) -> None:
+        self._refused.add(name)
+        self._complain(f"not recorded: {why}")
+
+    def _take(self, messages: list[Received]) -> bool:
+        with self._lock:
+            if self._closed:
+                return False
+            write = self._writer.write
+            for message in messages:
+                received_ns, topic, data, published_ns, sequence = message
+                write(topic, received_ns, data, published_ns, sequence & 0xFFFFFFFF)
+            self.messages += len(messages)
+        for message in messages:
+            self._observe(message, self._followed[message.topic].topic.type)
+        return self._guarded(self._do_due)
+
+    def _do_due(self) -> None:
+        now_ns = time.time_ns()
+        with self._lock:
+            if self._split.due(self._part_ns, now_ns, self._writer.part_size):
+                self._part_ns = now_ns
+                self._writer.split()
+            if now_ns - self._flushed_ns >= FLUSH_NS:
+                self._flushed_ns = now_ns
+                self._writer.flush()
+            if now_ns - self._noted_ns >= METADATA_NS:
+                self._noted_ns = now_ns
+                self._writer.write_metadata()
+
+    def _guarded(self, work: Callable[[], None]) -> bool:
+        """Do `work`; where the disk refuses, end the recording and return False."""
+        try:
+            work()
+        except LabError as error:
+            with self._lock:
+                if self._closed:
+                    return False
+                self._closed = True
+            try:
+                self._writer.close()
+            except LabError as second:
+                self._complain(str(second))
+            self._leave()
+            self._on_trouble(error)
+            return False
+        return True
+
+    def _leave(self) -> None:
+        for followed in self._followed.values():
+            self._streams.destroy_subscription(followed.subscription)
+        self._followed.clear()
+
+
+def topic_of(name: str, ends: list[TopicEndpointInfo]) -> Topic:
+    """Return what a bag says of a topic with these publishers."""
+    return Topic(
+        name, ends[0].topic_type, tuple(map(quality_of, ends)), str(ends[0].topic_type_hash)
+    )
+
+
+def quality_of(end: TopicEndpointInfo) -> Quality:
+    qos = end.qos_profile
+    return Quality(
+        history=qos.history.name.lower(),
+        depth=qos.depth,
+        reliability=qos.reliability.name.lower(),
+        durability=qos.durability.name.lower(),
+        deadline_ns=qos.deadline.nanoseconds,
+        lifespan_ns=qos.lifespan.nanoseconds,
+        liveliness=qos.liveliness.name.lower(),
+        lease_ns=qos.liveliness_lease_duration.nanoseconds,
+    )
+
+
+def profile(topic: Topic, depth: int) -> QoSProfile:
+    """Return the strongest quality that all of the topic's publishers offer."""
+    return QoSProfile(
+        depth=depth,
+        reliability=(
+            ReliabilityPolicy.RELIABLE if topic.reliable else ReliabilityPolicy.BEST_EFFORT
+        ),
+        durability=(
+            DurabilityPolicy.TRANSIENT_LOCAL if topic.latched else DurabilityPolicy.VOLATILE
+        ),
+    )
+
+
+def message_class(kind: str) -> Any:
+    """Return the class of a type such as std_msgs/msg/String; raise BadInput without one."""
+    package, folder, name = kind.split("/")
+    try:
+        return getattr(importlib.import_module(f"{package}.{folder}"), name)
+    except (ImportError, AttributeError):
+        raise BadInput(
+            f"the message type {kind} is not installed here; install its package and start the "
+            "lab again"
+        ) from None

@@ -1,0 +1,192 @@
+"""`mrlab bag` on a bag of real messages, and the keys of `mrlab replay`."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+from types import SimpleNamespace
+from typing import Any
+
+import pytest
+from mrlab_msgs import msg
+from PIL import Image
+from rclpy.serialization import serialize_message
+from sensor_msgs.msg import JointState
+from typer.testing import CliRunner
+
+from mrlab_ros import conversions
+from mrlab_ros.adapters.bag_writer import BagWriter
+from mrlab_ros.adapters.message_files import definition
+from mrlab_ros.cli import app
+from mrlab_ros.commands.replay import Keyboard, next_rate
+from mrlab_ros.commands.status import _recorder_facts, _recorder_line
+from mrlab_ros.core.errors import BadInput
+from mrlab_ros.core.recording.bag_facts import Quality, Topic
+
+START_NS = 1_700_000_000_000_000_000
+TRAJECTORY = {"frame_rate": 10.0, "frames": {"q": [[0.0], [90.0], [180.0]]}}
+
+
+@pytest.fixture
+def bag(tmp_path: Path) -> Path:
+    """A robot that plays three frames, is halted by a table and holds a cube."""
+    writer = BagWriter(tmp_path / "class", definition, {"mrlab_ros": "1"})
+    writer.attach("trajectories/wave.json", "application/json", json.dumps(TRAJECTORY).encode(), 0)
+    topics: set[str] = set()
+
+    def write(at: float, topic: str, message: Any, kind: str) -> None:
+        if topic not in topics:
+            topics.add(topic)
+            writer.add_topic(Topic(topic, kind, (Quality(),), "RIHS01_0"))
+        writer.write(topic, START_NS + round(at * 1e9), serialize_message(message), START_NS)
+
+    def stamp(at: float) -> Any:
+        return conversions.header(START_NS + round(at * 1e9))
+
+    def say(at: float, name: str, message: Any) -> None:
+        write(at, name, message, f"mrlab_msgs/msg/{type(message).__name__}")
+
+    say(0.0, "/robots", msg.Robots(robots=[msg.Robot(name="ur5e_1", model="ur5e")]))
+    state = msg.PlaybackState(header=stamp(1.0), label="PLAYING", trajectory_id="wave")
+    state.clock.stamp, state.clock.rate = stamp(1.0).stamp, 1.0
+    say(1.0, "/ur5e_1/playback_state", state)
+    for frame, angle in enumerate((0.0, 1.5707963267948966, 3.0)):
+        at = 1.0 + frame / 10
+        joints = JointState(header=stamp(at), name=["a"], position=[angle], velocity=[0.0])
+        write(at, "/ur5e_1/joint_states", joints, "sensor_msgs/msg/JointState")
+    say(1.25, "/ur5e_1/telemetry", msg.Telemetry(frames_sent=3, deadline_error=0.002))
+    contact = msg.Contact(robot="ur5e_1", link="wrist_3_link", other="table", frame=2)
+    say(1.3, "/contacts", msg.Contacts(contacts=[contact]))
+    say(1.3, "/ur5e_1/collision", msg.Collision(colliding=True, contact=contact))
+    # The last field of a grasp is a list of doubles, empty here: rclpy leaves room for one.
+    say(1.5, "/ur5e_1/grasp", msg.Grasp(state=msg.Grasp.HOLDING, object="cube_1"))
+    hop = msg.LatencyHop(topic="", count=5, p50=0.001)
+    say(2.0, "/latency", msg.Latency(observer="bridge", hops=[hop]))
+    writer.note("mrlab", {"mrlab_ros": "1"})
+    writer.close()
+    return writer.folder
+
+
+def run(*arguments: object) -> str:
+    done = CliRunner().invoke(app, list(map(str, arguments)))
+    if done.exception is not None and not isinstance(done.exception, SystemExit):
+        raise done.exception
+    assert done.exit_code == 0, done.output
+    return done.stdout
+
+
+def test_the_report_tells_states_contacts_grasps_errors_and_latency(bag, tmp_path):
+    facts = json.loads(run("bag", "report", bag, "--json", "--out", tmp_path / "out"))
+    (robot,) = facts["robots"]
+    assert (robot["name"], robot["model"]) == ("ur5e_1", "ur5e")
+    assert [span["label"] for span in robot["states"]] == ["PLAYING"]
+    assert robot["tracking_error"]["count"] == 3
+    assert robot["tracking_error"]["max"] == pytest.approx(3.141592653589793 - 3.0)
+    assert robot["tracking_error"]["p50"] == pytest.approx(0.0, abs=1e-12)
+    assert robot["deadline_error"]["max"] == 0.002
+    assert robot["collisions"][0]["link"] == "wrist_3_link"
+    assert robot["contacts"] == 1
+    assert robot["grasps"][0]["detail"] == "cube_1"
+    assert facts["latency"]["published to bridged"]["p50"] == 0.001
+    text = (tmp_path / "out" / "report.txt").read_text()
+    assert "holds cube_1 for 0.50 s" in text
+    assert text == run("bag", "report", bag)
+    with Image.open(tmp_path / "out" / "report.png") as picture:
+        # The halt's mark and the colour of playing are there.
+        colours = {colour for _, colour in picture.convert("RGB").getcolors(1 << 24)}
+        assert (0x3A, 0x7C, 0xA5) in colours
+        assert picture.width > 1000
+
+
+def test_info_says_what_is_in_the_bag(bag):
+    facts = json.loads(run("bag", "info", bag, "--json"))
+    assert facts["duration"] == 2.0
+    assert facts["messages"] == 10
+    assert facts["versions"] == {"mrlab_ros": "1"}
+    assert facts["attachments"]["trajectories/wave.json"] > 10
+    names = [topic["name"] for topic in facts["topics"]]
+    assert "/ur5e_1/joint_states" in names
+    text = run("bag", "info", bag)
+    assert "2.0 s from" in text
+    assert "trajectories: 1 attached" in text
+
+
+def test_extract_writes_the_attachments(bag, tmp_path):
+    assert "wrote 1 files" in run("bag", "extract", bag, "--out", tmp_path / "out")
+    assert json.loads((tmp_path / "out/trajectories/wave.json").read_text()) == TRAJECTORY
+
+
+def test_an_attachment_that_would_leave_the_folder_is_refused(tmp_path):
+    writer = BagWriter(tmp_path / "class", definition)
+    writer.attach("../evil", "text/plain", b"", 0)
+    writer.close()
+    with pytest.raises(BadInput, match="outside of"):
+        run("bag", "extract", tmp_path / "class", "--out", tmp_path / "out")
+    assert not (tmp_path / "evil").exists()
+
+
+def test_repair_says_what_it_did(bag):
+    assert "wrote no file and metadata.yaml anew: 10 messages" in run("bag", "repair", bag)
+    file = bag / "class_0.mcap"
+    file.write_bytes(file.read_bytes()[:-100])
+    (bag / "metadata.yaml").unlink()
+    (bag / "metadata.yaml.original").unlink()
+    said = run("bag", "repair", bag)
+    assert "class_0.mcap" in said
+    assert "10 messages; the originals are kept as *.original" in said
+
+
+@pytest.mark.parametrize(
+    ("fields", "line"),
+    [
+        ({}, ""),
+        ({"message": "the disk is full"}, "the disk is full"),
+        (
+            {"state": 1, "bag": "/x", "position": 12.0, "messages": 34},
+            "Records into /x: 12 s, 34 messages",
+        ),
+        (
+            {"state": 3, "bag": "/x", "position": 1.0, "duration": 9.0},
+            "Replays /x: 1.0 of 9.0 s, paused; the lab's own robots stand aside until it ends",
+        ),
+    ],
+)
+def test_status_says_what_the_recorder_does(fields, line):
+    assert _recorder_line(_recorder_facts(msg.RecorderState(**fields))) == line
+    assert _recorder_line(_recorder_facts(None)) == ""
+
+
+@pytest.mark.parametrize(
+    ("rate", "faster", "expected"),
+    [(1.0, True, 2.0), (1.0, False, 0.5), (3.0, True, 4.0), (10.0, True, 10.0), (0.1, False, 0.1)],
+)
+def test_plus_and_minus_go_through_the_rates(rate, faster, expected):
+    assert next_rate(rate, faster) == expected
+
+
+@pytest.mark.parametrize(
+    ("key", "paused", "service", "values"),
+    [
+        (b" ", False, "/recorder/pause", {}),
+        (b" ", True, "/recorder/resume", {}),
+        (b"\x1b[C", True, "/recorder/seek", {"position": 7.0}),
+        (b"\x1b[D", True, "/recorder/seek", {"position": 0.0}),
+        (b"+", False, "/recorder/set_rate", {"rate": 2.0}),
+        (b"-", False, "/recorder/set_rate", {"rate": 0.5}),
+        (b"q", False, "/recorder/stop", {}),
+    ],
+)
+def test_each_key_calls_its_service(key, paused, service, values):
+    called: list[tuple[str, dict[str, float]]] = []
+
+    def order(kind: Any, name: str, request: Any, *_: Any) -> None:
+        fields = request.get_fields_and_field_types()
+        called.append((name, {field: getattr(request, field) for field in fields}))
+
+    graph: Any = SimpleNamespace(order=order, call=order)
+    kind = msg.RecorderState
+    state = kind(
+        state=kind.PAUSED if paused else kind.REPLAYING, position=2.0, duration=9.0, rate=1.0
+    )
+    Keyboard(graph, None).press(key, state)
+    assert called == [(service, values)]

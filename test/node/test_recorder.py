@@ -1,0 +1,419 @@
+"""The recorder as a node: what it writes, how it ends, and what it replays."""
+
+from __future__ import annotations
+
+import itertools
+import os
+import resource
+import signal
+import subprocess
+import sys
+import threading
+import time
+from collections.abc import Callable, Iterator
+from pathlib import Path
+from typing import Any
+
+import pytest
+import small_lab
+from graph import Graph, Inbox, wait_for
+from mcap.reader import NonSeekingReader
+from mrlab_msgs import msg, srv
+from rclpy.serialization import serialize_message
+from rosbags.highlevel import AnyReader
+from sensor_msgs.msg import JointState
+from std_msgs.msg import String
+from std_srvs.srv import SetBool, Trigger
+
+from mrlab_ros import qos
+from mrlab_ros.adapters.bag_reader import Bag
+from mrlab_ros.adapters.bag_repair import repair
+from mrlab_ros.adapters.bag_writer import BagWriter
+from mrlab_ros.adapters.message_files import definition
+from mrlab_ros.adapters.trajectory_store import chunks, parse
+from mrlab_ros.conversion import load_coefficients
+from mrlab_ros.core.recording.bag_facts import Quality, Topic
+from mrlab_ros.nodes import replaying
+from mrlab_ros.nodes.recorder import RecorderNode
+from mrlab_ros.share import directory
+
+State = msg.RecorderState
+START_NS = 1_700_000_000_000_000_000
+
+
+@pytest.fixture
+def recorder(graph: Graph, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> RecorderNode:
+    # No bridge here that first has to find the topics.
+    monkeypatch.setattr(replaying, "SETTLE", 0.0)
+    return graph.add(RecorderNode, bag_dir=str(tmp_path))
+
+
+@pytest.fixture
+def states(graph: Graph) -> Inbox:
+    return graph.listen(State, "/recorder/state", qos.LATCHED_EVENTS)
+
+
+def start(graph: Graph, bag: str, topics: tuple[str, ...] = (), **fields: Any) -> Path:
+    answer = graph.call(
+        srv.StartRecording, "/recorder/start", bag=bag, topics=list(topics), **fields
+    )
+    assert answer.success, answer.message
+    return Path(answer.bag)
+
+
+def order(graph: Graph, service: str, kind: Any = Trigger, **fields: Any) -> str:
+    answer = graph.call(kind, f"/recorder/{service}", **fields)
+    assert answer.success, answer.message
+    return answer.message
+
+
+def publisher(graph: Graph, topic: str, quality: Any = qos.STREAM) -> Callable[[str], None]:
+    made = graph.client.create_publisher(String, topic, quality)
+    return lambda word: made.publish(String(data=word))
+
+
+def words(bag: Path, topic: str) -> list[str]:
+    return [decoded(m.data) for m in Bag(bag).messages(topics={topic})]
+
+
+def decoded(data: bytes) -> str:
+    return data[8:-1].split(b"\0")[0].decode()
+
+
+def test_a_recording_holds_what_was_said_also_by_who_came_later(graph, recorder, states, tmp_path):
+    say_state = publisher(graph, "/ur5e_1/grasp", qos.LATCHED)
+    say_state("before")
+    say = publisher(graph, "/ur5e_1/telemetry")
+    folder = start(graph, "class", ("/*/telemetry", "/*/grasp"))
+    assert folder == tmp_path / "class"
+    wait_for(lambda: states.last().state == State.RECORDING, "the state")
+    wait_for(lambda: graph.client.count_subscribers("/ur5e_1/telemetry"), "the recorder")
+    later = publisher(graph, "/ur5e_2/telemetry")
+    publisher(graph, "/ur5e_2/unwanted")("never")
+    wait_for(lambda: graph.client.count_subscribers("/ur5e_2/telemetry"), "the recorder")
+    for number in range(300):
+        say(f"first {number}")
+        later(f"second {number}")
+    wait_for(lambda: states.last().messages >= 601, "the messages")
+    order(graph, "split")
+    say("after")
+    wait_for(lambda: states.last().messages >= 602, "the last message")
+    assert "holds 602 messages" in order(graph, "stop")
+    wait_for(lambda: states.last().state == State.STOPPED, "the end")
+    assert words(folder, "/ur5e_1/telemetry") == [f"first {n}" for n in range(300)] + ["after"]
+    assert words(folder, "/ur5e_2/telemetry") == [f"second {n}" for n in range(300)]
+    assert words(folder, "/ur5e_1/grasp") == ["before"]
+    assert "/ur5e_2/unwanted" not in Bag(folder).topics
+    assert [file.path.name for file in Bag(folder).files] == ["class_0.mcap", "class_1.mcap"]
+    assert Bag(folder).troubles == []
+
+
+def test_a_session_of_the_lab_is_complete_in_itself(graph, recorder):
+    small_lab.start(graph)
+    robot = small_lab.spawn(graph)
+    small_lab.load(graph, robot, "wave")
+    folder = start(graph, "")
+    assert folder.name.startswith("session_")
+    inbox = graph.listen(JointState, f"/{robot}/joint_states", qos.STREAM)
+    played = small_lab.listen_state(graph, robot)
+    wait_for(lambda: graph.client.count_subscribers(f"/{robot}/joint_states") > 1, "the recorder")
+    order_play = graph.call(Trigger, f"/{robot}/play")
+    assert order_play.success
+    wait_for(lambda: "COMPLETE" in small_lab.labels(played), "the motion")
+    order(graph, "stop")
+    bag = Bag(folder)
+    names = set(bag.attachments())
+    assert {f"robots/{robot}.urdf", "scene.json", "trajectories/wave.json"} <= names
+    assert "parameters.yaml" in names
+    urdf = bag.attachment(f"robots/{robot}.urdf").data.decode()
+    for mesh in urdf.split('filename="package://')[1:]:
+        name = f"meshes/{mesh.split(chr(34))[0]}"
+        original = directory() / name.split("/", 2)[2]
+        assert bag.attachment(name).data == original.read_bytes()
+    coefficients = load_coefficients(directory() / "config" / "torque_proxy.yaml")
+    data = bag.attachment("trajectories/wave.json").data
+    attached = parse(data, "wave", coefficients)
+    assert attached.positions == pytest.approx(small_lab.TRAJECTORIES["wave"].positions, abs=1e-12)
+    with AnyReader([folder]) as reader:
+        kinds = {c.topic: c.msgtype for c in reader.connections}
+        assert kinds[f"/{robot}/playback_state"] == "mrlab_msgs/msg/PlaybackState"
+        joints = [c for c in reader.connections if c.topic == f"/{robot}/joint_states"]
+        recorded = [
+            tuple(reader.deserialize(data, c.msgtype).position)
+            for c, _, data in reader.messages(joints)
+        ]
+    heard = [tuple(state.position) for state in inbox]
+    begin = recorded.index(heard[10])
+    assert recorded[begin : begin + 40] == heard[10:50]
+
+
+def test_one_thing_at_a_time_and_each_refusal_says_why(graph, recorder, tmp_path):
+    def refused(kind: Any, service: str, **fields: Any) -> str:
+        answer = graph.call(kind, f"/recorder/{service}", **fields)
+        assert not answer.success
+        return answer.message
+
+    assert "nothing is recorded or replayed" in refused(Trigger, "stop")
+    assert "nothing is recorded" in refused(Trigger, "split")
+    for service in ("pause", "resume"):
+        assert "nothing is replayed" in refused(Trigger, service)
+    assert "expected 1 or more" in refused(srv.StartRecording, "start", split_duration=0.1)
+    assert "names no topic" in refused(srv.StartRecording, "start", topics=["x"])
+    (tmp_path / "file").write_text("")
+    assert "no MCAP file" in refused(srv.Replay, "replay", bag="file", rate=1.0)
+    assert "there is no bag" in refused(srv.Replay, "replay", bag="nowhere", rate=1.0)
+    folder = start(graph, "class", ("/*/telemetry",))
+    assert f"a recording into {folder} runs" in refused(srv.StartRecording, "start")
+    assert f"a recording into {folder} runs" in refused(srv.Replay, "replay", bag="x", rate=1.0)
+    order(graph, "stop")
+    assert "exists already" in refused(srv.StartRecording, "start", bag="class")
+    assert "holds no topic" in refused(srv.Replay, "replay", bag="class", rate=1.0)
+
+
+# a recorder in a process of its own -----------------------------------------------------------
+
+
+class Counter:
+    """Says numbers on /counted, 500 a second."""
+
+    def __init__(self, graph: Graph) -> None:
+        self._publisher = graph.client.create_publisher(String, "/counted", qos.STREAM)
+        self._stop = threading.Event()
+        self._thread = threading.Thread(target=self._run, daemon=True)
+        self._thread.start()
+
+    def _run(self) -> None:
+        for number in itertools.count():
+            if self._stop.wait(0.002):
+                return
+            # Words long enough that a disk fills.
+            self._publisher.publish(String(data=f"{number} {os.urandom(64).hex()}"))
+
+    def stop(self) -> None:
+        self._stop.set()
+        self._thread.join()
+
+
+@pytest.fixture
+def counter(graph: Graph) -> Iterator[Counter]:
+    made = Counter(graph)
+    yield made
+    made.stop()
+
+
+@pytest.fixture
+def launch(tmp_path: Path) -> Iterator[Callable[..., subprocess.Popen[bytes]]]:
+    running = []
+
+    def start_process() -> subprocess.Popen[bytes]:
+        argv = (sys.executable, "-m", "mrlab_ros.host", "recorder", "--ros-args")
+        process = subprocess.Popen(
+            (*argv, "-p", f"bag_dir:={tmp_path}", "-p", "topics:=['/counted']")
+        )
+        running.append(process)
+        return process
+
+    yield start_process
+    for process in running:
+        process.kill()
+        process.wait()
+
+
+def test_a_killed_recorder_loses_less_than_a_second(graph, counter, launch, states, tmp_path):
+    process = launch()
+    folder = start(graph, "class")
+    wait_for(lambda: states and states.last().messages > 500, "messages in the bag")
+    # The recorder tells once a second how many messages it has.
+    told = states.last().messages
+    wait_for(lambda: states.last().messages > told, "the next second")
+    process.send_signal(signal.SIGKILL)
+    process.wait()
+    numbers = [int(word.split()[0]) for word in words(folder, "/counted")]
+    assert numbers == list(range(numbers[0], numbers[-1] + 1))
+    assert len(numbers) >= told
+    with AnyReader([folder]) as reader:
+        assert len(list(reader.messages())) == len(numbers)
+    with open(folder / "class_0.mcap", "rb") as file:
+        assert len(list(NonSeekingReader(file).iter_messages())) == len(numbers)
+    assert repair(folder).messages == len(numbers)
+    assert Bag(folder).troubles == []
+
+
+def test_a_disk_that_refuses_is_told_at_once_and_the_recorder_lives_on(
+    graph, counter, launch, states, tmp_path
+):
+    process = launch()
+    assert not graph.call(Trigger, "/recorder/stop").success
+    # Files of the recorder may not grow beyond this: EFBIG instead of a full disk.
+    limit = 100_000
+    resource.prlimit(process.pid, resource.RLIMIT_FSIZE, (limit, limit))
+    folder = start(graph, "class")
+    wait_for(lambda: states and states.last().message, "the trouble")
+    assert states.last().state == State.STOPPED
+    assert "cannot be written (File too large)" in states.last().message
+    numbers = [int(word.split()[0]) for word in words(folder, "/counted")]
+    assert numbers
+    assert numbers == list(range(numbers[0], numbers[-1] + 1))
+    start(graph, "next", ("/nothing",))
+    order(graph, "stop")
+
+
+# replay ---------------------------------------------------------------------------------------
+
+
+@pytest.fixture
+def session(recorder: RecorderNode, tmp_path: Path) -> Path:
+    """A second of two topics, one of them latched, and one that is not replayed."""
+    kind, latched = "std_msgs/msg/String", Quality(durability="transient_local")
+    writer = BagWriter(tmp_path / "class", definition)
+    wave = b"".join(map(bytes, chunks(small_lab.TRAJECTORIES["wave"])))
+    writer.attach("trajectories/wave.json", "application/json", wave, START_NS)
+    for name, quality in (
+        ("/ur5e_1/telemetry", Quality()),
+        ("/ur5e_1/grasp", latched),
+        ("/latency", Quality()),
+    ):
+        writer.add_topic(Topic(name, kind, (quality,)))
+
+    def write(number: int, topic: str, word: str) -> None:
+        data = serialize_message(String(data=word))
+        writer.write(topic, START_NS + number * 10_000_000, data, START_NS)
+
+    for number in range(100):
+        if number % 25 == 0:
+            write(number, "/ur5e_1/grasp", f"state {number}")
+            write(number, "/latency", "slow")
+        write(number, "/ur5e_1/telemetry", f"event {number}")
+        if number % 10 == 9:
+            writer.flush()
+    writer.close()
+    return writer.folder
+
+
+class Ears:
+    """Hears everything of the session in one order, as CDR."""
+
+    def __init__(self, graph: Graph) -> None:
+        self.heard: list[tuple[str, str]] = []
+        for topic, quality in (
+            ("/ur5e_1/telemetry", qos.STREAM),
+            ("/ur5e_1/grasp", qos.LATCHED_EVENTS),
+            ("/latency", qos.STREAM),
+        ):
+            graph.client.create_subscription(
+                String,
+                topic,
+                lambda data, topic=topic: self.heard.append((topic, decoded(data))),
+                quality,
+                raw=True,
+            )
+
+    def of(self, topic: str) -> list[str]:
+        return [word for heard, word in self.heard if heard == topic]
+
+
+def replay(graph: Graph, bag: str = "class", **fields: Any) -> None:
+    order(graph, "replay", srv.Replay, bag=bag, **{"rate": 1.0, **fields})
+
+
+def wait_until_over(states: Inbox) -> None:
+    """Wait until a replay was told, and then its end."""
+    wait_for(
+        lambda: (
+            State.REPLAYING in [state.state for state in states]
+            and states.last().state == State.STOPPED
+        ),
+        "the end",
+    )
+
+
+def test_a_replay_says_the_same_in_the_same_order(graph, recorder, session, states):
+    ears = Ears(graph)
+    replay(graph, rate=4.0)
+    wait_until_over(states)
+    told = next(state for state in states if state.state == State.REPLAYING)
+    assert told.duration == pytest.approx(Bag(session).duration)
+    assert ears.of("/ur5e_1/telemetry") == words(session, "/ur5e_1/telemetry")
+    assert ears.of("/ur5e_1/grasp") == ["state 0", "state 25", "state 50", "state 75"]
+    assert ears.of("/latency") == []
+    assert graph.client.count_publishers("/ur5e_1/telemetry") == 0
+    assert words(session, "/ur5e_1/telemetry") == [f"event {n}" for n in range(100)]
+
+
+def test_a_replay_that_starts_later_says_first_how_things_are(graph, recorder, session, states):
+    ears = Ears(graph)
+    replay(graph, rate=10.0, start=0.6)
+    wait_until_over(states)
+    events = ears.of("/ur5e_1/telemetry")
+    assert ears.of("/ur5e_1/grasp") == ["state 50", "state 75"]
+    assert events == [f"event {n}" for n in range(60, 100)]
+
+
+def test_pause_seek_rate_and_loop_do_what_they_say(graph, recorder, session, states):
+    ears = Ears(graph)
+    replay(graph, rate=0.1, loop=True)
+    wait_for(lambda: "event 3" in ears.of("/ur5e_1/telemetry"), "the first events")
+    order(graph, "pause")
+    wait_for(lambda: states.last().state == State.PAUSED, "the pause")
+    position = states.last().position
+    heard = len(ears.heard)
+    order(graph, "seek", srv.Seek, position=0.8)
+    wait_for(lambda: ears.of("/ur5e_1/grasp")[-1] == "state 75", "the state at that place")
+    wait_for(lambda: states.last().position == pytest.approx(0.8), "the place")
+    assert position < 0.5
+    assert [word for topic, word in ears.heard[heard:] if "grasp" in topic] == ["state 75"]
+    order(graph, "set_rate", srv.SetRate, rate=10.0)
+    answer = graph.call(srv.SetRate, "/recorder/set_rate", rate=11.0)
+    assert "expected 0.1 to 10" in answer.message
+    answer = graph.call(srv.Seek, "/recorder/seek", position=99.0)
+    assert "expected 0 to" in answer.message
+    order(graph, "resume")
+    wait_for(lambda: ears.of("/ur5e_1/telemetry").count("event 50") >= 2, "two rounds more")
+    order(graph, "set_loop", SetBool, data=False)
+    wait_until_over(states)
+    events = [int(word.split()[1]) for word in ears.of("/ur5e_1/telemetry")]
+    jumps = [pair for pair in itertools.pairwise(events) if pair[1] != pair[0] + 1]
+    # In order and whole, but for the seek; each further round begins at the beginning.
+    assert jumps[0][1] in range(70, 90)
+    assert len(jumps) > 2
+    assert set(jumps[1:]) == {(99, 0)}
+    assert events[-1] == 99
+
+
+def test_the_rate_is_kept(graph, recorder, session, states):
+    began = time.monotonic()
+    replay(graph, rate=0.5, start=0.6)
+    wait_until_over(states)
+    # Never early; how late is the machine's affair.
+    assert time.monotonic() - began > 0.39 / 0.5
+
+
+def test_the_bag_s_trajectories_can_be_fetched_while_it_is_replayed(graph, recorder, session):
+    replay(graph, rate=0.1)
+    answer = graph.call(srv.GetTrajectory, "/converter/get", id="wave")
+    assert answer.success, answer.message
+    positions = small_lab.TRAJECTORIES["wave"].positions
+    assert list(answer.trajectory.positions) == pytest.approx(positions.ravel(), abs=1e-12)
+    answer = graph.call(srv.GetTrajectory, "/converter/get", id="nothing")
+    assert "has no attachment 'trajectories/nothing.json'" in answer.message
+    order(graph, "stop")
+    wait_for(lambda: not graph.client.count_services("/converter/get"), "the service gone")
+
+
+def test_a_replay_ends_when_asked_and_refuses_to_run_beside_another(graph, recorder, session):
+    replay(graph, rate=0.1)
+    answer = graph.call(srv.Replay, "/recorder/replay", bag="class", rate=1.0)
+    assert "is being replayed; stop that first" in answer.message
+    answer = graph.call(srv.StartRecording, "/recorder/start")
+    assert "is being replayed" in answer.message
+    assert order(graph, "stop") == "the replay is over"
+    wait_for(lambda: graph.client.count_publishers("/ur5e_1/telemetry") == 0, "its topics gone")
+
+
+def test_who_still_publishes_is_named(graph, recorder, session, states, monkeypatch):
+    monkeypatch.setattr(replaying, "LEAVE_TIMEOUT", 0.3)
+    publisher(graph, "/ur5e_1/telemetry")
+    answer = graph.call(srv.Replay, "/recorder/replay", bag="class", rate=1.0)
+    assert not answer.success
+    assert "/test_client publishes /ur5e_1/telemetry" in answer.message
+    wait_until_over(states)

@@ -1,0 +1,161 @@
+"""A session of a launched lab, recorded and brought back, as an instructor does it."""
+
+from __future__ import annotations
+
+import json
+import signal
+import subprocess
+import sys
+import time
+from collections.abc import Callable, Iterator
+from pathlib import Path
+from typing import Any
+
+import pytest
+import zenoh
+from mrlab_msgs import msg
+from sensor_msgs.msg import JointState
+
+from mrlab_ros import qos
+from mrlab_ros.adapters.bag_reader import Bag
+from mrlab_ros.commands.demo_lab import claim_free_domain, free_port
+from mrlab_ros.graph_client import Graph
+
+DEADLINE = 60.0
+MRLAB = (sys.executable, "-m", "mrlab_ros.cli")
+MOTION = Path(__file__).parents[2] / "examples" / "quintic_ur5e.mat"
+JOINTS = "/ur5e_1/joint_states"
+
+
+def wait_for(condition: Callable[[], Any], what: str) -> Any:
+    end = time.monotonic() + DEADLINE
+    while not (value := condition()):
+        assert time.monotonic() < end, f"not within {DEADLINE} s: {what}"
+        time.sleep(0.05)
+    return value
+
+
+def mrlab(*arguments: str | Path) -> str:
+    done = subprocess.run(
+        (*MRLAB, *map(str, arguments)),
+        capture_output=True,
+        text=True,
+        timeout=DEADLINE,
+        check=False,
+    )
+    assert done.returncode == 0, done.stdout + done.stderr
+    return done.stdout
+
+
+@pytest.fixture
+def endpoint(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[str]:
+    """Where the bridge of a running lab with one robot listens."""
+    monkeypatch.setenv("XDG_RUNTIME_DIR", str(tmp_path))
+    monkeypatch.setenv("ROS_AUTOMATIC_DISCOVERY_RANGE", "LOCALHOST")
+    monkeypatch.delenv("ROS_DOMAIN_ID", raising=False)
+    run_file, domain = claim_free_domain()
+    run_file.release()
+    monkeypatch.setenv("ROS_DOMAIN_ID", str(domain))
+    where = f"tcp/127.0.0.1:{free_port(0)}"
+    log = tmp_path / "up.log"
+    with log.open("wb") as output:
+        process = subprocess.Popen(
+            (*MRLAB, "up", "--robots", "ur5e", "--zenoh-listen", where),
+            stdout=output,
+            stderr=subprocess.STDOUT,
+        )
+    try:
+        wait_for(lambda: process.poll() is not None or "is ready" in log.read_text(), "ready")
+        assert process.poll() is None, log.read_text()
+        yield where
+        process.send_signal(signal.SIGINT)
+        assert process.wait(DEADLINE) == 0, log.read_text()
+        assert "Traceback" not in log.read_text(), log.read_text()
+    finally:
+        process.kill()
+        process.wait()
+
+
+class Watcher:
+    """Hears the joint states as a client of zenoh does."""
+
+    def __init__(self, endpoint: str) -> None:
+        config = zenoh.Config()
+        config.insert_json5("mode", '"client"')
+        config.insert_json5("connect/endpoints", json.dumps([endpoint]))
+        self._session = zenoh.open(config)
+        self.heard: list[bytes] = []
+        self._subscriber = self._session.declare_subscriber(
+            JOINTS[1:], lambda sample: self.heard.append(sample.payload.to_bytes())
+        )
+
+    def close(self) -> None:
+        self._subscriber.undeclare()
+        self._session.close()
+
+
+def record_a_play(bag: Path) -> None:
+    recorder = subprocess.Popen(
+        (*MRLAB, "record", str(bag)), stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True
+    )
+    assert recorder.stdout is not None
+    try:
+        assert f"records into {bag}" in recorder.stdout.readline()
+        # All of the motion is in the bag once the recorder listens to it.
+        with Graph() as graph:
+            wait_for(lambda: graph.node.count_subscribers(JOINTS) >= 2, "the recorder listening")
+        assert "played 601 frames" in mrlab("play", "ur5e_1", MOTION, "--rate", "4")
+        recorder.send_signal(signal.SIGINT)
+        said, trouble = recorder.communicate(timeout=DEADLINE)
+        assert recorder.returncode == 0, trouble
+        assert f"{bag} holds" in said
+    finally:
+        recorder.kill()
+
+
+def test_what_a_student_did_comes_back(endpoint: str, tmp_path: Path) -> None:
+    bag = tmp_path / "session"
+    record_a_play(bag)
+    recorded = [message.data for message in Bag(bag).messages(topics={JOINTS})]
+    assert len(recorded) > 150
+    facts = json.loads(mrlab("bag", "info", bag, "--json"))
+    assert {"robots/ur5e_1.urdf", "trajectories/quintic_ur5e.json"} <= set(facts["attachments"])
+    report = json.loads(mrlab("bag", "report", bag, "--json"))
+    (robot,) = report["robots"]
+    assert [span["label"] for span in robot["states"]][:2] == ["IDLE", "READY"]
+    assert "PLAYING" in [span["label"] for span in robot["states"]]
+    assert robot["tracking_error"]["count"] > 100
+    assert robot["tracking_error"]["max"] < 1e-6
+
+    heard: list[bytes] = []
+    watcher = Watcher(endpoint)
+    with Graph() as graph:
+        graph.node.create_subscription(JointState, JOINTS, heard.append, qos.STREAM, raw=True)
+
+        def publishers() -> set[str]:
+            return {e.node_name for e in graph.node.get_publishers_info_by_topic(JOINTS)}
+
+        wait_for(lambda: publishers() == {"playback"}, "the lab's own playback")
+        state = graph.watch(msg.RecorderState, "/recorder/state")
+        replay = subprocess.Popen(
+            (*MRLAB, "replay", str(bag), "--rate", "10"), stdout=subprocess.PIPE, text=True
+        )
+        try:
+            wait_for(lambda: publishers() == {"recorder_streams"}, "the playback aside")
+            state.wait(lambda s: s.state == s.REPLAYING, DEADLINE, "the replay")
+            assert state.value.bag == str(bag)
+            assert "the replay is over" in replay.communicate(timeout=DEADLINE)[0]
+        finally:
+            replay.kill()
+        # Before and after it the lab's own robot tells its pose; no stamp comes twice.
+        first = heard.index(recorded[0])
+        assert heard[first : first + len(recorded)] == recorded
+        assert set(recorded) & set(watcher.heard)
+        watcher.close()
+        wait_for(lambda: publishers() == {"playback"}, "the lab's own playback back")
+        robot = graph.watch(msg.PlaybackState, "/ur5e_1/playback_state")
+        robot.wait(
+            lambda s: (s.label, s.trajectory_id) == ("READY", "quintic_ur5e"),
+            DEADLINE,
+            "the robot with what it had loaded",
+        )
