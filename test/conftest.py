@@ -15,6 +15,12 @@ settings.load_profile("lab")
 
 
 @pytest.fixture(scope="session", autouse=True)
+def no_imported_robots(tmp_path_factory: pytest.TempPathFactory) -> None:
+    """Keep the robots that the user imported out of every test and its child processes."""
+    os.environ["MRLAB_ROBOTS"] = str(tmp_path_factory.mktemp("robots"))
+
+
+@pytest.fixture(scope="session", autouse=True)
 def ros_domain() -> Iterator[int]:
     """Hold a free ROS domain for this run; child processes inherit it."""
     with domain_coordinator.domain_id() as domain:

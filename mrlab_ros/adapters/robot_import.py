@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import re
-import shutil
 import xml.etree.ElementTree as ET
 from collections.abc import Mapping
 from pathlib import Path
@@ -11,7 +10,7 @@ from pathlib import Path
 import yaml
 from ament_index_python.packages import PackageNotFoundError, get_package_share_directory
 
-from mrlab_ros.adapters import robot_checks, urdf
+from mrlab_ros.adapters import mesh_files, robot_checks, urdf
 from mrlab_ros.adapters.robot_library import MESH_PREFIX, TIP, RobotLibrary
 from mrlab_ros.core.diagnostics import Diagnostic
 from mrlab_ros.core.errors import BadInput
@@ -92,9 +91,7 @@ def bring(
     for mesh in robot_checks.meshes(root):
         uri = str(mesh.get("filename"))
         if uri not in names:
-            path = find(uri)
-            names[uri] = f"{len(names):02d}_{path.name}"
-            shutil.copyfile(path, folder / "meshes" / names[uri])
+            names[uri] = mesh_files.copy(find(uri), folder / "meshes", f"{len(names):02d}")
         mesh.set("filename", f"{MESH_PREFIX}{robot_id}/meshes/{names[uri]}")
     ET.indent(root)
     body = ET.tostring(root, encoding="unicode")

@@ -75,14 +75,20 @@ class RobotLibrary:
 
     def description(self, robot_id: str, end_effector: str | None = None) -> str:
         """Return the URDF of a robot with its end effector (None or empty: bare flange)."""
-        folder = self._robot_folder(robot_id)
-        text = _read(folder / "robot.urdf")
+        text = self.own_description(robot_id)
+        override = self.imported / robot_id / "robot.urdf"
+        if override.is_file():
+            text = _read(override)
         if not end_effector:
             return text
         robot = urdf.parse(text, f"{robot_id}/robot.urdf")
         tool = self._end_effector(end_effector)
         facts = self.facts(robot_id)
         return _composed(robot, tool, facts, end_effector)
+
+    def own_description(self, robot_id: str) -> str:
+        """Return the bare robot's URDF with the lab's own meshes, whatever replaces them."""
+        return _read(self._robot_folder(robot_id) / "robot.urdf")
 
     def mesh_path(self, uri: str) -> Path:
         """Return the file that a mesh URI of one of the library's URDFs names."""
@@ -114,11 +120,12 @@ class RobotLibrary:
     def touching_links(
         self, robot_id: str, end_effector: str | None = None
     ) -> frozenset[frozenset[str]]:
-        """Return the pairs of links that always touch: each link with a body and the next one."""
+        """Return the pairs of links whose contact is none: each link with a body and the next one,
+        which always touch, and those that the robot's own file says never do."""
         root = urdf.parse(self.description(robot_id, end_effector), robot_id)
         solid = {e.get("name") for e in root.iterfind("link") if e.find("collision") is not None}
         above = {joint.child: joint.parent for joint in urdf.joints(root, robot_id)}
-        pairs = set()
+        pairs = {frozenset(pair) for pair in self.facts(robot_id).get("never_touch", ())}
         for link in above:
             parent = above[link]
             while parent not in solid and parent in above:

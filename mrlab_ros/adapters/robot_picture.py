@@ -49,13 +49,14 @@ def take(
     path: Path,
     end_effector: str | None = None,
     *,
+    positions: Array | None = None,
     size: tuple[int, int] = (900, 900),
     samples: int = 6,
     figure: bool = True,
     collision: bool = False,
 ) -> None:
-    """Write a PNG of the robot at home, `size` pixels wide and high."""
-    robot = surfaces(library, robot_id, end_effector, collision=collision)
+    """Write a PNG of the robot, `size` pixels wide and high; at home where positions is None."""
+    robot = surfaces(library, robot_id, end_effector, positions, collision=collision)
     if figure:
         # Left of the robot as the camera sees it, and as far away.
         right = np.array([-VIEW[1], VIEW[0], 0.0]) / np.hypot(VIEW[0], VIEW[1])

@@ -1,8 +1,9 @@
-"""`mrlab robots`: the library of robot models: list, show, check, import."""
+"""`mrlab robots`: the library of robot models: list, show, check, import, meshes, remove."""
 
 from __future__ import annotations
 
 import json
+import os
 import sys
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
@@ -14,9 +15,12 @@ from mrlab_ros.core.diagnostics import Diagnostic, Severity
 from mrlab_ros.core.errors import BadInput
 
 if TYPE_CHECKING:
+    import numpy as np
+    from numpy.typing import NDArray
+
     from mrlab_ros.adapters.robot_library import RobotLibrary
 
-app = typer.Typer(help="The robots of the library: list, show, check, import.")
+app = typer.Typer(help="The robots of the library: list, show, check, import, meshes, remove.")
 
 WORDS = {Severity.INFO: "note", Severity.WARNING: "warning", Severity.ERROR: "error"}
 
@@ -88,33 +92,67 @@ def list_robots(
 @app.command()
 def show(
     robot: Annotated[str, typer.Argument(help="Id of the robot.")],
-    end_effector: Annotated[str, typer.Option("--tool", help="Id of an end effector.")] = "",
-    output: Annotated[Path | None, typer.Option("--output", "-o", help="Name of the PNG.")] = None,
+    end_effector: Annotated[
+        str, typer.Option("--end-effector", "--tool", help="Id of an end effector.")
+    ] = "",
+    joints: Annotated[
+        str, typer.Option("--joints", help="Angles in degrees, 0,-90,90,0,0,0; empty: home.")
+    ] = "",
+    output: Annotated[
+        Path | None, typer.Option("--out", "--output", "-o", help="Name of the PNG.")
+    ] = None,
     collision: Annotated[
         bool, typer.Option("--collision", help="Draw the convex hulls instead of the bodies.")
     ] = False,
+    opened: Annotated[
+        bool, typer.Option("--open/--no-open", help="Open the picture where there is a desktop.")
+    ] = True,
 ) -> None:
-    """Write a PNG of a robot at home beside a person of 1.8 m."""
+    """Write a PNG of a robot beside a person of 1.8 m, and open it where there is a desktop."""
     from mrlab_ros.adapters.robot_picture import take
 
-    path = output or Path(f"{robot}.png")
-    take(_library(), robot, path, end_effector or None, collision=collision)
+    library = _library()
+    positions = _positions(library, robot, joints) if joints else None
+    path = (output or Path(f"{robot}.png")).resolve()
+    take(library, robot, path, end_effector or None, positions=positions, collision=collision)
     print(path)
+    desktop = os.environ.get("DISPLAY") or os.environ.get("WAYLAND_DISPLAY")
+    if opened and desktop and sys.stdout.isatty():
+        typer.launch(str(path))
+
+
+def _positions(library: RobotLibrary, robot: str, text: str) -> NDArray[np.float64]:
+    import numpy as np
+
+    names = library.model(robot).joint_names
+    try:
+        degrees = [float(part) for part in text.split(",")]
+    except ValueError:
+        degrees = []
+    if len(degrees) != len(names) or not np.isfinite(degrees).all():
+        raise BadInput(
+            f"--joints is '{text}'; expected {len(names)} angles in degrees with commas between "
+            f"them, one each for {', '.join(names)}"
+        )
+    return np.radians(degrees)
 
 
 @app.command()
 def check(
     robots: Annotated[list[str] | None, typer.Argument(help="Ids; none: all robots.")] = None,
 ) -> None:
-    """Check robots: meshes, limits, inertias, units. Ends with 1 where one has an error."""
-    from mrlab_ros.adapters import robot_checks
+    """Check robots: meshes, limits, inertias, units, hulls. Ends with 1 where one has an error."""
+    from mrlab_ros.adapters import robot_checks, robot_hulls
 
     library = _library()
     worst = 0
     for robot in robots or library.ids():
         text = library.description(robot)
-        found = robot_checks.check(text, f"{robot}/robot.urdf", library.mesh_path)
-        library.model(robot)
+        origin = f"{robot}/robot.urdf"
+        found = robot_checks.check(text, origin, library.mesh_path)
+        if not robot_checks.errors(found):
+            library.model(robot)
+            found += robot_hulls.check(text, origin, library.mesh_path)
         shown = [one for one in found if one.severity is not Severity.INFO]
         print(f"{robot}: {'ok' if not shown else ''}".rstrip())
         _tell(shown)
@@ -135,21 +173,62 @@ def import_robot(
     """Check a URDF of one's own and install it as a robot of the lab."""
     from mrlab_ros.adapters import robot_checks, robot_import
 
-    folders = {}
-    for pair in package or []:
-        name, equals, folder = pair.partition("=")
-        if not equals:
-            raise BadInput(f"--package is '{pair}'; expected NAME=FOLDER")
-        folders[name] = Path(folder)
     path = robot_import.find_urdf(source)
     library = _library()
     wanted = robot_id or path.stem.lower().replace("-", "_")
-    found = robot_import.bring(path, wanted, library, folders)
+    found = robot_import.bring(path, wanted, library, _folders(package))
     _tell(found)
     wrong = robot_checks.errors(found)
     if wrong:
         raise BadInput(f"{path.name} was not imported: {len(wrong)} errors, listed above")
     print(f"{wanted} is a robot of the lab; its files: {library.imported / wanted}")
+
+
+@app.command()
+def meshes(
+    robot: Annotated[str, typer.Argument(help="Id of one of the lab's own robots.")],
+    source: Annotated[str, typer.Argument(help="A URDF, or the name of a ROS package.")],
+    package: Annotated[
+        list[str] | None,
+        typer.Option("--package", help="NAME=FOLDER for package:// meshes; repeatable."),
+    ] = None,
+    collision: Annotated[
+        bool, typer.Option("--collision", help="Take its collision meshes too.")
+    ] = False,
+) -> None:
+    """Show one of the lab's robots with the meshes of a vendor's description."""
+    from mrlab_ros.adapters import robot_checks, robot_import, robot_meshes
+
+    path = robot_import.find_urdf(source)
+    library = _library()
+    found = robot_meshes.use_meshes(path, robot, library, _folders(package), collision=collision)
+    _tell(found)
+    wrong = robot_checks.errors(found)
+    if wrong:
+        raise BadInput(f"the meshes of {path.name} were not taken: {len(wrong)} errors, see above")
+    print(f"{robot} has the meshes of {path.name}; undo it with: mrlab robots remove {robot}")
+
+
+@app.command()
+def remove(robot: Annotated[str, typer.Argument(help="Id of an imported robot.")]) -> None:
+    """Remove an imported robot, or the meshes that were put in place of the lab's own."""
+    from mrlab_ros.adapters import robot_meshes
+
+    library = _library()
+    robot_meshes.remove(robot, library)
+    own = robot in library.ids()
+    print(f"{robot} has the lab's own meshes again" if own else f"{robot} was removed")
+
+
+def _folders(pairs: list[str] | None) -> dict[str, Path]:
+    """Return the folders that --package options name."""
+    folders = {}
+    for pair in pairs or []:
+        name, equals, folder = pair.partition("=")
+        if not equals:
+            raise BadInput(f"--package is '{pair}'; expected NAME=FOLDER")
+        folders[name] = Path(folder)
+    return folders
 
 
 def _tell(found: list[Diagnostic] | tuple[Diagnostic, ...]) -> None:

@@ -90,11 +90,11 @@ def _stl(path: Path, triangles: Array) -> None:
 
 
 def _hull_files(
-    folder: Path, link: str, parts: list[tuple[Solid, Array]], pose: Array
+    folder: Path, link: str, parts: list[tuple[Solid, Array]], seen: Array, pose: Array
 ) -> list[str]:
     """Write the convex hulls of a link and return the names of their files."""
     names = []
-    for number, vertices in enumerate(hulls.cover_all(parts)):
+    for number, vertices in enumerate(hulls.cover_all(parts, seen)):
         placed = vertices @ pose[:3, :3].T + pose[:3, 3]
         names.append(f"{link}_hull_{number}.stl")
         _stl(folder / names[-1], hulls.triangles(np.round(placed, 5) + 0.0))
@@ -122,16 +122,20 @@ def make(folder: Path, source: str, target: str) -> None:
     for link, parts in body.links.items():
         pose = inverse(poses[link])
         by_material: dict[str, list[Mesh]] = {}
+        seen = []
         materials = {part.material.name: part.material for part in parts}
         for (owner, part, mesh), share in zip(raw, weight / weight.sum(), strict=True):
             if owner == link:
                 small = creased(decimated(mesh, max(int(share * budget), 60)))
+                seen.append(small.vertices)
                 by_material.setdefault(part.material.name, []).append(_placed(small, pose))
         pieces = [(materials[name], _joined(group)) for name, group in by_material.items()]
         triangles += sum(len(mesh.faces) for _, mesh in pieces)
         glb.write(meshes / f"{link}.glb", pieces)
-        shells = [(part.solid, mesh.vertices) for owner, part, mesh in raw if owner == link]
-        names = _hull_files(meshes, link, shells, pose)
+        shells = [
+            (part.solid, mesh.vertices[mesh.faces]) for owner, part, mesh in raw if owner == link
+        ]
+        names = _hull_files(meshes, link, shells, np.concatenate(seen), pose)
         files[link] = LinkFiles(f"{link}.glb", tuple(names))
     place = folder.relative_to(ROBOTS.parent)
     text = urdf(figures, files, f"package://mrlab_ros/{place.as_posix()}/meshes")

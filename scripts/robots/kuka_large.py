@@ -160,8 +160,8 @@ def _quantec(tip: float, size: float, flange: float, motors: float) -> Body:
     ).moved(0, -0.298, height)
     high = drum("y", -0.32, -0.105, 0.17, 0.026).moved(elbow, 0, height)
     link_2 = low.blend(web, 0.07).blend(high, 0.05)
-    pocket = strap("y", (0.66, 0), (1.2, 0), (0.1, 0.078), 0.06, 0.02).moved(0, -0.389, height)
-    body.add("link_2", ORANGE, link_2.cut(pocket, 0.02))
+    pocket = strap("y", (0.66, 0), (1.2, 0), (0.1, 0.078), 0.06, 0.008).moved(0, -0.4055, height)
+    body.add("link_2", ORANGE, link_2.cut(pocket, 0.008))
     body.add("link_2", BLACK, cap("y", -0.386, -1, 0.1, 0.008).moved(a + 0.06, 0, height))
     body.add("link_2", BLACK, cap("y", -0.385, -1, 0.09, 0.008).moved(elbow - 0.02, 0, height))
     way = curve(
@@ -287,8 +287,8 @@ def kr120_r2500_pro() -> Body:
     ).moved(0, -0.295, height)
     high = drum("y", -0.34, -0.175, 0.163, 0.026).moved(elbow, 0, height)
     link_2 = low.blend(web, 0.07).blend(high, 0.05)
-    pocket = strap("y", (0.68, 0), (1.2, 0), (0.105, 0.08), 0.06, 0.02).moved(0, -0.394, height)
-    body.add("link_2", ORANGE, link_2.cut(pocket, 0.02))
+    pocket = strap("y", (0.68, 0), (1.2, 0), (0.105, 0.08), 0.06, 0.008).moved(0, -0.41, height)
+    body.add("link_2", ORANGE, link_2.cut(pocket, 0.008))
     body.add("link_2", BLACK, cap("y", -0.39, -1, 0.105, 0.008).moved(a + 0.06, 0, height))
     body.add("link_2", BLACK, cap("y", -0.39, -1, 0.09, 0.008).moved(elbow - 0.02, 0, height))
     way = curve(
@@ -408,8 +408,10 @@ def kr560_r3100_2() -> Body:
         ).moved(0, 0.3, height)
         high = drum("y", 0.19, 0.375, 0.19, 0.03).moved(elbow, 0, height)
         half = low.blend(web, 0.07).blend(high, 0.05)
-        pocket = strap("y", (0.95, 0), (1.7, 0), (0.12, 0.095), 0.06, 0.025).moved(0, 0.38, height)
-        half = half.cut(pocket, 0.025)
+        pocket = strap("y", (0.95, 0), (1.7, 0), (0.12, 0.095), 0.06, 0.008).moved(
+            0, 0.395, height
+        )
+        half = half.cut(pocket, 0.008)
         half = half if way_y > 0 else half.mirrored("y")
         link_2 = half if link_2 is None else link_2 | half
         lid = cap("y", way_y * 0.378, way_y, 0.12, 0.008)

@@ -20,11 +20,20 @@ AXES = {"x": 0, "y": 1, "z": 2}
 
 @dataclass(frozen=True, eq=False)
 class Solid:
-    """A distance function of points (N, 3) -> (N,) and a box that holds the solid."""
+    """A distance function of points (N, 3) -> (N,) and a box that holds the solid.
+
+    made_of: the primitives that it was united from, before anything was cut away.
+    """
 
     distance: Callable[[Array], Array]
     low: Array
     high: Array
+    made_of: tuple[Solid, ...] = ()
+
+    @property
+    def pieces(self) -> tuple[Solid, ...]:
+        """The primitives that it was united from; itself where it is one."""
+        return self.made_of or (self,)
 
     def __or__(self, other: Solid) -> Solid:
         return self.blend(other, 0.0)
@@ -37,6 +46,7 @@ class Solid:
             lambda p: np.maximum(self.distance(p), other.distance(p)),
             np.maximum(self.low, other.low),
             np.minimum(self.high, other.high),
+            self.pieces,
         )
 
     def blend(self, other: Solid, fillet: float) -> Solid:
@@ -53,7 +63,7 @@ class Solid:
                 both if fillet <= 0 else np.maximum(both, (np.abs(p - middle) - half).max(axis=1))
             )
 
-        return Solid(distance, low, high)
+        return Solid(distance, low, high, self.pieces + other.pieces)
 
     def cut(self, other: Solid, fillet: float = 0.0) -> Solid:
         """Take `other` away; the edges of the cut get about the radius `fillet`."""
@@ -61,12 +71,18 @@ class Solid:
             lambda p: -_smooth_min(-self.distance(p), other.distance(p), fillet),
             self.low,
             self.high,
+            self.pieces,
         )
 
     def moved(self, *xyz: float) -> Solid:
         """Return the solid shifted by xyz."""
         shift = np.array(xyz)
-        return Solid(lambda p: self.distance(p - shift), self.low + shift, self.high + shift)
+        return Solid(
+            lambda p: self.distance(p - shift),
+            self.low + shift,
+            self.high + shift,
+            tuple(piece.moved(*xyz) for piece in self.made_of),
+        )
 
     def turned(self, axis: str, degrees: float) -> Solid:
         """Return the solid turned about a coordinate axis through the origin."""
@@ -78,14 +94,24 @@ class Solid:
         matrix[j, k], matrix[k, j] = -sin, sin
         corners = np.array(np.meshgrid(*zip(self.low, self.high, strict=True))).reshape(3, -1)
         turned = matrix @ corners
-        return Solid(lambda p: self.distance(p @ matrix), turned.min(axis=1), turned.max(axis=1))
+        return Solid(
+            lambda p: self.distance(p @ matrix),
+            turned.min(axis=1),
+            turned.max(axis=1),
+            tuple(piece.turned(axis, degrees) for piece in self.made_of),
+        )
 
     def mirrored(self, axis: str) -> Solid:
         """Return the mirror image in the plane through the origin across `axis`."""
         sign = np.ones(3)
         sign[AXES[axis]] = -1
         ends = np.sort(np.stack([self.low * sign, self.high * sign]), axis=0)
-        return Solid(lambda p: self.distance(p * sign), ends[0], ends[1])
+        return Solid(
+            lambda p: self.distance(p * sign),
+            ends[0],
+            ends[1],
+            tuple(piece.mirrored(axis) for piece in self.made_of),
+        )
 
 
 def _smooth_min(a: Array, b: Array, fillet: float) -> Array:

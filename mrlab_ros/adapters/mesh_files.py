@@ -1,0 +1,82 @@
+"""Finds and copies the files that a mesh file names: material libraries, textures, buffers."""
+
+from __future__ import annotations
+
+import re
+import shutil
+from collections.abc import Callable, Iterator
+from pathlib import Path
+from urllib.parse import unquote
+
+IMAGES = (".png", ".jpg", ".jpeg", ".bmp", ".tga", ".tif", ".tiff", ".gif", ".webp", ".dds")
+TAKEN = (*IMAGES, ".mtl", ".bin")
+
+# What a reference looks like in each text format; group 2 is the name of the file. In an .mtl,
+# options such as `-s 1 1 1` stand before the name.
+_OPTION = r"(?:-(?:[ost](?:\s+[-+.\deE]+){1,3}|mm(?:\s+[-+.\deE]+){2}|\w+\s+\S+)\s+)*"
+REFERENCES = {
+    ".obj": re.compile(r"(?m)^(\s*mtllib\s+)(.+?)(\s*)$"),
+    ".mtl": re.compile(
+        rf"(?mi)^(\s*(?:map_\w+|bump|norm|disp|decal|refl)\s+{_OPTION})(.+?)(\s*)$"
+    ),
+    ".dae": re.compile(r"(<init_from>\s*(?:<ref>\s*)?)([^<>]+?)(\s*<)"),
+    ".gltf": re.compile(r'("uri"\s*:\s*")(?!data:)([^"]+)(")'),
+}
+
+
+def companions(path: Path) -> dict[str, Path]:
+    """Return the files that a mesh file names, and those that these name, by the names written.
+
+    A file may be missing. Only materials, images and buffers count; GLB and STL hold all they
+    need.
+    """
+    found: dict[str, Path] = {}
+    for written, file in _named(path):
+        found[written] = file
+        if file.suffix.lower() in REFERENCES and file.is_file():
+            found |= companions(file)
+    return found
+
+
+def copy(path: Path, folder: Path, prefix: str) -> str:
+    """Copy a mesh file and all that it names into `folder`; return the copy's name.
+
+    The names of the copies begin with `prefix`, and what names them is rewritten: two meshes with
+    textures of one name keep their own, and no name leads out of the folder.
+    """
+    name = f"{prefix}_{path.name}"
+    pattern = REFERENCES.get(path.suffix.lower())
+    if pattern is None:
+        shutil.copyfile(path, folder / name)
+        return name
+    names = {
+        written: copy(file, folder, f"{prefix}_{number}")
+        for number, (written, file) in enumerate(_named(path))
+        if file.is_file()
+    }
+    # latin-1 carries any bytes through unchanged.
+    text = path.read_text(encoding="latin-1")
+    (folder / name).write_text(pattern.sub(_renamed(names), text), encoding="latin-1")
+    return name
+
+
+def _renamed(names: dict[str, str]) -> Callable[[re.Match[str]], str]:
+    def replace(match: re.Match[str]) -> str:
+        before, written, after = match.groups()
+        return f"{before}{names.get(written, written)}{after}"
+
+    return replace
+
+
+def _named(path: Path) -> Iterator[tuple[str, Path]]:
+    pattern = REFERENCES.get(path.suffix.lower())
+    if pattern is None:
+        return
+    seen = set()
+    for match in pattern.finditer(path.read_text(encoding="latin-1")):
+        written = match.group(2)
+        place = unquote(written.removeprefix("file://")).replace("\\", "/")
+        file = path.parent / place
+        if written not in seen and file.suffix.lower() in TAKEN:
+            seen.add(written)
+            yield written, file

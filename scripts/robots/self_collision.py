@@ -1,0 +1,146 @@
+"""Counts self-collisions over random poses: `self_collision.py [--poses N] [ID ...]`.
+
+Prints one row a robot and pair of links: in how many poses their hulls touch, and in how many of
+a sample of these the bodies that are seen touch as well.
+"""
+
+from __future__ import annotations
+
+import argparse
+from collections.abc import Iterator
+from pathlib import Path
+
+import numpy as np
+import pybullet
+import trimesh
+from numpy.typing import NDArray
+from scipy.spatial import cKDTree
+
+from mrlab_ros.adapters import urdf
+from mrlab_ros.adapters.robot_hulls import inside, samples
+from mrlab_ros.adapters.robot_library import RobotLibrary
+
+ROOT = Path(__file__).resolve().parents[2]
+LOOKED_AT = 6  # poses of a pair whose bodies are compared
+MOST_POINTS = 150  # of a body that are looked for in another
+Pair = tuple[str, str]
+Array = NDArray[np.float64]
+
+
+def touching_poses(
+    library: RobotLibrary, robot: str, poses: Array
+) -> Iterator[tuple[int, frozenset[Pair]]]:
+    """Yield the number of each pose in which links touch that are no neighbours, and the pairs.
+
+    poses: (N, J) rad.
+    """
+    allowed = library.touching_links(robot)
+    engine = pybullet.connect(pybullet.DIRECT)
+    path = ROOT / "build" / f"{robot}_{engine}.urdf"
+    path.parent.mkdir(exist_ok=True)
+    try:
+        path.write_text(library.collision_description(robot))
+        flags = pybullet.URDF_USE_SELF_COLLISION | pybullet.URDF_USE_INERTIA_FROM_FILE
+        body = pybullet.loadURDF(str(path), useFixedBase=True, flags=flags, physicsClientId=engine)
+        count = pybullet.getNumJoints(body, physicsClientId=engine)
+        infos = [pybullet.getJointInfo(body, n, physicsClientId=engine) for n in range(count)]
+        names = [pybullet.getBodyInfo(body, physicsClientId=engine)[0].decode()]
+        names += [info[12].decode() for info in infos]
+        joints = {info[1].decode(): info[0] for info in infos}
+        for a in range(count + 1):
+            for b in range(a):
+                if frozenset((names[a], names[b])) in allowed:
+                    pybullet.setCollisionFilterPair(
+                        body, body, a - 1, b - 1, 0, physicsClientId=engine
+                    )
+        moving = [joints[name] for name in library.model(robot).joint_names]
+        for number, pose in enumerate(poses):
+            for joint, position in zip(moving, pose, strict=True):
+                pybullet.resetJointState(body, joint, position, physicsClientId=engine)
+            pybullet.performCollisionDetection(physicsClientId=engine)
+            contacts = pybullet.getContactPoints(body, body, physicsClientId=engine)
+            pairs = {
+                tuple(sorted((names[contact[3] + 1], names[contact[4] + 1])))
+                for contact in contacts
+                if contact[8] < 0
+            }
+            if pairs:
+                yield number, frozenset(pairs)
+    finally:
+        pybullet.disconnect(engine)
+        path.unlink(missing_ok=True)
+
+
+def random_poses(library: RobotLibrary, robot: str, count: int) -> Array:
+    """Return poses, (count, J) rad, spread evenly over the ranges of all joints."""
+    joints = library.model(robot).joints
+    low, high = [joint.lower for joint in joints], [joint.upper for joint in joints]
+    return np.random.default_rng(5).uniform(low, high, (count, len(joints)))
+
+
+class Bodies:
+    """The bodies of a robot as they are seen."""
+
+    def __init__(self, library: RobotLibrary, robot: str) -> None:
+        self.names = library.model(robot).joint_names
+        self.root = urdf.parse(library.description(robot), robot)
+        self.faces: dict[str, Array] = {}
+        for link in self.root.iterfind("link"):
+            mesh = link.find("visual/geometry/mesh")
+            if mesh is not None:
+                parts = trimesh.load_scene(library.mesh_path(str(mesh.get("filename")))).dump()
+                triangles = [np.asarray(part.triangles) for part in parts]
+                self.faces[str(link.get("name"))] = np.concatenate(triangles)
+
+    def distance(self, pair: Pair, pose: Array) -> float:
+        """Return the distance between the bodies of two links, m; 0 where they touch."""
+        if self.touch(pair, pose):
+            return 0.0
+        one, other = (samples(faces, 0.01) for faces in self._placed(pair, pose))
+        return float(cKDTree(one).query(other)[0].min())
+
+    def _placed(self, pair: Pair, pose: Array) -> list[Array]:
+        at = urdf.poses(self.root, dict(zip(self.names, map(float, pose), strict=True)), "robot")
+        return [self.faces[name] @ at[name][:3, :3].T + at[name][:3, 3] for name in pair]
+
+    def touch(self, pair: Pair, pose: Array) -> bool:
+        """Say whether the bodies of two links reach into each other at a pose, (J,) rad."""
+        one, other = self._placed(pair, pose)
+        for a, b in ((one, other), (other, one)):
+            points = a.mean(axis=1)
+            low, high = b.min(axis=(0, 1)), b.max(axis=(0, 1))
+            points = points[((points > low) & (points < high)).all(axis=1)]
+            points = points[:: len(points) // MOST_POINTS + 1]
+            if len(points) and inside(b, points).any():
+                return True
+        return False
+
+
+def main() -> None:
+    """Count for the robots named on the command line, or for all."""
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("robots", nargs="*")
+    parser.add_argument("--poses", type=int, default=10_000)
+    arguments = parser.parse_args()
+    library = RobotLibrary(ROOT / "robots", ROOT / "robots" / "none imported")
+    for robot in arguments.robots or library.ids():
+        poses = random_poses(library, robot, arguments.poses)
+        found: dict[Pair, list[int]] = {}
+        bad = 0
+        for number, pairs in touching_poses(library, robot, poses):
+            bad += 1
+            for pair in pairs:
+                found.setdefault(pair, []).append(number)
+        print(f"{robot}: {bad} of {len(poses)} poses", flush=True)
+        bodies = Bodies(library, robot)
+        for pair, numbers in sorted(found.items(), key=lambda item: -len(item[1])):
+            looked = numbers[:: len(numbers) // LOOKED_AT + 1]
+            real = sum(bodies.touch(pair, poses[number]) for number in looked)
+            print(
+                f"  {pair[0]} {pair[1]}: {len(numbers)}; bodies in {real} of {len(looked)}",
+                flush=True,
+            )
+
+
+if __name__ == "__main__":
+    main()
