@@ -44,6 +44,11 @@ def generate_launch_description():
                 "tls/0.0.0.0:7447",
             ),
             DeclareLaunchArgument(
+                "connect",
+                default_value="",
+                description="with keys: a secured router that lets people in (mrlab keys router)",
+            ),
+            DeclareLaunchArgument(
                 "insecure",
                 default_value="false",
                 choices=flags,
@@ -107,5 +112,7 @@ def processes(context):
             chosen["keys"] = os.path.abspath(os.path.expanduser(value("keys")))
         if value("listen"):
             chosen["listen"] = [value("listen")]
+        if value("connect"):
+            chosen |= {"connect": [value("connect")], "mode": "client"}
         started.append(host("bridge", **chosen))
     return started

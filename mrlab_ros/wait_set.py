@@ -1,4 +1,4 @@
-"""One thread that takes raw messages and service answers, without an executor between.
+"""One thread that takes raw messages, without an executor between.
 
 An executor of rclpy spends some 140 us of CPU on a message, this loop about 23 us.
 """
@@ -10,7 +10,6 @@ from collections.abc import Callable
 from contextlib import ExitStack
 from typing import Any
 
-from rclpy.client import Client
 from rclpy.context import Context
 from rclpy.exceptions import InvalidHandle
 from rclpy.guard_condition import GuardCondition
@@ -21,21 +20,22 @@ from rclpy.subscription import Subscription
 PATIENCE_NS = 200_000_000
 # Taken from one subscription before the others have their turn.
 BATCH = 16
+# By pointer: a subscription's handle, and what takes a message from it if there is one.
+Takers = dict[int, tuple[Any, Callable[[], bool]]]
 
 
 class WaitSetThread:
-    """Waits for subscriptions and clients and hands on what they receive.
+    """Waits for subscriptions and hands on what they receive.
 
-    The entities must belong to a node that no executor spins. `turn` runs once in every round of
-    the loop and returns how long the next wait may be, ns, or None. What a callback raises goes to
-    `on_error`.
+    They must belong to a node that no executor spins. `turn` runs once in every round of the loop
+    and returns how long the next wait may be, ns. What a callback raises goes to `on_error`.
     """
 
     def __init__(
         self,
         context: Context,
         name: str,
-        turn: Callable[[], int | None],
+        turn: Callable[[], int],
         on_error: Callable[[Exception], None],
     ) -> None:
         self._context = context
@@ -43,7 +43,6 @@ class WaitSetThread:
         self._on_error = on_error
         self._lock = threading.Lock()
         self._subscriptions: dict[Subscription, Callable[[bytes], None]] = {}
-        self._clients: dict[Client, Callable[[int, Any], None]] = {}
         self._changed = True
         self._stopped = False
         self._guard = GuardCondition(None, None, context=context)
@@ -65,19 +64,10 @@ class WaitSetThread:
             self._subscriptions[entity] = on_message
         self._change()
 
-    def add_client(self, entity: Client, on_answer: Callable[[int, Any], None]) -> None:
-        """Hand every answer to `on_answer`, with the sequence number of its request."""
-        with self._lock:
-            self._clients[entity] = on_answer
-        self._change()
-
-    def remove(self, entity: Subscription | Client) -> None:
+    def remove(self, entity: Subscription) -> None:
         """Wait for `entity` no more. It may be destroyed at once: its handle outlives the wait."""
         with self._lock:
-            if isinstance(entity, Client):
-                self._clients.pop(entity, None)
-            else:
-                self._subscriptions.pop(entity, None)
+            self._subscriptions.pop(entity, None)
         self._change()
 
     def _change(self) -> None:
@@ -94,79 +84,23 @@ class WaitSetThread:
                 self._changed = False
                 with self._lock:
                     subscriptions = dict(self._subscriptions)
-                    clients = dict(self._clients)
-                takers = self._takers(stack, subscriptions, clients)
+                takers = _takers(stack, subscriptions)
                 stack.enter_context(self._guard.handle)
                 alive: Any = self._context.handle
                 stack.enter_context(alive)
-                wait_set = rclpy_implementation.WaitSet(
-                    len(subscriptions), 1, 0, len(clients), 0, 0, alive
-                )
+                wait_set = rclpy_implementation.WaitSet(len(subscriptions), 1, 0, 0, 0, 0, alive)
                 while not self._changed and not self._stopped and self._context.ok():
                     self._round(wait_set, takers)
 
-    def _takers(
-        self,
-        stack: ExitStack,
-        subscriptions: dict[Subscription, Callable[[bytes], None]],
-        clients: dict[Client, Callable[[int, Any], None]],
-    ) -> dict[str, dict[int, tuple[Any, Callable[[], bool]]]]:
-        """Return by kind and pointer each handle and how to take from it."""
-        takers: dict[str, dict[int, tuple[Any, Callable[[], bool]]]] = {
-            "subscription": {},
-            "client": {},
-        }
-        for subscription, on_message in subscriptions.items():
-            handle = _held(stack, subscription)
-            if handle is not None:
-                take = self._message_taker(handle, subscription.msg_type, on_message)
-                takers["subscription"][handle.pointer] = (handle, take)
-        for client, on_answer in clients.items():
-            handle = _held(stack, client)
-            if handle is not None:
-                service: Any = client.srv_type
-                take = self._answer_taker(handle, service.Response, on_answer)
-                takers["client"][handle.pointer] = (handle, take)
-        return takers
-
-    def _message_taker(
-        self, handle: Any, kind: Any, on_message: Callable[[bytes], None]
-    ) -> Callable[[], bool]:
-        def take() -> bool:
-            taken = handle.take_message(kind, True)
-            if taken is None:
-                return False
-            on_message(taken[0])
-            return True
-
-        return take
-
-    def _answer_taker(
-        self, handle: Any, kind: Any, on_answer: Callable[[int, Any], None]
-    ) -> Callable[[], bool]:
-        def take() -> bool:
-            header, answer = handle.take_response(kind)
-            if header is None:
-                return False
-            on_answer(header.request_id.sequence_number, answer)
-            return True
-
-        return take
-
-    def _round(
-        self, wait_set: Any, takers: dict[str, dict[int, tuple[Any, Callable[[], bool]]]]
-    ) -> None:
+    def _round(self, wait_set: Any, takers: Takers) -> None:
         patience = self._turn()
         wait_set.clear_entities()
         wait_set.add_guard_condition(self._guard.handle)
-        for handle, _ in takers["subscription"].values():
+        for handle, _ in takers.values():
             wait_set.add_subscription(handle)
-        for handle, _ in takers["client"].values():
-            wait_set.add_client(handle)
-        wait_set.wait(PATIENCE_NS if patience is None else min(patience, PATIENCE_NS))
-        for kind, by_pointer in takers.items():
-            for pointer in wait_set.get_ready_entities(kind):
-                self._drain(by_pointer[pointer][1])
+        wait_set.wait(min(patience, PATIENCE_NS))
+        for pointer in wait_set.get_ready_entities("subscription"):
+            self._drain(takers[pointer][1])
 
     def _drain(self, take: Callable[[], bool]) -> None:
         for _ in range(BATCH):
@@ -177,11 +111,28 @@ class WaitSetThread:
                 self._on_error(error)
 
 
-def _held(stack: ExitStack, entity: Subscription | Client) -> Any:
-    """Return the entity's handle, kept alive until `stack` ends; None where it is gone."""
-    handle = entity.handle
-    try:
-        stack.enter_context(handle)
-    except InvalidHandle:
-        return None
-    return handle
+def _takers(stack: ExitStack, wanted: dict[Subscription, Callable[[bytes], None]]) -> Takers:
+    """Return each subscription's handle, kept alive until `stack` ends, and how to take from it.
+
+    One that is gone is left out.
+    """
+    found: Takers = {}
+    for subscription, on_message in wanted.items():
+        handle: Any = subscription.handle
+        try:
+            stack.enter_context(handle)
+        except InvalidHandle:
+            continue
+        found[handle.pointer] = (handle, _taker(handle, subscription.msg_type, on_message))
+    return found
+
+
+def _taker(handle: Any, kind: Any, on_message: Callable[[bytes], None]) -> Callable[[], bool]:
+    def take() -> bool:
+        taken = handle.take_message(kind, True)
+        if taken is None:
+            return False
+        on_message(taken[0])
+        return True
+
+    return take

@@ -88,8 +88,8 @@ def over_dds(robots: int, ages: Ages) -> Any:
     from sensor_msgs.msg import JointState
 
     from mrlab_ros import qos
+    from mrlab_ros.bridging.stamped import Stamped
     from mrlab_ros.spinning import SpunNode
-    from mrlab_ros.stamped import Stamped
 
     rclpy.init()
     node = Node("bench_subscriber")

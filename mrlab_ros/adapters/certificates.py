@@ -22,8 +22,6 @@ from mrlab_ros.core.errors import BadInput
 
 # A client whose clock is late by less accepts a new certificate.
 SLACK = timedelta(hours=1)
-# The longest common name of X.520.
-LONGEST_NAME = 64
 # Host names as in RFC 1123; the last part is no number, or it would be an address.
 LONGEST_HOST = 253
 LABEL = r"(?!-)[A-Za-z0-9-]{1,63}(?<!-)"
@@ -129,6 +127,12 @@ def hosts(found: x509.Certificate) -> list[str]:
     return [str(name.value) for name in names]
 
 
+def common_name(found: x509.Certificate) -> str:
+    """Return whose certificate it is."""
+    (name,) = found.subject.get_attributes_for_oid(NameOID.COMMON_NAME)
+    return str(name.value)
+
+
 def _bytes(path: Path) -> bytes:
     try:
         return path.read_bytes()
@@ -206,7 +210,7 @@ def _builder(
 
 
 def _name(common_name: str) -> x509.Name:
-    return x509.Name([x509.NameAttribute(NameOID.COMMON_NAME, common_name[:LONGEST_NAME])])
+    return x509.Name([x509.NameAttribute(NameOID.COMMON_NAME, common_name)])
 
 
 def _usage(*, signs_certificates: bool) -> x509.KeyUsage:

@@ -2,6 +2,8 @@
 
     ca.pem, ca.key          the authority, which signs everybody's certificate
     server.pem, server.key  the lab's certificate
+    lab.pem, lab.key        with which the lab connects to a router of its own, where it has one
+    router.json5            all that this router needs: to be handed over
     people.json             names, roles and certificates of who may connect
     passwords.txt           name:password, where people log in with passwords
     clients/NAME.json5      all that NAME's zenoh needs to connect: to be handed over
@@ -12,21 +14,24 @@ Files are for their owner only. zenoh keeps passwords as they are, so they are r
 from __future__ import annotations
 
 import base64
+import fcntl
 import json
 import os
 import re
 import secrets
-import stat
+from collections.abc import Iterator, Mapping
+from contextlib import contextmanager
 from dataclasses import dataclass
 from datetime import datetime, timedelta, timezone
 from pathlib import Path
 from typing import Any
 
-from mrlab_ros.adapters import certificates
+from mrlab_ros.adapters import certificates, private_files
 from mrlab_ros.adapters.certificates import Signed
 from mrlab_ros.core.access import Login, Person, access_control
 from mrlab_ros.core.bridge_rules import Role, Rules
 from mrlab_ros.core.errors import BadInput, Misuse
+from mrlab_ros.core.links import LEASE_BEYOND, healing, nested
 
 PORT = 7447
 EVERYWHERE = (f"tls/0.0.0.0:{PORT}",)
@@ -61,6 +66,9 @@ class Keys:
 
     def __init__(self, folder: Path) -> None:
         self.folder = folder.expanduser().resolve()
+        self._read()
+
+    def _read(self) -> None:
         path = self._people_file
         try:
             document = json.loads(path.read_text())
@@ -69,7 +77,7 @@ class Keys:
             self._entries = {record["name"]: _entry(record) for record in document["people"]}
         except FileNotFoundError as error:
             raise BadInput(
-                f"{self.folder} has no keys; make them with: mrlab keys init --dir {folder}"
+                f"{self.folder} has no keys; make them with: mrlab keys init --dir {self.folder}"
             ) from error
         except OSError as error:
             raise BadInput(f"{path} cannot be read: {os.strerror(error.errno or 0)}") from error
@@ -95,13 +103,13 @@ class Keys:
         folder.mkdir(mode=0o700, parents=True, exist_ok=True)
         folder.chmod(0o700)
         (folder / "clients").mkdir(mode=0o700)
-        _write(folder / ".gitignore", b"*\n")
+        private_files.write(folder / ".gitignore", b"*\n")
         for name, signed in (("ca", authority), ("server", server)):
-            _write(folder / f"{name}.pem", signed.certificate_pem)
-            _write(folder / f"{name}.key", signed.key_pem)
-        _write(folder / "passwords.txt", f"{NOBODY}:{_password()}\n".encode())
+            private_files.write(folder / f"{name}.pem", signed.certificate_pem)
+            private_files.write(folder / f"{name}.key", signed.key_pem)
+        private_files.write(folder / "passwords.txt", f"{NOBODY}:{_password()}\n".encode())
         document = {"login": login.value, "hosts": all_hosts, "people": []}
-        _write(folder / "people.json", json.dumps(document, indent=2).encode())
+        private_files.write(folder / "people.json", json.dumps(document, indent=2).encode())
         return cls(folder)
 
     @property
@@ -117,6 +125,12 @@ class Keys:
         self, name: str, role: Role, now: datetime, lifetime: timedelta = CLIENT_LIFETIME
     ) -> Entry:
         """Let `name` connect, and write the file to hand over."""
+        with self._alone():
+            self.check_new(name)
+            return self._add(name, role, now, lifetime)
+
+    def check_new(self, name: str) -> None:
+        """Raise BadInput where `name` cannot be one, Misuse where it has a key already."""
         if not NAME.fullmatch(name) or name == NOBODY:
             raise BadInput(
                 f"{name!r} is no name for a key; expected up to 41 letters, digits, '_', '-' and "
@@ -127,13 +141,18 @@ class Keys:
                 f"{name} has a key already, as {self._entries[name].person.role.value}; take it "
                 f"back first with: mrlab keys revoke {name}"
             )
+
+    def _add(self, name: str, role: Role, now: datetime, lifetime: timedelta) -> Entry:
         authority = self._authority(now)
         # With a mark of its own: who gets a name anew does not bring the old certificate back.
         person = Person(name, role, f"{name}.{secrets.token_hex(4)}")
         signed = certificates.client(authority, person.common_name, now, lifetime)
         entry = Entry(person, certificates.validity(signed.certificate)[1])
         password = _password() if self.login.by_password else ""
-        _write(self.client_file(name), self._client_document(entry, signed, password).encode())
+        self.client_file(name).parent.mkdir(mode=0o700, exist_ok=True)
+        private_files.write(
+            self.client_file(name), self._client_document(entry, signed, password).encode()
+        )
         if password:
             self._set_passwords({**self._passwords(), name: password})
         self._entries[name] = entry
@@ -142,32 +161,39 @@ class Keys:
 
     def revoke(self, name: str) -> Entry:
         """Take back what lets `name` connect; it counts once the bridge is started again."""
+        with self._alone():
+            self.check_known(name)
+            entry = self._entries.pop(name)
+            self._save()
+            passwords = self._passwords()
+            if passwords.pop(name, None) is not None:
+                self._set_passwords(passwords)
+            self.client_file(name).unlink(missing_ok=True)
+        return entry
+
+    def check_known(self, name: str) -> None:
+        """Raise BadInput where `name` has no key."""
         if name not in self._entries:
             known = ", ".join(sorted(self._entries)) or "nobody yet"
             raise BadInput(f"{name} has no key in {self.folder}; who has one: {known}")
-        entry = self._entries.pop(name)
-        self._save()
-        passwords = self._passwords()
-        if passwords.pop(name, None) is not None:
-            self._set_passwords(passwords)
-        self.client_file(name).unlink(missing_ok=True)
-        return entry
 
     def renew(self, hosts: list[str], now: datetime) -> datetime:
         """Make the lab's certificate anew, for `hosts` too; return when it expires."""
-        all_hosts = list(dict.fromkeys([*hosts, *self.hosts]))
-        authority = self._authority(now)
-        server = certificates.server(authority, "MR-Lab", all_hosts, now, SERVER_LIFETIME)
-        _write(self.folder / "server.pem", server.certificate_pem)
-        _write(self.folder / "server.key", server.key_pem)
-        self.hosts = all_hosts
-        self._save()
+        with self._alone():
+            all_hosts = list(dict.fromkeys([*hosts, *self.hosts]))
+            authority = self._authority(now)
+            server = certificates.server(authority, "MR-Lab", all_hosts, now, SERVER_LIFETIME)
+            private_files.write(self.folder / "server.pem", server.certificate_pem)
+            private_files.write(self.folder / "server.key", server.key_pem)
+            self.hosts = all_hosts
+            self._save()
         return certificates.validity(server.certificate)[1]
 
-    def server_expires(self) -> datetime:
-        """Return when the lab's certificate expires, UTC."""
-        found = certificates.read_certificate(self.folder / "server.pem")
-        return certificates.validity(found)[1]
+    def server_expires(self, *, router: bool = False) -> datetime:
+        """Return when the lab's certificate expires, UTC; router: or that for its router."""
+        names = ("server.pem", "lab.pem") if router else ("server.pem",)
+        found = (certificates.read_certificate(self.folder / name) for name in names)
+        return min(certificates.validity(each)[1] for each in found)
 
     def check(self, now: datetime) -> None:
         """Raise BadInput where a lab cannot be run with this folder, and say what to do."""
@@ -186,13 +212,12 @@ class Keys:
         except BadInput as error:
             raise BadInput(f"{error}{again}") from error
         for secret in ("server.key", "passwords.txt"):
-            _check_private(self.folder / secret)
+            private_files.check(self.folder / secret)
 
     def changed_at(self) -> tuple[int, ...]:
         """Return when what a lab reads was changed last, ns of each file; 0: it is gone."""
         files = ("people.json", "passwords.txt", "server.pem", "server.key", "ca.pem")
-        paths = (self.folder / name for name in files)
-        return tuple(path.stat().st_mtime_ns if path.exists() else 0 for path in paths)
+        return tuple(private_files.changed_at(self.folder / name) for name in files)
 
     def settings(self, rules: Rules, prefix: str, now: datetime) -> dict[str, Any]:
         """Return zenoh's settings, path -> value, of a lab that lets these people in."""
@@ -213,6 +238,75 @@ class Keys:
         found["access_control"] = access_control(rules, people, self.login, prefix)
         return found
 
+    def router(
+        self, rules: Rules, prefix: str, limits: Mapping[str, object], now: datetime
+    ) -> Path:
+        """Write what a router between the lab and its people needs; return the file.
+
+        It listens with the lab's certificate and knows who may do what. limits: further settings,
+        path -> value. Raises Misuse where people log in with passwords, which zenoh reads from a
+        file of its own.
+        """
+        if self.login.by_password:
+            raise Misuse(
+                f"the people of {self.folder} log in by {self.login.value}, and a router takes "
+                "certificates only; make a folder with: mrlab keys init --login certificate"
+            )
+        with self._alone():
+            self.check(now)
+            lab = f"lab.{secrets.token_hex(4)}"
+            if (self.folder / "lab.pem").exists():
+                # A lab that runs is known by this name.
+                lab = certificates.common_name(
+                    certificates.read_certificate(self.folder / "lab.pem")
+                )
+            made = certificates.client(self._authority(now), lab, now, SERVER_LIFETIME)
+            private_files.write(self.folder / "lab.pem", made.certificate_pem)
+            private_files.write(self.folder / "lab.key", made.key_pem)
+            tls = {
+                "root_ca_certificate_base64": "ca.pem",
+                "listen_certificate_base64": "server.pem",
+                "listen_private_key_base64": "server.key",
+            }
+            people = [entry.person for entry in self.entries if entry.expires > now]
+            settings: dict[str, Any] = {
+                "mode": "router",
+                "listen/endpoints": list(EVERYWHERE),
+                "transport/link/tls": {
+                    **{k: _base64((self.folder / v).read_bytes()) for k, v in tls.items()},
+                    "enable_mtls": True,
+                    "close_link_on_expiration": True,
+                },
+                "access_control": access_control(rules, people, self.login, prefix, lab),
+            }
+            document = nested({**settings, **limits, **healing(LEASE_BEYOND)})
+            private_files.write(
+                self.folder / "router.json5", json.dumps(document, indent=2).encode()
+            )
+        return self.folder / "router.json5"
+
+    def lab_settings(self, now: datetime) -> dict[str, Any]:
+        """Return zenoh's settings, path -> value, of a lab that connects to its router."""
+        ours = {name: self.folder / name for name in ("ca.pem", "lab.pem", "lab.key")}
+        try:
+            found = certificates.read(ours["lab.pem"], ours["lab.key"]).certificate
+            authority = certificates.read_certificate(ours["ca.pem"])
+            certificates.check(found, authority, now, f"the certificate {ours['lab.pem']}")
+        except BadInput as error:
+            raise BadInput(
+                f"{error}; make it, and the router's file, with: mrlab keys router --dir "
+                f"{self.folder}"
+            ) from error
+        private_files.check(ours["lab.key"])
+        tls = {
+            "root_ca_certificate": str(ours["ca.pem"]),
+            "connect_certificate": str(ours["lab.pem"]),
+            "connect_private_key": str(ours["lab.key"]),
+            "enable_mtls": True,
+            "verify_name_on_connect": True,
+        }
+        return {f"transport/link/tls/{name}": value for name, value in tls.items()}
+
     @property
     def _people_file(self) -> Path:
         return self.folder / "people.json"
@@ -222,13 +316,24 @@ class Keys:
         certificates.check(found.certificate, found.certificate, now, "the authority")
         return found
 
+    @contextmanager
+    def _alone(self) -> Iterator[None]:
+        """Keep other commands out, and know what those before have changed."""
+        handle = os.open(self.folder, os.O_RDONLY)
+        try:
+            fcntl.flock(handle, fcntl.LOCK_EX)
+            self._read()
+            yield
+        finally:
+            os.close(handle)
+
     def _save(self) -> None:
         document = {
             "login": self.login.value,
             "hosts": self.hosts,
             "people": [entry.record() for entry in self.entries],
         }
-        _write(self._people_file, json.dumps(document, indent=2).encode())
+        private_files.write(self._people_file, json.dumps(document, indent=2).encode())
 
     def _passwords(self) -> dict[str, str]:
         path = self.folder / "passwords.txt"
@@ -240,7 +345,7 @@ class Keys:
 
     def _set_passwords(self, passwords: dict[str, str]) -> None:
         lines = [f"{name}:{password}\n" for name, password in passwords.items()]
-        _write(self.folder / "passwords.txt", "".join(lines).encode())
+        private_files.write(self.folder / "passwords.txt", "".join(lines).encode())
 
     def _client_document(self, entry: Entry, signed: Signed, password: str) -> str:
         """Return a zenoh configuration that needs no other file."""
@@ -252,15 +357,16 @@ class Keys:
             tls["enable_mtls"] = True
             tls["connect_certificate_base64"] = _base64(signed.certificate_pem)
             tls["connect_private_key_base64"] = _base64(signed.key_pem)
-        transport: dict[str, Any] = {"link": {"tls": tls}}
-        if password:
-            transport["auth"] = {"usrpwd": {"user": entry.person.name, "password": password}}
-        document = {
+        settings: dict[str, Any] = {
             "mode": "client",
-            "connect": {"endpoints": [_endpoint(host) for host in self._reached()]},
-            "scouting": {"multicast": {"enabled": False}},
-            "transport": transport,
+            "connect/endpoints": [_endpoint(host) for host in self._reached()],
+            "scouting/multicast/enabled": False,
+            "transport/link/tls": tls,
         }
+        if password:
+            login = {"user": entry.person.name, "password": password}
+            settings["transport/auth/usrpwd"] = login
+        document = nested(settings | healing(LEASE_BEYOND))
         return (
             f"// {entry.person.name} ({entry.person.role.value}), until "
             f"{entry.expires:%d %B %Y}. Whoever has this file is {entry.person.name}.\n"
@@ -292,26 +398,3 @@ def _password() -> str:
 
 def _base64(data: bytes) -> str:
     return base64.b64encode(data).decode()
-
-
-def _write(path: Path, data: bytes) -> None:
-    """Write a file that only its owner can read; a reader sees all of it or the one before."""
-    new = path.with_name(f".{path.name}.new")
-    new.unlink(missing_ok=True)
-    with open(os.open(new, os.O_WRONLY | os.O_CREAT | os.O_EXCL, 0o600), "wb") as file:
-        file.write(data)
-    new.replace(path)
-
-
-def _check_private(path: Path) -> None:
-    try:
-        mode = stat.S_IMODE(path.stat().st_mode)
-    except FileNotFoundError as error:
-        raise BadInput(
-            f"there is no file {path}; put back a copy, or make new keys with mrlab keys init"
-        ) from error
-    if mode & 0o077:
-        raise BadInput(
-            f"{path} can be read by others on this machine (mode {mode:o}); take that away with: "
-            f"chmod 600 {path}"
-        )

@@ -10,26 +10,29 @@ from typing import Any, Protocol
 import zenoh
 from zenoh import ext
 
-from mrlab_ros.core.bridge_rules import Congestion, Reliability, TopicRule, is_local
+from mrlab_ros.core.bridge_rules import Congestion, Reliability, TopicRule
 from mrlab_ros.core.errors import BadInput
+from mrlab_ros.core.links import LEASE_BEYOND, LEASE_WITHIN, healing, is_local
 
 LOOPBACK = ("tcp/127.0.0.1:7447",)
 # A put waits so long, us, for a full link before its message is lost, and so long before the
 # link's dead client is cut off. zenoh's own are 1,000 and 5,000,000.
 WAIT_BEFORE_DROP = 0
 WAIT_BEFORE_CLOSE = 1_000_000
-# A link that says nothing for so long, s, is given up. Beyond this machine soon, so that what is
-# broken heals within 2 s; within it a link breaks only by its end's death, which is told at once,
-# and a stall of the machine must not look like one. 10 s are zenoh's own.
-LEASE_BEYOND = 1.5
-LEASE_WITHIN = 10.0
-# When a link is tried again, ms, and how long a try may take: beyond a second TCP's own repeats
-# grow rare. zenoh's own are 1 to 4 s, and 10 s.
-OPEN_TIMEOUT = 2000
-RETRY = {"period_init_ms": 250, "period_max_ms": 500, "period_increase_factor": 1.5}
 # Bytes that a link's socket holds before it counts as full. Linux itself would let it grow to
 # megabytes, and who reads slowly would see motion of many seconds ago.
 SEND_BUFFER = 131_072
+# What config/zenoh/lab.json5 sets.
+LIMITS = (
+    "scouting/multicast/enabled",
+    "scouting/gossip/enabled",
+    "adminspace/enabled",
+    "transport/unicast/accept_timeout",
+    "transport/unicast/accept_pending",
+    "transport/unicast/max_sessions",
+    "transport/link/protocols",
+    "transport/link/rx/max_message_size",
+)
 # Where zenoh tells of TLS and of people whom access control does not know, and of passwords.
 LOGINS = "error,zenoh_link_tls=debug,zenoh::net::routing::interceptor::access_control=info"
 PASSWORDS = "zenoh_transport::unicast::establishment::accept=debug"
@@ -139,12 +142,9 @@ def configuration(
         if not lease:
             within = all(is_local(endpoint) for endpoint in (*listen, *connect))
             lease = LEASE_WITHIN if within else LEASE_BEYOND
-        config.insert_json5("transport/link/tx/lease", json.dumps(round(1000 * lease)))
-        config.insert_json5("transport/unicast/open_timeout", json.dumps(OPEN_TIMEOUT))
         config.insert_json5("transport/link/tcp/so_sndbuf", json.dumps(SEND_BUFFER))
         config.insert_json5("transport/link/tls/so_sndbuf", json.dumps(SEND_BUFFER))
-        config.insert_json5("connect/retry", json.dumps(RETRY))
-        for path, value in (security or {}).items():
+        for path, value in (healing(lease) | dict(security or {})).items():
             config.insert_json5(path, json.dumps(value))
     except (zenoh.ZError, OSError) as error:
         raise BadInput(
@@ -152,6 +152,12 @@ def configuration(
             f"{_first_line(error)}; see docs/bridge.md for examples"
         ) from error
     return config
+
+
+def limits(file: Path) -> dict[str, object]:
+    """Return what config/zenoh/lab.json5 sets, path -> value."""
+    config = zenoh.Config.from_file(str(file))
+    return {path: json.loads(config.get_json(path)) for path in LIMITS}
 
 
 def log_logins(*, passwords: bool) -> None:
@@ -219,8 +225,11 @@ class _Publisher:
         self._publisher.put(payload, attachment=attachment)
 
     def heard(self) -> bool:
-        # Its annotation says bool, but it is an object that is always true.
-        status: Any = self._publisher.matching_status
+        try:
+            # Its annotation says bool, but it is an object that is always true.
+            status: Any = self._publisher.matching_status
+        except zenoh.ZError:  # undeclared meanwhile
+            return False
         return bool(status.matching)
 
     def undeclare(self) -> None:

@@ -5,8 +5,8 @@ from __future__ import annotations
 import threading
 import time
 
+from mrlab_ros.bridging.stamped import OnMessage
 from mrlab_ros.core.bridge_rules import SECOND, RateCap
-from mrlab_ros.stamped import OnMessage
 
 # A message's CDR and when it was published, ns since 1970.
 Message = tuple[bytes, int]

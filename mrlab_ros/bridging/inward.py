@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-import threading
 from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
 
+from rclpy.exceptions import InvalidHandle
 from rclpy.publisher import Publisher
 from rclpy.serialization import deserialize_message
 
@@ -32,7 +32,6 @@ class Inward:
 
     def __init__(self, crossing: Crossing) -> None:
         self._crossing = crossing
-        self._lock = threading.Lock()
         self._routes: dict[str, InRoute] = {}
 
     def keep(self, wanted: dict[str, tuple[TopicRule, str]]) -> None:
@@ -69,8 +68,7 @@ class Inward:
         route = self._routes.pop(name)
         route.token.undeclare()
         route.subscriber.undeclare()
-        with self._lock:
-            self._crossing.streams.destroy_publisher(route.publisher)
+        self._crossing.streams.destroy_publisher(route.publisher)
 
     def _receiver(
         self, key: str, kind: Any, publisher: Publisher, count: Count
@@ -81,13 +79,15 @@ class Inward:
             except Exception:
                 count.refused += 1
                 self._crossing.complain(
-                    f"a client sent {len(payload)} bytes on {key} that are not CDR of "
-                    f"{count.type}; they were dropped"
+                    f"a client sent something on {key} that is not CDR of {count.type}; such "
+                    "messages are dropped"
                 )
+                return
+            try:
+                publisher.publish(payload)
+            except InvalidHandle:  # the topic has just gone
                 return
             count.messages += 1
             count.bytes += len(payload)
-            with self._lock:
-                publisher.publish(payload)
 
         return receive

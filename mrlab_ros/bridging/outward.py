@@ -6,20 +6,20 @@ so that a client that does not read holds up nobody's motion.
 
 from __future__ import annotations
 
-import queue
-import threading
 import time
 from dataclasses import dataclass
+from functools import partial
 
 from rclpy.subscription import Subscription
 
 from mrlab_ros.adapters.zenoh_session import Declared, Publisher
 from mrlab_ros.bridging.caps import Caps
 from mrlab_ros.bridging.crossing import Count, Crossing, profile
+from mrlab_ros.bridging.sender import Sender
+from mrlab_ros.bridging.stamped import OnMessage, Stamped
 from mrlab_ros.core import bridge_rules
 from mrlab_ros.core.bridge_rules import Congestion, Direction, TopicQos, TopicRule
 from mrlab_ros.core.latency import Ledger, attachment
-from mrlab_ros.stamped import OnMessage, Stamped
 
 
 @dataclass
@@ -42,18 +42,15 @@ class Outward:
         self._ledger = ledger
         self._caps = Caps()
         self._routes: dict[str, OutRoute] = {}
-        self._must_arrive: queue.SimpleQueue[tuple[OnMessage, bytes, int] | None] = (
-            queue.SimpleQueue()
-        )
-        self._sender = threading.Thread(target=self._send, name="bridge_sender", daemon=True)
-        self._sender.start()
+        self._must_arrive = Sender("bridge_sender", crossing.complain)
 
     def stop(self) -> None:
-        """Close all routes and end the sender once it has put what waits."""
-        self.keep({})
+        """Take nothing more, put what waits, close all routes."""
+        for route in self._routes.values():
+            self._crossing.streams.destroy_subscription(route.subscription)
         self._caps.stop()
-        self._must_arrive.put(None)
-        self._sender.join()
+        self._must_arrive.stop()
+        self.keep({})
 
     def keep(self, wanted: dict[str, tuple[TopicRule, str]], thorough: bool = True) -> None:
         """Make the routes those of `wanted`: name -> rule and type.
@@ -136,10 +133,5 @@ class Outward:
         return emit
 
     def _queued(self, emit: OnMessage) -> OnMessage:
-        must_arrive = self._must_arrive
-        return lambda payload, published_ns: must_arrive.put((emit, payload, published_ns))
-
-    def _send(self) -> None:
-        while (item := self._must_arrive.get()) is not None:
-            emit, payload, published_ns = item
-            emit(payload, published_ns)
+        send = self._must_arrive.send
+        return lambda payload, published: send(partial(emit, payload, published), len(payload))

@@ -1,4 +1,8 @@
-"""Services of the graph that zenoh may call, each as a queryable."""
+"""Services of the graph that zenoh may call, each as a queryable.
+
+A thread of its own answers, so that who takes no answers holds up neither the graph nor the look
+at it.
+"""
 
 from __future__ import annotations
 
@@ -16,6 +20,7 @@ from rclpy.task import Future
 
 from mrlab_ros.adapters.zenoh_session import Declared, Query
 from mrlab_ros.bridging.crossing import Count, Crossing
+from mrlab_ros.bridging.sender import Sender
 from mrlab_ros.core import bridge_rules
 from mrlab_ros.core.bridge_rules import ServiceRule
 
@@ -52,8 +57,15 @@ class Services:
 
     def __init__(self, crossing: Crossing) -> None:
         self._crossing = crossing
-        self._lock = threading.Lock()
+        # Taken again where an answer is there before anybody waits for it.
+        self._lock = threading.RLock()
         self._routes: dict[str, ServiceRoute] = {}
+        self._answers = Sender("bridge_answers", crossing.complain)
+
+    def stop(self) -> None:
+        """Close all routes and end once what waits is answered."""
+        self.keep({})
+        self._answers.stop()
 
     def keep(self, wanted: dict[str, tuple[ServiceRule, str]]) -> None:
         """Make the routes those of `wanted`: name -> rule and type."""
@@ -89,7 +101,7 @@ class Services:
             route.waiting.clear()
             self._crossing.streams.destroy_client(route.client)
         for call in calls:
-            refuse(
+            self._refuse(
                 route, call.query, f"the service {name} has gone; see what runs, then call again"
             )
 
@@ -101,11 +113,11 @@ class Services:
             if query.key != key:
                 # Who looks around with ** must not call everything there is.
                 words = f"the service {route.name} is called by its key {key}, not as {query.key}"
-                refuse(route, query, words)
+                self._refuse(route, query, words)
                 return
             request, why_not = read(query.payload)
             if why_not:
-                refuse(route, query, why_not)
+                self._refuse(route, query, why_not)
                 return
             timeout = round(route.rule.timeout * bridge_rules.SECOND)
             with self._lock:
@@ -114,7 +126,7 @@ class Services:
                     route.waiting.append(Call(query, request, time.monotonic_ns() + timeout))
                     self._send(route)
             if why_not:
-                refuse(route, query, why_not)
+                self._refuse(route, query, why_not)
                 return
             route.count.messages += 1
             route.count.bytes += len(query.payload or b"")
@@ -148,7 +160,7 @@ class Services:
         if waited_for and response is not None:
             payload = serialize_message(response)
             route.count.bytes += len(payload)
-            call.query.reply(payload)
+            self._answers.send(partial(call.query.reply, payload), len(payload))
 
     def give_up(self) -> None:
         """Refuse the questions whose time is over."""
@@ -162,18 +174,17 @@ class Services:
             for call in late:
                 if call.future is not None:
                     route.client.remove_pending_request(call.future)
-                refuse(
+                self._refuse(
                     route,
                     call.query,
                     f"the service {route.name} did not answer within {route.rule.timeout:g} s; "
                     "see whether its node runs, then call again",
                 )
 
-
-def refuse(route: ServiceRoute, query: Query, reason: str) -> None:
-    """Answer a query with the reason why it has no other answer."""
-    route.count.refused += 1
-    query.refuse(reason)
+    def _refuse(self, route: ServiceRoute, query: Query, reason: str) -> None:
+        """Answer a query with the reason why it has no other answer."""
+        route.count.refused += 1
+        self._answers.send(partial(query.refuse, reason), len(reason))
 
 
 def _reader(route: ServiceRoute) -> Callable[[bytes | None], tuple[Any, str]]:

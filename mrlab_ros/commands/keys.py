@@ -1,4 +1,4 @@
-"""`mrlab keys`: who may connect to a lab: init, add, list, revoke, renew, config."""
+"""`mrlab keys`: who may connect to a lab: init, add, list, revoke, renew, config, router."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ import socket
 import sys
 from datetime import timedelta
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import TYPE_CHECKING, Annotated
 
 import typer
 
@@ -16,7 +16,8 @@ from mrlab_ros.core.bridge_rules import Role
 from mrlab_ros.core.errors import BadInput
 
 if TYPE_CHECKING:
-    from mrlab_ros.adapters.keys import Entry
+    from mrlab_ros.adapters.keys import Entry, Keys
+    from mrlab_ros.core.bridge_rules import Rules
 
 app = typer.Typer(
     no_args_is_help=True, help="Who may connect to a lab over the network: certificates, roles."
@@ -29,6 +30,10 @@ Hosts = Annotated[
     typer.Option(
         "--host", help="Name or address by which clients reach this machine; repeatable."
     ),
+]
+Prefix = Annotated[str, typer.Option(help="What the lab's keys begin with.")]
+AllowList = Annotated[
+    Path | None, typer.Option(help="The bridge's YAML file, if not the shipped one.")
 ]
 RUNNING = (
     "A lab that runs under mrlab up takes this over within seconds: its bridge starts again, and "
@@ -97,7 +102,9 @@ def add(
     from mrlab_ros.adapters.keys import Keys, now
 
     keys = Keys(folder)
-    added = [keys.add(name, role, now(), timedelta(days=days)) for name in names]
+    for name in names:
+        keys.check_new(name)
+    added = [keys.add(name, role, now(), timedelta(days=days)) for name in dict.fromkeys(names)]
     if as_json:
         show([{**e.record(), "file": str(keys.client_file(e.person.name))} for e in added])
         return
@@ -106,7 +113,7 @@ def add(
         print(f"{name}: {role.value} until {entry.expires:%d %B %Y}; {keys.client_file(name)}")
     print(
         "\nHand each file over on a way that you trust, then delete it here: who has it is that "
-        "person.\n" + RUNNING
+        "person.\n" + who_has_it(keys)
     )
 
 
@@ -152,13 +159,15 @@ def revoke(
     from mrlab_ros.adapters.keys import Keys
 
     keys = Keys(folder)
-    revoked = [keys.revoke(name) for name in names]
+    for name in names:
+        keys.check_known(name)
+    revoked = [keys.revoke(name) for name in dict.fromkeys(names)]
     if as_json:
         show([entry.record() for entry in revoked])
         return
     for entry in revoked:
         print(f"{entry.person.name}'s key is taken back")
-    print(RUNNING)
+    print(who_has_it(keys))
 
 
 @app.command()
@@ -175,44 +184,70 @@ def renew(folder: Folder = Path("keys"), host: Hosts = None, as_json: AsJson = F
         show({"hosts": keys.hosts, "expires": expires.isoformat()})
         return
     print(f"the lab's certificate is for {', '.join(keys.hosts)}, until {expires:%d %B %Y}")
-    print(RUNNING)
+    print(who_has_it(keys))
 
 
 @app.command()
 def config(
-    folder: Folder = Path("keys"),
-    prefix: Annotated[str, typer.Option(help="What the lab's keys begin with.")] = "",
-    allow_list: Annotated[
-        Path | None, typer.Option(help="The bridge's YAML file, if not the shipped one.")
-    ] = None,
+    folder: Folder = Path("keys"), prefix: Prefix = "", allow_list: AllowList = None
 ) -> None:
     """Print what the lab tells zenoh, as JSON: to read, or for zenoh's own bridge."""
+    from mrlab_ros.adapters.keys import EVERYWHERE, Keys, now
+    from mrlab_ros.core.bridge_rules import checked_prefix
+    from mrlab_ros.core.links import nested
+
+    rules = rules_of(allow_list)
+    keys = Keys(folder)
+    keys.check(now())
+    settings = keys.settings(rules, checked_prefix(prefix), now())
+    show(nested({"listen/endpoints": list(EVERYWHERE)} | settings))
+
+
+@app.command()
+def router(
+    folder: Folder = Path("keys"), prefix: Prefix = "", allow_list: AllowList = None
+) -> None:
+    """Write the file of a zenoh router on another machine that lets people in for the lab.
+
+    The names under which people reach that machine must be the lab's: mrlab keys init --host, or
+    renew --host.
+    """
+    from mrlab_ros import share
+    from mrlab_ros.adapters.keys import Keys, now
+    from mrlab_ros.adapters.zenoh_session import limits
+    from mrlab_ros.core.bridge_rules import checked_prefix
+
+    keys = Keys(folder)
+    shipped = limits(share.directory() / "config" / "zenoh" / "lab.json5")
+    file = keys.router(rules_of(allow_list), checked_prefix(prefix), shipped, now())
+    print(
+        f"{file} is all that the router needs. Take it there on a way that you trust, run it with "
+        "zenohd -c router.json5, and have the lab connect to it:\n"
+        f"  mrlab up --keys {folder} --zenoh-connect tls/{keys.hosts[0]}:7447\n"
+        "Who is added or taken back later counts at the router once it has a new file and is "
+        "started again. Whoever has this file can pass for the lab."
+    )
+
+
+def who_has_it(keys: Keys) -> str:
+    """Say when a change of the keys counts."""
+    if (keys.folder / "router.json5").exists():
+        return f"{RUNNING} A router needs a new file: mrlab keys router --dir {keys.folder}"
+    return RUNNING
+
+
+def rules_of(allow_list: Path | None) -> Rules:
+    """Read an allow-list, the shipped one if none is named; raise BadInput where it is none."""
     import yaml
 
     from mrlab_ros import share
-    from mrlab_ros.adapters.keys import EVERYWHERE, Keys, now
     from mrlab_ros.core import bridge_rules
 
     path = allow_list or share.directory() / "config" / "bridge.yaml"
     try:
-        rules = bridge_rules.parse(yaml.safe_load(path.read_text()))
+        return bridge_rules.parse(yaml.safe_load(path.read_text()))
     except (OSError, yaml.YAMLError) as error:
         raise BadInput(f"the allow-list {path} cannot be read: {error}") from error
-    keys = Keys(folder)
-    keys.check(now())
-    document: dict[str, Any] = {}
-    put(document, "listen/endpoints", list(EVERYWHERE))
-    for name, value in keys.settings(rules, bridge_rules.checked_prefix(prefix), now()).items():
-        put(document, name, value)
-    show(document)
-
-
-def put(document: dict[str, Any], path: str, value: object) -> None:
-    """Put a value into nested dictionaries at a path such as transport/link/tls."""
-    *folders, last = path.split("/")
-    for part in folders:
-        document = document.setdefault(part, {})
-    document[last] = value
 
 
 def this_machine() -> list[str]:

@@ -76,10 +76,10 @@ class View:
         self._systems: Watch[Any] = graph.watch(msg.RobotSystems, "/systems")
         self._recorder: Watch[Any] = graph.watch(msg.RecorderState, "/recorder/state")
         self._followers: dict[str, Follower] = {}
-        # The newest report of each observer.
+        # The newest report of each observer, by what it is called here.
         self._latencies: dict[str, Any] = {}
         graph.subscribe(msg.Latency, "/latency", self._hear_of_latency, qos.LATCHED)
-        graph.subscribe(msg.Latency, "/latency/clients", self._hear_of_latency, qos.LATCHED_EVENTS)
+        graph.subscribe(msg.Latency, "/latency/clients", self._hear_of_client, qos.LATCHED_EVENTS)
 
     def settle(self) -> None:
         """Wait until all that is announced has been heard, or SETTLE_TIMEOUT is over."""
@@ -95,12 +95,19 @@ class View:
     def _hear_of_latency(self, report: Any) -> None:
         self._latencies[report.observer] = report
 
-    def latencies(self) -> list[Any]:
-        """Return the reports that are not out of date, the bridge's own first."""
-        oldest = time.time() - LATENCY_AGE
-        reports = list(self._latencies.values())
-        fresh = [r for r in reports if r.header.stamp.sec + 1e-9 * r.header.stamp.nanosec > oldest]
-        return sorted(fresh, key=lambda report: (report.observer != "bridge", report.observer))
+    def _hear_of_client(self, report: Any) -> None:
+        # Whoever may connect sends these: a name must neither pass for the bridge's nor tell the
+        # terminal what to do.
+        name = "".join(c if c.isprintable() else "?" for c in report.observer)
+        self._latencies[f"client {name}"] = report
+
+    def latencies(self) -> list[tuple[str, Any]]:
+        """Return whose reports there are and the reports, the bridge's own first; no old ones."""
+        for name, report in list(self._latencies.items()):
+            stamp = report.header.stamp
+            if abs(time.time() - stamp.sec - 1e-9 * stamp.nanosec) > LATENCY_AGE:
+                self._latencies.pop(name, None)
+        return sorted(self._latencies.items(), key=lambda entry: entry[0])
 
     def robots(self) -> list[tuple[Any, Follower]]:
         """Return the robots of the scene, each with what is known of its playback."""
@@ -139,7 +146,7 @@ class View:
                 }
                 for s in (self._systems.value.systems if self._systems.value else ())
             ],
-            "latency": [_latency_facts(report) for report in self.latencies()],
+            "latency": [_latency_facts(name, report) for name, report in self.latencies()],
             "recorder": _recorder_facts(self._recorder.value),
         }
 
@@ -258,9 +265,9 @@ def _recorder_line(recorder: dict[str, Any] | None) -> str:
     )
 
 
-def _latency_facts(report: Any) -> dict[str, Any]:
+def _latency_facts(observer: str, report: Any) -> dict[str, Any]:
     return {
-        "observer": report.observer,
+        "observer": observer,
         "window": report.window,
         "clock_error": report.clock_error,
         "hops": [

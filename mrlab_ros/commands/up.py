@@ -19,6 +19,7 @@ import typer
 from mrlab_ros import physics_support
 from mrlab_ros.commands.up_keys import (
     checked_listen,
+    checked_router,
     follow_keys,
     keys_changed_at,
     tell_when_keys_expire,
@@ -79,6 +80,13 @@ def up(
             "with --keys tls/0.0.0.0:7447."
         ),
     ] = "",
+    zenoh_connect: Annotated[
+        str,
+        typer.Option(
+            help="With --keys: a router of your own (mrlab keys router) that lets people in, in "
+            "place of the bridge itself, such as tls/router.example.org:7447."
+        ),
+    ] = "",
     insecure: Annotated[
         bool,
         typer.Option(
@@ -97,7 +105,11 @@ def up(
     on the domain of ROS_DOMAIN_ID.
     """
     models = checked_robots(robots)
-    listen = checked_listen(zenoh_listen, keys, insecure) if bridge else None
+    listen = None
+    if bridge and zenoh_connect:
+        listen = checked_router(zenoh_connect, zenoh_listen, keys, insecure)
+    elif bridge:
+        listen = checked_listen(zenoh_listen, keys, insecure)
     with_physics, no_physics = physics_support.wanted(physics)
     stay_on_this_machine()
     domain = domain_id()
@@ -110,19 +122,20 @@ def up(
             listen=listen,
             keys=keys,
             insecure=insecure,
+            router=bool(zenoh_connect),
             physics=with_physics,
             state_dir=folder,
         )
+        seen = keys_changed_at(keys) if keys is not None and bridge else ()
         run_file.claim(state_dir=str(folder), zenoh=listen)
         begin = time.monotonic()
-        seen = keys_changed_at(keys) if keys is not None and bridge else ()
         try:
             with Supervisor(specs, say, run_file.write) as supervisor:
                 say(SELF, f"starts the lab on ROS domain {domain}; Ctrl-C stops it")
                 if listen is not None and insecure:
                     say(SELF, f"--insecure: whoever reaches {listen} sees and moves everything")
                 if keys is not None and bridge:
-                    tell_when_keys_expire(keys, say)
+                    tell_when_keys_expire(keys, say, router=bool(zenoh_connect))
                 if no_physics:
                     say(SELF, no_physics)
                 missing = wait_until_complete(stop, len(models), bridge, with_physics)
@@ -132,7 +145,7 @@ def up(
                     took = time.monotonic() - begin
                     zenoh = f"; zenoh clients connect to {listen}" if bridge else ""
                     say(SELF, f"the lab is ready after {took:.1f} s{zenoh}")
-                if keys is None or not bridge:
+                if keys is None or not bridge or zenoh_connect:
                     stop.wait()
                 else:
                     follow_keys(keys, seen, stop, say, lambda: supervisor.restart("bridge"))
@@ -197,8 +210,13 @@ def lab_processes(
     physics: bool = False,
     keys: Path | None = None,
     insecure: bool = False,
+    router: bool = False,
 ) -> list[ProcessSpec]:
-    """Return the processes of a lab; `listen` is None for one without a bridge."""
+    """Return the processes of a lab.
+
+    listen: where people connect, None without a bridge. router: there is a router, to which the
+    bridge connects, too.
+    """
 
     def host(name: str, nodes: str, *parameters: str) -> ProcessSpec:
         options = [o for p in (f"state_dir:={state_dir}", *parameters) for o in ("-p", p)]
@@ -221,11 +239,13 @@ def lab_processes(
     if physics:
         specs.append(host("physics", "physics"))
     if listen is not None:
+        there = json.dumps([listen])
+        where = [f"connect:={there}", "mode:=client"] if router else [f"listen:={there}"]
         security = [f"insecure:={json.dumps(insecure)}"]
         if keys is not None:
             # A ROS parameter that looks like a number would be one.
             security.append(f"keys:={json.dumps(str(keys.expanduser().resolve()))}")
-        specs.append(host("bridge", "bridge", f"listen:={json.dumps([listen])}", *security))
+        specs.append(host("bridge", "bridge", *where, *security))
     return specs
 
 

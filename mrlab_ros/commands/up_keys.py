@@ -19,7 +19,7 @@ EXPIRES_SOON = 30
 def checked_listen(chosen: str, keys: Path | None, insecure: bool) -> str:
     """Return where the bridge listens; raise BadInput where it may not, or keys are unusable."""
     from mrlab_ros.adapters.keys import EVERYWHERE, Keys, now
-    from mrlab_ros.core.bridge_rules import check_endpoints
+    from mrlab_ros.core.links import check_endpoints
 
     if insecure and keys is not None:
         raise BadInput("--keys and --insecure exclude each other; leave one of them out")
@@ -30,16 +30,36 @@ def checked_listen(chosen: str, keys: Path | None, insecure: bool) -> str:
     return listen
 
 
-def tell_when_keys_expire(folder: Path, say: Callable[[str, str], None]) -> None:
+def checked_router(router: str, listen: str, keys: Path | None, insecure: bool) -> str:
+    """Return the router to connect to; raise BadInput where the lab may not, or has no key."""
+    from mrlab_ros.adapters.keys import Keys, now
+    from mrlab_ros.core.links import check_router
+
+    if keys is None or listen or insecure:
+        raise BadInput(
+            f"--zenoh-connect {router} is for a lab with keys, which its people reach at that "
+            "router alone; give --keys FOLDER, and leave --zenoh-listen and --insecure out"
+        )
+    check_router("client", (), (router,))
+    folder = Keys(keys)
+    folder.check(now())
+    folder.lab_settings(now())
+    return router
+
+
+def tell_when_keys_expire(
+    folder: Path, say: Callable[[str, str], None], *, router: bool = False
+) -> None:
     """Say so where the lab's certificate expires soon: nobody could connect from then on."""
     from mrlab_ros.adapters.keys import Keys, now
 
-    left = (Keys(folder).server_expires() - now()).days
+    left = (Keys(folder).server_expires(router=router) - now()).days
+    then = f", then mrlab keys router --dir {folder}" if router else ""
     if left < EXPIRES_SOON:
         say(
             SELF,
             f"the lab's certificate expires in {left} days; make a new one with: mrlab keys renew "
-            f"--dir {folder}",
+            f"--dir {folder}{then}",
         )
 
 

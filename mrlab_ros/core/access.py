@@ -17,6 +17,20 @@ from mrlab_ros.core.bridge_rules import Direction, Role, Rules, key_of
 
 TOKENS = "@/*/@ros2_lv/**"
 LINKS = ("tls", "quic")
+# All kinds of messages that zenoh's access control knows.
+MESSAGES = (
+    "put",
+    "delete",
+    "declare_subscriber",
+    "query",
+    "declare_queryable",
+    "reply",
+    "liveliness_token",
+    "declare_liveliness_subscriber",
+    "liveliness_query",
+)
+# The lab among a router's subjects; no person's name has a space.
+LAB = "the lab"
 
 
 class Login(Enum):
@@ -45,9 +59,12 @@ class Person:
 
 
 def access_control(
-    rules: Rules, people: Iterable[Person], login: Login, prefix: str = ""
+    rules: Rules, people: Iterable[Person], login: Login, prefix: str = "", lab: str = ""
 ) -> dict[str, Any]:
-    """Return zenoh's `access_control` for a lab that carries what `rules` name below `prefix`."""
+    """Return zenoh's `access_control` for a lab that carries what `rules` name below `prefix`.
+
+    lab: for a router, the common name of the certificate with which the lab itself connects.
+    """
     people = list(people)
     subjects, policies = [], []
     for person in people:
@@ -63,10 +80,17 @@ def access_control(
         if names:
             ids = [entry["id"] for entry in entries]
             policies.append({"id": role.value, "rules": ids, "subjects": names})
+    found = [entry for entries in permitted.values() for entry in entries]
+    if lab:
+        found.append(_lab_rule(prefix))
+        subjects.append(
+            {"id": LAB, "link_protocols": list(LINKS), "cert_common_names": [lab]},
+        )
+        policies.append({"id": LAB, "rules": [_lab_rule(prefix)["id"]], "subjects": [LAB]})
     return {
         "enabled": True,
         "default_permission": "deny",
-        "rules": [entry for entries in permitted.values() for entry in entries],
+        "rules": found,
         "subjects": subjects,
         "policies": policies,
     }
@@ -74,9 +98,7 @@ def access_control(
 
 def role_rules(rules: Rules, role: Role, prefix: str = "") -> list[dict[str, Any]]:
     """Return all of zenoh's rules for the people of one role."""
-    everything, history, statistics = (
-        key_of(name, prefix) for name in ("/**", "/**/@adv/**", "/@mrlab/**")
-    )
+    everything, history, statistics = _all_keys(prefix)
     # Topics come last: a topic's name must not open a service that has the same one.
     questions = [_Entry(rule.name, rule.type, role.may(rule.role)) for rule in rules.services]
     messages = []
@@ -122,6 +144,25 @@ def role_rules(rules: Rules, role: Role, prefix: str = "") -> list[dict[str, Any
     rule("is_watched", "egress", ["declare_liveliness_subscriber"], histories)
     rule("answers", "ingress", ["reply"], [*sends, *histories])
     return found
+
+
+def _all_keys(prefix: str) -> list[str]:
+    """Return the keys of messages and services, of histories, and of the bridge itself.
+
+    A wildcard includes no part that begins with an @.
+    """
+    return [key_of(name, prefix) for name in ("/**", "/**/@adv/**", "/@mrlab/**")]
+
+
+def _lab_rule(prefix: str) -> dict[str, Any]:
+    """Return the rule of the lab at a router, which may do everything below its prefix."""
+    return {
+        "id": "lab_does_everything",
+        "permission": "allow",
+        "flows": ["ingress", "egress"],
+        "messages": list(MESSAGES),
+        "key_exprs": [*_all_keys(prefix), TOKENS],
+    }
 
 
 @dataclass(frozen=True)

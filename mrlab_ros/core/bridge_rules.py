@@ -243,47 +243,6 @@ def key_of(name: str, prefix: str = "") -> str:
     return f"{prefix}{name}" if prefix else name[1:]
 
 
-def is_local(endpoint: str) -> bool:
-    """Return whether an endpoint such as tcp/127.0.0.1:7447 is within this machine."""
-    protocol, _, address = endpoint.partition("/")
-    host = address.rsplit(":", 1)[0]
-    local = host in ("localhost", "[::1]") or host.startswith("127.")
-    return local or protocol == "unixsock-stream"
-
-
-def check_endpoints(listen: tuple[str, ...], insecure: bool, keys: bool = False) -> None:
-    """Raise BadInput where an endpoint is open to other machines without encryption.
-
-    insecure: that is wanted. keys: the lab has a keys folder, and so listens with TLS alone.
-    """
-    for endpoint in listen:
-        if not re.fullmatch(r"[a-z][a-z-]*/.+", endpoint):
-            raise BadInput(
-                f"the bridge is to listen on {endpoint!r}; expected protocol/address:port, such "
-                "as tcp/127.0.0.1:7447"
-            )
-        protocol, address = endpoint.split("/", 1)
-        encrypted = protocol in ("tls", "quic")
-        if keys and not encrypted:
-            raise BadInput(
-                f"the lab has keys, and the bridge is to listen on {endpoint}, where nobody can "
-                f"show one; listen on tls/{address}, or leave the keys out"
-            )
-        if encrypted and not keys:
-            raise BadInput(
-                f"the bridge is to listen on {endpoint}, and for {protocol} it needs keys; make "
-                "them with mrlab keys init and name the folder: mrlab up --keys FOLDER, or the "
-                "parameter keys"
-            )
-        if not (is_local(endpoint) or encrypted or insecure):
-            raise BadInput(
-                f"the bridge is to listen on {endpoint}, where anybody in the network could watch "
-                "and move the robots; give the lab keys (mrlab keys init, then mrlab up --keys "
-                "FOLDER), listen on tcp/127.0.0.1, or accept it with --insecure (the parameter "
-                "insecure)"
-            )
-
-
 @dataclass(frozen=True)
 class TopicQos:
     """What a liveliness token says of a topic's quality of service."""

@@ -135,8 +135,10 @@ class Ledger:
 
 
 def _delays(topic: str, batches: Sequence[_Batch]) -> Delays:
-    values = np.concatenate([batch.kept for batch in batches])
-    weights = np.repeat([batch.stride for batch in batches], [len(b.kept) for b in batches])
+    # Copied first: another thread may still be adding.
+    kept = [tuple(batch.kept) for batch in batches]
+    values = np.concatenate(kept)
+    weights = np.repeat([batch.stride for batch in batches], [len(each) for each in kept])
     order = np.argsort(values)
     reached = np.cumsum(weights[order])
     ranks = np.searchsorted(reached, np.array([0.5, 0.95]) * reached[-1])

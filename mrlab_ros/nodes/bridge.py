@@ -32,6 +32,7 @@ from mrlab_ros.core import bridge_rules
 from mrlab_ros.core.bridge_rules import Direction, ServiceRule, TopicRule
 from mrlab_ros.core.errors import BadInput
 from mrlab_ros.core.latency import Ledger, clock_answer
+from mrlab_ros.core.links import check_endpoints, check_router
 from mrlab_ros.spinning import SpunNode
 
 STATISTICS = "/@mrlab/bridge/statistics"
@@ -100,9 +101,9 @@ class BridgeNode(Node):
         file = self._setting("zenoh_config", "")
         folder = self._setting("keys", "")
         mode = self._setting("mode", "peer")
-        listen = self._setting("listen", list(EVERYWHERE if folder else LOOPBACK))
-        listen = tuple(endpoint for endpoint in listen if endpoint)
         connect = tuple(e for e in self._setting("connect", [""]) if e)
+        usual = [""] if folder and connect else EVERYWHERE if folder else LOOPBACK
+        listen = tuple(e for e in self._setting("listen", list(usual)) if e)
         insecure = self._setting("insecure", False)
         lease = self._setting("lease", 0.0)
         if file and folder:
@@ -110,19 +111,23 @@ class BridgeNode(Node):
                 f"the bridge has both zenoh_config ({file}) and keys ({folder}); expected one, as "
                 "either says who may connect"
             )
-        if folder and (connect or mode == "client"):
+        if folder and mode == "client" and not connect:
             raise BadInput(
-                f"the bridge has keys ({folder}), mode {mode} and connect {list(connect)}; with "
-                "keys, clients connect to the bridge itself, so leave mode and connect out, or "
-                "write a file of zenoh's own (zenoh_config) for a router in between"
+                f"the bridge has keys ({folder}) and mode client; name the router to connect to "
+                "with the parameter connect, or leave mode out"
             )
         if file:
             return configuration(Path(file))
-        bridge_rules.check_endpoints(listen, insecure, bool(folder))
+        check_endpoints(listen, insecure, bool(folder))
         if not folder:
             return configuration(mode=mode, listen=listen, connect=connect, lease=lease)
         keys = Keys(Path(folder))
         keys.check(now())
+        if connect:
+            check_router(mode, listen, connect)
+            security = keys.lab_settings(now())
+        else:
+            security = keys.settings(self._rules, prefix, now())
         log_logins(passwords=keys.login.by_password)
         return configuration(
             mode=mode,
@@ -130,7 +135,7 @@ class BridgeNode(Node):
             connect=connect,
             lease=lease,
             base=share.directory() / "config" / "zenoh" / "lab.json5",
-            security=keys.settings(self._rules, prefix, now()),
+            security=security,
         )
 
     def discover(self) -> None:
@@ -206,7 +211,7 @@ class BridgeNode(Node):
         total = self.statistics()
         for declared in self._declared:
             declared.undeclare()
-        self._callable.keep({})
+        self._callable.stop()
         self._outward.stop()
         self._inward.keep({})
         self._streams.close()

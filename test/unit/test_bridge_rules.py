@@ -105,29 +105,6 @@ def test_a_prefix_that_is_no_key_is_refused(prefix):
         br.checked_prefix(prefix)
 
 
-@pytest.mark.parametrize(
-    "endpoint", ["tcp/127.0.0.1:7447", "tcp/[::1]:0", "unixsock-stream//tmp/lab.sock"]
-)
-def test_endpoints_of_this_machine_need_no_flag(endpoint):
-    br.check_endpoints((endpoint,), insecure=False)
-
-
-@pytest.mark.parametrize("endpoint", ["tcp/0.0.0.0:7447", "udp/10.0.0.2:1", "tcp/[::]:7447"])
-def test_an_open_endpoint_needs_the_flag(endpoint):
-    with pytest.raises(BadInput, match="insecure"):
-        br.check_endpoints((endpoint,), insecure=False)
-    br.check_endpoints((endpoint,), insecure=True)
-
-
-@pytest.mark.parametrize("endpoint", ["tls/0.0.0.0:7447", "quic/[::]:7447"])
-def test_encryption_and_keys_go_together(endpoint):
-    br.check_endpoints((endpoint,), insecure=False, keys=True)
-    with pytest.raises(BadInput, match="needs keys"):
-        br.check_endpoints((endpoint,), insecure=True)
-    with pytest.raises(BadInput, match="where nobody can show one"):
-        br.check_endpoints(("tcp/127.0.0.1:7447",), insecure=True, keys=True)
-
-
 def test_who_may_receive_cannot_be_said_topic_by_topic():
     assert topics({"name": "/a", "direction": "in", "role": "viewer"}).topics[0].role
     with pytest.raises(BadInput, match="goes out"):
@@ -193,20 +170,3 @@ def test_every_type_of_the_shipped_list_exists():
         package, folder, name = rule.type.split("/")
         if package == "mrlab_msgs":
             assert (ROOT / "msg_schemas" / folder / f"{name}.{folder}").exists(), rule.type
-
-
-@pytest.mark.parametrize(
-    ("endpoint", "local"),
-    [
-        ("tcp/127.0.0.1:7447", True),
-        ("tls/127.0.1.1:7447", True),
-        ("tcp/[::1]:7447", True),
-        ("tcp/localhost:7447", True),
-        ("unixsock-stream//tmp/lab.sock", True),
-        ("tcp/0.0.0.0:7447", False),
-        ("tls/lab.example.org:7447", False),
-        ("tcp/[::]:7447", False),
-    ],
-)
-def test_an_endpoint_is_within_this_machine_or_beyond(endpoint, local):
-    assert br.is_local(endpoint) is local

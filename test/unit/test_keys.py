@@ -23,7 +23,8 @@ from mrlab_ros.adapters import certificates
 from mrlab_ros.adapters.keys import AUTHORITY_LIFETIME, NOBODY, SERVER_LIFETIME, Keys
 from mrlab_ros.cli import app
 from mrlab_ros.commands import up_keys
-from mrlab_ros.commands.up_keys import checked_listen
+from mrlab_ros.commands.up import lab_processes
+from mrlab_ros.commands.up_keys import checked_listen, checked_router
 from mrlab_ros.core import bridge_rules
 from mrlab_ros.core.access import Login
 from mrlab_ros.core.bridge_rules import Role
@@ -331,6 +332,98 @@ def test_up_listens_everywhere_only_with_keys_or_when_told(tmp_path):
         checked_listen("", tmp_path / "none", False)
 
 
+def test_up_connects_to_a_router_with_keys_alone(tmp_path):
+    keys = Keys.create(tmp_path / "keys", [], Login.CERTIFICATE, datetime.now(timezone.utc))
+    there = "tls/router.example.org:7447"
+    with pytest.raises(BadInput, match="give --keys"):
+        checked_router(there, "", None, False)
+    with pytest.raises(BadInput, match="leave --zenoh-listen"):
+        checked_router(there, "tls/0.0.0.0:7447", keys.folder, False)
+    with pytest.raises(BadInput, match="it can show none"):
+        checked_router("tcp/router.example.org:7447", "", keys.folder, False)
+    with pytest.raises(BadInput, match="mrlab keys router"):
+        checked_router(there, "", keys.folder, False)
+    assert "zenohd -c router.json5" in run("router", "--dir", keys.folder).stdout
+    assert checked_router(there, "", keys.folder, False) == there
+    specs = lab_processes(
+        config=tmp_path, robots=(), listen=there, state_dir=tmp_path, keys=keys.folder, router=True
+    )
+    argv = next(spec.argv for spec in specs if spec.name == "bridge")
+    assert f'connect:=["{there}"]' in argv
+    assert "mode:=client" in argv
+    assert not any("listen" in part for part in argv)
+
+
+def test_the_router_s_file_is_for_its_owner_and_the_lab_keeps_its_name(tmp_path):
+    keys = Keys.create(tmp_path / "keys", [], Login.CERTIFICATE, datetime.now(timezone.utc))
+    run("router", "--dir", keys.folder)
+    name = certificates.common_name(certificate(keys, "lab.pem"))
+    added = run("add", "anna", "--role", "viewer", "--dir", keys.folder)
+    assert "A router needs a new file" in added.stdout
+    run("router", "--dir", keys.folder, "--prefix", "lab_1")
+    for file in ("lab.pem", "lab.key", "router.json5"):
+        assert stat.S_IMODE((keys.folder / file).stat().st_mode) == 0o600
+    assert certificates.common_name(certificate(keys, "lab.pem")) == name
+    assert purposes(certificate(keys, "lab.pem")) == [ExtendedKeyUsageOID.CLIENT_AUTH]
+    document = json.loads((keys.folder / "router.json5").read_text())
+    assert document["adminspace"] == {"enabled": False}
+    assert document["transport"]["link"]["protocols"] == ["tls", "quic"]
+    names = [subject["id"] for subject in document["access_control"]["subjects"]]
+    assert names == ["anna", "the lab"]
+    assert document["access_control"]["subjects"][1]["cert_common_names"] == [name]
+
+
+def test_the_lab_s_certificate_for_its_router_is_made_anew_with_the_file(tmp_path):
+    keys = Keys.create(tmp_path / "keys", [], Login.CERTIFICATE, NOW)
+    keys.router(RULES, "", {}, NOW)
+    later = NOW + SERVER_LIFETIME + DAY
+    with pytest.raises(BadInput, match="expired on .*mrlab keys router"):
+        keys.lab_settings(later)
+    keys.renew([], later)
+    assert keys.server_expires(router=True) < later
+    keys.router(RULES, "", {}, later)
+    assert keys.server_expires(router=True) > later
+    assert keys.lab_settings(later)["transport/link/tls/enable_mtls"] is True
+
+
+def test_commands_at_the_same_time_lose_nobody(tmp_path):
+    folder = Keys.create(tmp_path / "keys", [], Login.BOTH, NOW).folder
+    others = [Keys(folder) for _ in range(4)]
+    threads = [
+        threading.Thread(target=keys.add, args=(f"person_{i}", Role.VIEWER, NOW))
+        for i, keys in enumerate(others)
+    ]
+    for thread in threads:
+        thread.start()
+    for thread in threads:
+        thread.join()
+    everybody = {f"person_{i}" for i in range(4)}
+    assert {entry.person.name for entry in Keys(folder).entries} == everybody
+    assert set(Keys(folder)._passwords()) == everybody | {NOBODY}
+
+
+def test_several_names_are_added_and_taken_back_all_or_none(keys):
+    bad = run("add", "anna", "ben!", "--role", "viewer", "--dir", keys.folder)
+    assert isinstance(bad.exception, BadInput)
+    assert Keys(keys.folder).entries == []
+    assert run("add", "anna", "anna", "--role", "viewer", "--dir", keys.folder).exit_code == 0
+    assert isinstance(run("revoke", "anna", "eve", "--dir", keys.folder).exception, BadInput)
+    assert [entry.person.name for entry in Keys(keys.folder).entries] == ["anna"]
+    assert run("revoke", "anna", "anna", "--dir", keys.folder).exit_code == 0
+
+
+def test_a_client_s_file_lets_links_heal_soon_even_where_the_folder_of_files_was_removed(keys):
+    (keys.folder / "clients").rmdir()
+    keys.add("anna", Role.VIEWER, NOW)
+    assert stat.S_IMODE((keys.folder / "clients").stat().st_mode) == 0o700
+    for file in (keys.client_file("anna"), *(ROOT / "config" / "zenoh").glob("client_*.json5")):
+        config = zenoh.Config.from_file(str(file))
+        assert json.loads(config.get_json("transport/link/tx/lease")) == 1500
+        assert json.loads(config.get_json("transport/unicast/open_timeout")) == 2000
+        retry = json.loads(config.get_json("connect/retry"))
+        assert (retry["period_init_ms"], retry["period_max_ms"]) == (250, 500)
+
+
 def test_a_lab_says_when_its_certificate_expires_soon(tmp_path):
     said = []
     for age, told in ((DAY, False), (SERVER_LIFETIME - 10 * DAY, True)):
@@ -365,6 +458,12 @@ def test_a_running_lab_follows_its_keys_and_never_into_a_broken_folder(tmp_path,
         assert restarts == []
         keys.renew([], datetime.now(timezone.utc))
         wait_for(lambda: restarts, "the restart")
+        assert "starts again" in said[-1]
+        aside = keys.folder.rename(tmp_path / "aside")
+        wait_for(lambda: "has no keys" in said[-1], "the complaint about the folder")
+        aside.rename(keys.folder)
+        keys.add("ben", Role.VIEWER, datetime.now(timezone.utc))
+        wait_for(lambda: len(restarts) == 2, "the restart with the folder that came back")
     finally:
         stop.set()
         thread.join()

@@ -1,0 +1,106 @@
+"""Where the bridge may listen, and how soon a link that breaks is given up and tried again."""
+
+from __future__ import annotations
+
+import ipaddress
+import re
+from collections.abc import Mapping
+from typing import Any
+
+from mrlab_ros.core.errors import BadInput
+
+# A link that says nothing for so long, s, is given up. Beyond this machine soon, so that what is
+# broken heals within 2 s; within it a link breaks only by its end's death, which is told at once,
+# and a stall of the machine must not look like one. 10 s are zenoh's own.
+LEASE_BEYOND = 1.5
+LEASE_WITHIN = 10.0
+# When a link is tried again, ms, and how long a try may take: beyond a second TCP's own repeats
+# grow rare. zenoh's own are 1 to 4 s, and 10 s.
+OPEN_TIMEOUT = 2000
+RETRY = {"period_init_ms": 250, "period_max_ms": 500, "period_increase_factor": 1.5}
+
+
+def healing(lease: float) -> dict[str, Any]:
+    """Return zenoh's settings, path -> value, of links that heal soon. lease: s."""
+    return {
+        "transport/link/tx/lease": round(1000 * lease),
+        "transport/unicast/open_timeout": OPEN_TIMEOUT,
+        "connect/retry": RETRY,
+    }
+
+
+def nested(settings: Mapping[str, object]) -> dict[str, Any]:
+    """Return settings, path -> value, as a configuration file has them: one in the other."""
+    document: dict[str, Any] = {}
+    for path, value in settings.items():
+        *folders, last = path.split("/")
+        place = document
+        for part in folders:
+            place = place.setdefault(part, {})
+        place[last] = value
+    return document
+
+
+def is_local(endpoint: str) -> bool:
+    """Return whether an endpoint such as tcp/127.0.0.1:7447 is within this machine."""
+    protocol, _, address = endpoint.partition("/")
+    host = address.rsplit(":", 1)[0].strip("[]")
+    if protocol == "unixsock-stream" or host == "localhost":
+        return True
+    try:
+        return ipaddress.ip_address(host).is_loopback
+    except ValueError:
+        # A name, of which nobody knows where it leads, even if it begins with 127.
+        return False
+
+
+def check_router(mode: str, listen: tuple[str, ...], connect: tuple[str, ...]) -> None:
+    """Raise BadInput where a lab with keys cannot connect to a router as it is told to.
+
+    It then listens nowhere: the router alone lets people in and enforces the rules.
+    """
+    if mode != "client" or listen:
+        raise BadInput(
+            f"the bridge has keys and connects to {', '.join(connect)}, with mode {mode} and "
+            f"listen {list(listen)}; people then connect to that router alone, so leave listen "
+            "empty and set mode to client"
+        )
+    for endpoint in connect:
+        if not endpoint.startswith(("tls/", "quic/")):
+            raise BadInput(
+                f"the bridge has keys and is to connect to {endpoint}, where it can show none; "
+                "expected a router's endpoint such as tls/router.example.org:7447"
+            )
+
+
+def check_endpoints(listen: tuple[str, ...], insecure: bool, keys: bool = False) -> None:
+    """Raise BadInput where an endpoint is open to other machines without encryption.
+
+    insecure: that is wanted. keys: the lab has a keys folder, and so listens with TLS alone.
+    """
+    for endpoint in listen:
+        if not re.fullmatch(r"[a-z][a-z-]*/.+", endpoint):
+            raise BadInput(
+                f"the bridge is to listen on {endpoint!r}; expected protocol/address:port, such "
+                "as tcp/127.0.0.1:7447"
+            )
+        protocol, address = endpoint.split("/", 1)
+        encrypted = protocol in ("tls", "quic")
+        if keys and not encrypted:
+            raise BadInput(
+                f"the lab has keys, and the bridge is to listen on {endpoint}, where nobody can "
+                f"show one; listen on tls/{address}, or leave the keys out"
+            )
+        if encrypted and not keys:
+            raise BadInput(
+                f"the bridge is to listen on {endpoint}, and for {protocol} it needs keys; make "
+                "them with mrlab keys init and name the folder: mrlab up --keys FOLDER, or the "
+                "parameter keys"
+            )
+        if not (is_local(endpoint) or encrypted or insecure):
+            raise BadInput(
+                f"the bridge is to listen on {endpoint}, where anybody in the network could watch "
+                "and move the robots; give the lab keys (mrlab keys init, then mrlab up --keys "
+                "FOLDER), listen on tcp/127.0.0.1, or accept it with --insecure (the parameter "
+                "insecure)"
+            )
