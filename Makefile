@@ -4,6 +4,7 @@
 # make robots  generate the robots' bodies anew from their descriptions (tens of minutes)
 # make objects generate the meshes of config/objects anew       (seconds)
 # make gallery render every robot into docs/gallery (minutes)
+# make docs   write the generated pages anew
 # make lint   ruff and mypy
 # make lock   write the lock files anew from requirements*.in
 # make clean  remove everything that set-up made
@@ -11,7 +12,7 @@
 SHELL := /bin/bash
 ENV := . .venv/mrlab.sh &&
 
-.PHONY: demo test bench robots objects gallery lint lock setup clean
+.PHONY: demo test bench robots objects gallery docs lint lock setup clean
 
 setup:
 	@python3 scripts/bootstrap.py
@@ -42,6 +43,10 @@ objects:
 gallery:
 	@python3 scripts/bootstrap.py --dev
 	@$(ENV) python scripts/robots/gallery.py $(ARGS)
+
+docs:
+	@python3 scripts/bootstrap.py --dev
+	@$(ENV) python scripts/generate_docs.py
 
 lock:
 	@python3 scripts/bootstrap.py --dev

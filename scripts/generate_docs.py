@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Write the generated parts of the documentation anew; `--check` only compares."""
+"""Write every generated page, and generated parts of pages, anew; `--check` only compares."""
 
 from __future__ import annotations
 
@@ -10,10 +10,13 @@ from collections.abc import Callable, Mapping
 from enum import Enum
 from pathlib import Path
 
-from mrlab_ros.core import playback_states, system_states
+import protocol_page
+import roles_page
+
+from mrlab_ros.core import diagnostics, playback_states, system_states
 from mrlab_ros.core.physics import grasp
 
-DOCS = Path(__file__).resolve().parent.parent / "docs"
+ROOT = Path(__file__).resolve().parent.parent
 
 
 def diagram(transitions: Mapping[tuple[Enum, Enum], Enum], first: str) -> str:
@@ -25,9 +28,14 @@ def diagram(transitions: Mapping[tuple[Enum, Enum], Enum], first: str) -> str:
 
 
 BLOCKS: dict[tuple[str, str], Callable[[], str]] = {
-    ("playback.md", "playback states"): lambda: diagram(playback_states.TRANSITIONS, "IDLE"),
-    ("physics.md", "grasp states"): lambda: diagram(grasp.TRANSITIONS, "OPEN"),
-    ("systems.md", "system states"): lambda: diagram(system_states.TRANSITIONS, "READY"),
+    ("docs/playback.md", "playback states"): lambda: diagram(playback_states.TRANSITIONS, "IDLE"),
+    ("docs/physics.md", "grasp states"): lambda: diagram(grasp.TRANSITIONS, "OPEN"),
+    ("docs/systems.md", "system states"): lambda: diagram(system_states.TRANSITIONS, "READY"),
+}
+FILES: dict[str, Callable[[], str]] = {
+    "docs/diagnostics.md": diagnostics.document,
+    "docs/protocol.md": lambda: protocol_page.current(ROOT),
+    "config/zenoh/roles.json5": lambda: roles_page.current(ROOT),
 }
 
 
@@ -40,21 +48,30 @@ def rendered(text: str, name: str, content: str) -> str:
     return pattern.sub(lambda _: f"{begin}\n{content}\n{end}", text)
 
 
+def wanted(page: str) -> str:
+    """Return what a page should be, given what it is."""
+    if page in FILES:
+        return FILES[page]()
+    text = (ROOT / page).read_text()
+    for (place, name), make in BLOCKS.items():
+        if place == page:
+            text = rendered(text, name, make())
+    return text
+
+
 def main() -> int:
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--check", action="store_true", help="exit 1 where a page is out of date")
     check = parser.parse_args().check
     stale = []
-    for (page, name), make in BLOCKS.items():
-        path = DOCS / page
-        old = path.read_text()
-        new = rendered(old, name, make())
-        if new != old:
-            stale.append(f"{page}: {name}")
+    for page in sorted({place for place, _ in BLOCKS} | set(FILES)):
+        path, text = ROOT / page, wanted(page)
+        if not path.is_file() or path.read_text() != text:
+            stale.append(page)
             if not check:
-                path.write_text(new)
+                path.write_text(text)
     if check and stale:
-        print(f"out of date: {', '.join(stale)}; run python scripts/generate_docs.py")
+        print(f"out of date: {', '.join(stale)}; run make docs")
         return 1
     return 0
 

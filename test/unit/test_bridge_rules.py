@@ -7,7 +7,6 @@ import yaml
 from hypothesis import given
 from hypothesis import strategies as st
 
-from mrlab_ros import protocol_page
 from mrlab_ros.core import bridge_rules as br
 from mrlab_ros.core.errors import BadInput
 
@@ -156,12 +155,6 @@ def test_a_rate_cap_keeps_the_mean_rate_of_values_that_come_off_its_grid():
     cap = br.RateCap(100.0)
     passed = [t for t in range(0, br.SECOND, 3_000_000) if cap.offer(t, t) is not None]
     assert len(passed) == pytest.approx(100, abs=1)
-
-
-def test_the_protocol_page_is_what_the_list_and_the_schemas_say():
-    text = protocol_page.current(ROOT)
-    assert (ROOT / "docs" / "protocol.md").read_text() == text
-    assert "| `*/joint_states` | `sensor_msgs/msg/JointState` | out |" in text
 
 
 def test_every_type_of_the_shipped_list_exists():

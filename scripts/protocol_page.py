@@ -1,4 +1,4 @@
-"""Writes docs/protocol.md from the allow-list and the .msg and .srv files."""
+"""Makes docs/protocol.md from the allow-list and the .msg and .srv files."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ Every key that the bridge carries, from `config/bridge.yaml`, and every type of 
 `msg_schemas/`. A payload is CDR with its 4-byte header. `*` stands for the name of a robot or of a
 robot system. How latched topics, services and liveliness work: [the bridge](bridge.md). Role: who
 may send a topic that comes in or call a service, where the lab has [keys](security.md). This page
-is generated; `python -m mrlab_ros.protocol_page` writes it anew.
+is generated; `make docs` writes it anew.
 """
 
 STAMPS = """
@@ -92,13 +92,3 @@ def current(root: Path) -> str:
     """Return the page for the source tree at `root`."""
     rules = parse(yaml.safe_load((root / "config" / "bridge.yaml").read_text()))
     return page(rules, root / "msg_schemas") + "\n"
-
-
-def main() -> None:
-    """Write docs/protocol.md in the source tree."""
-    root = Path(__file__).resolve().parent.parent
-    (root / "docs" / "protocol.md").write_text(current(root))
-
-
-if __name__ == "__main__":
-    main()

@@ -1,4 +1,4 @@
-"""Writes config/zenoh/roles.json5: the access-control rules that follow from the allow-list."""
+"""Makes config/zenoh/roles.json5: the access-control rules that follow from the allow-list."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from mrlab_ros.core.bridge_rules import Role, Rules, parse
 
 HEAD = """\
 // What each role may do, as zenoh's access control says it, for the shipped allow-list without a
-// prefix. Generated from config/bridge.yaml by `python -m mrlab_ros.roles_page`. The bridge does
+// prefix. Generated from config/bridge.yaml by `make docs`. The bridge does
 // not read this file: it makes the rules from its own allow-list and prefix, and adds the people
 // (`mrlab keys config` prints all). To read, and to begin with for a router of your own.
 """
@@ -41,13 +41,3 @@ def page(rules: Rules) -> str:
 def current(root: Path) -> str:
     """Return the text for the source tree at `root`."""
     return page(parse(yaml.safe_load((root / "config" / "bridge.yaml").read_text())))
-
-
-def main() -> None:
-    """Write the file in the source tree."""
-    root = Path(__file__).resolve().parent.parent
-    (root / "config" / "zenoh" / "roles.json5").write_text(current(root))
-
-
-if __name__ == "__main__":
-    main()
