@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 import importlib
+import os
 import signal
 import sys
 import time
+from collections.abc import Callable
 
 import rclpy
 import rclpy.utilities
@@ -14,6 +16,7 @@ from rclpy.node import Node
 from mrlab_ros.core.errors import LabError
 from mrlab_ros.spinning import SpunNode
 from mrlab_ros.stand_aside import STAYS, StandAside
+from mrlab_ros.supervisor import RESTARTS
 
 NODES = {
     "bridge": "BridgeNode",
@@ -26,13 +29,16 @@ NODES = {
 }
 # How often a process looks whether it was asked to stop, s.
 LOOK = 0.1
+# A process that is started anew must not join a replay that goes on: so long it looks for the
+# recorder, s. Discovery takes up to 3 s.
+FIND_TIMEOUT = 3.0
 
 
-def make(name: str) -> Node:
-    """Build the node called `name` in the default context."""
+def maker(name: str) -> Callable[[], Node]:
+    """Import the node called `name`; what is returned builds it in the default context."""
     module = importlib.import_module(f"mrlab_ros.nodes.{name}")
-    node: Node = getattr(module, NODES[name])()
-    return node
+    kind: Callable[[], Node] = getattr(module, NODES[name])
+    return kind
 
 
 def main(names: list[str] | None = None) -> None:
@@ -59,10 +65,15 @@ def run(names: list[str]) -> int:
     rclpy.init()
     # rclpy's own handler of SIGTERM shuts the context down and calls nobody.
     running = rclpy.utilities.get_default_context().ok
-    aside = StandAside() if set(names) - STAYS else None
+    aside: StandAside | None = None
     spun: dict[str, SpunNode] = {}
     name = ""
     try:
+        if set(names) - STAYS:
+            aside = StandAside()
+        makers = {name: maker(name) for name in names}
+        if aside is not None:
+            aside.hear(FIND_TIMEOUT if os.environ.get(RESTARTS, "0") != "0" else 0.0)
         while running():
             replay = aside is not None and aside.wanted
             wanted = [name for name in names if name in STAYS or not replay]
@@ -70,7 +81,7 @@ def run(names: list[str]) -> int:
                 spun.pop(name).close()
             for name in wanted:
                 if name not in spun:
-                    spun[name] = SpunNode(make(name))
+                    spun[name] = SpunNode(makers[name]())
             time.sleep(LOOK)
         return 0
     except LabError as error:

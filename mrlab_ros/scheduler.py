@@ -84,11 +84,13 @@ class Player:
 class Scheduler:
     """Serves players at their deadlines; commands run between two of them.
 
-    Use `with scheduler.command() as now_ns:` around every use of a playback.
+    Use `with scheduler.command() as now_ns:` around every use of a playback. What a player
+    raises is printed while `connected()`: what fails because the graph was left is no trouble.
     """
 
-    def __init__(self) -> None:
+    def __init__(self, connected: Callable[[], bool] = lambda: True) -> None:
         self.clock = LabClock()
+        self._connected = connected
         self._changed = threading.Condition(threading.Lock())
         self._players: list[Player] = []
         self._running = True
@@ -150,8 +152,7 @@ class Scheduler:
             try:
                 sample = player.prepare(begin_ns)
             except Exception:
-                # One robot's trouble must not stop the others.
-                traceback.print_exc()
+                self._print_trouble()
                 continue
             if sample is not None:
                 ready.append((due_ns, player, sample))
@@ -161,9 +162,17 @@ class Scheduler:
             try:
                 player.send(sample, now_ns)
             except Exception:
-                traceback.print_exc()
+                self._print_trouble()
         for _, player in batch:
-            player.announce(now_ns())
+            try:
+                player.announce(now_ns())
+            except Exception:
+                self._print_trouble()
+
+    def _print_trouble(self) -> None:
+        """Print what a player just raised; one robot's trouble must not stop the others."""
+        if self._connected():
+            traceback.print_exc()
 
 
 class Command:
@@ -179,7 +188,9 @@ class Command:
     def __exit__(self, *exception: object) -> None:
         scheduler = self._scheduler
         now_ns = scheduler.clock.now_ns()
-        for player in scheduler._players:
-            player.announce(now_ns)
-        scheduler._changed.notify()
-        scheduler._changed.release()
+        try:
+            for player in scheduler._players:
+                player.announce(now_ns)
+        finally:
+            scheduler._changed.notify()
+            scheduler._changed.release()

@@ -59,6 +59,10 @@ class ProcessSpec:
     env: Mapping[str, str] = field(default_factory=dict)
 
 
+# Tells a process how many before it have ended.
+RESTARTS = "MRLAB_RESTARTS"
+
+
 class RestartPolicy:
     """Decides how long to wait before a process that ended is started again.
 
@@ -197,7 +201,7 @@ class Child:
             try:
                 process = subprocess.Popen(
                     guard + self.spec.argv,
-                    env={**os.environ, **self.spec.env},
+                    env={**os.environ, **self.spec.env, RESTARTS: str(self._restarts)},
                     stdin=subprocess.DEVNULL,
                     stdout=subprocess.PIPE,
                     stderr=subprocess.STDOUT,

@@ -81,7 +81,7 @@ class BagFile:
             except DAMAGE as error:
                 raise BadInput(
                     f"{self.path} is damaged at byte {chunk.offset} ({error}); bring back a copy "
-                    "of the file"
+                    "of the file, or let mrlab bag repair leave that part out"
                 ) from None
 
     def messages(self, chunk: ChunkRef, topics: Collection[str] | None = None) -> list[Message]:
@@ -116,7 +116,11 @@ def open_file(path: Path) -> BagFile:
     """Read what a file holds, by its index where it has one, record by record otherwise."""
     try:
         with open(path, "rb") as file:
-            if file.read(len(MCAP0_MAGIC)) != MCAP0_MAGIC:
+            beginning = file.read(len(MCAP0_MAGIC))
+            if len(beginning) < len(MCAP0_MAGIC) and MCAP0_MAGIC.startswith(beginning):
+                trouble = f"{path.name} ends before its first record: its writer was killed"
+                return BagFile(path, indexed=False, trouble=trouble)
+            if beginning != MCAP0_MAGIC:
                 raise BadInput(
                     f"{path} is no MCAP file: it does not begin with MCAP's magic bytes"
                 )

@@ -21,12 +21,13 @@ _LOADER: Any = getattr(yaml, "CSafeLoader", yaml.SafeLoader)
 class Bag:
     """A bag that is open for reading.
 
-    Raises BadInput where `path` is no bag, or one that this lab cannot read.
+    `files` are its MCAP files, if not those that files_of() finds. Raises BadInput where `path`
+    is no bag, or one that this lab cannot read.
     """
 
-    def __init__(self, path: Path) -> None:
+    def __init__(self, path: Path, files: Sequence[Path] | None = None) -> None:
         self.path = path
-        self.files = [open_file(file) for file in files_of(path)]
+        self.files = [open_file(file) for file in (files_of(path) if files is None else files)]
         self.topics = _topics(self.files)
         if not any(file.chunks for file in self.files):
             self.start_ns = self.end_ns = 0
@@ -179,11 +180,16 @@ def files_of(path: Path) -> list[Path]:
             f"{path} lacks {', '.join(missing)}, which its metadata.yaml lists; bring the file "
             "back, or let mrlab bag repair write the metadata anew without it"
         )
-    found = sorted((p for p in path.glob("*.mcap") if p.name not in listed), key=_number)
-    files = [path / name for name in listed] + found
+    files = [path / name for name in listed]
+    files += [file for file in mcap_files_in(path) if file.name not in listed]
     if not files:
         raise BadInput(f"{path} is no bag: it holds no MCAP file; name the folder of a bag")
     return files
+
+
+def mcap_files_in(folder: Path) -> list[Path]:
+    """Return the MCAP files of a folder in the order in which they were written."""
+    return sorted(folder.glob("*.mcap"), key=_number)
 
 
 def _topics(files: Sequence[BagFile]) -> dict[str, Topic]:

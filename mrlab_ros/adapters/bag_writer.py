@@ -130,7 +130,7 @@ class BagWriter:
             self._keep_reserve()
             self._begin_part()
         except OSError as error:
-            (folder / RESERVE).unlink(missing_ok=True)
+            self._give_up_reserve()
             raise self._trouble(error) from None
 
     # what goes in ---------------------------------------------------------------------------
@@ -208,7 +208,7 @@ class BagWriter:
 
     def close(self) -> None:
         """Write index and metadata. Where the disk is full, the reserve is used for that."""
-        (self.folder / RESERVE).unlink(missing_ok=True)
+        self._give_up_reserve()
         try:
             self._end_part()
             self.write_metadata()
@@ -223,6 +223,10 @@ class BagWriter:
                 if error.errno in FULL:
                     raise
                 # Some file systems cannot keep space for a file; there the bag has no reserve.
+
+    def _give_up_reserve(self) -> None:
+        with contextlib.suppress(OSError):
+            (self.folder / RESERVE).unlink()
 
     def _begin_part(self) -> None:
         name = f"{self.folder.name}_{len(self.facts.parts)}.mcap"

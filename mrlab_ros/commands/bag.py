@@ -45,16 +45,20 @@ def info(bag: BagArgument, as_json: AsJson = False) -> None:
 
 @app.command()
 def repair(bag: BagArgument) -> None:
-    """Write index, summary and metadata.yaml anew; the originals are kept beside them."""
+    """Write damaged files and metadata.yaml anew; the originals are kept beside them."""
     from mrlab_ros.adapters.bag_repair import KEPT
     from mrlab_ros.adapters.bag_repair import repair as mend
 
     done = mend(path_of(bag))
     for trouble in done.troubles:
         print(trouble)
-    kept = f"; the originals are kept as *{KEPT}" if done.files else ""
-    written = ", ".join(done.files) or "no file"
-    print(f"wrote {written} and metadata.yaml anew: {done.messages} messages{kept}")
+    if not done.files:
+        print(f"the bag is whole, with {done.messages} messages; there is nothing to mend")
+        return
+    print(
+        f"wrote {', '.join(done.files)} anew: {done.messages} messages; the originals are kept "
+        f"as *{KEPT}"
+    )
 
 
 @app.command()
@@ -145,7 +149,7 @@ def _print(bag: Bag) -> None:
         soft_wrap=True,
     )
     for trouble in bag.troubles:
-        console.print(f"{trouble}; mrlab bag repair gives it one", soft_wrap=True)
+        console.print(f"{trouble}; mrlab bag repair mends it", soft_wrap=True)
     table = Table("topic", "type", box=box.SIMPLE_HEAD)
     for column in table.columns:
         column.overflow = "fold"

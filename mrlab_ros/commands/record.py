@@ -14,7 +14,7 @@ if TYPE_CHECKING:
     from mrlab_ros.graph_client import Graph, Watch
 
 REFRESH = 0.25
-# The recorder tells its state once a second; silent for so long, it is gone, s.
+# The recorder tells its state once a second while it works; silent for so long, it is gone, s.
 SILENCE = 5.0
 
 
@@ -38,6 +38,7 @@ def record(
     from mrlab_msgs import msg, srv
     from rich.console import Console
     from rich.live import Live
+    from std_srvs.srv import Trigger
 
     from mrlab_ros.graph_client import Graph
 
@@ -49,12 +50,18 @@ def record(
     )
     with Graph() as graph:
         watch = graph.watch(msg.RecorderState, "/recorder/state")
-        answer = graph.order(srv.StartRecording, "/recorder/start", request)
-        console.print(f"records into {answer.bag}; Ctrl-C ends it", soft_wrap=True)
+        begun = False
         try:
+            answer = graph.order(srv.StartRecording, "/recorder/start", request)
+            begun = True
+            console.print(f"records into {answer.bag}; Ctrl-C ends it", soft_wrap=True)
             with Live(console=console, auto_refresh=False, transient=True) as live:
                 _follow(watch, lambda line: live.update(line, refresh=True), answer.bag)
         except KeyboardInterrupt:
+            if not begun:
+                # It may have begun all the same.
+                graph.call(Trigger, "/recorder/stop", Trigger.Request())
+                raise typer.Exit(130) from None
             console.print(_stop(graph), soft_wrap=True)
 
 
@@ -73,7 +80,9 @@ def _follow(watch: Watch[Any], show: Any, bag: str) -> None:
                 began = True
             elif began:
                 raise LabError(
-                    state.message or f"the recording into {bag} was ended by another client"
+                    state.message
+                    or f"the recording into {bag} has ended: another client stopped it, or the "
+                    "recorder was started anew; mrlab bag info shows what it holds"
                 )
         if time.monotonic() - heard > SILENCE:
             said = state.message if state is not None else ""

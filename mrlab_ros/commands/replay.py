@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import re
 import select
 import sys
 import termios
@@ -15,12 +16,16 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
+from mrlab_ros.commands.record import SILENCE
 from mrlab_ros.core.errors import LabError, Misuse
 
 if TYPE_CHECKING:
     from mrlab_ros.graph_client import Graph, Watch
 
 REFRESH = 0.1
+# What is typed faster than it is served comes at once: an arrow is three bytes.
+KEY = re.compile(rb"\x1b[\[O][A-Z]|[^\x1b]")
+LEFT, RIGHT = b"D", b"C"
 # What an arrow key seeks, s, and the rates that + and - go through.
 STEP = 5.0
 RATES = (0.1, 0.2, 0.5, 1.0, 2.0, 4.0, 10.0)
@@ -28,6 +33,7 @@ KEYS = "space pauses, left and right seek 5 s, + and - set the rate, q ends"
 # The lab's own nodes leave first.
 BEGIN_TIMEOUT = 40.0
 BEGUN_TIMEOUT = 3.0
+STOP_TIMEOUT = 15.0
 
 
 def replay(
@@ -54,19 +60,20 @@ def replay(
     )
     with Graph() as graph:
         watch = graph.watch(msg.RecorderState, "/recorder/state")
-        answer = graph.order(srv.Replay, "/recorder/replay", request, BEGIN_TIMEOUT)
-        console.print(answer.message, soft_wrap=True)
-        keyboard = Keyboard(graph, watch) if sys.stdin.isatty() else None
-        if keyboard is not None:
-            console.print(KEYS)
         try:
+            answer = graph.order(srv.Replay, "/recorder/replay", request, BEGIN_TIMEOUT)
+            console.print(answer.message, soft_wrap=True)
+            keyboard = Keyboard(graph, watch) if sys.stdin.isatty() else None
+            if keyboard is not None:
+                console.print(KEYS)
             with (
                 raw_keys(keyboard is not None),
                 Live(console=console, auto_refresh=False, transient=True) as live,
             ):
                 _follow(watch, keyboard, lambda line: live.update(line, refresh=True))
         except KeyboardInterrupt:
-            _end(graph)
+            # The recorder answers a stop once the replay has begun.
+            _end(graph, BEGIN_TIMEOUT)
             raise typer.Exit(130) from None
     console.print("the replay is over")
 
@@ -80,7 +87,14 @@ def _follow(watch: Watch[Any], keyboard: Keyboard | None, show: Callable[[str], 
     # A short one may be over already; what is latched from before says nothing of it.
     with suppress(NoAnswer):
         watch.wait(lambda s: s.state in working, BEGUN_TIMEOUT, "the replay")
+    last, heard = None, time.monotonic()
     while (state := watch.value) is not None and state.state in working:
+        if state is not last:
+            last, heard = state, time.monotonic()
+        elif time.monotonic() - heard > SILENCE:
+            raise LabError(
+                f"the recorder has been silent for {SILENCE:g} s; mrlab status shows what runs"
+            )
         show(_line(state, keyboard))
         if keyboard is None:
             time.sleep(REFRESH)
@@ -125,31 +139,33 @@ class Keyboard:
         """Wait a moment for a key and do what it says."""
         if not select.select([sys.stdin], [], [], REFRESH)[0]:
             return
-        # An arrow comes as three bytes at once; Python's own buffer would hold them apart.
-        key = os.read(sys.stdin.fileno(), 8)
+        # Python's own buffer would hold the bytes of an arrow apart.
+        typed = os.read(sys.stdin.fileno(), 64)
         try:
-            self.press(key, state)
+            self.press(typed, state)
             self.said = ""
         except Misuse as error:
             self.said = str(error)
 
-    def press(self, key: bytes, state: Any) -> None:
-        """Do what `key` says; raise Misuse where the recorder refuses."""
+    def press(self, typed: bytes, state: Any) -> None:
+        """Do what the keys say; raise Misuse where the recorder refuses."""
         from mrlab_msgs import msg, srv
 
-        if key == b" ":
-            paused = state.state == msg.RecorderState.PAUSED
-            self._trigger("resume" if paused else "pause")
-        elif key in (b"\x1b[D", b"\x1b[C"):
-            step = STEP if key.endswith(b"C") else -STEP
-            place = min(max(position_now(state) + step, 0.0), state.duration)
-            request = srv.Seek.Request(position=place)
-            self._graph.order(srv.Seek, "/recorder/seek", request)
-        elif key in (b"+", b"-"):
-            request = srv.SetRate.Request(rate=next_rate(state.rate, key == b"+"))
-            self._graph.order(srv.SetRate, "/recorder/set_rate", request)
-        elif key in (b"q", b"Q"):
-            _end(self._graph)
+        keys = KEY.findall(typed)
+        arrows = [key[-1:] for key in keys if len(key) > 1]
+        # One seek for all of them: where the replay is comes once a second.
+        if steps := arrows.count(RIGHT) - arrows.count(LEFT):
+            place = min(max(position_now(state) + steps * STEP, 0.0), state.duration)
+            self._graph.order(srv.Seek, "/recorder/seek", srv.Seek.Request(position=place))
+        for key in keys:
+            if key == b" ":
+                paused = state.state == msg.RecorderState.PAUSED
+                self._trigger("resume" if paused else "pause")
+            elif key in (b"+", b"-"):
+                request = srv.SetRate.Request(rate=next_rate(state.rate, key == b"+"))
+                self._graph.order(srv.SetRate, "/recorder/set_rate", request)
+            elif key in (b"q", b"Q"):
+                _end(self._graph)
 
     def _trigger(self, service: str) -> None:
         from std_srvs.srv import Trigger
@@ -164,10 +180,10 @@ def next_rate(rate: float, faster: bool) -> float:
     return next((r for r in reversed(RATES) if r < rate), RATES[0])
 
 
-def _end(graph: Graph) -> None:
+def _end(graph: Graph, timeout: float = STOP_TIMEOUT) -> None:
     from std_srvs.srv import Trigger
 
-    graph.call(Trigger, "/recorder/stop", Trigger.Request())
+    graph.call(Trigger, "/recorder/stop", Trigger.Request(), timeout)
 
 
 @contextmanager

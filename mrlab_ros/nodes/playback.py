@@ -293,7 +293,7 @@ class PlaybackHostNode(Node):
             )
         )
         self._library = RobotLibrary(share.directory() / "robots")
-        self.scheduler = Scheduler()
+        self.scheduler = Scheduler(self.context.ok)
         self.nodes: dict[str, PlaybackNode] = {}
         self._executor: Executor | None = None
         self._caller = Caller(self)

@@ -96,6 +96,7 @@ class RecorderNode(Node):
             self._end()
         except LabError as error:
             self.get_logger().error(str(error))
+        self._memory.close()
         self._caller.close()
         self._streams.destroy_node()
         super().destroy_node()
@@ -132,9 +133,12 @@ class RecorderNode(Node):
 
     @answered
     def _split(self, request: Any, response: Any) -> str:
-        if self._recording is None:
+        recording = self._recording
+        if recording is None:
             raise Misuse("nothing is recorded; start a recording first")
-        self._recording.split()
+        recording.split()
+        if self._recording is None:
+            raise Misuse(self._trouble)
         return "goes on in a new file"
 
     @answered
@@ -196,12 +200,16 @@ class RecorderNode(Node):
     def _on_replay_end(self, trouble: str) -> None:
         if trouble:
             self.get_logger().error(trouble)
+        replaying = self._replaying
+        if replaying is None:
+            # Somebody ended it in the same moment.
+            return
+        self._close(replaying)
         with self._lock:
-            replaying, self._replaying = self._replaying, None
-            self._trouble = trouble
-        if replaying is not None:
-            self._close(replaying)
-            self.get_logger().info(f"the replay of {replaying.bag.path} is over")
+            if self._replaying is not replaying:
+                return
+            self._replaying, self._trouble = None, trouble
+        self.get_logger().info(f"the replay of {replaying.bag.path} is over")
         self._tell()
         self._memory.restore()
 
@@ -301,7 +309,12 @@ class RecorderNode(Node):
             elif self._preparing is not None:
                 state.state = State.REPLAYING
                 self._tell_of_bag(state, self._preparing)
-            self._state.publish(state)
+            try:
+                self._state.publish(state)
+            except Exception:
+                # A replay that ends in the moment in which the lab does has nobody to tell.
+                if self.context.ok():
+                    raise
 
     def _tell_of_bag(self, state: Any, bag: Bag) -> None:
         state.bag, state.duration, state.bytes = str(bag.path), bag.duration, bag.size

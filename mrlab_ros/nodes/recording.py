@@ -67,11 +67,14 @@ class Recording:
         self._on_trouble = on_trouble
         self._complain = complain
         self._followed: dict[str, Followed] = {}
+        # type of each topic that was ever followed
+        self._kinds: dict[str, str] = {}
         # Topics that are not wanted, or cannot be recorded.
         self._refused: set[str] = set()
         self._looks = 0
         self._lock = threading.Lock()
-        self._began_ns = self._part_ns = self._flushed_ns = self._noted_ns = time.time_ns()
+        # Of the clock that never goes back: the other one may be set while a recording runs.
+        self._began_ns = self._part_ns = self._flushed_ns = self._noted_ns = time.monotonic_ns()
         self._closed = False
         self.messages = 0
         self._poll = TopicPoll("recorder", PERIOD, self._take)
@@ -91,7 +94,7 @@ class Recording:
     @property
     def position(self) -> float:
         """Time since the recording began, s."""
-        return (time.time_ns() - self._began_ns) / SECOND
+        return (time.monotonic_ns() - self._began_ns) / SECOND
 
     @property
     def size(self) -> int:
@@ -115,13 +118,11 @@ class Recording:
             if publishers and (known is None or known.publishers != publishers):
                 changed |= self._follow(name, publishers)
         if changed:
-            self._guarded(self._writer.write_metadata)
+            self._guarded(lambda: self._written(self._writer.write_metadata))
 
     def split(self) -> None:
-        """Go on in a new file of the bag; raise DiskTrouble where that fails."""
-        with self._lock:
-            self._part_ns = time.time_ns()
-            self._writer.split()
+        """Go on in a new file of the bag; where the disk refuses, the recording ends."""
+        self._guarded(self._split_now)
 
     def attach(self, name: str, media_type: str, data: bytes) -> None:
         """Put a file into the bag, unless it is closed."""
@@ -164,6 +165,7 @@ class Recording:
         subscription = self._streams.create_subscription(
             kind, name, lambda _: None, profile(topic, DEPTH), raw=True
         )
+        self._kinds[name] = topic.type
         self._followed[name] = Followed(subscription, topic, publishers)
         self._poll.add(subscription, name)
         return True
@@ -182,21 +184,29 @@ class Recording:
                 write(topic, received_ns, data, published_ns, sequence & 0xFFFFFFFF)
             self.messages += len(messages)
         for message in messages:
-            self._observe(message, self._followed[message.topic].topic.type)
+            self._observe(message, self._kinds[message.topic])
         return self._guarded(self._do_due)
 
     def _do_due(self) -> None:
-        now_ns = time.time_ns()
+        now_ns = time.monotonic_ns()
+        if self._split.due(self._part_ns, now_ns, self._writer.part_size):
+            self._split_now()
+        if now_ns - self._flushed_ns >= FLUSH_NS:
+            self._flushed_ns = now_ns
+            self._written(self._writer.flush)
+        if now_ns - self._noted_ns >= METADATA_NS:
+            self._noted_ns = now_ns
+            self._written(self._writer.write_metadata)
+
+    def _split_now(self) -> None:
+        self._part_ns = time.monotonic_ns()
+        self._written(self._writer.split)
+
+    def _written(self, write: Callable[[], None]) -> None:
+        """Do what several threads may ask of the writer, unless the bag is closed."""
         with self._lock:
-            if self._split.due(self._part_ns, now_ns, self._writer.part_size):
-                self._part_ns = now_ns
-                self._writer.split()
-            if now_ns - self._flushed_ns >= FLUSH_NS:
-                self._flushed_ns = now_ns
-                self._writer.flush()
-            if now_ns - self._noted_ns >= METADATA_NS:
-                self._noted_ns = now_ns
-                self._writer.write_metadata()
+            if not self._closed:
+                write()
 
     def _guarded(self, work: Callable[[], None]) -> bool:
         """Do `work`; where the disk refuses, end the recording and return False."""

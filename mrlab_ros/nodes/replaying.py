@@ -269,7 +269,8 @@ class Replaying:
         return True
 
     def _reach_end(self) -> bool:
-        if not self._timeline.loop:
+        # A bag of one moment would begin anew without end in that moment.
+        if not self._timeline.loop or self._timeline.duration == 0:
             return False
         self._jump(0.0)
         self._timeline.seek(self._now_ns(), 0.0)

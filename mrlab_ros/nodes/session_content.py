@@ -7,6 +7,7 @@ import json
 import platform
 import re
 from collections.abc import Callable
+from functools import partial
 from pathlib import Path
 from typing import Any
 from xml.etree import ElementTree
@@ -57,18 +58,18 @@ class SessionContent:
             "robots": (msg.Robots, self._take_scene),
             "converted": (msg.Trajectory, self._take_trajectory),
         }
-        self._worker.later(self._take_parameters)
+        self._later("the parameters", self._take_parameters)
 
     def observe(self, message: Received, kind: str) -> None:
         """Take note of a message that was recorded."""
         reader = self._readers.get(message.topic.rsplit("/", 1)[-1])
         if reader is not None and not self._closed:
-            self._worker.later(lambda: self._read(message, kind, *reader))
+            self._later(message.topic, lambda: self._read(message, kind, *reader))
 
     def close(self) -> None:
         """Fetch what was asked for, then end."""
         self._closed = True
-        self._worker.do(self._attach_scene)
+        self._worker.do(lambda: self._guarded(SCENE, self._attach_scene))
         self._worker.close()
         self._caller.node.destroy_client(self._get)
 
@@ -77,10 +78,18 @@ class SessionContent:
     ) -> None:
         if kind != f"{wanted.__module__.split('.')[0]}/msg/{wanted.__name__}":
             return
+        take(message.topic, deserialize_message(message.data, wanted))
+
+    def _later(self, what: str, work: Callable[[], None]) -> None:
+        self._worker.later(lambda: self._guarded(what, work))
+
+    def _guarded(self, what: str, work: Callable[[], None]) -> None:
+        """Do `work`; what fails leaves a gap in the bag, and the recording goes on."""
         try:
-            take(message.topic, deserialize_message(message.data, wanted))
-        except (LabError, OSError, ElementTree.ParseError) as error:
-            self._complain(f"{message.topic}: what belongs to it is not in the bag: {error}")
+            work()
+        except Exception as error:
+            why = str(error) if isinstance(error, LabError | OSError) else repr(error)
+            self._complain(f"{what}: what belongs to it is not in the bag: {why}")
 
     def _describe(self, topic: str, message: Any) -> None:
         robot = topic.split("/")[-2]
@@ -89,7 +98,7 @@ class SessionContent:
         for mesh in ElementTree.fromstring(urdf).iter("mesh"):
             match = PACKAGE.fullmatch(mesh.get("filename", ""))
             if match is not None:
-                self._attach_mesh(*match.groups())
+                self._guarded(topic, partial(self._attach_mesh, *match.groups()))
 
     def _attach_mesh(self, package: str, path: str) -> None:
         name = f"meshes/{package}/{path}"

@@ -12,6 +12,7 @@ import threading
 import time
 from collections.abc import Callable, Iterator
 from pathlib import Path
+from types import SimpleNamespace
 from typing import Any
 
 import pytest
@@ -33,7 +34,7 @@ from mrlab_ros.adapters.message_files import definition
 from mrlab_ros.adapters.trajectory_store import chunks, parse
 from mrlab_ros.conversion import load_coefficients
 from mrlab_ros.core.recording.bag_facts import Quality, Topic
-from mrlab_ros.nodes import replaying
+from mrlab_ros.nodes import recording, replaying
 from mrlab_ros.nodes.recorder import RecorderNode
 from mrlab_ros.share import directory
 
@@ -108,6 +109,20 @@ def test_a_recording_holds_what_was_said_also_by_who_came_later(graph, recorder,
     assert Bag(folder).troubles == []
 
 
+def test_a_clock_that_is_set_back_does_not_keep_messages_from_the_disk(
+    graph, recorder, states, monkeypatch
+):
+    began_ns = time.time_ns()
+    clock = SimpleNamespace(time_ns=lambda: began_ns, monotonic_ns=time.monotonic_ns)
+    monkeypatch.setattr(recording, "time", clock)
+    say = publisher(graph, "/ur5e_1/telemetry")
+    folder = start(graph, "class", ("/*/telemetry",))
+    wait_for(lambda: graph.client.count_subscribers("/ur5e_1/telemetry"), "the recorder")
+    say("first")
+    wait_for(lambda: Bag(folder).message_count, "the message on the disk")
+    order(graph, "stop")
+
+
 def test_a_session_of_the_lab_is_complete_in_itself(graph, recorder):
     small_lab.start(graph)
     robot = small_lab.spawn(graph)
@@ -159,7 +174,7 @@ def test_one_thing_at_a_time_and_each_refusal_says_why(graph, recorder, tmp_path
         assert "nothing is replayed" in refused(Trigger, service)
     assert "expected 1 or more" in refused(srv.StartRecording, "start", split_duration=0.1)
     assert "names no topic" in refused(srv.StartRecording, "start", topics=["x"])
-    (tmp_path / "file").write_text("")
+    (tmp_path / "file").write_text("words")
     assert "no MCAP file" in refused(srv.Replay, "replay", bag="file", rate=1.0)
     assert "there is no bag" in refused(srv.Replay, "replay", bag="nowhere", rate=1.0)
     folder = start(graph, "class", ("/*/telemetry",))
@@ -255,6 +270,24 @@ def test_a_disk_that_refuses_is_told_at_once_and_the_recorder_lives_on(
     assert numbers
     assert numbers == list(range(numbers[0], numbers[-1] + 1))
     start(graph, "next", ("/nothing",))
+    order(graph, "stop")
+
+
+def test_a_split_that_the_disk_refuses_ends_the_recording(graph, counter, launch, states):
+    process = launch()
+    folder = start(graph, "class")
+    wait_for(lambda: states and states.last().messages > 100, "messages in the bag")
+    size = states.last().bytes
+    resource.prlimit(process.pid, resource.RLIMIT_FSIZE, (size, resource.RLIM_INFINITY))
+    answer = graph.call(Trigger, "/recorder/split")
+    assert "cannot be written (File too large)" in answer.message
+    wait_for(lambda: states.last().state == State.STOPPED, "the end")
+    assert states.last().message == answer.message
+    resource.prlimit(process.pid, resource.RLIMIT_FSIZE, (resource.RLIM_INFINITY,) * 2)
+    numbers = [int(word.split()[0]) for word in words(folder, "/counted")]
+    assert numbers
+    assert numbers == list(range(numbers[0], numbers[-1] + 1))
+    start(graph, "next")
     order(graph, "stop")
 
 
@@ -417,3 +450,14 @@ def test_who_still_publishes_is_named(graph, recorder, session, states, monkeypa
     assert not answer.success
     assert "/test_client publishes /ur5e_1/telemetry" in answer.message
     wait_until_over(states)
+
+
+def test_a_bag_of_one_moment_is_not_looped(graph, recorder, states, tmp_path):
+    writer = BagWriter(tmp_path / "moment", definition)
+    writer.add_topic(Topic("/ur5e_1/telemetry", "std_msgs/msg/String", (Quality(),)))
+    writer.write("/ur5e_1/telemetry", START_NS, serialize_message(String(data="now")), START_NS)
+    writer.close()
+    ears = Ears(graph)
+    replay(graph, bag="moment", loop=True)
+    wait_until_over(states)
+    assert ears.of("/ur5e_1/telemetry") == ["now"]

@@ -80,6 +80,45 @@ def test_a_player_that_fails_does_not_stop_the_others(scheduler, capfd):
     assert "no network" in capfd.readouterr().err
 
 
+@pytest.mark.parametrize("connected", [True, False])
+def test_a_player_that_cannot_tell_is_trouble_only_while_the_graph_is_there(capfd, connected):
+    failed = []
+
+    def announce(now_ns, snapshot):
+        if threading.current_thread().name == "deadlines":
+            failed.append(snapshot)
+            raise RuntimeError("no network")
+
+    scheduler = Scheduler(lambda: connected)
+    scheduler.start()
+    try:
+        playback = Playback(make_model(), StraightPlanner(), 0.0)
+        scheduler.add(Player(playback, lambda sample: None, announce))
+        player, sent, _ = add(scheduler)
+        with scheduler.command() as now_ns:
+            playback.load(now_ns, make_trajectory(np.zeros((50, 2)), frame_rate=500.0))
+            playback.play(now_ns)
+        wait_for(lambda: failed, "a state of the deadline thread")
+        with scheduler.command() as now_ns:
+            player.playback.play(now_ns)
+        wait_for(lambda: len(sent) == 50, "all frames of the other")
+    finally:
+        scheduler.stop()
+    assert ("no network" in capfd.readouterr().err) is connected
+
+
+def test_a_command_that_cannot_tell_lets_others_go_on(scheduler):
+    def announce(now_ns, snapshot):
+        raise RuntimeError("no network")
+
+    playback = Playback(make_model(), StraightPlanner(), 0.0)
+    scheduler.add(Player(playback, lambda sample: None, announce))
+    with pytest.raises(RuntimeError), scheduler.command() as now_ns:
+        playback.load(now_ns, make_trajectory(np.zeros((50, 2)), frame_rate=500.0))
+    with scheduler.command() as now_ns:
+        assert now_ns
+
+
 def test_a_removed_player_is_served_no_more(scheduler):
     player, sent, _ = add(scheduler, frames=5000)
     with scheduler.command() as now_ns:

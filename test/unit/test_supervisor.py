@@ -15,7 +15,14 @@ import psutil
 import pytest
 
 from mrlab_ros.core.errors import Misuse
-from mrlab_ros.supervisor import ProcessSpec, RestartPolicy, RunFile, Supervisor, describe_exit
+from mrlab_ros.supervisor import (
+    RESTARTS,
+    ProcessSpec,
+    RestartPolicy,
+    RunFile,
+    Supervisor,
+    describe_exit,
+)
 
 DEADLINE = 20.0
 
@@ -138,6 +145,12 @@ class TestSupervisor:
         with Supervisor([what], lines):
             wait_for(lambda: lines.of("a"), "a line")
         assert lines.of("a")[0] == "me \N{REPLACEMENT CHARACTER}"
+
+    def test_a_process_knows_how_many_before_it_have_ended(self, lines: Lines) -> None:
+        say = spec("a", f"import os\nprint(os.environ['{RESTARTS}'])")
+        with Supervisor([say], lines, policy=lambda: RestartPolicy(0.05, 0.1)):
+            wait_for(lambda: len(lines.of("a")) >= 3, "three lives")
+        assert lines.of("a")[:3] == ["0", "1", "2"]
 
     def test_a_process_that_dies_is_restarted_and_the_others_are_left_alone(
         self, lines: Lines

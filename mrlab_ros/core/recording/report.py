@@ -224,7 +224,8 @@ class SessionReport:
 
 def report_lines(report: SessionReport) -> list[str]:
     """Return the report as lines of text."""
-    lines = [f"{report.duration:.1f} s, {len(report.robots)} robots"]
+    count = len(report.robots)
+    lines = [f"{report.duration:.1f} s, {count} robot{'s' * (count != 1)}"]
     lines += report.troubles
     for name, changes in report.systems.items():
         lines += ["", f"system {name}"]
