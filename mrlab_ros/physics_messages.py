@@ -39,6 +39,7 @@ def playing_from_message(message: msg.PlaybackState) -> Playing:
         message.frame_count,
         message.frame_rate,
         message.duration,
+        conversions.to_ns(message.header.stamp),
     )
 
 

@@ -6,7 +6,16 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from mrlab_ros.core.physics.engine import Arm, Body, Finger, FingerState, Kind, Motion, Touch
+from mrlab_ros.core.physics.engine import (
+    Arm,
+    Body,
+    Finger,
+    FingerState,
+    Kind,
+    LinkPairs,
+    Motion,
+    Touch,
+)
 from mrlab_ros.core.physics.poses import Vector
 from mrlab_ros.core.scene import Pose
 
@@ -34,7 +43,9 @@ class FakeEngine:
         self.block = 0.04
         self.pinched = ""
 
-    def add_arm(self, name: str, urdf: str, joints: tuple[str, ...], pose: Pose) -> Arm:
+    def add_arm(
+        self, name: str, urdf: str, joints: tuple[str, ...], pose: Pose, apart: LinkPairs
+    ) -> Arm:
         count = len(self.fitted)
         self.arms[name] = {
             "pose": pose, "q": (0.0, 0.0), "v": (0.0, 0.0),

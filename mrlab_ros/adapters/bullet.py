@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Sequence
+from dataclasses import replace
 from pathlib import Path
 
 import pybullet
@@ -16,7 +17,16 @@ from mrlab_ros.adapters.bullet_arms import STATIC_GROUP, Arms
 from mrlab_ros.adapters.bullet_objects import Objects
 from mrlab_ros.adapters.bullet_shapes import make_body, make_shape
 from mrlab_ros.core.errors import BadInput, Misuse
-from mrlab_ros.core.physics.engine import Arm, Body, FingerState, Kind, Motion, Touch
+from mrlab_ros.core.physics.engine import (
+    IDENTITY,
+    Arm,
+    Body,
+    FingerState,
+    Kind,
+    LinkPairs,
+    Motion,
+    Touch,
+)
 from mrlab_ros.core.physics.poses import Vector, add, compose, cross, relative, subtract
 from mrlab_ros.core.scene import Pose
 
@@ -57,9 +67,16 @@ class BulletEngine:
 
     # arms -----------------------------------------------------------------------------------
 
-    def add_arm(self, name: str, description: str, joints: tuple[str, ...], pose: Pose) -> Arm:
+    def add_arm(
+        self,
+        name: str,
+        urdf: str,
+        joints: tuple[str, ...],
+        pose: Pose,
+        apart: LinkPairs = frozenset(),
+    ) -> Arm:
         """Load an arm; raise BadInput where a joint or a mesh of its URDF is missing."""
-        arm = self._arms.add(name, description, joints, pose)
+        arm = self._arms.add(name, urdf, joints, pose, apart)
         self._names[arm.body] = (Kind.ROBOT, name)
         return arm.facts
 
@@ -161,6 +178,11 @@ class BulletEngine:
     def add_surface(self, name: str, body: Body, pose: Pose) -> None:
         if name in self._surfaces:
             raise Misuse(f"surface '{name}' is in the world already; remove it first")
+        if len(body.parts) == 1:
+            # A shape that is not centred is a compound, which costs at every step.
+            (part,) = body.parts
+            pose = compose(pose, part.pose)
+            body = replace(body, parts=(replace(part, pose=IDENTITY),))
         shape = make_shape(self._client, body)
         self._surfaces[name] = make_body(self._client, body, shape, pose)
         self._names[self._surfaces[name]] = (Kind.SURFACE, name)

@@ -21,7 +21,7 @@ import pybullet
 from mrlab_ros.adapters.bullet_description import Description
 from mrlab_ros.adapters.bullet_shapes import NEUTRAL
 from mrlab_ros.core.errors import BadInput, Misuse
-from mrlab_ros.core.physics.engine import Arm, FingerState, Motion
+from mrlab_ros.core.physics.engine import Arm, FingerState, LinkPairs, Motion
 from mrlab_ros.core.scene import Pose
 
 FINGER_FRICTION = 1.5
@@ -73,8 +73,13 @@ class Arms:
     def _call(self, function: Callable[..., Any], *arguments: Any, **named: Any) -> Any:
         return function(*arguments, physicsClientId=self._client, **named)
 
-    def add(self, name: str, text: str, joints: tuple[str, ...], pose: Pose) -> LoadedArm:
-        """Load an arm; raise BadInput where a joint or a mesh of its URDF is missing."""
+    def add(
+        self, name: str, text: str, joints: tuple[str, ...], pose: Pose, apart: LinkPairs
+    ) -> LoadedArm:
+        """Load an arm; raise BadInput where a joint or a mesh of its URDF is missing.
+
+        apart: pairs of its links that never touch, though their shapes may.
+        """
         if name in self._arms:
             raise Misuse(f"arm '{name}' is in the world already; remove it first")
         description = Description(text, joints, f"the description of {name}")
@@ -104,6 +109,9 @@ class Arms:
             )
         for a, b in description.neighbours():
             self._ignore(arm, arm.index[a], arm.index[b])
+        for pair in apart:
+            if pair <= arm.index.keys():
+                self._ignore(arm, *sorted(arm.index[link] for link in pair))
         self._ignore_permanent(arm)
         self._arms[name] = arm
         return arm

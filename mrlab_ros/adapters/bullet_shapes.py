@@ -14,7 +14,10 @@ from mrlab_ros.core.scene import Pose
 
 # Bullet multiplies the coefficients of both bodies, so 1 leaves it to the object.
 NEUTRAL = 1.0
-NUMBERS = {Shape.BOX: 3, Shape.CYLINDER: 2, Shape.SPHERE: 1, Shape.HULL: 0, Shape.MESH: 0}
+# m, by which the normal force on something round is off its middle.
+ROLLING = 0.0008
+ROUND = (Shape.SPHERE, Shape.CYLINDER, Shape.HULL)
+NUMBERS = {Shape.BOX: 3, Shape.CYLINDER: 2, Shape.SPHERE: 1}
 
 
 def make_shape(client: int, body: Body) -> int:
@@ -41,6 +44,9 @@ def make_shape(client: int, body: Body) -> int:
 def make_body(client: int, body: Body, shape: int, pose: Pose) -> int:
     """Put a body of a shape from make_shape() into the world; return Bullet's number of it."""
     static = body.mass == 0
+    # What has edges does not roll, and each such friction is a constraint of every contact.
+    rolls = not static and any(part.shape in ROUND for part in body.parts)
+    rolling = ROLLING if rolls else 0.0
     made: int = pybullet.createMultiBody(
         body.mass,
         shape,
@@ -55,8 +61,8 @@ def make_body(client: int, body: Body, shape: int, pose: Pose) -> int:
         -1,
         lateralFriction=NEUTRAL if static else body.friction,
         restitution=NEUTRAL if static else body.restitution,
-        rollingFriction=0.0005,
-        spinningFriction=0.0005,
+        rollingFriction=rolling,
+        spinningFriction=rolling,
         physicsClientId=client,
     )
     if static:
@@ -85,7 +91,7 @@ def _compound(client: int, parts: list[dict[str, Any]]) -> int:
 
 def _shape(part: Part, static: bool) -> dict[str, Any]:
     """Return the arguments of createCollisionShape; raise BadInput where the part is no shape."""
-    size, count = part.size, NUMBERS[part.shape]
+    size, count = part.size, NUMBERS.get(part.shape, 0)
     if len(size) != count or not all(1e-4 <= s <= 1000 for s in size):
         raise BadInput(
             f"a {part.shape.value} of size {size} m; expected {count} numbers of 0.0001 to 1000"

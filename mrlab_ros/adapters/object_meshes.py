@@ -2,12 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
 import numpy as np
-import trimesh
 
 from mrlab_ros.core.errors import BadInput
 from mrlab_ros.core.physics.catalogue import Mesh
@@ -17,30 +15,45 @@ FORMATS = (".glb", ".obj", ".stl")
 SIZE_RANGE = (0.002, 5.0)  # m, of the largest edge of the bounding box
 
 
-def reader(root: Path, max_triangles: int) -> Callable[[str], Mesh]:
-    """Return a function that reads the mesh of a package:// URI below `root`.
+class ObjectMeshes:
+    """The meshes below `root` that package:// URIs name; see catalogue.Meshes."""
 
-    It raises BadInput where there is no such mesh, or where it has more triangles than
-    `max_triangles`, names the number, or is no size that an object has.
-    """
+    def __init__(self, root: Path, max_triangles: int) -> None:
+        self._root = root
+        self._max_triangles = max_triangles
 
-    def read(uri: str) -> Mesh:
-        path = (root / uri.removeprefix(PREFIX)).resolve()
+    def find(self, uri: str) -> Path:
+        """Return where a mesh is; raise BadInput where there is none of a known format."""
+        path = (self._root / uri.removeprefix(PREFIX)).resolve()
         if not uri.startswith(PREFIX) or path.suffix.lower() not in FORMATS:
             raise BadInput(
                 f"the mesh is '{uri}'; expected a URI that begins with {PREFIX} and ends with "
                 f"{', '.join(FORMATS)}"
             )
+        if not path.is_file():
+            raise BadInput(f"the mesh {uri} does not exist; put it at {path}, or correct the URI")
+        return path
+
+    def read(self, uri: str) -> Mesh:
+        """Read a mesh.
+
+        Raises BadInput where there is none, where it has more than `max_triangles`, naming the
+        number, or where it is no size that an object has.
+        """
+        # It takes 80 MiB, and most labs have no object that collides with a mesh.
+        import trimesh
+
+        path = self.find(uri)
         try:
             mesh: Any = trimesh.load(path, force="mesh", process=False)
         except Exception as error:  # trimesh raises what its parsers happen to raise
             raise BadInput(f"the mesh {uri} cannot be read: {error}; export it again") from None
         vertices = np.array(mesh.vertices, dtype=np.float64)
         triangles = np.array(mesh.faces, dtype=np.int32)
-        if len(triangles) > max_triangles:
+        if len(triangles) > self._max_triangles:
             raise BadInput(
-                f"the mesh {uri} has {len(triangles)} triangles; expected {max_triangles} at "
-                "most: simplify it, in Blender with the modifier Decimate"
+                f"the mesh {uri} has {len(triangles)} triangles; expected {self._max_triangles} "
+                "at most: simplify it, in Blender with the modifier Decimate"
             )
         if not len(triangles) or not np.isfinite(vertices).all():
             raise BadInput(f"the mesh {uri} has no triangles, or a vertex that is not finite")
@@ -51,5 +64,3 @@ def reader(root: Path, max_triangles: int) -> Callable[[str], Mesh]:
                 f"{SIZE_RANGE[1]:g} m: export it in metres"
             )
         return Mesh(vertices, triangles)
-
-    return read

@@ -117,6 +117,11 @@ class RobotLibrary:
             mesh.set("filename", str(self.mesh_path(str(mesh.get("filename")))))
         return ET.tostring(root, encoding="unicode")
 
+    def never_touch(self, robot_id: str) -> frozenset[frozenset[str]]:
+        """Return the pairs of links that the robot's own file says never touch, whatever their
+        hulls do; raise BadInput where the robot is unknown."""
+        return frozenset(frozenset(pair) for pair in self.facts(robot_id).get("never_touch", ()))
+
     def touching_links(
         self, robot_id: str, end_effector: str | None = None
     ) -> frozenset[frozenset[str]]:
@@ -125,7 +130,7 @@ class RobotLibrary:
         root = urdf.parse(self.description(robot_id, end_effector), robot_id)
         solid = {e.get("name") for e in root.iterfind("link") if e.find("collision") is not None}
         above = {joint.child: joint.parent for joint in urdf.joints(root, robot_id)}
-        pairs = {frozenset(pair) for pair in self.facts(robot_id).get("never_touch", ())}
+        pairs = set(self.never_touch(robot_id))
         for link in above:
             parent = above[link]
             while parent not in solid and parent in above:

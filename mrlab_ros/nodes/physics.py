@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import sys
 import threading
 from collections.abc import Iterator
 from contextlib import contextmanager
@@ -16,20 +17,22 @@ from std_srvs.srv import Trigger
 
 from mrlab_ros import conversions, host, physics_support, share
 from mrlab_ros import physics_messages as messages
-from mrlab_ros.adapters import object_meshes, scene_files
+from mrlab_ros.adapters import scene_files
+from mrlab_ros.adapters.object_meshes import ObjectMeshes
 from mrlab_ros.adapters.robot_library import RobotLibrary, read_yaml
 from mrlab_ros.adapters.scene_files import SceneFiles
 from mrlab_ros.core.clock import SECOND
 from mrlab_ros.core.errors import BadInput, LabError
 from mrlab_ros.core.physics import catalogue
 from mrlab_ros.core.physics.engine import Motion
+from mrlab_ros.core.physics.scene_document import ObjectEntry
 from mrlab_ros.core.physics.settings import Settings
 from mrlab_ros.core.physics.world import World
 from mrlab_ros.nodes.answers import answered
 from mrlab_ros.nodes.physics_ear import Ear
 from mrlab_ros.nodes.physics_news import News
 from mrlab_ros.nodes.physics_scenes import Regrip, SceneLoader, Shared, document
-from mrlab_ros.scheduler import LabClock
+from mrlab_ros.scheduler import SWITCH_INTERVAL, LabClock
 from mrlab_ros.spinning import Caller
 
 try:
@@ -41,7 +44,9 @@ except ModuleNotFoundError as error:
 
 # The world is looked after at least this often, ns: its own step.
 TURN_NS = SECOND // 240
-SAVE_NS = 2 * SECOND
+# After so many steps the other threads have their turn, and what happened is told.
+MOST_STEPS = 24
+SAVE_PERIOD = 2.0  # s
 
 
 class PhysicsNode(Node):
@@ -56,12 +61,12 @@ class PhysicsNode(Node):
         super().__init__("physics", context=context, parameter_overrides=parameter_overrides or [])
         state = self.declare_parameter("state_dir", "").value
         folder = Path(state) if state else Path.home() / ".local" / "share" / "mrlab"
-        self._file = folder / "physics.yaml" if state else None
+        self._file = folder / "physics.json" if state else None
         config = share.directory() / "config"
         self._files = SceneFiles(config / "scenes", folder / "scenes")
         self._settings = Settings.from_mapping(read_yaml(config / "physics.yaml"))
-        read_mesh = object_meshes.reader(share.directory(), self._settings.max_triangles)
-        self._types = catalogue.parse(read_yaml(config / "objects.yaml"), read_mesh)
+        meshes = ObjectMeshes(share.directory(), self._settings.max_triangles)
+        self._types = catalogue.parse(read_yaml(config / "objects.yaml"), meshes)
         library = RobotLibrary(share.directory() / "robots")
         self._resolve = library.mesh_path
         self._lock = threading.Lock()
@@ -69,12 +74,12 @@ class PhysicsNode(Node):
         self._engine = BulletEngine(self._resolve)
         self._world = World(self._engine, self._types, self._settings)
         self._news = News(self, self._world)
-        self._save_ns = 0
+        self._changed = False
         self._regrips: list[Regrip] = []
         if self._file is not None and self._file.exists():
             self._restore(self._file)
-        self._news.tell_surfaces(self._lab_clock.now_ns())
-        self._ear = Ear(self, self._world, self._news, self._lock, self._turn)
+        self._news.tell_surfaces(self._lab_clock.now_ns(), self._world.surfaces)
+        self._ear = Ear(self, self._world, self._news, self._lock, self._turn, library.never_touch)
         # Answers come by another thread than the one that waits for them.
         self._caller = Caller(self)
         self._shared = Shared(
@@ -99,14 +104,18 @@ class PhysicsNode(Node):
             (srv.SceneFile, "load_scene", self._on_load),
         ):
             self.create_service(kind, f"~/{name}", callback)
+        if self._file is not None:
+            self.create_timer(SAVE_PERIOD, self._save)
+        # Python's own 5 ms that one thread may keep the others waiting would delay a halt.
+        sys.setswitchinterval(SWITCH_INTERVAL)
         self._ear.start()
 
     def destroy_node(self) -> None:
         self._ear.stop()
         self._caller.close()
+        self._changed = True
+        self._save()
         with self._lock:
-            if self._file is not None:
-                scene_files.write(self._file, document(self._shared))
             self._engine.close()
         super().destroy_node()
 
@@ -128,35 +137,54 @@ class PhysicsNode(Node):
         try:
             with self._lock:
                 now_ns = self._lab_clock.now_ns()
-                self._world.advance(now_ns)
+                made = self._world.advance(now_ns, MOST_STEPS)
                 if self._regrips:
                     self._regrip()
-                changed = self._news.tell(now_ns)
-                if changed and self._file is not None and now_ns >= self._save_ns:
-                    self._save_ns = now_ns + SAVE_NS
-                    scene_files.write(self._file, document(self._shared))
+                self._changed |= self._news.tell(now_ns)
+                if made == MOST_STEPS:
+                    return 0
                 return int(max(self._world.now_ns + TURN_NS - now_ns, TURN_NS // 4))
         except Exception as error:
             if self.context.ok():
                 self.get_logger().error(f"physics: {error!r}", throttle_duration_sec=1.0)
             return TURN_NS
 
+    def _save(self) -> None:
+        """Keep the scene for a restart where it changed; the world does not wait for the file."""
+        if self._file is None or not self._changed:
+            return
+        with self._lock:
+            self._changed = False
+            scene = document(self._shared)
+        try:
+            scene_files.write(self._file, scene)
+        except OSError as error:
+            self._changed = True
+            self.get_logger().error(
+                f"the scene cannot be kept for a restart: {error}", throttle_duration_sec=60.0
+            )
+
     def _restore(self, file: Path) -> None:
         """Take back the objects and surfaces of the last run; the robots come from the lab."""
         try:
             scene = scene_files.read(file)
             self._world.set_surfaces(scene.surfaces)
-            for entry in scene.objects:
-                self._world.spawn(entry.type, entry.name, entry.pose)
-                if entry.held_by and entry.in_hand is not None:
-                    # It waits in the air for the robot that held it.
-                    still = Motion(entry.pose)
-                    self._world.move(
-                        entry.name, entry.pose, still.linear, still.angular, held=True
-                    )
-                    self._regrips.append(Regrip(entry.name, entry.held_by, entry.in_hand))
         except LabError as error:
-            self.get_logger().error(f"the last scene is not all back: {error}")
+            self.get_logger().error(f"the last scene is not back: {error}")
+            return
+        for entry in scene.objects:
+            try:
+                self._put_back(entry)
+            except LabError as error:
+                self.get_logger().error(f"{entry.name} is not back: {error}")
+
+    def _put_back(self, entry: ObjectEntry) -> None:
+        self._world.spawn(entry.type, entry.name, entry.pose)
+        if entry.held_by and entry.in_hand is not None:
+            # It waits in the air for the robot that held it.
+            still = Motion(entry.pose)
+            self._world.move(entry.name, entry.pose, still.linear, still.angular, held=True)
+            self._regrips.append(Regrip(entry.name, entry.held_by, entry.in_hand))
 
     def _regrip(self) -> None:
         """Let the robots of the last run have again what they held; forget who is gone."""
@@ -222,8 +250,7 @@ class PhysicsNode(Node):
         surfaces = [messages.surface_from_message(s) for s in request.surfaces]
         with self._lock:
             inside = self._world.set_surfaces(surfaces)
-            self._news.tell_surfaces(self._lab_clock.now_ns())
-            count = len(self._world.surfaces)
+        count = self._tell_surfaces()
         if inside:
             return (
                 f"{count} surfaces; {', '.join(inside)} stand in a robot and count once it has "
@@ -256,8 +283,15 @@ class PhysicsNode(Node):
         try:
             return self._scenes.load(request.name)
         finally:
-            with self._lock:
-                self._news.tell_surfaces(self._lab_clock.now_ns())
+            self._tell_surfaces()
+
+    def _tell_surfaces(self) -> int:
+        """Tell the room as it is, and have it kept; return how many surfaces it has."""
+        with self._lock:
+            self._changed = True
+            surfaces = self._world.surfaces
+        self._news.tell_surfaces(self._lab_clock.now_ns(), surfaces)
+        return len(surfaces)
 
 
 def main() -> None:

@@ -19,6 +19,7 @@ from mrlab_ros import conversions, joint_state_cdr, qos, share
 from mrlab_ros import physics_messages as messages
 from mrlab_ros.adapters.robot_library import END_EFFECTORS, read_yaml
 from mrlab_ros.core.errors import LabError
+from mrlab_ros.core.physics.engine import LinkPairs
 from mrlab_ros.core.physics.grasp import Gripper
 from mrlab_ros.core.physics.robot import GripperProgram, Playing
 from mrlab_ros.core.physics.world import World
@@ -47,13 +48,21 @@ class Ear:
     """Keeps a world as the graph says, in a thread of its own that also calls `turn`.
 
     Joint states come a thousand times a second: they bypass the executor. turn: advances the
-    world and returns how long to wait at most, ns.
+    world and returns how long to wait at most, ns. never_touch: tells of a model which links
+    never touch.
     """
 
     def __init__(
-        self, node: Node, world: World, news: News, lock: threading.Lock, turn: Callable[[], int]
+        self,
+        node: Node,
+        world: World,
+        news: News,
+        lock: threading.Lock,
+        turn: Callable[[], int],
+        never_touch: Callable[[str], LinkPairs],
     ) -> None:
         self._world = world
+        self._never_touch = never_touch
         self._news = news
         self._lock = lock
         self._log = node.get_logger()
@@ -88,11 +97,13 @@ class Ear:
         )
         return subscription
 
-    def _hear_joints(self, name: str) -> Subscription:
+    def _hear_joints(self, name: str, joints: tuple[str, ...]) -> Subscription:
         subscription = self._node.create_subscription(
             JointState, f"/{name}/joint_states", _unused, qos.STREAM, raw=True
         )
-        self._thread.add_subscription(subscription, functools.partial(self._on_joint_state, name))
+        self._thread.add_subscription(
+            subscription, functools.partial(self._on_joint_state, name, joints)
+        )
         return subscription
 
     def _on_error(self, error: Exception) -> None:
@@ -132,7 +143,7 @@ class Ear:
         known = Followed(robot)
         self.robots = {**self.robots, name: known}
         known.subscriptions += [
-            self._hear_joints(name),
+            self._hear_joints(name, tuple(robot.joint_names)),
             hear(String, "robot_description", self._on_description, qos.LATCHED),
             hear(msg.PlaybackState, "playback_state", self._on_playback, qos.LATCHED),
             hear(msg.GraspTargets, "targets", self._on_targets, qos.LATCHED),
@@ -171,6 +182,7 @@ class Ear:
                     tuple(known.robot.joint_names),
                     conversions.place_from_message(known.robot.pose),
                     _gripper(known.robot.end_effector),
+                    self._never_touch(known.robot.model),
                 )
                 self._world.set_program(name, known.program)
                 self._world.playback(name, known.playing)
@@ -178,8 +190,8 @@ class Ear:
                 self._log.error(f"{name} has no physics: {error}")
         known.built = wanted
 
-    def _on_joint_state(self, name: str, data: bytes) -> None:
-        stamp_ns, positions, velocities = joint_state_cdr.read(data)
+    def _on_joint_state(self, name: str, joints: tuple[str, ...], data: bytes) -> None:
+        stamp_ns, positions, velocities = joint_state_cdr.read(data, joints)
         with self._lock:
             if name in self._world.robots:
                 self._world.joint_state(name, stamp_ns, positions, velocities)

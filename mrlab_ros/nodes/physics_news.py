@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 from mrlab_msgs import msg
@@ -13,6 +14,7 @@ from mrlab_ros import physics_messages as messages
 from mrlab_ros.core.clock import SECOND
 from mrlab_ros.core.physics.engine import Motion
 from mrlab_ros.core.physics.events import CollisionChanged, Event, ObjectRemoved
+from mrlab_ros.core.physics.surfaces import Surface
 from mrlab_ros.core.physics.world import World
 
 CONTACTS_NS = SECOND // 50
@@ -40,7 +42,7 @@ class _Told:
 
 
 class News:
-    """Publishes what happens in a world; the caller holds the world's lock."""
+    """Publishes what happens in a world; the caller holds the world's lock, if not told else."""
 
     def __init__(self, node: Node, world: World) -> None:
         self._node = node
@@ -120,10 +122,11 @@ class News:
             )
         return changed
 
-    def tell_surfaces(self, now_ns: int) -> None:
+    def tell_surfaces(self, now_ns: int, surfaces: Sequence[Surface]) -> None:
+        """Publish the room; a large one takes long, so the caller needs no lock."""
         self._surfaces.publish(
             msg.Surfaces(
                 header=conversions.header(now_ns, messages.WORLD),
-                surfaces=[messages.surface_to_message(s) for s in self._world.surfaces],
+                surfaces=[messages.surface_to_message(s) for s in surfaces],
             )
         )

@@ -15,6 +15,7 @@ from std_srvs.srv import Trigger
 
 from mrlab_ros import conversions, qos, share
 from mrlab_ros.adapters.robot_library import RobotLibrary
+from mrlab_ros.adapters.scene_files import read
 from mrlab_ros.core.trajectory import Channels, Source, Trajectory
 from mrlab_ros.nodes.coordinator import CoordinatorNode
 from mrlab_ros.nodes.lab import LabNode
@@ -274,6 +275,17 @@ def test_a_restarted_physics_has_its_objects_and_robots_back(graph, lab, tmp_pat
     assert again._world.robots == (holds,)
     for name, at in before.items():
         assert np.allclose(where(objects, name), at, atol=0.005), name
+
+
+def test_a_room_is_kept_for_a_restart_that_nobody_planned(graph, lab, tmp_path):
+    corners = [Point(x=x, y=y, z=0.0) for x, y in ((0.0, 0.0), (1.0, 0.0), (0.0, 1.0))]
+    shelf = msg.Surface(name="shelf", label="shelf", vertices=corners, pose=pose((3, 0, 1)))
+    assert graph.call(srv.SetSurfaces, "/physics/set_surfaces", surfaces=[shelf]).success
+    kept = tmp_path / "physics.json"
+    wait_for(
+        lambda: kept.exists() and [s.name for s in read(kept).surfaces] == ["shelf", "floor"],
+        "the file",
+    )
 
 
 def test_a_robot_that_goes_while_it_holds_something_leaves_it_and_may_come_back(graph, lab):

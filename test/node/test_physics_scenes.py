@@ -74,8 +74,8 @@ def convert(graph: Graph, file: str, model: str) -> str:
     return done(answer).trajectory.id
 
 
-def handed_over(graph: Graph, lab, members: list[msg.SystemMember]) -> bool:
-    """Play the hand-over from its start until the taker has the rod; return whether it has."""
+def hand_over(graph: Graph, lab, members: list[msg.SystemMember]) -> None:
+    """Play the hand-over from its start until the taker has the rod."""
     done(load_scene(graph, "handover"))
     wait_for(lambda: lab.objects.last() and lab.objects.last().objects, "the rod")
     assert np.abs(where(lab, "rod_1") - TAKEN).max() < 0.003
@@ -89,7 +89,7 @@ def handed_over(graph: Graph, lab, members: list[msg.SystemMember]) -> bool:
         "the hand-over or the end",
         30.0,
     )
-    return bool(thing(lab, "rod_1").held_by == TAKER)
+    assert thing(lab, "rod_1").held_by == TAKER
 
 
 def test_a_rod_goes_from_hand_to_hand_and_the_class_starts_where_it_stopped(graph, lab):
@@ -102,8 +102,7 @@ def test_a_rod_goes_from_hand_to_hand_and_the_class_starts_where_it_stopped(grap
             trajectory_id=convert(graph, "two_robot_handover_kr6.mat", "kuka_kr6_r900_sixx"),
         ),
     ]
-    # Where the machine stands still for longer than the fingers have to close, they miss the rod.
-    assert any(handed_over(graph, lab, members) for _ in range(3))
+    hand_over(graph, lab, members)
     wait_for(lambda: lab.grasps[GIVER].last().state == msg.Grasp.OPEN, "the giver's opening")
     assert not any(c.colliding for inbox in lab.collisions.values() for c in inbox)
     states = [grasp.state for grasp in lab.grasps[GIVER]]
@@ -114,8 +113,9 @@ def test_a_rod_goes_from_hand_to_hand_and_the_class_starts_where_it_stopped(grap
 
     # Scrubbing both robots takes the rod back: to the giver's hand, to the floor, and on again.
     done(graph.call(Trigger, "/cell/pause"))
-    stopped = system(lab).clock.position
-    for position, holder in ((3.0, GIVER), (1.0, ""), (stopped - 0.05, TAKER)):
+    # Wherever a slow machine came to pause it: there the taker still has the rod.
+    last = min(system(lab).clock.position - 0.05, 6.0)
+    for position, holder in ((3.0, GIVER), (1.0, ""), (last, TAKER)):
         done(graph.call(srv.Seek, "/cell/seek", position=position))
         wait_for(lambda holder=holder: thing(lab, "rod_1").held_by == holder, f"at {position} s")
         if not holder:
@@ -133,14 +133,14 @@ def test_a_rod_goes_from_hand_to_hand_and_the_class_starts_where_it_stopped(grap
     )
     wait_for(lambda: np.abs(where(lab, "rod_1") - place).max() < 0.005, "the rod's place")
     wait_for(lambda: system(lab) and system(lab).label == "PAUSED", "the system")
-    assert system(lab).clock.position == pytest.approx(stopped - 0.05, abs=0.02)
+    assert system(lab).clock.position == pytest.approx(last, abs=0.02)
     assert [m.robot for m in system(lab).members] == [GIVER, TAKER]
     done(graph.call(Trigger, "/cell/play", timeout=30))
     wait_for(lambda: system(lab).message == "played to the end", "the end", 30.0)
     wait_for(lambda: thing(lab, "rod_1").held_by == "", "the release")
     wait_for(lambda: where(lab, "rod_1")[2] < 0.1, "the rod on the floor")
     # Exactly where, a world whose time the test moves can say: test_physics_examples.py.
-    assert np.abs(where(lab, "rod_1") - STOOD)[:2].max() < 0.3
+    assert np.abs(where(lab, "rod_1") - STOOD)[:2].max() < 0.6
 
 
 BAD_SCENES = {

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import hashlib
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -109,8 +110,11 @@ def test_a_fast_thin_tool_does_not_pass_a_thin_plate(world, speed):
     assert hit.contact.touch.other == "plate_1"
 
 
-def run(seconds: float = 3.0):
-    """A pick that knocks something over on the way: return a digest of all that happened."""
+def run(seconds: float = 3.0, stall: tuple[float, float] = (0.0, 0.0)):
+    """A pick that knocks something over on the way: return a digest of all that happened.
+
+    stall: from when to when, s, nothing comes in and no time passes for the world.
+    """
     engine = BulletEngine(resolve)
     world = World(engine, TYPES, Settings())
     model = LIBRARY.model("ur5e")
@@ -127,18 +131,30 @@ def run(seconds: float = 3.0):
     pan = 0.6 * np.clip((t - 1.2) / 1.2, 0, 1) ** 2
     positions = model.home + pan[:, None] * np.array([1, 0, 0, 0, 0, 0])
     playing = Playing(State.PLAYING, "t", PlaybackClock(0, 0.0, 1.0), 0, len(t), 100.0, t[-1])
-    events, contacts, places = [], [], []
+    rested = PlaybackClock(2700 * MS, 2.7, 0.0)
+    paused = Playing(State.PAUSED, "t", rested, 270, len(t), 100.0, t[-1], 2700 * MS)
+    events, contacts, places, waiting = [], [], [], []
     velocities = np.gradient(positions, 0.01, axis=0)
     for i in range(len(t)):
         now_ns = i * 10 * MS
-        world.joint_state("a", now_ns, positions[i], velocities[i])
-        if i == 2:
+        waiting.append(i)
+        if stall[0] <= now_ns / SECOND < stall[1]:
+            continue
+        # What comes after a stall comes in any order but its own topic's.
+        if 2 in waiting:
             world.playback("a", playing)
-        world.advance(now_ns)
+        if 270 in waiting:
+            world.playback("a", paused)
+        for k in waiting:
+            world.joint_state("a", k * 10 * MS, positions[k], velocities[k])
+            if k % 16 == 15 or k == i:
+                world.advance(now_ns)
+        waiting.clear()
         events += world.take_events()
         contacts += world.take_contacts()
         places.append(world.motion("cube_1"))
     engine.close()
+    contacts = contacts if stall == (0.0, 0.0) else []
     digest = hashlib.sha256(repr((events, contacts, places)).encode()).hexdigest()
     return digest, events, places
 
@@ -152,6 +168,15 @@ def test_the_same_inputs_give_the_same_events_and_a_grasp_without_a_jump():
     held = grasps[2].stamp_ns // (10 * MS)
     before, after = (np.array(places[held + i].pose.position) for i in (-1, 2))
     assert np.abs(after - before).max() < 0.002
+
+
+@pytest.mark.parametrize("stall", [(0.1, 1.6), (0.5, 0.9), (2.3, 2.9)])
+def test_a_stall_changes_nothing_of_what_happens(stall):
+    """Neither the fingers' time to close nor where they open is lost with it."""
+    _, expected, places = run()
+    _, events, late = run(stall=stall)
+    assert events == expected
+    assert late[-1] == places[-1]
 
 
 def test_attaching_moves_nothing_and_the_held_object_follows_the_hand(world):
@@ -180,6 +205,18 @@ def test_attaching_moves_nothing_and_the_held_object_follows_the_hand(world):
     assert np.hypot(v[0], v[1]) == pytest.approx(abs(np.sin(2 * t[-1])) * 0.902, abs=0.05)
 
 
+def test_what_sleeps_on_something_held_falls_when_a_seek_takes_that_away(world):
+    world.add_robot("a", beam(), ("j",), Pose((-1.0, 0.0, 0.3)), Gripper.NONE)
+    for i in range(2):
+        world.spawn("cube", pose=Pose((0.0, 0.0, 0.0255 + 0.05 * i)))
+    drive(world, "a", np.full((20, 1), 0.5))
+    world.attach("a", "cube_1")
+    drive(world, "a", np.full((400, 1), 0.5), start_ns=SECOND)
+    assert world.motion("cube_2").pose.position[2] == pytest.approx(0.075, abs=0.002)
+    drive(world, "a", np.full((80, 1), 2.5), start_ns=6 * SECOND)
+    assert world.motion("cube_2").pose.position[2] == pytest.approx(0.025, abs=0.002)
+
+
 def test_a_vacuum_cup_holds_what_it_touches_and_another_robot_takes_it_over(world):
     model = LIBRARY.model("ur5e")
     description = LIBRARY.description("ur5e", "vacuum_cup")
@@ -194,6 +231,7 @@ def test_a_vacuum_cup_holds_what_it_touches_and_another_robot_takes_it_over(worl
     events = drive(world, "a", np.tile(model.home, (60, 1)))
     assert world.robot("a").held == "cube_1"
     assert not collisions(events)
+    world.playback("a", replace(playing, state=State.PAUSED))
     world.add_robot("b", beam(), ("j",), Pose((1.0, 1.0, 0.0)), Gripper.NONE)
     drive(world, "b", np.zeros((3, 1)), start_ns=610 * MS)
     world.attach("b", "cube_1")

@@ -44,6 +44,7 @@ class Stage:
                 model.joint_names,
                 robot.pose,
                 Gripper.FINGERS,
+                LIBRARY.never_touch(robot.model),
             )
             if files is None:
                 self.motions[robot.name] = model.home[None, :]

@@ -4,13 +4,14 @@ from __future__ import annotations
 
 import importlib.util
 from pathlib import Path
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
 import trimesh
 
-from mrlab_ros.adapters import object_meshes
 from mrlab_ros.adapters.bullet import BulletEngine
+from mrlab_ros.adapters.object_meshes import ObjectMeshes
 from mrlab_ros.adapters.robot_library import read_yaml
 from mrlab_ros.core.clock import SECOND
 from mrlab_ros.core.errors import BadInput
@@ -32,8 +33,8 @@ from mrlab_ros.core.scene import Pose
 
 ROOT = Path(__file__).parents[2]
 SHIPPED = sorted((ROOT / "config" / "objects").glob("*.glb"))
-READ = object_meshes.reader(ROOT, 20_000)
-TYPES = catalogue.parse(read_yaml(ROOT / "config" / "objects.yaml"), READ)
+MESHES = ObjectMeshes(ROOT, 20_000)
+TYPES = catalogue.parse(read_yaml(ROOT / "config" / "objects.yaml"), MESHES)
 URI = "package://mrlab_ros/"
 
 
@@ -46,7 +47,7 @@ def test_every_shipped_mesh_is_an_objects_and_every_object_finds_its_mesh():
 def test_a_shipped_mesh_is_small_and_as_large_as_what_it_collides_with(path):
     assert path.stat().st_size < 60_000
     kind = TYPES.get(path.stem)
-    vertices = READ(kind.mesh).vertices
+    vertices = MESHES.read(kind.mesh).vertices
     assert vertices.min(axis=0) == pytest.approx(kind.low, abs=0.002)
     assert vertices.max(axis=0) == pytest.approx(kind.high, abs=0.002)
 
@@ -59,8 +60,8 @@ def test_the_script_makes_every_shipped_mesh(tmp_path, monkeypatch):
     spec.loader.exec_module(module)
     assert set(module.OBJECTS) == {path.stem for path in SHIPPED}
     monkeypatch.setattr(module, "FOLDER", tmp_path)
-    made = object_meshes.reader(tmp_path, 20_000)(f"{URI}{module.make('hole').name}")
-    shipped = READ(TYPES.get("hole").mesh)
+    made = ObjectMeshes(tmp_path, 20_000).read(f"{URI}{module.make('hole').name}")
+    shipped = MESHES.read(TYPES.get("hole").mesh)
     assert len(made.triangles) == pytest.approx(len(shipped.triangles), rel=0.02)
     assert np.ptp(made.vertices, axis=0) == pytest.approx(np.ptp(shipped.vertices, axis=0), 0.01)
 
@@ -80,19 +81,19 @@ def folder(tmp_path):
 
 
 def test_an_object_of_ones_own_collides_with_its_mesh(folder):
-    read = object_meshes.reader(folder, 20_000)
-    held = catalogue.parse(entry(mesh=f"{URI}ring.stl", mass=0.2), read).get("thing")
+    meshes = ObjectMeshes(folder, 20_000)
+    held = catalogue.parse(entry(mesh=f"{URI}ring.stl", mass=0.2), meshes).get("thing")
     (part,) = held.body.parts
     assert part.shape is Shape.HULL
     assert len(part.vertices) <= HULL_CORNERS
     assert held.size == pytest.approx((0.14, 0.14, 0.04), abs=0.004)
-    fixed = catalogue.parse(entry(mesh=f"{URI}ring.stl", fixed=True), read)
+    fixed = catalogue.parse(entry(mesh=f"{URI}ring.stl", fixed=True), meshes)
     (part,) = fixed.get("thing").body.parts
     assert part.shape is Shape.MESH
 
     engine = BulletEngine(lambda uri: folder)
     world = World(
-        engine, catalogue.parse(entry(mesh=f"{URI}ring.stl", mass=0.2), read), Settings()
+        engine, catalogue.parse(entry(mesh=f"{URI}ring.stl", mass=0.2), meshes), Settings()
     )
     ring = world.spawn("thing", pose=Pose((0.0, 0.0, 0.3))).name
     for i in range(60):
@@ -107,14 +108,22 @@ def test_an_object_of_ones_own_collides_with_its_mesh(folder):
         (f"{URI}fine.stl", "has 81920 triangles; expected 20000 at most"),
         (f"{URI}millimetres.stl", "measures 200 m; expected 0.002 to 5 m"),
         (f"{URI}broken.glb", "cannot be read"),
-        (f"{URI}nothing.stl", "cannot be read"),
+        (f"{URI}nothing.stl", "does not exist"),
         (f"{URI}../../etc/passwd", "expected a URI that begins with"),
         ("http://elsewhere/ring.stl", "expected a URI that begins with"),
     ],
 )
 def test_a_mesh_that_cannot_be_an_object_is_refused(folder, uri, says):
     with pytest.raises(BadInput, match=says):
-        catalogue.parse(entry(mesh=uri, mass=0.2), object_meshes.reader(folder, 20_000))
+        catalogue.parse(entry(mesh=uri, mass=0.2), ObjectMeshes(folder, 20_000))
+
+
+def test_a_mesh_that_is_only_looked_at_must_be_there(folder):
+    shown = {"shape": "box", "size": [0.1, 0.1, 0.1], "mass": 0.2}
+    meshes = ObjectMeshes(folder, 20_000)
+    assert catalogue.parse(entry(mesh=f"{URI}fine.stl", **shown), meshes).get("thing").mesh
+    with pytest.raises(BadInput, match="does not exist"):
+        catalogue.parse(entry(mesh=f"{URI}nothing.stl", **shown), meshes)
 
 
 def test_a_scene_is_the_same_after_it_was_written_and_read():
@@ -213,7 +222,8 @@ def test_a_scene_that_contradicts_itself_is_refused(document, says):
 def test_the_hull_of_a_mesh_reaches_as_far_as_the_mesh():
     ball = trimesh.creation.icosphere(4, 0.1)
     mesh = catalogue.Mesh(np.array(ball.vertices), np.array(ball.faces, dtype=np.int32))
-    kind = catalogue.parse(entry(mesh="ball", mass=1.0), lambda uri: mesh).get("thing")
+    meshes = SimpleNamespace(read=lambda uri: mesh)
+    kind = catalogue.parse(entry(mesh="ball", mass=1.0), meshes).get("thing")
     corners = kind.body.parts[0].vertices
     assert len(corners) > HULL_CORNERS / 2
     assert np.linalg.norm(corners, axis=1) == pytest.approx(0.1, rel=1e-6)

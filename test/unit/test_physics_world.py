@@ -11,6 +11,7 @@ from fake_engine import FakeEngine
 from mrlab_ros.core.clock import SECOND, PlaybackClock
 from mrlab_ros.core.errors import BadInput, IllegalEvent, Misuse
 from mrlab_ros.core.physics import catalogue
+from mrlab_ros.core.physics import surfaces as rooms
 from mrlab_ros.core.physics.engine import Motion
 from mrlab_ros.core.physics.events import CollisionChanged, GraspChanged, ObjectRemoved
 from mrlab_ros.core.physics.grasp import TRANSITIONS, Grasp, GraspEvent, Gripper, after
@@ -52,8 +53,12 @@ class Lab:
             self.now_ns += 10 * MS
             self.at = start + (goal - start) * (i / count)
             self.world.joint_state("a", self.now_ns, self.at, velocity)
+            self.send_others()
             self.world.advance(self.now_ns)
             self.events += self.world.take_events()
+
+    def send_others(self) -> None:
+        """Send the joint states of robots beside `a`."""
 
     def play(self, position: float = 0.0, state: State = State.PLAYING) -> None:
         rate = 1.0 if state is State.PLAYING else 0.0
@@ -99,6 +104,54 @@ def test_moving_the_obstacle_away_clears_too_and_playing_into_it_again_halts_aga
     assert [event.colliding for event in lab.of(CollisionChanged)] == [True, False, True, True]
 
 
+@pytest.mark.parametrize(("x", "told"), [(0.3, [False]), (0.46, [True, False])])
+def test_a_halt_that_another_world_began_is_ended_here(x, told):
+    """Physics was started anew, or the robot was built anew with another end effector."""
+    lab = Lab()
+    lab.world.spawn("ball", "ball", Pose((0.5, 0.0, 0.5)))
+    lab.play(state=State.COLLISION_HALT)
+    lab.go(x, 10 * MS)
+    lab.go(x, 400 * MS)
+    lab.go(0.3, 100 * MS)
+    lab.go(0.3, 400 * MS)
+    assert [event.colliding for event in lab.of(CollisionChanged)] == told
+
+
+def test_a_silent_arm_is_waited_for_a_while_and_a_foreign_clock_is_not():
+    lab = Lab()
+    lab.play()
+    lab.go(0.1, 100 * MS)
+    last = lab.now_ns
+    for k in range(1, 99):
+        lab.world.advance(last + k * 10 * MS)
+        assert last - 5 * MS < lab.world.now_ns <= last
+    lab.world.advance(last + 1020 * MS)
+    assert lab.world.now_ns > last + SECOND
+    lab.world.playback("a", Playing())
+    lab.world.joint_state("a", last - 3600 * SECOND, (0.2, 0.0), (1.0, 0.0))
+    lab.world.advance(last + 1040 * MS)
+    assert lab.world.now_ns > last + 1030 * MS
+    assert lab.engine.arms["a"]["q"] == (0.2, 0.0)
+
+
+def test_what_the_playback_does_holds_from_its_stamp_on():
+    lab = Lab(gripper=Gripper.FINGERS)
+    lab.world.set_program("a", GripperProgram((0.0, 1.0), (True, False)))
+    lab.play()
+    lab.go(0.1, 500 * MS)
+    stopped = lab.now_ns + 300 * MS
+    clock = PlaybackClock(stopped, 1.5, 0.0)
+    lab.world.playback("a", Playing(State.PAUSED, "t", clock, 0, 1001, 100.0, 10.0, stopped))
+    lab.go(0.15, 290 * MS)
+    assert lab.world.robot("a").closed
+    lab.go(0.15, 20 * MS)
+    assert not lab.world.robot("a").closed
+    lab.go(0.15, 1000 * MS)
+    far = lab.now_ns + 3600 * SECOND
+    lab.world.playback("a", Playing(State.IDLE, stamp_ns=far))
+    assert lab.world.robot("a").playing.state is State.IDLE
+
+
 def test_fast_motion_is_looked_at_in_small_parts():
     lab = Lab()
     lab.world.spawn("ball", "ball", Pose((0.5, 0.0, 0.5)))
@@ -140,7 +193,7 @@ def test_a_joint_state_that_is_none_is_refused_and_changes_nothing(positions, ve
 
 
 def test_joint_states_that_go_back_in_time_are_left_out_unless_the_clock_began_anew():
-    stream = JointStream(1, 50 * MS)
+    stream = JointStream(1, SECOND, 2 * SECOND)
     assert stream.add(5 * SECOND, [0.1], [0.0], 0)
     assert not stream.add(5 * SECOND - 10 * MS, [0.2], [0.0], 0)
     assert not stream.add(5 * SECOND, [0.2], [0.0], 0)
@@ -149,11 +202,11 @@ def test_joint_states_that_go_back_in_time_are_left_out_unless_the_clock_began_a
 
 
 def test_the_motion_goes_through_every_joint_state_and_is_straight_between():
-    stream = JointStream(1, 50 * MS)
+    stream = JointStream(1, SECOND, 2 * SECOND)
     q = np.cumsum(np.random.default_rng(0).uniform(-0.01, 0.01, 20))
     for i, x in enumerate(q):
         stream.add(i * 10 * MS, [x], [0.5], i * 10 * MS - 10 * MS)
-        assert stream.known_until(i * 10 * MS) == (i * 10 * MS if i else None)
+        assert stream.known_until(i * 10 * MS, 10 * MS) == (i * 10 * MS if i else None)
         if i:
             middle = stream.at(i * 10 * MS - 5 * MS)
             assert middle.positions[0] == pytest.approx((q[i - 1] + x) / 2)
@@ -162,12 +215,17 @@ def test_the_motion_goes_through_every_joint_state_and_is_straight_between():
 
 
 def test_a_slow_stream_is_shown_a_period_late():
-    stream = JointStream(1, 50 * MS)
+    stream = JointStream(1, SECOND, 2 * SECOND)
     for i in range(5):
         stream.add(i * 100 * MS, [0.1 * i], [1.0], i * 100 * MS)
     assert stream.delay_ns == 100 * MS
     assert stream.at(450 * MS).positions[0] == pytest.approx(0.35)
     assert stream.shown_ns(450 * MS) == 350 * MS
+    # What comes every two seconds is shown when it comes, and nothing waits for it.
+    for i in range(1, 4):
+        stream.add(2 * i * SECOND, [1.0 * i], [0.5], 2 * i * SECOND)
+    assert stream.known_until(7 * SECOND, 10 * MS) is None
+    assert stream.at(6 * SECOND + MS).positions[0] == 3.0
 
 
 def test_every_state_and_event_of_a_grasp_leads_on_or_is_refused():
@@ -231,13 +289,18 @@ class Pair(Lab):
     """A lab with a second robot, `b`, whose base is 1 m further along x; it holds its tip at x."""
 
     def __init__(self, gripper: Gripper) -> None:
+        self.b: float | None = None
         super().__init__(gripper=gripper)
         self.world.add_robot("b", "<robot/>", ("j1", "j2"), Pose((1.0, 0, 0)), gripper)
         self.world.spawn("ball", "ball", Pose((0.5, 0.0, 0.5)))
 
     def both(self, a: float, b: float, duration_ns: int) -> None:
-        self.world.joint_state("b", self.now_ns, (b - 1.0, 0.0), (0.0, 0.0))
+        self.b = b
         self.go(a, duration_ns)
+
+    def send_others(self) -> None:
+        if self.b is not None:
+            self.world.joint_state("b", self.now_ns, (self.b - 1.0, 0.0), (0.0, 0.0))
 
     def close(self, robot: str, *opens: float) -> None:
         """Let a robot close from here on, and open so many seconds later."""
@@ -285,6 +348,17 @@ def test_fingers_take_an_object_over_from_fingers_that_open_later():
     lab.both(0.46, 0.9, 200 * MS)
     assert lab.world.motion("ball").pose.position[0] > 0.8
     assert not lab.of(CollisionChanged)
+
+
+def test_of_two_that_close_on_an_object_together_the_first_keeps_it():
+    lab = Pair(Gripper.FINGERS)
+    lab.engine.pinched, lab.engine.block = "ball", 0.02
+    lab.both(0.46, 0.54, 100 * MS)
+    lab.close("a")
+    lab.close("b")
+    lab.both(0.46, 0.54, 2000 * MS)
+    assert lab.world.object("ball").held_by == "a"
+    assert lab.grasps("b") == [Grasp.OPEN, Grasp.CLOSING, Grasp.EMPTY]
 
 
 def test_a_robot_put_into_a_surface_may_move_out_of_it():
@@ -364,6 +438,14 @@ def test_a_surface_in_the_robot_counts_once_the_arm_has_left_it():
     lab.go(0.3, 300 * MS)
     lab.go(0.5, 300 * MS)
     assert [event.colliding for event in lab.of(CollisionChanged)] == [True]
+
+
+def test_a_mesh_is_made_of_the_vertices_its_triangles_name():
+    vertices = np.arange(3_000_000, dtype=np.float64).reshape(-1, 3) / 1e4
+    triangles = np.array([[9, 70, 800], [70, 9, 5]], np.int32)
+    (part,) = rooms.body(Surface("m", "mesh", Pose(), vertices, triangles), 100).parts
+    assert len(part.vertices) == 4
+    assert np.array_equal(part.vertices[part.triangles], vertices[triangles])
 
 
 def test_surfaces_that_are_none_are_refused_and_the_old_ones_stay():

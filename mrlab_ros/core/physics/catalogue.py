@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, Protocol
 
 import numpy as np
 from numpy.typing import NDArray
@@ -46,7 +46,12 @@ class Mesh:
     triangles: NDArray[np.int32]
 
 
-ReadMesh = Callable[[str], Mesh]
+class Meshes(Protocol):
+    """Where the meshes of a catalogue are. Both raise BadInput where a URI names none."""
+
+    def find(self, uri: str) -> object: ...
+
+    def read(self, uri: str) -> Mesh: ...
 
 
 @dataclass(frozen=True, eq=False)
@@ -95,19 +100,19 @@ class Catalogue:
             ) from None
 
 
-def parse(document: object, read_mesh: ReadMesh | None = None) -> Catalogue:
+def parse(document: object, meshes: Meshes | None = None) -> Catalogue:
     """Read the catalogue from what the YAML file holds; raise BadInput where it is not one.
 
-    read_mesh: returns the mesh of a URI or raises BadInput; without it meshes are not looked at,
-    and none can be collided with.
+    A mesh that collides is read, one for displays alone is only found. Without `meshes` none is
+    looked at, and none can be collided with.
     """
     if not isinstance(document, Mapping) or not isinstance(document.get("objects"), Mapping):
         raise BadInput("the object catalogue has no mapping 'objects'; see config/objects.yaml")
-    types = {str(k): _type(str(k), v, read_mesh) for k, v in document["objects"].items()}
+    types = {str(k): _type(str(k), v, meshes) for k, v in document["objects"].items()}
     return Catalogue(types)
 
 
-def _type(type_id: str, entry: object, read_mesh: ReadMesh | None) -> ObjectType:
+def _type(type_id: str, entry: object, meshes: Meshes | None) -> ObjectType:
     where = f"object '{type_id}' of the catalogue"
     if not NAME.fullmatch(type_id):
         raise BadInput(f"{where} has no usable id; expected lower-case letters, digits and _")
@@ -124,10 +129,12 @@ def _type(type_id: str, entry: object, read_mesh: ReadMesh | None) -> ObjectType
             f"{MASS_RANGE[1]:g} kg, or fixed: true for what never moves"
         )
     uri = str(entry.get("mesh", ""))
-    mesh = read_mesh(uri) if uri and read_mesh is not None else None
-    if mesh is not None and not ("shape" in entry or entry.get("parts")):
-        parts = [_of_mesh(mesh, fixed)]
+    shaped = "shape" in entry or bool(entry.get("parts"))
+    if uri and meshes is not None and not shaped:
+        parts = [_of_mesh(meshes.read(uri), fixed)]
     else:
+        if uri and meshes is not None:
+            meshes.find(uri)
         described = entry.get("parts") or [entry]
         parts = [_part(f"{where}, part {i + 1}", p) for i, p in enumerate(described)]
     boxes = [_bounds(part) for part in parts]

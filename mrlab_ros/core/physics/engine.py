@@ -19,6 +19,7 @@ from mrlab_ros.core.physics.poses import Vector
 from mrlab_ros.core.scene import Pose
 
 IDENTITY = Pose()
+LinkPairs = frozenset[frozenset[str]]
 
 
 class Kind(Enum):
@@ -125,8 +126,13 @@ class Touch:
 class Engine(Protocol):
     """A rigid body engine. Names are those the world gave; poses and numbers are checked."""
 
-    def add_arm(self, name: str, urdf: str, joints: tuple[str, ...], pose: Pose) -> Arm:
-        """Load an arm whose `joints` are prescribed; raise BadInput where the URDF has none."""
+    def add_arm(
+        self, name: str, urdf: str, joints: tuple[str, ...], pose: Pose, apart: LinkPairs
+    ) -> Arm:
+        """Load an arm whose `joints` are prescribed; raise BadInput where the URDF has none.
+
+        apart: pairs of its links that never touch, though their shapes may.
+        """
         ...
 
     def place_arm(self, name: str, pose: Pose) -> None: ...

@@ -50,6 +50,7 @@ class Hands:
         robot.in_hand = relative(hand, self._engine.object(thing.name).pose)
         self._engine.hold(robot.name, robot.arm.hand, thing.name)
         robot.held, thing.held_by, thing.hand = thing.name, robot.name, None
+        robot.held_since_ns = self._stage.now_ns
         robot.lost = ""
         robot.fire(GraspEvent.SEIZED)
         self._engine.drive_fingers(robot.name, robot.finger_velocities())
@@ -147,11 +148,17 @@ class Hands:
             timeout = robot.watch.all_stalled_for(now_ns) > self._stage.settings.grasp_timeout
             shut = timeout or (bool(stalled) and robot.watch.shut(states))
         thing = self._stage.objects.get(reached) if reached is not None else None
-        if thing is not None and thing.graspable:
+        if thing is not None and thing.graspable and self._may_take(robot, thing):
             self._seize(robot, thing)
         elif shut and robot.grasp is Grasp.CLOSING:
             robot.fire(GraspEvent.SHUT)
             self.tell(robot)
+
+    def _may_take(self, robot: Robot, thing: SceneObject) -> bool:
+        """Return whether a closed gripper may have an object: of two that close on it together
+        the first keeps it, and who takes it over closes later."""
+        holder = self._stage.robots.get(thing.held_by)
+        return holder is None or robot.closing_since_ns >= holder.held_since_ns
 
     def _sucked(self, robot: Robot) -> str | None:
         """Return the first object, by name, that the cup touches.

@@ -20,12 +20,13 @@ JUMP_SPEED = 50.0
 JUMP_EXCESS = 5.0
 # A stamp that lies so far before the last one is another clock's, not a late message's, ns.
 RESTART_NS = SECOND
-# An arm that has sent nothing for this long stands, ns.
-STALE_NS = SECOND // 4
+# A stream with a longer period, ns, is shown one period late, for the world must not halt between
+# its states.
+SLOW_NS = SECOND // 20
 # Shorter than this, ns, no period says how fast something moved.
 LEAST_NS = SECOND // 1000
-# A second of backlog at 500 Hz.
-KEPT = 512
+# Two seconds of backlog at 500 Hz.
+KEPT = 1024
 # No joint is turned this far, rad, or turns so fast, rad/s.
 LIMIT = 1e5
 
@@ -58,20 +59,35 @@ class _Piece:
 class JointStream:
     """Joint states in, poses at any instant out; linear between two states.
 
-    A moving arm's pose is known up to its last state: `known_until` says so, and whoever steps
-    time waits for it, but not longer than max_lag_ns. A stream slower than that is shown one of
-    its own periods late instead.
+    The pose of an arm that moves or plays is known up to its last state: `known_until` says so,
+    and whoever steps time waits for it. A slow stream is shown one of its own periods late.
+
+    max_silence_ns: how long an arm may send nothing until it counts as standing. max_late_ns: a
+    stream whose newest state is older than this is not waited for.
     """
 
-    def __init__(self, joints: int, max_lag_ns: int) -> None:
+    def __init__(self, joints: int, max_silence_ns: int, max_late_ns: int) -> None:
         self._joints = joints
         self._rest: Joints = (0.0,) * joints
-        self._max_lag_ns = max_lag_ns
+        self._max_silence_ns = max_silence_ns
+        self._max_late_ns = max_late_ns
+        self._silent_ns = 0
+        self._plays_since_ns: int | None = None
+        self._plays_until_ns: int | None = None
         self._pieces: deque[_Piece] = deque(maxlen=KEPT)
         self._last: tuple[int, Joints] | None = None
         self._moves = False
+        # Whether the next state is to follow the last one without a pause.
+        self._streams = False
         self._fresh = True
         self.delay_ns = 0
+
+    def plays(self, since_ns: int | None, until_ns: int | None) -> None:
+        """Note that the arm plays, and so sends its states even while it stands.
+
+        since_ns: it may lie ahead; None: it does not play. until_ns: None where no end is known.
+        """
+        self._plays_since_ns, self._plays_until_ns = since_ns, until_ns
 
     def add(
         self, stamp_ns: int, positions: Sequence[float], velocities: Sequence[float], now_ns: int
@@ -88,16 +104,20 @@ class JointStream:
         restarted = before_ns - stamp_ns >= RESTART_NS
         if stamp_ns <= before_ns and not restarted:
             return False
+        period_ns = stamp_ns - before_ns
+        waits = period_ns <= self._max_silence_ns
+        # A stream slower than that is not waited for at all.
+        self._silent_ns = 0 if waits else self._max_silence_ns + 1
         moved = q != before
-        moving = moved or any(v)
-        if not moving and not self._moves and not restarted:
+        plays = self._plays_after(stamp_ns)
+        moving = moved or any(v) or plays
+        if not moving and not self._streams and not restarted:
             self._last = (stamp_ns, q)
             return True
-        period_ns = stamp_ns - before_ns
-        if moving and self._moves and not restarted:
-            self.delay_ns = period_ns if self._max_lag_ns < period_ns < STALE_NS else 0
+        if moving and self._streams and not restarted:
+            self.delay_ns = period_ns if waits and period_ns > SLOW_NS else 0
         start_ns = max(before_ns, min(now_ns - self.delay_ns, stamp_ns))
-        if not self._moves:
+        if not self._streams:
             # A standing arm's last state is old; the motion began in this period, not back then.
             start_ns = max(start_ns, stamp_ns - SECOND // 50)
             period_ns = stamp_ns - start_ns
@@ -116,8 +136,10 @@ class JointStream:
         else:
             self._pieces.append(_Piece(start_ns, stamp_ns, before, q, slope, False))
             self._last = (stamp_ns, q)
-        self._moves = any(v) or (moving and not jump)
-        if not self._moves:
+        # What reports a velocity of zero has arrived.
+        self._moves = any(v) or (moved and not jump and not len(velocities))
+        self._streams = self._moves or plays
+        if not self._streams:
             self.delay_ns = 0
         return True
 
@@ -144,20 +166,42 @@ class JointStream:
         self._pieces.append(_Piece(stamp_ns, stamp_ns, q, q, self._rest, True))
         self._last = (stamp_ns, q)
 
-    def known_until(self, now_ns: int) -> int | None:
-        """Return the time, ns, up to which the motion is known; None: for ever, the arm stands."""
-        if not self._moves or self._last is None:
+    def known_until(self, now_ns: int, waited_ns: int) -> int | None:
+        """Return the time, ns, up to which the motion is known; None: for ever, the arm stands.
+
+        waited_ns: for how long since the last call a state could have been taken.
+        """
+        known_ns = self._known_ns
+        if known_ns is None:
             return None
-        until = self._last[0] + self.delay_ns
-        return None if now_ns - until > STALE_NS else until
+        self._silent_ns += waited_ns
+        if self._silent_ns > self._max_silence_ns or now_ns - known_ns > self._max_late_ns:
+            return None
+        return known_ns
+
+    def _plays_after(self, stamp_ns: int) -> bool:
+        """Return whether a state is to be expected after one with this stamp."""
+        until_ns = self._plays_until_ns
+        # The end is told a moment after the last state left.
+        ends = until_ns is not None and stamp_ns >= until_ns - SLOW_NS
+        return self._plays_since_ns is not None and not ends
+
+    @property
+    def _known_ns(self) -> int | None:
+        if self._last is None:
+            return None
+        last_ns = self._last[0]
+        if self._plays_after(last_ns):
+            return max(last_ns + self.delay_ns, self._plays_since_ns or 0)
+        return last_ns + self.delay_ns if self._moves else None
 
     def shown_ns(self, now_ns: int) -> int:
         """Return the stamp of the motion that is shown at the world's time `now_ns`.
 
         It stays behind where a moving arm's next joint state is late.
         """
-        shown = now_ns - self.delay_ns
-        return min(shown, self._last[0]) if self._moves and self._last else shown
+        known_ns = self._known_ns
+        return (now_ns if known_ns is None else min(now_ns, known_ns)) - self.delay_ns
 
     def at(self, now_ns: int) -> Placed | None:
         """Return where the arm is at the world's time `now_ns`; None before the first state."""
@@ -166,7 +210,8 @@ class JointStream:
             return None
         now_ns -= self.delay_ns
         jumped, self._fresh = self._fresh, False
-        while len(pieces) > 1 and pieces[1].start_ns <= now_ns:
+        # Where two pieces meet the one before counts: whether the next is known changes nothing.
+        while len(pieces) > 1 and pieces[1].start_ns + (not pieces[1].jump) <= now_ns:
             pieces.popleft()
             jumped |= pieces[0].jump
         piece = pieces[0]

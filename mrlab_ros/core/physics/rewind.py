@@ -85,6 +85,7 @@ class Rewind:
             robot.fire(GraspEvent.OPEN)
             if snapshot.closed:
                 robot.fire(GraspEvent.CLOSE)
+                robot.closing_since_ns = now_ns
             robot.watch.reset()
         self._engine.drive_fingers(robot.name, robot.finger_velocities())
         self._hands.tell(robot)

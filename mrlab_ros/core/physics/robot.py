@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import bisect
+from collections import deque
+from collections.abc import Iterator
 from dataclasses import dataclass, field
 
 from mrlab_ros.core.clock import SECOND, PlaybackClock
@@ -24,7 +26,10 @@ SEEK_TOLERANCE = 0.03
 
 @dataclass(frozen=True)
 class Playing:
-    """What the world knows of a robot's playback; see mrlab_msgs/PlaybackState."""
+    """What the world knows of a robot's playback; see mrlab_msgs/PlaybackState.
+
+    stamp_ns: since when it holds.
+    """
 
     state: State = State.IDLE
     trajectory_id: str = ""
@@ -33,6 +38,7 @@ class Playing:
     frame_count: int = 0
     frame_rate: float = 0.0
     duration: float = 0.0
+    stamp_ns: int = 0
 
     def position(self, now_ns: int) -> float:
         """Return the position on the trajectory, s."""
@@ -84,6 +90,8 @@ class Robot:
     watch: StallWatch = field(init=False)
     snapshots: Snapshots = field(init=False)
     playing: Playing = field(default_factory=Playing)
+    # What was heard of its playback and holds from a later time of its motion on.
+    coming: deque[Playing] = field(default_factory=deque)
     program: GripperProgram = field(default_factory=GripperProgram)
     # Where the arm was put last; None before its first joint state: it is not there yet.
     placed: Joints | None = None
@@ -99,6 +107,7 @@ class Robot:
     closed: bool = False
     closing_since_ns: int = 0
     held: str = ""
+    held_since_ns: int = 0
     # What was taken from the closed gripper; empty once it is commanded anew.
     lost: str = ""
     in_hand: Pose | None = None
@@ -106,11 +115,37 @@ class Robot:
 
     def __post_init__(self) -> None:
         s = self.settings
-        self.stream = JointStream(len(self.joints), round(s.max_lag * SECOND))
+        self.stream = JointStream(
+            len(self.joints), round(s.max_silence * SECOND), round(s.max_catch_up * SECOND)
+        )
         self.clearance = Clearance(s.clear_margin, round(s.clear_time * SECOND))
         self.watch = StallWatch(self.arm.fingers, s.stall_share, round(s.stall_time * SECOND))
         self.snapshots = Snapshots(s.snapshot_rate, s.snapshot_count)
         self.finger_links = frozenset(f.link for f in self.arm.fingers)
+
+    def hear(self, playing: Playing) -> None:
+        """Note what the playback does from a stamp on; take_up() makes it hold."""
+        self.coming.append(playing)
+        self._tell_stream()
+
+    def take_up(self, shown_ns: int | None) -> Iterator[Playing]:
+        """Let hold what holds at the stamp `shown_ns`, or all (None); yield what held before."""
+        while self.coming and (shown_ns is None or self.coming[0].stamp_ns <= shown_ns):
+            before, self.playing = self.playing, self.coming.popleft()
+            self._tell_stream()
+            if self.playing.state in MOVING and before.state not in MOVING:
+                self.raise_again = True
+            if self.playing.state is State.COLLISION_HALT and self.clearance.touched():
+                # The halt began before this arm was built; its end is still to be told.
+                self.raise_again = True
+            yield before
+
+    def _tell_stream(self) -> None:
+        newest = self.coming[-1] if self.coming else self.playing
+        self.stream.plays(
+            self.playing.clock.stamp_ns if self.playing.state in MOVING else None,
+            None if newest.state in MOVING else newest.stamp_ns,
+        )
 
     def reach(self, end: Joints, start: Joints | None = None) -> float:
         """Return how far the arm's end moves at most from `start` (all 0 if None) to `end`, m."""

@@ -20,9 +20,9 @@ class Settings:
     halt ends. stall_share: a finger that closed by less than this share of its free way in
     stall_time s is stalled.
     grasp_timeout: s after which stalled fingers that hold nothing count as closed on nothing.
-    max_objects: active at once. max_triangles: of one surface. max_lag: s that the world waits
-    for the next joint state of a moving arm. max_catch_up: s of backlog beyond which time is
-    left out. snapshot_rate: Hz; snapshot_count: most that one run keeps.
+    max_objects: active at once. max_triangles: of one surface. max_silence: s that the world
+    waits for the next joint state of a moving arm. max_catch_up: s of backlog beyond which time
+    is left out. snapshot_rate: Hz; snapshot_count: most that one run keeps.
     """
 
     step_rate: float = 240.0
@@ -35,8 +35,8 @@ class Settings:
     grasp_timeout: float = 0.5
     max_objects: int = 32
     max_triangles: int = 20_000
-    max_lag: float = 0.05
-    max_catch_up: float = 1.0
+    max_silence: float = 1.0
+    max_catch_up: float = 2.0
     snapshot_rate: float = 10.0
     snapshot_count: int = 600
 

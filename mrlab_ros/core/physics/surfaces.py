@@ -59,7 +59,13 @@ def body(surface: Surface, max_triangles: int) -> Body:
                 f"surface '{name}' names vertex {triangles.max()} of {len(vertices)}; expected "
                 "indices of its own vertices"
             )
-        part = Part(Shape.MESH, vertices=vertices, triangles=triangles)
+        # Vertices that no triangle names would only be in the way.
+        named, places = np.unique(triangles, return_inverse=True)
+        part = Part(
+            Shape.MESH,
+            vertices=vertices[named],
+            triangles=places.reshape(-1, 3).astype(np.int32),
+        )
     elif surface.endless:
         part = Part(Shape.BOX, (FLOOR_SIZE, FLOOR_SIZE, 1.0), Pose((0.0, 0.0, -0.5)))
     else:

@@ -14,7 +14,7 @@ from mrlab_ros.core.clock import SECOND
 from mrlab_ros.core.errors import Misuse
 from mrlab_ros.core.physics.catalogue import Catalogue
 from mrlab_ros.core.physics.collisions import Collisions
-from mrlab_ros.core.physics.engine import Engine, Motion
+from mrlab_ros.core.physics.engine import Engine, LinkPairs, Motion
 from mrlab_ros.core.physics.events import Contact, Event
 from mrlab_ros.core.physics.grasp import Gripper
 from mrlab_ros.core.physics.hands import Hands
@@ -22,7 +22,7 @@ from mrlab_ros.core.physics.inventory import Inventory
 from mrlab_ros.core.physics.joint_stream import Joints, between
 from mrlab_ros.core.physics.poses import Vector
 from mrlab_ros.core.physics.rewind import Rewind
-from mrlab_ros.core.physics.robot import MOVING, GripperProgram, Playing, Robot
+from mrlab_ros.core.physics.robot import GripperProgram, Playing, Robot
 from mrlab_ros.core.physics.settings import Settings
 from mrlab_ros.core.physics.stage import SceneObject, Stage
 from mrlab_ros.core.physics.surfaces import Surface
@@ -30,6 +30,8 @@ from mrlab_ros.core.scene import Pose
 
 # What needs no look at every step is looked at this often, steps.
 LOOK = 12
+# A turn that comes so much later than the one before, ns, was not waited for: the machine stalled.
+WAIT_NS = SECOND // 50
 # A robot that moved in a step: from where, to where, and with which velocities.
 Led = tuple[Robot, Joints, Joints, Joints]
 
@@ -47,6 +49,8 @@ class World:
         self._collisions = Collisions(self._stage)
         self._rewind = Rewind(self._stage, self._hands)
         self._epoch_ns: int | None = None
+        # The caller's time at its last turn.
+        self._heard_ns = 0
         self._count = 0
         self.steps = 0
         self.skipped_ns = 0
@@ -99,12 +103,21 @@ class World:
     # robots ---------------------------------------------------------------------------------
 
     def add_robot(
-        self, name: str, urdf: str, joints: tuple[str, ...], pose: Pose, gripper: Gripper
+        self,
+        name: str,
+        urdf: str,
+        joints: tuple[str, ...],
+        pose: Pose,
+        gripper: Gripper,
+        apart: LinkPairs = frozenset(),
     ) -> None:
-        """Add a robot; it takes part from its first joint state on."""
+        """Add a robot; it takes part from its first joint state on.
+
+        apart: pairs of its links that never touch, though their shapes may.
+        """
         if name in self._robots:
             raise Misuse(f"robot '{name}' is in the world already; remove it first")
-        arm = self._engine.add_arm(name, urdf, joints, pose)
+        arm = self._engine.add_arm(name, urdf, joints, pose, apart)
         if not arm.fingers and gripper is Gripper.FINGERS:
             gripper = Gripper.NONE
         self._robots[name] = Robot(name, joints, pose, arm, gripper, self._settings)
@@ -139,12 +152,19 @@ class World:
         self.robot(name).program = program
 
     def playback(self, name: str, playing: Playing) -> None:
-        """Follow the robot's playback: its clock, its seeks, its runs."""
+        """Follow the robot's playback: its clock, its seeks, its runs, each from its stamp on."""
         robot = self.robot(name)
-        before, robot.playing = robot.playing, playing
-        if playing.state in MOVING and before.state not in MOVING:
-            robot.raise_again = True
-        self._rewind.follow(robot, before)
+        robot.hear(playing)
+        ahead_ns = playing.stamp_ns - self._heard_ns
+        # A stamp too far ahead is another clock's, and holds at once.
+        foreign = ahead_ns > self._settings.max_catch_up * SECOND
+        self._take_up(robot, None if foreign else self.now_ns)
+
+    def _take_up(self, robot: Robot, now_ns: int | None) -> None:
+        """Let hold what was heard of a playback until the world's time `now_ns`; None: all."""
+        shown_ns = None if now_ns is None else now_ns - robot.stream.delay_ns
+        for before in robot.take_up(shown_ns):
+            self._rewind.follow(robot, before)
 
     def attach(self, name: str, object_name: str) -> None:
         """Fix an object to a robot's hand where it is, by hand."""
@@ -188,25 +208,31 @@ class World:
         assert self._epoch_ns is not None
         return self._epoch_ns + round(count * SECOND / self._settings.step_rate)
 
-    def advance(self, now_ns: int) -> int:
-        """Step until `now_ns`, or as far as the moving arms are known; return the steps made."""
+    def advance(self, now_ns: int, most: int | None = None) -> int:
+        """Step until `now_ns`, or as far as the moving arms are known; return the steps made.
+
+        most: steps, of which more are left to the next call.
+        """
         if self._epoch_ns is None:
-            self._epoch_ns = self._stage.now_ns = now_ns
+            self._epoch_ns = self._stage.now_ns = self._heard_ns = now_ns
+        waited_ns = min(max(now_ns - self._heard_ns, 0), WAIT_NS)
+        self._heard_ns = now_ns
+        if now_ns < self._stage.now_ns - SECOND:
+            # The clock was set back: go on from there.
+            self._shift(now_ns - self._stage.now_ns)
+            for robot in self._robots.values():
+                self._take_up(robot, None)
         target_ns = now_ns
         for robot in self._robots.values():
-            until = robot.stream.known_until(now_ns)
+            until = robot.stream.known_until(now_ns, waited_ns)
             if until is not None and until < target_ns:
                 target_ns = until
-        target_ns = max(target_ns, now_ns - round(self._settings.max_lag * SECOND))
         behind_ns = target_ns - self._stage.now_ns
         if behind_ns > self._settings.max_catch_up * SECOND:
             self.skipped_ns += behind_ns
             self._shift(behind_ns)
-        elif behind_ns < -SECOND:
-            # The clock was set back: go on from there.
-            self._shift(behind_ns)
         made = 0
-        while (stamp_ns := self._stamp(self._count + 1)) <= target_ns:
+        while made != most and (stamp_ns := self._stamp(self._count + 1)) <= target_ns:
             self._count += 1
             self._stage.now_ns = stamp_ns
             self._step(stamp_ns)
@@ -221,6 +247,9 @@ class World:
         self._stage.now_ns += by_ns
 
     def _step(self, now_ns: int) -> None:
+        for robot in self._robots.values():
+            if robot.coming:
+                self._take_up(robot, now_ns)
         led = self._lead(now_ns)
         divisions = self._divisions(led)
         duration = 1.0 / self._settings.step_rate / divisions
