@@ -7,10 +7,12 @@ import os
 import signal
 import sys
 import time
+from contextlib import suppress
 from collections.abc import Callable
 
 import rclpy
 import rclpy.utilities
+from rclpy.impl.implementation_singleton import rclpy_implementation
 from rclpy.node import Node
 
 from mrlab_ros.core.errors import LabError
@@ -92,7 +94,9 @@ def run(names: list[str]) -> int:
     finally:
         # A second Ctrl-C must not cut the tidying short: the supervisor sets the deadline.
         signal.signal(signal.SIGINT, signal.SIG_IGN)
-        rclpy.utilities.try_shutdown()
+        # rclpy's handler of the signal shuts down too, in a thread of its own, and may be first.
+        with suppress(rclpy_implementation.RCLError):
+            rclpy.utilities.try_shutdown()
         for node in reversed(spun.values()):
             node.close()
         if aside is not None:

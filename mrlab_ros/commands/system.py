@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+from contextlib import suppress
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
@@ -18,6 +19,8 @@ app = typer.Typer(
     no_args_is_help=True,
     help="Robots that play as one: create from a YAML file, play, pause, seek, dissolve.",
 )
+# What a topic has kept for late joiners is there so long, s, after its first message.
+LATCHED_BURST = 0.5
 Name = Annotated[str, typer.Argument(help="A system of the lab; mrlab system list shows them.")]
 
 
@@ -239,16 +242,25 @@ def _order(name: str, service: str, kind: Any, request: Any) -> None:
         print(graph.order(kind, f"/{name}/{service}", request).message)
 
 
-def _systems(graph: Graph) -> list[Any]:
+def _systems(graph: Graph, name: str = "") -> list[Any]:
+    """Return the systems as last told, or as soon as one called `name` is among them.
+
+    The latched messages come oldest first, one soon after the other.
+    """
     from mrlab_msgs import msg
 
+    from mrlab_ros.graph_client import NoAnswer
+
     watch = graph.watch(msg.RobotSystems, "/systems")
-    systems: list[Any] = watch.wait(lambda _: True, 5.0, "the systems").systems
-    return systems
+    watch.wait(lambda _: True, 5.0, "the systems")
+    with suppress(NoAnswer):
+        watch.wait(lambda m: any(s.name == name for s in m.systems), LATCHED_BURST, name)
+    assert watch.value is not None
+    return list(watch.value.systems)
 
 
 def _system(graph: Graph, name: str) -> Any:
-    systems = _systems(graph)
+    systems = _systems(graph, name)
     for system in systems:
         if system.name == name:
             return system

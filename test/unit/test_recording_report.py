@@ -91,7 +91,7 @@ def test_the_text_tells_what_happened_in_order():
     robot.grasps.tell(5.0, "OPEN")
     robot.tracking.add(1.0, 0.5)
     lines = report_lines(report)
-    assert lines[:2] == ["20.0 s, 1 robots", "x_0.mcap has no index"]
+    assert lines[:2] == ["20.0 s, 1 robot", "x_0.mcap has no index"]
     assert [line.split("  ")[-1] for line in lines[4:8]] == [
         "PLAYING for 10.00 s: wave",
         "holds cube_1 for 3.00 s",
