@@ -7,8 +7,8 @@ import os
 import signal
 import sys
 import time
-from contextlib import suppress
 from collections.abc import Callable
+from contextlib import suppress
 
 import rclpy
 import rclpy.utilities
