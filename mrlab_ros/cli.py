@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import signal
 import sys
 import traceback
 from typing import Annotated
@@ -73,6 +74,9 @@ def options(
 
 def main() -> None:
     """Run the command; an error becomes one sentence and exit code 1."""
+    # In the background of a script SIGINT is ignored at first, and SIGTERM would tidy nothing.
+    for number in (signal.SIGINT, signal.SIGTERM):
+        signal.signal(number, signal.default_int_handler)
     try:
         app(prog_name="mrlab")
     except LabError as error:
