@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import math
+import operator
 import sys
 import time
 from typing import TYPE_CHECKING, Annotated, Any
@@ -21,6 +22,8 @@ if TYPE_CHECKING:
 REFRESH_RATE = 4.0
 # What a robot that was just found has to say is there by then, s.
 SETTLE_TIMEOUT = 6.0
+# What a topic has kept for late joiners comes with shorter pauses than this, s.
+LATCHED_BURST = 0.3
 # Who measures reports once a second; one that has been silent for longer has gone, s.
 LATENCY_AGE = 5.0
 # From where to where, in the order of LatencyHop's constants.
@@ -82,13 +85,23 @@ class View:
         graph.subscribe(msg.Latency, "/latency/clients", self._hear_of_client, qos.LATCHED_EVENTS)
 
     def settle(self) -> None:
-        """Wait until all that is announced has been heard, or SETTLE_TIMEOUT is over."""
+        """Wait until all that is announced has been heard, or SETTLE_TIMEOUT is over.
+
+        Latched messages come oldest first, one soon after the other: the newest is there once no
+        more come.
+        """
         deadline = time.monotonic() + SETTLE_TIMEOUT
         watches = (self._robots, self._catalogue, self._systems)
-        while time.monotonic() < deadline:
+        heard: list[Any] = []
+        since = time.monotonic()
+        while (now := time.monotonic()) < deadline:
             followers = [follower for _, follower in self.robots()]
-            heard = all(w.value is not None for w in (*watches, *(f.watch for f in followers)))
-            if heard and (self._latencies or "bridge" not in self._graph.node.get_node_names()):
+            before, heard = heard, [w.value for w in (*watches, *(f.watch for f in followers))]
+            same = len(heard) == len(before) and all(map(operator.is_, heard, before))
+            measured = self._latencies or "bridge" not in self._graph.node.get_node_names()
+            if not same or any(value is None for value in heard) or not measured:
+                since = now
+            elif now - since > LATCHED_BURST:
                 return
             time.sleep(0.02)
 
