@@ -27,6 +27,9 @@ T = TypeVar("T")
 # How long a command waits for the lab to be found, s: discovery takes up to 3 s.
 FIND_TIMEOUT = 6.0
 CALL_TIMEOUT = 15.0
+# What a latched topic has kept for late joiners comes oldest first, with pauses shorter than
+# this, s.
+LATCHED_BURST = 0.5
 
 
 class NoAnswer(LabError):

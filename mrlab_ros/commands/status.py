@@ -22,8 +22,6 @@ if TYPE_CHECKING:
 REFRESH_RATE = 4.0
 # What a robot that was just found has to say is there by then, s.
 SETTLE_TIMEOUT = 6.0
-# What a topic has kept for late joiners comes with shorter pauses than this, s.
-LATCHED_BURST = 0.3
 # Who measures reports once a second; one that has been silent for longer has gone, s.
 LATENCY_AGE = 5.0
 # From where to where, in the order of LatencyHop's constants.
@@ -90,6 +88,8 @@ class View:
         Latched messages come oldest first, one soon after the other: the newest is there once no
         more come.
         """
+        from mrlab_ros.graph_client import LATCHED_BURST
+
         deadline = time.monotonic() + SETTLE_TIMEOUT
         watches = (self._robots, self._catalogue, self._systems)
         heard: list[Any] = []

@@ -19,8 +19,6 @@ app = typer.Typer(
     no_args_is_help=True,
     help="Robots that play as one: create from a YAML file, play, pause, seek, dissolve.",
 )
-# What a topic has kept for late joiners is there so long, s, after its first message.
-LATCHED_BURST = 0.5
 Name = Annotated[str, typer.Argument(help="A system of the lab; mrlab system list shows them.")]
 
 
@@ -249,7 +247,7 @@ def _systems(graph: Graph, name: str = "") -> list[Any]:
     """
     from mrlab_msgs import msg
 
-    from mrlab_ros.graph_client import NoAnswer
+    from mrlab_ros.graph_client import LATCHED_BURST, NoAnswer
 
     watch = graph.watch(msg.RobotSystems, "/systems")
     watch.wait(lambda _: True, 5.0, "the systems")

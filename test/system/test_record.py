@@ -5,7 +5,6 @@ from __future__ import annotations
 import json
 import signal
 import subprocess
-import sys
 import time
 from collections.abc import Callable, Iterator
 from pathlib import Path
@@ -13,16 +12,15 @@ from typing import Any
 
 import pytest
 import zenoh
+from launched_lab import DEADLINE, MRLAB, done, launched_lab
 from mrlab_msgs import msg
 from sensor_msgs.msg import JointState
 
 from mrlab_ros import qos
 from mrlab_ros.adapters.bag_reader import Bag
-from mrlab_ros.commands.demo_lab import claim_free_domain, free_port
+from mrlab_ros.commands.demo_lab import free_port
 from mrlab_ros.graph_client import Graph
 
-DEADLINE = 60.0
-MRLAB = (sys.executable, "-m", "mrlab_ros.cli")
 MOTION = Path(__file__).parents[2] / "examples" / "quintic_ur5e.mat"
 JOINTS = "/ur5e_1/joint_states"
 
@@ -35,45 +33,12 @@ def wait_for(condition: Callable[[], Any], what: str) -> Any:
     return value
 
 
-def mrlab(*arguments: str | Path) -> str:
-    done = subprocess.run(
-        (*MRLAB, *map(str, arguments)),
-        capture_output=True,
-        text=True,
-        timeout=DEADLINE,
-        check=False,
-    )
-    assert done.returncode == 0, done.stdout + done.stderr
-    return done.stdout
-
-
 @pytest.fixture
 def endpoint(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[str]:
     """Where the bridge of a running lab with one robot listens."""
-    monkeypatch.setenv("XDG_RUNTIME_DIR", str(tmp_path))
-    monkeypatch.setenv("ROS_AUTOMATIC_DISCOVERY_RANGE", "LOCALHOST")
-    monkeypatch.delenv("ROS_DOMAIN_ID", raising=False)
-    run_file, domain = claim_free_domain()
-    run_file.release()
-    monkeypatch.setenv("ROS_DOMAIN_ID", str(domain))
     where = f"tcp/127.0.0.1:{free_port(0)}"
-    log = tmp_path / "up.log"
-    with log.open("wb") as output:
-        process = subprocess.Popen(
-            (*MRLAB, "up", "--robots", "ur5e", "--zenoh-listen", where),
-            stdout=output,
-            stderr=subprocess.STDOUT,
-        )
-    try:
-        wait_for(lambda: process.poll() is not None or "is ready" in log.read_text(), "ready")
-        assert process.poll() is None, log.read_text()
+    with launched_lab(tmp_path, monkeypatch, "--robots", "ur5e", "--zenoh-listen", where):
         yield where
-        process.send_signal(signal.SIGINT)
-        assert process.wait(DEADLINE) == 0, log.read_text()
-        assert "Traceback" not in log.read_text(), log.read_text()
-    finally:
-        process.kill()
-        process.wait()
 
 
 class Watcher:
@@ -104,7 +69,7 @@ def record_a_play(bag: Path) -> None:
         # All of the motion is in the bag once the recorder listens to it.
         with Graph() as graph:
             wait_for(lambda: graph.node.count_subscribers(JOINTS) >= 2, "the recorder listening")
-        assert "played 601 frames" in mrlab("play", "ur5e_1", MOTION, "--rate", "4")
+        assert "played 601 frames" in done("play", "ur5e_1", MOTION, "--rate", "4")
         recorder.send_signal(signal.SIGINT)
         said, trouble = recorder.communicate(timeout=DEADLINE)
         assert recorder.returncode == 0, trouble
@@ -118,9 +83,9 @@ def test_what_a_student_did_comes_back(endpoint: str, tmp_path: Path) -> None:
     record_a_play(bag)
     recorded = [message.data for message in Bag(bag).messages(topics={JOINTS})]
     assert len(recorded) > 150
-    facts = json.loads(mrlab("bag", "info", bag, "--json"))
+    facts = json.loads(done("bag", "info", bag, "--json"))
     assert {"robots/ur5e_1.urdf", "trajectories/quintic_ur5e.json"} <= set(facts["attachments"])
-    report = json.loads(mrlab("bag", "report", bag, "--json"))
+    report = json.loads(done("bag", "report", bag, "--json"))
     (robot,) = report["robots"]
     assert [span["label"] for span in robot["states"]][:2] == ["IDLE", "READY"]
     assert "PLAYING" in [span["label"] for span in robot["states"]]

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import subprocess
-import sys
 import time
 from collections.abc import Callable, Iterator
 from contextlib import suppress
@@ -12,21 +10,9 @@ from typing import Any
 
 import pytest
 import zenoh
+from launched_lab import DEADLINE, launched_lab, mrlab
 
-from mrlab_ros.commands.demo_lab import claim_free_domain, free_port
-
-DEADLINE = 60.0
-MRLAB = (sys.executable, "-m", "mrlab_ros.cli")
-
-
-def mrlab(*arguments: str | Path) -> subprocess.CompletedProcess[str]:
-    return subprocess.run(
-        (*MRLAB, *map(str, arguments)),
-        capture_output=True,
-        text=True,
-        timeout=DEADLINE,
-        check=False,
-    )
+from mrlab_ros.commands.demo_lab import free_port
 
 
 @pytest.fixture
@@ -39,25 +25,10 @@ def keys(tmp_path: Path) -> Path:
 
 @pytest.fixture
 def endpoint(keys: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[str]:
-    monkeypatch.setenv("XDG_RUNTIME_DIR", str(tmp_path))
-    run_file, domain = claim_free_domain()
-    run_file.release()
-    monkeypatch.setenv("ROS_DOMAIN_ID", str(domain))
     where = f"tls/127.0.0.1:{free_port(0)}"
-    log = tmp_path / "up.log"
-    command = (*MRLAB, "up", "--keys", str(keys), "--zenoh-listen", where, "--robots", "ur5e")
-    with open(log, "wb") as output:
-        lab = subprocess.Popen(command, stdout=output, stderr=subprocess.STDOUT)
-    try:
-        end = time.monotonic() + DEADLINE
-        while "is ready" not in log.read_text():
-            assert lab.poll() is None, log.read_text()
-            assert time.monotonic() < end, log.read_text()
-            time.sleep(0.05)
+    options = ("--keys", keys, "--zenoh-listen", where, "--robots", "ur5e")
+    with launched_lab(tmp_path, monkeypatch, *options):
         yield where
-    finally:
-        lab.kill()
-        lab.wait()
 
 
 def robots(config: zenoh.Config, endpoint: str) -> bytes:

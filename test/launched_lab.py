@@ -1,0 +1,67 @@
+"""A `mrlab up` of its own for a system test, and the `mrlab` command beside it."""
+
+from __future__ import annotations
+
+import signal
+import subprocess
+import sys
+import time
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+
+import pytest
+
+from mrlab_ros.commands.demo_lab import claim_free_domain
+
+DEADLINE = 60.0
+MRLAB = (sys.executable, "-m", "mrlab_ros.cli")
+
+
+def mrlab(*arguments: str | Path) -> subprocess.CompletedProcess[str]:
+    """Run a command to its end."""
+    return subprocess.run(
+        (*MRLAB, *map(str, arguments)),
+        capture_output=True,
+        text=True,
+        timeout=DEADLINE,
+        check=False,
+    )
+
+
+def done(*arguments: str | Path) -> str:
+    """Run a command that has to succeed; return what it printed."""
+    answer = mrlab(*arguments)
+    assert answer.returncode == 0, answer.stdout + answer.stderr
+    return answer.stdout
+
+
+@contextmanager
+def launched_lab(
+    folder: Path, monkeypatch: pytest.MonkeyPatch, *options: str | Path
+) -> Iterator[None]:
+    """Run a lab on a free ROS domain, which commands then talk to; it has to end well."""
+    monkeypatch.setenv("XDG_RUNTIME_DIR", str(folder))
+    monkeypatch.setenv("ROS_AUTOMATIC_DISCOVERY_RANGE", "LOCALHOST")
+    monkeypatch.delenv("ROS_DOMAIN_ID", raising=False)
+    run_file, domain = claim_free_domain()
+    run_file.release()
+    monkeypatch.setenv("ROS_DOMAIN_ID", str(domain))
+    log = folder / "up.log"
+    with log.open("wb") as output:
+        process = subprocess.Popen(
+            (*MRLAB, "up", *map(str, options)), stdout=output, stderr=subprocess.STDOUT
+        )
+    try:
+        end = time.monotonic() + DEADLINE
+        while "is ready" not in log.read_text():
+            assert process.poll() is None, log.read_text()
+            assert time.monotonic() < end, log.read_text()
+            time.sleep(0.05)
+        yield
+        process.send_signal(signal.SIGINT)
+        assert process.wait(DEADLINE) == 0, log.read_text()
+        assert "Traceback" not in log.read_text(), log.read_text()
+    finally:
+        process.kill()
+        process.wait()
