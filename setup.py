@@ -3,7 +3,16 @@ from pathlib import Path
 from setuptools import find_packages, setup
 
 package_name = "mrlab_ros"
-NODES = ("converter", "lab", "playback", "coordinator", "physics", "bridge", "recorder")
+# Where the `main` of each node is.
+NODES = {
+    "bridge": "bridge.node",
+    "converter": "converter",
+    "coordinator": "coordinator",
+    "lab": "lab.node",
+    "physics": "physics.node",
+    "playback": "playback",
+    "recorder": "recorder.node",
+}
 
 
 def data_tree(*folders):
@@ -30,8 +39,8 @@ setup(
     entry_points={
         "console_scripts": [
             "mrlab = mrlab_ros.cli:main",
-            "host = mrlab_ros.host:main",
-            *(f"{node} = mrlab_ros.nodes.{node}:main" for node in NODES),
+            "host = mrlab_ros.processes.host:main",
+            *(f"{node} = mrlab_ros.nodes.{module}:main" for node, module in NODES.items()),
         ],
     },
 )

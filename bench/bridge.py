@@ -125,7 +125,7 @@ def bridge() -> Iterator[Bridge]:
     """Run a bridge in a process of its own."""
     endpoint = free_endpoint()
     process = subprocess.Popen(
-        f"{sys.executable} -m mrlab_ros.host bridge --ros-args --log-level error "
+        f"{sys.executable} -m mrlab_ros.processes.host bridge --ros-args --log-level error "
         f"-p listen:=['{endpoint}']".split(),
         env=environment(),
         stdout=subprocess.DEVNULL,

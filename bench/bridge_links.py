@@ -108,7 +108,15 @@ def lab(stack: ExitStack, robots: int) -> Iterator[tuple[Wire, bridge.Process, b
     inside, outside = (("ip", "netns", "exec", name) for name in (here, there))
     arguments = f"--log-level error -p listen:=['{endpoint}'] -p insecure:=true".split()
     carried = subprocess.Popen(
-        [*inside, sys.executable, "-m", "mrlab_ros.host", "bridge", "--ros-args", *arguments],
+        [
+            *inside,
+            sys.executable,
+            "-m",
+            "mrlab_ros.processes.host",
+            "bridge",
+            "--ros-args",
+            *arguments,
+        ],
         env=bridge.environment(),
         stdout=subprocess.DEVNULL,
     )

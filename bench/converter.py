@@ -24,14 +24,15 @@ import psutil
 import report
 import scipy.io
 
-from mrlab_ros import share
-from mrlab_ros.adapters.matfile_reader import WorkspaceReader
-from mrlab_ros.adapters.robot_library import RobotLibrary
-from mrlab_ros.adapters.trajectory_store import TrajectoryStore
-from mrlab_ros.conversion import convert, load_coefficients
-from mrlab_ros.core.contract import document
-from mrlab_ros.core.selection import Options
-from mrlab_ros.core.trajectory import Trajectory
+from mrlab_ros.adapters.robots.library import RobotLibrary
+from mrlab_ros.adapters.trajectories.coefficients import load_coefficients
+from mrlab_ros.adapters.trajectories.store import TrajectoryStore
+from mrlab_ros.adapters.workspaces.reader import WorkspaceReader
+from mrlab_ros.core.conversion.convert import convert
+from mrlab_ros.core.conversion.options import Options
+from mrlab_ros.core.trajectory.document import document
+from mrlab_ros.core.trajectory.trajectory import Trajectory
+from mrlab_ros.ros import share
 
 SAME_NUMBERS = """\
 ratio = ms / (loadmat + dumps of the same numbers); to reach: at most 3 at 1,000,000 frames.

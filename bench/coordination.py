@@ -24,11 +24,12 @@ from mrlab_msgs import msg, srv
 from rclpy.node import Node
 from std_srvs.srv import Trigger
 
-from mrlab_ros import conversions, qos, share
-from mrlab_ros.adapters.robot_library import RobotLibrary
-from mrlab_ros.core.trajectory import Channels, Source, Trajectory
+from mrlab_ros.adapters.robots.library import RobotLibrary
+from mrlab_ros.core.trajectory.trajectory import Channels, Source, Trajectory
+from mrlab_ros.messages import qos, trajectories
 from mrlab_ros.nodes.playback import PlaybackHostNode
-from mrlab_ros.spinning import SpunNode
+from mrlab_ros.ros import share
+from mrlab_ros.ros.spinning import SpunNode
 
 MODEL = "ur5e"
 SECONDS = 20.0
@@ -51,7 +52,7 @@ class Bench(Node):
 
     def __init__(self) -> None:
         super().__init__("converter")
-        self._motion = conversions.trajectory_to_message(motion())
+        self._motion = trajectories.trajectory_to_message(motion())
         self.create_service(srv.GetTrajectory, "~/get", self._get)
         self.systems: list[Any] = []
         self._asked: dict[str, Any] = {}
@@ -93,7 +94,7 @@ def wait(condition: Callable[[], Any], what: str, timeout: float = 60.0) -> None
 def lab() -> Iterator[None]:
     """Run the lab and the coordinator in a process of their own."""
     process = subprocess.Popen(
-        [sys.executable, "-m", "mrlab_ros.host", "lab", "coordinator"],
+        [sys.executable, "-m", "mrlab_ros.processes.host", "lab", "coordinator"],
         stdout=subprocess.DEVNULL,
         stderr=subprocess.DEVNULL,
     )

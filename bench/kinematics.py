@@ -12,9 +12,9 @@ import time
 import numpy as np
 import trimesh
 
-from mrlab_ros import share
-from mrlab_ros.adapters import robot_checks, urdf
-from mrlab_ros.adapters.robot_library import RobotLibrary
+from mrlab_ros.adapters.robots import checks, urdf
+from mrlab_ros.adapters.robots.library import RobotLibrary
+from mrlab_ros.ros import share
 
 LOAD_BOUND_MS = 300.0
 
@@ -34,7 +34,7 @@ def load(robot: str) -> None:
     library = RobotLibrary(share.directory() / "robots")
     library.model(robot)
     root = urdf.parse(library.description(robot), robot)
-    for mesh in robot_checks.meshes(root):
+    for mesh in checks.meshes(root):
         path = library.mesh_path(str(mesh.get("filename")))
         if path.suffix == ".glb":
             trimesh.load_scene(path)

@@ -21,19 +21,20 @@ import numpy as np
 import psutil
 import report
 
-from mrlab_ros import share
-from mrlab_ros.adapters.bullet import BulletEngine
-from mrlab_ros.adapters.robot_library import RobotLibrary, read_yaml
+from mrlab_ros.adapters.bullet.engine import BulletEngine
+from mrlab_ros.adapters.robots.library import RobotLibrary
+from mrlab_ros.adapters.yaml_files import read_yaml
 from mrlab_ros.core.clock import SECOND, PlaybackClock
+from mrlab_ros.core.geometry import Pose
 from mrlab_ros.core.physics import catalogue
-from mrlab_ros.core.physics.engine import Motion
+from mrlab_ros.core.physics.engine import BodyState
 from mrlab_ros.core.physics.grasp import Gripper
-from mrlab_ros.core.physics.robot import Playing
 from mrlab_ros.core.physics.settings import Settings
+from mrlab_ros.core.physics.simulated_robot import Playing
 from mrlab_ros.core.physics.surfaces import Surface
 from mrlab_ros.core.physics.world import World
-from mrlab_ros.core.playback_states import State
-from mrlab_ros.core.scene import Pose
+from mrlab_ros.core.playback.states import State
+from mrlab_ros.ros import share
 
 ROOT = share.directory()
 LIBRARY = RobotLibrary(ROOT / "robots")
@@ -127,7 +128,7 @@ class Lab:
         """Give every object a push that wakes it and leaves it about where it is."""
         for thing in self.world.objects:
             pose = self.world.motion(thing.name).pose
-            self.engine.set_object(thing.name, Motion(pose, (0.05, 0.0, 0.1)))
+            self.engine.set_object(thing.name, BodyState(pose, (0.05, 0.0, 0.1)))
 
 
 def measured(name: str, models: list[str], objects: int, seconds: float, stirred: bool) -> Any:

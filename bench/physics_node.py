@@ -23,14 +23,17 @@ from rclpy.node import Node
 from sensor_msgs.msg import JointState
 from std_srvs.srv import Trigger
 
-from mrlab_ros import conversions, qos, share
-from mrlab_ros.adapters.robot_library import RobotLibrary
-from mrlab_ros.core.robot_model import RobotModel
-from mrlab_ros.core.trajectory import Channels, Source, Trajectory
-from mrlab_ros.nodes.calls import call
-from mrlab_ros.nodes.lab import LabNode
+from mrlab_ros.adapters.robots.library import RobotLibrary
+from mrlab_ros.core.robots.model import RobotModel
+from mrlab_ros.core.trajectory.trajectory import Channels, Source, Trajectory
+from mrlab_ros.messages import qos
+from mrlab_ros.messages import trajectories as messages_trajectories
+from mrlab_ros.messages.time import time_from_message
+from mrlab_ros.nodes.lab.node import LabNode
 from mrlab_ros.nodes.playback import PlaybackHostNode
-from mrlab_ros.spinning import SpunNode
+from mrlab_ros.ros import share
+from mrlab_ros.ros.calls import call
+from mrlab_ros.ros.spinning import SpunNode
 
 LIBRARY = RobotLibrary(share.directory() / "robots")
 RATE = 100.0
@@ -58,7 +61,7 @@ class Converter(Node):
 
     def _get(self, request: Any, response: Any) -> Any:
         response.success = True
-        response.trajectory = conversions.trajectory_to_message(self._known[request.id])
+        response.trajectory = messages_trajectories.trajectory_to_message(self._known[request.id])
         return response
 
 
@@ -94,7 +97,7 @@ class Graph:
 @contextmanager
 def graph(trajectories: Sequence[Trajectory]) -> Iterator[Graph]:
     os.environ["ROS_AUTOMATIC_DISCOVERY_RANGE"] = "LOCALHOST"
-    command = [sys.executable, "-m", "mrlab_ros.host", "physics"]
+    command = [sys.executable, "-m", "mrlab_ros.processes.host", "physics"]
     physics = subprocess.Popen(command, stderr=subprocess.DEVNULL, stdout=subprocess.DEVNULL)
     spun: list[SpunNode] = []
     try:
@@ -197,9 +200,9 @@ def halt_latencies(runs: int) -> list[float]:
             collisions.clear()
             lab.ask(Trigger, f"/{robot}/play")
             until(lambda: states[-1].label == "COLLISION_HALT" and collisions, "the halt")
-            contact_ns = conversions.to_ns(collisions[0].header.stamp)
+            contact_ns = time_from_message(collisions[0].header.stamp)
             time.sleep(0.1)
             last = next(j for j in reversed(joints) if np.any(j.velocity))
-            return (conversions.to_ns(last.header.stamp) - contact_ns) * 1e-6
+            return (time_from_message(last.header.stamp) - contact_ns) * 1e-6
 
         return [once() for _ in range(runs)]

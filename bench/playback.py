@@ -21,14 +21,16 @@ import report
 from rclpy.executors import SingleThreadedExecutor
 from sensor_msgs.msg import JointState
 
-from mrlab_ros import qos, share
-from mrlab_ros.adapters.robot_library import RobotLibrary
-from mrlab_ros.adapters.ruckig_motion import RuckigPlanner
-from mrlab_ros.conversions import JointStateEncoder, stamp
-from mrlab_ros.core.playback import Playback, Sample
-from mrlab_ros.core.playback_states import State
-from mrlab_ros.core.trajectory import Channels, Source, Trajectory
-from mrlab_ros.scheduler import Player, Scheduler
+from mrlab_ros.adapters.robots.library import RobotLibrary
+from mrlab_ros.adapters.robots.ruckig_planner import RuckigPlanner
+from mrlab_ros.core.playback.playback import Playback, Sample
+from mrlab_ros.core.playback.states import State
+from mrlab_ros.core.trajectory.trajectory import Channels, Source, Trajectory
+from mrlab_ros.messages import qos
+from mrlab_ros.messages.joint_states import JointStateEncoder
+from mrlab_ros.messages.time import time_to_message
+from mrlab_ros.ros import share
+from mrlab_ros.ros.deadlines import Player, Scheduler
 
 
 def trajectory(model: Any, frame_rate: float, seconds: float) -> Trajectory:
@@ -109,7 +111,7 @@ def plain_timers(robots: int, rate: float, seconds: float) -> dict[str, Any]:
                 return
             now = time.monotonic_ns()
             message = JointState(name=list(motion.joint_names))
-            message.header.stamp = stamp(now)
+            message.header.stamp = time_to_message(now)
             message.position = motion.positions[frame].tolist()
             message.velocity = motion.channels.velocities[frame].tolist()
             publisher.publish(message)

@@ -36,7 +36,7 @@ def publish(robots: int, seconds: float) -> None:
     from sensor_msgs.msg import JointState
     from std_msgs.msg import String
 
-    from mrlab_ros import qos
+    from mrlab_ros.messages import qos
 
     rclpy.init()
     node = rclpy.create_node("bench_recorder")
@@ -97,9 +97,9 @@ def write_by_executor(library: str, folder: Path) -> None:
     from rclpy.executors import ExternalShutdownException, SingleThreadedExecutor
     from rosbags.rosbag2 import StoragePlugin, Writer
 
-    from mrlab_ros.adapters.message_files import definition
-    from mrlab_ros.core.recording.selection import LAB_TOPICS, Topics
-    from mrlab_ros.nodes.recording import message_class, profile, topic_of
+    from mrlab_ros.adapters.bags.definitions import definition
+    from mrlab_ros.core.recording.topics import LAB_TOPICS, Topics
+    from mrlab_ros.messages.qos import message_class, profile, topic_of
 
     rclpy.init()
     node = rclpy.create_node("bench_writer")
@@ -167,7 +167,7 @@ def measure(writer: str, robots: int, seconds: float, folder: Path) -> dict[str,
     """Let `writer` record `robots` robots for `seconds` into `folder`."""
     bag = folder / "bag"
     if writer == "mrlab":
-        argv = [sys.executable, "-m", "mrlab_ros.host", "recorder", "--ros-args"]
+        argv = [sys.executable, "-m", "mrlab_ros.processes.host", "recorder", "--ros-args"]
         argv += ["--log-level", "error", "-p", f"bag_dir:={folder}"]
     else:
         argv = [sys.executable, __file__, "--write", writer.split()[-1], str(bag)]
@@ -229,7 +229,7 @@ def settled(bag: Path) -> None:
 
 def counted(bag: Path) -> tuple[int, int]:
     """Return the messages of the bench in the bag, and its bytes."""
-    from mrlab_ros.adapters.bag_reader import Bag
+    from mrlab_ros.adapters.bags.reader import Bag
 
     found = Bag(bag)
     mine = [t.messages for n, t in found.topics.items() if n not in ("/rosout", "/recorder/state")]
@@ -241,7 +241,7 @@ def order(what: str, bag: Path) -> None:
     from mrlab_msgs import srv
     from std_srvs.srv import Trigger
 
-    from mrlab_ros.graph_client import Graph
+    from mrlab_ros.ros.graph import Graph
 
     with Graph() as graph:
         if what == "start":
@@ -256,9 +256,9 @@ def write_only(messages: int, folder: Path) -> list[dict[str, Any]]:
     from mcap.writer import Writer as McapWriter
     from rosbags.rosbag2 import StoragePlugin, Writer
 
-    from mrlab_ros.adapters.bag_writer import BagWriter
-    from mrlab_ros.adapters.message_files import definition
-    from mrlab_ros.core.recording.bag_facts import Quality, Topic
+    from mrlab_ros.adapters.bags.definitions import definition
+    from mrlab_ros.adapters.bags.writer import BagWriter
+    from mrlab_ros.core.recording.metadata import QosProfile, Topic
 
     kind, text = "sensor_msgs/msg/JointState", definition("sensor_msgs/msg/JointState")
     names = [f"/bench_{number}/joint_states" for number in range(50)]
@@ -267,7 +267,7 @@ def write_only(messages: int, folder: Path) -> list[dict[str, Any]]:
     def ours() -> None:
         bag = BagWriter(folder / "ours", lambda _: text)
         for name in names:
-            bag.add_topic(Topic(name, kind, (Quality(),), "RIHS01_0"))
+            bag.add_topic(Topic(name, kind, (QosProfile(),), "RIHS01_0"))
         for number in range(messages):
             bag.write(names[number % 50], number, data[number % 256], number, number)
             if number % 2500 == 0:

@@ -9,7 +9,7 @@ from launch.actions import DeclareLaunchArgument, OpaqueFunction
 from launch.substitutions import LaunchConfiguration
 from launch_ros.actions import Node
 
-from mrlab_ros import physics_support
+from mrlab_ros.processes import physics_support
 
 
 def generate_launch_description():

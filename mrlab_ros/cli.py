@@ -10,13 +10,13 @@ from typing import Annotated
 import typer
 
 from mrlab_ros.commands import bag, keys, robots, scene, system
-from mrlab_ros.commands.convert import convert
-from mrlab_ros.commands.demo import demo
+from mrlab_ros.commands.convert.command import convert
+from mrlab_ros.commands.demo.command import demo
 from mrlab_ros.commands.play import play
 from mrlab_ros.commands.record import record
 from mrlab_ros.commands.replay import replay
 from mrlab_ros.commands.status import status
-from mrlab_ros.commands.up import up
+from mrlab_ros.commands.up.command import up
 from mrlab_ros.core.errors import LabError
 
 EPILOG = """

@@ -13,8 +13,10 @@ from pathlib import Path
 import protocol_page
 import roles_page
 
-from mrlab_ros.core import diagnostics, playback_states, system_states
+from mrlab_ros.core import diagnostics
 from mrlab_ros.core.physics import grasp
+from mrlab_ros.core.playback import states
+from mrlab_ros.core.systems import states as systems_states
 
 ROOT = Path(__file__).resolve().parent.parent
 
@@ -28,9 +30,9 @@ def diagram(transitions: Mapping[tuple[Enum, Enum], Enum], first: str) -> str:
 
 
 BLOCKS: dict[tuple[str, str], Callable[[], str]] = {
-    ("docs/playback.md", "playback states"): lambda: diagram(playback_states.TRANSITIONS, "IDLE"),
+    ("docs/playback.md", "playback states"): lambda: diagram(states.TRANSITIONS, "IDLE"),
     ("docs/physics.md", "grasp states"): lambda: diagram(grasp.TRANSITIONS, "OPEN"),
-    ("docs/systems.md", "system states"): lambda: diagram(system_states.TRANSITIONS, "READY"),
+    ("docs/systems.md", "system states"): lambda: diagram(systems_states.TRANSITIONS, "READY"),
 }
 FILES: dict[str, Callable[[], str]] = {
     "docs/diagnostics.md": diagnostics.document,

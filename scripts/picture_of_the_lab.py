@@ -9,19 +9,19 @@ from pathlib import Path
 import numpy as np
 import scipy.io
 
-from mrlab_ros.adapters.picture import Camera, Surface, draw
-from mrlab_ros.adapters.robot_library import RobotLibrary
-from mrlab_ros.adapters.robot_picture import surfaces
-from mrlab_ros.core.kinematics import Array, transform
+from mrlab_ros.adapters.robots.library import RobotLibrary
+from mrlab_ros.adapters.robots.picture import surfaces
+from mrlab_ros.adapters.robots.ray_tracer import Camera, Surface, draw
+from mrlab_ros.core.geometry import Array, transform_from_xyz_rpy
 
 ROOT = Path(__file__).resolve().parent.parent
 FRAME = 430
 CAST = (
-    ("ur5e", "two_robot_handover_ur5e", transform([0.0, 0.0, 0.0], [0.0, 0.0, 0.0])),
+    ("ur5e", "two_robot_handover_ur5e", transform_from_xyz_rpy([0.0, 0.0, 0.0], [0.0, 0.0, 0.0])),
     (
         "kuka_kr6_r900_sixx",
         "two_robot_handover_kr6",
-        transform([1.2, 0.0, 0.0], [0.0, 0.0, np.pi]),
+        transform_from_xyz_rpy([1.2, 0.0, 0.0], [0.0, 0.0, np.pi]),
     ),
 )
 

@@ -6,7 +6,7 @@ from pathlib import Path
 
 import yaml
 
-from mrlab_ros.core.bridge_rules import (
+from mrlab_ros.core.bridge.rules import (
     Congestion,
     Direction,
     Rules,

@@ -7,8 +7,8 @@ from pathlib import Path
 
 import yaml
 
-from mrlab_ros.core.access import role_rules
-from mrlab_ros.core.bridge_rules import Role, Rules, parse
+from mrlab_ros.core.bridge.access import role_rules
+from mrlab_ros.core.bridge.rules import Role, Rules, parse
 
 HEAD = """\
 // What each role may do, as zenoh's access control says it, for the shipped allow-list without a

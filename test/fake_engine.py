@@ -6,18 +6,17 @@ from collections.abc import Sequence
 
 import numpy as np
 
+from mrlab_ros.core.geometry import Pose, Vector
 from mrlab_ros.core.physics.engine import (
     Arm,
     Body,
+    BodyState,
     Finger,
     FingerState,
     Kind,
     LinkPairs,
-    Motion,
     Touch,
 )
-from mrlab_ros.core.physics.poses import Vector
-from mrlab_ros.core.scene import Pose
 
 FINGERS = (
     Finger("left_joint", "left", 0.0, 0.04, 0.08, 20.0),
@@ -37,7 +36,7 @@ class FakeEngine:
         self.calls: list[str] = []
         self.time = 0.0
         self.arms: dict[str, dict] = {}
-        self.motions: dict[str, Motion] = {}
+        self.motions: dict[str, BodyState] = {}
         self.surfaces: dict[str, float] = {}
         self.held: dict[str, tuple[str, Vector]] = {}
         self.block = 0.04
@@ -83,12 +82,12 @@ class FakeEngine:
     def fingers(self, name: str) -> tuple[FingerState, ...]:
         return tuple(FingerState(p, 1.0) for p in self.arms[name]["fingers"])
 
-    def link(self, arm: str, link: str) -> Motion:
+    def link(self, arm: str, link: str) -> BodyState:
         a = self.arms[arm]
         x, y, z = a["pose"].position
         q, v = a["q"], a["v"]
         place = (x + float(q[0]), y + float(q[1]), z + 0.5)
-        return Motion(Pose(place), (float(v[0]), float(v[1]), 0.0))
+        return BodyState(Pose(place), (float(v[0]), float(v[1]), 0.0))
 
     def _gap(self, arm: str, other: str) -> float:
         a, b = self.link(arm, "tip").pose.position, self.object(other).pose.position
@@ -124,21 +123,21 @@ class FakeEngine:
             return min(self._gap(arm, other), look)
         return look
 
-    def add_object(self, name: str, body: Body, motion: Motion) -> None:
+    def add_object(self, name: str, body: Body, motion: BodyState) -> None:
         self.motions[name] = motion
 
     def remove_object(self, name: str) -> None:
         del self.motions[name]
 
-    def object(self, name: str) -> Motion:
+    def object(self, name: str) -> BodyState:
         if name in self.held:
             arm, offset = self.held[name]
             hand = self.link(arm, "tip")
             place = tuple(float(v) for v in np.add(hand.pose.position, offset))
-            return Motion(Pose(place), hand.linear)  # type: ignore[arg-type]
+            return BodyState(Pose(place), hand.linear)  # type: ignore[arg-type]
         return self.motions[name]
 
-    def set_object(self, name: str, motion: Motion) -> None:
+    def set_object(self, name: str, motion: BodyState) -> None:
         self.motions[name] = motion
 
     def add_surface(self, name: str, body: Body, pose: Pose) -> None:

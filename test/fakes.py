@@ -6,9 +6,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from mrlab_ros.core.kinematics import Array
-from mrlab_ros.core.robot_model import Joint, RobotModel
-from mrlab_ros.core.trajectory import Channels, Source, Trajectory
+from mrlab_ros.core.geometry import Array
+from mrlab_ros.core.robots.model import Joint, RobotModel
+from mrlab_ros.core.trajectory.trajectory import Channels, Source, Trajectory
 
 SECOND = 1_000_000_000
 

@@ -12,7 +12,7 @@ from pathlib import Path
 
 import pytest
 
-from mrlab_ros.commands.demo_lab import claim_free_domain
+from mrlab_ros.commands.demo.lab import claim_free_domain
 
 DEADLINE = 60.0
 MRLAB = (sys.executable, "-m", "mrlab_ros.cli")

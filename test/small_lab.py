@@ -9,12 +9,13 @@ from graph import Graph
 from mrlab_msgs import msg, srv
 from rclpy.node import Node
 
-from mrlab_ros import conversions, qos, share
-from mrlab_ros.adapters.robot_library import RobotLibrary
-from mrlab_ros.core.trajectory import Channels, Source, Trajectory
+from mrlab_ros.adapters.robots.library import RobotLibrary
+from mrlab_ros.core.trajectory.trajectory import Channels, Source, Trajectory
+from mrlab_ros.messages import qos, trajectories
 from mrlab_ros.nodes.coordinator import CoordinatorNode
-from mrlab_ros.nodes.lab import LabNode
+from mrlab_ros.nodes.lab.node import LabNode
 from mrlab_ros.nodes.playback import PlaybackHostNode
+from mrlab_ros.ros import share
 
 LIBRARY = RobotLibrary(share.directory() / "robots")
 
@@ -61,7 +62,7 @@ class Catalogue(Node):
         response.success = trajectory is not None
         response.message = f"there is no trajectory '{request.id}'"
         if trajectory is not None:
-            response.trajectory = conversions.trajectory_to_message(trajectory)
+            response.trajectory = trajectories.trajectory_to_message(trajectory)
         return response
 
 

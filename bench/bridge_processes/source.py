@@ -35,7 +35,7 @@ def dds(topics: list[str]) -> Iterator[list[Callable[[bytes], None]]]:
     import rclpy
     from sensor_msgs.msg import JointState
 
-    from mrlab_ros import qos
+    from mrlab_ros.messages import qos
 
     rclpy.init()
     node = rclpy.create_node("bench_source")
@@ -50,8 +50,8 @@ def dds(topics: list[str]) -> Iterator[list[Callable[[bytes], None]]]:
 def zenoh_alone(topics: list[str], endpoint: str) -> Iterator[list[Callable[[bytes], None]]]:
     """Yield what puts on each topic's key, with stamps as the bridge's."""
     from mrlab_ros.adapters.zenoh_session import ZenohSession, configuration
-    from mrlab_ros.core.bridge_rules import Congestion, TopicRule
-    from mrlab_ros.core.latency import attachment
+    from mrlab_ros.core.bridge.latency import attachment
+    from mrlab_ros.core.bridge.rules import Congestion, TopicRule
 
     session = ZenohSession(configuration(listen=(endpoint,)))
     rule = TopicRule("/any", priority=2, congestion=Congestion.DROP)

@@ -87,9 +87,9 @@ def over_dds(robots: int, ages: Ages) -> Any:
     from rclpy.node import Node
     from sensor_msgs.msg import JointState
 
-    from mrlab_ros import qos
-    from mrlab_ros.bridging.stamped import Stamped
-    from mrlab_ros.spinning import SpunNode
+    from mrlab_ros.messages import qos
+    from mrlab_ros.ros.raw_callback import Stamped
+    from mrlab_ros.ros.spinning import SpunNode
 
     rclpy.init()
     node = Node("bench_subscriber")

@@ -10,9 +10,14 @@ from typing import Any, Protocol
 import zenoh
 from zenoh import ext
 
-from mrlab_ros.core.bridge_rules import Congestion, Reliability, TopicRule
+from mrlab_ros.core.bridge.links import (
+    LEASE_BEYOND,
+    LEASE_WITHIN,
+    healing,
+    is_local,
+)
+from mrlab_ros.core.bridge.rules import Congestion, Reliability, TopicRule
 from mrlab_ros.core.errors import BadInput
-from mrlab_ros.core.links import LEASE_BEYOND, LEASE_WITHIN, healing, is_local
 
 LOOPBACK = ("tcp/127.0.0.1:7447",)
 # A put waits so long, us, for a full link before its message is lost, and so long before the

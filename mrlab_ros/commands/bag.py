@@ -13,7 +13,7 @@ import typer
 from mrlab_ros.core.errors import BadInput
 
 if TYPE_CHECKING:
-    from mrlab_ros.adapters.bag_reader import Bag
+    from mrlab_ros.adapters.bags.reader import Bag
 
 app = typer.Typer(help="Look into bags, report what happened, mend them.", no_args_is_help=True)
 BagArgument = Annotated[
@@ -24,7 +24,7 @@ AsJson = Annotated[bool, typer.Option("--json", help="Print one JSON object.")]
 
 def path_of(bag: str) -> Path:
     """Return where a bag lies that is named by its path, or by its name in the usual folder."""
-    from mrlab_ros.adapters.bag_reader import default_folder
+    from mrlab_ros.adapters.bags.reader import default_folder
 
     path = Path(bag).expanduser()
     usual = default_folder() / bag
@@ -34,7 +34,7 @@ def path_of(bag: str) -> Path:
 @app.command()
 def info(bag: BagArgument, as_json: AsJson = False) -> None:
     """Show topics, counts, length and attachments of a bag."""
-    from mrlab_ros.adapters.bag_reader import Bag
+    from mrlab_ros.adapters.bags.reader import Bag
 
     found = Bag(path_of(bag))
     if as_json:
@@ -46,8 +46,8 @@ def info(bag: BagArgument, as_json: AsJson = False) -> None:
 @app.command()
 def repair(bag: BagArgument) -> None:
     """Write damaged files and metadata.yaml anew; the originals are kept beside them."""
-    from mrlab_ros.adapters.bag_repair import KEPT
-    from mrlab_ros.adapters.bag_repair import repair as mend
+    from mrlab_ros.adapters.bags.repair import KEPT
+    from mrlab_ros.adapters.bags.repair import repair as mend
 
     done = mend(path_of(bag))
     for trouble in done.troubles:
@@ -67,7 +67,7 @@ def extract(
     out: Annotated[Path, typer.Option(help="Folder to write to.")] = Path("."),
 ) -> None:
     """Write a bag's attachments to files: URDFs, meshes, trajectories, scene, parameters."""
-    from mrlab_ros.adapters.bag_reader import Bag
+    from mrlab_ros.adapters.bags.reader import Bag
 
     found = Bag(path_of(bag))
     root = out.resolve()
@@ -90,8 +90,8 @@ def report(
     as_json: AsJson = False,
 ) -> None:
     """Tell what happened: states, collisions, grasps, tracking error, latency, per robot."""
-    from mrlab_ros.adapters.bag_reader import Bag
-    from mrlab_ros.adapters.bag_session import read_session
+    from mrlab_ros.adapters.bags.reader import Bag
+    from mrlab_ros.adapters.bags.session import read_session
     from mrlab_ros.core.recording.report import report_lines
 
     found = Bag(path_of(bag))
@@ -99,7 +99,7 @@ def report(
     text = "\n".join(report_lines(session)) + "\n"
     facts = json.dumps(session.facts(), indent=2) + "\n"
     if out is not None:
-        from mrlab_ros.adapters.bag_plot import draw
+        from mrlab_ros.adapters.bags.plot import draw
 
         out.mkdir(parents=True, exist_ok=True)
         (out / "report.txt").write_text(text)

@@ -9,9 +9,10 @@ from typing import Any
 from mrlab_msgs import msg
 from rclpy.qos import DurabilityPolicy, QoSProfile, ReliabilityPolicy
 
-from mrlab_ros import conversions, qos
 from mrlab_ros.core.clock import SECOND
-from mrlab_ros.graph_client import Graph, Watch
+from mrlab_ros.messages import qos
+from mrlab_ros.messages.time import time_from_message
+from mrlab_ros.ros.graph import Graph, Watch
 
 # Latched like the publisher, and deep enough to see every state that follows another closely.
 EVERY_STATE = QoSProfile(
@@ -40,7 +41,7 @@ class Follower:
     def _on_state(self, state: Any) -> None:
         if state.state == msg.PlaybackState.PLAYING and state.clock.rate > 0:
             offset = round(state.clock.position / state.clock.rate * SECOND)
-            self.start_ns = conversions.to_ns(state.clock.stamp) - offset
+            self.start_ns = time_from_message(state.clock.stamp) - offset
         self.states.append(state)
         self.watch.set(state)
 

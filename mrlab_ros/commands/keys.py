@@ -11,13 +11,13 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from mrlab_ros.core.access import Login
-from mrlab_ros.core.bridge_rules import Role
+from mrlab_ros.core.bridge.access import Login
+from mrlab_ros.core.bridge.rules import Role
 from mrlab_ros.core.errors import BadInput
 
 if TYPE_CHECKING:
-    from mrlab_ros.adapters.keys import Entry, Keys
-    from mrlab_ros.core.bridge_rules import Rules
+    from mrlab_ros.adapters.keys.folder import Entry, Keys
+    from mrlab_ros.core.bridge.rules import Rules
 
 app = typer.Typer(
     no_args_is_help=True, help="Who may connect to a lab over the network: certificates, roles."
@@ -55,7 +55,7 @@ def init(
     The certificate names localhost, this machine's host name, and each --host. Nothing that
     exists is overwritten.
     """
-    from mrlab_ros.adapters.keys import Keys, now
+    from mrlab_ros.adapters.keys.folder import Keys, now
 
     keys = Keys.create(folder, [*(host or []), *this_machine()], login, now())
     expires = keys.server_expires()
@@ -99,7 +99,7 @@ def add(
     as_json: AsJson = False,
 ) -> None:
     """Let people connect, and write for each the one file that their client needs."""
-    from mrlab_ros.adapters.keys import Keys, now
+    from mrlab_ros.adapters.keys.folder import Keys, now
 
     keys = Keys(folder)
     for name in names:
@@ -120,7 +120,7 @@ def add(
 @app.command("list")
 def list_people(folder: Folder = Path("keys"), as_json: AsJson = False) -> None:
     """List who may connect, as what and until when."""
-    from mrlab_ros.adapters.keys import Keys, now
+    from mrlab_ros.adapters.keys.folder import Keys, now
 
     keys = Keys(folder)
     expires = keys.server_expires()
@@ -156,7 +156,7 @@ def revoke(
     as_json: AsJson = False,
 ) -> None:
     """Take keys back: at once under mrlab up; elsewhere they work until the bridge restarts."""
-    from mrlab_ros.adapters.keys import Keys
+    from mrlab_ros.adapters.keys.folder import Keys
 
     keys = Keys(folder)
     for name in names:
@@ -176,7 +176,7 @@ def renew(folder: Folder = Path("keys"), host: Hosts = None, as_json: AsJson = F
 
     Everybody's keys stay valid.
     """
-    from mrlab_ros.adapters.keys import Keys, now
+    from mrlab_ros.adapters.keys.folder import Keys, now
 
     keys = Keys(folder)
     expires = keys.renew(host or [], now())
@@ -192,9 +192,9 @@ def config(
     folder: Folder = Path("keys"), prefix: Prefix = "", allow_list: AllowList = None
 ) -> None:
     """Print what the lab tells zenoh, as JSON: to read, or for zenoh's own bridge."""
-    from mrlab_ros.adapters.keys import EVERYWHERE, Keys, now
-    from mrlab_ros.core.bridge_rules import checked_prefix
-    from mrlab_ros.core.links import nested
+    from mrlab_ros.adapters.keys.folder import EVERYWHERE, Keys, now
+    from mrlab_ros.core.bridge.links import nested
+    from mrlab_ros.core.bridge.rules import checked_prefix
 
     rules = rules_of(allow_list)
     keys = Keys(folder)
@@ -212,10 +212,10 @@ def router(
     The names under which people reach that machine must be the lab's: mrlab keys init --host, or
     renew --host.
     """
-    from mrlab_ros import share
-    from mrlab_ros.adapters.keys import Keys, now
+    from mrlab_ros.adapters.keys.folder import Keys, now
     from mrlab_ros.adapters.zenoh_session import limits
-    from mrlab_ros.core.bridge_rules import checked_prefix
+    from mrlab_ros.core.bridge.rules import checked_prefix
+    from mrlab_ros.ros import share
 
     keys = Keys(folder)
     shipped = limits(share.directory() / "config" / "zenoh" / "lab.json5")
@@ -240,8 +240,8 @@ def rules_of(allow_list: Path | None) -> Rules:
     """Read an allow-list, the shipped one if none is named; raise BadInput where it is none."""
     import yaml
 
-    from mrlab_ros import share
-    from mrlab_ros.core import bridge_rules
+    from mrlab_ros.core.bridge import rules as bridge_rules
+    from mrlab_ros.ros import share
 
     path = allow_list or share.directory() / "config" / "bridge.yaml"
     try:
@@ -252,7 +252,7 @@ def rules_of(allow_list: Path | None) -> Rules:
 
 def this_machine() -> list[str]:
     """Return this machine's host name, where a certificate can hold it."""
-    from mrlab_ros.adapters.certificates import is_host
+    from mrlab_ros.adapters.keys.certificates import is_host
 
     name = socket.gethostname()
     return [name] if is_host(name) else []
@@ -260,7 +260,7 @@ def this_machine() -> list[str]:
 
 def until(entry: Entry) -> str:
     """Say until when a key is good."""
-    from mrlab_ros.adapters.keys import now
+    from mrlab_ros.adapters.keys.folder import now
 
     text = f"{entry.expires:%d %B %Y}"
     return f"{text} (expired)" if entry.expires < now() else text

@@ -12,7 +12,7 @@ from mrlab_ros.core.errors import LabError, Misuse
 
 if TYPE_CHECKING:
     from mrlab_ros.commands.follow import Follower
-    from mrlab_ros.graph_client import Graph
+    from mrlab_ros.ros.graph import Graph
 
 # What follows play at once: the robot moves, or says why not.
 MOVE_TIMEOUT = 5.0
@@ -39,7 +39,7 @@ def play(
     from rich.console import Console
 
     from mrlab_ros.commands.follow import Follower
-    from mrlab_ros.graph_client import Graph
+    from mrlab_ros.ros.graph import Graph
 
     console = Console(highlight=False)
     with Graph() as graph:

@@ -11,7 +11,7 @@ import typer
 from mrlab_ros.core.errors import LabError
 
 if TYPE_CHECKING:
-    from mrlab_ros.graph_client import Graph, Watch
+    from mrlab_ros.ros.graph import Graph, Watch
 
 REFRESH = 0.25
 # The recorder tells its state once a second while it works; silent for so long, it is gone, s.
@@ -40,7 +40,7 @@ def record(
     from rich.live import Live
     from std_srvs.srv import Trigger
 
-    from mrlab_ros.graph_client import Graph
+    from mrlab_ros.ros.graph import Graph
 
     console = Console(highlight=False)
     request = srv.StartRecording.Request(

@@ -18,9 +18,10 @@ import typer
 
 from mrlab_ros.commands.record import SILENCE
 from mrlab_ros.core.errors import LabError, Misuse
+from mrlab_ros.messages.time import time_from_message
 
 if TYPE_CHECKING:
-    from mrlab_ros.graph_client import Graph, Watch
+    from mrlab_ros.ros.graph import Graph, Watch
 
 REFRESH = 0.1
 # What is typed faster than it is served comes at once: an arrow is three bytes.
@@ -51,7 +52,7 @@ def replay(
     from rich.console import Console
     from rich.live import Live
 
-    from mrlab_ros.graph_client import Graph
+    from mrlab_ros.ros.graph import Graph
 
     console = Console(highlight=False)
     path = Path(bag).expanduser()
@@ -81,7 +82,7 @@ def replay(
 def _follow(watch: Watch[Any], keyboard: Keyboard | None, show: Callable[[str], None]) -> None:
     from mrlab_msgs import msg
 
-    from mrlab_ros.graph_client import NoAnswer
+    from mrlab_ros.ros.graph import NoAnswer
 
     working = (msg.RecorderState.REPLAYING, msg.RecorderState.PAUSED)
     # A short one may be over already; what is latched from before says nothing of it.
@@ -119,11 +120,9 @@ def position_now(state: Any) -> float:
     """Return where the replay is by now: its state comes once a second."""
     from mrlab_msgs import msg
 
-    from mrlab_ros import conversions
-
     if state.state != msg.RecorderState.REPLAYING:
         return float(state.position)
-    age = max(time.time() - conversions.to_ns(state.header.stamp) / 1e9, 0.0)
+    age = max(time.time() - time_from_message(state.header.stamp) / 1e9, 0.0)
     return float(min(state.position + state.rate * age, state.duration))
 
 

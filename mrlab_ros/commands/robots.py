@@ -10,15 +10,15 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from mrlab_ros import share
 from mrlab_ros.core.diagnostics import Diagnostic, Severity
 from mrlab_ros.core.errors import BadInput
+from mrlab_ros.ros import share
 
 if TYPE_CHECKING:
     import numpy as np
     from numpy.typing import NDArray
 
-    from mrlab_ros.adapters.robot_library import RobotLibrary
+    from mrlab_ros.adapters.robots.library import RobotLibrary
 
 app = typer.Typer(help="The robots of the library: list, show, check, import, meshes, remove.")
 
@@ -26,7 +26,7 @@ WORDS = {Severity.INFO: "note", Severity.WARNING: "warning", Severity.ERROR: "er
 
 
 def _library() -> RobotLibrary:
-    from mrlab_ros.adapters.robot_library import RobotLibrary
+    from mrlab_ros.adapters.robots.library import RobotLibrary
 
     return RobotLibrary(share.directory() / "robots")
 
@@ -50,7 +50,7 @@ def list_robots(
     ] = False,
 ) -> None:
     """List the robots: id, class, payload, reach (from kinematics), joints."""
-    from mrlab_ros.core.reach import reach
+    from mrlab_ros.core.robots.reach import reach
 
     library = _library()
     rows = []
@@ -109,7 +109,7 @@ def show(
     ] = True,
 ) -> None:
     """Write a PNG of a robot beside a person of 1.8 m, and open it where there is a desktop."""
-    from mrlab_ros.adapters.robot_picture import take
+    from mrlab_ros.adapters.robots.picture import take
 
     library = _library()
     positions = _positions(library, robot, joints) if joints else None
@@ -142,21 +142,21 @@ def check(
     robots: Annotated[list[str] | None, typer.Argument(help="Ids; none: all robots.")] = None,
 ) -> None:
     """Check robots: meshes, limits, inertias, units, hulls. Ends with 1 where one has an error."""
-    from mrlab_ros.adapters import robot_checks, robot_hulls
+    from mrlab_ros.adapters.robots import checks, hulls
 
     library = _library()
     worst = 0
     for robot in robots or library.ids():
         text = library.description(robot)
         origin = f"{robot}/robot.urdf"
-        found = robot_checks.check(text, origin, library.mesh_path)
-        if not robot_checks.errors(found):
+        found = checks.check(text, origin, library.mesh_path)
+        if not checks.errors(found):
             library.model(robot)
-            found += robot_hulls.check(text, origin, library.mesh_path)
+            found += hulls.check(text, origin, library.mesh_path)
         shown = [one for one in found if one.severity is not Severity.INFO]
         print(f"{robot}: {'ok' if not shown else ''}".rstrip())
         _tell(shown)
-        worst += len(robot_checks.errors(found))
+        worst += len(checks.errors(found))
     if worst:
         raise BadInput(f"{worst} errors were found; each line above says what to do")
 
@@ -171,14 +171,14 @@ def import_robot(
     ] = None,
 ) -> None:
     """Check a URDF of one's own and install it as a robot of the lab."""
-    from mrlab_ros.adapters import robot_checks, robot_import
+    from mrlab_ros.adapters.robots import checks, importing
 
-    path = robot_import.find_urdf(source)
+    path = importing.find_urdf(source)
     library = _library()
     wanted = robot_id or path.stem.lower().replace("-", "_")
-    found = robot_import.bring(path, wanted, library, _folders(package))
+    found = importing.bring(path, wanted, library, _folders(package))
     _tell(found)
-    wrong = robot_checks.errors(found)
+    wrong = checks.errors(found)
     if wrong:
         raise BadInput(f"{path.name} was not imported: {len(wrong)} errors, listed above")
     print(f"{wanted} is a robot of the lab; its files: {library.imported / wanted}")
@@ -197,13 +197,13 @@ def meshes(
     ] = False,
 ) -> None:
     """Show one of the lab's robots with the meshes of a vendor's description."""
-    from mrlab_ros.adapters import robot_checks, robot_import, robot_meshes
+    from mrlab_ros.adapters.robots import checks, importing, vendor_meshes
 
-    path = robot_import.find_urdf(source)
+    path = importing.find_urdf(source)
     library = _library()
-    found = robot_meshes.use_meshes(path, robot, library, _folders(package), collision=collision)
+    found = vendor_meshes.use_meshes(path, robot, library, _folders(package), collision=collision)
     _tell(found)
-    wrong = robot_checks.errors(found)
+    wrong = checks.errors(found)
     if wrong:
         raise BadInput(f"the meshes of {path.name} were not taken: {len(wrong)} errors, see above")
     print(f"{robot} has the meshes of {path.name}; undo it with: mrlab robots remove {robot}")
@@ -212,10 +212,10 @@ def meshes(
 @app.command()
 def remove(robot: Annotated[str, typer.Argument(help="Id of an imported robot.")]) -> None:
     """Remove an imported robot, or the meshes that were put in place of the lab's own."""
-    from mrlab_ros.adapters import robot_meshes
+    from mrlab_ros.adapters.robots import vendor_meshes
 
     library = _library()
-    robot_meshes.remove(robot, library)
+    vendor_meshes.remove(robot, library)
     own = robot in library.ids()
     print(f"{robot} has the lab's own meshes again" if own else f"{robot} was removed")
 

@@ -12,7 +12,7 @@ import typer
 from mrlab_ros.core.errors import BadInput, Misuse
 
 if TYPE_CHECKING:
-    from mrlab_ros.graph_client import Graph
+    from mrlab_ros.ros.graph import Graph
 
 # Loading a scene spawns its robots and loads their trajectories, one after another, s.
 LOAD_TIMEOUT = 120.0
@@ -156,7 +156,7 @@ def _graph() -> Graph:
     """Return a client of a lab that has physics; raise Misuse where it has none."""
     from mrlab_msgs import srv
 
-    from mrlab_ros.graph_client import FIND_TIMEOUT, Graph
+    from mrlab_ros.ros.graph import FIND_TIMEOUT, Graph
 
     graph = Graph()
     try:

@@ -11,13 +11,13 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from mrlab_ros.supervisor import RunFile
+from mrlab_ros.processes.run_file import RunFile
 
 if TYPE_CHECKING:
     from rich.console import RenderableType
 
     from mrlab_ros.commands.follow import Follower
-    from mrlab_ros.graph_client import Graph, Watch
+    from mrlab_ros.ros.graph import Graph, Watch
 
 REFRESH_RATE = 4.0
 # What a robot that was just found has to say is there by then, s.
@@ -41,7 +41,7 @@ def status(
     from rich.console import Console
     from rich.live import Live
 
-    from mrlab_ros.graph_client import Graph
+    from mrlab_ros.ros.graph import Graph
 
     console = Console()
     with Graph() as graph:
@@ -68,7 +68,7 @@ class View:
     def __init__(self, graph: Graph) -> None:
         from mrlab_msgs import msg
 
-        from mrlab_ros import qos
+        from mrlab_ros.messages import qos
 
         self._graph = graph
         self._run_file = RunFile(graph.domain)
@@ -88,7 +88,7 @@ class View:
         Latched messages come oldest first, one soon after the other: the newest is there once no
         more come.
         """
-        from mrlab_ros.graph_client import LATCHED_BURST
+        from mrlab_ros.ros.graph import LATCHED_BURST
 
         deadline = time.monotonic() + SETTLE_TIMEOUT
         watches = (self._robots, self._catalogue, self._systems)

@@ -12,8 +12,8 @@ import typer
 from mrlab_ros.core.errors import BadInput, Misuse
 
 if TYPE_CHECKING:
-    from mrlab_ros.core.robot_systems import Member
-    from mrlab_ros.graph_client import Graph
+    from mrlab_ros.core.systems.timeline import Member
+    from mrlab_ros.ros.graph import Graph
 
 app = typer.Typer(
     no_args_is_help=True,
@@ -32,7 +32,7 @@ def list_systems(
     from rich.console import Console
     from rich.table import Table
 
-    from mrlab_ros.graph_client import Graph
+    from mrlab_ros.ros.graph import Graph
 
     with Graph() as graph:
         systems = _systems(graph)
@@ -71,8 +71,8 @@ def create(
     import yaml
     from mrlab_msgs import msg, srv
 
-    from mrlab_ros.core.cell_file import read
-    from mrlab_ros.graph_client import Graph
+    from mrlab_ros.core.systems.cell_file import read
+    from mrlab_ros.ros.graph import Graph
 
     try:
         document = yaml.safe_load(file.read_text())
@@ -123,8 +123,8 @@ def play(
     from mrlab_msgs import msg
     from std_srvs.srv import Trigger
 
-    from mrlab_ros import qos
-    from mrlab_ros.graph_client import Graph
+    from mrlab_ros.messages import qos
+    from mrlab_ros.ros.graph import Graph
 
     with Graph() as graph:
         _system(graph, name)
@@ -159,7 +159,7 @@ def _simple(verb: str, words: str) -> None:
     def command(name: Name) -> None:
         from std_srvs.srv import Trigger
 
-        from mrlab_ros.graph_client import Graph
+        from mrlab_ros.ros.graph import Graph
 
         with Graph() as graph:
             _system(graph, name)
@@ -205,7 +205,7 @@ def mode(name: Name, mode: Annotated[str, typer.Argument(help="parallel or seque
     """Set how the members share the timeline."""
     from mrlab_msgs import srv
 
-    from mrlab_ros.core.robot_systems import Mode
+    from mrlab_ros.core.systems.timeline import Mode
 
     if mode.upper() not in Mode.__members__:
         raise BadInput(f"the mode is '{mode}'; expected parallel or sequential")
@@ -225,7 +225,7 @@ def dissolve(name: Name) -> None:
     """Set the members free, paused where they are."""
     from mrlab_msgs import srv
 
-    from mrlab_ros.graph_client import Graph
+    from mrlab_ros.ros.graph import Graph
 
     with Graph() as graph:
         request = srv.Remove.Request(name=name)
@@ -233,7 +233,7 @@ def dissolve(name: Name) -> None:
 
 
 def _order(name: str, service: str, kind: Any, request: Any) -> None:
-    from mrlab_ros.graph_client import Graph
+    from mrlab_ros.ros.graph import Graph
 
     with Graph() as graph:
         _system(graph, name)
@@ -247,7 +247,7 @@ def _systems(graph: Graph, name: str = "") -> list[Any]:
     """
     from mrlab_msgs import msg
 
-    from mrlab_ros.graph_client import LATCHED_BURST, NoAnswer
+    from mrlab_ros.ros.graph import LATCHED_BURST, NoAnswer
 
     watch = graph.watch(msg.RobotSystems, "/systems")
     watch.wait(lambda _: True, 5.0, "the systems")
@@ -267,7 +267,7 @@ def _system(graph: Graph, name: str) -> Any:
 
 
 def _mode(system: Any) -> str:
-    from mrlab_ros.core.robot_systems import Mode
+    from mrlab_ros.core.systems.timeline import Mode
 
     return Mode(system.mode).name.lower()
 

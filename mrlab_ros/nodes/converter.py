@@ -14,20 +14,17 @@ from rclpy.context import Context
 from rclpy.node import Node
 from rclpy.parameter import Parameter
 
-from mrlab_ros import conversions, host, qos, share
-from mrlab_ros.adapters.matfile_reader import Limits, MiB, WorkspaceReader
-from mrlab_ros.adapters.robot_library import RobotLibrary
-from mrlab_ros.adapters.trajectory_store import TrajectoryStore
-from mrlab_ros.conversion import (
-    DEFAULT_FRAME_RATE,
-    ConversionResult,
-    convert,
-    load_coefficients,
-)
-from mrlab_ros.core.contract import warnings_of
+from mrlab_ros.adapters.robots.library import RobotLibrary
+from mrlab_ros.adapters.trajectories.coefficients import load_coefficients
+from mrlab_ros.adapters.trajectories.store import TrajectoryStore
+from mrlab_ros.adapters.workspaces.reader import Limits, MiB, WorkspaceReader
+from mrlab_ros.core.conversion.convert import DEFAULT_FRAME_RATE, ConversionResult, convert
+from mrlab_ros.core.conversion.options import Options
 from mrlab_ros.core.errors import BadInput, LabError
-from mrlab_ros.core.likeness import Candidate
-from mrlab_ros.core.selection import Options
+from mrlab_ros.messages import qos, trajectories
+from mrlab_ros.messages.trajectories import candidate_to_message, info_from_head
+from mrlab_ros.processes import host
+from mrlab_ros.ros import share
 
 
 class ConverterNode(Node):
@@ -154,10 +151,10 @@ class ConverterNode(Node):
             self.get_logger().info(f"refused: {result.message}")
             return
         self._store.save(trajectory)
-        response.trajectory = conversions.info_to_message(trajectory)
+        response.trajectory = trajectories.info_to_message(trajectory)
         self._infos[trajectory.id] = response.trajectory
         self._announce()
-        self._converted.publish(conversions.trajectory_to_message(trajectory))
+        self._converted.publish(trajectories.trajectory_to_message(trajectory))
         self.get_logger().info(result.message)
 
     def _answer(self, result: ConversionResult, response: Any) -> None:
@@ -165,10 +162,10 @@ class ConverterNode(Node):
         response.message = result.message
         response.outcome = result.outcome.value
         response.candidates = [candidate_to_message(c) for c in result.candidates]
-        response.diagnostics = [conversions.diagnostic_to_message(d) for d in result.diagnostics]
+        response.diagnostics = [trajectories.diagnostic_to_message(d) for d in result.diagnostics]
 
     def _get(self, request: Any, response: Any) -> None:
-        response.trajectory = conversions.trajectory_to_message(self._store.load(request.id))
+        response.trajectory = trajectories.trajectory_to_message(self._store.load(request.id))
         response.success = True
 
     def _list(self, request: Any, response: Any) -> None:
@@ -198,37 +195,6 @@ class ConverterNode(Node):
     def _announce(self) -> None:
         infos = [self._infos[key] for key in sorted(self._infos)]
         self._catalogue.publish(msg.TrajectoryCatalogue(trajectories=infos))
-
-
-def candidate_to_message(candidate: Candidate) -> msg.Candidate:
-    rows, columns = candidate.variable.shape
-    return msg.Candidate(
-        variable=candidate.path,
-        rows=rows,
-        columns=columns,
-        minimum=candidate.minimum,
-        maximum=candidate.maximum,
-        score=candidate.score,
-        why=candidate.why,
-    )
-
-
-def info_from_head(head: dict[str, Any]) -> msg.TrajectoryInfo:
-    """Return the catalogue's entry from the metadata of a trajectory file."""
-    return msg.TrajectoryInfo(
-        id=head["id"],
-        robot_model=head["robot_model"],
-        end_effector=head["end_effector"] or "",
-        source_file=head["source"]["file"],
-        source_variable=head["source"]["variable"],
-        source_sha256=head["source"]["sha256"],
-        created=conversions.stamp(head["created_ns"]),
-        frame_rate=float(head["frame_rate"]),
-        frame_count=head["frame_count"],
-        duration=(head["frame_count"] - 1) / head["frame_rate"],
-        has_gripper=head["has_gripper"],
-        warnings=[conversions.diagnostic_to_message(d) for d in warnings_of(head)],
-    )
 
 
 def main() -> None:

@@ -15,17 +15,22 @@ from rclpy.parameter import Parameter
 from rclpy.service import Service
 from std_srvs.srv import SetBool, Trigger
 
-from mrlab_ros import conversions, host, qos
 from mrlab_ros.core.errors import BadInput, LabError, Misuse
-from mrlab_ros.core.fleet import Loaded, Order, Reply
-from mrlab_ros.core.playback_states import State
-from mrlab_ros.core.robot_systems import Member, Mode, Policy, RobotSystem, Systems
-from mrlab_ros.core.system_states import SystemState
-from mrlab_ros.core.waits import parse
-from mrlab_ros.nodes.answers import answered
-from mrlab_ros.nodes.calls import NoAnswer, call, call_all
-from mrlab_ros.nodes.worker import Worker
-from mrlab_ros.spinning import Caller
+from mrlab_ros.core.playback.states import State
+from mrlab_ros.core.systems.members import Loaded, Order, Reply
+from mrlab_ros.core.systems.registry import Systems
+from mrlab_ros.core.systems.robot_system import Policy, RobotSystem
+from mrlab_ros.core.systems.states import SystemState
+from mrlab_ros.core.systems.timeline import Member, Mode
+from mrlab_ros.core.systems.waits import parse
+from mrlab_ros.messages import qos
+from mrlab_ros.messages.playback import clock_to_message
+from mrlab_ros.messages.time import make_header, time_from_message, time_to_message
+from mrlab_ros.processes import host
+from mrlab_ros.ros.answers import answered
+from mrlab_ros.ros.calls import NoAnswer, call, call_all
+from mrlab_ros.ros.spinning import Caller
+from mrlab_ros.ros.worker import Worker
 
 Claim = msg.DriveOrder
 # How often a moving system looks for what time has made due, s.
@@ -34,7 +39,7 @@ LOAD_TIMEOUT = 15.0
 FIND_TIMEOUT = 5.0
 
 
-class Link:
+class MemberClient:
     """What the coordinator holds of one robot: its services and its newest state."""
 
     def __init__(self, coordinator: CoordinatorNode, robot: str) -> None:
@@ -80,7 +85,7 @@ class Link:
 class RosFleet:
     """The members of one system, reached through the hosts that play them."""
 
-    def __init__(self, system: str, links: dict[str, Link], hosts: Hosts) -> None:
+    def __init__(self, system: str, links: dict[str, MemberClient], hosts: Hosts) -> None:
         self._system = system
         self._links = links
         self._hosts = hosts
@@ -108,7 +113,7 @@ class RosFleet:
                 msg.DriveOrder(
                     robot=order.robot,
                     command=order.command.value,
-                    stamp=conversions.stamp(order.stamp_ns),
+                    stamp=time_to_message(order.stamp_ns),
                     position=order.position,
                     rate=order.rate,
                     until=order.until or 0.0,
@@ -132,7 +137,7 @@ class RosFleet:
         replies = {}
         for answer in answers:
             for reply in answer.replies:
-                self._links[reply.robot].replied_ns = conversions.to_ns(answer.stamp)
+                self._links[reply.robot].replied_ns = time_from_message(answer.stamp)
                 replies[reply.robot] = reply
         for answer in answers:
             if not answer.success:
@@ -168,7 +173,7 @@ class CoordinatorNode(Node):
         self.caller = Caller(self)
         self._hosts = Hosts(self.caller.node)
         self._systems = Systems()
-        self._links: dict[str, Link] = {}
+        self._links: dict[str, MemberClient] = {}
         self._fleets: dict[str, RosFleet] = {}
         self._offered: dict[str, list[Service]] = {}
         self._robots: frozenset[str] = frozenset()
@@ -214,7 +219,7 @@ class CoordinatorNode(Node):
         self._systems.add(system)
         try:
             for robot in robots:
-                self._links[robot] = Link(self, robot)
+                self._links[robot] = MemberClient(self, robot)
             system.prepare()
         except LabError:
             self._do_dissolve(name, "could not be created")
@@ -316,10 +321,10 @@ class CoordinatorNode(Node):
 
     # what happens, in the worker's thread ---------------------------------------------------
 
-    def follow(self, link: Link, message: msg.PlaybackState) -> None:
+    def follow(self, link: MemberClient, message: msg.PlaybackState) -> None:
         """Take a member's state as its playback tells it."""
         system = self._systems.of(link.robot)
-        stamp_ns = conversions.to_ns(message.header.stamp)
+        stamp_ns = time_from_message(message.header.stamp)
         if system is None or link.robot not in self._links or stamp_ns < link.replied_ns:
             return
         before = system.state, system.message, self._held(system)
@@ -404,7 +409,7 @@ class CoordinatorNode(Node):
             state=system.state.value,
             label=system.state.name,
             message=system.message,
-            clock=conversions.clock_to_message(system.clock),
+            clock=clock_to_message(system.clock),
             duration=system.duration,
             rate=system.rate,
             loop=system.loop,
@@ -413,7 +418,7 @@ class CoordinatorNode(Node):
     def _publish(self) -> None:
         self._topic.publish(
             msg.RobotSystems(
-                header=conversions.header(self._now_ns()),
+                header=make_header(self._now_ns()),
                 systems=[self._message(system) for system in self._systems],
             )
         )

@@ -13,19 +13,25 @@ from rclpy.parameter import Parameter
 from sensor_msgs.msg import JointState
 from std_srvs.srv import SetBool, Trigger
 
-from mrlab_ros import conversions, host, qos, share
-from mrlab_ros.adapters.robot_library import RobotLibrary
-from mrlab_ros.adapters.ruckig_motion import RuckigPlanner, StagingLimits
+from mrlab_ros.adapters.robots.library import RobotLibrary
+from mrlab_ros.adapters.robots.ruckig_planner import RuckigPlanner, StagingLimits
 from mrlab_ros.core.errors import BadInput, LabError, Misuse
-from mrlab_ros.core.motion import MotionPlanner
-from mrlab_ros.core.playback import Playback, Sample, Snapshot
-from mrlab_ros.core.playback_states import State
-from mrlab_ros.core.robot_model import RobotModel
-from mrlab_ros.core.trajectory import Trajectory
-from mrlab_ros.nodes.answers import answered
-from mrlab_ros.nodes.calls import call
-from mrlab_ros.scheduler import Player, Scheduler
-from mrlab_ros.spinning import Caller
+from mrlab_ros.core.playback.planner import MotionPlanner
+from mrlab_ros.core.playback.playback import Playback, PlaybackStatus, Sample
+from mrlab_ros.core.playback.states import State
+from mrlab_ros.core.robots.model import RobotModel
+from mrlab_ros.core.trajectory.trajectory import Trajectory
+from mrlab_ros.messages import qos, trajectories
+from mrlab_ros.messages.joint_states import JointStateEncoder
+from mrlab_ros.messages.playback import status_to_message
+from mrlab_ros.messages.poses import transform_to_pose_message
+from mrlab_ros.messages.time import make_header, time_from_message, time_to_message
+from mrlab_ros.processes import host
+from mrlab_ros.ros import share
+from mrlab_ros.ros.answers import answered
+from mrlab_ros.ros.calls import call
+from mrlab_ros.ros.deadlines import Player, Scheduler
+from mrlab_ros.ros.spinning import Caller
 
 MOVING = (State.ADJUSTING, State.PLAYING)
 Order = msg.DriveOrder
@@ -62,7 +68,7 @@ class PlaybackNode(Node):
         self._colliding = False
         self.end_effector = ""
         self.playback = Playback(model, planner, standing_rate)
-        self._encoder = conversions.JointStateEncoder(robot, model.joint_names)
+        self._encoder = JointStateEncoder(robot, model.joint_names)
         self._joint_states = self.create_publisher(JointState, "joint_states", qos.STREAM)
         self._state = self.create_publisher(
             msg.PlaybackState, "playback_state", qos.LATCHED_EVENTS
@@ -101,7 +107,7 @@ class PlaybackNode(Node):
         closed = trajectory.gripper_at(sample.position)
         self._telemetry.publish(
             msg.Telemetry(
-                header=conversions.header(now_ns, self.robot),
+                header=make_header(now_ns, self.robot),
                 joint_names=list(trajectory.joint_names),
                 velocities=sample.velocities,
                 effort_proxy=trajectory.channels.effort_proxy[sample.frame],
@@ -109,7 +115,7 @@ class PlaybackNode(Node):
                 position=sample.position,
                 has_gripper=closed is not None,
                 gripper_closed=bool(closed),
-                tool0=conversions.pose_to_message(self.model.chain.tool0(sample.positions)),
+                tool0=transform_to_pose_message(self.model.chain.tool0(sample.positions)),
                 deadline_error=errors[0] * 1e-9,
                 deadline_error_max=errors[1] * 1e-9,
                 frames_sent=sent,
@@ -121,15 +127,15 @@ class PlaybackNode(Node):
         """Publish the present state again, while the robot moves."""
         with self._scheduler.command() as now_ns:
             if self.playback.state in MOVING:
-                self._announce(now_ns, self.playback.snapshot())
+                self._announce(now_ns, self.playback.status())
 
     def _send(self, sample: Sample) -> None:
         self._joint_states.publish(
             self._encoder.encode(sample.due_ns, sample.positions, sample.velocities)
         )
 
-    def _announce(self, now_ns: int, snapshot: Snapshot) -> None:
-        message = conversions.snapshot_to_message(now_ns, self.robot, snapshot)
+    def _announce(self, now_ns: int, status: PlaybackStatus) -> None:
+        message = status_to_message(now_ns, self.robot, status)
         message.host = self._host
         self._state.publish(message)
 
@@ -143,12 +149,12 @@ class PlaybackNode(Node):
                     frame=frame,
                     time=frame / trajectory.frame_rate,
                     close=closed,
-                    tool0=conversions.pose_to_message(tool0),
+                    tool0=transform_to_pose_message(tool0),
                 )
             )
         self._targets.publish(
             msg.GraspTargets(
-                header=conversions.header(now_ns, f"{self.robot}/base_link"),
+                header=make_header(now_ns, f"{self.robot}/base_link"),
                 trajectory_id=trajectory.id if trajectory else "",
                 targets=targets,
             )
@@ -225,7 +231,7 @@ class PlaybackNode(Node):
 
     def drive(self, now_ns: int, by: str, order: msg.DriveOrder) -> msg.DriveReply:
         """Carry out an order of the system `by`; the caller holds the deadline thread off."""
-        playback, start_ns, duration = self.playback, conversions.to_ns(order.stamp) or None, 0.0
+        playback, start_ns, duration = self.playback, time_from_message(order.stamp) or None, 0.0
         if order.command == Order.CLAIM:
             playback.claim(by)
         elif order.command == Order.RELEASE:
@@ -354,12 +360,12 @@ class PlaybackHostNode(Node):
         answer = call(self._get, srv.GetTrajectory.Request(id=trajectory_id), timeout=5.0)
         if not answer.success:
             raise BadInput(answer.message)
-        return conversions.trajectory_from_message(answer.trajectory)
+        return trajectories.trajectory_from_message(answer.trajectory)
 
     @answered
     def _drive(self, request: Any, response: Any) -> str:
         with self.scheduler.command() as now_ns:
-            response.stamp = conversions.stamp(now_ns)
+            response.stamp = time_to_message(now_ns)
             for order in request.orders:
                 node = self.nodes.get(order.robot)
                 if node is None:

@@ -5,8 +5,8 @@ from __future__ import annotations
 import sys
 from pathlib import Path
 
-from mrlab_ros.adapters.robot_library import RobotLibrary
-from mrlab_ros.adapters.robot_picture import take
+from mrlab_ros.adapters.robots.library import RobotLibrary
+from mrlab_ros.adapters.robots.picture import take
 
 ROOT = Path(__file__).resolve().parents[2]
 

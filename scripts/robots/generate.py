@@ -28,7 +28,7 @@ from mesher import GRID, Mesh, contour, creased, decimated
 from solids import Array, Solid
 from urdf_writer import LinkFiles, urdf
 
-from mrlab_ros.core.kinematics import inverse, transform
+from mrlab_ros.core.geometry import inverse_transform, transform_from_xyz_rpy
 
 ROBOTS = Path(__file__).resolve().parents[2] / "robots"
 TRIANGLES = 15_200  # a model; the files of a robot stay below 400 kB
@@ -59,7 +59,9 @@ def zero_poses(figures: dict[str, Any]) -> dict[str, Array]:
     joints = figures["joints"]
     poses = {joints[0]["parent"]: np.eye(4)}
     for joint in joints:
-        poses[joint["child"]] = poses[joint["parent"]] @ transform(joint["xyz"], joint["rpy"])
+        poses[joint["child"]] = poses[joint["parent"]] @ transform_from_xyz_rpy(
+            joint["xyz"], joint["rpy"]
+        )
     return poses
 
 
@@ -120,7 +122,7 @@ def make(folder: Path, source: str, target: str) -> None:
     files: dict[str, LinkFiles] = {}
     triangles = 0
     for link, parts in body.links.items():
-        pose = inverse(poses[link])
+        pose = inverse_transform(poses[link])
         by_material: dict[str, list[Mesh]] = {}
         seen = []
         materials = {part.material.name: part.material for part in parts}

@@ -16,7 +16,7 @@ from scipy.ndimage import distance_transform_edt, map_coordinates
 from scipy.spatial import ConvexHull, QhullError, cKDTree
 from solids import Array, Solid
 
-from mrlab_ros.adapters.robot_hulls import samples
+from mrlab_ros.adapters.robots.hulls import samples
 
 Marks = NDArray[np.bool_]
 

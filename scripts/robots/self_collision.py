@@ -16,9 +16,9 @@ import trimesh
 from numpy.typing import NDArray
 from scipy.spatial import cKDTree
 
-from mrlab_ros.adapters import urdf
-from mrlab_ros.adapters.robot_hulls import inside, samples
-from mrlab_ros.adapters.robot_library import RobotLibrary
+from mrlab_ros.adapters.robots import urdf
+from mrlab_ros.adapters.robots.hulls import inside, samples
+from mrlab_ros.adapters.robots.library import RobotLibrary
 
 ROOT = Path(__file__).resolve().parents[2]
 LOOKED_AT = 6  # poses of a pair whose bodies are compared

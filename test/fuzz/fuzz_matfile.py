@@ -27,15 +27,15 @@ from fakes import make_trajectory
 from rosbags.rosbag2 import Writer
 from rosbags.typesys import Stores, get_typestore
 
-from mrlab_ros.adapters import (
+from mrlab_ros.adapters.workspaces import (
     joint_trajectories,
-    matfile,
-    matfile_hdf5,
-    matfile_worker,
+    mat5,
+    mat73,
     tables,
+    worker,
 )
-from mrlab_ros.adapters.matfile import Damaged, NotAWorkspace, TooLarge
-from mrlab_ros.core.workspace import JOINT_TRAJECTORY
+from mrlab_ros.adapters.workspaces.mat5 import Damaged, NotAWorkspace, TooLarge
+from mrlab_ros.core.conversion.workspace import JOINT_TRAJECTORY
 
 LIMIT = 1 << 24
 NAMES = ("fuzz.mat", "fuzz.npz", "fuzz.csv", "fuzz.cdr")
@@ -105,7 +105,7 @@ def seeds() -> list[tuple[str, bytes]]:
 def one(data: bytes, name: str = "fuzz.mat") -> bool:
     """Read `data`; return whether it was taken. Anything but a refusal is raised."""
     try:
-        matfile_worker.read(memoryview(data), name, Discard(), LIMIT)
+        worker.read(memoryview(data), name, Discard(), LIMIT)
     except EXPECTED:
         return False
     return True
@@ -156,7 +156,7 @@ def guided(corpus: Path, options: list[str]) -> None:
         kind = next((i for i, n in enumerate(NAMES) if Path(n).suffix == Path(name).suffix), 0)
         (corpus / f"seed-{number}").write_bytes(bytes([kind]) + data)
     # the rest of what is loaded would take minutes and teach the fuzzer nothing
-    for module in (joint_trajectories, matfile, matfile_hdf5, matfile_worker, tables):
+    for module in (joint_trajectories, mat5, mat73, worker, tables):
         for name, member in vars(module).items():
             if inspect.isfunction(member) and member.__module__ == module.__name__:
                 setattr(module, name, atheris.instrument_func(member))

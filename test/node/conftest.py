@@ -22,7 +22,7 @@ def endpoint():
 
 @pytest.fixture
 def bridge(graph, endpoint):
-    from mrlab_ros.nodes.bridge import BridgeNode
+    from mrlab_ros.nodes.bridge.node import BridgeNode
 
     return graph.add(BridgeNode, listen=[endpoint], discovery_period=0.02)
 
@@ -36,7 +36,7 @@ def session(bridge, endpoint):
 @pytest.fixture
 def listed(graph, endpoint, tmp_path):
     """Make a bridge with an allow-list of the test's own."""
-    from mrlab_ros.nodes.bridge import BridgeNode
+    from mrlab_ros.nodes.bridge.node import BridgeNode
 
     def make(document, **parameters):
         path = tmp_path / "bridge.yaml"

@@ -14,14 +14,14 @@ from rclpy.serialization import serialize_message
 from sensor_msgs.msg import JointState
 from typer.testing import CliRunner
 
-from mrlab_ros import conversions
-from mrlab_ros.adapters.bag_writer import BagWriter
-from mrlab_ros.adapters.message_files import definition
+from mrlab_ros.adapters.bags.definitions import definition
+from mrlab_ros.adapters.bags.writer import BagWriter
 from mrlab_ros.cli import app
 from mrlab_ros.commands.replay import Keyboard, next_rate
 from mrlab_ros.commands.status import _recorder_facts, _recorder_line
 from mrlab_ros.core.errors import BadInput
-from mrlab_ros.core.recording.bag_facts import Quality, Topic
+from mrlab_ros.core.recording.metadata import QosProfile, Topic
+from mrlab_ros.messages.time import make_header
 
 START_NS = 1_700_000_000_000_000_000
 TRAJECTORY = {"frame_rate": 10.0, "frames": {"q": [[0.0], [90.0], [180.0]]}}
@@ -37,11 +37,11 @@ def bag(tmp_path: Path) -> Path:
     def write(at: float, topic: str, message: Any, kind: str) -> None:
         if topic not in topics:
             topics.add(topic)
-            writer.add_topic(Topic(topic, kind, (Quality(),), "RIHS01_0"))
+            writer.add_topic(Topic(topic, kind, (QosProfile(),), "RIHS01_0"))
         writer.write(topic, START_NS + round(at * 1e9), serialize_message(message), START_NS)
 
     def stamp(at: float) -> Any:
-        return conversions.header(START_NS + round(at * 1e9))
+        return make_header(START_NS + round(at * 1e9))
 
     def say(at: float, name: str, message: Any) -> None:
         write(at, name, message, f"mrlab_msgs/msg/{type(message).__name__}")

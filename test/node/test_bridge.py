@@ -28,10 +28,10 @@ from zenoh_side import (
     tokens,
 )
 
-from mrlab_ros import qos
-from mrlab_ros.core.bridge_rules import Congestion
+from mrlab_ros.core.bridge.rules import Congestion
 from mrlab_ros.core.errors import BadInput
-from mrlab_ros.nodes.bridge import BridgeNode
+from mrlab_ros.messages import qos
+from mrlab_ros.nodes.bridge.node import BridgeNode
 
 ROOT = Path(__file__).parents[2]
 
@@ -322,7 +322,10 @@ def _parameter(name, value):
 def test_the_process_ends_when_asked_and_tells_what_it_carried(graph, endpoint, number):
     graph.client.create_publisher(JointState, JOINTS, qos.STREAM)
     process = subprocess.Popen(
-        f"{sys.executable} -m mrlab_ros.host bridge --ros-args -p listen:=['{endpoint}']".split(),
+        [
+            *(sys.executable, "-m", "mrlab_ros.processes.host", "bridge"),
+            *("--ros-args", "-p", f"listen:=['{endpoint}']"),
+        ],
         stdout=subprocess.PIPE,
         stderr=subprocess.STDOUT,
         text=True,

@@ -12,8 +12,8 @@ from rclpy.serialization import deserialize_message, serialize_message
 from sensor_msgs.msg import JointState
 from zenoh_side import JOINTS, ask, connect, heard, joints, start_client
 
-from mrlab_ros import qos
-from mrlab_ros.core.latency import stamps
+from mrlab_ros.core.bridge.latency import stamps
+from mrlab_ros.messages import qos
 
 DEFINITIONS = Path(__file__).parents[2] / "msg_schemas"
 

@@ -28,10 +28,10 @@ from zenoh_side import (
     tokens,
 )
 
-from mrlab_ros import qos
 from mrlab_ros.adapters.zenoh_session import configuration
-from mrlab_ros.core.latency import stamps
-from mrlab_ros.nodes.bridge import BridgeNode
+from mrlab_ros.core.bridge.latency import stamps
+from mrlab_ros.messages import qos
+from mrlab_ros.nodes.bridge.node import BridgeNode
 
 # What a client needs to notice a dead link and to try again as soon as the bridge does.
 HEALING = {

@@ -13,11 +13,11 @@ from std_msgs.msg import String
 from std_srvs.srv import Trigger
 
 from mrlab_ros.adapters.zenoh_session import ZenohSession, configuration
-from mrlab_ros.bridging.crossing import Count, Crossing
-from mrlab_ros.bridging.inward import Inward
-from mrlab_ros.bridging.sender import Sender
-from mrlab_ros.bridging.services import Services
-from mrlab_ros.core.bridge_rules import ServiceRule, TopicRule
+from mrlab_ros.core.bridge.rules import ServiceRule, TopicRule
+from mrlab_ros.nodes.bridge.crossing import BridgeContext, Count
+from mrlab_ros.nodes.bridge.inward import Inward
+from mrlab_ros.nodes.bridge.sender import Sender
+from mrlab_ros.nodes.bridge.services import Services
 
 PLAY = "/ur5e_1/play"
 
@@ -109,7 +109,7 @@ def offer():
 
     def make(client, **fields):
         zenoh = Zenoh()
-        routes = Services(Crossing(zenoh, Graph(client), "", lambda _: None))
+        routes = Services(BridgeContext(zenoh, Graph(client), "", lambda _: None))
         made.append(routes)
         routes.keep({PLAY: (ServiceRule(PLAY, **fields), "std_srvs/srv/Trigger")})
         return routes, zenoh.asked[PLAY[1:]]
@@ -205,7 +205,7 @@ class Topic:
 
 
 def receiver(topic, said):
-    inward = Inward(Crossing(Zenoh(), Graph(None), "", said.append))
+    inward = Inward(BridgeContext(Zenoh(), Graph(None), "", said.append))
     count = Count("std_msgs/msg/String", "in")
     return inward._receiver("hello", String, topic, count), count
 

@@ -14,7 +14,7 @@ from rclpy.executors import MultiThreadedExecutor, SingleThreadedExecutor
 from rclpy.node import Node
 from rclpy.parameter import Parameter
 
-from mrlab_ros import qos
+from mrlab_ros.messages import qos
 from mrlab_ros.nodes.converter import ConverterNode
 
 DEADLINE = 60.0  # s; far above what any of this takes

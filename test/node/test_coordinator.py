@@ -9,7 +9,7 @@ from mrlab_msgs import msg, srv
 from small_lab import labels, listen_state, load, spawn
 from std_srvs.srv import SetBool, Trigger
 
-from mrlab_ros import qos
+from mrlab_ros.messages import qos
 from mrlab_ros.nodes.playback import PlaybackHostNode
 
 

@@ -11,9 +11,9 @@ from rclpy.serialization import deserialize_message
 from std_msgs.msg import String
 from trajectory_msgs.msg import JointTrajectory
 
-from mrlab_ros import qos
-from mrlab_ros.commands.joint_trajectory_topic import receive
+from mrlab_ros.commands.convert.topic import receive
 from mrlab_ros.core.errors import BadInput, LabError, Misuse
+from mrlab_ros.messages import qos
 
 BEST_EFFORT = QoSProfile(depth=1, reliability=ReliabilityPolicy.BEST_EFFORT)
 

@@ -13,14 +13,15 @@ from rclpy.node import Node
 from sensor_msgs.msg import JointState
 from std_srvs.srv import Trigger
 
-from mrlab_ros import conversions, qos, share
-from mrlab_ros.adapters.robot_library import RobotLibrary
-from mrlab_ros.adapters.scene_files import read
-from mrlab_ros.core.trajectory import Channels, Source, Trajectory
+from mrlab_ros.adapters.robots.library import RobotLibrary
+from mrlab_ros.adapters.scenes.files import read
+from mrlab_ros.core.trajectory.trajectory import Channels, Source, Trajectory
+from mrlab_ros.messages import qos, trajectories
 from mrlab_ros.nodes.coordinator import CoordinatorNode
-from mrlab_ros.nodes.lab import LabNode
-from mrlab_ros.nodes.physics import PhysicsNode
+from mrlab_ros.nodes.lab.node import LabNode
+from mrlab_ros.nodes.physics.node import PhysicsNode
 from mrlab_ros.nodes.playback import PlaybackHostNode
+from mrlab_ros.ros import share
 
 LIBRARY = RobotLibrary(share.directory() / "robots")
 MODEL = LIBRARY.model("ur5e")
@@ -77,7 +78,7 @@ class Catalogue(Node):
     def _get(self, request, response):
         response.success = True
         trajectory = TRAJECTORIES[request.id]
-        response.trajectory = conversions.trajectory_to_message(trajectory)
+        response.trajectory = trajectories.trajectory_to_message(trajectory)
         return response
 
 

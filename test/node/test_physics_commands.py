@@ -10,10 +10,11 @@ import pytest
 from graph import Graph
 from typer.testing import CliRunner
 
-from mrlab_ros import cli, graph_client
+from mrlab_ros import cli
 from mrlab_ros.core.errors import LabError
-from mrlab_ros.nodes.lab import LabNode
-from mrlab_ros.nodes.physics import PhysicsNode
+from mrlab_ros.nodes.lab.node import LabNode
+from mrlab_ros.nodes.physics.node import PhysicsNode
+from mrlab_ros.ros import graph as ros_graph
 
 
 def mrlab(*arguments: str) -> str:
@@ -28,7 +29,7 @@ def objects() -> dict[str, dict]:
     return {thing["name"]: thing for thing in json.loads(mrlab("objects", "list", "--json"))}
 
 
-class Kept(graph_client.Graph):
+class ObjectSnapshot(ros_graph.Graph):
     """One client for all commands: each of its own would be found by the graph anew."""
 
     def close(self) -> None:
@@ -37,10 +38,10 @@ class Kept(graph_client.Graph):
 
 @pytest.fixture
 def commands(graph: Graph, monkeypatch: pytest.MonkeyPatch) -> Iterator[None]:
-    kept = Kept()
-    monkeypatch.setattr(graph_client, "Graph", lambda: kept)
+    kept = ObjectSnapshot()
+    monkeypatch.setattr(ros_graph, "Graph", lambda: kept)
     yield
-    super(Kept, kept).close()
+    super(ObjectSnapshot, kept).close()
 
 
 def test_objects_and_scenes_are_listed_changed_and_refused_in_words(
@@ -48,7 +49,7 @@ def test_objects_and_scenes_are_listed_changed_and_refused_in_words(
 ):
     graph.add(LabNode)
     with monkeypatch.context() as patched:
-        patched.setattr(graph_client, "FIND_TIMEOUT", 0.5)
+        patched.setattr(ros_graph, "FIND_TIMEOUT", 0.5)
         with pytest.raises(LabError, match="runs without physics; start it with"):
             mrlab("objects", "list")
     graph.add(PhysicsNode, state_dir=str(tmp_path))

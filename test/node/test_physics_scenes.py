@@ -11,12 +11,13 @@ from graph import Graph, wait_for
 from mrlab_msgs import msg, srv
 from std_srvs.srv import Trigger
 
-from mrlab_ros import qos, share
+from mrlab_ros.messages import qos
 from mrlab_ros.nodes.converter import ConverterNode
 from mrlab_ros.nodes.coordinator import CoordinatorNode
-from mrlab_ros.nodes.lab import LabNode
-from mrlab_ros.nodes.physics import PhysicsNode
+from mrlab_ros.nodes.lab.node import LabNode
+from mrlab_ros.nodes.physics.node import PhysicsNode
 from mrlab_ros.nodes.playback import PlaybackHostNode
+from mrlab_ros.ros import share
 
 EXAMPLES = share.directory() / "examples"
 GIVER, TAKER = "ur5e_1", "kuka_kr6_r900_sixx_1"

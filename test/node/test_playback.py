@@ -12,8 +12,10 @@ from sensor_msgs.msg import JointState
 from small_lab import LIBRARY, TRAJECTORIES, labels, listen_state, load, spawn
 from std_srvs.srv import SetBool, Trigger
 
-from mrlab_ros import conversions, qos
-from mrlab_ros.nodes.lab import LabNode
+from mrlab_ros.messages import qos
+from mrlab_ros.messages.joint_states import JointStateEncoder
+from mrlab_ros.messages.time import make_header, time_from_message
+from mrlab_ros.nodes.lab.node import LabNode
 from mrlab_ros.nodes.playback import PlaybackHostNode
 
 
@@ -33,15 +35,15 @@ def test_streams_exactly_the_frames_of_the_trajectory(graph, lab):
     wait_for(
         lambda: joints and np.array_equal(joints[-1].position, trajectory.positions[-1]), "frames"
     )
-    start = conversions.to_ns(
+    start = time_from_message(
         next(s for s in states if s.label == "PLAYING" and s.clock.rate == 1.0).clock.stamp
     )
-    played = [j for j in joints if conversions.to_ns(j.header.stamp) >= start][:60]
+    played = [j for j in joints if time_from_message(j.header.stamp) >= start][:60]
     assert np.array_equal([j.position for j in played], trajectory.positions)
     assert np.array_equal([j.velocity for j in played], trajectory.channels.velocities)
     assert tuple(played[0].name) == trajectory.joint_names
     assert list(played[0].effort) == []
-    stamps = [conversions.to_ns(j.header.stamp) - start for j in played]
+    stamps = [time_from_message(j.header.stamp) - start for j in played]
     assert stamps == [i * 10_000_000 for i in range(60)]
     wait_for(
         lambda: labels(states)[-5:] == ["READY", "ADJUSTING", "PLAYING", "COMPLETE", "READY"],
@@ -50,10 +52,10 @@ def test_streams_exactly_the_frames_of_the_trajectory(graph, lab):
 
 
 def test_the_encoder_writes_what_rclpy_would(graph):
-    encoder = conversions.JointStateEncoder("ur5e_1", ("a", "bb", "ccc"))
+    encoder = JointStateEncoder("ur5e_1", ("a", "bb", "ccc"))
     q, dq = np.array([0.1, -2.0, 3.5]), np.array([1.0, 0.0, -1e-9])
     message = JointState(
-        header=conversions.header(1_700_000_000_123_456_789, "ur5e_1"),
+        header=make_header(1_700_000_000_123_456_789, "ur5e_1"),
         name=["a", "bb", "ccc"],
         position=q,
         velocity=dq,

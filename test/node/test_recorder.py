@@ -26,17 +26,17 @@ from sensor_msgs.msg import JointState
 from std_msgs.msg import String
 from std_srvs.srv import SetBool, Trigger
 
-from mrlab_ros import qos
-from mrlab_ros.adapters.bag_reader import Bag
-from mrlab_ros.adapters.bag_repair import repair
-from mrlab_ros.adapters.bag_writer import BagWriter
-from mrlab_ros.adapters.message_files import definition
-from mrlab_ros.adapters.trajectory_store import chunks, parse
-from mrlab_ros.conversion import load_coefficients
-from mrlab_ros.core.recording.bag_facts import Quality, Topic
-from mrlab_ros.nodes import recording, replaying
-from mrlab_ros.nodes.recorder import RecorderNode
-from mrlab_ros.share import directory
+from mrlab_ros.adapters.bags.definitions import definition
+from mrlab_ros.adapters.bags.reader import Bag
+from mrlab_ros.adapters.bags.repair import repair
+from mrlab_ros.adapters.bags.writer import BagWriter
+from mrlab_ros.adapters.trajectories.coefficients import load_coefficients
+from mrlab_ros.adapters.trajectories.store import chunks, parse
+from mrlab_ros.core.recording.metadata import QosProfile, Topic
+from mrlab_ros.messages import qos
+from mrlab_ros.nodes.recorder import recording, replaying
+from mrlab_ros.nodes.recorder.node import RecorderNode
+from mrlab_ros.ros.share import directory
 
 State = msg.RecorderState
 START_NS = 1_700_000_000_000_000_000
@@ -221,7 +221,7 @@ def launch(tmp_path: Path) -> Iterator[Callable[..., subprocess.Popen[bytes]]]:
     running = []
 
     def start_process() -> subprocess.Popen[bytes]:
-        argv = (sys.executable, "-m", "mrlab_ros.host", "recorder", "--ros-args")
+        argv = (sys.executable, "-m", "mrlab_ros.processes.host", "recorder", "--ros-args")
         process = subprocess.Popen(
             (*argv, "-p", f"bag_dir:={tmp_path}", "-p", "topics:=['/counted']")
         )
@@ -297,14 +297,14 @@ def test_a_split_that_the_disk_refuses_ends_the_recording(graph, counter, launch
 @pytest.fixture
 def session(recorder: RecorderNode, tmp_path: Path) -> Path:
     """A second of two topics, one of them latched, and one that is not replayed."""
-    kind, latched = "std_msgs/msg/String", Quality(durability="transient_local")
+    kind, latched = "std_msgs/msg/String", QosProfile(durability="transient_local")
     writer = BagWriter(tmp_path / "class", definition)
     wave = b"".join(map(bytes, chunks(small_lab.TRAJECTORIES["wave"])))
     writer.attach("trajectories/wave.json", "application/json", wave, START_NS)
     for name, quality in (
-        ("/ur5e_1/telemetry", Quality()),
+        ("/ur5e_1/telemetry", QosProfile()),
         ("/ur5e_1/grasp", latched),
-        ("/latency", Quality()),
+        ("/latency", QosProfile()),
     ):
         writer.add_topic(Topic(name, kind, (quality,)))
 
@@ -454,7 +454,7 @@ def test_who_still_publishes_is_named(graph, recorder, session, states, monkeypa
 
 def test_a_bag_of_one_moment_is_not_looped(graph, recorder, states, tmp_path):
     writer = BagWriter(tmp_path / "moment", definition)
-    writer.add_topic(Topic("/ur5e_1/telemetry", "std_msgs/msg/String", (Quality(),)))
+    writer.add_topic(Topic("/ur5e_1/telemetry", "std_msgs/msg/String", (QosProfile(),)))
     writer.write("/ur5e_1/telemetry", START_NS, serialize_message(String(data="now")), START_NS)
     writer.close()
     ears = Ears(graph)

@@ -24,13 +24,13 @@ from sensor_msgs.msg import JointState
 from std_srvs.srv import Trigger
 from zenoh import ext
 
-from mrlab_ros import qos
-from mrlab_ros.adapters.keys import Keys, now
-from mrlab_ros.core import access
-from mrlab_ros.core.access import Login
-from mrlab_ros.core.bridge_rules import Role
+from mrlab_ros.adapters.keys.folder import Keys, now
+from mrlab_ros.core.bridge import access
+from mrlab_ros.core.bridge.access import Login
+from mrlab_ros.core.bridge.rules import Role
 from mrlab_ros.core.errors import BadInput
-from mrlab_ros.nodes.bridge import BridgeNode
+from mrlab_ros.messages import qos
+from mrlab_ros.nodes.bridge.node import BridgeNode
 
 ROOT = Path(__file__).parents[2]
 CLIENT = ROOT / "examples" / "clients" / "python" / "mrlab_client.py"
@@ -488,7 +488,7 @@ def test_the_lab_s_log_says_who_came_and_who_was_refused(graph, folders, endpoin
     )
     with open(log, "wb") as output:
         process = subprocess.Popen(
-            [sys.executable, "-m", "mrlab_ros.host", *arguments.split()],
+            [sys.executable, "-m", "mrlab_ros.processes.host", *arguments.split()],
             stdout=output,
             stderr=subprocess.STDOUT,
             cwd=ROOT,

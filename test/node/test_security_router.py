@@ -17,14 +17,15 @@ from std_srvs.srv import Trigger
 from zenoh import ext
 from zenoh_side import JOINTS, free_port, tokens
 
-from mrlab_ros import qos, share
-from mrlab_ros.adapters.keys import Keys, now
+from mrlab_ros.adapters.keys.folder import Keys, now
 from mrlab_ros.adapters.zenoh_session import limits
-from mrlab_ros.core import bridge_rules
-from mrlab_ros.core.access import Login
-from mrlab_ros.core.bridge_rules import Role
+from mrlab_ros.core.bridge import rules as bridge_rules
+from mrlab_ros.core.bridge.access import Login
+from mrlab_ros.core.bridge.rules import Role
 from mrlab_ros.core.errors import BadInput, Misuse
-from mrlab_ros.nodes.bridge import BridgeNode
+from mrlab_ros.messages import qos
+from mrlab_ros.nodes.bridge.node import BridgeNode
+from mrlab_ros.ros import share
 
 CONFIG = share.directory() / "config"
 PREFIX = "campus/lab_1/"

@@ -8,8 +8,9 @@ import pytest
 from graph import Graph, wait_for
 from mrlab_msgs.msg import RecorderState
 
-from mrlab_ros import qos, stand_aside
-from mrlab_ros.stand_aside import TOPIC, StandAside
+from mrlab_ros.messages import qos
+from mrlab_ros.processes import stand_aside
+from mrlab_ros.processes.stand_aside import TOPIC, StandAside
 
 
 @pytest.fixture

@@ -11,11 +11,11 @@ import scipy.io
 from builtin_interfaces.msg import Duration
 from trajectory_msgs.msg import JointTrajectory, JointTrajectoryPoint
 
-from mrlab_ros import qos
-from mrlab_ros.adapters.robot_library import RobotLibrary
-from mrlab_ros.adapters.trajectory_store import parse
-from mrlab_ros.conversion import load_coefficients
-from mrlab_ros.share import directory
+from mrlab_ros.adapters.robots.library import RobotLibrary
+from mrlab_ros.adapters.trajectories.coefficients import load_coefficients
+from mrlab_ros.adapters.trajectories.store import parse
+from mrlab_ros.messages import qos
+from mrlab_ros.ros.share import directory
 
 
 def motion(rows=200):

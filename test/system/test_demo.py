@@ -13,15 +13,16 @@ import pytest
 from rclpy.serialization import serialize_message
 from sensor_msgs.msg import JointState
 
-from mrlab_ros import conversions
-from mrlab_ros.commands.demo_arrivals import frames_in_order
-from mrlab_ros.commands.demo_lab import (
+from mrlab_ros.commands.demo.arrivals import frames_in_order
+from mrlab_ros.commands.demo.lab import (
     ZENOH_PORT,
     claim_free_domain,
     domain_is_free,
     free_port,
 )
-from mrlab_ros.core.trajectory import Channels, Source, Trajectory
+from mrlab_ros.core.trajectory.trajectory import Channels, Source, Trajectory
+from mrlab_ros.messages import trajectories
+from mrlab_ros.messages.time import time_to_message
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
 START_NS = 1_700_000_000_000_000_000
@@ -88,12 +89,12 @@ class TestFramesInOrder:
 
     def payload(self, frame: int, *, late_ns: int = 0, error: float = 0.0) -> bytes:
         message = JointState(name=["a", "b"])
-        message.header.stamp = conversions.stamp(START_NS + frame * 10_000_000 + late_ns)
+        message.header.stamp = time_to_message(START_NS + frame * 10_000_000 + late_ns)
         message.position = (np.array([2.0 * frame, 2.0 * frame + 1]) + error).tolist()
         return bytes(serialize_message(message))
 
     def count(self, payloads: list[bytes]) -> tuple[int, list[str]]:
-        message = conversions.trajectory_to_message(self.trajectory)
+        message = trajectories.trajectory_to_message(self.trajectory)
         return frames_in_order(payloads, message, START_NS)
 
     def test_all_in_order(self) -> None:

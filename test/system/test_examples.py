@@ -13,7 +13,7 @@ import pytest
 from numpy.typing import NDArray
 from scipy.io import loadmat
 
-from mrlab_ros.adapters.robot_library import RobotLibrary
+from mrlab_ros.adapters.robots.library import RobotLibrary
 
 ROOT = Path(__file__).parents[2]
 EXAMPLES = ROOT / "examples"

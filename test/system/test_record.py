@@ -16,10 +16,10 @@ from launched_lab import DEADLINE, MRLAB, done, launched_lab
 from mrlab_msgs import msg
 from sensor_msgs.msg import JointState
 
-from mrlab_ros import qos
-from mrlab_ros.adapters.bag_reader import Bag
-from mrlab_ros.commands.demo_lab import free_port
-from mrlab_ros.graph_client import Graph
+from mrlab_ros.adapters.bags.reader import Bag
+from mrlab_ros.commands.demo.lab import free_port
+from mrlab_ros.messages import qos
+from mrlab_ros.ros.graph import Graph
 
 MOTION = Path(__file__).parents[2] / "examples" / "quintic_ur5e.mat"
 JOINTS = "/ur5e_1/joint_states"

@@ -15,7 +15,7 @@ from typing import Any
 import psutil
 import pytest
 
-from mrlab_ros.commands.demo_lab import claim_free_domain, free_port
+from mrlab_ros.commands.demo.lab import claim_free_domain, free_port
 
 DEADLINE = 60.0
 MRLAB = (sys.executable, "-m", "mrlab_ros.cli")

@@ -12,7 +12,7 @@ import pytest
 import zenoh
 from launched_lab import DEADLINE, launched_lab, mrlab
 
-from mrlab_ros.commands.demo_lab import free_port
+from mrlab_ros.commands.demo.lab import free_port
 
 
 @pytest.fixture

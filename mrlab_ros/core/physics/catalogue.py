@@ -11,10 +11,17 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mrlab_ros.core.errors import BadInput
-from mrlab_ros.core.kinematics import Array
+from mrlab_ros.core.geometry import (
+    Array,
+    Pose,
+    Vector,
+    add,
+    quaternion_from_rpy,
+    rotate,
+    subtract,
+)
+from mrlab_ros.core.naming import NAME
 from mrlab_ros.core.physics.engine import Body, Part, Shape
-from mrlab_ros.core.physics.poses import Vector, add, subtract, turned
-from mrlab_ros.core.scene import NAME, Pose
 
 SOLID = (Shape.BOX, Shape.CYLINDER, Shape.SPHERE)
 COUNTS = {Shape.BOX: 3, Shape.CYLINDER: 2, Shape.SPHERE: 1}
@@ -184,20 +191,8 @@ def _part(where: str, entry: Mapping[str, Any]) -> Part:
     size = _numbers(where, "size", entry.get("size"), COUNTS[shape], *SIZE_RANGE)
     at = _numbers(where, "at", entry.get("at", (0.0, 0.0, 0.0)), 3, -5.0, 5.0)
     x, y, z = _numbers(where, "rpy_deg", entry.get("rpy_deg", (0.0, 0.0, 0.0)), 3, -360.0, 360.0)
-    return Part(shape, size, Pose((at[0], at[1], at[2]), _turn(x, y, z)))
-
-
-def _turn(roll: float, pitch: float, yaw: float) -> tuple[float, float, float, float]:
-    """Return the quaternion of fixed-axis roll, pitch and yaw in degrees."""
-    (cr, cp, cy), (sr, sp, sy) = (
-        [f(math.radians(a) / 2) for a in (roll, pitch, yaw)] for f in (math.cos, math.sin)
-    )
-    return (
-        sr * cp * cy - cr * sp * sy,
-        cr * sp * cy + sr * cp * sy,
-        cr * cp * sy - sr * sp * cy,
-        cr * cp * cy + sr * sp * sy,
-    )
+    turn = quaternion_from_rpy(math.radians(x), math.radians(y), math.radians(z))
+    return Part(shape, size, Pose((at[0], at[1], at[2]), turn))
 
 
 def _number(where: str, field: str, value: object, low: float, high: float) -> float:
@@ -234,7 +229,7 @@ def _bounds(part: Part) -> tuple[Vector, Vector]:
     half = _half(part)
     reach = [0.0, 0.0, 0.0]
     for axis in range(3):
-        side = turned(
+        side = rotate(
             part.pose.orientation,
             (half[0] * (axis == 0), half[1] * (axis == 1), half[2] * (axis == 2)),
         )

@@ -8,12 +8,12 @@ import numpy as np
 
 from mrlab_ros.core.errors import BadInput
 from mrlab_ros.core.physics import surfaces as rooms
+from mrlab_ros.core.physics.clearance import Halt
 from mrlab_ros.core.physics.engine import Kind
 from mrlab_ros.core.physics.events import CollisionChanged, Contact
-from mrlab_ros.core.physics.halt import Halt
-from mrlab_ros.core.physics.robot import Robot
-from mrlab_ros.core.physics.stage import Stage
+from mrlab_ros.core.physics.simulated_robot import Robot
 from mrlab_ros.core.physics.surfaces import Surface
+from mrlab_ros.core.physics.world_state import Stage
 
 
 class Collisions:

@@ -14,9 +14,7 @@ from typing import Protocol
 import numpy as np
 from numpy.typing import NDArray
 
-from mrlab_ros.core.kinematics import Array
-from mrlab_ros.core.physics.poses import Vector
-from mrlab_ros.core.scene import Pose
+from mrlab_ros.core.geometry import Array, Pose, Vector
 
 IDENTITY = Pose()
 LinkPairs = frozenset[frozenset[str]]
@@ -64,7 +62,7 @@ class Body:
 
 
 @dataclass(frozen=True)
-class Motion:
+class BodyState:
     """A rigid body's pose and its velocities in world, m/s and rad/s, at its centre of mass."""
 
     pose: Pose
@@ -167,7 +165,7 @@ class Engine(Protocol):
 
     def fingers(self, name: str) -> tuple[FingerState, ...]: ...
 
-    def link(self, arm: str, link: str) -> Motion:
+    def link(self, arm: str, link: str) -> BodyState:
         """Return a link's centre of mass: its pose and how it moves."""
         ...
 
@@ -179,13 +177,13 @@ class Engine(Protocol):
         """Return the distance from the arm's moving links to something, m, at most `look`."""
         ...
 
-    def add_object(self, name: str, body: Body, motion: Motion) -> None: ...
+    def add_object(self, name: str, body: Body, motion: BodyState) -> None: ...
 
     def remove_object(self, name: str) -> None: ...
 
-    def object(self, name: str) -> Motion: ...
+    def object(self, name: str) -> BodyState: ...
 
-    def set_object(self, name: str, motion: Motion) -> None: ...
+    def set_object(self, name: str, motion: BodyState) -> None: ...
 
     def add_surface(self, name: str, body: Body, pose: Pose) -> None: ...
 

@@ -7,8 +7,8 @@ from enum import Enum
 
 from mrlab_ros.core.clock import SECOND
 from mrlab_ros.core.errors import IllegalEvent
+from mrlab_ros.core.geometry import Vector, dot
 from mrlab_ros.core.physics.engine import Finger, FingerState, Kind, Touch
-from mrlab_ros.core.physics.poses import Vector, dot
 
 # Two fingers oppose each other when the cosine between their contact normals is below this;
 # three fingers 120 degrees apart have -0.5.

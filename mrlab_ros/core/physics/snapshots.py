@@ -6,16 +6,16 @@ import bisect
 from collections.abc import Mapping
 from dataclasses import dataclass
 
-from mrlab_ros.core.physics.engine import Motion
-from mrlab_ros.core.scene import Pose
+from mrlab_ros.core.geometry import Pose
+from mrlab_ros.core.physics.engine import BodyState
 
 
 @dataclass(frozen=True)
-class Kept:
+class ObjectSnapshot:
     """An object at one instant. held_by: the robot that held it, with its pose in the hand's
     frame; empty: free."""
 
-    motion: Motion
+    motion: BodyState
     held_by: str = ""
     in_hand: Pose | None = None
 
@@ -25,7 +25,7 @@ class Snapshot:
     """All objects when one robot's run passed `position`, s. closed: that robot's gripper."""
 
     position: float
-    objects: Mapping[str, Kept]
+    objects: Mapping[str, ObjectSnapshot]
     closed: bool
 
     def held_by(self, robot: str) -> frozenset[str]:

@@ -8,9 +8,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mrlab_ros.core.errors import BadInput
-from mrlab_ros.core.kinematics import Array
+from mrlab_ros.core.geometry import Array, Pose
 from mrlab_ros.core.physics.engine import Body, Part, Shape
-from mrlab_ros.core.scene import Pose
 
 # A detected plane gets this thickness behind it, m: a headset sees no back side.
 THICKNESS = 0.02

@@ -12,21 +12,20 @@ from collections.abc import Sequence
 
 from mrlab_ros.core.clock import SECOND
 from mrlab_ros.core.errors import Misuse
+from mrlab_ros.core.geometry import Pose, Vector
 from mrlab_ros.core.physics.catalogue import Catalogue
 from mrlab_ros.core.physics.collisions import Collisions
-from mrlab_ros.core.physics.engine import Engine, LinkPairs, Motion
+from mrlab_ros.core.physics.engine import BodyState, Engine, LinkPairs
 from mrlab_ros.core.physics.events import Contact, Event
 from mrlab_ros.core.physics.grasp import Gripper
-from mrlab_ros.core.physics.hands import Hands
-from mrlab_ros.core.physics.inventory import Inventory
+from mrlab_ros.core.physics.grippers import Hands
 from mrlab_ros.core.physics.joint_stream import Joints, between
-from mrlab_ros.core.physics.poses import Vector
-from mrlab_ros.core.physics.rewind import Rewind
-from mrlab_ros.core.physics.robot import GripperProgram, Playing, Robot
+from mrlab_ros.core.physics.objects import Inventory
+from mrlab_ros.core.physics.scrubbing import Rewind
 from mrlab_ros.core.physics.settings import Settings
-from mrlab_ros.core.physics.stage import SceneObject, Stage
+from mrlab_ros.core.physics.simulated_robot import GripperProgram, Playing, Robot
 from mrlab_ros.core.physics.surfaces import Surface
-from mrlab_ros.core.scene import Pose
+from mrlab_ros.core.physics.world_state import SceneObject, Stage
 
 # What needs no look at every step is looked at this often, steps.
 LOOK = 12
@@ -83,11 +82,11 @@ class World:
         """Return an object; raise Misuse where there is none."""
         return self._stage.object(name)
 
-    def motion(self, name: str) -> Motion:
+    def motion(self, name: str) -> BodyState:
         """Return where an object is and how it moves."""
         return self._engine.object(self.object(name).name)
 
-    def hand(self, name: str) -> Motion:
+    def hand(self, name: str) -> BodyState:
         """Return where the link is that a robot's objects are fixed to, and how it moves."""
         return self._stage.hand(self.robot(name))
 

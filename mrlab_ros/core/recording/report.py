@@ -60,7 +60,7 @@ class Changes:
 
 
 @dataclass(frozen=True)
-class Course:
+class ReferenceTrajectory:
     """A trajectory: positions (N, J) rad at `frame_rate` Hz."""
 
     frame_rate: float
@@ -81,7 +81,7 @@ class Course:
 
 
 @dataclass(frozen=True)
-class Told:
+class ReportedState:
     """What a playback_state says for the comparison with the trajectory; stamps ns."""
 
     stamp_ns: int
@@ -140,7 +140,7 @@ class RobotReport:
     collisions: list[Contact] = field(default_factory=list)
     # When the arm or the tool touched something, halting or not.
     contacts: list[float] = field(default_factory=list)
-    told: list[Told] = field(default_factory=list)
+    told: list[ReportedState] = field(default_factory=list)
     joint_states: int = 0
     frames_lost: int = 0
     tracking: Series = field(default_factory=Series)
@@ -148,20 +148,20 @@ class RobotReport:
     latency: dict[str, Series] = field(default_factory=dict)
     _holds: list[int] = field(default_factory=list)
 
-    def tell(self, told: Told) -> None:
+    def tell(self, told: ReportedState) -> None:
         """Take note of a playback_state, in the order in which they came."""
         self.told.append(told)
         self._holds.append(told.holds_from_ns)
 
     def compare(
-        self, time: float, stamp_ns: int, positions: Array, courses: dict[str, Course]
+        self, time: float, stamp_ns: int, positions: Array, courses: dict[str, ReferenceTrajectory]
     ) -> None:
         """Compare a joint state with the trajectory at its stamp; note the largest deviation."""
         expected = self._expected(stamp_ns, courses)
         if expected is not None and expected.shape == positions.shape:
             self.tracking.add(time, float(np.max(np.abs(positions - expected))))
 
-    def _expected(self, stamp_ns: int, courses: dict[str, Course]) -> Array | None:
+    def _expected(self, stamp_ns: int, courses: dict[str, ReferenceTrajectory]) -> Array | None:
         number = bisect_right(self._holds, stamp_ns) - 1
         if number < 0:
             return None

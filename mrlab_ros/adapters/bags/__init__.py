@@ -1,0 +1,1 @@
+"""rosbag2 MCAP bags: written, read, repaired and plotted."""

@@ -1,0 +1,141 @@
+"""Writes index, summary and metadata.yaml of a bag anew, from what can be read of it."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+
+import yaml
+from mcap.writer import CompressionType, Writer
+
+from mrlab_ros.adapters.bags.mcap_file import DAMAGE, BagFile, open_file
+from mrlab_ros.adapters.bags.reader import METADATA, Bag, mcap_files_in
+from mrlab_ros.adapters.bags.writer import CHUNK_SIZE, RESERVE, metadata_text
+from mrlab_ros.core.errors import BadInput
+from mrlab_ros.core.recording.metadata import ROOT
+
+KEPT = ".original"
+NEW = ".repairing"
+
+
+@dataclass
+class Repaired:
+    """What a repair did: the files written anew, and what had been wrong with them."""
+
+    files: list[str]
+    troubles: list[str]
+    messages: int
+
+
+def repair(folder: Path) -> Repaired:
+    """Write anew what is damaged or lacks an index, and metadata.yaml; keep the originals.
+
+    Raises BadInput where nothing can be read, where an earlier original is in the way, or where
+    the folder cannot be written; the bag is as it was then.
+    """
+    if not folder.is_dir():
+        raise BadInput(f"{folder} is no folder; name the folder of a bag")
+    paths = mcap_files_in(folder)
+    if not paths:
+        raise BadInput(f"{folder} is no bag: it holds no MCAP file; name the folder of a bag")
+    files = list(map(open_file, paths))
+    damages = {file.path: damage for file in files if (damage := _damage(file))}
+    metadata = folder / METADATA
+    stale = bool(damages) or not _agrees(metadata, Bag(folder, paths))
+    for path in [*damages, metadata] if stale else []:
+        _must_be_free(path)
+    try:
+        for file in files:
+            if file.path in damages:
+                _rewrite(file, file.path.with_suffix(NEW))
+        for path in damages:
+            path.rename(_kept(path))
+            path.with_suffix(NEW).rename(path)
+        bag = Bag(folder, paths)
+        if stale:
+            if metadata.exists():
+                metadata.rename(_kept(metadata))
+            metadata.write_text(metadata_text(bag.facts()))
+        (folder / RESERVE).unlink(missing_ok=True)
+    except OSError as error:
+        raise BadInput(
+            f"the bag {folder} cannot be mended ({error.strerror}); make room on that disk, or "
+            "look at that folder"
+        ) from None
+    finally:
+        for path in damages:
+            path.with_suffix(NEW).unlink(missing_ok=True)
+    names = [path.name for path in damages] + [METADATA] * stale
+    return Repaired(names, list(damages.values()), bag.message_count)
+
+
+def _damage(file: BagFile) -> str:
+    """Return what is wrong with a file, an empty text where it is whole."""
+    if file.trouble:
+        return file.trouble
+    for chunk in file.chunks:
+        try:
+            file.records(chunk)
+        except BadInput:
+            return f"{file.path.name} is damaged at byte {chunk.offset}"
+    return ""
+
+
+def _agrees(metadata: Path, bag: Bag) -> bool:
+    """Return whether metadata.yaml tells of these files and as many messages."""
+    try:
+        facts = yaml.safe_load(metadata.read_text())[ROOT]
+        told = (facts["relative_file_paths"], facts["message_count"])
+    except (OSError, yaml.YAMLError, UnicodeDecodeError, TypeError, KeyError):
+        return False
+    return bool(told == ([file.path.name for file in bag.files], bag.message_count))
+
+
+def _kept(path: Path) -> Path:
+    return path.with_name(path.name + KEPT)
+
+
+def _must_be_free(path: Path) -> None:
+    if _kept(path).exists():
+        raise BadInput(
+            f"{_kept(path)} is there from an earlier repair; move it away, then repair again"
+        )
+
+
+def _rewrite(file: BagFile, path: Path) -> None:
+    """Write all that can be read of `file` to `path`, with an index; a damaged chunk cannot."""
+    with open(path, "wb") as target, open(file.path, "rb") as source:
+        writer = Writer(target, chunk_size=CHUNK_SIZE, compression=CompressionType.ZSTD)
+        writer.start("ros2", "mrlab_ros")
+        for note in file.notes:
+            writer.add_metadata(note.name, note.metadata)
+        for attachment in file.read_attachments(source):
+            writer.add_attachment(
+                attachment.create_time,
+                attachment.log_time,
+                attachment.name,
+                attachment.media_type,
+                attachment.data,
+            )
+        schemas: dict[int, int] = {}
+        channels: dict[int, int] = {}
+        for number, channel in file.channels.items():
+            if channel.schema_id not in schemas:
+                schema = file.schemas[channel.schema_id]
+                schemas[channel.schema_id] = writer.register_schema(
+                    schema.name, schema.encoding, schema.data
+                )
+            channels[number] = writer.register_channel(
+                channel.topic,
+                channel.message_encoding,
+                schemas[channel.schema_id],
+                channel.metadata,
+            )
+        for chunk in file.chunks:
+            try:
+                messages = list(file.raw_messages(chunk))
+            except (BadInput, *DAMAGE):
+                continue
+            for number, sequence, log_time_ns, publish_time_ns, data in messages:
+                writer.add_message(channels[number], log_time_ns, data, publish_time_ns, sequence)
+        writer.finish()

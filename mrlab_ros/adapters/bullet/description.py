@@ -1,0 +1,160 @@
+"""A robot's description made ready for Bullet: what is led, what is driven, what never moves."""
+
+from __future__ import annotations
+
+import math
+import os
+import xml.etree.ElementTree as ET
+from collections.abc import Callable, Iterator
+from pathlib import Path
+
+from mrlab_ros.adapters.robots import urdf
+from mrlab_ros.core.errors import BadInput
+from mrlab_ros.core.physics.engine import Arm, Finger
+
+PRESCRIBED_MASS = 1e6  # kg, and kg*m^2, of every link that joint states lead
+LINK_SIZE = 0.15  # m, what a link reaches beyond its frame
+LEAST_MASS = 0.05  # kg, of a finger without an <inertial>
+MESH_FORMATS = (".obj", ".stl")
+FINGER_VELOCITY = 0.1  # m/s or rad/s, where the description has none
+FINGER_FORCE = 50.0  # N or N*m, where the description has none
+
+
+class Description:
+    """The links and joints of a description, sorted into prescribed, finger and fixed ones.
+
+    joints: the prescribed ones, in order. Raises BadInput where the description lacks one.
+    """
+
+    def __init__(self, text: str, joints: tuple[str, ...], origin: str) -> None:
+        self._root = urdf.parse(text, origin)
+        everything = urdf.joints(self._root, origin)
+        named = {joint.name: joint for joint in everything}
+        missing = [name for name in joints if name not in named or not named[name].moves]
+        if missing:
+            raise BadInput(
+                f"{origin} has no moving joint {', '.join(missing)}; its joints: "
+                f"{', '.join(named)}"
+            )
+        children = {joint.child for joint in everything}
+        links = [str(link.get("name")) for link in self._root.iterfind("link")]
+        roots = [link for link in links if link not in children]
+        if len(roots) != 1:
+            raise BadInput(f"{origin} has the root links {', '.join(roots)}; expected one")
+        self.base = roots[0]
+        self._by_name, self._prescribed = named, joints
+        self.links = links
+        self._parent = {joint.child: joint for joint in everything}
+        fingers = [j for j in everything if j.moves and j.name not in joints]
+        self.fingers = tuple(_finger(joint) for joint in fingers)
+        self.coupled = len(fingers) > 1 and all(joint.mimic for joint in fingers[1:])
+        self.finger_links = {joint.child for joint in fingers}
+        self.fixed_links = {link for link in links if self._group(link) == self.base}
+        tip = "tool0" if "tool0" in links else links[-1]
+        self.tool_links = {link for link in links if tip in self._above(link)}
+        shaped = {
+            str(link.get("name"))
+            for link in self._root.iterfind("link")
+            if link.find("collision") is not None
+        }
+        if fingers:
+            self.hand = fingers[0].parent
+        else:
+            self.hand = next((x for x in reversed(links) if x in self.tool_links & shaped), tip)
+
+    def _above(self, link: str) -> list[str]:
+        above = []
+        while link in self._parent:
+            link = self._parent[link].parent
+            above.append(link)
+        return above
+
+    def _group(self, link: str) -> str:
+        """Return the topmost link that `link` is rigidly fixed to."""
+        while link in self._parent and not self._parent[link].moves:
+            link = self._parent[link].parent
+        return link
+
+    def neighbours(self) -> Iterator[tuple[str, str]]:
+        """Yield each pair of links that may overlap: one rigid group, or joined by one joint."""
+        for i, a in enumerate(self.links):
+            for b in self.links[i + 1 :]:
+                ga, gb = self._group(a), self._group(b)
+                joined = any(
+                    x in self._parent and self._group(self._parent[x].parent) == y
+                    for x, y in ((ga, gb), (gb, ga))
+                )
+                if ga == gb or joined or {ga, gb} <= self.finger_links:
+                    yield a, b
+
+    def _below(self, link: str) -> float:
+        """Return the longest way down from `link`, m; a link itself counts a little."""
+        ways = [
+            math.hypot(*joint.xyz) + self._below(joint.child)
+            for joint in self._parent.values()
+            if joint.parent == link
+        ]
+        return max(ways, default=LINK_SIZE)
+
+    def facts(self) -> Arm:
+        return Arm(
+            self.fingers,
+            self.hand,
+            frozenset(self.tool_links),
+            frozenset(self.fixed_links),
+            tuple(self._below(self._by_name[name].child) for name in self._prescribed),
+        )
+
+    def text(self, resolve: Callable[[str], Path]) -> str:
+        """Return the URDF that Bullet reads: masses, collision meshes with paths, no visuals.
+
+        Raises BadInput where a mesh is missing.
+        """
+        for joint in self._root.iterfind("joint"):
+            for mimic in joint.findall("mimic"):
+                joint.remove(mimic)
+            if joint.get("name") in self._prescribed and joint.get("type") == "revolute":
+                # Joint states are not bounded here, and a limit costs a constraint in each step.
+                joint.set("type", "continuous")
+        for link in self._root.iterfind("link"):
+            for element in link.findall("visual"):
+                link.remove(element)
+            _weigh(link, link.get("name") not in self.finger_links)
+            for mesh in link.iter("mesh"):
+                uri = mesh.get("filename", "")
+                path = resolve(uri)
+                if path.suffix.lower() not in MESH_FORMATS or not path.is_file():
+                    raise BadInput(
+                        f"the collision mesh {uri} of link '{link.get('name')}' is missing or of "
+                        f"no format that physics reads ({', '.join(MESH_FORMATS)}); generate the "
+                        "robot's meshes again"
+                    )
+                mesh.set("filename", os.fspath(path))
+        return ET.tostring(self._root, encoding="unicode")
+
+
+def _finger(joint: urdf.UrdfJoint) -> Finger:
+    limit = joint.limit or {}
+    return Finger(
+        joint.name,
+        joint.child,
+        limit.get("lower", 0.0),
+        limit.get("upper", 0.0),
+        limit.get("velocity", 0.0) or FINGER_VELOCITY,
+        limit.get("effort", 0.0) or FINGER_FORCE,
+    )
+
+
+def _weigh(link: ET.Element, prescribed: bool) -> None:
+    """Give a prescribed link a mass that nothing moves, a finger without a mass a small one."""
+    inertial = link.find("inertial")
+    if inertial is not None:
+        if not prescribed:
+            return
+        link.remove(inertial)
+    mass = PRESCRIBED_MASS if prescribed else LEAST_MASS
+    moment = mass if prescribed else mass * 0.05**2
+    inertial = ET.SubElement(link, "inertial")
+    ET.SubElement(inertial, "mass", value=repr(mass))
+    moments = dict.fromkeys(("ixx", "iyy", "izz"), repr(moment))
+    ET.SubElement(inertial, "inertia", moments | dict.fromkeys(("ixy", "ixz", "iyz"), "0"))

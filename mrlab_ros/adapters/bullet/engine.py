@@ -1,0 +1,255 @@
+"""The physics engine port on pybullet.
+
+Bullet ends the process on bad input, so everything is checked before it is called. What a hand
+holds is led with it as the arm is: put in place before every step, moving as the hand does.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Sequence
+from dataclasses import replace
+from pathlib import Path
+
+import pybullet
+
+from mrlab_ros.adapters.bullet.arms import STATIC_GROUP, Arms
+from mrlab_ros.adapters.bullet.objects import Objects
+from mrlab_ros.adapters.bullet.shapes import make_body, make_shape
+from mrlab_ros.core.errors import BadInput, Misuse
+from mrlab_ros.core.geometry import (
+    Pose,
+    Vector,
+    add,
+    compose,
+    cross,
+    relative,
+    subtract,
+)
+from mrlab_ros.core.physics.engine import (
+    IDENTITY,
+    Arm,
+    Body,
+    BodyState,
+    FingerState,
+    Kind,
+    LinkPairs,
+    Touch,
+)
+
+GRAVITY = 9.80665  # m/s^2, the standard value
+RAY = 100.0  # m, how far down support is looked for
+SOLVER_ITERATIONS = 30
+# (m/s)^2: an iteration that changes no velocity by more than 1 mm/s is the last one.
+SOLVER_RESIDUAL = 1e-6
+
+
+class BulletEngine:
+    """Implements mrlab_ros.core.physics.engine.Engine.
+
+    resolve: turns a package:// URI into a path. One engine is one world of its own.
+    """
+
+    def __init__(self, resolve: Callable[[str], Path], gravity: float = GRAVITY) -> None:
+        self._client = pybullet.connect(pybullet.DIRECT)
+        if self._client < 0:
+            raise Misuse("pybullet has no room for another world; close one first")
+        self._duration = math.nan
+        pybullet.setPhysicsEngineParameter(
+            numSolverIterations=SOLVER_ITERATIONS,
+            solverResidualThreshold=SOLVER_RESIDUAL,
+            deterministicOverlappingPairs=1,
+            physicsClientId=self._client,
+        )
+        self._arms = Arms(self._client, resolve)
+        self._objects = Objects(self._client, gravity)
+        self._surfaces: dict[str, int] = {}
+        self._names: dict[int, tuple[Kind, str]] = {}
+        self._held: dict[str, tuple[str, str, Pose]] = {}
+
+    def close(self) -> None:
+        if self._client >= 0:
+            pybullet.disconnect(self._client)
+            self._client = -1
+
+    # arms -----------------------------------------------------------------------------------
+
+    def add_arm(
+        self,
+        name: str,
+        urdf: str,
+        joints: tuple[str, ...],
+        pose: Pose,
+        apart: LinkPairs = frozenset(),
+    ) -> Arm:
+        """Load an arm; raise BadInput where a joint or a mesh of its URDF is missing."""
+        arm = self._arms.add(name, urdf, joints, pose, apart)
+        self._names[arm.body] = (Kind.ROBOT, name)
+        return arm.facts
+
+    def place_arm(self, name: str, pose: Pose) -> None:
+        self._objects.wake_touching(self._arms[name].body)
+        self._arms.place(name, pose)
+
+    def remove_arm(self, name: str) -> None:
+        for held in [h for h, (holder, _, _) in self._held.items() if holder == name]:
+            self.release(held)
+        self._objects.wake_touching(self._arms[name].body)
+        del self._names[self._arms.remove(name)]
+
+    def move_arm(
+        self,
+        name: str,
+        positions: Sequence[float],
+        velocities: Sequence[float],
+        *,
+        jumped: bool = False,
+    ) -> None:
+        self._arms.move(name, positions, velocities)
+        if jumped:
+            # What stood on the arm must not sleep on in the air.
+            self._objects.wake_touching(self._arms[name].body)
+
+    def speed(self, name: str) -> float:
+        return self._arms.speed(name)
+
+    def drive_fingers(self, name: str, velocities: Sequence[float]) -> None:
+        self._arms.drive_fingers(name, velocities)
+
+    def set_fingers(self, name: str, positions: Sequence[float]) -> None:
+        self._arms.set_fingers(name, positions)
+
+    def fingers(self, name: str) -> tuple[FingerState, ...]:
+        return self._arms.fingers(name)
+
+    def link(self, arm: str, link: str) -> BodyState:
+        return self._arms.link(arm, link)
+
+    def touches(self, name: str) -> list[Touch]:
+        arm = self._arms[name]
+        found: list[Touch] = []
+        # Bullet turns every contact so that the body asked for comes first.
+        for p in pybullet.getContactPoints(arm.body, physicsClientId=self._client):
+            # Bodies that press on each other may be a hair apart.
+            if p[8] > 0.0 and p[9] <= 0.0:
+                continue
+            kind, other = self._names[p[2]]
+            other_link = ""
+            if kind is Kind.ROBOT:
+                other_link = self._arms[other].links[p[4]]
+                kind = Kind.SELF if p[2] == arm.body else Kind.ROBOT
+            depth, impulse = max(-p[8], 0.0), p[9] * self._duration
+            found.append(
+                Touch(arm.links[p[3]], kind, other, other_link, p[5], p[7], depth, impulse)
+            )
+        return found
+
+    def distance(self, arm: str, kind: Kind, other: str, look: float) -> float:
+        robot = self._arms[arm]
+        body = self._body(kind, other)
+        if body is None:
+            return look
+        nearest = look
+        close = pybullet.getClosestPoints(robot.body, body, look, physicsClientId=self._client)
+        for p in close:
+            own = kind is Kind.SELF
+            if own and (p[3] == p[4] or (p[3], p[4]) in robot.ignored):
+                continue
+            if own or p[3] in robot.moving:
+                nearest = min(nearest, p[8])
+        return nearest
+
+    def _body(self, kind: Kind, name: str) -> int | None:
+        if kind is Kind.OBJECT:
+            return self._objects.body(name) if name in self._objects else None
+        if kind is Kind.SURFACE:
+            return self._surfaces.get(name)
+        return self._arms[name].body if name in self._arms else None
+
+    # objects and surfaces -------------------------------------------------------------------
+
+    def add_object(self, name: str, body: Body, motion: BodyState) -> None:
+        self._names[self._objects.add(name, body, motion)] = (Kind.OBJECT, name)
+
+    def remove_object(self, name: str) -> None:
+        if name in self._held:
+            self.release(name)
+        del self._names[self._objects.remove(name)]
+
+    def object(self, name: str) -> BodyState:
+        return self._objects.motion(name)
+
+    def set_object(self, name: str, motion: BodyState) -> None:
+        self._objects.set_motion(name, motion)
+
+    def add_surface(self, name: str, body: Body, pose: Pose) -> None:
+        if name in self._surfaces:
+            raise Misuse(f"surface '{name}' is in the world already; remove it first")
+        if len(body.parts) == 1:
+            # A shape that is not centred is a compound, which costs at every step.
+            (part,) = body.parts
+            pose = compose(pose, part.pose)
+            body = replace(body, parts=(replace(part, pose=IDENTITY),))
+        shape = make_shape(self._client, body)
+        self._surfaces[name] = make_body(self._client, body, shape, pose)
+        self._names[self._surfaces[name]] = (Kind.SURFACE, name)
+        self._objects.wake_all()
+
+    def remove_surface(self, name: str) -> None:
+        body = self._surfaces.pop(name)
+        del self._names[body]
+        pybullet.removeBody(body, physicsClientId=self._client)
+        self._objects.wake_all()
+
+    # holding --------------------------------------------------------------------------------
+
+    def hold(self, arm: str, link: str, name: str) -> None:
+        body = self._objects.body(name)
+        hand = self.link(arm, link).pose
+        if name in self._held:
+            self.release(name)
+        self._held[name] = (arm, link, relative(hand, self.object(name).pose))
+        self._objects.grip(name)
+        self._arms.let_touch(arm, body, False)
+
+    def release(self, name: str) -> None:
+        arm, _, _ = self._held.pop(name)
+        self._objects.loosen(name)
+        self._arms.let_touch(arm, self._objects.body(name), True)
+
+    def _carry(self, duration: float) -> None:
+        """Put what is held where its hand is, moving with it: a constraint without any give."""
+        for name, (arm, link, offset) in self._held.items():
+            hand = self.link(arm, link)
+            pose = compose(hand.pose, offset)
+            way = subtract(pose.position, hand.pose.position)
+            linear = add(hand.linear, cross(hand.angular, way))
+            self._objects.lead(name, BodyState(pose, linear, hand.angular), duration)
+
+    # space and time -------------------------------------------------------------------------
+
+    def below(self, point: Vector) -> float | None:
+        x, y, z = point
+        hits = pybullet.rayTestBatch(
+            [(x, y, z)],
+            [(x, y, z - RAY)],
+            collisionFilterMask=STATIC_GROUP,
+            physicsClientId=self._client,
+        )
+        body, _, _, hit, _ = hits[0]
+        return None if body < 0 else float(hit[2])
+
+    def overlapping(self, low: Vector, high: Vector) -> set[str]:
+        found = pybullet.getOverlappingObjects(low, high, self._client) or ()
+        names = (self._names[body] for body, _ in found if body in self._names)
+        return {name for kind, name in names if kind is not Kind.SURFACE}
+
+    def step(self, duration: float) -> None:
+        if duration != self._duration:
+            if not 1e-5 <= duration <= 0.1:
+                raise BadInput(f"a step of {duration} s; expected 1e-5 to 0.1 s")
+            self._duration = duration
+            pybullet.setTimeStep(duration, self._client)
+        self._carry(duration)
+        pybullet.stepSimulation(self._client)
+        self._arms.stepped()

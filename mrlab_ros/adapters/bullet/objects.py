@@ -1,0 +1,196 @@
+"""The objects of a Bullet world: gravity that acts on them alone, and rest that costs nothing.
+
+Bullet lets what lies still fall asleep, with all it touches, and wakes it where something that is
+awake touches it. What it does not see is a support that goes away or something put elsewhere at
+once: then what is near is woken here.
+"""
+
+from __future__ import annotations
+
+import pybullet
+
+from mrlab_ros.adapters.bullet.shapes import make_body, make_shape
+from mrlab_ros.core.errors import BadInput, Misuse
+from mrlab_ros.core.geometry import Pose
+from mrlab_ros.core.physics.engine import Body, BodyState
+
+# What is slower than this, m/s and rad/s, for Bullet's two seconds falls asleep.
+REST = 0.01
+# What a hand holds gives way to nothing, kg.
+HELD_MASS = 1e6
+# Moved less far than this, m, nothing lost its support.
+NUDGE = 1e-5
+MAX_SPEED = 1000.0  # m/s and rad/s
+
+
+class Objects:
+    """The objects of one world, by name. gravity: m/s^2."""
+
+    def __init__(self, client: int, gravity: float) -> None:
+        self._client = client
+        self._gravity = gravity
+        self._bodies: dict[str, int] = {}
+        # One for each of the catalogue's bodies: they come and go as objects again and again.
+        self._shapes: dict[Body, int] = {}
+        self._masses: dict[int, float] = {}
+        self._held: set[int] = set()
+
+    def __contains__(self, name: str) -> bool:
+        return name in self._bodies
+
+    def body(self, name: str) -> int:
+        try:
+            return self._bodies[name]
+        except KeyError:
+            raise Misuse(f"physics has no object '{name}'; spawn it first") from None
+
+    def add(self, name: str, body: Body, motion: BodyState) -> int:
+        """Put an object into the world; return Bullet's number of it."""
+        if name in self._bodies:
+            raise Misuse(f"object '{name}' is in the world already; remove it first")
+        _check(name, motion)
+        made = self._make_weighted(body, motion.pose)
+        self._bodies[name] = made
+        if body.mass:
+            self._masses[made] = body.mass
+            self._change(made, pybullet.ACTIVATION_STATE_ENABLE_SLEEPING, REST)
+            self._set_velocity(made, motion)
+        else:
+            self.wake_near(made)
+        return made
+
+    def _make_weighted(self, body: Body, pose: Pose) -> int:
+        """Make a body that keeps the gravity of this moment.
+
+        The arms must know none, so the world has none: it would turn their velocities off
+        between two steps. Bullet hands a change of the world's gravity on to bodies that are
+        awake, and bodies that are new have the world's.
+        """
+        client = self._client
+        if body not in self._shapes:
+            self._shapes[body] = make_shape(client, body)
+        try:
+            for other in self._masses:
+                self._change(other, pybullet.ACTIVATION_STATE_SLEEP)
+            pybullet.setGravity(0.0, 0.0, -self._gravity, physicsClientId=client)
+            made = make_body(client, body, self._shapes[body], pose)
+            if body.mass:
+                self._change(made, pybullet.ACTIVATION_STATE_SLEEP)
+        finally:
+            pybullet.setGravity(0.0, 0.0, 0.0, physicsClientId=client)
+            for other in self._masses:
+                self._change(other, self._awake(other))
+        return made
+
+    def _awake(self, body: int) -> int:
+        """Return the state in which a body moves; what slept before sleeps again at once."""
+        state: int = pybullet.ACTIVATION_STATE_ENABLE_SLEEPING
+        if body in self._held:
+            state = pybullet.ACTIVATION_STATE_DISABLE_SLEEPING
+        return state
+
+    def _change(self, body: int, state: int, threshold: float = -1.0) -> None:
+        pybullet.changeDynamics(
+            body, -1, activationState=state, sleepThreshold=threshold, physicsClientId=self._client
+        )
+
+    def remove(self, name: str) -> int:
+        """Take an object away; return the number it had."""
+        body = self.body(name)
+        self.wake_near(body)
+        self._held.discard(body)
+        self._masses.pop(body, None)
+        del self._bodies[name]
+        pybullet.removeBody(body, physicsClientId=self._client)
+        return body
+
+    def motion(self, name: str) -> BodyState:
+        body = self.body(name)
+        pose = pybullet.getBasePositionAndOrientation(body, self._client)
+        return BodyState(Pose(*pose), *pybullet.getBaseVelocity(body, self._client))
+
+    def set_motion(self, name: str, motion: BodyState) -> None:
+        """Put an object somewhere at once, moving; what it touched there is woken."""
+        body, pose = self.body(name), motion.pose
+        _check(name, motion)
+        was = pybullet.getBasePositionAndOrientation(body, self._client)
+        moved = max(abs(a - b) for a, b in zip(was[0], pose.position, strict=True))
+        turned = max(abs(a - b) for a, b in zip(was[1], pose.orientation, strict=True))
+        if max(moved, turned) > NUDGE:
+            if body in self._masses:
+                self.wake_near(body)
+            else:
+                # Between what is fixed and what sleeps Bullet finds no contacts.
+                self.wake_all()
+        pybullet.resetBasePositionAndOrientation(
+            body, pose.position, pose.orientation, self._client
+        )
+        if body in self._masses:
+            self._set_velocity(body, motion)
+            self._wake(body)
+
+    def lead(self, name: str, motion: BodyState, duration: float) -> None:
+        """Put a held object where its hand is, moving with it for a step of `duration` s."""
+        body = self._bodies[name]
+        pybullet.resetBasePositionAndOrientation(
+            body, motion.pose.position, motion.pose.orientation, self._client
+        )
+        x, y, z = motion.linear
+        lift = self._gravity * duration
+        self._set_velocity(body, BodyState(motion.pose, (x, y, z + lift), motion.angular))
+
+    def _set_velocity(self, body: int, motion: BodyState) -> None:
+        pybullet.resetBaseVelocity(
+            body, motion.linear, motion.angular, physicsClientId=self._client
+        )
+
+    # held in a hand -------------------------------------------------------------------------
+
+    def grip(self, name: str) -> None:
+        """Let nothing but lead() move an object."""
+        body = self.body(name)
+        self._held.add(body)
+        self._change(body, pybullet.ACTIVATION_STATE_DISABLE_SLEEPING)
+        self._weigh(body, HELD_MASS)
+
+    def loosen(self, name: str) -> None:
+        """Undo grip(); the object keeps its motion."""
+        body = self.body(name)
+        self._held.discard(body)
+        self._weigh(body, self._masses[body])
+        # The first lets it sleep at all, the second not yet.
+        self._change(body, pybullet.ACTIVATION_STATE_ENABLE_SLEEPING)
+        self._wake(body)
+
+    def _weigh(self, body: int, mass: float) -> None:
+        pybullet.changeDynamics(body, -1, mass=mass, physicsClientId=self._client)
+
+    # rest -----------------------------------------------------------------------------------
+
+    def _wake(self, body: int) -> None:
+        if body not in self._held:
+            self._change(body, pybullet.ACTIVATION_STATE_WAKE_UP)
+
+    def wake_all(self) -> None:
+        for body in self._masses:
+            self._wake(body)
+
+    def wake_near(self, body: int) -> None:
+        """Wake what a body touches, and with it all that leans on that."""
+        low, high = pybullet.getAABB(body, -1, self._client)
+        found = pybullet.getOverlappingObjects(low, high, self._client) or ()
+        for other in sorted({other for other, _ in found}):
+            if other in self._masses:
+                self._wake(other)
+
+    def wake_touching(self, arm: int) -> None:
+        """Wake what an arm touched in the last step, given Bullet's number of it."""
+        for point in pybullet.getContactPoints(arm, physicsClientId=self._client):
+            if point[2] in self._masses:
+                self._wake(point[2])
+
+
+def _check(name: str, motion: BodyState) -> None:
+    velocities = motion.linear + motion.angular
+    if not all(abs(v) <= MAX_SPEED for v in velocities):
+        raise BadInput(f"the velocity {velocities} of {name} is no speed; expected m/s, rad/s")

@@ -1,0 +1,130 @@
+"""Bodies of the physics made into Bullet's; what would end Bullet is refused before."""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+import numpy as np
+import pybullet
+
+from mrlab_ros.core.errors import BadInput
+from mrlab_ros.core.geometry import Pose
+from mrlab_ros.core.physics.engine import Body, Part, Shape
+
+# Bullet multiplies the coefficients of both bodies, so 1 leaves it to the object.
+NEUTRAL = 1.0
+# m, by which the normal force on something round is off its middle.
+ROLLING = 0.0008
+ROUND = (Shape.SPHERE, Shape.CYLINDER, Shape.HULL)
+NUMBERS = {Shape.BOX: 3, Shape.CYLINDER: 2, Shape.SPHERE: 1}
+
+
+def make_shape(client: int, body: Body) -> int:
+    """Return Bullet's number of a new shape; raise BadInput where the body is none.
+
+    pybullet keeps a shape for as long as its world lives.
+    """
+    if not (math.isfinite(body.mass) and body.mass >= 0 and body.parts):
+        raise BadInput(f"a body of {body.mass} kg with {len(body.parts)} parts; expected one")
+    static = body.mass == 0
+    parts = [_shape(part, static) for part in body.parts]
+    centred = parts[0]["collisionFramePosition"] == (0.0, 0.0, 0.0)
+    if len(parts) == 1 and centred:
+        part = parts[0]
+        del part["collisionFramePosition"], part["collisionFrameOrientation"]
+        shape: int = pybullet.createCollisionShape(**part, physicsClientId=client)
+    else:
+        shape = _compound(client, parts)
+    if shape < 0:
+        raise BadInput("pybullet made no shape of a body; check the sizes of its parts")
+    return shape
+
+
+def make_body(client: int, body: Body, shape: int, pose: Pose) -> int:
+    """Put a body of a shape from make_shape() into the world; return Bullet's number of it."""
+    static = body.mass == 0
+    # What has edges does not roll, and each such friction is a constraint of every contact.
+    rolls = not static and any(part.shape in ROUND for part in body.parts)
+    rolling = ROLLING if rolls else 0.0
+    made: int = pybullet.createMultiBody(
+        body.mass,
+        shape,
+        -1,
+        pose.position,
+        pose.orientation,
+        useMaximalCoordinates=True,
+        physicsClientId=client,
+    )
+    pybullet.changeDynamics(
+        made,
+        -1,
+        lateralFriction=NEUTRAL if static else body.friction,
+        restitution=NEUTRAL if static else body.restitution,
+        rollingFriction=rolling,
+        spinningFriction=rolling,
+        physicsClientId=client,
+    )
+    if static:
+        # Or contacts of all that lies on it would be found anew in each step.
+        pybullet.changeDynamics(
+            made, -1, activationState=pybullet.ACTIVATION_STATE_SLEEP, physicsClientId=client
+        )
+    return made
+
+
+def _compound(client: int, parts: list[dict[str, Any]]) -> int:
+    def column(key: str, default: Any) -> list[Any]:
+        return [part.get(key, default) for part in parts]
+
+    made: int = pybullet.createCollisionShapeArray(
+        shapeTypes=column("shapeType", 0),
+        halfExtents=column("halfExtents", [0.0, 0.0, 0.0]),
+        radii=column("radius", 0.0),
+        lengths=column("height", 0.0),
+        collisionFramePositions=column("collisionFramePosition", (0.0, 0.0, 0.0)),
+        collisionFrameOrientations=column("collisionFrameOrientation", (0.0, 0.0, 0.0, 1.0)),
+        physicsClientId=client,
+    )
+    return made
+
+
+def _shape(part: Part, static: bool) -> dict[str, Any]:
+    """Return the arguments of createCollisionShape; raise BadInput where the part is no shape."""
+    size, count = part.size, NUMBERS.get(part.shape, 0)
+    if len(size) != count or not all(1e-4 <= s <= 1000 for s in size):
+        raise BadInput(
+            f"a {part.shape.value} of size {size} m; expected {count} numbers of 0.0001 to 1000"
+        )
+    result: dict[str, Any] = {
+        "collisionFramePosition": part.pose.position,
+        "collisionFrameOrientation": part.pose.orientation,
+    }
+    if part.shape is Shape.BOX:
+        result.update(shapeType=pybullet.GEOM_BOX, halfExtents=[s / 2 for s in size])
+    elif part.shape is Shape.CYLINDER:
+        result.update(shapeType=pybullet.GEOM_CYLINDER, radius=size[0], height=size[1])
+    elif part.shape is Shape.SPHERE:
+        result.update(shapeType=pybullet.GEOM_SPHERE, radius=size[0])
+    else:
+        result.update(_mesh(part, static))
+    return result
+
+
+def _mesh(part: Part, static: bool) -> dict[str, Any]:
+    vertices, triangles = part.vertices, part.triangles
+    if vertices is None or len(vertices) < 3 or not np.isfinite(vertices).all():
+        raise BadInput("a mesh without at least three finite vertices; expected (V, 3) m")
+    result = {"shapeType": pybullet.GEOM_MESH, "vertices": vertices.tolist()}
+    if part.shape is Shape.HULL:
+        return result
+    if not static:
+        raise BadInput("a hollow mesh cannot move; make it of convex parts")
+    if triangles is None or not (
+        len(triangles) and triangles.min() >= 0 and triangles.max() < len(vertices)
+    ):
+        raise BadInput("a mesh whose triangles name vertices it does not have")
+    return result | {
+        "indices": triangles.ravel().tolist(),
+        "flags": pybullet.GEOM_FORCE_CONCAVE_TRIMESH,
+    }

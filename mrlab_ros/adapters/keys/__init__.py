@@ -1,0 +1,1 @@
+"""The keys folder: people, certificates and the files of zenoh."""

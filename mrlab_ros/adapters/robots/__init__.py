@@ -1,0 +1,1 @@
+"""Robot descriptions: library, URDF, meshes, checks and import."""

@@ -1,0 +1,165 @@
+"""Checks a URDF before it becomes a robot of the lab."""
+
+from __future__ import annotations
+
+import xml.etree.ElementTree as ET
+from collections.abc import Callable
+from pathlib import Path
+
+import numpy as np
+
+from mrlab_ros.adapters.robots import mesh_files, urdf
+from mrlab_ros.core.diagnostics import Diagnostic, Severity, finding
+from mrlab_ros.core.errors import BadInput
+
+MOST_JOINTS = 16
+# No arm is larger than this, m; what seems to be is in millimetres.
+LARGEST_ARM = 20.0
+MESH_FORMATS = (".stl", ".dae", ".obj", ".glb", ".gltf")
+Resolve = Callable[[str], Path]
+
+
+def check(text: str, origin: str, resolve: Resolve) -> tuple[Diagnostic, ...]:
+    """Return what is wrong or remarkable; `resolve` turns a mesh URI into a path.
+
+    Raises BadInput where the text is no URDF at all.
+    """
+    root = urdf.parse(text, origin)
+    joints = urdf.joints(root, origin)
+    return (
+        *_check_tree(root, joints),
+        *_check_joints(joints),
+        *_check_inertias(root),
+        *check_meshes(root, resolve),
+    )
+
+
+def errors(found: tuple[Diagnostic, ...]) -> tuple[Diagnostic, ...]:
+    """Return the findings that keep a robot out of the lab."""
+    return tuple(one for one in found if one.severity is Severity.ERROR)
+
+
+def _check_tree(root: ET.Element, joints: tuple[urdf.UrdfJoint, ...]) -> list[Diagnostic]:
+    links = [str(element.get("name")) for element in root.iterfind("link")]
+    found = [
+        finding("robot_no_link", where=f"joint {joint.name}", joint=joint.name, link=end)
+        for joint in joints
+        for end in (joint.parent, joint.child)
+        if end not in links
+    ]
+    roots = sorted(set(links) - {joint.child for joint in joints})
+    if len(roots) != 1:
+        found.append(finding("robot_roots", found=", ".join(roots) or "none"))
+    moving = [joint for joint in joints if joint.moves and joint.mimic is None]
+    if not 1 <= len(moving) <= MOST_JOINTS:
+        found.append(finding("robot_joints", count=len(moving), most=MOST_JOINTS))
+    return found
+
+
+def _check_joints(joints: tuple[urdf.UrdfJoint, ...]) -> list[Diagnostic]:
+    found = []
+    for joint in joints:
+        name, where = joint.name, f"joint {joint.name}"
+        furthest = max(abs(value) for value in joint.xyz)
+        if furthest > LARGEST_ARM:
+            what = f"The distance to the origin of '{name}'"
+            found.append(finding("robot_millimetres", where=where, what=what, size=furthest))
+        if not joint.moves:
+            continue
+        if joint.mimic is not None:
+            found.append(finding("robot_mimic", where=where, joint=name, other=joint.mimic))
+        limit = joint.limit
+        if limit is None or "velocity" not in limit:
+            found.append(finding("robot_no_limits", where=where, joint=name))
+            continue
+        lower, upper = limit.get("lower", 0.0), limit.get("upper", 0.0)
+        if joint.kind != "continuous" and not lower < upper:
+            found.append(_range("robot_limits", name, lower, upper))
+        if joint.kind == "revolute" and max(abs(lower), abs(upper)) > 8 * np.pi:
+            found.append(_range("robot_degrees", name, lower, upper))
+        if not limit["velocity"] > 0:
+            value = limit["velocity"]
+            found.append(finding("robot_velocity", where=where, joint=name, value=value))
+        if not limit.get("effort", 0.0) > 0:
+            found.append(finding("robot_effort", where=where, joint=name))
+    return found
+
+
+def _range(code: str, joint: str, lower: float, upper: float) -> Diagnostic:
+    return finding(code, where=f"joint {joint}", joint=joint, lower=lower, upper=upper)
+
+
+def _check_inertias(root: ET.Element) -> list[Diagnostic]:
+    found = []
+    for link in root.iterfind("link"):
+        inertial = link.find("inertial")
+        if inertial is None:
+            continue
+        where = f"link {link.get('name')}"
+        mass = inertial.find("mass")
+        tensor = inertial.find("inertia")
+        if mass is None or tensor is None or not float(mass.get("value", "0")) > 0:
+            found.append(finding("robot_mass", where=where, link=link.get("name")))
+            continue
+        value = {key: float(number) for key, number in tensor.items()}
+        matrix = np.array(
+            [
+                [value.get("ixx", 0), value.get("ixy", 0), value.get("ixz", 0)],
+                [value.get("ixy", 0), value.get("iyy", 0), value.get("iyz", 0)],
+                [value.get("ixz", 0), value.get("iyz", 0), value.get("izz", 0)],
+            ]
+        )
+        moments = np.linalg.eigvalsh(matrix)
+        if not moments[0] > 0 or moments[2] > (moments[0] + moments[1]) * 1.001:
+            listed = ", ".join(f"{moment:.3g}" for moment in moments)
+            name = link.get("name")
+            found.append(finding("robot_inertia", where=where, link=name, moments=listed))
+    return found
+
+
+def meshes(root: ET.Element) -> list[ET.Element]:
+    """Return the <mesh> elements of a URDF."""
+    return list(root.iterfind("link/*/geometry/mesh"))
+
+
+def check_meshes(root: ET.Element, resolve: Resolve) -> list[Diagnostic]:
+    """Return what is wrong with the mesh files that the links below `root` name."""
+    found = []
+    for uri in sorted({str(mesh.get("filename")) for mesh in meshes(root)}):
+        try:
+            path = resolve(uri)
+        except BadInput as error:
+            found.append(finding("robot_no_mesh", where=uri, uri=uri, why=f": {error}"))
+            continue
+        if not path.is_file():
+            found.append(finding("robot_no_mesh", where=uri, uri=uri, why=""))
+        elif path.suffix.lower() not in MESH_FORMATS:
+            formats = ", ".join(MESH_FORMATS)
+            found.append(finding("robot_mesh_format", where=uri, uri=uri, formats=formats))
+        else:
+            found += [
+                finding("robot_no_texture", where=uri, uri=uri, file=file.name)
+                for file in mesh_files.companions(path).values()
+                if not file.is_file()
+            ]
+    scales = {
+        str(mesh.get("filename")): float(str(mesh.get("scale", "1")).split()[0])
+        for mesh in meshes(root)
+    }
+    for uri, scale in scales.items():
+        size = _mesh_size(uri, resolve) * scale
+        if size > LARGEST_ARM:
+            what = f"The size of mesh {uri}"
+            found.append(finding("robot_millimetres", where=uri, what=what, size=size))
+    return found
+
+
+def _mesh_size(uri: str, resolve: Resolve) -> float:
+    """Return the longest side of a mesh in its file's unit; 0 where it cannot be read."""
+    import trimesh
+
+    try:
+        bounds = trimesh.load(resolve(uri)).bounds
+    except Exception:  # every mesh reader has errors of its own; a missing file is told above
+        return 0.0
+    return 0.0 if bounds is None else float(np.ptp(bounds, axis=0).max())

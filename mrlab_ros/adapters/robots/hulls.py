@@ -1,0 +1,150 @@
+"""Measures how closely collision geometry follows what is seen."""
+
+from __future__ import annotations
+
+import xml.etree.ElementTree as ET
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+import trimesh
+from numpy.typing import NDArray
+from scipy.spatial import ConvexHull, cKDTree
+
+from mrlab_ros.adapters.robots import urdf
+from mrlab_ros.core.diagnostics import Diagnostic, finding
+from mrlab_ros.core.geometry import Array, transform_from_xyz_rpy
+
+# A hull may be smaller than the body by so much, and larger by so much, m.
+MOST_SMALLER = 0.005
+MOST_LARGER = 0.020
+# Points of a hull nearer to the surface than this need no closer look, m.
+NEAR = 0.012
+SPACING = 0.008  # m, of the points that are looked at
+Resolve = Callable[[str], Path]
+
+
+@dataclass(frozen=True)
+class Fit:
+    """How far the body of a link sticks out of its hulls, and how far they stand off it, m."""
+
+    link: str
+    smaller: float
+    larger: float
+
+
+def check(text: str, origin: str, resolve: Resolve) -> tuple[Diagnostic, ...]:
+    """Return a finding for each link whose hulls are too small or too large."""
+    found = []
+    for fit in fits(text, origin, resolve):
+        if fit.smaller > MOST_SMALLER or fit.larger > MOST_LARGER:
+            found.append(
+                finding(
+                    "robot_hull",
+                    where=f"link {fit.link}",
+                    link=fit.link,
+                    smaller=fit.smaller * 1e3,
+                    larger=fit.larger * 1e3,
+                )
+            )
+    return tuple(found)
+
+
+def fits(text: str, origin: str, resolve: Resolve, most: int = 40_000) -> Iterator[Fit]:
+    """Yield the fit of each link that has meshes for both, from at most `most` points a side."""
+    root = urdf.parse(text, origin)
+    for link in root.iterfind("link"):
+        seen = [faces for mesh in link.iterfind("visual") for faces in _faces(mesh, resolve)]
+        hulls = [faces for mesh in link.iterfind("collision") for faces in _faces(mesh, resolve)]
+        if seen and hulls:
+            body = np.concatenate(seen)
+            smaller = sticks_out(body, hulls, most)
+            yield Fit(str(link.get("name")), smaller, stands_off(body, hulls, most))
+
+
+def _few(points: Array, most: int) -> Array:
+    return points[:: len(points) // most + 1]
+
+
+def sticks_out(body: Array, hulls: list[Array], most: int) -> float:
+    """Return how far the furthest point of the body lies outside all hulls, m.
+
+    body: (F, 3, 3) m, its triangles; hulls: the same of each hull; most: points that are looked
+    at.
+    """
+    points = _few(samples(body, SPACING), most)
+    outside = np.full(len(points), np.inf)
+    for hull in hulls:
+        planes = ConvexHull(hull.reshape(-1, 3)).equations
+        for some in np.array_split(np.arange(len(points)), len(points) // 20_000 + 1):
+            heights = points[some] @ planes[:, :3].T + planes[:, 3]
+            outside[some] = np.minimum(outside[some], heights.max(axis=1))
+    furthest = points[np.argsort(-outside)[:40]]
+    if not outside.max() > 0:
+        return 0.0
+    # The height above a plane is the distance except beyond an edge, where that is larger.
+    faces = np.concatenate(hulls)
+    one, other = np.repeat(furthest, len(faces), axis=0), np.tile(faces, (len(furthest), 1, 1))
+    nearest = trimesh.triangles.closest_point(other, one)
+    distance = np.linalg.norm(nearest - one, axis=1).reshape(len(furthest), -1).min(axis=1)
+    return float(distance[np.sort(-outside)[:40] < 0].max())
+
+
+def stands_off(body: Array, hulls: list[Array], most: int) -> float:
+    """Return how far the furthest point of the hulls lies outside the body, m."""
+    skin = cKDTree(samples(body, SPACING))
+    points = _few(samples(np.concatenate(hulls), SPACING), most)
+    away = skin.query(points)[0]
+    order = np.argsort(-away)
+    order = order[away[order] > NEAR]
+    # The furthest first: the first that is not inside the body is the answer.
+    for some in np.array_split(order, len(order) // 128 + 1):
+        outside = ~inside(body, points[some])
+        if outside.any():
+            return float(away[some][outside].max())
+    return float(min(away.max(), NEAR))
+
+
+def inside(body: Array, points: Array) -> NDArray[np.bool_]:
+    """Say which points, (N, 3) m, the body's triangles, (F, 3, 3) m, wind around.
+
+    By the solid angles of the triangles (van Oosterom and Strackee 1983).
+    """
+    corners = [body[None, :, i] - points[:, None] for i in range(3)]
+    a, b, c = corners
+    la, lb, lc = (np.linalg.norm(corner, axis=2) for corner in corners)
+    triple = (a * np.cross(b, c)).sum(axis=2)
+    rest = la * lb * lc
+    rest += (a * b).sum(axis=2) * lc + (b * c).sum(axis=2) * la + (a * c).sum(axis=2) * lb
+    return np.asarray(np.arctan2(triple, rest).sum(axis=1) > np.pi)
+
+
+def samples(faces: Array, spacing: float) -> Array:
+    """Return points on triangles, (F, 3, 3) m, at most about `spacing` apart."""
+    longest = np.linalg.norm(faces - np.roll(faces, 1, axis=1), axis=2).max(axis=1)
+    steps = 2 ** np.ceil(np.log2(np.maximum(longest / spacing, 1))).astype(int)
+    result = []
+    for step in np.unique(steps):
+        i, j = np.meshgrid(np.arange(step + 1), np.arange(step + 1))
+        keep = i + j <= step
+        u, v = i[keep] / step, j[keep] / step
+        weights = np.column_stack([u, v, 1 - u - v])
+        result.append(np.einsum("kw,nwc->nkc", weights, faces[steps == step]).reshape(-1, 3))
+    return np.concatenate(result)
+
+
+def _faces(shape: ET.Element, resolve: Resolve) -> Iterator[Array]:
+    """Yield the triangles, (F, 3, 3) m in the link's frame, of a visual or a collision mesh."""
+    mesh = shape.find("geometry/mesh")
+    if mesh is None:
+        return
+    place = shape.find("origin")
+    values = ("0 0 0", "0 0 0")
+    if place is not None:
+        values = (place.get("xyz", values[0]), place.get("rpy", values[1]))
+    pose = transform_from_xyz_rpy(*(urdf.numbers(value, 3, "origin") for value in values))
+    scale = np.array(urdf.numbers(mesh.get("scale", "1 1 1"), 3, "scale"))
+    for part in trimesh.load_scene(resolve(str(mesh.get("filename")))).dump():
+        if isinstance(part, trimesh.Trimesh) and len(part.faces):
+            yield np.asarray(part.triangles) * scale @ pose[:3, :3].T + pose[:3, 3]

@@ -1,0 +1,242 @@
+"""The library of robot models and end effectors: one folder each, composed into one URDF."""
+
+from __future__ import annotations
+
+import math
+import os
+import xml.etree.ElementTree as ET
+from functools import cache
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from mrlab_ros.adapters.robots import urdf
+from mrlab_ros.adapters.yaml_files import read_yaml
+from mrlab_ros.core.errors import BadInput
+from mrlab_ros.core.robots.model import RobotModel
+
+END_EFFECTORS = "end_effectors"
+TIP = "tool0"
+MESH_PREFIX = "package://mrlab_ros/robots/"
+ADAPTER_THICKNESS = 0.012  # m
+
+
+def imported_folder() -> Path:
+    """Return where `mrlab robots import` puts robots: MRLAB_ROBOTS, or the user's data folder."""
+    named = os.environ.get("MRLAB_ROBOTS")
+    if named:
+        return Path(named)
+    data = os.environ.get("XDG_DATA_HOME") or Path.home() / ".local" / "share"
+    return Path(data) / "mrlab" / "robots"
+
+
+class RobotLibrary:
+    """The models below a folder: <id>/robot.{yaml,urdf}, end_effectors/<id>/...
+
+    imported: a second folder of the same shape, with the robots that people brought; None: the
+    user's own.
+    """
+
+    def __init__(self, folder: Path, imported: Path | None = None) -> None:
+        self.folder = folder
+        self.imported = imported_folder() if imported is None else imported
+        # Models never change while a lab runs; reading one costs milliseconds, not more than once.
+        self._model = cache(self._read_model)
+
+    def ids(self) -> tuple[str, ...]:
+        """Return the ids of the robots, sorted."""
+        own = _folders_with(self.folder, "robot.yaml")
+        return tuple(sorted({*own, *_folders_with(self.imported, "robot.yaml")}))
+
+    def end_effectors(self) -> tuple[str, ...]:
+        """Return the ids of the end effectors, sorted."""
+        return _folders_with(self.folder / END_EFFECTORS, "end_effector.yaml")
+
+    def model(self, robot_id: str) -> RobotModel:
+        """Return a robot model; raise BadInput that names the known ids."""
+        return self._model(robot_id)
+
+    def facts(self, robot_id: str) -> dict[str, Any]:
+        """Return what robot.yaml says."""
+        return read_yaml(self._robot_folder(robot_id) / "robot.yaml")
+
+    def description(self, robot_id: str, end_effector: str | None = None) -> str:
+        """Return the URDF of a robot with its end effector (None or empty: bare flange)."""
+        text = self.own_description(robot_id)
+        override = self.imported / robot_id / "robot.urdf"
+        if override.is_file():
+            text = _read(override)
+        if not end_effector:
+            return text
+        robot = urdf.parse(text, f"{robot_id}/robot.urdf")
+        tool = self._end_effector(end_effector)
+        facts = self.facts(robot_id)
+        return _composed(robot, tool, facts, end_effector)
+
+    def own_description(self, robot_id: str) -> str:
+        """Return the bare robot's URDF with the lab's own meshes, whatever replaces them."""
+        return _read(self._robot_folder(robot_id) / "robot.urdf")
+
+    def mesh_path(self, uri: str) -> Path:
+        """Return the file that a mesh URI of one of the library's URDFs names."""
+        if not uri.startswith(MESH_PREFIX):
+            raise BadInput(f"the mesh is '{uri}'; expected a URI that begins with {MESH_PREFIX}")
+        place = uri.removeprefix(MESH_PREFIX)
+        own = self.folder / place
+        return own if own.is_file() else self.imported / place
+
+    def collision_description(self, robot_id: str, end_effector: str | None = None) -> str:
+        """Return the URDF without visuals and with mesh paths in place of URIs.
+
+        That is what a physics engine reads: convex hulls, and a mass for every link, since an
+        engine takes 1 kg for a frame that has none.
+        """
+        root = urdf.parse(self.description(robot_id, end_effector), robot_id)
+        for link in root.iterfind("link"):
+            for visual in link.findall("visual"):
+                link.remove(visual)
+            if link.find("inertial") is None:
+                inertial = ET.SubElement(link, "inertial")
+                ET.SubElement(inertial, "mass", value="1e-06")
+                moments = {"ixx": 1e-9, "iyy": 1e-9, "izz": 1e-9, "ixy": 0, "ixz": 0, "iyz": 0}
+                ET.SubElement(inertial, "inertia", {k: str(v) for k, v in moments.items()})
+        for mesh in root.iterfind("link/collision/geometry/mesh"):
+            mesh.set("filename", str(self.mesh_path(str(mesh.get("filename")))))
+        return ET.tostring(root, encoding="unicode")
+
+    def never_touch(self, robot_id: str) -> frozenset[frozenset[str]]:
+        """Return the pairs of links that the robot's own file says never touch, whatever their
+        hulls do; raise BadInput where the robot is unknown."""
+        return frozenset(frozenset(pair) for pair in self.facts(robot_id).get("never_touch", ()))
+
+    def touching_links(
+        self, robot_id: str, end_effector: str | None = None
+    ) -> frozenset[frozenset[str]]:
+        """Return the pairs of links whose contact is none: each link with a body and the next one,
+        which always touch, and those that the robot's own file says never do."""
+        root = urdf.parse(self.description(robot_id, end_effector), robot_id)
+        solid = {e.get("name") for e in root.iterfind("link") if e.find("collision") is not None}
+        above = {joint.child: joint.parent for joint in urdf.joints(root, robot_id)}
+        pairs = set(self.never_touch(robot_id))
+        for link in above:
+            parent = above[link]
+            while parent not in solid and parent in above:
+                parent = above[parent]
+            if link in solid and parent in solid:
+                pairs.add(frozenset((link, parent)))
+        return frozenset(pairs)
+
+    def _robot_folder(self, robot_id: str) -> Path:
+        known = self.ids()
+        if robot_id not in known:
+            raise BadInput(f"there is no robot '{robot_id}'; known are: {', '.join(known)}")
+        own = self.folder / robot_id
+        return own if own.is_dir() else self.imported / robot_id
+
+    def _end_effector(self, end_effector: str) -> ET.Element:
+        known = self.end_effectors()
+        if end_effector not in known:
+            raise BadInput(
+                f"there is no end effector '{end_effector}'; known are: {', '.join(known)}; "
+                "leave it empty for a bare flange"
+            )
+        path = self.folder / END_EFFECTORS / end_effector / "end_effector.urdf"
+        return urdf.parse(_read(path), str(path))
+
+    def _read_model(self, robot_id: str) -> RobotModel:
+        folder = self._robot_folder(robot_id)
+        facts = self.facts(robot_id)
+        origin = f"{robot_id}/robot.urdf"
+        root = urdf.parse(_read(folder / "robot.urdf"), origin)
+        chain, joints = urdf.chain(root, facts.get("tip_link", TIP), origin)
+        home_deg = facts["home_deg"]
+        if len(home_deg) != len(joints):
+            raise BadInput(
+                f"{robot_id}/robot.yaml: home_deg has {len(home_deg)} values; expected "
+                f"{len(joints)}, one a moving joint"
+            )
+        home = np.array([math.radians(angle) for angle in home_deg])
+        home.setflags(write=False)
+        return RobotModel(
+            id=robot_id,
+            manufacturer=str(facts["manufacturer"]),
+            product=str(facts["product"]),
+            robot_class=str(facts["class"]),
+            payload=float(facts["payload"]),
+            reach=float(facts["reach"]),
+            joints=joints,
+            home=home,
+            chain=chain,
+        )
+
+
+def _read(path: Path) -> str:
+    try:
+        return path.read_text(encoding="utf-8")
+    except OSError as error:
+        raise BadInput(f"{path} cannot be read: {error}; install the model again") from None
+
+
+def _folders_with(folder: Path, file: str) -> tuple[str, ...]:
+    return tuple(sorted(path.parent.name for path in folder.glob(f"*/{file}")))
+
+
+def _composed(
+    robot: ET.Element, tool: ET.Element, facts: dict[str, Any], end_effector: str
+) -> str:
+    """Hang the tool's tree below the robot's tip, on an adapter plate as wide as the flange."""
+    taken = {element.get("name") for tag in ("link", "joint") for element in robot.iterfind(tag)}
+    ours = {element.get("name") for tag in ("link", "joint") for element in tool.iterfind(tag)}
+    both = sorted(str(name) for name in taken & ours)
+    if both:
+        raise BadInput(
+            f"robot '{facts['id']}' and end effector '{end_effector}' both have "
+            f"{', '.join(both)}; rename them in one of the two URDFs"
+        )
+    children = {joint.child for joint in urdf.joints(tool, end_effector)}
+    roots = [str(e.get("name")) for e in tool.iterfind("link") if e.get("name") not in children]
+    if len(roots) != 1:
+        raise BadInput(
+            f"end effector '{end_effector}' has the root links {', '.join(roots)}; expected one"
+        )
+    tip = facts.get("tip_link", TIP)
+    radius = float(facts.get("flange_diameter", 0.063)) / 2
+    robot.append(_adapter_plate(radius))
+    _fixed(robot, "tool0-adapter_plate", tip, "adapter_plate", 0.0)
+    _fixed(robot, "adapter_plate-tool", "adapter_plate", roots[0], ADAPTER_THICKNESS)
+    for element in tool:
+        if element.tag in ("link", "joint"):
+            robot.append(element)
+    ET.indent(robot)
+    return '<?xml version="1.0"?>\n' + ET.tostring(robot, encoding="unicode") + "\n"
+
+
+def _fixed(robot: ET.Element, name: str, parent: str, child: str, z: float) -> None:
+    joint = ET.SubElement(robot, "joint", name=name, type="fixed")
+    ET.SubElement(joint, "parent", link=parent)
+    ET.SubElement(joint, "child", link=child)
+    ET.SubElement(joint, "origin", xyz=f"0 0 {z!r}", rpy="0 0 0")
+
+
+def _adapter_plate(radius: float) -> ET.Element:
+    """Return a link: an aluminium disc of the flange's radius, m, with z out of the flange."""
+    thickness = ADAPTER_THICKNESS
+    link = ET.Element("link", name="adapter_plate")
+    inertial = ET.SubElement(link, "inertial")
+    ET.SubElement(inertial, "origin", xyz=f"0 0 {thickness / 2!r}", rpy="0 0 0")
+    mass = 2700 * math.pi * radius**2 * thickness
+    ET.SubElement(inertial, "mass", value=f"{mass:.6g}")
+    across = mass * (3 * radius**2 + thickness**2) / 12
+    moments = {"ixx": across, "iyy": across, "izz": mass * radius**2 / 2}
+    tensor = {k: f"{moments.get(k, 0.0):.6g}" for k in ("ixx", "ixy", "ixz", "iyy", "iyz", "izz")}
+    ET.SubElement(inertial, "inertia", tensor)
+    for tag in ("visual", "collision"):
+        part = ET.SubElement(link, tag)
+        ET.SubElement(part, "origin", xyz=f"0 0 {thickness / 2!r}", rpy="0 0 0")
+        geometry = ET.SubElement(part, "geometry")
+        ET.SubElement(geometry, "cylinder", radius=f"{radius:.6g}", length=f"{thickness:.6g}")
+        if tag == "visual":
+            material = ET.SubElement(part, "material", name="adapter_plate")
+            ET.SubElement(material, "color", rgba="0.6 0.61 0.63 1")
+    return link

@@ -1,0 +1,78 @@
+"""Motions with bounded jerk, planned by ruckig."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from ruckig import InputParameter, Result, Ruckig, Synchronization, Trajectory
+
+from mrlab_ros.core.errors import BadInput
+from mrlab_ros.core.geometry import Array
+from mrlab_ros.core.robots.model import RobotModel
+
+
+@dataclass(frozen=True)
+class StagingLimits:
+    """How gently an arm moves to its start.
+
+    velocity_share: share of each joint's velocity limit, 0 to 1; acceleration: rad/s^2;
+    jerk: rad/s^3. Vendors publish velocity limits but rarely the other two; the defaults are
+    gentle for all of the lab's arms.
+    """
+
+    velocity_share: float = 0.5
+    acceleration: float = 6.0
+    jerk: float = 30.0
+
+
+class RuckigMotion:
+    """A motion planned by ruckig; `start` and `goal` come back exactly at its ends."""
+
+    def __init__(self, trajectory: Trajectory, start: Array, goal: Array) -> None:
+        self._trajectory = trajectory
+        self._start = start
+        self._goal = goal
+
+    @property
+    def duration(self) -> float:
+        return float(self._trajectory.duration)
+
+    def at(self, elapsed: float) -> tuple[Array, Array]:
+        if elapsed >= self.duration:
+            return self._goal, np.zeros_like(self._goal)
+        if elapsed <= 0:
+            return self._start, np.zeros_like(self._start)
+        position, velocity, _ = self._trajectory.at_time(elapsed)
+        return np.asarray(position), np.asarray(velocity)
+
+
+class RuckigPlanner:
+    """Time-optimal motions inside the limits, all joints arriving together."""
+
+    def __init__(self, limits: StagingLimits | None = None) -> None:
+        self._limits = limits or StagingLimits()
+
+    def plan(self, model: RobotModel, start: Array, goal: Array) -> RuckigMotion:
+        count = len(model.joints)
+        if start.shape != (count,) or goal.shape != (count,):
+            raise BadInput(
+                f"a motion of {model.id} from {start.shape} to {goal.shape} values was asked for; "
+                f"expected {count} joint positions each"
+            )
+        limits = self._limits
+        target = InputParameter(count)
+        target.current_position, target.target_position = start.tolist(), goal.tolist()
+        target.max_velocity = [limits.velocity_share * j.max_velocity for j in model.joints]
+        target.max_acceleration = [limits.acceleration] * count
+        target.max_jerk = [limits.jerk] * count
+        target.synchronization = Synchronization.Phase
+        trajectory = Trajectory(count)
+        result = Ruckig(count).calculate(target, trajectory)
+        if result not in (Result.Working, Result.Finished):
+            raise BadInput(
+                f"no motion of {model.id} leads from {np.round(start, 4).tolist()} to "
+                f"{np.round(goal, 4).tolist()} rad (ruckig: {result}); check the trajectory's "
+                "first row"
+            )
+        return RuckigMotion(trajectory, start, goal)

@@ -1,0 +1,181 @@
+"""Reads the kinematics and the limits out of a URDF."""
+
+from __future__ import annotations
+
+import xml.etree.ElementTree as ET
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+import numpy as np
+
+from mrlab_ros.core.errors import BadInput
+from mrlab_ros.core.geometry import Array, transform_from_xyz_rpy
+from mrlab_ros.core.robots.kinematics import KinematicChain, Segment
+from mrlab_ros.core.robots.model import Joint
+
+MOVING = ("revolute", "continuous", "prismatic")
+
+
+def parse(text: str, origin: str) -> ET.Element:
+    """Return the root element of a URDF; `origin` names it in errors."""
+    try:
+        root = ET.fromstring(text)
+    except ET.ParseError as error:
+        raise BadInput(f"{origin} is not XML: {error}; expected a URDF") from None
+    if root.tag != "robot":
+        raise BadInput(f"{origin} begins with <{root.tag}>; expected a URDF, which has <robot>")
+    return root
+
+
+def _attribute(element: ET.Element, tag: str, name: str, origin: str) -> str:
+    child = element.find(tag)
+    value = None if child is None else child.get(name)
+    if value is None:
+        raise BadInput(
+            f"{origin}: <{element.tag} name='{element.get('name')}'> has no <{tag} {name}=...>; "
+            "add it"
+        )
+    return value
+
+
+def numbers(text: str, count: int, where: str) -> list[float]:
+    """Return the `count` finite numbers in `text`."""
+    try:
+        values = [float(part) for part in text.split()]
+    except ValueError:
+        values = []
+    if len(values) != count or not np.isfinite(values).all():
+        raise BadInput(f"{where} is '{text}'; expected {count} numbers") from None
+    return values
+
+
+@dataclass(frozen=True)
+class UrdfJoint:
+    """A joint of a URDF as it stands there; limits are None where there is no <limit>."""
+
+    name: str
+    kind: str
+    parent: str
+    child: str
+    xyz: list[float]
+    rpy: list[float]
+    axis: list[float]
+    limit: dict[str, float] | None
+    mimic: str | None
+
+    @property
+    def moves(self) -> bool:
+        return self.kind in MOVING
+
+    def segment(self) -> Segment:
+        """Return the joint as a segment of a kinematic chain."""
+        axis = None
+        if self.moves:
+            length = float(np.linalg.norm(self.axis))
+            axis = np.array(self.axis) / length
+        return Segment(
+            self.child, transform_from_xyz_rpy(self.xyz, self.rpy), axis, self.kind == "prismatic"
+        )
+
+    def limits(self, origin: str) -> Joint:
+        """Return the joint's limits; a continuous joint's are one turn either way."""
+        limit = self.limit
+        if limit is None or "velocity" not in limit:
+            raise BadInput(
+                f"{origin}: joint '{self.name}' has no <limit> with a velocity; expected lower, "
+                "upper and velocity (rad, rad/s) from the robot's data sheet"
+            )
+        lower, upper = limit.get("lower", 0.0), limit.get("upper", 0.0)
+        if self.kind == "continuous":
+            lower, upper = -2 * np.pi, 2 * np.pi
+        return Joint(self.name, lower, upper, limit["velocity"], limit.get("effort") or None)
+
+
+def joints(root: ET.Element, origin: str) -> tuple[UrdfJoint, ...]:
+    """Return the joints of a URDF in the order of the file."""
+    return tuple(_joint(element, origin) for element in root.iterfind("joint"))
+
+
+def _joint(element: ET.Element, origin: str) -> UrdfJoint:
+    name, kind = element.get("name", ""), element.get("type", "")
+    where = f"{origin}: joint '{name}'"
+    if kind not in (*MOVING, "fixed"):
+        raise BadInput(f"{where} is of type '{kind}'; expected fixed, {', '.join(MOVING)}")
+    place = element.find("origin")
+    xyz, rpy = "0 0 0", "0 0 0"
+    if place is not None:
+        xyz, rpy = place.get("xyz", xyz), place.get("rpy", rpy)
+    axis = element.find("axis")
+    limit = element.find("limit")
+    mimic = element.find("mimic")
+    direction = "1 0 0" if axis is None else axis.get("xyz", "1 0 0")
+    joint = UrdfJoint(
+        name=name,
+        kind=kind,
+        parent=_attribute(element, "parent", "link", origin),
+        child=_attribute(element, "child", "link", origin),
+        xyz=numbers(xyz, 3, f"{where}: origin xyz"),
+        rpy=numbers(rpy, 3, f"{where}: origin rpy"),
+        axis=numbers(direction, 3, f"{where}: axis"),
+        limit=None
+        if limit is None
+        else {key: numbers(value, 1, f"{where}: {key}")[0] for key, value in limit.items()},
+        mimic=None if mimic is None else mimic.get("joint"),
+    )
+    if joint.moves and not np.linalg.norm(joint.axis) > 1e-9:
+        raise BadInput(f"{where}: the axis is '{direction}'; expected a direction such as 0 0 1")
+    return joint
+
+
+def path_to(tip: str, all_joints: tuple[UrdfJoint, ...]) -> tuple[str, tuple[UrdfJoint, ...]]:
+    """Return the root link above `tip` and the joints that lead from it to `tip`."""
+    by_child = {joint.child: joint for joint in all_joints}
+    path: list[UrdfJoint] = []
+    link = tip
+    while link in by_child:
+        joint = by_child[link]
+        if joint in path:
+            raise BadInput(f"link '{link}' hangs below itself; expected a tree of links")
+        path.append(joint)
+        link = joint.parent
+    return link, tuple(reversed(path))
+
+
+def chain(root: ET.Element, tip: str, origin: str) -> tuple[KinematicChain, tuple[Joint, ...]]:
+    """Return the chain from the root link to `tip`, and its moving joints, base first."""
+    all_joints = joints(root, origin)
+    links = {element.get("name") for element in root.iterfind("link")}
+    if tip not in links:
+        raise BadInput(
+            f"{origin} has no link '{tip}'; its links: {', '.join(sorted(map(str, links)))}"
+        )
+    base, path = path_to(tip, all_joints)
+    segments = tuple(joint.segment() for joint in path)
+    return KinematicChain(base, segments), tuple(j.limits(origin) for j in path if j.moves)
+
+
+def poses(root: ET.Element, positions: Mapping[str, float], origin: str) -> dict[str, Array]:
+    """Return T_root_link, (4, 4), of every link; joints without a position stand at 0.
+
+    A joint that follows another stands where that one does.
+    """
+    waiting = list(joints(root, origin))
+    children = {joint.child for joint in waiting}
+    found = {
+        str(element.get("name")): np.eye(4)
+        for element in root.iterfind("link")
+        if element.get("name") not in children
+    }
+    while waiting:
+        ready = [joint for joint in waiting if joint.parent in found]
+        if not ready:
+            names = ", ".join(joint.name for joint in waiting)
+            raise BadInput(f"{origin}: the joints {names} hang on no link; expected one tree")
+        for joint in ready:
+            position = np.zeros(int(joint.moves))
+            if joint.moves:
+                position[0] = positions.get(joint.mimic or joint.name, 0.0)
+            step = KinematicChain(joint.parent, (joint.segment(),)).tool0(position)
+            found[joint.child] = found[joint.parent] @ step
+            waiting.remove(joint)
+    return found

@@ -1,0 +1,150 @@
+"""Puts the meshes of a vendor's description in place of the lab's own, for one of its robots."""
+
+from __future__ import annotations
+
+import shutil
+import xml.etree.ElementTree as ET
+from collections.abc import Mapping
+from pathlib import Path
+
+import numpy as np
+
+from mrlab_ros.adapters.robots import checks, mesh_files, urdf
+from mrlab_ros.adapters.robots.importing import MeshFinder
+from mrlab_ros.adapters.robots.library import MESH_PREFIX, RobotLibrary
+from mrlab_ros.core.diagnostics import Diagnostic, finding
+from mrlab_ros.core.errors import BadInput
+from mrlab_ros.core.geometry import Array
+
+LARGEST_SHIFT = 1e-4  # m, between the same link's frames in both descriptions
+LARGEST_TURN = 1e-4  # rad
+
+
+def use_meshes(
+    source: Path,
+    robot_id: str,
+    library: RobotLibrary,
+    packages: Mapping[str, Path],
+    *,
+    collision: bool = False,
+) -> tuple[Diagnostic, ...]:
+    """Install the meshes of the URDF `source` for the links of `robot_id` of the same names.
+
+    The lab's kinematics, limits and masses stay, and its convex hulls unless `collision` asks for
+    the other description's: physics takes the convex hull of each of those. Nothing is installed
+    where a finding is an error. Raises BadInput where no link has a counterpart, or where the
+    robot is no model of the lab's own.
+    """
+    if not (library.folder / robot_id / "robot.urdf").is_file():
+        raise BadInput(f"'{robot_id}' is not one of the lab's own robots; import it again instead")
+    ours = urdf.parse(library.own_description(robot_id), robot_id)
+    try:
+        theirs = urdf.parse(source.read_text(encoding="utf-8"), source.name)
+    except (OSError, UnicodeDecodeError) as error:
+        raise BadInput(f"{source} cannot be read: {error}; expected a URDF") from None
+    find = MeshFinder(source.parent, packages)
+    shared = _shared(ours, theirs, robot_id, source.name)
+    taken = ("visual", "collision") if collision else ("visual",)
+    meshed = ET.Element("robot")
+    for link in shared.values():
+        meshed.append(link)
+        for shape in [*link]:
+            if shape.tag not in taken:
+                link.remove(shape)
+    found = (
+        *_frames(ours, theirs, shared, robot_id, source.name),
+        *checks.check_meshes(meshed, find),
+    )
+    if checks.errors(found):
+        return found
+    folder = library.imported / robot_id
+    aside = folder.with_name(f".{robot_id}.new")
+    shutil.rmtree(aside, ignore_errors=True)
+    (aside / "meshes").mkdir(parents=True)
+    names: dict[str, str] = {}
+    for mesh in checks.meshes(meshed):
+        uri = str(mesh.get("filename"))
+        if uri not in names:
+            names[uri] = mesh_files.copy(find(uri), aside / "meshes", f"vendor_{len(names):02d}")
+        mesh.set("filename", f"{MESH_PREFIX}{robot_id}/meshes/{names[uri]}")
+    for link in ours.iterfind("link"):
+        other = shared.get(str(link.get("name")))
+        for tag in taken:
+            shapes = [] if other is None else other.findall(tag)
+            if shapes:
+                for old in link.findall(tag):
+                    link.remove(old)
+                link.extend(shapes)
+    ET.indent(ours)
+    text = f'<?xml version="1.0"?>\n{ET.tostring(ours, encoding="unicode")}\n'
+    (aside / "robot.urdf").write_text(text, encoding="utf-8")
+    shutil.rmtree(folder, ignore_errors=True)
+    aside.rename(folder)
+    return found
+
+
+def remove(robot_id: str, library: RobotLibrary) -> None:
+    """Remove an imported robot, or the meshes that were put in place of the lab's own."""
+    folder = library.imported / robot_id
+    if not robot_id or not (folder / "robot.urdf").is_file():
+        raise BadInput(f"nothing was imported as '{robot_id}'; there is nothing to remove")
+    shutil.rmtree(folder)
+
+
+def _shared(
+    ours: ET.Element, theirs: ET.Element, robot_id: str, origin: str
+) -> dict[str, ET.Element]:
+    """Return their links that have meshes and a link of ours by the same name."""
+    names = {link.get("name") for link in ours.iterfind("link")}
+    meshed = {
+        str(link.get("name")): link
+        for link in theirs.iterfind("link")
+        if link.find("*/geometry/mesh") is not None
+    }
+    shared = {name: link for name, link in meshed.items() if name in names}
+    if not shared:
+        raise BadInput(
+            f"no link of {origin} that has a mesh ({', '.join(meshed) or 'none'}) is a link of "
+            f"'{robot_id}' ({', '.join(sorted(map(str, names)))}); give a URDF without a prefix"
+        )
+    return shared
+
+
+def _frames(
+    ours: ET.Element,
+    theirs: ET.Element,
+    shared: Mapping[str, ET.Element],
+    robot_id: str,
+    origin: str,
+) -> list[Diagnostic]:
+    """Compare where the frames of the links lie, from the first one on, at zero and elsewhere."""
+    found: dict[str, Diagnostic] = {}
+    joints = [joint.name for joint in urdf.joints(ours, robot_id) if joint.moves]
+    first = next(iter(shared))
+    for angle in (0.0, 0.4):
+        positions = {name: angle * (number + 1) / 2 for number, name in enumerate(joints)}
+        one = urdf.poses(ours, positions, robot_id)
+        other = urdf.poses(theirs, positions, origin)
+        for name in shared:
+            between = np.linalg.solve(_between(one, first, name), _between(other, first, name))
+            distance = float(np.linalg.norm(between[:3, 3]))
+            turn = between[:3, :3]
+            angle_off = float(np.arccos(np.clip((np.trace(turn) - 1) / 2, -1, 1)))
+            # arccos is blind near 0; there the skew part tells the angle.
+            skew = np.array([turn[2, 1] - turn[1, 2], turn[0, 2] - turn[2, 0]])
+            angle_off = max(angle_off if angle_off > 0.01 else 0.0, float(np.abs(skew).max()) / 2)
+            if distance > LARGEST_SHIFT or angle_off > LARGEST_TURN:
+                found[name] = finding(
+                    "robot_frame",
+                    where=f"link {name}",
+                    link=name,
+                    origin=origin,
+                    robot=robot_id,
+                    distance=distance * 1e3,
+                    angle=angle_off,
+                )
+    return list(found.values())
+
+
+def _between(poses: Mapping[str, Array], first: str, name: str) -> Array:
+    return np.asarray(np.linalg.solve(poses[first], poses[name]))

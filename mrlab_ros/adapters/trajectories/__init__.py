@@ -1,0 +1,1 @@
+"""Trajectories on disk: the store, export and coefficients."""

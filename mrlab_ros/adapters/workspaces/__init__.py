@@ -1,0 +1,1 @@
+"""Files with joint motion: MATLAB workspaces, tables and messages."""

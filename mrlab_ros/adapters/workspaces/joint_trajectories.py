@@ -1,0 +1,164 @@
+"""Reads and writes trajectory_msgs/JointTrajectory: in rosbag2 bags, and alone as CDR.
+
+rosbags is imported where a message is at hand: no other file pays for it.
+"""
+
+from __future__ import annotations
+
+import io
+import os
+import tempfile
+from collections.abc import Iterator
+from functools import cache
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from mrlab_ros.adapters.workspaces.mat5 import (
+    Damaged,
+    NotAWorkspace,
+    Sink,
+    TooLarge,
+)
+from mrlab_ros.core.conversion.named_columns import GRIPPER
+from mrlab_ros.core.conversion.workspace import JOINT_TRAJECTORY
+from mrlab_ros.core.trajectory.trajectory import Trajectory
+
+TOPIC = "/joint_trajectory"
+SUFFIXES = {"mcap": ".mcap", "sqlite3": ".db3"}
+
+
+@cache
+def _types() -> Any:
+    from rosbags.typesys import Stores, get_typestore
+
+    return get_typestore(Stores.ROS2_JAZZY)
+
+
+class _InMemory:
+    """What rosbags reads in place of a path: bytes, with the suffix that tells their format."""
+
+    def __init__(self, data: memoryview, suffix: str) -> None:
+        self.data = data
+        self.suffix = suffix
+        self.st_size = len(data)
+
+    def exists(self) -> bool:
+        return True
+
+    def is_dir(self) -> bool:
+        return False
+
+    def open(self, *_: Any, **__: Any) -> io.BytesIO:
+        return io.BytesIO(self.data)
+
+    def stat(self) -> _InMemory:
+        return self
+
+
+def read_bag(data: memoryview, form: str, sink: Sink, limit: int) -> None:
+    """Hand every JointTrajectory of a bag to the sink, and the names of its other topics.
+
+    form: mcap or sqlite3. A topic with several of them gives topic(1), topic(2) and so on.
+    """
+    if len(data) > limit:
+        raise TooLarge(f"a bag of {len(data) / 2**20:.0f} MiB, the limit is {limit / 2**20:.0f}")
+    from rosbags.rosbag2 import Reader
+
+    types = _types()
+    try:
+        source: Any = _InMemory(data, SUFFIXES[form])
+        with Reader(source) as bag:
+            wanted = [c for c in bag.connections if c.msgtype == JOINT_TRAJECTORY]
+            for other in bag.connections:
+                if other.msgtype != JOINT_TRAJECTORY:
+                    sink.add(other.topic, other.msgtype, ())
+            found: dict[str, list[bytes]] = {c.topic: [] for c in wanted}
+            for connection, _, message in bag.messages(wanted) if wanted else ():
+                found[connection.topic].append(message)
+    except MemoryError:
+        raise
+    except Exception as error:
+        # what damage makes the reader raise has no common base
+        if form == "sqlite3":
+            raise NotAWorkspace(f"an SQLite database but no whole rosbag2 bag ({error})") from None
+        raise Damaged(f"the bag cannot be read ({error})") from None
+    for topic, messages in found.items():
+        if not messages:
+            sink.add(topic, JOINT_TRAJECTORY, ())
+        for number, message in enumerate(messages, 1):
+            path = topic if len(messages) == 1 else f"{topic}({number})"
+            _hand_over(path, message, types, sink)
+
+
+def read_cdr(data: memoryview, path: str, sink: Sink) -> None:
+    """Hand one serialized JointTrajectory to the sink, called `path`."""
+    _hand_over(path, bytes(data), _types(), sink)
+
+
+def _hand_over(path: str, data: bytes, types: Any, sink: Sink) -> None:
+    """Hand a message to the sink as the matrix `path`, with its times and velocities beside."""
+    try:
+        message = types.deserialize_cdr(data, JOINT_TRAJECTORY)
+    except MemoryError:
+        raise
+    except Exception as error:
+        raise Damaged(f"'{path}' is no serialized JointTrajectory ({error})") from None
+    names, points = tuple(message.joint_names), message.points
+    shape = (len(points), len(names))
+    for number, point in enumerate(points, 1):
+        if len(point.positions) != len(names):
+            note = f"point {number} has {len(point.positions)} positions for {len(names)} joints"
+            sink.add(path, JOINT_TRAJECTORY, shape, note=note, columns=names)
+            return
+    # bytes in the order of MATLAB's columns
+    positions = np.array([p.positions for p in points], "<f8").reshape(shape)
+    sink.add(path, JOINT_TRAJECTORY, shape, positions.tobytes("F"), "<f8", columns=names)
+    times = np.array([_seconds(p.time_from_start) for p in points], "<f8")
+    sink.add(f"{path}.time_from_start", "double", (len(points), 1), times.tobytes(), "<f8")
+    if points and all(len(p.velocities) == len(names) for p in points):
+        velocities = np.array([p.velocities for p in points], "<f8")
+        sink.add(f"{path}.velocities", "double", shape, velocities.tobytes("F"), "<f8")
+
+
+def _seconds(duration: Any) -> float:
+    return float(duration.sec + duration.nanosec * 1e-9)
+
+
+def _points(trajectory: Trajectory, known: Any) -> Iterator[Any]:
+    point = known["trajectory_msgs/msg/JointTrajectoryPoint"]
+    duration = known["builtin_interfaces/msg/Duration"]
+    nothing = np.empty(0)
+    rows = trajectory.positions
+    if trajectory.gripper is not None:
+        rows = np.column_stack([rows, trajectory.gripper])
+    for frame, row in enumerate(rows):
+        seconds, rest = divmod(round(frame * 1e9 / trajectory.frame_rate), 1_000_000_000)
+        yield point(row, nothing, nothing, nothing, duration(seconds, rest))
+
+
+def serialized(trajectory: Trajectory) -> bytes:
+    """Return the trajectory as the CDR of a JointTrajectory, a point a frame, positions in rad.
+
+    Velocities are left out: a controller then goes straight from frame to frame, as playback
+    does. A gripper is one more joint, 0 open and 1 closed.
+    """
+    types = _types()
+    known = types.types
+    names = [*trajectory.joint_names, *([GRIPPER] if trajectory.gripper is not None else [])]
+    header = known["std_msgs/msg/Header"](known["builtin_interfaces/msg/Time"](0, 0), "")
+    message = known[JOINT_TRAJECTORY](header, names, list(_points(trajectory, known)))
+    return bytes(types.serialize_cdr(message, JOINT_TRAJECTORY))
+
+
+def write_bag(trajectory: Trajectory, path: Path) -> None:
+    """Write an MCAP bag, one file, with the trajectory as its only message."""
+    from rosbags.rosbag2 import StoragePlugin, Writer
+
+    with tempfile.TemporaryDirectory(dir=path.parent, prefix=".writing-") as folder:
+        bag = Path(folder, "bag")
+        with Writer(bag, version=9, storage_plugin=StoragePlugin.MCAP) as writer:
+            connection = writer.add_connection(TOPIC, JOINT_TRAJECTORY, typestore=_types())
+            writer.write(connection, trajectory.created_ns, serialized(trajectory))
+        os.replace(bag / "bag.mcap", path)

@@ -1,0 +1,140 @@
+"""Reads MATLAB's v7.3 workspaces, which are HDF5 files, with h5py.
+
+HDF5 stores MATLAB's axes reversed, so a dataset's own order of bytes is MATLAB's column by
+column. Only what lies in the file itself is followed: no external links, no virtual datasets.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+import h5py
+
+from mrlab_ros.adapters.workspaces.mat5 import (
+    DEEPEST,
+    Damaged,
+    NotAWorkspace,
+    Sink,
+    TooLarge,
+    index,
+)
+
+
+def read_hdf5(file: Any, sink: Sink, limit: int) -> None:
+    """Hand every variable to the sink; `limit` bounds one variable's bytes."""
+    try:
+        with h5py.File(file, "r") as root:
+            reader = _Reader(root, sink, limit)
+            if any("OCTAVE_NEW_FORMAT" in root[name].attrs for name in reader.names(root)):
+                raise NotAWorkspace("an Octave HDF5 file (save it with: save -7 traj.mat q)")
+            for name in reader.names(root):
+                reader.item(root[name], name, 0)
+    except (Damaged, NotAWorkspace, TooLarge, MemoryError):
+        raise
+    except Exception as error:
+        # what damage makes h5py raise goes from OSError to OverflowError, wherever it is met
+        raise Damaged(f"the HDF5 library cannot read it ({error})") from error
+
+
+def _word(value: Any) -> str:
+    return value.decode("utf-8", "replace") if isinstance(value, bytes) else str(value)
+
+
+class _Reader:
+    def __init__(self, root: Any, sink: Sink, limit: int) -> None:
+        self.root = root
+        self.sink = sink
+        self.limit = limit
+
+    def names(self, group: Any) -> list[str]:
+        """Return the names of what lies in this very file, without HDF5's own rooms."""
+        return [
+            name
+            for name in group
+            if not name.startswith("#")
+            and isinstance(group.get(name, getlink=True), h5py.HardLink)
+        ]
+
+    def item(self, item: Any, path: str, depth: int) -> None:
+        if depth > DEEPEST:
+            raise Damaged(f"'{path}' is nested deeper than {DEEPEST} levels")
+        kind = _word(item.attrs.get("MATLAB_class", ""))
+        if "MATLAB_object_decode" in item.attrs and kind != "function_handle":
+            self.sink.add(path, kind or "object", is_object=True, shape=())
+        elif "MATLAB_sparse" in item.attrs:
+            self.sink.add(path, "sparse", (int(item.attrs["MATLAB_sparse"]), 0))
+        elif isinstance(item, h5py.Group):
+            self._struct(item, path, depth)
+        elif kind == "cell":
+            self._cell(item, path, depth)
+        else:
+            self._numbers(item, path, kind)
+
+    def _shape(self, item: Any) -> tuple[int, ...]:
+        if "MATLAB_empty" in item.attrs:
+            return tuple(int(n) for n in item[()].reshape(-1)[:8])
+        shape = tuple(int(n) for n in reversed(item.shape))
+        return shape + (1,) * (2 - len(shape))
+
+    def _struct(self, group: Any, path: str, depth: int) -> None:
+        names = self.names(group)
+        arrays = [n for n in names if self._is_references(group[n])]
+        if not arrays:
+            self.sink.add(path, "struct", (1, 1))
+            for name in names:
+                self.item(group[name], f"{path}.{name}", depth + 1)
+            return
+        shape = self._shape(group[arrays[0]])
+        self.sink.add(path, "struct", shape)
+        columns = {name: group[name][()].reshape(-1) for name in arrays}
+        for number in range(min(len(c) for c in columns.values())):
+            for name, column in columns.items():
+                part = f"{path}({index(shape, number)}).{name}"
+                self._follow(column[number], part, depth)
+
+    def _is_references(self, item: Any) -> bool:
+        """Say whether `item` is one field of a struct array: references and no class."""
+        return (
+            isinstance(item, h5py.Dataset)
+            and h5py.check_ref_dtype(item.dtype) is h5py.Reference
+            and "MATLAB_class" not in item.attrs
+        )
+
+    def _cell(self, item: Any, path: str, depth: int) -> None:
+        shape = self._shape(item)
+        self.sink.add(path, "cell", shape)
+        if "MATLAB_empty" in item.attrs:
+            return
+        self._bounded(item, path)
+        for number, reference in enumerate(item[()].reshape(-1)):
+            self._follow(reference, f"{path}{{{index(shape, number)}}}", depth)
+
+    def _follow(self, reference: Any, path: str, depth: int) -> None:
+        if not reference:
+            raise Damaged(f"'{path}' points nowhere")
+        self.item(self.root[reference], path, depth + 1)
+
+    def _bounded(self, item: Any, path: str) -> None:
+        if item.is_virtual or item.external:
+            raise Damaged(f"'{path}' takes its values from another file; that is not followed")
+        if item.nbytes > self.limit:
+            raise TooLarge(
+                f"'{path}' holds {item.nbytes / 2**20:.0f} MiB, the limit is "
+                f"{self.limit / 2**20:.0f} MiB"
+            )
+
+    def _numbers(self, item: Any, path: str, kind: str) -> None:
+        shape = self._shape(item)
+        if item.dtype.names:
+            self.sink.add(path, kind or "double", shape, note="complex")
+            return
+        kind = kind or {"f": "double", "i": "int64", "u": "uint64"}.get(item.dtype.kind, "unknown")
+        if kind not in ("double", "single") or item.dtype.kind not in "fiu":
+            self.sink.add(path, kind, shape)
+            return
+        if "MATLAB_empty" in item.attrs:
+            self.sink.add(path, kind, shape)
+            return
+        self._bounded(item, path)
+        values = item[()]
+        self.sink.add(path, kind, shape, memoryview(values).cast("B"), values.dtype.str)

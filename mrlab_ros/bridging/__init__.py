@@ -1,1 +1,0 @@
-"""The parts of the bridge node: what goes out, what comes in, services, the crossing between."""

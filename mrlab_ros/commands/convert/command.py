@@ -1,0 +1,62 @@
+"""`mrlab convert`: workspace files to trajectories, without a running lab."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from mrlab_ros.core.conversion.options import Options
+
+
+def convert(
+    robot: Annotated[str, typer.Option(help="Robot that the trajectory is for, such as ur5e.")],
+    files: Annotated[
+        list[Path] | None, typer.Argument(help="Workspace files, bags, or folders of them.")
+    ] = None,
+    topic: Annotated[
+        str, typer.Option(help="Take the next JointTrajectory of this topic instead of a file.")
+    ] = "",
+    timeout: Annotated[float, typer.Option(help="How long to wait for the topic, s.")] = 10.0,
+    variable: Annotated[str, typer.Option(help="The matrix to take, as MATLAB writes it.")] = "",
+    columns: Annotated[str, typer.Option(help="Columns that hold the joints: 2:7.")] = "",
+    transpose: Annotated[bool, typer.Option("--transpose", help="Samples are columns.")] = False,
+    degrees: Annotated[bool, typer.Option("--degrees", help="Values are degrees.")] = False,
+    unwrap: Annotated[bool, typer.Option("--unwrap", help="Remove jumps of 2*pi.")] = False,
+    rate: Annotated[float, typer.Option(help="Frames a second; 0: the file's, or 100.")] = 0.0,
+    end_effector: Annotated[str, typer.Option(help="End effector; empty: none.")] = "",
+    out: Annotated[Path | None, typer.Option(help="Folder for what is written.")] = None,
+    to: Annotated[str, typer.Option(help="json, csv, mat, npz or jointtrajectory.")] = "json",
+    plot: Annotated[
+        Path | None, typer.Option(help="Write plots: a .png or .svg, or a folder.")
+    ] = None,
+    as_json: Annotated[bool, typer.Option("--json", help="One JSON object a file.")] = False,
+    memory: Annotated[int, typer.Option(help="Memory limit for reading a file, MiB.")] = 1024,
+    time_limit: Annotated[float, typer.Option(help="Time limit for reading a file, s.")] = 20.0,
+) -> None:
+    """Find the trajectory in a workspace, table or bag, check it against a robot, write it out.
+
+    Ends with 0 when every file was accepted, 2 when you must choose, 1 when one was rejected.
+    """
+    from mrlab_ros.commands.convert import batch  # scipy and others; not for a mere --help
+
+    request = batch.Request(
+        files=files or [],
+        topic=topic,
+        timeout=timeout,
+        robot=robot,
+        options=Options(variable, columns, transpose, degrees, unwrap, rate),
+        end_effector=end_effector,
+        out=out,
+        to=to,
+        plot=plot,
+        as_json=as_json,
+        memory=memory,
+        time_limit=time_limit,
+    )
+    raise typer.Exit(batch.run(request))
+
+
+if __name__ == "__main__":
+    typer.run(convert)

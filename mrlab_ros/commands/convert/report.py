@@ -1,0 +1,110 @@
+"""How `mrlab convert` tells what became of a file: as text with colours, or as JSON."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+from rich.console import Console
+from rich.table import Table
+
+from mrlab_ros.core.conversion.candidates import SPARK_WIDTH
+from mrlab_ros.core.conversion.convert import ConversionResult, Outcome
+from mrlab_ros.core.diagnostics import Severity
+
+COLOURS = {Severity.INFO: "dim", Severity.WARNING: "yellow", Severity.ERROR: "bold red"}
+OUTCOME_COLOURS = {Outcome.ACCEPTED: "green", Outcome.REJECTED: "red", Outcome.AMBIGUOUS: "yellow"}
+
+
+def record(given: str, result: ConversionResult, written: Path | None) -> dict[str, Any]:
+    """Return what --json prints for a file."""
+    t = result.trajectory
+    gripper = t is not None and t.gripper is not None
+    return {
+        "file": given,
+        "outcome": result.outcome.name.lower(),
+        "variable": t.source.variable if t else None,
+        "shape": [t.frame_count, len(t.joint_names) + gripper] if t else None,
+        "has_gripper": gripper if t else None,
+        "frame_rate": t.frame_rate if t else None,
+        "candidates": [
+            {
+                "variable": c.path,
+                "shape": list(c.variable.shape),
+                "score": c.score,
+                "why": c.why,
+                "minimum": c.minimum,
+                "maximum": c.maximum,
+                "sparkline": c.sparkline(),
+            }
+            for c in result.candidates
+        ],
+        "diagnostics": [
+            {
+                "code": d.code,
+                "severity": d.severity.name.lower(),
+                "message": d.message,
+                "remedy": d.remedy,
+                "variable": d.variable,
+                "where": d.where,
+            }
+            for d in result.diagnostics
+        ],
+        "message": result.message,
+        "trajectory": str(written) if written else None,
+    }
+
+
+def show(result: ConversionResult, written: Path | None) -> None:
+    """Print what became of a file, every finding, and what there is to choose from."""
+    console = Console()
+    console.print(result.outcome.name.lower(), style=OUTCOME_COLOURS[result.outcome], end="  ")
+    console.print(
+        result.message if result.trajectory else result.file, markup=False, highlight=False
+    )
+    for d in result.diagnostics:
+        label = f"  {d.severity.name.lower()} {d.code}: "
+        console.print(label + d.message, style=COLOURS[d.severity], markup=False, highlight=False)
+        if d.remedy:
+            console.print(f"      {d.remedy}", markup=False, highlight=False)
+    if result.candidates:
+        console.print(_choices(result))
+    if written:
+        console.print(f"  written to {written}", markup=False, highlight=False)
+
+
+def _choices(result: ConversionResult) -> Table:
+    table = Table("--variable", "size", "from", "to", box=None)
+    table.add_column("course", no_wrap=True, min_width=SPARK_WIDTH)
+    table.add_column("score")
+    table.add_column("why")
+    for c in result.candidates:
+        table.add_row(
+            c.path,
+            c.variable.size,
+            f"{c.minimum:.3g}",
+            f"{c.maximum:.3g}",
+            c.sparkline(),
+            f"{c.score:.2f}",
+            c.why,
+        )
+    return table
+
+
+def summarise(results: list[ConversionResult]) -> None:
+    """Print a table with a line a file."""
+    console = Console()
+    table = Table("file", "outcome", "variable", "frames", "Hz", "finding", box=None)
+    for r in results:
+        t = r.trajectory
+        codes = ", ".join(dict.fromkeys(d.code for d in r.diagnostics if d.severity > 0))
+        table.add_row(
+            r.file,
+            r.outcome.name.lower(),
+            t.source.variable if t else "",
+            str(t.frame_count) if t else "",
+            f"{t.frame_rate:g}" if t else "",
+            codes,
+        )
+    console.print()
+    console.print(table)

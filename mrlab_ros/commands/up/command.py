@@ -1,0 +1,224 @@
+"""`mrlab up`: the lab's processes under the supervisor, until Ctrl-C."""
+
+from __future__ import annotations
+
+import os
+import signal
+import tempfile
+import threading
+import time
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+
+from mrlab_ros.commands.up.keys import (
+    checked_listen,
+    checked_router,
+    follow_keys,
+    keys_changed_at,
+    tell_when_keys_expire,
+)
+from mrlab_ros.core.errors import BadInput
+from mrlab_ros.processes import physics_support
+from mrlab_ros.processes.lab import lab_processes
+from mrlab_ros.processes.readiness import READY_TIMEOUT, wait_until_complete
+from mrlab_ros.processes.run_file import RunFile
+from mrlab_ros.processes.supervisor import SELF, Supervisor
+from mrlab_ros.ros.domain import domain_id
+
+if TYPE_CHECKING:
+    from rich.console import Console
+
+
+COLOURS = {
+    SELF: "bold",
+    "lab": "cyan",
+    "playback": "green",
+    "physics": "yellow",
+    "bridge": "magenta",
+    "recorder": "red",
+}
+# Any of these says that the user has chosen whom the graph can see.
+DISCOVERY = (
+    "ROS_AUTOMATIC_DISCOVERY_RANGE",
+    "ROS_DISCOVERY_SERVER",
+    "ROS_LOCALHOST_ONLY",
+    "ROS_STATIC_PEERS",
+)
+
+
+def up(
+    config: Annotated[
+        Path | None, typer.Option(help="ROS parameter file; the shipped lab.yaml if not given.")
+    ] = None,
+    robots: Annotated[
+        str, typer.Option(help="Robots to begin with, such as ur5e,kuka_kr3_r540.")
+    ] = "",
+    bridge: Annotated[bool, typer.Option(help="Carry the graph over zenoh.")] = True,
+    physics: Annotated[
+        bool | None,
+        typer.Option(
+            "--physics/--no-physics",
+            help="Simulate contacts and grasps; not given: where pybullet is installed.",
+        ),
+    ] = None,
+    keys: Annotated[
+        Path | None,
+        typer.Option(
+            help="Keys folder (mrlab keys init): only its people may connect, with TLS, from "
+            "anywhere."
+        ),
+    ] = None,
+    zenoh_listen: Annotated[
+        str,
+        typer.Option(
+            help="Where the bridge listens for zenoh clients; not given: tcp/127.0.0.1:7447, "
+            "with --keys tls/0.0.0.0:7447."
+        ),
+    ] = "",
+    zenoh_connect: Annotated[
+        str,
+        typer.Option(
+            help="With --keys: a router of your own (mrlab keys router) that lets people in, in "
+            "place of the bridge itself, such as tls/router.example.org:7447."
+        ),
+    ] = "",
+    insecure: Annotated[
+        bool,
+        typer.Option(
+            "--insecure", help="Listen beyond this machine without keys: anybody may do anything."
+        ),
+    ] = False,
+    state_dir: Annotated[
+        Path | None,
+        typer.Option(help="Folder for scene and trajectories; not given: gone with the lab."),
+    ] = None,
+) -> None:
+    """Start the lab and keep it running until Ctrl-C.
+
+    Every line of output says which process it came from. A process that dies is started again.
+    The graph stays on this machine unless ROS_AUTOMATIC_DISCOVERY_RANGE says otherwise, and is
+    on the domain of ROS_DOMAIN_ID.
+    """
+    models = checked_robots(robots)
+    listen = None
+    if bridge and zenoh_connect:
+        listen = checked_router(zenoh_connect, zenoh_listen, keys, insecure)
+    elif bridge:
+        listen = checked_listen(zenoh_listen, keys, insecure)
+    with_physics, no_physics = physics_support.wanted(physics)
+    stay_on_this_machine()
+    domain = domain_id()
+    run_file = RunFile(domain)
+    say = Speaker()
+    with folder_for_state(state_dir) as folder, stop_signals() as stop:
+        specs = lab_processes(
+            config=checked_config(config),
+            robots=models,
+            listen=listen,
+            keys=keys,
+            insecure=insecure,
+            router=bool(zenoh_connect),
+            physics=with_physics,
+            state_dir=folder,
+        )
+        seen = keys_changed_at(keys) if keys is not None and bridge else ()
+        run_file.claim(state_dir=str(folder), zenoh=listen)
+        begin = time.monotonic()
+        try:
+            with Supervisor(specs, say, run_file.write) as supervisor:
+                say(SELF, f"starts the lab on ROS domain {domain}; Ctrl-C stops it")
+                if listen is not None and insecure:
+                    say(SELF, f"--insecure: whoever reaches {listen} sees and moves everything")
+                if keys is not None and bridge:
+                    tell_when_keys_expire(keys, say, router=bool(zenoh_connect))
+                if no_physics:
+                    say(SELF, no_physics)
+                missing = wait_until_complete(stop, len(models), bridge, with_physics)
+                if missing:
+                    say(SELF, f"not complete after {READY_TIMEOUT:g} s: {missing} missing")
+                elif not stop.is_set():
+                    took = time.monotonic() - begin
+                    zenoh = f"; zenoh clients connect to {listen}" if bridge else ""
+                    say(SELF, f"the lab is ready after {took:.1f} s{zenoh}")
+                if keys is None or not bridge or zenoh_connect:
+                    stop.wait()
+                else:
+                    follow_keys(keys, seen, stop, say, lambda: supervisor.restart("bridge"))
+                say(SELF, "stops")
+        finally:
+            run_file.release()
+
+
+class Speaker:
+    """Prints lines with the coloured name of the process that said them."""
+
+    def __init__(self, console: Console | None = None) -> None:
+        from rich.console import Console
+
+        self._console = console or Console()
+
+    def __call__(self, name: str, line: str) -> None:
+        from rich.text import Text
+
+        text = Text.assemble((f"{name:<9}", COLOURS.get(name, "blue")), Text.from_ansi(line))
+        self._console.print(text, soft_wrap=True)
+
+
+def stay_on_this_machine() -> None:
+    """Keep the graph off the network unless the user has chosen otherwise."""
+    if not any(os.environ.get(name) for name in DISCOVERY):
+        os.environ["ROS_AUTOMATIC_DISCOVERY_RANGE"] = "LOCALHOST"
+
+
+def checked_config(config: Path | None) -> Path:
+    """Return the parameter file; raise BadInput where there is none."""
+    if config is None:
+        from mrlab_ros.ros import share
+
+        config = share.directory() / "config" / "lab.yaml"
+    if not config.is_file():
+        raise BadInput(
+            f"there is no parameter file {config}; name one with --config, or leave it out"
+        )
+    return config.resolve()
+
+
+def checked_robots(robots: str) -> tuple[str, ...]:
+    """Return the ids in a list such as 'ur5e,kuka_kr3_r540'; raise BadInput for an unknown one."""
+    models = tuple(model for model in (part.strip() for part in robots.split(",")) if model)
+    if models:
+        from mrlab_ros.adapters.robots.library import RobotLibrary
+        from mrlab_ros.ros import share
+
+        library = RobotLibrary(share.directory() / "robots")
+        for model in models:
+            library.model(model)
+    return models
+
+
+@contextmanager
+def folder_for_state(chosen: Path | None) -> Iterator[Path]:
+    """Make the folder for scene and trajectories; a temporary one goes with the lab."""
+    if chosen is not None:
+        chosen.mkdir(parents=True, exist_ok=True)
+        yield chosen.resolve()
+        return
+    with tempfile.TemporaryDirectory(prefix="mrlab-", ignore_cleanup_errors=True) as made:
+        yield Path(made)
+
+
+@contextmanager
+def stop_signals() -> Iterator[threading.Event]:
+    """Yield an event that Ctrl-C, SIGTERM and a closed terminal set."""
+    stop = threading.Event()
+    numbers = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
+    before = {number: signal.signal(number, lambda *_: stop.set()) for number in numbers}
+    try:
+        yield stop
+    finally:
+        for number, handler in before.items():
+            signal.signal(number, handler)

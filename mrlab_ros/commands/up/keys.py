@@ -1,0 +1,100 @@
+"""What `mrlab up` does about keys: where the bridge may listen, and following their changes."""
+
+from __future__ import annotations
+
+import threading
+from collections.abc import Callable
+from pathlib import Path
+
+from mrlab_ros.core.errors import BadInput
+from mrlab_ros.processes.supervisor import SELF
+
+LISTEN = "tcp/127.0.0.1:7447"
+# How often a lab looks whether its keys have changed, s.
+KEYS_PERIOD = 1.0
+# A lab whose certificate expires earlier says so when it starts, days.
+EXPIRES_SOON = 30
+
+
+def checked_listen(chosen: str, keys: Path | None, insecure: bool) -> str:
+    """Return where the bridge listens; raise BadInput where it may not, or keys are unusable."""
+    from mrlab_ros.adapters.keys.folder import EVERYWHERE, Keys, now
+    from mrlab_ros.core.bridge.links import check_endpoints
+
+    if insecure and keys is not None:
+        raise BadInput("--keys and --insecure exclude each other; leave one of them out")
+    listen = chosen or (LISTEN if keys is None else EVERYWHERE[0])
+    check_endpoints((listen,), insecure, keys is not None)
+    if keys is not None:
+        Keys(keys).check(now())
+    return listen
+
+
+def checked_router(router: str, listen: str, keys: Path | None, insecure: bool) -> str:
+    """Return the router to connect to; raise BadInput where the lab may not, or has no key."""
+    from mrlab_ros.adapters.keys.folder import Keys, now
+    from mrlab_ros.core.bridge.links import check_router
+
+    if keys is None or listen or insecure:
+        raise BadInput(
+            f"--zenoh-connect {router} is for a lab with keys, which its people reach at that "
+            "router alone; give --keys FOLDER, and leave --zenoh-listen and --insecure out"
+        )
+    check_router("client", (), (router,))
+    folder = Keys(keys)
+    folder.check(now())
+    folder.lab_settings(now())
+    return router
+
+
+def tell_when_keys_expire(
+    folder: Path, say: Callable[[str, str], None], *, router: bool = False
+) -> None:
+    """Say so where the lab's certificate expires soon: nobody could connect from then on."""
+    from mrlab_ros.adapters.keys.folder import Keys, now
+
+    left = (Keys(folder).server_expires(router=router) - now()).days
+    then = f", then mrlab keys router --dir {folder}" if router else ""
+    if left < EXPIRES_SOON:
+        say(
+            SELF,
+            f"the lab's certificate expires in {left} days; make a new one with: mrlab keys renew "
+            f"--dir {folder}{then}",
+        )
+
+
+def keys_changed_at(folder: Path) -> tuple[int, ...]:
+    """Return a mark that is another one whenever the keys have changed."""
+    from mrlab_ros.adapters.keys.folder import Keys
+
+    return Keys(folder).changed_at()
+
+
+def follow_keys(
+    folder: Path,
+    seen: tuple[int, ...],
+    stop: threading.Event,
+    say: Callable[[str, str], None],
+    restart: Callable[[], None],
+) -> None:
+    """Restart the bridge whenever the keys change, until `stop`: it reads them at its start.
+
+    seen: the mark of the keys that the bridge has.
+    """
+    from mrlab_ros.adapters.keys.folder import Keys, now
+
+    told = ""
+    while not stop.wait(KEYS_PERIOD):
+        try:
+            keys = Keys(folder)
+            changed = keys.changed_at()
+            if changed != seen:
+                keys.check(now())
+                say(SELF, "the keys have changed; the bridge starts again with them")
+                restart()
+                seen = changed
+                told = ""
+        except BadInput as error:
+            if str(error) != told:
+                told = str(error)
+                say(SELF, f"the keys have changed and cannot be used: {told}")

@@ -1,0 +1,1 @@
+"""From the variables of a file to a checked trajectory."""

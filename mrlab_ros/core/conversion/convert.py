@@ -1,0 +1,232 @@
+"""The converter's one use case: a file from outside becomes a checked trajectory."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from enum import Enum
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mrlab_ros.core.conversion import (
+    discovery,
+    frame_rate,
+    limits,
+    resampling,
+)
+from mrlab_ros.core.conversion.candidates import Candidate
+from mrlab_ros.core.conversion.explain import bad_message
+from mrlab_ros.core.conversion.layout import Layout, lay_out, reshaped
+from mrlab_ros.core.conversion.options import Options
+from mrlab_ros.core.conversion.variable_names import Hint, hint
+from mrlab_ros.core.conversion.workspace import Variable, Workspace
+from mrlab_ros.core.diagnostics import Diagnostic, Refused, Severity, finding
+from mrlab_ros.core.errors import BadInput
+from mrlab_ros.core.robots.model import RobotModel
+from mrlab_ros.core.trajectory import channels
+from mrlab_ros.core.trajectory.channels import ProxyCoefficients
+from mrlab_ros.core.trajectory.trajectory import Source, Trajectory
+
+DEFAULT_FRAME_RATE = 100.0  # Hz
+MOST_FRAMES = 2_000_000  # of a message that is sampled: five hours and a half at 100 Hz
+ID = re.compile(r"[A-Za-z0-9][A-Za-z0-9._-]{0,127}$")
+
+
+class Outcome(Enum):
+    """How a conversion ended; the values are those of mrlab_msgs/ConvertTrajectory."""
+
+    REJECTED = 0
+    ACCEPTED = 1
+    AMBIGUOUS = 2
+
+
+@dataclass(frozen=True, eq=False)
+class ConversionResult:
+    """What became of a file; diagnostics worst first, candidates where a choice is needed."""
+
+    file: str
+    outcome: Outcome
+    trajectory: Trajectory | None
+    candidates: tuple[Candidate, ...]
+    diagnostics: tuple[Diagnostic, ...]
+
+    @property
+    def message(self) -> str:
+        """Return one sentence for a person."""
+        if self.trajectory is not None:
+            t, warned = self.trajectory, len(self.trajectory.warnings)
+            return (
+                f"'{t.source.variable}' of '{self.file}' was taken: {t.frame_count} frames at "
+                f"{t.frame_rate:g} Hz, {t.duration:.2f} s"
+                + (f", with {limits.counted(warned, 'warning')}" if warned else "")
+            )
+        worst = self.diagnostics[0]
+        return f"{worst.message} {worst.remedy}".strip()
+
+
+def id_from(file: str) -> str:
+    """Return a name for the catalogue from a file's name: its letters, digits, '.', '_', '-'."""
+    stem = re.sub(r"(\.(mat|csv|txt|tsv|npz|json|mcap|gz|db3|cdr))+$", "", file, flags=re.I)
+    cleaned = re.sub(r"[^A-Za-z0-9._-]+", "_", stem).strip("._-")[:128]
+    return cleaned or "trajectory"
+
+
+def convert(
+    file: str,
+    read: Callable[[], Workspace],
+    options: Options,
+    robot: RobotModel,
+    coefficients: ProxyCoefficients,
+    *,
+    end_effector: str | None = None,
+    trajectory_id: str = "",
+    created_ns: int = 0,
+    default_frame_rate: float = DEFAULT_FRAME_RATE,
+) -> ConversionResult:
+    """Convert what `read` returns, a file called `file`; a refusal is a result, not an exception.
+
+    read: returns the file's variables or raises Refused, as WorkspaceReader.read_file does.
+    trajectory_id: name in the catalogue, empty: from the file's name; raises BadInput where it
+    cannot be a name. default_frame_rate: Hz, where neither the options nor the file have one.
+    """
+    trajectory_id = trajectory_id or id_from(file)
+    if not ID.match(trajectory_id):
+        raise BadInput(
+            f"the name '{trajectory_id}' cannot be used; expected letters, digits, '.', '_' and "
+            "'-', at most 128, beginning with a letter or digit"
+        )
+    notes: list[Diagnostic] = []
+    offered: list[Candidate] = []
+    try:
+        options.checked_rate()
+        workspace = read()
+        variable, offered, found = _find(workspace, options, robot, file)
+        notes += found
+        if variable is None:
+            outcome = Outcome.AMBIGUOUS if offered else Outcome.REJECTED
+            return ConversionResult(file, outcome, None, tuple(offered), _worst_first(notes))
+        source = Source(file, variable.path, workspace.sha256)
+        layout = lay_out(variable, options, robot, notes)
+        layout, rate = _at_a_rate(
+            workspace, variable, layout, options, default_frame_rate, file, notes
+        )
+        arm = layout.arm
+        notes += limits.against_robot(arm, rate, robot.joints, variable.path, robot.id)
+        if any(n.severity is Severity.ERROR for n in notes):
+            return ConversionResult(file, Outcome.REJECTED, None, (), _worst_first(notes))
+        trajectory = Trajectory(
+            id=trajectory_id,
+            robot_model=robot.id,
+            end_effector=end_effector or None,
+            joint_names=robot.joint_names,
+            frame_rate=rate,
+            positions=arm,
+            gripper=layout.gripper,
+            channels=channels.derive(arm, rate, coefficients),
+            source=source,
+            created_ns=created_ns,
+            warnings=_worst_first([n for n in notes if n.severity is Severity.WARNING]),
+        )
+    except Refused as refused:
+        notes.append(refused.finding)
+        return ConversionResult(file, Outcome.REJECTED, None, (), _worst_first(notes))
+    return ConversionResult(file, Outcome.ACCEPTED, trajectory, (), _worst_first(notes))
+
+
+def _worst_first(notes: list[Diagnostic]) -> tuple[Diagnostic, ...]:
+    return tuple(sorted(notes, key=lambda n: -n.severity))
+
+
+def _find(
+    workspace: Workspace, options: Options, robot: RobotModel, file: str
+) -> tuple[Variable | None, list[Candidate], list[Diagnostic]]:
+    """Return the variable to convert, or what there is to choose from, with the findings."""
+    if options.variable:
+        variable = discovery.named(workspace, options.variable, file)
+        said = hint(variable.path)
+        if said in (Hint.AGAINST, Hint.DOUBTFUL) and not variable.is_message:
+            return variable, [], [finding("doubtful_name", variable=variable.path, why=said.value)]
+        return variable, [], []
+    laid_out = reshaped(workspace, options)
+    ranked = discovery.candidates(laid_out, robot)
+    choice, offered, notes = discovery.choose(laid_out, robot, file, ranked)
+    return workspace.find(choice.path) if choice else None, offered, notes
+
+
+def _at_a_rate(
+    workspace: Workspace,
+    variable: Variable,
+    layout: Layout,
+    options: Options,
+    default: float,
+    file: str,
+    notes: list[Diagnostic],
+) -> tuple[Layout, float]:
+    """Return the samples as frames at an even rate, and that rate, Hz."""
+    if variable.is_message:
+        return _resampled(workspace, variable, layout, options, default, notes)
+    if options.frame_rate:
+        return layout, options.frame_rate
+    found = frame_rate.frame_rates(workspace, variable.path, len(layout.arm))
+    if layout.times is not None:
+        column = frame_rate.rate_of_times(layout.times, f"{variable.path}(:, 1)")
+        found = ([column] if column else []) + found
+    rate, said = frame_rate.agreed(found, default, file)
+    notes += said
+    return layout, rate
+
+
+def _resampled(
+    workspace: Workspace,
+    variable: Variable,
+    layout: Layout,
+    options: Options,
+    default: float,
+    notes: list[Diagnostic],
+) -> tuple[Layout, float]:
+    """Return the points of a message as frames.
+
+    The rate is the one asked for; else that of the points, where they come evenly and as often
+    as the default or more, so that none is lost; else the default.
+    """
+    times = _part(workspace, variable, "time_from_start")
+    assert times is not None
+    times_ns = np.rint(times.reshape(-1).astype(np.float64) * 1e9).astype(np.int64)
+    late = np.flatnonzero(np.diff(times_ns) <= 0)
+    if len(late):
+        point = int(late[0]) + 2
+        note = f"point {point} ({times_ns[point - 1] * 1e-9:g} s) is not after the one before it"
+        raise Refused(bad_message(variable, note))
+    velocities = _part(workspace, variable, "velocities")
+    if velocities is not None:
+        velocities = velocities[:, layout.source_columns].astype(np.float64)
+        bad = limits.non_finite(velocities, f"{variable.path}.velocities")
+        if bad is not None:
+            raise Refused(bad)
+        if options.degrees:
+            velocities = np.radians(velocities)
+    own = resampling.even_rate(times_ns) or 0.0
+    kept = own if default <= own <= frame_rate.RATE_RANGE[1] else default
+    rate = options.frame_rate or kept
+    frames = resampling.frame_count(times_ns, rate)
+    duration = float(times_ns[-1] - times_ns[0]) * 1e-9
+    words: dict[str, Any] = {"duration": duration, "rate": rate}
+    if frames > MOST_FRAMES:
+        words |= {"most": MOST_FRAMES}
+        raise Refused(finding("too_long", variable=variable.path, **words))
+    how = "straight lines" if velocities is None else "cubic splines through their velocities"
+    words |= {"points": len(times_ns), "frames": frames, "how": how}
+    notes.append(finding("resampled", variable=variable.path, **words))
+    arm = resampling.resample(times_ns, layout.arm, velocities, rate)
+    gripper = layout.gripper
+    if gripper is not None:
+        gripper = resampling.hold(times_ns, gripper, rate)
+    return replace(layout, arm=arm, gripper=gripper), rate
+
+
+def _part(workspace: Workspace, message: Variable, name: str) -> NDArray[Any] | None:
+    found = workspace.find(f"{message.path}.{name}")
+    return found.values if found else None

@@ -1,0 +1,46 @@
+"""Names of robots, systems and objects: what they may look like and which are reserved."""
+
+from __future__ import annotations
+
+import re
+
+from mrlab_ros.core.errors import BadInput
+
+NAME = re.compile(r"[a-z][a-z0-9_]{0,62}")
+
+
+# Names below which the lab's own topics and services live.
+RESERVED = frozenset(
+    {
+        "bridge",
+        "contacts",
+        "converter",
+        "coordinator",
+        "lab",
+        "objects",
+        "physics",
+        "playback_host",
+        "recorder",
+        "robots",
+        "rosout",
+        "surfaces",
+        "systems",
+        "tf",
+        "tf_static",
+        "trajectories",
+    }
+)
+
+
+def checked_name(name: str, taken: frozenset[str], what: str) -> str:
+    """Return `name` where it can be a namespace and is free; raise BadInput otherwise."""
+    if not NAME.fullmatch(name) or name.endswith("_") or "__" in name:
+        raise BadInput(
+            f"'{name}' cannot name a {what}; expected lower-case letters, digits and single "
+            "underscores, beginning with a letter, such as ur5e_1"
+        )
+    if name in RESERVED:
+        raise BadInput(f"'{name}' is a name of the lab's own; choose another, such as {name}_1")
+    if name in taken:
+        raise BadInput(f"the name '{name}' is taken; choose another or leave it empty")
+    return name

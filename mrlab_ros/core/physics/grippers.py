@@ -1,0 +1,184 @@
+"""What the grippers do: take hold, hand over, let go, and carry."""
+
+from __future__ import annotations
+
+from mrlab_ros.core.clock import SECOND
+from mrlab_ros.core.errors import Misuse
+from mrlab_ros.core.geometry import (
+    Pose,
+    add,
+    compose,
+    cross,
+    relative,
+    subtract,
+)
+from mrlab_ros.core.physics.engine import BodyState, Kind
+from mrlab_ros.core.physics.events import GraspChanged
+from mrlab_ros.core.physics.grasp import Grasp, GraspEvent, Gripper
+from mrlab_ros.core.physics.simulated_robot import COMMANDING, Robot
+from mrlab_ros.core.physics.world_state import SceneObject, Stage
+
+
+class Hands:
+    """The grippers of all robots on the stage."""
+
+    def __init__(self, stage: Stage) -> None:
+        self._stage = stage
+        self._engine = stage.engine
+
+    # by hand --------------------------------------------------------------------------------
+
+    def attach(self, name: str, object_name: str) -> None:
+        """Fix an object to a robot's hand where it is, by hand."""
+        robot, thing = self._stage.robot(name), self._stage.object(object_name)
+        if not thing.graspable:
+            raise Misuse(f"'{object_name}' is fixed to the room; choose an object that moves")
+        if robot.held:
+            raise Misuse(f"'{name}' holds '{robot.held}' already; detach that first")
+        if robot.placed is None:
+            raise Misuse(f"'{name}' has not moved yet; wait for its first joint state")
+        self._seize(robot, thing)
+
+    def detach(self, name: str) -> str:
+        """Let a robot lose what it holds, by hand; return the object's name."""
+        robot = self._stage.robot(name)
+        if not robot.held:
+            raise Misuse(f"'{name}' holds nothing; there is nothing to detach")
+        held = robot.held
+        self.lose(robot)
+        return held
+
+    # holding --------------------------------------------------------------------------------
+
+    def _seize(self, robot: Robot, thing: SceneObject) -> None:
+        self.take_away(thing)
+        hand = self._stage.hand(robot).pose
+        robot.in_hand = relative(hand, self._engine.object(thing.name).pose)
+        self._engine.hold(robot.name, robot.arm.hand, thing.name)
+        robot.held, thing.held_by, thing.hand = thing.name, robot.name, None
+        robot.held_since_ns = self._stage.now_ns
+        robot.lost = ""
+        robot.fire(GraspEvent.SEIZED)
+        self._engine.drive_fingers(robot.name, robot.finger_velocities())
+        self.tell(robot)
+
+    def let_go(self, robot: Robot) -> None:
+        """Undo the hold; the object flies on with the hand's velocity."""
+        if not robot.held:
+            return
+        thing = self._stage.objects[robot.held]
+        self._engine.release(thing.name)
+        hand = self._stage.hand(robot)
+        pose = self._engine.object(thing.name).pose
+        arm = subtract(pose.position, hand.pose.position)
+        linear = add(hand.linear, cross(hand.angular, arm))
+        self._engine.set_object(thing.name, BodyState(pose, linear, hand.angular))
+        thing.held_by, robot.held, robot.in_hand = "", "", None
+
+    def lose(self, robot: Robot) -> None:
+        """Let a robot lose what it holds, without its gripper opening."""
+        robot.lost = robot.held
+        self.let_go(robot)
+        robot.fire(GraspEvent.LOST)
+        self.tell(robot)
+
+    def take_away(self, thing: SceneObject) -> None:
+        """Take an object from whoever holds it."""
+        if thing.held_by in self._stage.robots:
+            self.lose(self._stage.robots[thing.held_by])
+        thing.held_by, thing.hand = "", None
+
+    def carry(self, robot: Robot) -> None:
+        """Put what the hand holds where the hand was put."""
+        if robot.held and robot.in_hand is not None:
+            hand = self._stage.hand(robot).pose
+            self._engine.set_object(robot.held, BodyState(compose(hand, robot.in_hand)))
+
+    def put_in_hand(self, robot: Robot, thing: SceneObject, in_hand: Pose) -> None:
+        """Let a robot hold an object at `in_hand`, the object's pose in the hand's frame."""
+        hand = self._stage.hand(robot).pose
+        self._engine.set_object(thing.name, BodyState(compose(hand, in_hand)))
+        if robot.held != thing.name:
+            self._seize(robot, thing)
+
+    def tell(self, robot: Robot) -> None:
+        """Tell what a gripper does now."""
+        states = self._engine.fingers(robot.name)
+        self._stage.events.append(
+            GraspChanged(
+                self._stage.now_ns,
+                robot.name,
+                robot.grasp,
+                robot.held,
+                tuple(state.position for state in states),
+                tuple(state.force for state in states),
+            )
+        )
+
+    # along the trajectory -------------------------------------------------------------------
+
+    def follow(self, robot: Robot, now_ns: int) -> None:
+        """Open or close the gripper as the trajectory says, and see what it reached."""
+        if robot.program.times and robot.playing.state in COMMANDING and robot.pending is None:
+            position = robot.playing.position(robot.stream.shown_ns(now_ns))
+            closed = robot.program.closed_at(position)
+            if closed is not None and closed != robot.closed:
+                self._set_closed(robot, closed, now_ns)
+        if robot.closed and not robot.held:
+            self._watch(robot, now_ns)
+
+    def _set_closed(self, robot: Robot, closed: bool, now_ns: int) -> None:
+        robot.closed = closed
+        robot.closing_since_ns = now_ns
+        robot.lost = ""
+        robot.watch.reset()
+        if not closed:
+            self.let_go(robot)
+        changed = robot.fire(GraspEvent.CLOSE if closed else GraspEvent.OPEN)
+        self._engine.drive_fingers(robot.name, robot.finger_velocities())
+        if changed:
+            self.tell(robot)
+
+    def _watch(self, robot: Robot, now_ns: int) -> None:
+        reached: str | None = None
+        shut = False
+        if robot.gripper is Gripper.VACUUM:
+            reached = self._sucked(robot)
+            waited = (now_ns - robot.closing_since_ns) / SECOND
+            shut = waited > self._stage.settings.grasp_timeout
+        elif robot.gripper is Gripper.FINGERS and robot.grasp is Grasp.CLOSING:
+            states = self._engine.fingers(robot.name)
+            stalled = robot.watch.look(now_ns, states, robot.touches)
+            if stalled:
+                reached = robot.watch.pinched(now_ns)
+            timeout = robot.watch.all_stalled_for(now_ns) > self._stage.settings.grasp_timeout
+            shut = timeout or (bool(stalled) and robot.watch.shut(states))
+        thing = self._stage.objects.get(reached) if reached is not None else None
+        if thing is not None and thing.graspable and self._may_take(robot, thing):
+            self._seize(robot, thing)
+        elif shut and robot.grasp is Grasp.CLOSING:
+            robot.fire(GraspEvent.SHUT)
+            self.tell(robot)
+
+    def _may_take(self, robot: Robot, thing: SceneObject) -> bool:
+        """Return whether a closed gripper may have an object: of two that close on it together
+        the first keeps it, and who takes it over closes later."""
+        holder = self._stage.robots.get(thing.held_by)
+        return holder is None or robot.closing_since_ns >= holder.held_since_ns
+
+    def _sucked(self, robot: Robot) -> str | None:
+        """Return the first object, by name, that the cup touches.
+
+        What was taken from it is not sucked on again before the trajectory says so, or two cups
+        on one object would take it from each other at every step.
+        """
+        objects = self._stage.objects
+        reached = (
+            touch.other
+            for touch in robot.touches
+            if touch.kind is Kind.OBJECT
+            and touch.link in robot.arm.tool_links
+            and touch.other != robot.lost
+            and touch.other in objects
+        )
+        return min((name for name in reached if objects[name].graspable), default=None)

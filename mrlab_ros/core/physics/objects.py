@@ -1,0 +1,141 @@
+"""The objects of the scene: how they come, where they are put, and when they go."""
+
+from __future__ import annotations
+
+import itertools
+import math
+
+from mrlab_ros.core.errors import Misuse
+from mrlab_ros.core.geometry import Pose, Vector, add, checked_vector
+from mrlab_ros.core.naming import checked_name
+from mrlab_ros.core.physics.catalogue import Catalogue, ObjectType
+from mrlab_ros.core.physics.engine import BodyState
+from mrlab_ros.core.physics.events import ObjectRemoved
+from mrlab_ros.core.physics.grippers import Hands
+from mrlab_ros.core.physics.world_state import HAND, SceneObject, Stage
+
+# An object so far away, m, or so far below the floor is lost.
+WORLD_SIZE = 100.0
+WORLD_DEPTH = 10.0
+# Thrown faster than this, m/s, nothing was thrown by hand.
+MAX_THROW = 30.0
+MAX_SPIN = 100.0  # rad/s
+SPAWN_GAP = 0.0005
+# How far from the wanted place a free one is looked for, rings.
+SPAWN_RINGS = 12
+
+
+class Inventory:
+    """Puts objects on the stage and takes them from it."""
+
+    def __init__(self, stage: Stage, catalogue: Catalogue, hands: Hands) -> None:
+        self._stage = stage
+        self._engine = stage.engine
+        self._objects = stage.objects
+        self._catalogue = catalogue
+        self._hands = hands
+
+    def spawn(self, type_id: str, name: str, pose: Pose | None, *, automatic: bool) -> SceneObject:
+        """Put an object at `pose`, or with `automatic` on the nearest surface below it."""
+        kind = self._catalogue.get(type_id)
+        pose = Pose() if pose is None else pose
+        checked_vector(pose.position, "the position", WORLD_SIZE)
+        taken = frozenset(self._objects) | frozenset(self._stage.robots)
+        if not name:
+            name = next(n for i in itertools.count(1) if (n := f"{type_id}_{i}") not in taken)
+        checked_name(name, taken, "object")
+        if automatic:
+            pose = self._free_place(kind, pose)
+        self._make_room()
+        self._engine.add_object(name, kind.body, BodyState(pose))
+        self._objects[name] = SceneObject(name, kind)
+        return self._objects[name]
+
+    def _make_room(self) -> None:
+        most = self._stage.settings.max_objects
+        if len(self._objects) < most:
+            return
+        oldest = next((o for o in self._objects.values() if not o.held_by), None)
+        if oldest is None:
+            raise Misuse(
+                f"all {len(self._objects)} objects are held; let one go or remove one first"
+            )
+        self.remove(oldest.name)
+        self._announce(oldest, f"the oldest of {most} objects made room for a new one")
+
+    def _free_place(self, kind: ObjectType, wanted: Pose) -> Pose:
+        x, y, z = wanted.position
+        height = self._engine.below((x, y, z + 0.05))
+        if height is None:
+            raise Misuse(f"there is no surface below {wanted.position}; give a pose above one")
+        pitch = 1.2 * max(kind.size[0], kind.size[1], 0.05)
+        for ring in range(SPAWN_RINGS):
+            for i in range(max(6 * ring, 1)):
+                turn = 2 * math.pi * i / max(6 * ring, 1)
+                at = (
+                    x + ring * pitch * math.cos(turn),
+                    y + ring * pitch * math.sin(turn),
+                )
+                place = (at[0], at[1], height - kind.low[2] + SPAWN_GAP)
+                found = self._engine.below((at[0], at[1], z + 0.05))
+                if found is None or abs(found - height) > 0.005:
+                    continue
+                low, high = add(place, kind.low), add(place, kind.high)
+                # The engine's boxes are a little larger than what they hold.
+                low = (low[0], low[1], low[2] + min(0.03, kind.size[2] / 2))
+                if not self._engine.overlapping(low, high):
+                    return Pose(place, wanted.orientation)
+        raise Misuse(
+            f"no free place for a {kind.id} within {SPAWN_RINGS * pitch:.2g} m; move or "
+            "remove something"
+        )
+
+    def move(self, name: str, pose: Pose, linear: Vector, angular: Vector, *, held: bool) -> None:
+        """Move an object by hand: kinematic while `held`, else let go there with its velocity."""
+        thing = self._stage.object(name)
+        checked_vector(pose.position, "the position", WORLD_SIZE)
+        checked_vector(linear, "the velocity", MAX_THROW)
+        checked_vector(angular, "the angular velocity", MAX_SPIN)
+        self._hands.take_away(thing)
+        motion = BodyState(pose, linear, angular)
+        self._engine.set_object(name, BodyState(pose) if held or not thing.type.mass else motion)
+        thing.held_by = HAND if held else ""
+        thing.hand = BodyState(pose) if held else None
+
+    def keep_in_hand(self) -> None:
+        """Put what a person holds back where it is held."""
+        for thing in self._objects.values():
+            if thing.hand is not None:
+                self._engine.set_object(thing.name, thing.hand)
+
+    def remove(self, name: str) -> None:
+        thing = self._stage.object(name)
+        self._hands.take_away(thing)
+        self._engine.remove_object(name)
+        del self._objects[name]
+
+    def clear(self) -> int:
+        """Remove all objects; return how many there were."""
+        count = len(self._objects)
+        for name in list(self._objects):
+            self.remove(name)
+        return count
+
+    def motions(self) -> dict[str, BodyState]:
+        """Return by name where every object is that can move; remove what left the room."""
+        motions = {}
+        for name, thing in list(self._objects.items()):
+            if not thing.type.mass:
+                continue
+            motion = self._engine.object(name)
+            x, y, z = motion.pose.position
+            if abs(x) < WORLD_SIZE and abs(y) < WORLD_SIZE and -WORLD_DEPTH < z < WORLD_SIZE:
+                motions[name] = motion
+            else:
+                self.remove(name)
+                self._announce(thing, "it left the room")
+        return motions
+
+    def _announce(self, thing: SceneObject, why: str) -> None:
+        stage = self._stage
+        stage.events.append(ObjectRemoved(stage.now_ns, thing.name, thing.type.id, why))

@@ -1,0 +1,181 @@
+"""One robot as the world keeps it: its motion, its gripper, its collision, its run."""
+
+from __future__ import annotations
+
+import bisect
+from collections import deque
+from collections.abc import Iterator
+from dataclasses import dataclass, field
+
+from mrlab_ros.core.clock import SECOND, PlaybackClock
+from mrlab_ros.core.geometry import Pose
+from mrlab_ros.core.physics.clearance import Clearance
+from mrlab_ros.core.physics.engine import Arm, Kind, Touch
+from mrlab_ros.core.physics.grasp import Grasp, GraspEvent, Gripper, StallWatch, after
+from mrlab_ros.core.physics.joint_stream import Joints, JointStream
+from mrlab_ros.core.physics.settings import Settings
+from mrlab_ros.core.physics.snapshots import Snapshot, Snapshots
+from mrlab_ros.core.playback.states import State
+
+# In these states the gripper is where the trajectory says; in the others it stays as it is.
+COMMANDING = (State.PLAYING, State.PAUSED, State.COLLISION_HALT)
+MOVING = (State.PLAYING, State.ADJUSTING)
+# The clock of a playback that goes on normally is off by less than this, s.
+SEEK_TOLERANCE = 0.03
+
+
+@dataclass(frozen=True)
+class Playing:
+    """What the world knows of a robot's playback; see mrlab_msgs/PlaybackState.
+
+    stamp_ns: since when it holds.
+    """
+
+    state: State = State.IDLE
+    trajectory_id: str = ""
+    clock: PlaybackClock = field(default_factory=PlaybackClock)
+    frame: int = 0
+    frame_count: int = 0
+    frame_rate: float = 0.0
+    duration: float = 0.0
+    stamp_ns: int = 0
+
+    def position(self, now_ns: int) -> float:
+        """Return the position on the trajectory, s."""
+        return min(max(self.clock.at(now_ns), 0.0), self.duration)
+
+    def frame_at(self, now_ns: int) -> int:
+        """Return the source frame reached."""
+        if self.state is not State.PLAYING:
+            return self.frame
+        frame = int(self.position(now_ns) * self.frame_rate + 1e-6)
+        return min(frame, max(self.frame_count - 1, 0))
+
+    def sought(self, new: Playing) -> bool:
+        """Return whether `new` stands elsewhere than playing on would have led."""
+        if new.trajectory_id != self.trajectory_id or new.state not in COMMANDING:
+            return False
+        expected = self.position(new.clock.stamp_ns)
+        frames = 2 / self.frame_rate if self.frame_rate else 0.0
+        return abs(new.clock.position - expected) > SEEK_TOLERANCE + frames
+
+
+@dataclass(frozen=True)
+class GripperProgram:
+    """When a trajectory opens and closes the gripper: times in s, ascending."""
+
+    times: tuple[float, ...] = ()
+    closes: tuple[bool, ...] = ()
+
+    def closed_at(self, position: float) -> bool | None:
+        """Return whether the gripper is closed at `position`, s; None without a gripper."""
+        if not self.times:
+            return None
+        i = bisect.bisect_right(self.times, position + 1e-6)
+        return self.closes[i - 1] if i else not self.closes[0]
+
+
+@dataclass(eq=False)
+class Robot:
+    """The state of one robot. joints: names in order of its joint states."""
+
+    name: str
+    joints: tuple[str, ...]
+    pose: Pose
+    arm: Arm
+    gripper: Gripper
+    settings: Settings
+    stream: JointStream = field(init=False)
+    clearance: Clearance = field(init=False)
+    watch: StallWatch = field(init=False)
+    snapshots: Snapshots = field(init=False)
+    playing: Playing = field(default_factory=Playing)
+    # What was heard of its playback and holds from a later time of its motion on.
+    coming: deque[Playing] = field(default_factory=deque)
+    program: GripperProgram = field(default_factory=GripperProgram)
+    # Where the arm was put last; None before its first joint state: it is not there yet.
+    placed: Joints | None = None
+    partners: set[tuple[Kind, str]] = field(default_factory=set)
+    tolerated: set[str] = field(default_factory=set)
+    touches: list[Touch] = field(default_factory=list)
+    raise_again: bool = False
+    # How fast the arm's fastest point is, as a share of what it would be at full stretch, and of
+    # which velocities that is the share.
+    share: float = 1.0
+    share_of: Joints | None = None
+    grasp: Grasp = Grasp.OPEN
+    closed: bool = False
+    closing_since_ns: int = 0
+    held: str = ""
+    held_since_ns: int = 0
+    # What was taken from the closed gripper; empty once it is commanded anew.
+    lost: str = ""
+    in_hand: Pose | None = None
+    pending: tuple[int, Snapshot] | None = None
+
+    def __post_init__(self) -> None:
+        s = self.settings
+        self.stream = JointStream(
+            len(self.joints), round(s.max_silence * SECOND), round(s.max_catch_up * SECOND)
+        )
+        self.clearance = Clearance(s.clear_margin, round(s.clear_time * SECOND))
+        self.watch = StallWatch(self.arm.fingers, s.stall_share, round(s.stall_time * SECOND))
+        self.snapshots = Snapshots(s.snapshot_rate, s.snapshot_count)
+        self.finger_links = frozenset(f.link for f in self.arm.fingers)
+
+    def hear(self, playing: Playing) -> None:
+        """Note what the playback does from a stamp on; take_up() makes it hold."""
+        self.coming.append(playing)
+        self._tell_stream()
+
+    def take_up(self, shown_ns: int | None) -> Iterator[Playing]:
+        """Let hold what holds at the stamp `shown_ns`, or all (None); yield what held before."""
+        while self.coming and (shown_ns is None or self.coming[0].stamp_ns <= shown_ns):
+            before, self.playing = self.playing, self.coming.popleft()
+            self._tell_stream()
+            if self.playing.state in MOVING and before.state not in MOVING:
+                self.raise_again = True
+            if self.playing.state is State.COLLISION_HALT and self.clearance.touched():
+                # The halt began before this arm was built; its end is still to be told.
+                self.raise_again = True
+            yield before
+
+    def _tell_stream(self) -> None:
+        newest = self.coming[-1] if self.coming else self.playing
+        self.stream.plays(
+            self.playing.clock.stamp_ns if self.playing.state in MOVING else None,
+            None if newest.state in MOVING else newest.stamp_ns,
+        )
+
+    def reach(self, end: Joints, start: Joints | None = None) -> float:
+        """Return how far the arm's end moves at most from `start` (all 0 if None) to `end`, m."""
+        if start is None:
+            return sum([abs(q) * lever for q, lever in zip(end, self.arm.levers, strict=True)])
+        ways = zip(start, end, self.arm.levers, strict=True)
+        return sum([abs(b - a) * lever for a, b, lever in ways])
+
+    def fire(self, event: GraspEvent) -> bool:
+        """Take the transition of the gripper; return whether its state changed."""
+        before, self.grasp = self.grasp, after(self.grasp, event)
+        return before is not self.grasp
+
+    def may_grasp(self, link: str) -> bool:
+        """Return whether `link` may touch an object without that being a collision."""
+        if self.gripper is Gripper.FINGERS:
+            return link in self.finger_links
+        return self.gripper is Gripper.VACUUM and link in self.arm.tool_links
+
+    def counts(self, touch: Touch, graspable: bool) -> bool:
+        """Return whether `touch` is a collision of this arm."""
+        if touch.link in self.arm.fixed_links:
+            return False
+        if touch.kind is Kind.OBJECT:
+            return touch.other != self.held and not (graspable and self.may_grasp(touch.link))
+        return not (touch.kind is Kind.SURFACE and touch.other in self.tolerated)
+
+    def finger_velocities(self) -> list[float]:
+        """Return how the fingers are driven: closing, opening, or locked about an object."""
+        if self.grasp is Grasp.HOLDING:
+            return [0.0] * len(self.arm.fingers)
+        way = 1.0 if self.closed else -1.0
+        return [way * finger.max_velocity for finger in self.arm.fingers]

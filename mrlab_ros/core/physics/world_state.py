@@ -1,0 +1,67 @@
+"""What all parts of the world share: the engine, the robots, the objects, the room, the time."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+from mrlab_ros.core.errors import Misuse
+from mrlab_ros.core.physics.catalogue import ObjectType
+from mrlab_ros.core.physics.engine import BodyState, Engine, Kind, Touch
+from mrlab_ros.core.physics.events import Event
+from mrlab_ros.core.physics.settings import Settings
+from mrlab_ros.core.physics.simulated_robot import Robot
+from mrlab_ros.core.physics.surfaces import Surface
+
+HAND = "hand"
+
+
+@dataclass(eq=False)
+class SceneObject:
+    """An object of the scene; held_by: a robot's name, or "hand", or empty."""
+
+    name: str
+    type: ObjectType
+    held_by: str = ""
+    hand: BodyState | None = None
+
+    @property
+    def graspable(self) -> bool:
+        return self.type.mass > 0
+
+
+@dataclass(eq=False)
+class Stage:
+    """now_ns: the time of the last step."""
+
+    engine: Engine
+    settings: Settings
+    robots: dict[str, Robot] = field(default_factory=dict)
+    objects: dict[str, SceneObject] = field(default_factory=dict)
+    surfaces: dict[str, Surface] = field(default_factory=dict)
+    events: list[Event] = field(default_factory=list)
+    now_ns: int = 0
+
+    def robot(self, name: str) -> Robot:
+        """Return a robot; raise Misuse where there is none."""
+        try:
+            return self.robots[name]
+        except KeyError:
+            known = ", ".join(self.robots) or "none"
+            raise Misuse(f"no robot '{name}' is in the scene; there are: {known}") from None
+
+    def object(self, name: str) -> SceneObject:
+        """Return an object; raise Misuse where there is none."""
+        try:
+            return self.objects[name]
+        except KeyError:
+            known = ", ".join(self.objects) or "none"
+            raise Misuse(f"no object '{name}' is in the scene; there are: {known}") from None
+
+    def hand(self, robot: Robot) -> BodyState:
+        """Return where the link is that a robot's objects are fixed to, and how it moves."""
+        return self.engine.link(robot.name, robot.arm.hand)
+
+    def counts(self, robot: Robot, touch: Touch) -> bool:
+        """Return whether `touch` is a collision of this robot."""
+        thing = self.objects.get(touch.other) if touch.kind is Kind.OBJECT else None
+        return robot.counts(touch, thing is not None and thing.graspable)

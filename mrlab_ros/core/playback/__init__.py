@@ -1,0 +1,1 @@
+"""The playback of one robot: states, clock and stream."""

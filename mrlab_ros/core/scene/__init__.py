@@ -1,0 +1,1 @@
+"""The robots of the scene, and the scene as a document."""

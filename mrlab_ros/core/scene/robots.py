@@ -1,0 +1,98 @@
+"""The robots in the scene: their names, places and end effectors."""
+
+from __future__ import annotations
+
+import itertools
+import math
+from dataclasses import dataclass, replace
+from functools import cache
+
+from mrlab_ros.core.errors import Misuse
+from mrlab_ros.core.geometry import Pose
+from mrlab_ros.core.naming import checked_name
+
+# Robots placed automatically stand this share of their reaches apart, so that two arms can meet
+# but not stand in each other.
+SPACING = 0.75
+GRID = 0.25
+GRID_RADIUS = 80
+
+
+@cache
+def _cells() -> tuple[tuple[float, float], ...]:
+    """Return the places of the floor's grid, m, nearest to the origin first."""
+    steps = range(-GRID_RADIUS, GRID_RADIUS + 1)
+    # To the left of the origin before the right, and beside it before behind it.
+    cells = sorted(itertools.product(steps, steps), key=lambda c: (math.hypot(*c), c[0], -c[1]))
+    return tuple((i * GRID, j * GRID) for i, j in cells)
+
+
+@dataclass(frozen=True)
+class PlacedRobot:
+    """A robot of the scene; end_effector is None for a bare flange. reach: m."""
+
+    name: str
+    model: str
+    end_effector: str | None
+    pose: Pose
+    reach: float
+    joint_names: tuple[str, ...]
+
+
+class Scene:
+    """The set of robots, in order of arrival; every change is checked before it is made."""
+
+    def __init__(self) -> None:
+        self._robots: dict[str, PlacedRobot] = {}
+
+    @property
+    def robots(self) -> tuple[PlacedRobot, ...]:
+        return tuple(self._robots.values())
+
+    def robot(self, name: str) -> PlacedRobot:
+        """Return the robot called `name`; raise Misuse where there is none."""
+        try:
+            return self._robots[name]
+        except KeyError:
+            known = ", ".join(self._robots) or "none"
+            raise Misuse(f"no robot '{name}' is in the scene; there are: {known}") from None
+
+    def free_name(self, model: str) -> str:
+        """Return the model's id with the first free number: ur5e_1, ur5e_2, ..."""
+        return next(
+            name
+            for number in itertools.count(1)
+            if (name := f"{model}_{number}") not in self._robots
+        )
+
+    def free_pose(self, reach: float) -> Pose:
+        """Return the place nearest to the origin on the floor that keeps clear of all robots."""
+        for x, y in _cells():
+            if all(
+                math.hypot(x - r.pose.position[0], y - r.pose.position[1])
+                >= SPACING * (reach + r.reach)
+                for r in self._robots.values()
+            ):
+                return Pose((x, y, 0.0))
+        raise Misuse(
+            f"no free place within {GRID_RADIUS * GRID:g} m of the origin; remove a robot, or "
+            "give a pose"
+        )
+
+    def spawn(self, robot: PlacedRobot) -> PlacedRobot:
+        """Add `robot`; raise BadInput where its name cannot be used."""
+        checked_name(robot.name, frozenset(self._robots), "robot")
+        self._robots[robot.name] = robot
+        return robot
+
+    def place(self, name: str, pose: Pose) -> PlacedRobot:
+        self._robots[name] = replace(self.robot(name), pose=pose)
+        return self._robots[name]
+
+    def set_end_effector(self, name: str, end_effector: str | None) -> PlacedRobot:
+        self._robots[name] = replace(self.robot(name), end_effector=end_effector)
+        return self._robots[name]
+
+    def remove(self, name: str) -> PlacedRobot:
+        self.robot(name)
+        return self._robots.pop(name)

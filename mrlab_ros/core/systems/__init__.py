@@ -1,0 +1,1 @@
+"""Robot systems: several robots on one timeline."""

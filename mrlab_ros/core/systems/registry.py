@@ -1,0 +1,63 @@
+"""The robot systems of a lab: who is a member of which."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+
+from mrlab_ros.core.errors import BadInput, Misuse
+from mrlab_ros.core.naming import checked_name
+from mrlab_ros.core.systems.robot_system import RobotSystem
+
+
+class Systems:
+    """All systems; a robot is in at most one."""
+
+    def __init__(self) -> None:
+        self._systems: dict[str, RobotSystem] = {}
+
+    def __iter__(self) -> Iterator[RobotSystem]:
+        return iter(tuple(self._systems.values()))
+
+    def get(self, name: str) -> RobotSystem:
+        """Return the system called `name`; raise Misuse where there is none."""
+        try:
+            return self._systems[name]
+        except KeyError:
+            known = ", ".join(self._systems) or "none"
+            raise Misuse(f"there is no system '{name}'; there are: {known}") from None
+
+    def of(self, robot: str) -> RobotSystem | None:
+        """Return the system that `robot` is a member of."""
+        return next((s for s in self if robot in s.members), None)
+
+    def check(self, name: str, robots: Sequence[str], scene: frozenset[str]) -> str:
+        """Return the name for a system of `robots`; `scene` names all robots there are.
+
+        Raises BadInput or Misuse where that system cannot be.
+        """
+        if not robots:
+            raise BadInput("a system needs at least one member; name the robots it shall drive")
+        for robot in robots:
+            if robot not in scene:
+                raise BadInput(
+                    f"no robot '{robot}' is in the scene; there are: "
+                    f"{', '.join(sorted(scene)) or 'none'}"
+                )
+            if robots.count(robot) > 1:
+                raise BadInput(f"'{robot}' is named {robots.count(robot)} times; name it once")
+            if (other := self.of(robot)) is not None:
+                raise Misuse(
+                    f"'{robot}' is a member of system '{other.name}' already; dissolve that first"
+                )
+        number = 1
+        while not name and f"system_{number}" in self._systems:
+            number += 1
+        taken = scene | frozenset(self._systems)
+        return checked_name(name or f"system_{number}", taken, "system")
+
+    def add(self, system: RobotSystem) -> None:
+        self._systems[system.name] = system
+
+    def dissolve(self, name: str) -> RobotSystem:
+        self.get(name)
+        return self._systems.pop(name)

@@ -1,0 +1,1 @@
+"""The trajectory, its derived channels and its file format."""

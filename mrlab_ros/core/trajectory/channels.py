@@ -1,0 +1,108 @@
+"""Signals derived from joint positions: velocity, acceleration, effort proxy."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mrlab_ros.core.errors import BadInput
+from mrlab_ros.core.trajectory.trajectory import Channels
+
+Array = NDArray[np.float64]
+
+GRAVITY = 9.80665  # m/s^2, the standard value
+FIELDS = ("inertia", "damping", "mass", "length")
+
+
+@dataclass(frozen=True)
+class ProxyCoefficients:
+    """Nominal coefficients, base joint first; a robot with more joints repeats the last one.
+
+    inertia: kg*m^2; damping: N*m*s/rad; mass: kg; length: m from the joint to that mass;
+    max_acceleration: rad/s^2, where the acceleration is clipped.
+    """
+
+    inertia: tuple[float, ...]
+    damping: tuple[float, ...]
+    mass: tuple[float, ...]
+    length: tuple[float, ...]
+    max_acceleration: float
+
+    @classmethod
+    def from_mapping(cls, values: Mapping[str, Any]) -> ProxyCoefficients:
+        """Build from the content of config/torque_proxy.yaml; raise BadInput where it is wrong."""
+        limit = values.get("max_acceleration")
+        if not isinstance(limit, int | float) or not limit > 0:
+            raise BadInput(f"max_acceleration is {limit}; expected a number above 0, rad/s^2")
+        lists = []
+        for name in FIELDS:
+            numbers = values.get(name)
+            if not (
+                isinstance(numbers, list)
+                and numbers
+                and all(isinstance(n, int | float) and n >= 0 for n in numbers)
+            ):
+                raise BadInput(
+                    f"'{name}' of the torque proxy is {numbers}; expected a list of numbers of 0 "
+                    "or more, one a joint, base first"
+                )
+            lists.append(tuple(float(n) for n in numbers))
+        inertia, damping, mass, length = lists
+        return cls(inertia, damping, mass, length, float(limit))
+
+    def of_joint(self, joint: int) -> tuple[float, float, float]:
+        """Return inertia, damping and m*g*l, N*m, of the joint with this index."""
+        inertia, damping, mass, length = (
+            values[min(joint, len(values) - 1)]
+            for values in (self.inertia, self.damping, self.mass, self.length)
+        )
+        return inertia, damping, mass * GRAVITY * length
+
+
+def derivative(values: Array, rate: float) -> Array:
+    """Return d/dt of `values`, (N, J) at `rate` Hz, lightly smoothed.
+
+    Central differences inside, one-sided at both ends; then each inner sample becomes a quarter
+    of its neighbours and half of itself, which takes out the difference's own noise. Straight
+    lines stay exact; a sine of angular frequency w loses (w / rate)^2 * (1/6 + 1/4) of its
+    derivative, relative.
+    """
+    raw = np.empty_like(values)
+    np.subtract(values[2:], values[:-2], out=raw[1:-1])
+    raw[1:-1] *= rate / 2
+    raw[0] = (values[1] - values[0]) * rate
+    raw[-1] = (values[-1] - values[-2]) * rate
+    smooth = raw.copy()
+    smooth[1:-1] *= 0.5
+    raw *= 0.25
+    smooth[1:-1] += raw[:-2]
+    smooth[1:-1] += raw[2:]
+    return smooth
+
+
+def accelerations(velocities: Array, frame_rate: float, coefficients: ProxyCoefficients) -> Array:
+    """Return the accelerations, (N, J) rad/s^2, of smoothed velocities, clipped."""
+    raw = derivative(velocities, frame_rate)
+    limit = coefficients.max_acceleration
+    return np.clip(raw, -limit, limit, out=raw)
+
+
+def derive(positions: Array, frame_rate: float, coefficients: ProxyCoefficients) -> Channels:
+    """Derive the channels of `positions`, (N, J) rad at `frame_rate` Hz, N >= 2.
+
+    The effort proxy is inertia * qdd + damping * qd + mass * g * length * sin(q) of each joint
+    alone: nominal, for display, not a torque.
+    """
+    velocities = derivative(positions, frame_rate)
+    accel = accelerations(velocities, frame_rate, coefficients)
+    joints = positions.shape[1]
+    inertia, damping, weight = np.array([coefficients.of_joint(j) for j in range(joints)]).T
+    effort = np.sin(positions)
+    effort *= weight
+    effort += accel * inertia
+    effort += velocities * damping
+    return Channels(velocities, accel, effort)

@@ -1,0 +1,140 @@
+"""The trajectory file: a trajectory as the document of trajectory.schema.json, and back.
+
+Degrees live here and nowhere else. A document is plain data, but its matrices are numpy arrays,
+so that no adapter has to build a million Python numbers.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import asdict
+from typing import Any
+
+import numpy as np
+
+from mrlab_ros.core.diagnostics import Diagnostic, Severity
+from mrlab_ros.core.errors import BadInput
+from mrlab_ros.core.trajectory.channels import ProxyCoefficients, accelerations
+from mrlab_ros.core.trajectory.trajectory import (
+    Array,
+    Channels,
+    Source,
+    Trajectory,
+)
+
+SCHEMA_VERSION = "1.0"
+UNITS = {"q": "deg", "dq": "deg/s", "tau_proxy": "N*m nominal", "t": "s"}
+
+
+def metadata(trajectory: Trajectory) -> dict[str, Any]:
+    """Return everything of the document but its frames."""
+    return {
+        "schema_version": SCHEMA_VERSION,
+        "id": trajectory.id,
+        "robot_model": trajectory.robot_model,
+        "end_effector": trajectory.end_effector,
+        "source": asdict(trajectory.source),
+        "created_ns": trajectory.created_ns,
+        "frame_rate": trajectory.frame_rate,
+        "frame_count": trajectory.frame_count,
+        "has_gripper": trajectory.gripper is not None,
+        "units": UNITS,
+        "warnings": [
+            {**asdict(d), "severity": d.severity.name.lower()} for d in trajectory.warnings
+        ],
+        "joint_names": list(trajectory.joint_names),
+    }
+
+
+def frames(
+    trajectory: Trajectory, begin: int, end: int, names: tuple[str, ...] = ()
+) -> dict[str, Any]:
+    """Return the columns of the frames `begin` to `end` (excluded), in the document's units.
+
+    names: only those columns; empty: all.
+    """
+    part = slice(begin, min(end, trajectory.frame_count))
+    gripper, channels = trajectory.gripper, trajectory.channels
+    columns: dict[str, Callable[[], Any]] = {
+        "t": lambda: np.arange(part.start, part.stop) / trajectory.frame_rate,
+        "q": lambda: np.degrees(trajectory.positions[part]),
+        "dq": lambda: np.degrees(channels.velocities[part]),
+        "tau_proxy": lambda: channels.effort_proxy[part],
+    }
+    if gripper is not None:
+        columns["gripper"] = lambda: gripper[part].view(np.uint8)
+    return {name: columns[name]() for name in names or columns}
+
+
+def document(trajectory: Trajectory) -> dict[str, Any]:
+    """Return the whole document: q in deg, dq in deg/s, t_i = i / frame_rate in s."""
+    return {**metadata(trajectory), "frames": frames(trajectory, 0, trajectory.frame_count)}
+
+
+def warnings_of(head: Mapping[str, Any]) -> tuple[Diagnostic, ...]:
+    """Return the warnings in a document's metadata."""
+    return tuple(
+        Diagnostic(
+            w["code"],
+            Severity[w["severity"].upper()],
+            w["message"],
+            w["remedy"],
+            w["variable"],
+            w["where"],
+        )
+        for w in head["warnings"]
+    )
+
+
+def _matrix(columns: Mapping[str, Any], name: str, shape: tuple[int, ...]) -> Array:
+    try:
+        values = np.asarray(columns[name], dtype=np.float64)
+    except (TypeError, ValueError):
+        values = np.empty(0)
+    if values.shape != shape:
+        raise BadInput(
+            f"'{name}' of the trajectory file has the shape {values.shape}; expected {shape}, as "
+            "frame_count and joint_names say; convert the workspace again"
+        )
+    if not np.isfinite(values).all():
+        raise BadInput(f"'{name}' of the trajectory file holds NaN or Inf; convert it again")
+    return values
+
+
+def trajectory(document: Mapping[str, Any], coefficients: ProxyCoefficients) -> Trajectory:
+    """Build the trajectory of a document that agrees with the schema's types.
+
+    Checks every number (finite, right shape, t_i = i / frame_rate within 1e-9 s relative); the
+    positions are the workspace's radians within 1e-12. Accelerations are not in the document:
+    they are derived from dq again. Raises BadInput where the document contradicts itself.
+    """
+    columns = document["frames"]
+    names = tuple(document["joint_names"])
+    count, rate = document["frame_count"], float(document["frame_rate"])
+    shape = (count, len(names))
+    t = _matrix(columns, "t", (count,))
+    if not np.allclose(t, np.arange(count) / rate, rtol=1e-9, atol=1e-12):
+        raise BadInput(
+            f"'t' of the trajectory file does not count i / {rate:g}; convert the workspace again"
+        )
+    velocities = np.radians(_matrix(columns, "dq", shape))
+    gripper = None
+    if document["has_gripper"]:
+        gripper = _matrix(columns, "gripper", (count,)) > 0.5
+    return Trajectory(
+        id=document["id"],
+        robot_model=document["robot_model"],
+        end_effector=document["end_effector"],
+        joint_names=names,
+        frame_rate=rate,
+        positions=np.radians(_matrix(columns, "q", shape)),
+        gripper=gripper,
+        channels=Channels(
+            velocities,
+            accelerations(velocities, rate, coefficients),
+            _matrix(columns, "tau_proxy", shape),
+        ),
+        source=Source(**document["source"]),
+        created_ns=document["created_ns"],
+        warnings=warnings_of(document),
+    )

@@ -1,0 +1,153 @@
+"""A joint trajectory at a fixed frame rate: no node, no publisher, no clock.
+
+The lab's own unit is the radian. Degrees appear in the trajectory file alone
+(`mrlab_ros.core.trajectory.document`).
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, field
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mrlab_ros.core.diagnostics import Diagnostic
+from mrlab_ros.core.errors import BadInput
+
+Array = NDArray[np.float64]
+
+# A position this close to a frame, in frames, is that frame: i / f * f need not round to i.
+ON_FRAME = 1e-6
+
+
+@dataclass(frozen=True)
+class Source:
+    """Where a trajectory came from: file name without folder, variable, sha256 of the file."""
+
+    file: str
+    variable: str
+    sha256: str
+
+
+@dataclass(frozen=True)
+class Channels:
+    """Derived signals of a trajectory.
+
+    velocities: (N, J) rad/s; accelerations: (N, J) rad/s^2; effort_proxy: (N, J) N*m nominal,
+    for display only and not a torque.
+    """
+
+    velocities: Array
+    accelerations: Array
+    effort_proxy: Array
+
+
+@dataclass(frozen=True, eq=False)
+class Trajectory:
+    """Joint positions sampled at a fixed rate, checked when made and never changed after.
+
+    positions: (N, J) rad, columns in joint_names order, N >= 2. gripper: (N,) bool, true where
+    closed, or None for an arm without one. frame_rate: Hz.
+
+    Raises BadInput when a shape, a value or the frame rate is not as said above.
+    """
+
+    id: str
+    robot_model: str
+    end_effector: str | None
+    joint_names: tuple[str, ...]
+    frame_rate: float
+    positions: Array
+    gripper: NDArray[np.bool_] | None
+    channels: Channels
+    source: Source
+    created_ns: int = 0
+    warnings: tuple[Diagnostic, ...] = field(default=())
+
+    def __post_init__(self) -> None:
+        rows, columns = self.positions.shape if self.positions.ndim == 2 else (0, 0)
+        if rows < 2 or columns != len(self.joint_names):
+            raise BadInput(
+                f"the positions of '{self.id}' have shape {self.positions.shape}; expected at "
+                f"least 2 rows and {len(self.joint_names)} columns, one a joint"
+            )
+        if not np.isfinite(self.positions).all():
+            raise BadInput(f"the positions of '{self.id}' hold NaN or Inf; save finite radians")
+        if not (np.isfinite(self.frame_rate) and self.frame_rate > 0):
+            raise BadInput(
+                f"the frame rate of '{self.id}' is {self.frame_rate}; expected a number of frames "
+                "per second above 0"
+            )
+        if self.gripper is not None and self.gripper.shape != (rows,):
+            raise BadInput(
+                f"the gripper of '{self.id}' has shape {self.gripper.shape}; expected one state "
+                f"for each of the {rows} frames"
+            )
+        arrays = [self.positions, *vars(self.channels).values()]
+        for array in arrays:
+            if array.shape != self.positions.shape:
+                raise BadInput(
+                    f"a derived channel of '{self.id}' has shape {array.shape}; expected "
+                    f"{self.positions.shape}, the shape of the positions"
+                )
+            array.setflags(write=False)
+        if self.gripper is not None:
+            self.gripper.setflags(write=False)
+
+    @cached_property
+    def frame_count(self) -> int:
+        return len(self.positions)
+
+    @cached_property
+    def duration(self) -> float:
+        """Time of the last frame, s from the first: t_i = i / frame_rate."""
+        return (self.frame_count - 1) / self.frame_rate
+
+    def frame_at(self, position: float) -> int:
+        """Return the last frame whose time is not after `position` (s).
+
+        Before the first frame that is 0, after the last frame the last one.
+        """
+        frame = math.floor(position * self.frame_rate + ON_FRAME)
+        return min(max(frame, 0), self.frame_count - 1)
+
+    def at(self, position: float) -> tuple[int, Array, Array]:
+        """Return the frame, the joint positions and the velocities at `position` (s).
+
+        Positions (J,) rad and velocities (J,) rad/s are exactly the frame's values on a frame,
+        linear between two frames, the first frame's before it and the last frame's after it.
+        """
+        frame = self.frame_at(position)
+        positions, velocities = self.positions, self.channels.velocities
+        share = position * self.frame_rate - frame
+        if share <= ON_FRAME or frame == self.frame_count - 1:
+            return frame, positions[frame], velocities[frame]
+        return (
+            frame,
+            positions[frame] + share * (positions[frame + 1] - positions[frame]),
+            velocities[frame] + share * (velocities[frame + 1] - velocities[frame]),
+        )
+
+    def sample(self, position: float) -> Array:
+        """Return the joint positions, (J,) rad, at `position` (s), as at() does."""
+        return self.at(position)[1]
+
+    def gripper_at(self, position: float) -> bool | None:
+        """Return the gripper state at `position` (s): the last frame's, never interpolated."""
+        return None if self.gripper is None else bool(self.gripper[self.frame_at(position)])
+
+    @cached_property
+    def grasp_frames(self) -> tuple[tuple[int, bool], ...]:
+        """Return (frame, closed) for each frame at which the gripper changes its state.
+
+        A gripper that is closed from the first frame on closes at frame 0.
+        """
+        if self.gripper is None:
+            return ()
+        changes = np.flatnonzero(np.diff(self.gripper.astype(np.int8))) + 1
+        frames = [int(f) for f in changes]
+        if self.gripper[0]:
+            frames.insert(0, 0)
+        return tuple((f, bool(self.gripper[f])) for f in frames)

@@ -1,0 +1,1 @@
+"""ROS messages to core objects and back; the only layer that knows both."""

@@ -1,0 +1,171 @@
+"""Messages of the physics to the core's objects and back."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+from geometry_msgs.msg import Point, Twist, Vector3
+from mrlab_msgs import msg
+from std_msgs.msg import ColorRGBA
+
+from mrlab_ros.core.clock import PlaybackClock
+from mrlab_ros.core.errors import BadInput
+from mrlab_ros.core.geometry import Vector, checked_vector
+from mrlab_ros.core.physics.catalogue import ObjectType
+from mrlab_ros.core.physics.engine import BodyState, Kind
+from mrlab_ros.core.physics.events import (
+    CollisionChanged,
+    Contact,
+    GraspChanged,
+    ObjectRemoved,
+)
+from mrlab_ros.core.physics.simulated_robot import GripperProgram, Playing
+from mrlab_ros.core.physics.surfaces import Surface
+from mrlab_ros.core.physics.world_state import SceneObject
+from mrlab_ros.core.playback.states import State
+from mrlab_ros.messages.poses import pose_from_message, pose_to_message
+from mrlab_ros.messages.time import make_header, time_from_message, time_to_message
+
+WORLD = "world"
+
+
+def playing_from_message(message: msg.PlaybackState) -> Playing:
+    clock = message.clock
+    return Playing(
+        State(message.state),
+        message.trajectory_id,
+        PlaybackClock(time_from_message(clock.stamp), clock.position, clock.rate),
+        message.frame,
+        message.frame_count,
+        message.frame_rate,
+        message.duration,
+        time_from_message(message.header.stamp),
+    )
+
+
+def program_from_message(message: msg.GraspTargets) -> GripperProgram:
+    return GripperProgram(
+        tuple(target.time for target in message.targets),
+        tuple(target.close for target in message.targets),
+    )
+
+
+def velocity_from_message(message: Vector3) -> Vector:
+    """Return a velocity; raise BadInput where it is not finite."""
+    return checked_vector((message.x, message.y, message.z), "the velocity")
+
+
+def contact_to_message(contact: Contact) -> msg.Contact:
+    touch = contact.touch
+    return msg.Contact(
+        stamp=time_to_message(contact.stamp_ns),
+        robot=contact.robot,
+        link=touch.link,
+        kind=touch.kind.value,
+        other=contact.robot if touch.kind is Kind.SELF else touch.other,
+        other_link=touch.other_link,
+        point=_point(touch.point),
+        normal=_vector(touch.normal),
+        depth=touch.depth,
+        impulse=touch.impulse,
+        frame=contact.frame,
+    )
+
+
+def collision_to_message(event: CollisionChanged) -> msg.Collision:
+    return msg.Collision(
+        header=make_header(event.stamp_ns, WORLD),
+        colliding=event.colliding,
+        contact=contact_to_message(event.contact) if event.contact else msg.Contact(),
+        clearance=event.clearance,
+    )
+
+
+def grasp_to_message(event: GraspChanged, fingers: list[str]) -> msg.Grasp:
+    """fingers: the finger joints, in the order of the event's positions."""
+    return msg.Grasp(
+        header=make_header(event.stamp_ns, f"{event.robot}/tool0"),
+        state=event.state.value,
+        object=event.object,
+        fingers=fingers,
+        finger_positions=event.positions,
+        finger_forces=event.forces,
+    )
+
+
+def removed_to_message(event: ObjectRemoved) -> msg.ObjectRemoved:
+    return msg.ObjectRemoved(
+        header=make_header(event.stamp_ns, WORLD),
+        name=event.name,
+        type=event.type,
+        reason=event.why,
+    )
+
+
+def object_to_message(thing: SceneObject, motion: BodyState) -> msg.SceneObject:
+    kind = thing.type
+    return msg.SceneObject(
+        name=thing.name,
+        type=kind.id,
+        pose=pose_to_message(motion.pose),
+        twist=Twist(linear=_vector(motion.linear), angular=_vector(motion.angular)),
+        size=_vector(kind.size),
+        mass=kind.mass,
+        color=_color(kind),
+        mesh=kind.mesh,
+        held_by=thing.held_by,
+    )
+
+
+def type_to_message(kind: ObjectType) -> msg.ObjectType:
+    return msg.ObjectType(
+        id=kind.id,
+        about=kind.about,
+        size=_vector(kind.size),
+        mass=kind.mass,
+        color=_color(kind),
+        mesh=kind.mesh,
+    )
+
+
+def surface_to_message(surface: Surface) -> msg.Surface:
+    return msg.Surface(
+        name=surface.name,
+        label=surface.label,
+        pose=pose_to_message(surface.pose),
+        vertices=[Point(x=x, y=y, z=z) for x, y, z in surface.vertices.tolist()],
+        triangles=surface.triangles.ravel().tolist(),
+    )
+
+
+def surface_from_message(message: msg.Surface) -> Surface:
+    """Return a surface; raise BadInput where it has no name or no whole triangles."""
+    if len(message.triangles) % 3:
+        raise BadInput(
+            f"surface '{message.name}' has {len(message.triangles)} triangle indices; expected "
+            "three a triangle"
+        )
+    if not message.name:
+        raise BadInput("a surface has no name; give each its own, such as table_1")
+    vertices = [(v.x, v.y, v.z) for v in message.vertices]
+    return Surface(
+        message.name,
+        message.label,
+        pose_from_message(message.pose),
+        np.array(vertices, dtype=np.float64).reshape(-1, 3),
+        np.array(message.triangles, dtype=np.int64).astype(np.int32).reshape(-1, 3),
+    )
+
+
+def _color(kind: ObjectType) -> ColorRGBA:
+    r, g, b, a = kind.color
+    return ColorRGBA(r=r, g=g, b=b, a=a)
+
+
+def _point(v: Vector) -> Point:
+    return Point(x=v[0], y=v[1], z=v[2])
+
+
+def _vector(v: Any) -> Vector3:
+    return Vector3(x=v[0], y=v[1], z=v[2])

@@ -1,0 +1,74 @@
+"""The qualities of service that the graph uses."""
+
+import importlib
+from typing import Any
+
+from rclpy.qos import DurabilityPolicy, QoSProfile, ReliabilityPolicy
+from rclpy.topic_endpoint_info import TopicEndpointInfo
+
+from mrlab_ros.core.errors import BadInput
+from mrlab_ros.core.recording.metadata import QosProfile, Topic
+
+# State: the newest value, also for who comes late (a latched topic).
+LATCHED = QoSProfile(
+    depth=1,
+    reliability=ReliabilityPolicy.RELIABLE,
+    durability=DurabilityPolicy.TRANSIENT_LOCAL,
+)
+# Events: every one arrives, in order.
+EVENTS = QoSProfile(depth=100, reliability=ReliabilityPolicy.RELIABLE)
+# Motion: every frame arrives, also at a reader that stalls for seconds; one that wants the newest
+# only asks for best effort.
+STREAM = QoSProfile(depth=1000, reliability=ReliabilityPolicy.RELIABLE)
+# State whose every change counts: as latched, and changes in quick succession all arrive.
+LATCHED_EVENTS = QoSProfile(
+    depth=10,
+    reliability=ReliabilityPolicy.RELIABLE,
+    durability=DurabilityPolicy.TRANSIENT_LOCAL,
+)
+
+
+def topic_of(name: str, ends: list[TopicEndpointInfo]) -> Topic:
+    """Return what a bag says of a topic with these publishers."""
+    return Topic(
+        name, ends[0].topic_type, tuple(map(quality_of, ends)), str(ends[0].topic_type_hash)
+    )
+
+
+def quality_of(end: TopicEndpointInfo) -> QosProfile:
+    qos = end.qos_profile
+    return QosProfile(
+        history=qos.history.name.lower(),
+        depth=qos.depth,
+        reliability=qos.reliability.name.lower(),
+        durability=qos.durability.name.lower(),
+        deadline_ns=qos.deadline.nanoseconds,
+        lifespan_ns=qos.lifespan.nanoseconds,
+        liveliness=qos.liveliness.name.lower(),
+        lease_ns=qos.liveliness_lease_duration.nanoseconds,
+    )
+
+
+def profile(topic: Topic, depth: int) -> QoSProfile:
+    """Return the strongest quality that all of the topic's publishers offer."""
+    return QoSProfile(
+        depth=depth,
+        reliability=(
+            ReliabilityPolicy.RELIABLE if topic.reliable else ReliabilityPolicy.BEST_EFFORT
+        ),
+        durability=(
+            DurabilityPolicy.TRANSIENT_LOCAL if topic.latched else DurabilityPolicy.VOLATILE
+        ),
+    )
+
+
+def message_class(kind: str) -> Any:
+    """Return the class of a type such as std_msgs/msg/String; raise BadInput without one."""
+    package, folder, name = kind.split("/")
+    try:
+        return getattr(importlib.import_module(f"{package}.{folder}"), name)
+    except (ImportError, AttributeError):
+        raise BadInput(
+            f"the message type {kind} is not installed here; install its package and start the "
+            "lab again"
+        ) from None

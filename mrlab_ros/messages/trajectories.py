@@ -1,0 +1,132 @@
+"""Trajectories, candidates and diagnostics as messages and back."""
+
+from __future__ import annotations
+
+import array
+from typing import Any
+
+import numpy as np
+from mrlab_msgs import msg
+from numpy.typing import NDArray
+
+from mrlab_ros.core.conversion.candidates import Candidate
+from mrlab_ros.core.diagnostics import Diagnostic, Severity
+from mrlab_ros.core.geometry import Array
+from mrlab_ros.core.trajectory.document import warnings_of
+from mrlab_ros.core.trajectory.trajectory import Channels, Source, Trajectory
+from mrlab_ros.messages.time import time_from_message, time_to_message
+
+
+def diagnostic_to_message(diagnostic: Diagnostic) -> msg.Diagnostic:
+    return msg.Diagnostic(
+        severity=int(diagnostic.severity),
+        code=diagnostic.code,
+        message=diagnostic.message,
+        remedy=diagnostic.remedy,
+        variable=diagnostic.variable,
+        where=diagnostic.where,
+    )
+
+
+def diagnostic_from_message(message: msg.Diagnostic) -> Diagnostic:
+    return Diagnostic(
+        message.code,
+        Severity(message.severity),
+        message.message,
+        message.remedy,
+        message.variable,
+        message.where,
+    )
+
+
+def info_to_message(trajectory: Trajectory) -> msg.TrajectoryInfo:
+    return msg.TrajectoryInfo(
+        id=trajectory.id,
+        robot_model=trajectory.robot_model,
+        end_effector=trajectory.end_effector or "",
+        source_file=trajectory.source.file,
+        source_variable=trajectory.source.variable,
+        source_sha256=trajectory.source.sha256,
+        created=time_to_message(trajectory.created_ns),
+        frame_rate=trajectory.frame_rate,
+        frame_count=trajectory.frame_count,
+        duration=trajectory.duration,
+        has_gripper=trajectory.gripper is not None,
+        warnings=[diagnostic_to_message(d) for d in trajectory.warnings],
+    )
+
+
+def _doubles(matrix: Array) -> array.array[float]:
+    return array.array("d", np.ascontiguousarray(matrix, dtype=np.float64).tobytes())
+
+
+def trajectory_to_message(trajectory: Trajectory) -> msg.Trajectory:
+    gripper = trajectory.gripper
+    return msg.Trajectory(
+        info=info_to_message(trajectory),
+        joint_names=list(trajectory.joint_names),
+        positions=_doubles(trajectory.positions),
+        velocities=_doubles(trajectory.channels.velocities),
+        effort_proxy=_doubles(trajectory.channels.effort_proxy),
+        gripper=array.array("B", b"" if gripper is None else gripper.astype(np.uint8).tobytes()),
+    )
+
+
+def trajectory_from_message(message: msg.Trajectory) -> Trajectory:
+    """Return the trajectory that the message carries; raise BadInput where it is none.
+
+    Accelerations do not travel: they are zeros.
+    """
+    info, names = message.info, tuple(message.joint_names)
+
+    def matrix(values: array.array[float]) -> Array:
+        flat: NDArray[np.float64] = np.array(values, dtype=np.float64)
+        return flat.reshape(-1, len(names)) if names and flat.size % len(names) == 0 else flat
+
+    positions = matrix(message.positions)
+    return Trajectory(
+        id=info.id,
+        robot_model=info.robot_model,
+        end_effector=info.end_effector or None,
+        joint_names=names,
+        frame_rate=info.frame_rate,
+        positions=positions,
+        gripper=np.array(message.gripper, dtype=np.bool_) if info.has_gripper else None,
+        channels=Channels(
+            matrix(message.velocities), np.zeros_like(positions), matrix(message.effort_proxy)
+        ),
+        source=Source(info.source_file, info.source_variable, info.source_sha256),
+        created_ns=time_from_message(info.created),
+        warnings=tuple(diagnostic_from_message(d) for d in info.warnings),
+    )
+
+
+def candidate_to_message(candidate: Candidate) -> msg.Candidate:
+    rows, columns = candidate.variable.shape
+    return msg.Candidate(
+        variable=candidate.path,
+        rows=rows,
+        columns=columns,
+        minimum=candidate.minimum,
+        maximum=candidate.maximum,
+        score=candidate.score,
+        why=candidate.why,
+    )
+
+
+def info_from_head(head: dict[str, Any]) -> msg.TrajectoryInfo:
+    """Return the catalogue's entry from the metadata of a trajectory file."""
+    return msg.TrajectoryInfo(
+        id=head["id"],
+        robot_model=head["robot_model"],
+        end_effector=head["end_effector"] or "",
+        source_file=head["source"]["file"],
+        source_variable=head["source"]["variable"],
+        source_sha256=head["source"]["sha256"],
+        created=time_to_message(head["created_ns"]),
+        frame_rate=float(head["frame_rate"]),
+        frame_count=head["frame_count"],
+        duration=(head["frame_count"] - 1) / head["frame_rate"],
+        has_gripper=head["has_gripper"],
+        warnings=[diagnostic_to_message(d) for d in warnings_of(head)],
+    )

@@ -1,0 +1,1 @@
+"""The bridge node and its routes between the graph and zenoh."""

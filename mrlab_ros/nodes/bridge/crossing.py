@@ -1,0 +1,97 @@
+"""What every route of the bridge needs: both shores, the counts and a way to warn_once."""
+
+from __future__ import annotations
+
+import importlib
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from typing import Any
+
+from rclpy.node import Node
+from rclpy.qos import DurabilityPolicy, QoSProfile, ReliabilityPolicy
+from rclpy.topic_endpoint_info import TopicEndpointInfo
+
+from mrlab_ros.adapters.zenoh_session import Session
+from mrlab_ros.core.bridge import rules
+from mrlab_ros.core.bridge.rules import Direction, TopicQos, TopicRule
+
+
+@dataclass
+class Count:
+    """What went over one key since the bridge started."""
+
+    type: str
+    direction: str
+    messages: int = 0
+    bytes: int = 0
+    refused: int = 0
+
+
+@dataclass
+class BridgeContext:
+    """The zenoh session, the node of the forwarding entities, and what is told of the traffic.
+
+    streams: a node with a thread of its own. warn_once: says a text once.
+    """
+
+    session: Session
+    streams: Node
+    prefix: str
+    warn_once: Callable[[str], None]
+    counts: dict[str, Count] = field(default_factory=dict)
+
+    def key(self, name: str) -> str:
+        return rules.key_of(name, self.prefix)
+
+    def count(self, key: str, type_name: str, direction: str) -> Count:
+        return self.counts.setdefault(key, Count(type_name, direction))
+
+    def kind(self, name: str, type_name: str) -> Any:
+        """Return the class of a type such as std_srvs/srv/Trigger, or None and warn_once once."""
+        package, folder, kind = type_name.split("/")
+        try:
+            return getattr(importlib.import_module(f"{package}.{folder}"), kind)
+        except (ImportError, AttributeError):
+            self.warn_once(
+                f"{name} has the type {type_name}, which is not installed here, so it is not "
+                "carried; install its package and start the bridge again"
+            )
+            return None
+
+    def complain_of(self, error: Exception) -> None:
+        self.warn_once(f"a message was lost: {type(error).__name__}: {error}")
+
+    def quality(
+        self, ends: list[TopicEndpointInfo], rule: TopicRule, type_name: str
+    ) -> TopicQos | None:
+        """Return the quality that suits all of `ends` but the bridge's own; None without any.
+
+        A subscription asks for no more than every publisher offers; a publisher offers as much
+        as any subscription asks for.
+        """
+        others = [
+            end
+            for end in ends
+            if end.topic_type == type_name and end.node_name != self.streams.get_name()
+        ]
+        if not others:
+            return None
+        suits = all if rule.direction is Direction.OUT else any
+        profiles = [end.qos_profile for end in others]
+        return TopicQos(
+            reliable=suits(p.reliability is ReliabilityPolicy.RELIABLE for p in profiles),
+            latched=suits(p.durability is DurabilityPolicy.TRANSIENT_LOCAL for p in profiles),
+            depth=rule.depth,
+            type_hash=str(others[0].topic_type_hash),
+        )
+
+
+def profile(qos: TopicQos) -> QoSProfile:
+    """Return rclpy's words for a quality."""
+    return QoSProfile(
+        depth=qos.depth,
+        reliability=ReliabilityPolicy.RELIABLE if qos.reliable else ReliabilityPolicy.BEST_EFFORT,
+        durability=(
+            DurabilityPolicy.TRANSIENT_LOCAL if qos.latched else DurabilityPolicy.VOLATILE
+        ),
+    )

@@ -1,0 +1,91 @@
+"""Topics of zenoh that go to the graph, each message looked at before."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Any
+
+from rclpy.exceptions import InvalidHandle
+from rclpy.publisher import Publisher
+from rclpy.serialization import deserialize_message
+
+from mrlab_ros.adapters.zenoh_session import Declared
+from mrlab_ros.core.bridge import rules
+from mrlab_ros.core.bridge.rules import Direction, TopicQos, TopicRule
+from mrlab_ros.nodes.bridge.crossing import BridgeContext, Count, profile
+
+
+@dataclass
+class InRoute:
+    """One topic's way."""
+
+    type: str
+    qos: TopicQos
+    publisher: Publisher
+    subscriber: Declared
+    token: Declared
+
+
+class Inward:
+    """The routes inwards."""
+
+    def __init__(self, crossing: BridgeContext) -> None:
+        self._crossing = crossing
+        self._routes: dict[str, InRoute] = {}
+
+    def keep(self, wanted: dict[str, tuple[TopicRule, str]]) -> None:
+        """Make the routes those of `wanted`: name -> rule and type."""
+        for name in [n for n in self._routes if n not in wanted]:
+            self._close(name)
+        for name, (rule, type_name) in wanted.items():
+            self._renew(name, rule, type_name)
+
+    def _renew(self, name: str, rule: TopicRule, type_name: str) -> None:
+        crossing = self._crossing
+        ends = crossing.streams.get_subscriptions_info_by_topic(name)
+        qos = crossing.quality(ends, rule, type_name)
+        known = self._routes.get(name)
+        if known is not None and (known.qos, known.type) == (qos, type_name):
+            return
+        if known is not None:
+            self._close(name)
+        kind = crossing.kind(name, type_name)
+        if qos is None or kind is None:
+            return
+        key, session = crossing.key(name), crossing.session
+        publisher = crossing.streams.create_publisher(kind, name, profile(qos))
+        count = crossing.count(key, type_name, Direction.IN.value)
+        subscriber = session.subscriber(
+            key, self._receiver(key, kind, publisher, count), qos.latched
+        )
+        token = session.token(rules.topic_token(session.zid, Direction.IN, key, type_name, qos))
+        self._routes[name] = InRoute(type_name, qos, publisher, subscriber, token)
+
+    def _close(self, name: str) -> None:
+        route = self._routes.pop(name)
+        route.token.undeclare()
+        route.subscriber.undeclare()
+        self._crossing.streams.destroy_publisher(route.publisher)
+
+    def _receiver(
+        self, key: str, kind: Any, publisher: Publisher, count: Count
+    ) -> Callable[[bytes], None]:
+        def receive(payload: bytes) -> None:
+            try:
+                deserialize_message(payload, kind)
+            except Exception:
+                count.refused += 1
+                self._crossing.warn_once(
+                    f"a client sent something on {key} that is not CDR of {count.type}; such "
+                    "messages are dropped"
+                )
+                return
+            try:
+                publisher.publish(payload)
+            except InvalidHandle:  # the topic has just gone
+                return
+            count.messages += 1
+            count.bytes += len(payload)
+
+        return receive

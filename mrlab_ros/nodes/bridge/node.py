@@ -1,0 +1,249 @@
+"""Carries the graph over zenoh, both ways, as raw CDR."""
+
+from __future__ import annotations
+
+import json
+import sys
+import time
+from pathlib import Path
+from typing import Any
+
+import yaml
+from mrlab_msgs.msg import Latency, LatencyHop
+from rclpy.context import Context
+from rclpy.node import Node
+from rclpy.parameter import Parameter
+
+from mrlab_ros.adapters.keys.folder import EVERYWHERE, Keys, now
+from mrlab_ros.adapters.zenoh_session import (
+    LOOPBACK,
+    Query,
+    Session,
+    ZenohSession,
+    configuration,
+    log_logins,
+)
+from mrlab_ros.core.bridge import rules
+from mrlab_ros.core.bridge.latency import Ledger, clock_answer
+from mrlab_ros.core.bridge.links import check_endpoints, check_router
+from mrlab_ros.core.bridge.rules import Direction, ServiceRule, TopicRule
+from mrlab_ros.core.errors import BadInput
+from mrlab_ros.messages import qos
+from mrlab_ros.nodes.bridge.crossing import BridgeContext
+from mrlab_ros.nodes.bridge.inward import Inward
+from mrlab_ros.nodes.bridge.outward import Outward
+from mrlab_ros.nodes.bridge.services import Services
+from mrlab_ros.processes import host
+from mrlab_ros.ros import share
+from mrlab_ros.ros.spinning import SpunNode
+
+STATISTICS = "/@mrlab/bridge/statistics"
+CLOCK = "/@mrlab/bridge/clock"
+REPORT_PERIOD = 1.0
+# Every so many looks at the graph each publisher is looked at, too.
+THOROUGH = 10
+# How long the forwarding thread may wait for another Python thread, s; Python's own is 5 ms.
+SWITCH_INTERVAL = 5e-4
+
+
+class BridgeNode(Node):
+    """Looks at the graph, carries what the allow-list names, forgets what is gone."""
+
+    def __init__(
+        self,
+        *,
+        context: Context | None = None,
+        parameter_overrides: list[Parameter] | None = None,
+        session: Session | None = None,
+    ) -> None:
+        super().__init__("bridge", context=context, parameter_overrides=parameter_overrides)
+        self._rules = _rules(Path(self._setting("allow_list", "")))
+        prefix = rules.checked_prefix(self._setting("prefix", ""))
+        settings = self._zenoh_settings(prefix)
+        self._session: Session = session or ZenohSession(settings)
+        self._started = time.monotonic()
+        self._looks = 0
+        self._complained: set[str] = set()
+        # The forwarding entities are on a node and a thread of their own.
+        streams = Node(
+            "bridge_streams",
+            context=context,
+            start_parameter_services=False,
+            enable_rosout=False,
+            use_global_arguments=False,
+        )
+        self._crossing = BridgeContext(self._session, streams, prefix, self._complain)
+        self._ledger = Ledger()
+        self._outward = Outward(self._crossing, self._ledger)
+        self._inward = Inward(self._crossing)
+        self._callable = Services(self._crossing)
+        self._streams = SpunNode(streams)
+        sys.setswitchinterval(SWITCH_INTERVAL)
+        zid = self._session.zid
+        self._declared = [
+            self._session.token(rules.bridge_token(zid)),
+            self._session.queryable(self._crossing.key(STATISTICS), self._answer_statistics),
+            self._session.queryable(self._crossing.key(CLOCK), _answer_clock),
+        ]
+        self._reports = self.create_publisher(Latency, "latency", qos.LATCHED)
+        # Clients' reports come in all the time, so that who asks late has the newest at once.
+        self.create_subscription(Latency, "latency/clients", lambda _: None, qos.LATCHED_EVENTS)
+        self._reported = time.monotonic()
+        self.create_timer(REPORT_PERIOD, self._report)
+        self.create_timer(self._setting("discovery_period", 0.2), self.discover)
+        self.get_logger().info(
+            f"carries {len(self._rules.topics)} kinds of topics and "
+            f"{len(self._rules.services)} of services under '{prefix or '/'}', zenoh {zid}"
+        )
+
+    def _setting(self, name: str, default: Any) -> Any:
+        return self.declare_parameter(name, default).value
+
+    def _zenoh_settings(self, prefix: str) -> Any:
+        file = self._setting("zenoh_config", "")
+        folder = self._setting("keys", "")
+        mode = self._setting("mode", "peer")
+        connect = tuple(e for e in self._setting("connect", [""]) if e)
+        usual = [""] if folder and connect else EVERYWHERE if folder else LOOPBACK
+        listen = tuple(e for e in self._setting("listen", list(usual)) if e)
+        insecure = self._setting("insecure", False)
+        lease = self._setting("lease", 0.0)
+        if file and folder:
+            raise BadInput(
+                f"the bridge has both zenoh_config ({file}) and keys ({folder}); expected one, as "
+                "either says who may connect"
+            )
+        if folder and mode == "client" and not connect:
+            raise BadInput(
+                f"the bridge has keys ({folder}) and mode client; name the router to connect to "
+                "with the parameter connect, or leave mode out"
+            )
+        if file:
+            return configuration(Path(file))
+        check_endpoints(listen, insecure, bool(folder))
+        if not folder:
+            return configuration(mode=mode, listen=listen, connect=connect, lease=lease)
+        keys = Keys(Path(folder))
+        keys.check(now())
+        if connect:
+            check_router(mode, listen, connect)
+            security = keys.lab_settings(now())
+        else:
+            security = keys.settings(self._rules, prefix, now())
+        log_logins(passwords=keys.login.by_password)
+        return configuration(
+            mode=mode,
+            listen=listen,
+            connect=connect,
+            lease=lease,
+            base=share.directory() / "config" / "zenoh" / "lab.json5",
+            security=security,
+        )
+
+    def discover(self) -> None:
+        """Carry what is new in the graph, let go what is gone, give up what waits too long."""
+        going_out: dict[str, tuple[TopicRule, str]] = {}
+        coming_in: dict[str, tuple[TopicRule, str]] = {}
+        for name, types in self.get_topic_names_and_types():
+            for type_name in types:
+                rule = self._rules.topic(name, type_name)
+                if rule is not None:
+                    out = rule.direction is Direction.OUT
+                    (going_out if out else coming_in).setdefault(name, (rule, type_name))
+        self._looks += 1
+        self._outward.keep(going_out, thorough=self._looks % THOROUGH == 0)
+        self._inward.keep(coming_in)
+        called: dict[str, tuple[ServiceRule, str]] = {}
+        for name, types in self.get_service_names_and_types():
+            # A client, the bridge's own too, keeps its service's name in the graph.
+            for type_name in types:
+                service = self._rules.service(name, type_name)
+                if service is not None and self.count_services(name):
+                    called.setdefault(name, (service, type_name))
+        self._callable.keep(called)
+        self._callable.give_up()
+
+    def _report(self) -> None:
+        """Publish how long messages took from the graph to zenoh since the last report."""
+        now = time.monotonic()
+        window, self._reported = now - self._reported, now
+        report = Latency(observer="bridge", window=window)
+        report.header.stamp = self.get_clock().now().to_msg()
+        report.hops = [
+            LatencyHop(
+                hop=LatencyHop.PUBLISHED_TO_BRIDGED,
+                topic=delays.topic,
+                count=delays.count,
+                p50=delays.p50,
+                p95=delays.p95,
+                max=delays.max,
+            )
+            for delays in self._ledger.report()
+        ]
+        self._reports.publish(report)
+
+    def statistics(self) -> dict[str, Any]:
+        """Return what was carried: totals since the start, and what each key carried."""
+        heard = self._outward.heard()
+        counts = self._crossing.counts.copy()
+        keys = {
+            key: {**vars(count), **({"heard": heard[key]} if key in heard else {})}
+            for key, count in sorted(counts.items())
+        }
+        return {
+            "zid": self._session.zid,
+            "prefix": self._crossing.prefix,
+            "uptime_s": round(time.monotonic() - self._started, 3),
+            "messages": sum(count.messages for count in counts.values()),
+            "bytes": sum(count.bytes for count in counts.values()),
+            "refused": sum(count.refused for count in counts.values()),
+            "keys": keys,
+        }
+
+    def _answer_statistics(self, query: Query) -> None:
+        query.reply(json.dumps(self.statistics()).encode())
+
+    def _complain(self, text: str) -> None:
+        if text not in self._complained:
+            self._complained.add(text)
+            self.get_logger().warning(text)
+
+    def destroy_node(self) -> None:
+        """Let everything go and say what was carried."""
+        total = self.statistics()
+        for declared in self._declared:
+            declared.undeclare()
+        self._callable.stop()
+        self._outward.stop()
+        self._inward.keep({})
+        self._streams.close()
+        self._session.close()
+        # Not through the node's logger: after a signal the context, and /rosout with it, is gone.
+        print(
+            f"bridge: carried {total['messages']} messages and {total['bytes']} bytes over "
+            f"{len(total['keys'])} keys in {total['uptime_s']:.1f} s",
+            flush=True,
+        )
+        super().destroy_node()
+
+
+def _answer_clock(query: Query) -> None:
+    asked = time.time_ns()
+    query.reply(clock_answer(asked, time.time_ns()))
+
+
+def _rules(path: Path) -> rules.Rules:
+    path = path if path.name else share.directory() / "config" / "bridge.yaml"
+    try:
+        document = yaml.safe_load(path.read_text())
+    except (OSError, yaml.YAMLError) as error:
+        raise BadInput(
+            f"the bridge cannot read its allow-list {path}: {error}; name a YAML file with the "
+            "parameter allow_list"
+        ) from error
+    return rules.parse(document)
+
+
+def main() -> None:
+    """Run the bridge."""
+    host.main(["bridge"])

@@ -1,0 +1,140 @@
+"""Topics of the graph that go to zenoh, undecoded, each message with its stamps.
+
+The thread that receives from the graph puts what may be dropped. Another puts what must arrive,
+so that a client that does not read holds up nobody's motion.
+"""
+
+from __future__ import annotations
+
+import time
+from dataclasses import dataclass
+from functools import partial
+
+from rclpy.subscription import Subscription
+
+from mrlab_ros.adapters.zenoh_session import Declared, Publisher
+from mrlab_ros.core.bridge import rules
+from mrlab_ros.core.bridge.latency import Ledger, attachment
+from mrlab_ros.core.bridge.rules import (
+    Congestion,
+    Direction,
+    TopicQos,
+    TopicRule,
+)
+from mrlab_ros.nodes.bridge.crossing import BridgeContext, Count, profile
+from mrlab_ros.nodes.bridge.rate_caps import Caps
+from mrlab_ros.nodes.bridge.sender import Sender
+from mrlab_ros.ros.raw_callback import OnMessage, Stamped
+
+
+@dataclass
+class OutRoute:
+    """One topic's way."""
+
+    type: str
+    qos: TopicQos
+    ends: int
+    publisher: Publisher
+    token: Declared
+    subscription: Subscription
+
+
+class Outward:
+    """The routes outwards."""
+
+    def __init__(self, crossing: BridgeContext, ledger: Ledger) -> None:
+        self._crossing = crossing
+        self._ledger = ledger
+        self._caps = Caps()
+        self._routes: dict[str, OutRoute] = {}
+        self._must_arrive = Sender("bridge_sender", crossing.warn_once)
+
+    def stop(self) -> None:
+        """Take nothing more, put what waits, close all routes."""
+        for route in self._routes.values():
+            self._crossing.streams.destroy_subscription(route.subscription)
+        self._caps.stop()
+        self._must_arrive.stop()
+        self.keep({})
+
+    def keep(self, wanted: dict[str, tuple[TopicRule, str]], thorough: bool = True) -> None:
+        """Make the routes those of `wanted`: name -> rule and type.
+
+        Unless `thorough`, a topic with as many publishers as before is taken to be as before.
+        """
+        for name in [n for n in self._routes if n not in wanted]:
+            self._close(name)
+        for name, (rule, type_name) in wanted.items():
+            self._renew(name, rule, type_name, thorough)
+
+    def heard(self) -> dict[str, bool]:
+        """Return for every key whether anybody subscribes to it."""
+        crossing = self._crossing
+        return {crossing.key(n): r.publisher.heard() for n, r in list(self._routes.items())}
+
+    def _renew(self, name: str, rule: TopicRule, type_name: str, thorough: bool) -> None:
+        crossing = self._crossing
+        known = self._routes.get(name)
+        # Counting takes a fifth of the time.
+        ends = crossing.streams.count_publishers(name)
+        if known is not None and not thorough and (known.ends, known.type) == (ends, type_name):
+            return
+        infos = crossing.streams.get_publishers_info_by_topic(name)
+        qos = crossing.quality(infos, rule, type_name)
+        if known is not None and (known.qos, known.type) == (qos, type_name):
+            known.ends = ends
+            return
+        if known is not None:
+            self._close(name)
+        kind = crossing.kind(name, type_name)
+        if qos is None or kind is None:
+            return
+        key, session = crossing.key(name), crossing.session
+        count = crossing.count(key, type_name, Direction.OUT.value)
+        publisher = session.publisher(key, rule, rule.history if qos.latched else 0)
+        token = session.token(rules.topic_token(session.zid, Direction.OUT, key, type_name, qos))
+        on_message = self._emitter(name, publisher, count)
+        if rule.congestion is Congestion.BLOCK:
+            on_message = self._queued(on_message)
+        if rule.max_rate:
+            on_message = self._caps.limit(rule.max_rate, on_message)
+        subscription = crossing.streams.create_subscription(
+            kind, name, Stamped(on_message), profile(qos), raw=True
+        )
+        self._routes[name] = OutRoute(type_name, qos, ends, publisher, token, subscription)
+
+    def _close(self, name: str) -> None:
+        route = self._routes.pop(name)
+        self._crossing.streams.destroy_subscription(route.subscription)
+        route.token.undeclare()
+        route.publisher.undeclare()
+        self._ledger.forget(name)
+
+    def _emitter(self, name: str, publisher: Publisher, count: Count) -> OnMessage:
+        """Return what puts a message and notes its delay.
+
+        Of one from before the route, a latched one, no delay is noted.
+        """
+        put, note, complain_of = (
+            publisher.put,
+            self._ledger.window(name).add,
+            self._crossing.complain_of,
+        )
+        since = time.time_ns()
+
+        def emit(payload: bytes, published_ns: int) -> None:
+            count.messages += 1
+            count.bytes += len(payload)
+            now = time.time_ns()
+            if published_ns >= since:
+                note(now - published_ns)
+            try:
+                put(payload, attachment(count.messages, published_ns, now))
+            except Exception as error:  # its topic may have gone meanwhile
+                complain_of(error)
+
+        return emit
+
+    def _queued(self, emit: OnMessage) -> OnMessage:
+        send = self._must_arrive.send
+        return lambda payload, published: send(partial(emit, payload, published), len(payload))

@@ -1,0 +1,1 @@
+"""The lab node, its scenes and what it restores."""

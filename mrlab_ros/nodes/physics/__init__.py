@@ -1,0 +1,1 @@
+"""The physics node, what it receives and what it publishes."""

@@ -1,0 +1,230 @@
+"""How the physics node follows the graph: robots, their motion, their playback, the systems."""
+
+from __future__ import annotations
+
+import functools
+import threading
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from typing import Any
+
+from mrlab_msgs import msg
+from rclpy.node import Node
+from rclpy.serialization import deserialize_message
+from rclpy.subscription import Subscription
+from sensor_msgs.msg import JointState
+from std_msgs.msg import String
+
+from mrlab_ros.adapters.robots.library import END_EFFECTORS
+from mrlab_ros.adapters.yaml_files import read_yaml
+from mrlab_ros.core.errors import LabError
+from mrlab_ros.core.physics.engine import LinkPairs
+from mrlab_ros.core.physics.grasp import Gripper
+from mrlab_ros.core.physics.simulated_robot import GripperProgram, Playing
+from mrlab_ros.core.physics.world import World
+from mrlab_ros.messages import joint_states, qos
+from mrlab_ros.messages import physics as messages
+from mrlab_ros.messages.poses import pose_from_message
+from mrlab_ros.nodes.physics.publishers import WorldPublishers
+from mrlab_ros.ros import share
+from mrlab_ros.ros.wait_set import WaitSetThread
+
+
+@dataclass(eq=False)
+class Followed:
+    """What is known of a robot of /robots."""
+
+    robot: msg.Robot
+    subscriptions: list[Subscription] = field(default_factory=list)
+    description: str = ""
+    built: tuple[str, str] = ("", "")
+    program: GripperProgram = field(default_factory=GripperProgram)
+    playing: Playing = field(default_factory=Playing)
+
+    @property
+    def described(self) -> bool:
+        """Whether its description was read, and the robot put into the world if it could be."""
+        return self.built != ("", "")
+
+
+class GraphListener:
+    """Keeps a world as the graph says, in a thread of its own that also calls `turn`.
+
+    Joint states come a thousand times a second: they bypass the executor. turn: advances the
+    world and returns how long to wait at most, ns. never_touch: tells of a model which links
+    never touch.
+    """
+
+    def __init__(
+        self,
+        node: Node,
+        world: World,
+        news: WorldPublishers,
+        lock: threading.Lock,
+        turn: Callable[[], int],
+        never_touch: Callable[[str], LinkPairs],
+    ) -> None:
+        self._world = world
+        self._never_touch = never_touch
+        self._news = news
+        self._lock = lock
+        self._log = node.get_logger()
+        self.robots: dict[str, Followed] = {}
+        self.systems: list[msg.RobotSystem] = []
+        # Whether the lab has said which robots there are.
+        self.heard = False
+        self._node = Node(
+            "physics_ear",
+            context=node.context,
+            start_parameter_services=False,
+            enable_rosout=False,
+        )
+        self._thread = WaitSetThread(node.context, "physics", turn, self._on_error)
+        self._hear(msg.Robots, "/robots", self._on_robots, qos.LATCHED)
+        self._hear(msg.RobotSystems, "/systems", self._on_systems, qos.LATCHED)
+
+    def start(self) -> None:
+        self._thread.start()
+
+    def stop(self) -> None:
+        """End the thread; the world stands from here on."""
+        self._thread.stop()
+        self._node.destroy_node()
+
+    def _hear(
+        self, kind: Any, topic: str, callback: Callable[[Any], None], quality: Any
+    ) -> Subscription:
+        subscription = self._node.create_subscription(kind, topic, _unused, quality, raw=True)
+        self._thread.add_subscription(
+            subscription, lambda data: callback(deserialize_message(data, kind))
+        )
+        return subscription
+
+    def _hear_joints(self, name: str, joints: tuple[str, ...]) -> Subscription:
+        subscription = self._node.create_subscription(
+            JointState, f"/{name}/joint_states", _unused, qos.STREAM, raw=True
+        )
+        self._thread.add_subscription(
+            subscription, functools.partial(self._on_joint_state, name, joints)
+        )
+        return subscription
+
+    def _on_error(self, error: Exception) -> None:
+        said = error if isinstance(error, LabError) else repr(error)
+        self._log.error(f"physics: {said}", throttle_duration_sec=1.0)
+
+    def _on_systems(self, message: msg.RobotSystems) -> None:
+        self.systems = list(message.systems)
+
+    def _on_robots(self, message: msg.Robots) -> None:
+        wanted = {robot.name: robot for robot in message.robots}
+        self.heard = True
+        for name, known in list(self.robots.items()):
+            if name not in wanted or wanted[name].model != known.robot.model:
+                self._forget(name)
+        for name, robot in wanted.items():
+            if name not in self.robots:
+                self._follow(robot)
+                continue
+            known = self.robots[name]
+            moved = known.robot.pose != robot.pose
+            known.robot = robot
+            self._build(name)
+            if moved:
+                with self._lock:
+                    if name in self._world.robots:
+                        self._world.place_robot(name, pose_from_message(robot.pose))
+
+    def _follow(self, robot: msg.Robot) -> None:
+        name = robot.name
+
+        def hear(kind: Any, topic: str, callback: Callable[[str, Any], None], quality: Any) -> Any:
+            return self._hear(kind, f"/{name}/{topic}", functools.partial(callback, name), quality)
+
+        with self._lock:
+            self._news.add_robot(name)
+        known = Followed(robot)
+        self.robots = {**self.robots, name: known}
+        known.subscriptions += [
+            self._hear_joints(name, tuple(robot.joint_names)),
+            hear(String, "robot_description", self._on_description, qos.LATCHED),
+            hear(msg.PlaybackState, "playback_state", self._on_playback, qos.LATCHED),
+            hear(msg.GraspTargets, "targets", self._on_targets, qos.LATCHED),
+        ]
+
+    def _forget(self, name: str) -> None:
+        known = self.robots[name]
+        self.robots = {n: k for n, k in self.robots.items() if n != name}
+        for subscription in known.subscriptions:
+            self._thread.remove(subscription)
+            self._node.destroy_subscription(subscription)
+        with self._lock:
+            if name in self._world.robots:
+                self._world.remove_robot(name)
+            self._news.remove_robot(name)
+
+    def _on_description(self, name: str, message: String) -> None:
+        # What was on its way when the robot was removed comes after that.
+        if name in self.robots:
+            self.robots[name].description = message.data
+            self._build(name)
+
+    def _build(self, name: str) -> None:
+        """Put the robot into the world, anew where its description or end effector changed."""
+        known = self.robots[name]
+        wanted = (known.description, known.robot.end_effector)
+        if not known.description or known.built == wanted:
+            return
+        with self._lock:
+            if name in self._world.robots:
+                self._world.remove_robot(name)
+            try:
+                self._world.add_robot(
+                    name,
+                    known.description,
+                    tuple(known.robot.joint_names),
+                    pose_from_message(known.robot.pose),
+                    _gripper(known.robot.end_effector),
+                    self._never_touch(known.robot.model),
+                )
+                self._world.set_program(name, known.program)
+                self._world.playback(name, known.playing)
+            except LabError as error:
+                self._log.error(f"{name} has no physics: {error}")
+        known.built = wanted
+
+    def _on_joint_state(self, name: str, joints: tuple[str, ...], data: bytes) -> None:
+        stamp_ns, positions, velocities = joint_states.read(data, joints)
+        with self._lock:
+            if name in self._world.robots:
+                self._world.joint_state(name, stamp_ns, positions, velocities)
+
+    def _on_playback(self, name: str, message: msg.PlaybackState) -> None:
+        if name not in self.robots:
+            return
+        playing = messages.playing_from_message(message)
+        self.robots[name].playing = playing
+        with self._lock:
+            if name in self._world.robots:
+                self._world.playback(name, playing)
+
+    def _on_targets(self, name: str, message: msg.GraspTargets) -> None:
+        if name not in self.robots:
+            return
+        program = messages.program_from_message(message)
+        self.robots[name].program = program
+        with self._lock:
+            if name in self._world.robots:
+                self._world.set_program(name, program)
+
+
+def _unused(message: Any) -> None:
+    """The wait set takes the messages; rclpy wants a callback all the same."""
+
+
+def _gripper(end_effector: str) -> Gripper:
+    if not end_effector:
+        return Gripper.NONE
+    path = share.directory() / "robots" / END_EFFECTORS / end_effector / "end_effector.yaml"
+    kind = str(read_yaml(path).get("class", ""))
+    return Gripper.VACUUM if "vacuum" in kind else Gripper.FINGERS

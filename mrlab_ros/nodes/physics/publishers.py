@@ -1,0 +1,133 @@
+"""What the physics node tells the graph: contacts, collisions, grasps, objects, surfaces."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+from mrlab_msgs import msg
+from rclpy.node import Node
+from rclpy.publisher import Publisher
+
+from mrlab_ros.core.clock import SECOND
+from mrlab_ros.core.physics.engine import BodyState
+from mrlab_ros.core.physics.events import CollisionChanged, Event, ObjectRemoved
+from mrlab_ros.core.physics.surfaces import Surface
+from mrlab_ros.core.physics.world import World
+from mrlab_ros.messages import physics as messages
+from mrlab_ros.messages import qos
+from mrlab_ros.messages.time import make_header
+
+CONTACTS_NS = SECOND // 50
+OBJECTS_NS = SECOND // 30
+REPEAT_NS = SECOND
+# An object that moved less than this since it was last told stands still, m.
+STILL = 1e-4
+
+
+@dataclass(frozen=True, eq=False)
+class _Told:
+    """An object as it was last published."""
+
+    message: msg.SceneObject
+    motion: BodyState
+    held_by: str
+
+    def holds(self, motion: BodyState, held_by: str) -> bool:
+        before, now = self.motion.pose, motion.pose
+        pairs = (
+            *zip(before.position, now.position, strict=True),
+            *zip(before.orientation, now.orientation, strict=True),
+        )
+        return held_by == self.held_by and all(abs(a - b) < STILL for a, b in pairs)
+
+
+class WorldPublishers:
+    """Publishes what happens in a world; the caller holds the world's lock, if not told else."""
+
+    def __init__(self, node: Node, world: World) -> None:
+        self._node = node
+        self._world = world
+        self._collisions: dict[str, Publisher] = {}
+        self._grasps: dict[str, Publisher] = {}
+        self._told: dict[str, _Told] | None = None
+        self._next_contacts_ns = self._next_objects_ns = self._repeat_ns = 0
+        self._contacts = node.create_publisher(msg.Contacts, "/contacts", qos.EVENTS)
+        self._objects = node.create_publisher(msg.SceneObjects, "/objects", qos.LATCHED)
+        self._removed = node.create_publisher(msg.ObjectRemoved, "/objects/removed", qos.EVENTS)
+        self._surfaces = node.create_publisher(msg.Surfaces, "/surfaces", qos.LATCHED)
+
+    def add_robot(self, name: str) -> None:
+        self._collisions[name] = self._node.create_publisher(
+            msg.Collision, f"/{name}/collision", qos.LATCHED
+        )
+        self._grasps[name] = self._node.create_publisher(msg.Grasp, f"/{name}/grasp", qos.LATCHED)
+
+    def remove_robot(self, name: str) -> None:
+        self._node.destroy_publisher(self._collisions.pop(name))
+        self._node.destroy_publisher(self._grasps.pop(name))
+
+    def tell(self, now_ns: int) -> bool:
+        """Publish what is due; return whether an object came, went or moved."""
+        for event in self._world.take_events():
+            self._tell(event)
+        if now_ns >= self._next_contacts_ns:
+            contacts = self._world.take_contacts()
+            if contacts:
+                self._next_contacts_ns = now_ns + CONTACTS_NS
+                self._contacts.publish(
+                    msg.Contacts(
+                        header=make_header(now_ns, messages.WORLD),
+                        contacts=[messages.contact_to_message(c) for c in contacts],
+                    )
+                )
+        if now_ns < self._next_objects_ns:
+            return False
+        self._next_objects_ns = now_ns + OBJECTS_NS
+        return self._tell_objects(now_ns)
+
+    def _tell(self, event: Event) -> None:
+        if isinstance(event, ObjectRemoved):
+            self._node.get_logger().info(f"{event.name} is removed: {event.why}")
+            self._removed.publish(messages.removed_to_message(event))
+        elif isinstance(event, CollisionChanged):
+            if event.robot in self._collisions:
+                self._collisions[event.robot].publish(messages.collision_to_message(event))
+        elif event.robot in self._grasps and event.robot in self._world.robots:
+            fingers = [finger.joint for finger in self._world.robot(event.robot).arm.fingers]
+            self._grasps[event.robot].publish(messages.grasp_to_message(event, fingers))
+
+    def _tell_objects(self, now_ns: int) -> bool:
+        """Publish all objects where one came, went or moved; else once a second."""
+        before = self._told or {}
+        told: dict[str, _Told] = {}
+        for thing in self._world.objects:
+            motion = self._world.motion(thing.name)
+            known = before.get(thing.name)
+            if known is None or not known.holds(motion, thing.held_by):
+                known = _Told(messages.object_to_message(thing, motion), motion, thing.held_by)
+            told[thing.name] = known
+        changed = (
+            self._told is None
+            or told.keys() != before.keys()
+            or any(told[name] is not before[name] for name in told)
+        )
+        self._told = told
+        if changed or now_ns >= self._repeat_ns:
+            self._repeat_ns = now_ns + REPEAT_NS
+            self._objects.publish(
+                msg.SceneObjects(
+                    header=make_header(now_ns, messages.WORLD),
+                    objects=[known.message for known in told.values()],
+                )
+            )
+        return changed
+
+    def tell_surfaces(self, now_ns: int, surfaces: Sequence[Surface]) -> None:
+        """Publish the room; a large one takes long, so the caller needs no lock."""
+        self._surfaces.publish(
+            msg.Surfaces(
+                header=make_header(now_ns, messages.WORLD),
+                surfaces=[messages.surface_to_message(s) for s in surfaces],
+            )
+        )

@@ -1,0 +1,1 @@
+"""The recorder node: recording, replay and attachments."""

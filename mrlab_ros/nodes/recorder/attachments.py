@@ -1,0 +1,203 @@
+"""What a recording needs beside messages to be understood alone, gathered from the graph."""
+
+from __future__ import annotations
+
+import array
+import json
+import platform
+import re
+from collections.abc import Callable
+from functools import partial
+from pathlib import Path
+from typing import Any
+from xml.etree import ElementTree
+
+import yaml
+from ament_index_python.packages import PackageNotFoundError, get_package_share_directory
+from mrlab_msgs import msg, srv
+from rcl_interfaces.srv import GetParameters, ListParameters
+from rclpy.parameter import parameter_value_to_python
+from rclpy.serialization import deserialize_message
+from std_msgs.msg import String
+
+from mrlab_ros.adapters.trajectories.store import chunks
+from mrlab_ros.core.errors import BadInput, LabError
+from mrlab_ros.messages import trajectories
+from mrlab_ros.ros import share
+from mrlab_ros.ros.calls import call
+from mrlab_ros.ros.spinning import Caller
+from mrlab_ros.ros.topic_poll import Received
+from mrlab_ros.ros.worker import Worker
+
+Attach = Callable[[str, str, bytes], None]
+MESH_TYPES = {".glb": "model/gltf-binary", ".stl": "model/stl", ".dae": "model/vnd.collada+xml"}
+PACKAGE = re.compile(r"package://([^/]+)/(.+)")
+SCENE = "scene.json"
+PARAMETERS_TIMEOUT = 2.0
+
+
+class SessionContent:
+    """Sees to it that URDFs, meshes, trajectories, scene and parameters are in the bag.
+
+    It learns from the messages themselves what belongs to the session; a thread of its own
+    fetches it, so that the recording goes on.
+    """
+
+    def __init__(self, caller: Caller, attach: Attach, warn_once: Callable[[str], None]) -> None:
+        self._caller = caller
+        self._attach = attach
+        self._complain = warn_once
+        self._there: set[str] = set()
+        # The last scene that was told, unless it is in the bag already.
+        self._scene: bytes | None = None
+        self._worker = Worker("recorder_content", lambda: None, lambda: None)
+        self._get = caller.node.create_client(srv.GetTrajectory, "/converter/get")
+        self._closed = False
+        self._readers: dict[str, tuple[Any, Callable[[str, Any], None]]] = {
+            "robot_description": (String, self._describe),
+            "playback_state": (msg.PlaybackState, self._take_state),
+            "robots": (msg.Robots, self._take_scene),
+            "converted": (msg.Trajectory, self._take_trajectory),
+        }
+        self._later("the parameters", self._take_parameters)
+
+    def observe(self, message: Received, kind: str) -> None:
+        """Take note of a message that was recorded."""
+        reader = self._readers.get(message.topic.rsplit("/", 1)[-1])
+        if reader is not None and not self._closed:
+            self._later(message.topic, lambda: self._read(message, kind, *reader))
+
+    def close(self) -> None:
+        """Fetch what was asked for, then end."""
+        self._closed = True
+        self._worker.do(lambda: self._guarded(SCENE, self._attach_scene))
+        self._worker.close()
+        self._caller.node.destroy_client(self._get)
+
+    def _read(
+        self, message: Received, kind: str, wanted: Any, take: Callable[[str, Any], None]
+    ) -> None:
+        if kind != f"{wanted.__module__.split('.')[0]}/msg/{wanted.__name__}":
+            return
+        take(message.topic, deserialize_message(message.data, wanted))
+
+    def _later(self, what: str, work: Callable[[], None]) -> None:
+        self._worker.later(lambda: self._guarded(what, work))
+
+    def _guarded(self, what: str, work: Callable[[], None]) -> None:
+        """Do `work`; what fails leaves a gap in the bag, and the recording goes on."""
+        try:
+            work()
+        except Exception as error:
+            why = str(error) if isinstance(error, LabError | OSError) else repr(error)
+            self._complain(f"{what}: what belongs to it is not in the bag: {why}")
+
+    def _describe(self, topic: str, message: Any) -> None:
+        robot = topic.split("/")[-2]
+        urdf = str(message.data)
+        self._attach(f"robots/{robot}.urdf", "model/urdf+xml", urdf.encode())
+        for mesh in ElementTree.fromstring(urdf).iter("mesh"):
+            match = PACKAGE.fullmatch(mesh.get("filename", ""))
+            if match is not None:
+                self._guarded(topic, partial(self._attach_mesh, *match.groups()))
+
+    def _attach_mesh(self, package: str, path: str) -> None:
+        name = f"meshes/{package}/{path}"
+        if name in self._there:
+            return
+        self._there.add(name)
+        try:
+            folder = Path(get_package_share_directory(package))
+        except PackageNotFoundError:
+            folder = share.directory()
+        media_type = MESH_TYPES.get(Path(path).suffix.lower(), "application/octet-stream")
+        self._attach(name, media_type, (folder / path).read_bytes())
+
+    def _take_state(self, topic: str, state: Any) -> None:
+        trajectory = state.trajectory_id
+        if not trajectory or trajectory_name(trajectory) in self._there:
+            return
+        # Asked for once: the state comes every second, and the converter may be gone.
+        self._there.add(trajectory_name(trajectory))
+        answer = call(self._get, srv.GetTrajectory.Request(id=trajectory))
+        if not answer.success:
+            raise BadInput(answer.message)
+        self._take_trajectory(topic, answer.trajectory)
+
+    def _take_trajectory(self, topic: str, message: Any) -> None:
+        trajectory = trajectories.trajectory_from_message(message)
+        name = trajectory_name(trajectory.id)
+        self._there.add(name)
+        self._attach(name, "application/json", b"".join(map(bytes, chunks(trajectory))))
+
+    def _take_scene(self, topic: str, message: Any) -> None:
+        scene = [
+            {
+                "name": robot.name,
+                "model": robot.model,
+                "end_effector": robot.end_effector,
+                "position": _numbers(robot.pose.position, "xyz"),
+                "orientation": _numbers(robot.pose.orientation, "xyzw"),
+            }
+            for robot in message.robots
+        ]
+        self._scene = json.dumps(scene, indent=1).encode()
+        # A robot that is dragged tells a new scene many times a second: the first goes into the
+        # bag, and the last one at the end.
+        if SCENE not in self._there:
+            self._attach_scene()
+
+    def _attach_scene(self) -> None:
+        if self._scene is not None:
+            self._there.add(SCENE)
+            self._attach(SCENE, "application/json", self._scene)
+            self._scene = None
+
+    def _take_parameters(self) -> None:
+        """Attach the parameters of every node that tells them, as a ROS parameter file."""
+        node = self._caller.node
+        services = {name for name, _ in node.get_service_names_and_types()}
+        found: dict[str, Any] = {}
+        for name in sorted(s.removesuffix("/list_parameters") for s in services):
+            if f"{name}/list_parameters" in services and f"{name}/get_parameters" in services:
+                try:
+                    found[name] = {"ros__parameters": self._parameters_of(name)}
+                except LabError as error:
+                    self._complain(f"the parameters of {name} are not in the bag: {error}")
+        self._attach("parameters.yaml", "application/yaml", yaml.safe_dump(found).encode())
+
+    def _parameters_of(self, name: str) -> dict[str, Any]:
+        node = self._caller.node
+        lists = node.create_client(ListParameters, f"{name}/list_parameters")
+        gets = node.create_client(GetParameters, f"{name}/get_parameters")
+        try:
+            names = call(lists, ListParameters.Request(), PARAMETERS_TIMEOUT).result.names
+            request = GetParameters.Request(names=names)
+            values = call(gets, request, PARAMETERS_TIMEOUT).values
+        finally:
+            node.destroy_client(lists)
+            node.destroy_client(gets)
+        plain = map(parameter_value_to_python, values)
+        return {
+            name: list(value) if isinstance(value, array.array) else value
+            for name, value in zip(names, plain, strict=True)
+        }
+
+
+def trajectory_name(trajectory_id: str) -> str:
+    """Return the name of a trajectory's attachment."""
+    return f"trajectories/{trajectory_id}.json"
+
+
+def versions() -> dict[str, str]:
+    """Return what made the bag."""
+    manifest = ElementTree.parse(share.directory() / "package.xml")
+    return {
+        "mrlab_ros": manifest.findtext("version", "unknown"),
+        "python": platform.python_version(),
+        "machine": f"{platform.system()} {platform.release()} {platform.machine()}",
+    }
+
+
+def _numbers(value: Any, names: str) -> list[float]:
+    return [getattr(value, name) for name in names]

@@ -1,0 +1,326 @@
+"""The recorder node: writes the session as a bag, and replays one."""
+
+from __future__ import annotations
+
+import threading
+import time
+from pathlib import Path
+from typing import Any
+
+from mrlab_msgs import msg, srv
+from rclpy.context import Context
+from rclpy.node import Node
+from rclpy.parameter import Parameter
+from std_srvs.srv import SetBool, Trigger
+
+from mrlab_ros.adapters.bags.definitions import definition
+from mrlab_ros.adapters.bags.reader import Bag, default_folder
+from mrlab_ros.adapters.bags.writer import BagWriter
+from mrlab_ros.core.errors import LabError, Misuse
+from mrlab_ros.core.recording.timeline import ReplayTimeline
+from mrlab_ros.core.recording.topics import LAB_TOPICS, Split, Topics
+from mrlab_ros.messages import qos
+from mrlab_ros.messages.time import make_header
+from mrlab_ros.nodes.lab.memory import LabRestore
+from mrlab_ros.nodes.recorder.attachments import SessionContent, versions
+from mrlab_ros.nodes.recorder.recording import Recording
+from mrlab_ros.nodes.recorder.replaying import Replaying
+from mrlab_ros.nodes.recorder.trajectories import ReplayedTrajectories
+from mrlab_ros.processes import host
+from mrlab_ros.ros.answers import answered
+from mrlab_ros.ros.spinning import Caller
+
+State = msg.RecorderState
+MEGABYTE = 1_000_000
+# Size at which a recording goes on in a new file, MB. The index of a file stays in memory until
+# its end: of fifty robots some 100 MB an hour.
+SPLIT_SIZE = 256
+
+
+class RecorderNode(Node):
+    """Records or replays, one at a time, and tells what it does on ~/state."""
+
+    def __init__(
+        self,
+        *,
+        context: Context | None = None,
+        parameter_overrides: list[Parameter] | None = None,
+    ) -> None:
+        super().__init__(
+            "recorder", context=context, parameter_overrides=parameter_overrides or []
+        )
+
+        def parameter(name: str, default: Any) -> Any:
+            return self.declare_parameter(name, default).value
+
+        folder = parameter("bag_dir", "")
+        self._folder = Path(folder).expanduser() if folder else default_folder()
+        self._topics = [t for t in parameter("topics", list(LAB_TOPICS)) if t]
+        self._split_size = int(parameter("split_size", SPLIT_SIZE)) * MEGABYTE
+        # The raw topics are on a node that no executor spins.
+        self._streams = Node(
+            "recorder_streams",
+            context=context,
+            start_parameter_services=False,
+            enable_rosout=False,
+            use_global_arguments=False,
+        )
+        self._caller = Caller(self)
+        self._memory = LabRestore(self._caller, self.get_logger().warning)
+        self._lock = threading.RLock()
+        self._recording: Recording | None = None
+        self._content: SessionContent | None = None
+        self._replaying: Replaying | None = None
+        self._trajectories: ReplayedTrajectories | None = None
+        # A bag that is to be replayed as soon as the lab has left; its state is told before.
+        self._preparing: Bag | None = None
+        self._trouble = ""
+        self._state = self.create_publisher(State, "~/state", qos.LATCHED)
+        for kind, name, callback in (
+            (srv.StartRecording, "start", self._start),
+            (Trigger, "stop", self._stop),
+            (Trigger, "split", self._split),
+            (srv.Replay, "replay", self._replay),
+            (Trigger, "pause", self._pause),
+            (Trigger, "resume", self._resume),
+            (srv.Seek, "seek", self._seek),
+            (srv.SetRate, "set_rate", self._set_rate),
+            (SetBool, "set_loop", self._set_loop),
+        ):
+            self.create_service(kind, f"~/{name}", callback)
+        self.create_timer(1.0, self._tell_while_working)
+        self.create_timer(0.25, self._discover)
+        self._tell()
+
+    def destroy_node(self) -> None:
+        """Close what is written, end what is replayed."""
+        try:
+            self._end()
+        except LabError as error:
+            self.get_logger().error(str(error))
+        self._memory.close()
+        self._caller.close()
+        self._streams.destroy_node()
+        super().destroy_node()
+
+    # recording ------------------------------------------------------------------------------
+
+    @answered
+    def _start(self, request: Any, response: Any) -> str:
+        self._must_be_idle()
+        split = Split(request.split_duration, self._split_size)
+        topics = Topics(list(request.topics) or self._topics)
+        name = request.bag or time.strftime("session_%Y-%m-%d_%H-%M-%S")
+        writer = BagWriter(self._folder / Path(name).expanduser(), definition, versions())
+        writer.note("mrlab", writer.facts.custom)
+        recording = Recording(
+            self._streams,
+            writer,
+            topics,
+            split,
+            self._observe,
+            self._on_disk_trouble,
+            self.get_logger().warning,
+        )
+        content = SessionContent(self._caller, recording.attach, self.get_logger().warning)
+        with self._lock:
+            self._trouble = ""
+            self._recording, self._content = recording, content
+        if not recording.start():
+            raise Misuse(self._trouble)
+        self._tell()
+        response.bag = str(writer.folder)
+        self.get_logger().info(f"records into {writer.folder}")
+        return f"records into {writer.folder}"
+
+    @answered
+    def _split(self, request: Any, response: Any) -> str:
+        recording = self._recording
+        if recording is None:
+            raise Misuse("nothing is recorded; start a recording first")
+        recording.split()
+        if self._recording is None:
+            raise Misuse(self._trouble)
+        return "goes on in a new file"
+
+    @answered
+    def _stop(self, request: Any, response: Any) -> str:
+        if self._recording is None and self._replaying is None:
+            raise Misuse("nothing is recorded or replayed")
+        return self._end()
+
+    def _discover(self) -> None:
+        recording = self._recording
+        if recording is not None:
+            recording.discover()
+
+    def _observe(self, message: Any, kind: str) -> None:
+        content = self._content
+        if content is not None:
+            content.observe(message, kind)
+
+    def _on_disk_trouble(self, error: LabError) -> None:
+        self.get_logger().error(str(error))
+        with self._lock:
+            self._trouble = str(error)
+            self._recording = None
+            content, self._content = self._content, None
+        self._tell()
+        if content is not None:
+            content.close()
+
+    # replaying ------------------------------------------------------------------------------
+
+    @answered
+    def _replay(self, request: Any, response: Any) -> str:
+        self._must_be_idle()
+        path = Path(request.bag).expanduser()
+        bag = Bag(path if path.is_absolute() or path.exists() else self._folder / path)
+        timeline = ReplayTimeline(bag.duration, request.rate, request.start, request.loop)
+        replaying = Replaying(self._streams, bag, timeline, self._on_replay_end)
+        self._memory.remember()
+        self._preparing, self._trouble = bag, ""
+        # The lab's own nodes stand aside as soon as they hear this.
+        self._tell()
+        try:
+            replaying.wait_until_alone()
+            self._trajectories = ReplayedTrajectories(self, bag)
+            # Known before it begins: a short one is over at once.
+            self._replaying = replaying
+            replaying.start()
+        except Exception:
+            self._replaying = None
+            self._close(replaying)
+            self._memory.restore()
+            raise
+        finally:
+            self._preparing = None
+            self._tell()
+        self.get_logger().info(f"replays {bag.path}")
+        return f"replays {bag.duration:.1f} s with {bag.message_count} messages"
+
+    def _on_replay_end(self, trouble: str) -> None:
+        if trouble:
+            self.get_logger().error(trouble)
+        replaying = self._replaying
+        if replaying is None:
+            # Somebody ended it in the same moment.
+            return
+        self._close(replaying)
+        with self._lock:
+            if self._replaying is not replaying:
+                return
+            self._replaying, self._trouble = None, trouble
+        self.get_logger().info(f"the replay of {replaying.bag.path} is over")
+        self._tell()
+        self._memory.restore()
+
+    def _close(self, replaying: Replaying) -> None:
+        """Take the bag out of the graph, before the lab hears that it may come back."""
+        trajectories, self._trajectories = self._trajectories, None
+        if trajectories is not None:
+            trajectories.close()
+        replaying.close()
+
+    @answered
+    def _pause(self, request: Any, response: Any) -> str:
+        replaying = self._replay_at_hand()
+        replaying.pause()
+        self._tell()
+        return f"paused at {replaying.position:.3f} s"
+
+    @answered
+    def _resume(self, request: Any, response: Any) -> str:
+        self._replay_at_hand().resume()
+        self._tell()
+        return "goes on"
+
+    @answered
+    def _seek(self, request: Any, response: Any) -> str:
+        self._replay_at_hand().seek(request.position)
+        self._tell()
+        return f"at {request.position:g} s"
+
+    @answered
+    def _set_rate(self, request: Any, response: Any) -> str:
+        self._replay_at_hand().set_rate(request.rate)
+        self._tell()
+        return f"rate {request.rate:g}"
+
+    @answered
+    def _set_loop(self, request: Any, response: Any) -> str:
+        self._replay_at_hand().set_loop(request.data)
+        return "loops" if request.data else "ends at the end"
+
+    def _replay_at_hand(self) -> Replaying:
+        if self._replaying is None:
+            raise Misuse("nothing is replayed; start a replay first")
+        return self._replaying
+
+    # both -----------------------------------------------------------------------------------
+
+    def _must_be_idle(self) -> None:
+        if self._recording is not None:
+            raise Misuse(f"a recording into {self._recording.folder} runs; stop it first")
+        if self._replaying is not None:
+            raise Misuse(f"{self._replaying.bag.path} is being replayed; stop that first")
+
+    def _end(self) -> str:
+        with self._lock:
+            recording, self._recording = self._recording, None
+            content, self._content = self._content, None
+            replaying, self._replaying = self._replaying, None
+        try:
+            if content is not None:
+                content.close()
+            if recording is not None:
+                recording.close()
+            if replaying is not None:
+                self._close(replaying)
+        finally:
+            if self.context.ok():
+                self._tell()
+                if replaying is not None:
+                    self._memory.restore()
+        if recording is not None:
+            said = f"{recording.folder} holds {recording.messages} messages"
+            if self.context.ok():
+                self.get_logger().info(said)
+            return said
+        return "the replay is over" if replaying is not None else ""
+
+    def _tell_while_working(self) -> None:
+        if self._recording is not None or self._replaying is not None:
+            self._tell()
+
+    def _tell(self) -> None:
+        with self._lock:
+            state = State(message=self._trouble, rate=1.0)
+            state.header = make_header(time.time_ns())
+            recording, replaying = self._recording, self._replaying
+            if recording is not None:
+                state.state = State.RECORDING
+                state.bag = recording.folder
+                state.position = recording.position
+                state.messages, state.bytes = recording.messages, recording.size
+            elif replaying is not None:
+                state.state = State.PAUSED if replaying.standing else State.REPLAYING
+                state.position, state.rate = replaying.position, replaying.rate
+                state.messages = replaying.messages
+                self._tell_of_bag(state, replaying.bag)
+            elif self._preparing is not None:
+                state.state = State.REPLAYING
+                self._tell_of_bag(state, self._preparing)
+            try:
+                self._state.publish(state)
+            except Exception:
+                # A replay that ends in the moment in which the lab does has nobody to tell.
+                if self.context.ok():
+                    raise
+
+    def _tell_of_bag(self, state: Any, bag: Bag) -> None:
+        state.bag, state.duration, state.bytes = str(bag.path), bag.duration, bag.size
+
+
+def main() -> None:
+    host.main(["recorder"])

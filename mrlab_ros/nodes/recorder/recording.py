@@ -1,0 +1,229 @@
+"""A running recording: it follows the graph's topics and writes what they bring into a bag."""
+
+from __future__ import annotations
+
+import threading
+import time
+from collections.abc import Callable
+
+from rclpy.node import Node
+from rclpy.subscription import Subscription
+
+from mrlab_ros.adapters.bags.writer import BagWriter
+from mrlab_ros.core.clock import SECOND
+from mrlab_ros.core.errors import BadInput, LabError
+from mrlab_ros.core.recording.metadata import Topic
+from mrlab_ros.core.recording.topics import Split, Topics
+from mrlab_ros.messages.qos import message_class, profile, topic_of
+from mrlab_ros.ros.topic_poll import Received, TopicPoll
+
+# How often subscriptions are looked at, s.
+PERIOD = 0.04
+# Every how many looks at the graph the publishers of known topics are looked at, too.
+LOOKS = 8
+# A killed recorder loses what came in the last so many ns.
+FLUSH_NS = 400_000_000
+# How often metadata.yaml is brought up to date while recording, ns.
+METADATA_NS = 10 * SECOND
+# Messages kept for the recorder while a disk or the machine stalls: 10 s at 100 Hz.
+DEPTH = 1000
+
+
+class Followed:
+    """A topic that is recorded."""
+
+    def __init__(self, subscription: Subscription, topic: Topic, publishers: int) -> None:
+        self.subscription = subscription
+        self.topic = topic
+        self.publishers = publishers
+
+
+class Recording:
+    """Writes the topics of the graph that `topics` names into `writer`.
+
+    `streams` is a node that no executor spins. `observe` gets every message that was written,
+    and must be quick. `on_trouble` is told, from another thread, why the recording ended by
+    itself; the bag is closed by then.
+    """
+
+    def __init__(
+        self,
+        streams: Node,
+        writer: BagWriter,
+        topics: Topics,
+        split: Split,
+        observe: Callable[[Received, str], None],
+        on_trouble: Callable[[LabError], None],
+        warn_once: Callable[[str], None],
+    ) -> None:
+        self._streams = streams
+        self._writer = writer
+        self._topics = topics
+        self._split = split
+        self._observe = observe
+        self._on_trouble = on_trouble
+        self._complain = warn_once
+        self._followed: dict[str, Followed] = {}
+        # type of each topic that was ever followed
+        self._kinds: dict[str, str] = {}
+        # Topics that are not wanted, or cannot be recorded.
+        self._refused: set[str] = set()
+        self._looks = 0
+        self._lock = threading.Lock()
+        # Of the clock that never goes back: the other one may be set while a recording runs.
+        self._began_ns = self._part_ns = self._flushed_ns = self._noted_ns = time.monotonic_ns()
+        self._closed = False
+        self.messages = 0
+        self._poll = TopicPoll("recorder", PERIOD, self._take)
+
+    def start(self) -> bool:
+        """Follow the topics that there are; return False where it ended at once by itself."""
+        if self._guarded(self._writer.flush):
+            self.discover()
+        if not self._closed:
+            self._poll.start()
+        return not self._closed
+
+    @property
+    def folder(self) -> str:
+        return str(self._writer.folder)
+
+    @property
+    def position(self) -> float:
+        """Time since the recording began, s."""
+        return (time.monotonic_ns() - self._began_ns) / SECOND
+
+    @property
+    def size(self) -> int:
+        return self._writer.size
+
+    def discover(self) -> None:
+        """Follow the topics that are new in the graph; now and then look for new publishers."""
+        if self._closed:
+            return
+        changed = False
+        self._looks += 1
+        again = self._looks % LOOKS == 0
+        for name, _ in self._streams.get_topic_names_and_types():
+            if name in self._refused or (name in self._followed and not again):
+                continue
+            if name not in self._topics:
+                self._refused.add(name)
+                continue
+            known = self._followed.get(name)
+            publishers = self._streams.count_publishers(name)
+            if publishers and (known is None or known.publishers != publishers):
+                changed |= self._follow(name, publishers)
+        if changed:
+            self._guarded(lambda: self._written(self._writer.write_metadata))
+
+    def split(self) -> None:
+        """Go on in a new file of the bag; where the disk refuses, the recording ends."""
+        self._guarded(self._split_now)
+
+    def attach(self, name: str, media_type: str, data: bytes) -> None:
+        """Put a file into the bag, unless it is closed."""
+        with self._lock:
+            if not self._closed:
+                self._writer.attach(name, media_type, data, time.time_ns())
+
+    def close(self) -> None:
+        """Write what came, then index and metadata; raise DiskTrouble where that fails."""
+        self._poll.stop()
+        with self._lock:
+            if self._closed:
+                return
+            self._closed = True
+        self._leave()
+        self._writer.close()
+
+    def _follow(self, name: str, publishers: int) -> bool:
+        ends = self._streams.get_publishers_info_by_topic(name)
+        kinds = {end.topic_type for end in ends}
+        if len(kinds) != 1:
+            if kinds:
+                self._refuse(name, f"{name} has several types ({', '.join(sorted(kinds))})")
+            return False
+        topic = topic_of(name, ends)
+        known = self._followed.get(name)
+        if known is not None:
+            known.publishers = publishers
+            if (known.topic.latched, known.topic.reliable) == (topic.latched, topic.reliable):
+                return False
+            self._poll.remove(known.subscription)
+            self._streams.destroy_subscription(known.subscription)
+        try:
+            kind = message_class(topic.type)
+            with self._lock:
+                self._writer.add_topic(topic)
+        except BadInput as error:
+            self._refuse(name, str(error))
+            return False
+        subscription = self._streams.create_subscription(
+            kind, name, lambda _: None, profile(topic, DEPTH), raw=True
+        )
+        self._kinds[name] = topic.type
+        self._followed[name] = Followed(subscription, topic, publishers)
+        self._poll.add(subscription, name)
+        return True
+
+    def _refuse(self, name: str, why: str) -> None:
+        self._refused.add(name)
+        self._complain(f"not recorded: {why}")
+
+    def _take(self, messages: list[Received]) -> bool:
+        with self._lock:
+            if self._closed:
+                return False
+            write = self._writer.write
+            for message in messages:
+                received_ns, topic, data, published_ns, sequence = message
+                write(topic, received_ns, data, published_ns, sequence & 0xFFFFFFFF)
+            self.messages += len(messages)
+        for message in messages:
+            self._observe(message, self._kinds[message.topic])
+        return self._guarded(self._do_due)
+
+    def _do_due(self) -> None:
+        now_ns = time.monotonic_ns()
+        if self._split.due(self._part_ns, now_ns, self._writer.part_size):
+            self._split_now()
+        if now_ns - self._flushed_ns >= FLUSH_NS:
+            self._flushed_ns = now_ns
+            self._written(self._writer.flush)
+        if now_ns - self._noted_ns >= METADATA_NS:
+            self._noted_ns = now_ns
+            self._written(self._writer.write_metadata)
+
+    def _split_now(self) -> None:
+        self._part_ns = time.monotonic_ns()
+        self._written(self._writer.split)
+
+    def _written(self, write: Callable[[], None]) -> None:
+        """Do what several threads may ask of the writer, unless the bag is closed."""
+        with self._lock:
+            if not self._closed:
+                write()
+
+    def _guarded(self, work: Callable[[], None]) -> bool:
+        """Do `work`; where the disk refuses, end the recording and return False."""
+        try:
+            work()
+        except LabError as error:
+            with self._lock:
+                if self._closed:
+                    return False
+                self._closed = True
+            try:
+                self._writer.close()
+            except LabError as second:
+                self._complain(str(second))
+            self._leave()
+            self._on_trouble(error)
+            return False
+        return True
+
+    def _leave(self) -> None:
+        for followed in self._followed.values():
+            self._streams.destroy_subscription(followed.subscription)
+        self._followed.clear()

@@ -1,0 +1,284 @@
+"""A running replay: it publishes a bag's messages again, as they were, at their times."""
+
+from __future__ import annotations
+
+import queue
+import threading
+import time
+from collections import deque
+from collections.abc import Callable
+
+from rclpy.node import Node
+from rclpy.publisher import Publisher
+
+from mrlab_ros.adapters.bags.mcap_file import Message
+from mrlab_ros.adapters.bags.reader import Bag
+from mrlab_ros.core.clock import SECOND, checked_position
+from mrlab_ros.core.errors import BadInput, LabError, Misuse
+from mrlab_ros.core.recording.timeline import ReplayTimeline, is_state
+from mrlab_ros.core.recording.topics import OF_THE_PRESENT, Topics
+from mrlab_ros.messages.qos import message_class, profile
+
+# Messages kept for a subscriber that is slow; of a latched topic, for one that comes late.
+DEPTH, LATCHED_DEPTH = 1000, 10
+# Batches of messages that are read ahead.
+AHEAD = 4
+# Messages that are published before a command has its turn.
+BURST = 200
+# How long a replay waits for the lab's own nodes to leave and for subscribers to be found, s.
+LEAVE_TIMEOUT = 12.0
+MATCH_TIMEOUT = 2.0
+LOOK = 0.02
+# Who subscribes once a topic is there, as the bridge does, has done so after this time, s.
+SETTLE = 0.5
+
+
+class Feed:
+    """A thread that reads a bag ahead of the replay."""
+
+    def __init__(self, bag: Bag, start_ns: int, topics: frozenset[str]) -> None:
+        self._queue: queue.Queue[list[Message] | Exception | None] = queue.Queue(AHEAD)
+        self._stopped = False
+        self._thread = threading.Thread(
+            target=self._run, args=(bag, start_ns, topics), name="replay_feed", daemon=True
+        )
+        self._thread.start()
+
+    def next(self) -> list[Message] | None:
+        """Return the messages that follow, None at the end; raise what reading raised."""
+        item = self._queue.get()
+        if isinstance(item, Exception):
+            raise item
+        return item
+
+    def stop(self) -> None:
+        """End the thread and wait for it."""
+        self._stopped = True
+        while self._thread.is_alive():
+            try:
+                self._queue.get(timeout=LOOK)
+            except queue.Empty:
+                continue
+        self._thread.join()
+
+    def _run(self, bag: Bag, start_ns: int, topics: frozenset[str]) -> None:
+        try:
+            for batch in bag.batches(start_ns, topics):
+                if self._stopped:
+                    return
+                self._queue.put(batch)
+            self._queue.put(None)
+        except Exception as error:  # the replay's thread tells it
+            self._queue.put(error)
+
+
+class Replaying:
+    """Publishes `bag` through `streams`, a node that no executor spins, in a thread of its own.
+
+    It begins with start(). `on_end` is told, from that thread, when the end was reached, with
+    the trouble that ended it, or an empty text.
+    """
+
+    def __init__(
+        self,
+        streams: Node,
+        bag: Bag,
+        timeline: ReplayTimeline,
+        on_end: Callable[[str], None],
+        now_ns: Callable[[], int] = time.monotonic_ns,
+    ) -> None:
+        self._streams = streams
+        self._bag = bag
+        self._timeline = timeline
+        self._on_end = on_end
+        self._now_ns = now_ns
+        present = Topics(OF_THE_PRESENT)
+        self._topics = [topic for topic in bag.topics.values() if topic.name not in present]
+        if not self._topics:
+            raise BadInput(
+                f"{bag.path} holds no topic that can be replayed; record the lab's topics"
+            )
+        self._kinds = {topic.name: message_class(topic.type) for topic in self._topics}
+        self._names = frozenset(self._kinds)
+        self._state_names = frozenset(topic.name for topic in self._topics if is_state(topic))
+        self._publishers: dict[str, Publisher] = {}
+        self._changed = threading.Condition()
+        self._ready: deque[Message] = deque()
+        self._feed: Feed | None = None
+        self._stopped = False
+        self._thread = threading.Thread(target=self._run, name="replay", daemon=True)
+        self.messages = 0
+
+    # what can be asked of it ----------------------------------------------------------------
+
+    @property
+    def bag(self) -> Bag:
+        return self._bag
+
+    @property
+    def standing(self) -> bool:
+        return self._timeline.standing
+
+    @property
+    def rate(self) -> float:
+        return self._timeline.rate
+
+    @property
+    def position(self) -> float:
+        with self._changed:
+            return self._timeline.position(self._now_ns())
+
+    def wait_until_alone(self) -> None:
+        """Wait until nobody else publishes the bag's topics; raise Misuse that names who does."""
+        deadline = time.monotonic() + LEAVE_TIMEOUT
+        while others := self._others():
+            if time.monotonic() > deadline:
+                raise Misuse(
+                    f"the replay does not begin: {', '.join(others)}; stop what publishes there, "
+                    "or replay on another ROS domain"
+                )
+            time.sleep(LOOK)
+
+    def start(self) -> None:
+        """Offer the topics, then begin; subscribers that are there miss nothing."""
+        for topic in self._topics:
+            depth = LATCHED_DEPTH if topic.latched else DEPTH
+            self._publishers[topic.name] = self._streams.create_publisher(
+                self._kinds[topic.name], topic.name, profile(topic, depth)
+            )
+        time.sleep(SETTLE)
+        deadline = time.monotonic() + MATCH_TIMEOUT
+        while not self._matched() and time.monotonic() < deadline:
+            time.sleep(LOOK)
+        with self._changed:
+            self._jump(self._timeline.position(self._now_ns()))
+            self._timeline.play(self._now_ns())
+        self._thread.start()
+
+    def pause(self) -> None:
+        """Stand still: nothing is published any more when this returns."""
+        with self._changed:
+            self._timeline.pause(self._now_ns())
+            self._changed.notify()
+
+    def resume(self) -> None:
+        with self._changed:
+            self._timeline.play(self._now_ns())
+            self._changed.notify()
+
+    def seek(self, position: float) -> None:
+        """Go to `position`, s; raise BadInput where it is outside."""
+        with self._changed:
+            self._jump(checked_position(position, self._timeline.duration))
+            # After that, for finding the place takes a moment which is no part of the session.
+            self._timeline.seek(self._now_ns(), position)
+            self._changed.notify()
+
+    def set_rate(self, rate: float) -> None:
+        with self._changed:
+            self._timeline.set_rate(self._now_ns(), rate)
+            self._changed.notify()
+
+    def set_loop(self, loop: bool) -> None:
+        with self._changed:
+            self._timeline.loop = loop
+
+    def close(self) -> None:
+        """End, and take the topics out of the graph."""
+        with self._changed:
+            self._stopped = True
+            self._changed.notify()
+        if self._thread.is_alive() and self._thread is not threading.current_thread():
+            self._thread.join()
+        if self._feed is not None:
+            self._feed.stop()
+        for publisher in self._publishers.values():
+            self._streams.destroy_publisher(publisher)
+        self._publishers.clear()
+
+    # its thread -----------------------------------------------------------------------------
+
+    def _others(self) -> list[str]:
+        own = self._streams.get_name()
+        found: dict[str, set[str]] = {}
+        for name in self._names:
+            if self._streams.count_publishers(name):
+                for end in self._streams.get_publishers_info_by_topic(name):
+                    if end.node_name != own:
+                        who = f"{end.node_namespace.rstrip('/')}/{end.node_name}"
+                        found.setdefault(who, set()).add(name)
+        return [f"{who} publishes {sorted(names)[0]}" for who, names in sorted(found.items())]
+
+    def _matched(self) -> bool:
+        return all(
+            publisher.get_subscription_count() >= self._streams.count_subscribers(name)
+            for name, publisher in self._publishers.items()
+        )
+
+    def _jump(self, position: float) -> None:
+        """Publish how things are at `position`, s, and read on from there."""
+        place_ns = self._bag.start_ns + round(position * SECOND)
+        # First what a damaged bag may refuse: the replay goes on where it is then.
+        present = self._bag.newest_before(place_ns, self._state_names)
+        if self._feed is not None:
+            self._feed.stop()
+        self._ready.clear()
+        for message in present:
+            self._publish(message)
+        self._feed = Feed(self._bag, place_ns, self._names)
+
+    def _run(self) -> None:
+        trouble = ""
+        try:
+            with self._changed:
+                while not self._stopped and self._step():
+                    pass
+        except Exception as error:
+            trouble = (
+                str(error)
+                if isinstance(error, LabError)
+                else f"the bag {self._bag.path} cannot be read on ({error!r}); mrlab bag info "
+                "says what is wrong with it"
+            )
+        if not self._stopped:
+            self._on_end(trouble)
+
+    def _step(self) -> bool:
+        """Publish what is due or wait for it; return False once the end is reached."""
+        timeline = self._timeline
+        if timeline.standing:
+            self._changed.wait()
+            return True
+        if not self._ready:
+            assert self._feed is not None
+            batch = self._feed.next()
+            if batch is None:
+                return self._reach_end()
+            self._ready.extend(batch)
+        now_ns = self._now_ns()
+        due_ns = self._due_ns(self._ready[0])
+        if due_ns > now_ns:
+            self._changed.wait((due_ns - now_ns) / SECOND)
+            return True
+        for _ in range(min(BURST, len(self._ready))):
+            if self._due_ns(self._ready[0]) > now_ns:
+                break
+            self._publish(self._ready.popleft())
+        # A command that waits has its turn.
+        self._changed.wait(0)
+        return True
+
+    def _reach_end(self) -> bool:
+        # A bag of one moment would begin anew without end in that moment.
+        if not self._timeline.loop or self._timeline.duration == 0:
+            return False
+        self._jump(0.0)
+        self._timeline.seek(self._now_ns(), 0.0)
+        return True
+
+    def _due_ns(self, message: Message) -> int:
+        return self._timeline.due_ns((message.log_time_ns - self._bag.start_ns) / SECOND)
+
+    def _publish(self, message: Message) -> None:
+        self._publishers[message.topic].publish(message.data)
+        self.messages += 1

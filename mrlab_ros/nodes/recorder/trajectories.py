@@ -1,0 +1,39 @@
+"""Answers for the converter while a bag is replayed: the bag's own trajectories."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from mrlab_msgs import srv
+from rclpy.node import Node
+
+from mrlab_ros.adapters.bags.reader import Bag
+from mrlab_ros.adapters.trajectories.coefficients import load_coefficients
+from mrlab_ros.adapters.trajectories.store import parse
+from mrlab_ros.messages import trajectories
+from mrlab_ros.nodes.recorder.attachments import trajectory_name
+from mrlab_ros.ros import share
+from mrlab_ros.ros.answers import answered
+
+
+class ReplayedTrajectories:
+    """Offers /converter/get on `node`, from the attachments of `bag`, until close()."""
+
+    def __init__(self, node: Node, bag: Bag) -> None:
+        self._node = node
+        self._bag = bag
+        self._service = node.create_service(srv.GetTrajectory, "/converter/get", self._get)
+
+    def close(self) -> None:
+        self._node.destroy_service(self._service)
+
+    def get_logger(self) -> Any:
+        return self._node.get_logger()
+
+    @answered
+    def _get(self, request: Any, response: Any) -> str:
+        name = trajectory_name(request.id)
+        coefficients = load_coefficients(share.directory() / "config" / "torque_proxy.yaml")
+        trajectory = parse(self._bag.attachment(name).data, name, coefficients)
+        response.trajectory = trajectories.trajectory_to_message(trajectory)
+        return f"{request.id} of {self._bag.path.name}"

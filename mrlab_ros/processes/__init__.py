@@ -1,0 +1,1 @@
+"""The lab's processes: their list, the host, the supervisor."""

@@ -1,0 +1,289 @@
+"""Keeps the lab's processes running: starts, restarts with back-off, stops all at once.
+
+No process outlives the lab. On a wanted stop every process group gets SIGINT and, after a
+grace, SIGKILL. Should the supervisor itself be killed, the kernel kills its children: each is
+started through a few lines of Python that ask for that (PR_SET_PDEATHSIG) and then become the
+real program. A hook between fork and exec would do the same, but is unsafe beside threads.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import os
+import signal
+import subprocess
+import sys
+import threading
+import time
+from collections.abc import Callable, Iterable, Mapping
+from dataclasses import dataclass, field
+from enum import Enum
+from types import TracebackType
+from typing import IO
+
+FIRST_DELAY = 0.5
+LONGEST_DELAY = 10.0
+STABLE_AFTER = 30.0
+# From SIGINT to SIGKILL, s; a clean stop of a process takes well under one.
+GRACE = 1.5
+# The last lines of an ended process are read in this time, s.
+READ_PATIENCE = 1.0
+# The name under which the supervisor itself speaks.
+SELF = "mrlab"
+
+# Runs as: python -I -S -c GUARDED <pid of the supervisor> program argument...
+# The signal is tied to the thread that forked: Child's own thread, which lives as long.
+GUARDED = """
+import ctypes, os, signal, sys
+ctypes.CDLL(None).prctl(1, signal.SIGKILL)
+signal.signal(signal.SIGINT, signal.SIG_DFL)
+if os.getppid() == int(sys.argv[1]):
+    os.execvp(sys.argv[2], sys.argv[2:])
+"""
+
+
+@dataclass(frozen=True)
+class ProcessSpec:
+    """A process to keep: a short name, its command, and what it adds to the environment."""
+
+    name: str
+    argv: tuple[str, ...]
+    env: Mapping[str, str] = field(default_factory=dict)
+
+
+# Tells a process how many before it have ended.
+RESTARTS = "MRLAB_RESTARTS"
+
+
+class RestartPolicy:
+    """Decides how long to wait before a process that ended is started again.
+
+    Delays double from `first` to `longest` (s) and begin anew after a life of `stable` (s).
+    """
+
+    def __init__(
+        self,
+        first: float = FIRST_DELAY,
+        longest: float = LONGEST_DELAY,
+        stable: float = STABLE_AFTER,
+    ) -> None:
+        self._first, self._longest, self._stable = first, longest, stable
+        self._next = first
+        self._started = 0.0
+
+    def started(self, now: float) -> None:
+        """Note that the process was started at `now` (s)."""
+        self._started = now
+
+    def ended(self, now: float) -> float:
+        """Return the delay, s, after which a process that ended at `now` (s) starts again."""
+        if now - self._started >= self._stable:
+            self._next = self._first
+        delay = self._next
+        self._next = min(2 * delay, self._longest)
+        return delay
+
+
+class Phase(Enum):
+    """What a supervised process does."""
+
+    STARTING = "starting"
+    RUNNING = "running"
+    WAITING = "waiting to restart"
+    STOPPED = "stopped"
+
+
+@dataclass(frozen=True)
+class ProcessState:
+    """One supervised process as `mrlab status` shows it; since: s of wall time."""
+
+    name: str
+    phase: str
+    pid: int | None
+    restarts: int
+    since: float
+    last_exit: str
+
+
+def describe_exit(code: int) -> str:
+    """Say in words how a process ended; negative codes are signals."""
+    if code >= 0:
+        return f"exit code {code}"
+    try:
+        return signal.Signals(-code).name
+    except ValueError:
+        return f"signal {-code}"
+
+
+Emit = Callable[[str, str], None]
+
+
+class Child:
+    """One process, kept by a thread of its own; its output goes line by line to `emit`."""
+
+    def __init__(
+        self, spec: ProcessSpec, policy: RestartPolicy, emit: Emit, changed: Callable[[], None]
+    ) -> None:
+        self.spec = spec
+        self._policy, self._emit, self._changed = policy, emit, changed
+        self._phase, self._since = Phase.STARTING, time.time()
+        self._restarts, self._last_exit = 0, ""
+        self._process: subprocess.Popen[bytes] | None = None
+        # Guards _process: while it is set, its process group exists and is ours.
+        self._lock = threading.Lock()
+        self._stop = threading.Event()
+        self._thread = threading.Thread(target=self._keep, name=spec.name, daemon=True)
+
+    @property
+    def state(self) -> ProcessState:
+        process = self._process
+        return ProcessState(
+            self.spec.name,
+            self._phase.value,
+            process.pid if process else None,
+            self._restarts,
+            self._since,
+            self._last_exit,
+        )
+
+    def start(self) -> None:
+        self._thread.start()
+
+    def stop(self, number: signal.Signals) -> None:
+        """Send the whole process group a signal and do not start the process again."""
+        self._stop.set()
+        with self._lock:
+            if self._process is not None:
+                _signal_group(self._process.pid, number)
+
+    def restart(self) -> None:
+        """Have the process end; it is started again like one that ended by itself."""
+        with self._lock:
+            if self._process is not None:
+                _signal_group(self._process.pid, signal.SIGINT)
+
+    def join(self, timeout: float) -> bool:
+        """Wait up to `timeout` (s) for the end; return whether it came."""
+        self._thread.join(max(timeout, 0.0))
+        return not self._thread.is_alive()
+
+    def _enter(self, phase: Phase) -> None:
+        self._phase, self._since = phase, time.time()
+        self._changed()
+
+    def _keep(self) -> None:
+        while not self._stop.is_set():
+            ended = self._run_once()
+            if self._stop.is_set():
+                break
+            self._last_exit = ended
+            delay = self._policy.ended(time.monotonic())
+            self._emit(SELF, f"{self.spec.name} ended ({ended}); restarts in {delay:g} s")
+            self._enter(Phase.WAITING)
+            self._stop.wait(delay)
+            self._restarts += 1
+        self._enter(Phase.STOPPED)
+
+    def _run_once(self) -> str:
+        """Run the process to its end and return how it ended."""
+        guard = (sys.executable, "-I", "-S", "-c", GUARDED, str(os.getpid()))
+        with self._lock:
+            if self._stop.is_set():
+                return "not started"
+            try:
+                process = subprocess.Popen(
+                    guard + self.spec.argv,
+                    env={**os.environ, **self.spec.env, RESTARTS: str(self._restarts)},
+                    stdin=subprocess.DEVNULL,
+                    stdout=subprocess.PIPE,
+                    stderr=subprocess.STDOUT,
+                    start_new_session=True,
+                )
+            except OSError as error:
+                return f"could not be started: {error}"
+            self._process = process
+        self._policy.started(time.monotonic())
+        self._enter(Phase.RUNNING)
+        assert process.stdout is not None
+        reader = threading.Thread(target=self._read, args=(process.stdout,), daemon=True)
+        reader.start()
+        # The ended process stays unreaped until its group is gone: its id cannot be reused.
+        os.waitid(os.P_PID, process.pid, os.WEXITED | os.WNOWAIT)
+        with self._lock:
+            _signal_group(process.pid, signal.SIGKILL)
+            self._process = None
+            code = process.wait()
+        # Somebody who left the group may still hold the pipe; its reader then goes on alone.
+        reader.join(READ_PATIENCE)
+        return describe_exit(code)
+
+    def _read(self, stream: IO[bytes]) -> None:
+        with stream:
+            for line in stream:
+                self._emit(self.spec.name, line.decode(errors="replace").rstrip())
+
+
+def _signal_group(leader: int, number: signal.Signals) -> None:
+    # A group whose members have all ended may refuse.
+    with contextlib.suppress(ProcessLookupError, PermissionError):
+        os.killpg(leader, number)
+
+
+class Supervisor:
+    """Keeps a set of processes; use it as a context manager, so that all of them end.
+
+    `emit(name, line)` gets every line of output, from several threads; `changed(states)` the
+    state of all processes whenever one changes.
+    """
+
+    def __init__(
+        self,
+        specs: Iterable[ProcessSpec],
+        emit: Emit,
+        changed: Callable[[list[ProcessState]], None] = lambda states: None,
+        policy: Callable[[], RestartPolicy] = RestartPolicy,
+    ) -> None:
+        self._report = changed
+        self._reporting = threading.Lock()
+        self.children = [Child(spec, policy(), emit, self._on_change) for spec in specs]
+
+    @property
+    def states(self) -> list[ProcessState]:
+        return [child.state for child in self.children]
+
+    def start(self) -> None:
+        for child in self.children:
+            child.start()
+
+    def restart(self, name: str) -> None:
+        """Have one process end and start again."""
+        for child in self.children:
+            if child.spec.name == name:
+                child.restart()
+
+    def stop(self, grace: float = GRACE) -> None:
+        """Stop everything: SIGINT at once to all, SIGKILL to what is left after `grace` s."""
+        deadline = time.monotonic() + grace
+        for child in self.children:
+            child.stop(signal.SIGINT)
+        for child in self.children:
+            if not child.join(deadline - time.monotonic()):
+                child.stop(signal.SIGKILL)
+        for child in self.children:
+            child.join(grace)
+
+    def __enter__(self) -> Supervisor:
+        self.start()
+        return self
+
+    def __exit__(
+        self,
+        kind: type[BaseException] | None,
+        error: BaseException | None,
+        trace: TracebackType | None,
+    ) -> None:
+        self.stop()
+
+    def _on_change(self) -> None:
+        with self._reporting:
+            self._report(self.states)

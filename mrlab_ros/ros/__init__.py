@@ -1,0 +1,1 @@
+"""rclpy's mechanisms: executors, raw streams, calls, parameters."""

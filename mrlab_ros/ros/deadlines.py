@@ -1,0 +1,196 @@
+"""One thread that lets every playback's joint states leave at their deadlines.
+
+Timers of an executor share a wait set with every service and topic of the process; here a
+deadline depends on nothing but this loop.
+"""
+
+from __future__ import annotations
+
+import ctypes
+import sys
+import threading
+import time
+import traceback
+from collections.abc import Callable
+
+from mrlab_ros.core.clock import SECOND
+from mrlab_ros.core.playback.playback import Playback, PlaybackStatus, Sample
+
+PR_SET_TIMERSLACK = 29
+# The longest the thread sleeps without a deadline, s.
+IDLE_SLEEP = 1.0
+# A sleep ends about this much late, and preparing a joint state takes about this long, ns: the
+# thread wakes so much early and lets them leave when they are due.
+WAKE_NS = 150_000
+PREPARE_NS = 15_000
+# A thread that runs Python may keep the deadline thread waiting this long, s. Python's own
+# 5 ms would be half a period at 100 Hz.
+SWITCH_INTERVAL = 0.0005
+
+
+class LabClock:
+    """The lab's clock: ROS system time that never jumps while something plays.
+
+    It runs with the monotonic clock from the wall time at which it was last set.
+    """
+
+    def __init__(self) -> None:
+        self._offset_ns = 0
+        self.set()
+
+    def set(self) -> None:
+        """Take the wall time anew."""
+        self._offset_ns = time.time_ns() - time.monotonic_ns()
+
+    def now_ns(self) -> int:
+        return time.monotonic_ns() + self._offset_ns
+
+
+class Player:
+    """A playback with where its output goes, and how punctual it was."""
+
+    def __init__(
+        self,
+        playback: Playback,
+        send: Callable[[Sample], None],
+        announce: Callable[[int, PlaybackStatus], None],
+    ) -> None:
+        self.playback = playback
+        self._send = send
+        self._announce = announce
+        self.last: Sample | None = None
+        self.error_ns = 0
+        self.error_max_ns = 0
+
+    def prepare(self, now_ns: int) -> Sample | None:
+        """Take the joint state that is due, or that will be within moments."""
+        due_ns = self.playback.due_ns()
+        return None if due_ns is None else self.playback.tick(max(now_ns, due_ns))
+
+    def send(self, sample: Sample, now_ns: Callable[[], int]) -> None:
+        """Send a joint state that was prepared; note how punctual that was."""
+        self._send(sample)
+        self.last = sample
+        if sample.streamed:
+            self.error_ns = now_ns() - sample.due_ns
+            first = self.playback.sent <= 1
+            self.error_max_ns = self.error_ns if first else max(self.error_max_ns, self.error_ns)
+
+    def announce(self, now_ns: int) -> None:
+        for status in self.playback.take_statuses():
+            self._announce(now_ns, status)
+
+
+class Scheduler:
+    """Serves players at their deadlines; commands run between two of them.
+
+    Use `with scheduler.command() as now_ns:` around every use of a playback. What a player
+    raises is printed while `connected()`: what fails because the graph was left is no trouble.
+    """
+
+    def __init__(self, connected: Callable[[], bool] = lambda: True) -> None:
+        self.clock = LabClock()
+        self._connected = connected
+        self._changed = threading.Condition(threading.Lock())
+        self._players: list[Player] = []
+        self._running = True
+        self._thread = threading.Thread(target=self._run, name="deadlines", daemon=True)
+
+    def start(self) -> None:
+        sys.setswitchinterval(SWITCH_INTERVAL)
+        self._thread.start()
+
+    def stop(self) -> None:
+        """Stop the thread and wait for it."""
+        with self._changed:
+            self._running = False
+            self._changed.notify()
+        if self._thread.is_alive():
+            self._thread.join()
+
+    def add(self, player: Player) -> None:
+        with self._changed:
+            self._players.append(player)
+            self._changed.notify()
+
+    def remove(self, player: Player) -> None:
+        with self._changed:
+            self._players.remove(player)
+
+    def command(self) -> Command:
+        return Command(self)
+
+    def _run(self) -> None:
+        # The kernel rounds a sleep up by 50 us unless asked not to.
+        ctypes.CDLL(None).prctl(PR_SET_TIMERSLACK, 1, 0, 0, 0)
+        now_ns = self.clock.now_ns
+        with self._changed:
+            while self._running:
+                early_ns = WAKE_NS + PREPARE_NS * len(self._players)
+                horizon_ns = now_ns() + early_ns
+                wait_ns = IDLE_SLEEP * SECOND
+                batch = []
+                for player in self._players:
+                    due_ns = player.playback.due_ns()
+                    if due_ns is None:
+                        continue
+                    if due_ns <= horizon_ns:
+                        batch.append((due_ns, player))
+                    else:
+                        wait_ns = min(wait_ns, due_ns - horizon_ns)
+                if batch:
+                    self._serve(batch)
+                else:
+                    self._changed.wait(wait_ns / SECOND)
+
+    def _serve(self, batch: list[tuple[int, Player]]) -> None:
+        """Prepare what is due together, then let it leave together, each at its deadline."""
+        now_ns = self.clock.now_ns
+        begin_ns = now_ns()
+        ready = []
+        for due_ns, player in sorted(batch, key=lambda item: item[0]):
+            try:
+                sample = player.prepare(begin_ns)
+            except Exception:
+                self._print_trouble()
+                continue
+            if sample is not None:
+                ready.append((due_ns, player, sample))
+        for due_ns, player, sample in ready:
+            while now_ns() < due_ns:
+                pass
+            try:
+                player.send(sample, now_ns)
+            except Exception:
+                self._print_trouble()
+        for _, player in batch:
+            try:
+                player.announce(now_ns())
+            except Exception:
+                self._print_trouble()
+
+    def _print_trouble(self) -> None:
+        """Print what a player just raised; one robot's trouble must not stop the others."""
+        if self._connected():
+            traceback.print_exc()
+
+
+class Command:
+    """Holds the deadline thread off while a command runs; wakes it afterwards."""
+
+    def __init__(self, scheduler: Scheduler) -> None:
+        self._scheduler = scheduler
+
+    def __enter__(self) -> int:
+        self._scheduler._changed.acquire()
+        return self._scheduler.clock.now_ns()
+
+    def __exit__(self, *exception: object) -> None:
+        scheduler = self._scheduler
+        now_ns = scheduler.clock.now_ns()
+        try:
+            for player in scheduler._players:
+                player.announce(now_ns)
+        finally:
+            scheduler._changed.notify()
+            scheduler._changed.release()

@@ -1,0 +1,186 @@
+"""The graph as a command sees it: call, wait, watch; every wait has a deadline.
+
+A node of rclpy spins in a thread of its own, so that a command reads from top to bottom.
+"""
+
+from __future__ import annotations
+
+import threading
+import time
+from collections.abc import Callable
+from types import TracebackType
+from typing import Any, Generic, TypeVar
+
+import rclpy
+from mrlab_msgs import msg, srv
+from rclpy.context import Context
+from rclpy.executors import ExternalShutdownException, SingleThreadedExecutor
+from rclpy.node import Node
+from rclpy.qos import QoSProfile
+from rclpy.signals import SignalHandlerOptions
+
+from mrlab_ros.core.errors import LabError, Misuse
+from mrlab_ros.messages import qos
+from mrlab_ros.ros.domain import domain_id
+
+T = TypeVar("T")
+# How long a command waits for the lab to be found, s: discovery takes up to 3 s.
+FIND_TIMEOUT = 6.0
+CALL_TIMEOUT = 15.0
+# What a latched topic has kept for late joiners comes oldest first, with pauses shorter than
+# this, s.
+LATCHED_BURST = 0.5
+
+
+class NoAnswer(LabError):
+    """The lab, or a part of it, is not there or did not answer in time."""
+
+
+class Watch(Generic[T]):
+    """The newest message of one topic, and a way to wait for the one that is wanted."""
+
+    def __init__(self, topic: str) -> None:
+        self.topic = topic
+        self.value: T | None = None
+        self._changed = threading.Condition()
+
+    def set(self, value: T) -> None:
+        with self._changed:
+            self.value = value
+            self._changed.notify_all()
+
+    def wait(self, wanted: Callable[[T], bool], timeout: float, what: str) -> T:
+        """Return the first value, present or to come, that is `wanted`.
+
+        Raises NoAnswer, which says `what` was waited for, after `timeout` s.
+        """
+        deadline = time.monotonic() + timeout
+        with self._changed:
+            while self.value is None or not wanted(self.value):
+                if not self._changed.wait(max(deadline - time.monotonic(), 0.0)):
+                    raise NoAnswer(
+                        f"waited {timeout:g} s for {what}: "
+                        f"{'nothing came' if self.value is None else 'it did not come'} on "
+                        f"{self.topic}; is that part of the lab running? mrlab status shows it"
+                    )
+            return self.value
+
+
+class Graph:
+    """A client of the graph; use it as a context manager."""
+
+    def __init__(self) -> None:
+        self.domain = domain_id()
+        self._context = Context()
+        rclpy.init(args=[], context=self._context, signal_handler_options=SignalHandlerOptions.NO)
+        self.node: Node = rclpy.create_node(
+            "mrlab_command",
+            context=self._context,
+            start_parameter_services=False,
+            enable_rosout=False,
+        )
+        self._executor = SingleThreadedExecutor(context=self._context)
+        self._executor.add_node(self.node)
+        self._clients: dict[str, Any] = {}
+        self._thread = threading.Thread(target=self._spin, name="graph", daemon=True)
+        self._thread.start()
+
+    def _spin(self) -> None:
+        try:
+            self._executor.spin()
+        except ExternalShutdownException:
+            return
+
+    def close(self) -> None:
+        self._executor.shutdown(timeout_sec=1.0)
+        self._thread.join(1.0)
+        self.node.destroy_node()
+        self._context.try_shutdown()
+
+    def __enter__(self) -> Graph:
+        return self
+
+    def __exit__(
+        self,
+        kind: type[BaseException] | None,
+        error: BaseException | None,
+        trace: TracebackType | None,
+    ) -> None:
+        self.close()
+
+    def subscribe(
+        self, kind: Any, topic: str, callback: Callable[[Any], None], quality: QoSProfile
+    ) -> None:
+        """Let `callback` have every message of `topic`, in the graph's own thread."""
+        self.node.create_subscription(kind, topic, callback, quality)
+
+    def watch(self, kind: Any, topic: str, quality: QoSProfile = qos.LATCHED) -> Watch[Any]:
+        """Follow `topic`, latched unless `quality` says otherwise."""
+        watch: Watch[Any] = Watch(topic)
+        self.subscribe(kind, topic, watch.set, quality)
+        return watch
+
+    def call(
+        self,
+        kind: Any,
+        service: str,
+        request: Any,
+        timeout: float = CALL_TIMEOUT,
+        find_timeout: float = FIND_TIMEOUT,
+    ) -> Any:
+        """Return the service's answer, whatever it says; raise NoAnswer where none comes."""
+        client = self._clients.get(service)
+        if client is None:
+            client = self._clients[service] = self.node.create_client(kind, service)
+        if not client.wait_for_service(timeout_sec=find_timeout):
+            raise NoAnswer(
+                f"nobody offers {service} on ROS domain {self.domain}; {self._advice()}"
+            )
+        done = threading.Event()
+        future = client.call_async(request)
+        future.add_done_callback(lambda _: done.set())
+        if not done.wait(timeout):
+            client.remove_pending_request(future)
+            raise NoAnswer(f"{service} did not answer within {timeout:g} s; try again")
+        return future.result()
+
+    def order(self, kind: Any, service: str, request: Any, timeout: float = CALL_TIMEOUT) -> Any:
+        """Call a service and return its answer; raise Misuse with its words where it refuses."""
+        answer = self.call(kind, service, request, timeout)
+        if not answer.success:
+            raise Misuse(answer.message)
+        return answer
+
+    def robots(self, timeout: float = FIND_TIMEOUT) -> list[Any]:
+        """Return the robots of the scene; raise NoAnswer where no lab says any."""
+        watch = self.watch(msg.Robots, "/robots")
+        try:
+            robots: list[Any] = watch.wait(lambda _: True, timeout, "the robots").robots
+        except NoAnswer:
+            raise NoAnswer(
+                f"no lab answers on ROS domain {self.domain}; {self._advice()}"
+            ) from None
+        return robots
+
+    def robot(self, name: str) -> Any:
+        """Return the robot called `name`; raise Misuse that names the others."""
+        robots = self.robots()
+        for robot in robots:
+            if robot.name == name:
+                return robot
+        known = ", ".join(robot.name for robot in robots)
+        raise Misuse(
+            f"no robot '{name}' is in the scene; there "
+            + (f"are: {known}" if known else "are none: mrlab up --robots ur5e begins with one")
+        )
+
+    def catalogue(self) -> list[Any]:
+        """Return what there is to load."""
+        answer = self.call(srv.ListTrajectories, "/converter/list", srv.ListTrajectories.Request())
+        infos: list[Any] = answer.trajectories
+        return infos
+
+    def _advice(self) -> str:
+        if any(name == "lab" for name in self.node.get_node_names()):
+            return "that part of the lab is missing: mrlab status shows what runs"
+        return "start a lab with: mrlab up (or set ROS_DOMAIN_ID to the domain of a running one)"

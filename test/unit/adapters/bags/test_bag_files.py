@@ -1,0 +1,440 @@
+"""Bags on disk: written, read by others, cut short, mended."""
+
+from __future__ import annotations
+
+import errno
+import os
+from pathlib import Path
+from typing import Any
+
+import mcap.reader
+import pytest
+import yaml
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from mcap.writer import Writer
+from rosbags.highlevel import AnyReader
+
+from mrlab_ros.adapters.bags import writer as bags_writer
+from mrlab_ros.adapters.bags.reader import Bag
+from mrlab_ros.adapters.bags.repair import repair
+from mrlab_ros.adapters.bags.writer import BagWriter, DiskTrouble, WholeFile
+from mrlab_ros.core.errors import BadInput
+from mrlab_ros.core.recording.metadata import QosProfile, Topic
+
+MAGIC = b"\x89MCAP0\r\n"
+START_NS = 1_700_000_000_000_000_000
+DEFINITION = "string data\n"
+LATCHED = QosProfile(durability="transient_local")
+# std_msgs/msg/String in Jazzy.
+HASH = "RIHS01_df668c740482bbd48fb39d76a70dfd4bd59db1288021743503259e948f6b1a18"
+
+
+def text(word: str) -> bytes:
+    data = word.encode() + b"\0"
+    return b"\0\1\0\0" + len(data).to_bytes(4, "little") + data
+
+
+def begin(folder: Path, **options) -> BagWriter:
+    writer = BagWriter(folder, lambda kind: DEFINITION, {"mrlab_ros": "1"}, **options)
+    writer.add_topic(Topic("/state", "std_msgs/msg/String", (LATCHED,), HASH))
+    writer.add_topic(Topic("/events", "std_msgs/msg/String", (QosProfile(),), HASH))
+    return writer
+
+
+def fill(writer: BagWriter, count: int, first: int = 0) -> list[tuple[int, str, bytes]]:
+    """Write messages 10 ms apart; every tenth is a state."""
+    messages = []
+    for number in range(first, first + count):
+        topic = "/state" if number % 10 == 0 else "/events"
+        message = (START_NS + number * 10_000_000, topic, text(f"message {number}"))
+        writer.write(topic, message[0], message[2], message[0] - 1000, number)
+        messages.append(message)
+    return messages
+
+
+def read(folder: Path) -> list[tuple[int, str, bytes]]:
+    return [(m.log_time_ns, m.topic, m.data) for m in Bag(folder).messages()]
+
+
+def read_by_rosbags(folder: Path) -> list[tuple[int, str, bytes]]:
+    with AnyReader([folder]) as reader:
+        return [(time, c.topic, bytes(data)) for c, time, data in reader.messages()]
+
+
+def read_by_mcap(path: Path) -> list[tuple[int, str, bytes]]:
+    """Read as from a pipe: without index, without going back."""
+    with open(path, "rb") as file:
+        found = mcap.reader.NonSeekingReader(file, validate_crcs=True).iter_messages()
+        return [(m.log_time, c.topic, m.data) for _, c, m in found]
+
+
+def test_a_bag_opens_everywhere_and_every_byte_is_there(tmp_path):
+    folder = tmp_path / "class"
+    writer = begin(folder)
+    writer.note("mrlab", {"mrlab_ros": "1"})
+    writer.attach("robots/a.urdf", "model/urdf+xml", b"<robot/>", START_NS)
+    messages = fill(writer, 500)
+    writer.flush()
+    messages += fill(writer, 500, 500)
+    writer.close()
+    assert read(folder) == read_by_rosbags(folder) == messages
+    assert read_by_mcap(folder / "class_0.mcap") == messages
+    with AnyReader([folder]) as reader:
+        state = next(c for c in reader.connections if c.topic == "/state")
+        assert (state.msgtype, state.msgcount, state.digest) == ("std_msgs/msg/String", 100, HASH)
+        assert state.ext.offered_qos_profiles[0].durability.name == "TRANSIENT_LOCAL"
+        _, _, data = next(reader.messages([state]))
+        assert reader.deserialize(data, state.msgtype).data == "message 0"
+    bag = Bag(folder)
+    assert bag.troubles == []
+    assert bag.attachment("robots/a.urdf").data == b"<robot/>"
+    assert bag.attachments() == {"robots/a.urdf": 8}
+    assert bag.versions() == {"mrlab_ros": "1"}
+    assert bag.duration == pytest.approx(9.99)
+    assert (bag.message_count, bag.topics["/events"].messages) == (1000, 900)
+    assert sorted(p.name for p in folder.iterdir()) == ["class_0.mcap", "metadata.yaml"]
+
+
+def test_the_metadata_is_what_the_files_say(tmp_path):
+    folder = tmp_path / "class"
+    writer = begin(folder)
+    fill(writer, 20)
+    writer.split()
+    fill(writer, 20, 20)
+    writer.close()
+    written = yaml.safe_load((folder / "metadata.yaml").read_text())
+    told = Bag(folder).facts()
+    told.custom = {"mrlab_ros": "1"}
+    by_name = {"key": lambda entry: entry["topic_metadata"]["name"]}
+    for document in (written, told_document := told.document()):
+        facts = document["rosbag2_bagfile_information"]
+        facts["topics_with_message_count"].sort(**by_name)
+    assert written == told_document
+
+
+def test_a_split_bag_is_one_session(tmp_path):
+    folder = tmp_path / "class"
+    writer = begin(folder)
+    messages = fill(writer, 50)
+    writer.split()
+    messages += fill(writer, 50, 50)
+    writer.close()
+    assert read(folder) == read_by_rosbags(folder) == messages
+    assert [file.path.name for file in Bag(folder).files] == ["class_0.mcap", "class_1.mcap"]
+
+
+def test_the_newest_state_before_a_place_is_found_in_any_file(tmp_path):
+    folder = tmp_path / "class"
+    writer = begin(folder)
+    for part in range(3):
+        fill(writer, 25, part * 40)
+        writer.flush()
+        fill(writer, 15, part * 40 + 25)
+        writer.split()
+    writer.close()
+    bag = Bag(folder)
+    for number, newest in ((0, None), (1, 0), (10, 0), (11, 10), (81, 80), (999, 110)):
+        found = bag.newest_before(START_NS + number * 10_000_000, {"/state"})
+        expected = [] if newest is None else [text(f"message {newest}")]
+        assert [m.data for m in found] == expected, number
+
+
+@pytest.mark.parametrize("start", [0, 1, 250, 499, 500])
+def test_reading_begins_anywhere(tmp_path, start):
+    writer = begin(tmp_path / "class")
+    messages = fill(writer, 250)
+    writer.flush()
+    messages += fill(writer, 250, 250)
+    writer.close()
+    found = Bag(tmp_path / "class").messages(START_NS + start * 10_000_000, {"/state", "/events"})
+    assert [m.data for m in found] == [m[2] for m in messages[start:]]
+
+
+def test_a_log_time_that_goes_back_is_held(tmp_path):
+    writer = begin(tmp_path / "class")
+    writer.write("/events", START_NS + 5, text("a"), 0)
+    writer.write("/events", START_NS, text("b"), 0)
+    writer.close()
+    assert [m[0] for m in read(tmp_path / "class")] == [START_NS + 5] * 2
+
+
+def test_what_was_flushed_is_there_at_once_for_everybody(tmp_path):
+    """As after a kill: nothing more is written. No repair, no index."""
+    folder = tmp_path / "class"
+    writer = begin(folder)
+    writer.attach("scene.json", "application/json", b"[]", START_NS)
+    messages = fill(writer, 300)
+    writer.flush()
+    messages += fill(writer, 300, 300)
+    writer.write_metadata()
+    writer.flush()
+    fill(writer, 5, 600)
+    assert read(folder) == read_by_rosbags(folder) == messages
+    assert read_by_mcap(folder / "class_0.mcap") == messages
+    bag = Bag(folder)
+    assert "has no index" in bag.troubles[0]
+    assert bag.attachment("scene.json").data == b"[]"
+    assert bag.message_count == 600
+    (folder / "metadata.yaml").unlink()
+    assert read(folder) == messages
+
+
+def test_a_repair_brings_index_and_metadata_and_keeps_the_originals(tmp_path):
+    folder = tmp_path / "class"
+    writer = begin(folder)
+    writer.attach("scene.json", "application/json", b"[]", START_NS)
+    writer.note("mrlab", {"mrlab_ros": "1"})
+    messages = fill(writer, 300)
+    writer.flush()
+    original = (folder / "class_0.mcap").read_bytes()
+    done = repair(folder)
+    assert (done.files, done.messages) == (["class_0.mcap", "metadata.yaml"], 300)
+    bag = Bag(folder)
+    assert bag.troubles == []
+    assert bag.attachment("scene.json").data == b"[]"
+    assert bag.versions() == {"mrlab_ros": "1"}
+    assert read(folder) == read_by_rosbags(folder) == messages
+    assert (folder / "class_0.mcap.original").read_bytes() == original
+    assert not (folder / ".reserve").exists()
+    (folder / "class_0.mcap").write_bytes(original)
+    (folder / "metadata.yaml").unlink()
+    with pytest.raises(BadInput, match="from an earlier repair"):
+        repair(folder)
+
+
+def test_a_kill_at_the_beginning_of_a_next_file_costs_nothing(tmp_path):
+    folder = tmp_path / "class"
+    writer = begin(folder)
+    messages = fill(writer, 20)
+    writer.close()
+    (folder / "class_1.mcap").write_bytes(MAGIC[:3])
+    bag = Bag(folder)
+    assert read(folder) == messages
+    assert "class_1.mcap ends before its first record" in bag.troubles[0]
+    assert repair(folder).messages == 20
+    assert Bag(folder).troubles == []
+    assert read(folder) == read_by_rosbags(folder) == messages
+
+
+def test_a_repair_that_fails_leaves_the_bag_as_it_was(tmp_path, monkeypatch):
+    folder = tmp_path / "class"
+    writer = begin(folder)
+    messages = fill(writer, 20)
+    writer.write_metadata()
+    writer.flush()
+    before = {path.name: path.read_bytes() for path in folder.iterdir()}
+
+    def refuse(*_: Any) -> None:
+        raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC))
+
+    with monkeypatch.context() as patch:
+        patch.setattr(Writer, "finish", refuse)
+        with pytest.raises(BadInput, match="No space left on device"):
+            repair(folder)
+    assert {path.name: path.read_bytes() for path in folder.iterdir()} == before
+    assert repair(folder).messages == 20
+    assert read(folder) == messages
+
+
+def test_a_repair_of_what_is_well_changes_nothing(tmp_path):
+    folder = tmp_path / "class"
+    writer = begin(folder)
+    fill(writer, 20)
+    writer.close()
+    before = {path.name: path.read_bytes() for path in folder.iterdir()}
+    for _ in range(2):
+        assert repair(folder).files == []
+        assert {path.name: path.read_bytes() for path in folder.iterdir()} == before
+
+
+def test_a_repair_leaves_out_a_damaged_chunk_and_keeps_what_follows(tmp_path):
+    folder = tmp_path / "class"
+    writer = begin(folder)
+    messages = []
+    for part in range(3):
+        messages += fill(writer, 100, part * 100)
+        writer.flush()
+    writer.close()
+    path = folder / "class_0.mcap"
+    data = bytearray(path.read_bytes())
+    data[Bag(folder).files[0].chunks[1].offset + 200] ^= 0xFF
+    path.write_bytes(data)
+    with pytest.raises(BadInput, match="is damaged at byte"):
+        read(folder)
+    done = repair(folder)
+    assert done.files == ["class_0.mcap", "metadata.yaml"]
+    assert "is damaged at byte" in done.troubles[0]
+    assert read(folder) == read_by_rosbags(folder) == messages[:100] + messages[200:]
+
+
+@pytest.fixture(scope="module")
+def whole(tmp_path_factory) -> tuple[bytes, list[tuple[int, str, bytes]]]:
+    """A closed file of several chunks, and its messages."""
+    folder = tmp_path_factory.mktemp("bags") / "class"
+    writer = begin(folder)
+    messages = []
+    for part in range(5):
+        messages += fill(writer, 20, part * 20)
+        writer.flush()
+    writer.close()
+    return (folder / "class_0.mcap").read_bytes(), messages
+
+
+@settings(max_examples=60)
+@given(share=st.floats(0, 1))
+def test_a_file_cut_anywhere_gives_what_is_before_the_cut(tmp_path_factory, whole, share):
+    data, messages = whole
+    path = tmp_path_factory.mktemp("cut") / "class_0.mcap"
+    path.write_bytes(data[: round(share * (len(data) - 1))])
+    bag = Bag(path)
+    found = [(m.log_time_ns, m.topic, m.data) for m in bag.messages()]
+    assert found == messages[: len(found)]
+    assert len(found) % 20 == 0
+    assert bag.troubles
+
+
+@settings(max_examples=60)
+@given(share=st.floats(0, 1), bit=st.integers(0, 7))
+def test_a_flipped_bit_never_brings_a_wrong_message(tmp_path_factory, whole, share, bit):
+    data, messages = whole
+    path = tmp_path_factory.mktemp("flip") / "class_0.mcap"
+    broken = bytearray(data)
+    broken[round(share * (len(data) - 1))] ^= 1 << bit
+    path.write_bytes(broken)
+    known = set(messages)
+    try:
+        bag = Bag(path)
+        assert all((m.log_time_ns, m.topic, m.data) in known for m in bag.messages())
+    except BadInput:
+        pass
+
+
+@pytest.mark.parametrize(
+    ("make", "words"),
+    [
+        (lambda folder: None, "there is no bag"),
+        (lambda folder: folder.mkdir(), "it holds no MCAP file"),
+        (lambda folder: folder.write_bytes(b"not a bag"), "is no MCAP file"),
+    ],
+)
+def test_what_is_no_bag_is_said_so(tmp_path, make, words):
+    folder = tmp_path / "x"
+    make(folder)
+    with pytest.raises(BadInput, match=words):
+        Bag(folder)
+
+
+def test_missing_files_and_strange_metadata_are_named(tmp_path):
+    folder = tmp_path / "class"
+    writer = begin(folder)
+    fill(writer, 5)
+    writer.close()
+    metadata = folder / "metadata.yaml"
+    known = metadata.read_text()
+    metadata.write_text(known.replace("version: 9", "version: 99"))
+    with pytest.raises(BadInput, match="version 99; this lab reads up to 9"):
+        Bag(folder)
+    metadata.write_text("{")
+    with pytest.raises(BadInput, match="is no YAML"):
+        Bag(folder)
+    metadata.write_text(known)
+    (folder / "class_0.mcap").unlink()
+    with pytest.raises(BadInput, match=r"lacks class_0\.mcap"):
+        Bag(folder)
+
+
+class FullDisk:
+    """Lets so many bytes be written; the last write is cut, as on a real disk."""
+
+    def __init__(self, room: int, error: int = errno.ENOSPC) -> None:
+        self.room = room
+        self.error = error
+
+    def __call__(self, descriptor: int, data: memoryview, offset: int) -> int:
+        end = offset + len(data)
+        if offset >= self.room:
+            raise OSError(self.error, os.strerror(self.error))
+        return os.pwrite(descriptor, data[: len(data) - max(end - self.room, 0)], offset)
+
+
+def fill_disk(writer: BagWriter) -> tuple[list[Any], list[Any]]:
+    """Write until the disk is full; return what was flushed by then, and what was not."""
+    messages: list[Any] = []
+    for part in range(100):
+        wanted = fill(writer, 100, part * 100)
+        try:
+            writer.flush()
+        except DiskTrouble as error:
+            words = str(error)
+            break
+        messages += wanted
+    assert "No space left on device" in words
+    return messages, wanted
+
+
+@pytest.mark.parametrize("room", [4_000, 6_000, 9_000])
+def test_a_full_disk_is_told_and_what_was_written_stays_readable(tmp_path, room):
+    folder = tmp_path / "class"
+    disk = FullDisk(room)
+    writer = begin(folder, open_file=lambda path: WholeFile(path, disk))
+    messages = fill_disk(writer)[0]
+    assert messages
+    with pytest.raises(DiskTrouble):
+        writer.close()
+    assert read(folder) == read_by_mcap(folder / "class_0.mcap") == messages
+    assert repair(folder).messages == len(messages)
+
+
+def test_the_reserve_lets_a_bag_end_well_on_a_full_disk(tmp_path):
+    folder = tmp_path / "class"
+    disk = FullDisk(6_000)
+    writer = begin(folder, open_file=lambda path: WholeFile(path, disk))
+    flushed, unflushed = fill_disk(writer)
+    messages = flushed + unflushed
+    assert (folder / ".reserve").stat().st_size == bags_writer.RESERVE_SIZE
+    disk.room += bags_writer.RESERVE_SIZE
+    writer.close()
+    assert Bag(folder).troubles == []
+    assert read(folder) == read_by_rosbags(folder) == messages
+    assert not (folder / ".reserve").exists()
+
+
+@pytest.mark.parametrize("room", [1_400, 2_500, 4_300])
+def test_a_disk_that_is_full_at_a_split_costs_nothing_either(tmp_path, room):
+    folder = tmp_path / "class"
+    disk = FullDisk(room)
+    writer = begin(folder, open_file=lambda path: WholeFile(path, disk))
+    messages = fill(writer, 100)
+    with pytest.raises(DiskTrouble):
+        writer.split()
+    disk.room += bags_writer.RESERVE_SIZE
+    writer.close()
+    assert Bag(folder).troubles == []
+    assert read(folder) == read_by_rosbags(folder) == messages
+
+
+def test_a_next_file_that_cannot_be_opened_costs_nothing_either(tmp_path):
+    folder = tmp_path / "class"
+
+    def open_one(path: Path) -> WholeFile:
+        if path.name != "class_0.mcap":
+            raise PermissionError(errno.EACCES, os.strerror(errno.EACCES))
+        return WholeFile(path)
+
+    writer = begin(folder, open_file=open_one)
+    messages = fill(writer, 100)
+    with pytest.raises(DiskTrouble, match="Permission denied"):
+        writer.split()
+    writer.close()
+    assert Bag(folder).troubles == []
+    assert read(folder) == read_by_rosbags(folder) == messages
+
+
+def test_folders_that_cannot_be_made_are_named(tmp_path):
+    (tmp_path / "there").mkdir()
+    with pytest.raises(BadInput, match="exists already"):
+        begin(tmp_path / "there")
+    (tmp_path / "file").write_text("")
+    with pytest.raises(BadInput, match="cannot be made"):
+        begin(tmp_path / "file" / "bag")

@@ -1,0 +1,476 @@
+"""The keys folder: certificates, passwords, files and what is said when something is wrong."""
+
+from __future__ import annotations
+
+import base64
+import json
+import os
+import ssl
+import stat
+import threading
+from datetime import datetime, timedelta, timezone
+from pathlib import Path
+
+import pytest
+import yaml
+import zenoh
+from cryptography import x509
+from cryptography.x509.oid import ExtendedKeyUsageOID, NameOID
+from graph import wait_for
+from typer.testing import CliRunner
+
+from mrlab_ros.adapters.keys import certificates
+from mrlab_ros.adapters.keys.folder import (
+    AUTHORITY_LIFETIME,
+    NOBODY,
+    SERVER_LIFETIME,
+    Keys,
+)
+from mrlab_ros.cli import app
+from mrlab_ros.commands.up import keys as up_keys
+from mrlab_ros.commands.up.keys import checked_listen, checked_router
+from mrlab_ros.core.bridge import rules
+from mrlab_ros.core.bridge.access import Login
+from mrlab_ros.core.bridge.rules import Role
+from mrlab_ros.core.errors import BadInput, LabError, Misuse
+from mrlab_ros.processes.lab import lab_processes
+
+NOW = datetime(2026, 9, 1, 8, tzinfo=timezone.utc)
+ROOT = Path(__file__).parents[4]
+RULES = rules.parse(yaml.safe_load((ROOT / "config" / "bridge.yaml").read_text()))
+DAY = timedelta(days=1)
+
+
+@pytest.fixture
+def keys(tmp_path):
+    return Keys.create(tmp_path / "keys", ["lab.example.org", "192.168.1.20"], Login.BOTH, NOW)
+
+
+def certificate(keys, name):
+    return certificates.read_certificate(keys.folder / name)
+
+
+def client_certificate(keys, name):
+    config = zenoh.Config.from_file(str(keys.client_file(name)))
+    encoded = json.loads(config.get_json("transport/link/tls/connect_certificate_base64"))
+    return x509.load_pem_x509_certificate(base64.b64decode(encoded))
+
+
+def purposes(found):
+    return list(found.extensions.get_extension_for_class(x509.ExtendedKeyUsage).value)
+
+
+def test_the_lab_s_certificate_names_where_it_may_listen_and_may_only_serve(keys):
+    found, authority = certificate(keys, "server.pem"), certificate(keys, "ca.pem")
+    assert certificates.hosts(found) == [
+        "lab.example.org",
+        "192.168.1.20",
+        "localhost",
+        "127.0.0.1",
+    ]
+    assert purposes(found) == [ExtendedKeyUsageOID.SERVER_AUTH]
+    found.verify_directly_issued_by(authority)
+    assert certificates.validity(found)[1] == NOW + SERVER_LIFETIME
+    assert certificates.validity(authority)[1] == NOW + AUTHORITY_LIFETIME
+    known = authority.extensions.get_extension_for_class(x509.SubjectKeyIdentifier).value
+    named = found.extensions.get_extension_for_class(x509.AuthorityKeyIdentifier).value
+    assert named.key_identifier == known.digest
+    assert authority.extensions.get_extension_for_class(x509.BasicConstraints).value.ca
+    assert not found.extensions.get_extension_for_class(x509.BasicConstraints).value.ca
+
+
+def test_a_client_s_certificate_carries_the_name_and_may_only_connect(keys):
+    entry = keys.add("anna", Role.OPERATOR, NOW)
+    found = client_certificate(keys, "anna")
+    assert purposes(found) == [ExtendedKeyUsageOID.CLIENT_AUTH]
+    (name,) = found.subject.get_attributes_for_oid(NameOID.COMMON_NAME)
+    assert name.value == entry.person.common_name
+    assert str(name.value).startswith("anna.")
+
+
+@pytest.mark.parametrize(
+    ("name", "good"), [("localhost", True), ("127.0.0.1", True), ("elsewhere.example", False)]
+)
+def test_openssl_accepts_the_lab_under_its_names_only(tmp_path, name, good):
+    # OpenSSL reads this machine's clock.
+    keys = Keys.create(tmp_path / "keys", [], Login.CERTIFICATE, datetime.now(timezone.utc))
+    assert shakes_hands(keys, name) == good
+
+
+def shakes_hands(keys, name):
+    """Return whether OpenSSL as a client accepts the lab under `name`, in memory."""
+    server = ssl.SSLContext(ssl.PROTOCOL_TLS_SERVER)
+    server.load_cert_chain(keys.folder / "server.pem", keys.folder / "server.key")
+    client = ssl.create_default_context(cafile=str(keys.folder / "ca.pem"))
+    to_server, to_client = ssl.MemoryBIO(), ssl.MemoryBIO()
+    ends = [
+        client.wrap_bio(to_client, to_server, server_hostname=name),
+        server.wrap_bio(to_server, to_client, server_side=True),
+    ]
+    done = set()
+    for _ in range(10):
+        for end in ends:
+            try:
+                end.do_handshake()
+                done.add(end)
+            except ssl.SSLWantReadError:
+                pass
+            except ssl.SSLError:
+                return False
+    return len(done) == 2
+
+
+def test_only_the_owner_can_read_the_files(keys):
+    keys.add("anna", Role.VIEWER, NOW)
+    modes = {p: stat.S_IMODE(p.stat().st_mode) for p in keys.folder.rglob("*")}
+    assert stat.S_IMODE(keys.folder.stat().st_mode) == 0o700
+    assert all(mode == (0o700 if p.is_dir() else 0o600) for p, mode in modes.items()), modes
+    assert (keys.folder / ".gitignore").read_text() == "*\n"
+    assert {p.name for p in modes} == {
+        ".gitignore",
+        "anna.json5",
+        "ca.key",
+        "ca.pem",
+        "clients",
+        "passwords.txt",
+        "people.json",
+        "server.key",
+        "server.pem",
+    }
+
+
+def test_nothing_that_exists_is_overwritten(keys):
+    keys.add("anna", Role.VIEWER, NOW)
+    before = {p: p.read_bytes() for p in keys.folder.rglob("*") if p.is_file()}
+    with pytest.raises(Misuse, match="not empty"):
+        Keys.create(keys.folder, [], Login.BOTH, NOW)
+    with pytest.raises(Misuse, match="has a key already, as viewer"):
+        keys.add("anna", Role.INSTRUCTOR, NOW)
+    assert {p: p.read_bytes() for p in keys.folder.rglob("*") if p.is_file()} == before
+
+
+def test_who_gets_a_name_anew_does_not_bring_the_old_certificate_back(keys):
+    first = keys.add("anna", Role.INSTRUCTOR, NOW).person.common_name
+    password = keys._passwords()["anna"]
+    keys.revoke("anna")
+    assert not keys.client_file("anna").exists()
+    assert "anna" not in keys._passwords()
+    second = keys.add("anna", Role.VIEWER, NOW).person.common_name
+    subjects = keys.settings(RULES, "", NOW)["access_control"]["subjects"]
+    assert [subject["cert_common_names"] for subject in subjects] == [[second]]
+    assert first != second
+    assert keys._passwords()["anna"] != password
+
+
+def test_a_folder_is_read_back_as_it_was_written(keys):
+    keys.add("anna", Role.OPERATOR, NOW)
+    keys.add("ben", Role.VIEWER, NOW, 7 * DAY)
+    again = Keys(keys.folder)
+    assert again.entries == keys.entries
+    assert again.login is Login.BOTH
+    assert again.hosts == keys.hosts
+    assert again.entries[1].expires == NOW + 7 * DAY
+
+
+def test_passwords_are_asked_for_even_where_nobody_has_one(keys):
+    keys.add("anna", Role.VIEWER, NOW)
+    keys.revoke("anna")
+    assert list(keys._passwords()) == [NOBODY]
+
+
+def test_an_expired_person_has_no_rights_by_password_either(keys):
+    keys.add("anna", Role.VIEWER, NOW, DAY)
+    assert keys.settings(RULES, "", NOW)["access_control"]["subjects"]
+    assert not keys.settings(RULES, "", NOW + 2 * DAY)["access_control"]["subjects"]
+
+
+def test_nothing_outlives_the_authority(keys):
+    late = NOW + AUTHORITY_LIFETIME - 3 * DAY
+    assert keys.add("anna", Role.VIEWER, late).expires == NOW + AUTHORITY_LIFETIME
+
+
+def test_a_renewed_lab_has_more_names_and_everybody_s_keys_still(keys):
+    keys.add("anna", Role.VIEWER, NOW)
+    later = NOW + SERVER_LIFETIME + DAY
+    with pytest.raises(BadInput, match="expired on .*mrlab keys renew"):
+        keys.check(later)
+    keys.renew(["10.0.0.5"], later)
+    keys.check(later)
+    assert "10.0.0.5" in certificates.hosts(certificate(keys, "server.pem"))
+    assert client_certificate(keys, "anna").issuer == certificate(keys, "server.pem").issuer
+
+
+def swap_authority(keys):
+    other = Keys.create(keys.folder.parent / "other", [], Login.BOTH, NOW)
+    (keys.folder / "ca.pem").write_bytes((other.folder / "ca.pem").read_bytes())
+
+
+def swap_key(keys):
+    other = Keys.create(keys.folder.parent / "other", [], Login.BOTH, NOW)
+    (keys.folder / "server.key").write_bytes((other.folder / "server.key").read_bytes())
+
+
+@pytest.mark.parametrize(
+    ("spoil", "words"),
+    [
+        (lambda keys: (keys.folder / "server.key").unlink(), "there is no file .*server.key"),
+        (lambda keys: (keys.folder / "server.pem").unlink(), "there is no file .*server.pem"),
+        (lambda keys: (keys.folder / "ca.pem").unlink(), "there is no file .*ca.pem"),
+        (lambda keys: (keys.folder / "passwords.txt").unlink(), "there is no file .*passwords"),
+        (lambda keys: (keys.folder / "server.pem").write_text("x"), "is not a certificate"),
+        (lambda keys: (keys.folder / "server.key").write_text("x"), "is not a private key"),
+        (swap_authority, "was signed by CN=.*, not by this folder's authority"),
+        (swap_key, "is not the key of"),
+        (lambda keys: (keys.folder / "server.key").chmod(0o644), "chmod 600 .*server.key"),
+        (lambda keys: (keys.folder / "passwords.txt").chmod(0o640), "mode 640"),
+    ],
+)
+def test_a_lab_does_not_start_with_a_spoilt_folder_and_says_why(keys, spoil, words):
+    keys.check(NOW)
+    spoil(keys)
+    with pytest.raises(BadInput, match=words):
+        keys.check(NOW)
+
+
+@pytest.mark.parametrize(
+    ("when", "words"),
+    [
+        (NOW - 3 * DAY, "set the clock"),
+        (NOW + AUTHORITY_LIFETIME + DAY, "new keys in another folder"),
+    ],
+)
+def test_a_clock_out_of_bounds_is_said(keys, when, words):
+    with pytest.raises(BadInput, match=words):
+        keys.check(when)
+
+
+def test_a_file_that_may_not_be_read_is_said(keys):
+    # root may read everything, so the refusal comes from a folder in the file's place.
+    (keys.folder / "server.key").unlink()
+    (keys.folder / "server.key").mkdir()
+    with pytest.raises(BadInput, match=f"cannot be read: {os.strerror(21)}"):
+        keys.check(NOW)
+
+
+@pytest.mark.parametrize("text", ["", "[]", "{}", '{"login": "smile", "hosts": [], "people": []}'])
+def test_a_damaged_list_of_people_is_said(keys, text):
+    (keys.folder / "people.json").write_text(text)
+    with pytest.raises(BadInput, match="damaged"):
+        Keys(keys.folder)
+
+
+@pytest.mark.parametrize("name", ["", "a b", "-a", "a:b", "ä", "a" * 42, "../a", NOBODY])
+def test_a_name_that_cannot_be_one_is_refused(keys, name):
+    with pytest.raises(BadInput, match="is no name for a key"):
+        keys.add(name, Role.VIEWER, NOW)
+
+
+@pytest.mark.parametrize(
+    "host", ["1.2.3.4:7447", "a_b", "", "-a", "256.1.1.1", "a..b", "*.a", "x" * 64]
+)
+def test_a_host_that_cannot_be_one_is_refused_and_nothing_is_made(tmp_path, host):
+    with pytest.raises(BadInput, match="neither a host name nor an address"):
+        Keys.create(tmp_path / "keys", [host], Login.BOTH, NOW)
+    assert not (tmp_path / "keys").exists()
+
+
+def test_an_ipv6_address_is_written_as_zenoh_reads_it(tmp_path):
+    keys = Keys.create(tmp_path / "keys", ["fd00::20"], Login.CERTIFICATE, NOW)
+    keys.add("anna", Role.VIEWER, NOW)
+    config = zenoh.Config.from_file(str(keys.client_file("anna")))
+    assert json.loads(config.get_json("connect/endpoints")) == [
+        "tls/[fd00::20]:7447",
+        "tls/localhost:7447",
+    ]
+
+
+def run(*arguments):
+    return CliRunner().invoke(app, ["keys", *map(str, arguments)])
+
+
+def test_the_command_makes_lists_and_takes_back_keys(tmp_path):
+    folder = tmp_path / "keys"
+    made = json.loads(run("init", "--dir", folder, "--host", "lab.example.org", "--json").stdout)
+    assert made["login"] == "certificate"
+    assert made["hosts"][0] == "lab.example.org"
+    assert {"localhost", "127.0.0.1"} <= set(made["hosts"])
+    added = json.loads(
+        run("add", "anna", "ben", "--role", "operator", "--dir", folder, "--json").stdout
+    )
+    assert [Path(entry["file"]).is_file() for entry in added] == [True, True]
+    assert "ben" in run("revoke", "ben", "--dir", folder).stdout
+    gone = json.loads(run("add", "eve", "--role", "viewer", "--dir", folder, "--json").stdout)
+    taken = json.loads(run("revoke", "eve", "--dir", folder, "--json").stdout)
+    assert taken[0]["common_name"] == gone[0]["common_name"]
+    found = json.loads(run("list", "--dir", folder, "--json").stdout)
+    assert [(p["name"], p["role"]) for p in found["people"]] == [("anna", "operator")]
+    assert "anna" in run("list", "--dir", folder).stdout
+    assert "10.0.0.5" in run("renew", "--dir", folder, "--host", "10.0.0.5").stdout
+    config = json.loads(run("config", "--dir", folder, "--prefix", "lab_1").stdout)
+    assert config["access_control"]["subjects"][0]["id"] == "anna"
+    assert config["transport"]["link"]["tls"]["enable_mtls"] is True
+    assert isinstance(run("init", "--dir", folder).exception, LabError)
+
+
+def test_init_says_what_to_do_next(tmp_path):
+    said = run("init", "--dir", tmp_path / "keys").stdout
+    assert "mrlab keys add" in said
+    assert f"mrlab up --keys {tmp_path / 'keys'}" in said
+    assert "mrlab keys renew --host ADDRESS" in said
+
+
+def test_up_listens_everywhere_only_with_keys_or_when_told(tmp_path):
+    folder = tmp_path / "keys"
+    Keys.create(folder, [], Login.CERTIFICATE, datetime.now(timezone.utc))
+    assert checked_listen("", None, False) == "tcp/127.0.0.1:7447"
+    assert checked_listen("", folder, False) == "tls/0.0.0.0:7447"
+    assert checked_listen("tcp/0.0.0.0:1", None, True) == "tcp/0.0.0.0:1"
+    with pytest.raises(BadInput, match="--insecure"):
+        checked_listen("tcp/0.0.0.0:1", None, False)
+    with pytest.raises(BadInput, match="listen on tls/127.0.0.1:1, or leave the keys out"):
+        checked_listen("tcp/127.0.0.1:1", folder, False)
+    with pytest.raises(BadInput, match="exclude each other"):
+        checked_listen("", folder, True)
+    with pytest.raises(BadInput, match="needs keys"):
+        checked_listen("tls/0.0.0.0:1", None, False)
+    with pytest.raises(BadInput, match="mrlab keys init --dir"):
+        checked_listen("", tmp_path / "none", False)
+
+
+def test_up_connects_to_a_router_with_keys_alone(tmp_path):
+    keys = Keys.create(tmp_path / "keys", [], Login.CERTIFICATE, datetime.now(timezone.utc))
+    there = "tls/router.example.org:7447"
+    with pytest.raises(BadInput, match="give --keys"):
+        checked_router(there, "", None, False)
+    with pytest.raises(BadInput, match="leave --zenoh-listen"):
+        checked_router(there, "tls/0.0.0.0:7447", keys.folder, False)
+    with pytest.raises(BadInput, match="it can show none"):
+        checked_router("tcp/router.example.org:7447", "", keys.folder, False)
+    with pytest.raises(BadInput, match="mrlab keys router"):
+        checked_router(there, "", keys.folder, False)
+    assert "zenohd -c router.json5" in run("router", "--dir", keys.folder).stdout
+    assert checked_router(there, "", keys.folder, False) == there
+    specs = lab_processes(
+        config=tmp_path, robots=(), listen=there, state_dir=tmp_path, keys=keys.folder, router=True
+    )
+    argv = next(spec.argv for spec in specs if spec.name == "bridge")
+    assert f'connect:=["{there}"]' in argv
+    assert "mode:=client" in argv
+    assert not any("listen" in part for part in argv)
+
+
+def test_the_router_s_file_is_for_its_owner_and_the_lab_keeps_its_name(tmp_path):
+    keys = Keys.create(tmp_path / "keys", [], Login.CERTIFICATE, datetime.now(timezone.utc))
+    run("router", "--dir", keys.folder)
+    name = certificates.common_name(certificate(keys, "lab.pem"))
+    added = run("add", "anna", "--role", "viewer", "--dir", keys.folder)
+    assert "A router needs a new file" in added.stdout
+    run("router", "--dir", keys.folder, "--prefix", "lab_1")
+    for file in ("lab.pem", "lab.key", "router.json5"):
+        assert stat.S_IMODE((keys.folder / file).stat().st_mode) == 0o600
+    assert certificates.common_name(certificate(keys, "lab.pem")) == name
+    assert purposes(certificate(keys, "lab.pem")) == [ExtendedKeyUsageOID.CLIENT_AUTH]
+    document = json.loads((keys.folder / "router.json5").read_text())
+    assert document["adminspace"] == {"enabled": False}
+    assert document["transport"]["link"]["protocols"] == ["tls", "quic"]
+    names = [subject["id"] for subject in document["access_control"]["subjects"]]
+    assert names == ["anna", "the lab"]
+    assert document["access_control"]["subjects"][1]["cert_common_names"] == [name]
+
+
+def test_the_lab_s_certificate_for_its_router_is_made_anew_with_the_file(tmp_path):
+    keys = Keys.create(tmp_path / "keys", [], Login.CERTIFICATE, NOW)
+    keys.router(RULES, "", {}, NOW)
+    later = NOW + SERVER_LIFETIME + DAY
+    with pytest.raises(BadInput, match="expired on .*mrlab keys router"):
+        keys.lab_settings(later)
+    keys.renew([], later)
+    assert keys.server_expires(router=True) < later
+    keys.router(RULES, "", {}, later)
+    assert keys.server_expires(router=True) > later
+    assert keys.lab_settings(later)["transport/link/tls/enable_mtls"] is True
+
+
+def test_commands_at_the_same_time_lose_nobody(tmp_path):
+    folder = Keys.create(tmp_path / "keys", [], Login.BOTH, NOW).folder
+    others = [Keys(folder) for _ in range(4)]
+    threads = [
+        threading.Thread(target=keys.add, args=(f"person_{i}", Role.VIEWER, NOW))
+        for i, keys in enumerate(others)
+    ]
+    for thread in threads:
+        thread.start()
+    for thread in threads:
+        thread.join()
+    everybody = {f"person_{i}" for i in range(4)}
+    assert {entry.person.name for entry in Keys(folder).entries} == everybody
+    assert set(Keys(folder)._passwords()) == everybody | {NOBODY}
+
+
+def test_several_names_are_added_and_taken_back_all_or_none(keys):
+    bad = run("add", "anna", "ben!", "--role", "viewer", "--dir", keys.folder)
+    assert isinstance(bad.exception, BadInput)
+    assert Keys(keys.folder).entries == []
+    assert run("add", "anna", "anna", "--role", "viewer", "--dir", keys.folder).exit_code == 0
+    assert isinstance(run("revoke", "anna", "eve", "--dir", keys.folder).exception, BadInput)
+    assert [entry.person.name for entry in Keys(keys.folder).entries] == ["anna"]
+    assert run("revoke", "anna", "anna", "--dir", keys.folder).exit_code == 0
+
+
+def test_a_client_s_file_lets_links_heal_soon_even_where_the_folder_of_files_was_removed(keys):
+    (keys.folder / "clients").rmdir()
+    keys.add("anna", Role.VIEWER, NOW)
+    assert stat.S_IMODE((keys.folder / "clients").stat().st_mode) == 0o700
+    for file in (keys.client_file("anna"), *(ROOT / "config" / "zenoh").glob("client_*.json5")):
+        config = zenoh.Config.from_file(str(file))
+        assert json.loads(config.get_json("transport/link/tx/lease")) == 1500
+        assert json.loads(config.get_json("transport/unicast/open_timeout")) == 2000
+        retry = json.loads(config.get_json("connect/retry"))
+        assert (retry["period_init_ms"], retry["period_max_ms"]) == (250, 500)
+
+
+def test_a_lab_says_when_its_certificate_expires_soon(tmp_path):
+    said = []
+    for age, told in ((DAY, False), (SERVER_LIFETIME - 10 * DAY, True)):
+        begin = datetime.now(timezone.utc) - age
+        folder = tmp_path / str(age.days)
+        Keys.create(folder, [], Login.CERTIFICATE, begin)
+        up_keys.tell_when_keys_expire(folder, lambda _, line: said.append(line))
+        assert bool(said) == told
+    assert "expires in 9 days" in said[0]
+    assert "mrlab keys renew" in said[0]
+
+
+def test_a_running_lab_follows_its_keys_and_never_into_a_broken_folder(tmp_path, monkeypatch):
+    monkeypatch.setattr(up_keys, "KEYS_PERIOD", 0.005)
+    keys = Keys.create(tmp_path / "keys", [], Login.CERTIFICATE, datetime.now(timezone.utc))
+    stop, said, restarts = threading.Event(), [], []
+
+    seen = up_keys.keys_changed_at(keys.folder)
+
+    def follow():
+        def say(_, line):
+            said.append(line)
+
+        up_keys.follow_keys(keys.folder, seen, stop, say, lambda: restarts.append(1))
+
+    thread = threading.Thread(target=follow)
+    thread.start()
+    try:
+        (keys.folder / "server.pem").unlink()
+        keys.add("anna", Role.VIEWER, datetime.now(timezone.utc))
+        wait_for(lambda: said, "the complaint")
+        assert restarts == []
+        keys.renew([], datetime.now(timezone.utc))
+        wait_for(lambda: restarts, "the restart")
+        assert "starts again" in said[-1]
+        aside = keys.folder.rename(tmp_path / "aside")
+        wait_for(lambda: "has no keys" in said[-1], "the complaint about the folder")
+        aside.rename(keys.folder)
+        keys.add("ben", Role.VIEWER, datetime.now(timezone.utc))
+        wait_for(lambda: len(restarts) == 2, "the restart with the folder that came back")
+    finally:
+        stop.set()
+        thread.join()
+    assert sum("cannot be used: there is no file" in line for line in said) == 1
+    assert "starts again" in said[-1]

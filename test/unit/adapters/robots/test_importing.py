@@ -1,0 +1,211 @@
+"""Bringing one's own URDF: what is taken, and what is refused in which words."""
+
+from __future__ import annotations
+
+import xml.etree.ElementTree as ET
+from pathlib import Path
+
+import pytest
+import trimesh
+
+from mrlab_ros.adapters.robots import checks, mesh_files, urdf
+from mrlab_ros.adapters.robots.importing import MeshFinder, bring, find_urdf
+from mrlab_ros.adapters.robots.library import RobotLibrary
+from mrlab_ros.adapters.robots.vendor_meshes import remove, use_meshes
+from mrlab_ros.core.errors import BadInput
+
+ROBOTS = Path(__file__).resolve().parents[4] / "robots"
+
+KR6 = "kuka_kr6_r900_sixx"
+
+ARM = """<robot name="two_axis">
+  <link name="base"><visual><geometry><mesh filename="package://arm/box.stl"/></geometry></visual>
+    <inertial><mass value="1"/>
+      <inertia ixx="0.01" iyy="0.01" izz="0.01" ixy="0" ixz="0" iyz="0"/></inertial></link>
+  <link name="upper"/><link name="lower"/>
+  <joint name="one" type="revolute"><parent link="base"/><child link="upper"/>
+    <axis xyz="0 0 1"/><limit lower="-1" upper="2" velocity="3" effort="4"/></joint>
+  <joint name="two" type="revolute"><parent link="upper"/><child link="lower"/>
+    <origin xyz="0.5 0 0"/><axis xyz="0 1 0"/>
+    <limit lower="0.5" upper="1.5" velocity="3" effort="4"/></joint>
+</robot>"""
+
+
+@pytest.fixture
+def library(tmp_path: Path) -> RobotLibrary:
+    return RobotLibrary(ROBOTS, tmp_path / "imported")
+
+
+@pytest.fixture
+def arm(tmp_path: Path) -> Path:
+    """Return a URDF whose one mesh lies in package `arm`."""
+    (tmp_path / "package").mkdir()
+    trimesh.creation.box((0.1, 0.2, 0.3)).export(tmp_path / "package" / "box.stl")
+    path = tmp_path / "two_axis.urdf"
+    path.write_text(ARM)
+    return path
+
+
+def codes(text: str, arm: Path) -> set[str]:
+    """Return the codes of the errors and warnings in a URDF text."""
+    find = MeshFinder(arm.parent, {"arm": arm.parent / "package"})
+    return {one.code for one in checks.check(text, "arm.urdf", find) if one.severity > 0}
+
+
+def test_imported_robot_is_a_robot_of_the_lab(arm: Path, library: RobotLibrary) -> None:
+    found = bring(arm, "mine", library, {"arm": arm.parent / "package"})
+    assert checks.errors(found) == ()
+    assert "mine" in library.ids()
+    model = library.model("mine")
+    assert model.joint_names == ("one", "two")
+    # Home is 0 where the limits allow it, else their middle.
+    assert model.home == pytest.approx([0.0, 1.0])
+    text = library.description("mine", "parallel_gripper")
+    assert 'link="lower"' in text
+    assert library.mesh_path("package://mrlab_ros/robots/mine/meshes/00_box.stl").is_file()
+
+
+def test_missing_mesh_is_named(arm: Path, library: RobotLibrary) -> None:
+    found = bring(arm, "mine", library, {})
+    assert "package 'arm' of mesh package://arm/box.stl" in checks.errors(found)[0].message
+    assert "mine" not in library.ids()
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "code"),
+    [
+        ('<limit lower="-1" upper="2" velocity="3" effort="4"/>', "", "robot_no_limits"),
+        ('lower="-1" upper="2"', 'lower="2" upper="-1"', "robot_limits"),
+        ('lower="-1" upper="2"', 'lower="-170" upper="170"', "robot_degrees"),
+        ('upper="2" velocity="3"', 'upper="2" velocity="0"', "robot_velocity"),
+        ('xyz="0.5 0 0"', 'xyz="500 0 0"', "robot_millimetres"),
+        ('izz="0.01"', 'izz="1"', "robot_inertia"),
+        ('mass value="1"', 'mass value="0"', "robot_mass"),
+        ("box.stl", "none.stl", "robot_no_mesh"),
+        ('child link="lower"', 'child link="hand"', "robot_no_link"),
+        ('type="revolute"', 'type="fixed"', "robot_joints"),
+        ('box.stl"', 'box.stl" scale="1000 1000 1000"', "robot_millimetres"),
+    ],
+)
+def test_what_is_wrong_is_found(arm: Path, old: str, new: str, code: str) -> None:
+    assert old in ARM
+    assert code in codes(ARM.replace(old, new), arm)
+
+
+def test_a_sound_urdf_has_no_findings(arm: Path) -> None:
+    assert codes(ARM, arm) == set()
+
+
+def test_ids_are_checked(arm: Path, library: RobotLibrary) -> None:
+    with pytest.raises(BadInput, match="expected small letters"):
+        bring(arm, "My Robot", library, {})
+    with pytest.raises(BadInput, match="a robot 'ur5e' already"):
+        bring(arm, "ur5e", library, {})
+
+
+def test_sources_that_are_no_urdf_are_refused(tmp_path: Path) -> None:
+    with pytest.raises(BadInput, match="neither a file nor an installed ROS package"):
+        find_urdf("no_such_package")
+    (tmp_path / "arm.xacro").write_text("")
+    with pytest.raises(BadInput, match=r"run `xacro arm\.xacro"):
+        find_urdf(str(tmp_path / "arm.xacro"))
+    with pytest.raises(BadInput, match="is not XML"):
+        checks.check("solid box", "box.stl", MeshFinder(tmp_path, {}))
+
+
+def test_materials_and_textures_come_along(tmp_path: Path, library: RobotLibrary) -> None:
+    package = tmp_path / "package"
+    for name, colour in (("one", b"red"), ("two", b"blue")):
+        folder = package / name
+        folder.mkdir(parents=True)
+        trimesh.creation.box((0.1, 0.1, 0.1)).export(folder / "box.obj")
+        text = (folder / "box.obj").read_text()
+        (folder / "box.obj").write_text(f"mtllib paint.mtl\n{text}")
+        (folder / "paint.mtl").write_text("newmtl a\nmap_Kd -s 1 1 1 ../tex/" + name + " it.png\n")
+        (package / "tex").mkdir(exist_ok=True)
+        (package / "tex" / f"{name} it.png").write_bytes(colour)
+    (package / "arm.dae").write_text(
+        "<COLLADA><image><init_from>tex/one it.png</init_from></image></COLLADA>"
+    )
+    visual = '<visual><geometry><mesh filename="package://arm/{}"/></geometry></visual>'
+    shapes = "".join(visual.format(name) for name in ("one/box.obj", "two/box.obj", "arm.dae"))
+    source = tmp_path / "arm.urdf"
+    source.write_text(ARM.replace(visual.format("box.stl"), shapes))
+    found = bring(source, "painted", library, {"arm": package})
+    assert [one for one in found if one.severity > 0] == []
+    folder = library.imported / "painted" / "meshes"
+    for number, colour in (("00", b"red"), ("01", b"blue")):
+        files = mesh_files.companions(folder / f"{number}_box.obj")
+        assert all(file.parent == folder for file in files.values())
+        assert [file.read_bytes() for file in files.values() if file.suffix == ".png"] == [colour]
+    (texture,) = mesh_files.companions(folder / "02_arm.dae").values()
+    assert texture.read_bytes() == b"red"
+    (package / "tex" / "two it.png").unlink()
+    assert "robot_no_texture" in {
+        one.code for one in bring(source, "b", library, {"arm": package})
+    }
+
+
+@pytest.fixture
+def vendor(tmp_path: Path) -> Path:
+    """Return a vendor's URDF of a KR 6: the lab's own joints, a box a link."""
+    root = urdf.parse((ROBOTS / KR6 / "robot.urdf").read_text(), KR6)
+    (tmp_path / "vendor").mkdir()
+    for link in root.iterfind("link"):
+        for shape in [*link.findall("visual"), *link.findall("collision")]:
+            link.remove(shape)
+        if link.get("name") in ("base_link", "link_1", "link_6"):
+            name = link.get("name")
+            trimesh.creation.box((0.1, 0.1, 0.1)).export(tmp_path / "vendor" / f"{name}.stl")
+            visual = ET.SubElement(link, "visual")
+            ET.SubElement(visual, "origin", xyz="0 0 0.5")
+            geometry = ET.SubElement(visual, "geometry")
+            ET.SubElement(geometry, "mesh", filename=f"package://vendor/{name}.stl")
+    path = tmp_path / "vendor.urdf"
+    path.write_text(ET.tostring(root, encoding="unicode"))
+    return path
+
+
+def test_a_vendors_meshes_replace_ours_and_ours_come_back(
+    vendor: Path, library: RobotLibrary
+) -> None:
+    before = library.description(KR6)
+    found = use_meshes(vendor, KR6, library, {"vendor": vendor.parent / "vendor"})
+    assert found == ()
+    root = urdf.parse(library.description(KR6, "parallel_gripper"), KR6)
+    link = next(one for one in root.iterfind("link") if one.get("name") == "link_1")
+    (mesh,) = link.findall("visual/geometry/mesh")
+    assert trimesh.load_mesh(library.mesh_path(str(mesh.get("filename")))).volume == pytest.approx(
+        0.001
+    )
+    assert link.find("visual/origin").get("xyz") == "0 0 0.5"
+    # Joints, masses and hulls are ours, and so is what the vendor has no mesh for.
+    ours = urdf.parse(before, KR6)
+    assert urdf.joints(ours, KR6) == urdf.joints(urdf.parse(library.description(KR6), KR6), KR6)
+    assert len(link.findall("collision")) > 0
+    assert library.collision_description(KR6).count("link_2_hull_0.stl") == 1
+    assert library.ids().count(KR6) == 1
+    remove(KR6, library)
+    assert library.description(KR6) == before
+    with pytest.raises(BadInput, match="nothing was imported"):
+        remove(KR6, library)
+
+
+def test_meshes_of_another_geometry_are_refused(vendor: Path, library: RobotLibrary) -> None:
+    root = urdf.parse(vendor.read_text(), KR6)
+    origin = next(j for j in root.iterfind("joint") if j.get("name") == "joint_3").find("origin")
+    x, y, z = (float(part) for part in origin.get("xyz").split())
+    packages = {"vendor": vendor.parent / "vendor"}
+    for shift, kept in ((0.00005, True), (0.0002, False)):
+        origin.set("xyz", f"{x + shift} {y} {z}")
+        vendor.write_text(ET.tostring(root, encoding="unicode"))
+        found = use_meshes(vendor, KR6, library, packages)
+        assert (checks.errors(found) == ()) is kept
+        assert (library.imported / KR6).is_dir()
+    assert [(one.code, one.where) for one in found] == [("robot_frame", "link link_6")]
+    assert "0.20 mm" in found[0].message
+    with pytest.raises(BadInput, match="not one of the lab's own"):
+        use_meshes(vendor, "mine", library, packages)
+    vendor.write_text(ARM)
+    with pytest.raises(BadInput, match="without a prefix"):
+        use_meshes(vendor, KR6, library, packages)

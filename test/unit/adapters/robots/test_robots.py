@@ -1,0 +1,243 @@
+"""The robots themselves: figures, reach, meshes, hulls, reproducibility."""
+
+from __future__ import annotations
+
+import itertools
+import subprocess
+import sys
+import warnings
+from pathlib import Path
+
+import numpy as np
+import pytest
+import trimesh
+import yaml
+import yourdfpy
+
+from mrlab_ros.adapters.robots import checks, urdf
+from mrlab_ros.adapters.robots import hulls as robots_hulls
+from mrlab_ros.adapters.robots.library import RobotLibrary
+from mrlab_ros.core.robots.reach import reach
+
+ROOT = Path(__file__).resolve().parents[4]
+ROBOTS = ROOT / "robots"
+GENERATOR = ROOT / "scripts" / "robots"
+LIBRARY = RobotLibrary(ROBOTS, ROBOTS / "none imported")
+IDS = LIBRARY.ids()
+
+# What each vendor's kinematics give, mm; docs/robots.md says how each is measured.
+REACH_MM = {
+    "kuka_kr3_r540": 540.768,
+    "kuka_kr6_r900_sixx": 901.456,
+    "kuka_kr10_r900_2": 900.743,
+    "kuka_kr16_r1610_2": 1611.956,
+    "kuka_kr20_r1810_2": 1812.983,
+    "kuka_kr50_r2100": 2101.207,
+    "kuka_kr70_r2100": 2101.207,
+    "kuka_kr120_r2500_pro": 2496.464,
+    "kuka_kr150_r2700_2": 2701.032,
+    "kuka_kr300_r2700_2": 2701.032,
+    "kuka_kr560_r3100_2": 3100.043,
+    "kuka_lbr_iisy15_r930": 930.0,
+    "ur5e": 849.74,
+}
+# The flange with all joints at zero, m, from the vendors' descriptions.
+TOOL0_AT_ZERO = {
+    "kuka_kr3_r540": (0.615, 0.0, 0.365),
+    "kuka_kr6_r900_sixx": (0.98, 0.0, 0.435),
+    "kuka_kr10_r900_2": (0.99, 0.0, 0.425),
+    "kuka_kr16_r1610_2": (1.748, 0.0, 0.67),
+    "kuka_kr20_r1810_2": (1.953, 0.0, 0.67),
+    "kuka_kr50_r2100": (2.285, 0.0, 0.625),
+    "kuka_kr70_r2100": (2.285, 0.0, 0.625),
+    "kuka_kr120_r2500_pro": (2.715, 0.0, 0.634),
+    "kuka_kr150_r2700_2": (2.915, 0.0, 0.76),
+    "kuka_kr300_r2700_2": (2.94, 0.0, 0.76),
+    "kuka_kr560_r3100_2": (3.3895, 0.0, 1.04),
+    "kuka_lbr_iisy15_r930": (0.93, 0.0, 0.3),
+    "ur5e": (0.8172, 0.2329, 0.0628),
+}
+
+
+def folders() -> list[Path]:
+    """Return the folders of all robots and end effectors."""
+    return sorted(path.parent for path in ROBOTS.rglob("*.urdf"))
+
+
+@pytest.mark.parametrize("robot", IDS)
+def test_reach_is_the_vendors(robot: str) -> None:
+    model = LIBRARY.model(robot)
+    computed = reach(model, LIBRARY.facts(robot)["reach_definition"])
+    assert computed * 1e3 == pytest.approx(REACH_MM[robot], abs=0.01)
+    # The published figure; the product name of the KR 16 R1610-2 is 2 mm short of it.
+    assert computed == pytest.approx(model.reach, abs=0.0021 if "kr16" in robot else 0.001)
+
+
+@pytest.mark.parametrize("robot", IDS)
+def test_tool0_at_zero_is_the_vendors(robot: str) -> None:
+    model = LIBRARY.model(robot)
+    pose = model.chain.tool0(np.zeros(len(model.joints)))
+    np.testing.assert_allclose(pose[:3, 3], TOOL0_AT_ZERO[robot], atol=1e-9)
+
+
+@pytest.mark.parametrize("robot", IDS)
+def test_checks_find_nothing(robot: str) -> None:
+    found = checks.check(LIBRARY.description(robot), robot, LIBRARY.mesh_path)
+    assert [one for one in found if one.severity > 0] == []
+
+
+@pytest.mark.parametrize("folder", folders(), ids=lambda folder: folder.name)
+def test_urdf_is_what_its_figures_say(folder: Path) -> None:
+    sys.path.insert(0, str(GENERATOR))
+    from urdf_writer import LinkFiles
+    from urdf_writer import urdf as write
+
+    source = next(folder.glob("*.yaml"))
+    figures = yaml.safe_load(source.read_text())
+    files: dict[str, LinkFiles] = {}
+    for glb in (folder / "meshes").glob("*.glb"):
+        count = len(list(glb.parent.glob(f"{glb.stem}_hull_*.stl")))
+        hulls = tuple(f"{glb.stem}_hull_{n}.stl" for n in range(count))
+        files[glb.stem] = LinkFiles(glb.name, hulls)
+    place = folder.relative_to(ROOT).as_posix()
+    text = write(figures, files, f"package://mrlab_ros/{place}/meshes")
+    assert source.with_suffix(".urdf").read_text() == text
+
+
+@pytest.mark.parametrize("folder", folders(), ids=lambda folder: folder.name)
+def test_meshes_keep_their_bounds(folder: Path) -> None:
+    files = list((folder / "meshes").glob("*.glb"))
+    assert sum(file.stat().st_size for file in files) < 400_000
+    triangles = sum(
+        len(mesh.faces) for file in files for mesh in trimesh.load_scene(file).geometry.values()
+    )
+    assert 1000 < triangles <= 40_000
+
+
+@pytest.mark.parametrize("folder", folders(), ids=lambda folder: folder.name)
+def test_hulls_are_few_and_convex(folder: Path) -> None:
+    files = sorted((folder / "meshes").glob("*_hull_*.stl"))
+    assert 1 <= len(files) <= 100
+    for file in files:
+        hull = trimesh.load_mesh(file)
+        assert hull.is_watertight
+        assert hull.volume > 0
+        assert hull.volume == pytest.approx(hull.convex_hull.volume, rel=0.002, abs=1e-9)
+
+
+@pytest.mark.parametrize("folder", folders(), ids=lambda folder: folder.name)
+def test_hulls_follow_what_is_seen(folder: Path) -> None:
+    text = next(folder.glob("*.urdf")).read_text()
+    fits = list(robots_hulls.fits(text, folder.name, LIBRARY.mesh_path, most=400))
+    assert len(fits) == len(list((folder / "meshes").glob("*.glb")))
+    for fit in fits:
+        assert 0 <= fit.smaller <= robots_hulls.MOST_SMALLER, fit
+        assert 0 <= fit.larger <= robots_hulls.MOST_LARGER, fit
+
+
+def test_both_sides_of_a_fit_are_measured() -> None:
+    body = trimesh.creation.box((1.0, 0.4, 0.2)).triangles
+    grown = trimesh.creation.box((1.06, 0.4, 0.2)).triangles
+    assert robots_hulls.sticks_out(grown, [body], 5000) == pytest.approx(0.03, abs=1e-6)
+    assert robots_hulls.stands_off(body, [grown], 5000) == pytest.approx(0.03, abs=1e-3)
+    assert robots_hulls.sticks_out(body, [grown], 5000) < 1e-9
+    # What lies deep in the body stands off nowhere.
+    inner = trimesh.creation.box((0.2, 0.1, 0.05)).triangles
+    assert robots_hulls.stands_off(body, [inner], 5000) <= robots_hulls.NEAR
+
+
+def deepest(one: list[trimesh.Trimesh], other: list[trimesh.Trimesh]) -> float:
+    """Return how deep, m, the surface points of one link's hulls lie in the other's hulls."""
+    depth = 0.0
+    for a in one:
+        points = np.concatenate([a.vertices, a.triangles_center])
+        for b in other:
+            heights = points @ b.face_normals.T - (b.face_normals * b.triangles[:, 0]).sum(axis=1)
+            depth = max(depth, -float(heights.max(axis=1).min()))
+    return depth
+
+
+@pytest.mark.parametrize("tool", [None, *LIBRARY.end_effectors()])
+@pytest.mark.parametrize("robot", IDS)
+def test_no_links_collide_at_home(robot: str, tool: str | None) -> None:
+    model = LIBRARY.model(robot)
+    root = urdf.parse(LIBRARY.description(robot, tool), robot)
+    poses = urdf.poses(root, dict(zip(model.joint_names, model.home, strict=True)), robot)
+    hulls: dict[str, list[trimesh.Trimesh]] = {}
+    for link in root.iterfind("link"):
+        for mesh in link.iterfind("collision/geometry/mesh"):
+            hull = trimesh.load_mesh(LIBRARY.mesh_path(str(mesh.get("filename"))))
+            name = str(link.get("name"))
+            hulls.setdefault(name, []).append(hull.apply_transform(poses[name]))
+    touching = LIBRARY.touching_links(robot, tool)
+    for a, b in itertools.combinations(hulls, 2):
+        if frozenset((a, b)) not in touching:
+            assert max(deepest(hulls[a], hulls[b]), deepest(hulls[b], hulls[a])) < 0.002, (a, b)
+
+
+@pytest.mark.parametrize("robot", IDS)
+def test_links_touch_only_where_their_bodies_nearly_do(robot: str) -> None:
+    sys.path.insert(0, str(GENERATOR))
+    import self_collision
+
+    poses = self_collision.random_poses(LIBRARY, robot, 600)
+    touching = dict(self_collision.touching_poses(LIBRARY, robot, poses))
+    assert len(touching) < 0.25 * len(poses)
+    bodies = self_collision.Bodies(LIBRARY, robot)
+    for number in list(touching)[:2]:
+        for pair in touching[number]:
+            # Both links' hulls may be larger than what is seen.
+            distance = bodies.distance(pair, poses[number])
+            assert distance < 2 * robots_hulls.MOST_LARGER, (number, pair)
+
+
+@pytest.mark.parametrize("robot", IDS)
+def test_physics_gets_masses_paths_and_no_visuals(robot: str) -> None:
+    root = urdf.parse(LIBRARY.collision_description(robot, "parallel_gripper"), robot)
+    assert root.find("link/visual") is None
+    assert all(link.find("inertial/mass") is not None for link in root.iterfind("link"))
+    for mesh in checks.meshes(root):
+        assert Path(str(mesh.get("filename"))).is_file()
+
+
+@pytest.mark.parametrize("robot", IDS)
+def test_flange_mesh_ends_at_tool0(robot: str) -> None:
+    model = LIBRARY.model(robot)
+    last = [segment for segment in model.chain.segments if segment.axis is not None][-1].link
+    poses = model.chain.links(np.zeros(len(model.joints)))
+    mesh = trimesh.load_mesh(ROBOTS / robot / "meshes" / f"{last}.glb")
+    to_tip = np.linalg.inv(poses["tool0"]) @ poses[last]
+    heights = trimesh.transform_points(mesh.vertices, to_tip)[:, 2]
+    # Screw heads may stand proud of the face by some millimetres.
+    assert -0.004 < heights.max() < 0.007
+
+
+@pytest.mark.parametrize("robot", IDS)
+def test_check_urdf_passes(robot: str, tmp_path: Path) -> None:
+    path = tmp_path / "robot.urdf"
+    for tool in (None, *LIBRARY.end_effectors()):
+        path.write_text(LIBRARY.description(robot, tool))
+        done = subprocess.run(["check_urdf", path], capture_output=True, text=True, check=False)
+        assert done.returncode == 0, done.stdout + done.stderr
+        assert "Successfully Parsed" in done.stdout
+
+
+@pytest.mark.parametrize("robot", ["ur5e", "kuka_kr6_r900_sixx", "kuka_kr560_r3100_2"])
+def test_loads_with_meshes_without_a_warning(robot: str, caplog: pytest.LogCaptureFixture) -> None:
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        loaded = yourdfpy.URDF.load(
+            str(ROBOTS / robot / "robot.urdf"),
+            filename_handler=lambda fname: str(LIBRARY.mesh_path(fname)),
+            load_collision_meshes=True,
+        )
+    assert not caplog.records
+    assert len(loaded.scene.geometry) >= 7
+
+
+def test_the_same_description_gives_the_same_bytes() -> None:
+    folder = ROBOTS / "end_effectors" / "vacuum_cup"
+    files = {path: path.read_bytes() for path in folder.rglob("*") if path.is_file()}
+    command = [sys.executable, str(GENERATOR / "generate.py"), "vacuum_cup"]
+    subprocess.run(command, check=True, capture_output=True, timeout=100)
+    assert {path: path.read_bytes() for path in folder.rglob("*") if path.is_file()} == files

@@ -1,0 +1,381 @@
+"""The readers of MATLAB's formats, against scipy's and Octave's writers and against damage."""
+
+import contextlib
+import gzip
+import io
+import struct
+import zlib
+from pathlib import Path
+
+import h5py
+import numpy as np
+import pytest
+import scipy.io
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from hypothesis.extra import numpy as hnp
+
+from mrlab_ros.adapters.workspaces import worker
+from mrlab_ros.adapters.workspaces.mat5 import (
+    Damaged,
+    Mat5Reader,
+    NotAWorkspace,
+    TooLarge,
+)
+
+LIMIT = 1 << 26
+EXAMPLES = [
+    path
+    for path in sorted((Path(__file__).parents[4] / "examples").glob("*.mat"))
+    if not h5py.is_hdf5(path)
+]
+
+
+class Collected(dict):
+    """A sink: path -> (kind, shape, values or None, is_object, note)."""
+
+    def add(self, path, kind, shape, data=None, dtype="", *, is_object=False, note="", columns=()):
+        del columns
+        values = None
+        if data is not None:
+            values = np.frombuffer(bytes(data), dtype).reshape(shape, order="F")
+        self[path] = kind, tuple(shape), values, is_object, note
+
+    def kind(self, path):
+        return self[path][0]
+
+    def values(self, path):
+        return self[path][2]
+
+
+def read(data, name="traj.mat", limit=LIMIT):
+    sink = Collected()
+    form = worker.read(memoryview(data), name, sink, limit)
+    return form, sink
+
+
+def saved(*, compressed=False, form="5", **variables):
+    buffer = io.BytesIO()
+    scipy.io.savemat(buffer, variables, do_compression=compressed, format=form)
+    return buffer.getvalue()
+
+
+MATRICES = hnp.arrays(
+    st.sampled_from([np.float64, np.float32]),
+    hnp.array_shapes(min_dims=2, max_dims=2, max_side=12),
+    elements=st.floats(-100, 100, width=32),
+)
+
+
+@settings(deadline=None)
+@given(MATRICES, st.booleans())
+def test_v5_to_v7_give_back_the_numbers(matrix, compressed):
+    form, sink = read(saved(q=matrix, compressed=compressed))
+    assert form == "MATLAB v5 to v7"
+    np.testing.assert_array_equal(sink.values("q"), matrix)
+    assert sink.kind("q") == ("double" if matrix.dtype == np.float64 else "single")
+
+
+@settings(deadline=None)
+@given(MATRICES.filter(lambda m: m.dtype == np.float64))
+def test_v4_gives_back_the_numbers(matrix):
+    form, sink = read(saved(q=matrix, form="4"))
+    assert form == "MATLAB v4"
+    np.testing.assert_array_equal(sink.values("q"), matrix)
+
+
+def hdf5(matrices):
+    buffer = io.BytesIO()
+    with h5py.File(buffer, "w", userblock_size=512) as file:
+        for name, matrix in matrices.items():
+            item = file.create_dataset(name, data=matrix.T, chunks=True, compression="gzip")
+            item.attrs["MATLAB_class"] = np.bytes_(
+                {"f8": "double", "f4": "single"}.get(matrix.dtype.str[1:], matrix.dtype.name)
+            )
+    header = b"MATLAB 7.3 MAT-file, Platform: GLNXA64".ljust(116) + bytes(8) + b"\x00\x02IM"
+    return header.ljust(512, b"\0") + buffer.getvalue()[512:]
+
+
+@settings(deadline=None, max_examples=25)
+@given(MATRICES)
+def test_v7_3_gives_back_the_numbers(matrix):
+    form, sink = read(hdf5({"q": matrix}))
+    assert form == "MATLAB v7.3"
+    np.testing.assert_array_equal(sink.values("q"), matrix)
+
+
+def test_gzip_is_looked_into():
+    q = np.arange(12.0).reshape(2, 6)
+    form, sink = read(gzip.compress(saved(q=q)), "traj.mat.gz")
+    assert form == "MATLAB v5 to v7"
+    np.testing.assert_array_equal(sink.values("q"), q)
+    with pytest.raises(TooLarge):
+        read(gzip.compress(bytes(5000)), limit=4000)
+    with pytest.raises(Damaged):
+        read(gzip.compress(saved(q=q))[:-20])
+
+
+def test_containers_have_the_paths_that_matlab_writes():
+    q = np.arange(12.0).reshape(2, 6)
+    cells = np.empty((2, 2), object)
+    cells[:] = [[q, q + 1], ["text", q + 3]]
+    row = np.empty((1, 3), object)
+    row[:] = [[q, q + 1, q + 2]]
+    pair = np.zeros((1, 2), dtype=[("q", object), ("n", object)])
+    pair[0, 0] = (q, 1.0)
+    pair[0, 1] = (q + 5, 2.0)
+    data = saved(
+        out={"q": {"time": np.arange(2.0), "signals": {"values": q}}}, c=cells, r=row, s=pair
+    )
+    _, sink = read(data)
+    np.testing.assert_array_equal(sink.values("out.q.signals.values"), q)
+    np.testing.assert_array_equal(sink.values("c{1,2}"), q + 1)
+    assert sink.kind("c{2,1}") == "char"
+    np.testing.assert_array_equal(sink.values("c{2,2}"), q + 3)
+    np.testing.assert_array_equal(sink.values("r{3}"), q + 2)
+    np.testing.assert_array_equal(sink.values("s(2).q"), q + 5)
+    assert sink["s"][:2] == ("struct", (1, 2))
+
+
+def test_what_has_no_numbers_is_listed_with_its_class():
+    sparse = scipy.sparse.csc_matrix(np.eye(6))
+    data = saved(
+        z=np.ones((3, 6)) * 1j,
+        i=np.ones((3, 6), np.int16),
+        b=np.ones((3, 6), bool),
+        s=sparse,
+        e=np.zeros((0, 6)),
+        t="abc",
+    )
+    _, sink = read(data)
+    assert sink["z"][4] == "complex"
+    kinds = {k: sink.kind(k) for k in "ibset"}
+    assert kinds == {"i": "int16", "b": "logical", "s": "sparse", "e": "double", "t": "char"}
+    assert sink["e"][1] == (0, 6)
+
+
+def element(kind, data, order="<"):
+    return struct.pack(order + "II", kind, len(data)) + data + bytes(-len(data) % 8)
+
+
+def matrix5(flags, parts, order="<"):
+    head = element(6, struct.pack(order + "II", flags, 0), order)
+    return element(14, head + b"".join(parts), order)
+
+
+def test_what_octave_writes_as_hdf5_is_named():
+    buffer = io.BytesIO()
+    with h5py.File(buffer, "w") as file:
+        group = file.create_group("q")
+        group.attrs["OCTAVE_NEW_FORMAT"] = np.uint8(1)
+    with pytest.raises(NotAWorkspace, match="Octave HDF5"):
+        read(buffer.getvalue())
+
+
+def header5(order="<"):
+    text = b"MATLAB 5.0 MAT-file, Platform: TEST".ljust(116) + bytes(8)
+    return text + (b"\x00\x01IM" if order == "<" else b"\x01\x00MI")
+
+
+def test_big_endian_and_doubles_stored_as_small_integers():
+    q = np.arange(12, dtype=np.int16).reshape(2, 6)
+    parts = [
+        element(5, struct.pack(">ii", 2, 6), ">"),
+        element(1, b"q", ">"),
+        element(3, q.astype(">i2").tobytes(order="F"), ">"),
+    ]
+    _, sink = read(header5(">") + matrix5(6, parts, ">"))
+    assert sink.kind("q") == "double"
+    np.testing.assert_array_equal(sink.values("q"), q)
+
+
+def test_objects_are_listed_by_name_and_class():
+    parts = [element(1, b"ts"), element(1, b"MCOS"), element(1, b"timeseries")]
+    reference = matrix5(
+        13, [element(5, struct.pack("<ii", 1, 1)), element(1, b""), element(6, bytes(4))]
+    )
+    _, sink = read(header5() + matrix5(17, [*parts, reference]))
+    assert sink["ts"][0] == "timeseries"
+    assert sink["ts"][3]
+
+
+def test_v7_3_containers_and_objects():
+    q = np.arange(12.0).reshape(2, 6)
+    buffer = io.BytesIO()
+    with h5py.File(buffer, "w", userblock_size=512) as file:
+        hidden = file.create_group("#refs#")
+        references = []
+        for i in range(2):
+            item = hidden.create_dataset(f"a{i}", data=(q + i).T)
+            item.attrs["MATLAB_class"] = np.bytes_("double")
+            references.append([item.ref])
+        cell = file.create_dataset("c", data=references, dtype=h5py.ref_dtype)
+        cell.attrs["MATLAB_class"] = np.bytes_("cell")
+        struct_group = file.create_group("s")
+        struct_group.attrs["MATLAB_class"] = np.bytes_("struct")
+        inner = struct_group.create_dataset("q", data=q.T)
+        inner.attrs["MATLAB_class"] = np.bytes_("double")
+        array = file.create_group("a")
+        array.attrs["MATLAB_class"] = np.bytes_("struct")
+        array.create_dataset("q", data=references, dtype=h5py.ref_dtype)
+        thing = file.create_dataset("ts", data=np.zeros((1, 6), np.uint32))
+        thing.attrs["MATLAB_class"] = np.bytes_("timeseries")
+        thing.attrs["MATLAB_object_decode"] = np.int32(3)
+        text = file.create_dataset("t", data=np.zeros((3, 1), np.uint16))
+        text.attrs["MATLAB_class"] = np.bytes_("char")
+        nothing = file.create_dataset("e", data=np.array([0, 6], np.uint64))
+        nothing.attrs["MATLAB_class"] = np.bytes_("double")
+        nothing.attrs["MATLAB_empty"] = np.uint8(1)
+        pairs = np.zeros((6, 2), dtype=[("real", "f8"), ("imag", "f8")])
+        file.create_dataset("z", data=pairs).attrs["MATLAB_class"] = np.bytes_("double")
+        file["elsewhere"] = h5py.ExternalLink("/etc/hostname", "/")
+    _, sink = read(buffer.getvalue())
+    np.testing.assert_array_equal(sink.values("c{2}"), q + 1)
+    np.testing.assert_array_equal(sink.values("s.q"), q)
+    np.testing.assert_array_equal(sink.values("a(2).q"), q + 1)
+    assert (sink.kind("ts"), sink["ts"][3]) == ("timeseries", True)
+    assert sink.kind("t") == "char"
+    assert sink["e"][1:3] == ((0, 6), None)
+    assert sink["z"][4] == "complex"
+    assert "elsewhere" not in sink
+
+
+@pytest.mark.parametrize(
+    ("data", "words"),
+    [
+        (b"", "an empty file"),
+        (b"PK\x03\x04rest", "ZIP"),
+        (b"\x28\xb5\x2f\xfd", "Zstandard"),
+        (b"\x89PNG\r\n\x1a\n", "PNG"),
+        (b"version https://git-lfs.github.com/spec/v1\n", "Git LFS"),
+        (b"# Created by Octave 8.4.0\n# name: q\n", "Octave text"),
+        (b"Octave-1-L\0\0\0\0\0\1\0\0\0q", "Octave binary"),
+        (b"<!DOCTYPE html><html>", "web page"),
+        (b"q = [1 2 3];\n", "text file"),
+        (b"\x00\x9f\x92\x96" * 20, "unknown kind"),
+        (b"MATLAB 5.0 MAT-file".ljust(128, b" "), "header is damaged"),
+        (b"SQLite format 3\0", "SQLite database"),
+    ],
+)
+def test_other_files_are_named_for_what_they_are(data, words):
+    with pytest.raises(NotAWorkspace, match=words):
+        read(data)
+
+
+GOOD = saved(q=np.arange(60.0).reshape(10, 6), s={"a": np.ones((3, 3))})
+SMALL = saved(q=np.arange(60.0).reshape(10, 6), compressed=True)
+
+
+@pytest.mark.parametrize("data", [GOOD, SMALL])
+def test_no_cut_file_is_taken(data):
+    whole = set(read(data)[1])
+    for length in range(128, len(data)):
+        try:
+            _, sink = read(data[:length])
+        except (Damaged, NotAWorkspace):
+            continue
+        # cut between two variables nothing can be seen; whole variables are all there is then
+        assert set(sink) < whole
+        assert length == 128 or "q" in sink
+
+
+@settings(deadline=None, max_examples=300)
+@given(st.data(), st.sampled_from([GOOD, SMALL, saved(q=np.ones((4, 6)), form="4")]))
+def test_damage_is_refused_or_read_but_never_anything_else(data, good):
+    damaged = bytearray(good)
+    for _ in range(data.draw(st.integers(1, 4))):
+        at = data.draw(st.integers(0, len(good) - 1))
+        damaged[at] = data.draw(st.integers(0, 255))
+    with contextlib.suppress(Damaged, TooLarge, NotAWorkspace):
+        read(bytes(damaged))
+
+
+@settings(deadline=None, max_examples=100)
+@given(st.binary(max_size=400))
+def test_any_bytes_after_a_header_are_refused_or_read(body):
+    for start in (header5(), header5(">")):
+        with contextlib.suppress(Damaged, TooLarge):
+            read(start + body)
+
+
+def test_a_wrong_element_type_is_named():
+    parts = [element(5, struct.pack("<ii", 1, 6)), element(1, b"q"), element(77, bytes(48))]
+    with pytest.raises(Damaged, match="'q' have the element type 77"):
+        read(header5() + matrix5(6, parts))
+
+
+def test_dimensions_that_disagree_with_the_numbers_are_named():
+    parts = [element(5, struct.pack("<ii", 9, 6)), element(1, b"q"), element(9, bytes(48))]
+    with pytest.raises(Damaged, match="9x6 need 432"):
+        read(header5() + matrix5(6, parts))
+    parts[0] = element(5, struct.pack("<ii", -1, -6))
+    with pytest.raises(Damaged, match="dimensions"):
+        read(header5() + matrix5(6, parts))
+
+
+def test_a_bomb_is_refused_by_what_it_declares():
+    body = zlib.compress(struct.pack("<II", 14, 1 << 30) + bytes(1000))
+    with pytest.raises(TooLarge, match="1024 MiB"):
+        read(header5() + struct.pack("<II", 15, len(body)) + body)
+
+
+def test_a_wrong_checksum_is_refused():
+    body = bytearray(SMALL)
+    body[-1] ^= 0xFF
+    with pytest.raises(Damaged, match="cannot be inflated"):
+        read(bytes(body))
+
+
+def test_nesting_has_an_end():
+    inner = b""
+    for _ in range(60):
+        inner = matrix5(
+            1, [element(5, struct.pack("<ii", 1, 1)), element(1, b""), inner or element(14, b"")]
+        )
+    with pytest.raises(Damaged, match="nested"):
+        Mat5Reader(Collected(), LIMIT).read(memoryview(header5() + inner))
+
+
+@pytest.mark.parametrize("path", EXAMPLES, ids=lambda path: path.name)
+def test_the_examples_that_octave_wrote_agree_with_scipy(path):
+    _, sink = read(path.read_bytes(), path.name)
+    for name, values in scipy.io.loadmat(path).items():
+        if not name.startswith("__") and values.dtype.kind == "f":
+            np.testing.assert_array_equal(sink.values(name), values)
+
+
+def test_there_are_examples():
+    assert EXAMPLES
+
+
+def test_a_table_with_headings():
+    text = "time;a1;a2\r\n0;0.5;1\r\n0.1;0.25;2\r\n"
+    form, sink = read(text.encode(), "run.csv")
+    assert form == "CSV"
+    np.testing.assert_array_equal(sink.values("t"), [[0.0], [0.1]])
+    np.testing.assert_array_equal(sink.values("q"), [[0.5, 1.0], [0.25, 2.0]])
+    _, sink = read(b"a,b\r1,2\r3,4\r", "run.csv")
+    np.testing.assert_array_equal(sink.values("q"), [[1.0, 2.0], [3.0, 4.0]])
+    with pytest.raises(Damaged, match="first row cannot be read"):
+        read(b"'a'," + b"x" * 200_000 + b"\n1,2\n", "run.csv")
+    with pytest.raises(Damaged):
+        read(b"a,b\n1,2\n3\n", "run.csv")
+    with pytest.raises(Damaged):
+        read("ä,b\n1,2\n".encode("latin-1"), "run.csv")
+
+
+def test_npz_never_unpickles():
+    buffer = io.BytesIO()
+    np.savez(buffer, q=np.ones((3, 6)), fs=50.0)
+    form, sink = read(buffer.getvalue(), "run.npz")
+    assert form == "NumPy npz"
+    np.testing.assert_array_equal(sink.values("q"), np.ones((3, 6)))
+    assert sink.values("fs").item() == 50.0
+    encrypted = bytearray(buffer.getvalue())
+    encrypted[encrypted.index(b"PK\1\2") + 8] |= 1
+    with pytest.raises(Damaged, match="encrypted"):
+        read(encrypted, "run.npz")
+    buffer = io.BytesIO()
+    np.savez(buffer, q=np.array([{}, 1], dtype=object))
+    with pytest.raises(Damaged, match="npz"):
+        read(buffer.getvalue(), "run.npz")

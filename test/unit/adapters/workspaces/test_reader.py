@@ -1,0 +1,165 @@
+"""The wall: whatever a file does, the reader says so and reads the next one."""
+
+import io
+import os
+import signal
+import struct
+import zlib
+from concurrent.futures import ThreadPoolExecutor
+
+import numpy as np
+import psutil
+import pytest
+import scipy.io
+from graph import wait_for
+
+from mrlab_ros.adapters.workspaces.reader import Limits, MiB, WorkspaceReader
+from mrlab_ros.core.diagnostics import Refused
+
+Q = np.arange(60.0).reshape(10, 6)
+
+
+@pytest.fixture(scope="module")
+def reader():
+    with WorkspaceReader(Limits(memory=64 * MiB, time=20.0, output=8 * MiB)) as reader:
+        yield reader
+
+
+def saved(**variables):
+    buffer = io.BytesIO()
+    scipy.io.savemat(buffer, variables, do_compression=True)
+    return buffer.getvalue()
+
+
+def refusal(call, *arguments):
+    with pytest.raises(Refused) as caught:
+        call(*arguments)
+    assert str(caught.value)
+    return caught.value.finding
+
+
+def test_a_file_is_read_with_its_digest(reader, tmp_path):
+    path = tmp_path / "traj.mat"
+    path.write_bytes(saved(q=Q, fs=50.0))
+    workspace = reader.read_file(path)
+    np.testing.assert_array_equal(workspace.find("q").values, Q)
+    assert workspace.scalar(workspace.find("fs")) == 50.0
+    assert workspace.find("no") is None
+    (digest, _) = os.popen(f"sha256sum '{path}'").read().split()
+    assert workspace.sha256 == digest
+
+
+def test_what_was_read_stays_when_the_reader_goes():
+    with WorkspaceReader() as reader:
+        workspace = reader.read_bytes(saved(q=Q), "traj.mat")
+    np.testing.assert_array_equal(workspace.find("q").values, Q)
+
+
+def test_several_threads_may_read(reader):
+    def one(i):
+        return reader.read_bytes(saved(q=Q + i), "traj.mat").find("q").values[0, 0]
+
+    with ThreadPoolExecutor(4) as pool:
+        assert list(pool.map(one, range(12))) == list(range(12))
+
+
+def test_what_is_no_file_is_refused(reader, tmp_path):
+    assert refusal(reader.read_file, tmp_path / "no.mat").code == "missing"
+    assert refusal(reader.read_file, tmp_path).code == "unsupported_format"
+    os.mkfifo(tmp_path / "pipe.mat")
+    assert refusal(reader.read_file, tmp_path / "pipe.mat").code == "unsupported_format"
+    assert refusal(reader.read_bytes, b"", "traj.mat").message.count("an empty file") == 1
+    assert refusal(reader.read_bytes, saved(q=Q)[:-9], "traj.mat").code == "unreadable"
+
+
+def test_the_size_of_a_file_is_bounded():
+    with WorkspaceReader(Limits(file_size=100)) as reader:
+        assert refusal(reader.read_bytes, bytes(101), "traj.mat").code == "too_large"
+
+
+def bomb(mebibytes):
+    """Return a v7 file whose one variable declares and inflates to so many MiB of zeros."""
+    tag, zeros = struct.pack("<II", 14, mebibytes * MiB), bytes(MiB)
+    deflate = zlib.compressobj(1)
+    begin = deflate.compress(tag) + deflate.flush(zlib.Z_FULL_FLUSH)
+    # after a full flush equal contents have equal bytes, so one MiB is compressed for all
+    block = deflate.compress(zeros) + deflate.flush(zlib.Z_FULL_FLUSH)
+    checksum = zlib.adler32(tag)
+    for _ in range(mebibytes):
+        checksum = zlib.adler32(zeros, checksum)
+    end = b"\x03\x00" + struct.pack(">I", checksum)
+    body = begin + block * mebibytes + end
+    head = b"MATLAB 5.0".ljust(116) + bytes(8) + b"\x00\x01IM"
+    return head + struct.pack("<II", 15, len(body)) + body
+
+
+def test_a_bomb_is_stopped(reader):
+    assert refusal(reader.read_bytes, bomb(600), "b.mat").code == "too_large"
+    # matrices that are within the memory but more than the output
+    many = saved(**{f"q{i}": np.zeros((60_000, 6)) for i in range(5)})
+    assert refusal(reader.read_bytes, many, "b.mat").code == "too_large"
+    assert reader.read_bytes(saved(q=Q), "traj.mat").find("q") is not None
+
+
+def test_memory_is_kept_by_the_kernel():
+    with WorkspaceReader(Limits(memory=24 * MiB)) as reader:
+        data = bomb(9)  # allowed by what it declares, twice that while inflating
+        rows = np.zeros((1 * MiB, 6))
+        assert refusal(reader.read_bytes, saved(q=rows), "b.mat").code == "too_large"
+        assert refusal(reader.read_bytes, data, "b.mat").code == "unreadable"
+        assert reader.read_bytes(saved(q=Q), "traj.mat").find("q") is not None
+
+
+def test_time_is_kept_by_the_kernel():
+    # The inflating alone takes longer than the limit.
+    with WorkspaceReader(Limits(time=0.05)) as reader:
+        many = bomb(300)
+        assert refusal(reader.read_bytes, many, "slow.mat").code == "too_slow"
+        assert reader.read_bytes(saved(q=Q), "traj.mat").find("q") is not None
+
+
+@pytest.mark.parametrize("number", [signal.SIGSEGV, signal.SIGKILL, signal.SIGABRT])
+def test_a_file_that_kills_the_reading_process_is_reported(number):
+    with WorkspaceReader() as reader, ThreadPoolExecutor(1) as pool:
+        reader.start()
+        worker = psutil.Process(reader._process.pid)
+        slow = bomb(400)
+        pending = pool.submit(refusal, reader.read_bytes, slow, "evil.mat")
+        (reading,) = wait_for(worker.children, "the reading process")
+        reading.send_signal(number)
+        found = pending.result(60)
+        assert found.code == "reader_died"
+        assert signal.strsignal(number) in found.message
+        assert worker.is_running(), "the waiting process is not touched"
+        assert reader.read_bytes(saved(q=Q), "traj.mat").find("q") is not None
+
+
+def test_a_lost_worker_is_replaced():
+    with WorkspaceReader() as reader:
+        reader.start()
+        worker = psutil.Process(reader._process.pid)
+        worker.kill()
+        wait_for(lambda: worker.status() == psutil.STATUS_ZOMBIE, "its end")
+        assert reader.read_bytes(saved(q=Q), "traj.mat").find("q") is not None
+
+
+def test_closing_gives_up_a_file_that_is_being_read():
+    reader = WorkspaceReader()
+    reader.start()
+    with ThreadPoolExecutor(1) as pool:
+        worker = psutil.Process(reader._process.pid)
+        slow = bomb(400)
+        pending = pool.submit(refusal, reader.read_bytes, slow, "slow.mat")
+        (reading,) = wait_for(worker.children, "the reading process")
+        reader.close()
+        assert pending.result(60).code == "reader_died"
+        wait_for(lambda: not reading.is_running(), "its end")
+
+
+def test_closing_ends_the_worker():
+    reader = WorkspaceReader()
+    reader.start()
+    worker = psutil.Process(reader._process.pid)
+    reader.close()
+    assert not worker.is_running()
+    reader.close()

@@ -1,0 +1,56 @@
+"""Where the bridge may listen, and how links are set."""
+
+from __future__ import annotations
+
+import pytest
+
+from mrlab_ros.core.bridge import links
+from mrlab_ros.core.errors import BadInput
+
+
+@pytest.mark.parametrize(
+    "endpoint", ["tcp/127.0.0.1:7447", "tcp/[::1]:0", "unixsock-stream//tmp/lab.sock"]
+)
+def test_endpoints_of_this_machine_need_no_flag(endpoint):
+    links.check_endpoints((endpoint,), insecure=False)
+
+
+@pytest.mark.parametrize("endpoint", ["tcp/0.0.0.0:7447", "udp/10.0.0.2:1", "tcp/[::]:7447"])
+def test_an_open_endpoint_needs_the_flag(endpoint):
+    with pytest.raises(BadInput, match="insecure"):
+        links.check_endpoints((endpoint,), insecure=False)
+    links.check_endpoints((endpoint,), insecure=True)
+
+
+@pytest.mark.parametrize("endpoint", ["tls/0.0.0.0:7447", "quic/[::]:7447"])
+def test_encryption_and_keys_go_together(endpoint):
+    links.check_endpoints((endpoint,), insecure=False, keys=True)
+    with pytest.raises(BadInput, match="needs keys"):
+        links.check_endpoints((endpoint,), insecure=True)
+    with pytest.raises(BadInput, match="where nobody can show one"):
+        links.check_endpoints(("tcp/127.0.0.1:7447",), insecure=True, keys=True)
+
+
+@pytest.mark.parametrize(
+    ("endpoint", "local"),
+    [
+        ("tcp/127.0.0.1:7447", True),
+        ("tls/127.0.1.1:7447", True),
+        ("tcp/[::1]:7447", True),
+        ("tcp/localhost:7447", True),
+        ("unixsock-stream//tmp/lab.sock", True),
+        ("tcp/0.0.0.0:7447", False),
+        ("tls/lab.example.org:7447", False),
+        ("tcp/[::]:7447", False),
+        ("tcp/127.lab.example.org:7447", False),
+    ],
+)
+def test_an_endpoint_is_within_this_machine_or_beyond(endpoint, local):
+    assert links.is_local(endpoint) is local
+
+
+def test_settings_by_path_lie_in_one_another():
+    assert links.nested({"a/b/c": 1, "a/b/d": [2], "e": 3}) == {
+        "a": {"b": {"c": 1, "d": [2]}},
+        "e": 3,
+    }

@@ -1,0 +1,95 @@
+"""Checks against a robot: each finding names joint, frame, value and limit."""
+
+import numpy as np
+import pytest
+from fakes import make_model
+
+from mrlab_ros.core.conversion import limits
+from mrlab_ros.core.diagnostics import Severity
+
+ROBOT = make_model(2)  # both joints -3 to 3 rad, 2 rad/s
+
+
+def check(positions, rate=100.0):
+    return limits.against_robot(positions, rate, ROBOT.joints, "q", "fake")
+
+
+def smooth(rows=200, reach=1.0):
+    u = np.linspace(0, 1, rows)[:, None]
+    return reach * np.hstack([u, -u]) * (3 - 2 * u) * u
+
+
+def test_a_fitting_motion_has_no_findings():
+    assert check(smooth()) == []
+
+
+def test_the_limit_itself_is_inside():
+    q = smooth(2000, 3.0)
+    assert check(q) == []
+
+
+@pytest.mark.parametrize("side", [1, -1])
+def test_a_joint_that_leaves_its_range_is_named_at_its_worst_frame(side):
+    q = smooth(2000)
+    q[700:1200, 1] += side * np.hanning(500) * 6.0
+    found = [d for d in check(q) if d.code == "joint_limit"]
+    assert len(found) == 1
+    worst = int(np.abs(q[:, 1]).argmax())
+    assert found[0].severity is Severity.ERROR
+    assert found[0].where == f"row {worst + 1}, column 2"
+    assert "joint_2" in found[0].message
+    assert f"{q[worst, 1]:.4g} rad" in found[0].message
+    assert "-3 to 3 rad" in found[0].message
+
+
+def test_too_fast_is_a_warning_with_the_velocity_and_the_limit():
+    q = smooth(60)
+    (found, other) = check(q, 100.0)
+    fastest = np.abs(np.diff(q[:, 0])).max() * 100
+    assert (found.code, found.severity) == ("velocity_limit", Severity.WARNING)
+    assert f"{fastest:.4g} rad/s" in found.message
+    assert "2 rad/s" in found.message
+    assert "joint_1" in found.message
+    assert "joint_2" in other.message
+    assert check(q, 40.0) == []
+
+
+def test_a_jump_is_found_between_its_two_frames():
+    q = smooth()
+    q[120:, 0] += 0.8
+    (found,) = check(q)
+    assert (found.code, found.where) == ("discontinuity", "row 120, column 1")
+    assert found.severity is Severity.ERROR
+
+
+@pytest.mark.parametrize("turn", [2 * np.pi, -2 * np.pi])
+def test_a_full_turn_is_told_from_another_jump(turn):
+    q = smooth()
+    q[50:, 1] += turn
+    codes = {d.code for d in check(q)}
+    assert "jump_2pi" in codes
+    assert "discontinuity" not in codes
+
+
+def test_a_few_waypoints_are_only_too_fast():
+    q = np.array([[0.0, 0.0], [1.0, 0.5], [1.5, -0.5]])
+    assert {d.code for d in check(q)} == {"velocity_limit"}
+
+
+def test_two_equal_rows_are_fine():
+    assert check(np.zeros((2, 2))) == []
+
+
+@pytest.mark.parametrize("value", [np.nan, np.inf, -np.inf])
+def test_the_first_value_that_is_not_finite_is_placed(value):
+    q = np.zeros((10, 6))
+    q[3, 2] = q[5, 0] = value
+    found = limits.non_finite(q, "q")
+    assert found is not None
+    assert found.where == "row 4, column 3"
+    assert "2 values" in found.message
+
+
+def test_huge_but_finite_values_are_finite():
+    assert limits.non_finite(np.full((4, 2), 1e308), "q") is None
+    assert limits.non_finite(np.ones((4, 2), np.float32), "q") is None

@@ -1,0 +1,553 @@
+"""The world's rules on an engine that is only geometry."""
+
+from __future__ import annotations
+
+import itertools
+
+import numpy as np
+import pytest
+from fake_engine import FakeEngine
+
+from mrlab_ros.core.clock import SECOND, PlaybackClock
+from mrlab_ros.core.errors import BadInput, IllegalEvent, Misuse
+from mrlab_ros.core.geometry import Pose, compose, inverse, relative
+from mrlab_ros.core.physics import catalogue
+from mrlab_ros.core.physics import surfaces as rooms
+from mrlab_ros.core.physics.clearance import Clearance, Halt
+from mrlab_ros.core.physics.engine import BodyState
+from mrlab_ros.core.physics.events import CollisionChanged, GraspChanged, ObjectRemoved
+from mrlab_ros.core.physics.grasp import TRANSITIONS, Grasp, GraspEvent, Gripper, after
+from mrlab_ros.core.physics.joint_stream import JointStream
+from mrlab_ros.core.physics.settings import Settings
+from mrlab_ros.core.physics.simulated_robot import GripperProgram, Playing
+from mrlab_ros.core.physics.snapshots import Snapshot, Snapshots
+from mrlab_ros.core.physics.surfaces import Surface
+from mrlab_ros.core.physics.world import World
+from mrlab_ros.core.playback.states import State
+
+MS = SECOND // 1000
+TYPES = {"ball": {"shape": "sphere", "size": [0.05], "mass": 0.1}}
+TYPES["post"] = {"shape": "sphere", "size": [0.05], "fixed": True}
+
+
+class Lab:
+    """A world with one robot whose time the test moves, 10 ms at a time."""
+
+    def __init__(self, *, gripper: Gripper = Gripper.NONE, settings: Settings | None = None):
+        self.engine = FakeEngine(fingers=gripper is Gripper.FINGERS)
+        types = catalogue.parse({"objects": TYPES})
+        self.world = World(self.engine, types, settings or Settings())
+        self.world.add_robot("a", "<robot/>", ("j1", "j2"), Pose(), gripper)
+        self.now_ns = 0
+        self.at = np.zeros(2)
+        self.events = []
+        self.go(0.0, 20 * MS)
+
+    def go(self, x: float, duration_ns: int, y: float = 0.0) -> None:
+        """Move the tip to (x, y) evenly."""
+        start, goal = self.at, np.array([x, y])
+        count = duration_ns // (10 * MS)
+        velocity = (goal - start) / (duration_ns / SECOND)
+        for i in range(1, count + 1):
+            self.now_ns += 10 * MS
+            self.at = start + (goal - start) * (i / count)
+            self.world.joint_state("a", self.now_ns, self.at, velocity)
+            self.send_others()
+            self.world.advance(self.now_ns)
+            self.events += self.world.take_events()
+
+    def send_others(self) -> None:
+        """Send the joint states of robots beside `a`."""
+
+    def play(self, position: float = 0.0, state: State = State.PLAYING) -> None:
+        rate = 1.0 if state is State.PLAYING else 0.0
+        clock = PlaybackClock(self.now_ns, position, rate)
+        self.world.playback("a", Playing(state, "t", clock, 0, 1001, 100.0, 10.0))
+
+    def of(self, kind):
+        return [event for event in self.events if isinstance(event, kind)]
+
+
+def test_a_touch_halts_once_and_a_margin_kept_for_a_while_ends_it():
+    lab = Lab()
+    lab.world.spawn("ball", "ball", Pose((0.5, 0.0, 0.5)))
+    lab.play()
+    lab.go(0.46, 460 * MS)
+    (halt,) = lab.of(CollisionChanged)
+    assert halt.colliding
+    assert (halt.contact.touch.link, halt.contact.touch.other) == ("tip", "ball")
+    # The tip touches at x = 0.45, frame 45 of 100 Hz; the first step behind it is at most 1 later.
+    assert halt.contact.frame in (45, 46)
+    for x in (0.449, 0.452, 0.445, 0.451, 0.446):  # in and out, never out of the margin
+        lab.go(x, 300 * MS)
+    assert len(lab.of(CollisionChanged)) == 1
+    lab.go(0.3, 100 * MS)
+    lab.go(0.3, 100 * MS)
+    assert len(lab.of(CollisionChanged)) == 1
+    lab.go(0.3, 200 * MS)
+    assert [event.colliding for event in lab.of(CollisionChanged)] == [True, False]
+
+
+def test_moving_the_obstacle_away_clears_too_and_playing_into_it_again_halts_again():
+    lab = Lab()
+    lab.world.spawn("ball", "ball", Pose((0.5, 0.0, 0.5)))
+    lab.go(0.46, 460 * MS)
+    lab.world.move("ball", Pose((2.0, 0, 0.5)), (0, 0, 0), (0, 0, 0), held=True)
+    lab.go(0.46, 400 * MS)
+    assert [event.colliding for event in lab.of(CollisionChanged)] == [True, False]
+    lab.world.move("ball", Pose((0.5, 0, 0.5)), (0, 0, 0), (0, 0, 0), held=True)
+    lab.go(0.46, 100 * MS)
+    assert [event.colliding for event in lab.of(CollisionChanged)] == [True, False, True]
+    lab.play()
+    lab.go(0.461, 20 * MS)
+    assert [event.colliding for event in lab.of(CollisionChanged)] == [True, False, True, True]
+
+
+@pytest.mark.parametrize(("x", "told"), [(0.3, [False]), (0.46, [True, False])])
+def test_a_halt_that_another_world_began_is_ended_here(x, told):
+    """Physics was started anew, or the robot was built anew with another end effector."""
+    lab = Lab()
+    lab.world.spawn("ball", "ball", Pose((0.5, 0.0, 0.5)))
+    lab.play(state=State.COLLISION_HALT)
+    lab.go(x, 10 * MS)
+    lab.go(x, 400 * MS)
+    lab.go(0.3, 100 * MS)
+    lab.go(0.3, 400 * MS)
+    assert [event.colliding for event in lab.of(CollisionChanged)] == told
+
+
+def test_a_silent_arm_is_waited_for_a_while_and_a_foreign_clock_is_not():
+    lab = Lab()
+    lab.play()
+    lab.go(0.1, 100 * MS)
+    last = lab.now_ns
+    for k in range(1, 99):
+        lab.world.advance(last + k * 10 * MS)
+        assert last - 5 * MS < lab.world.now_ns <= last
+    lab.world.advance(last + 1020 * MS)
+    assert lab.world.now_ns > last + SECOND
+    lab.world.playback("a", Playing())
+    lab.world.joint_state("a", last - 3600 * SECOND, (0.2, 0.0), (1.0, 0.0))
+    lab.world.advance(last + 1040 * MS)
+    assert lab.world.now_ns > last + 1030 * MS
+    assert lab.engine.arms["a"]["q"] == (0.2, 0.0)
+
+
+def test_what_the_playback_does_holds_from_its_stamp_on():
+    lab = Lab(gripper=Gripper.FINGERS)
+    lab.world.set_program("a", GripperProgram((0.0, 1.0), (True, False)))
+    lab.play()
+    lab.go(0.1, 500 * MS)
+    stopped = lab.now_ns + 300 * MS
+    clock = PlaybackClock(stopped, 1.5, 0.0)
+    lab.world.playback("a", Playing(State.PAUSED, "t", clock, 0, 1001, 100.0, 10.0, stopped))
+    lab.go(0.15, 290 * MS)
+    assert lab.world.robot("a").closed
+    lab.go(0.15, 20 * MS)
+    assert not lab.world.robot("a").closed
+    lab.go(0.15, 1000 * MS)
+    far = lab.now_ns + 3600 * SECOND
+    lab.world.playback("a", Playing(State.IDLE, stamp_ns=far))
+    assert lab.world.robot("a").playing.state is State.IDLE
+
+
+def test_fast_motion_is_looked_at_in_small_parts():
+    lab = Lab()
+    lab.world.spawn("ball", "ball", Pose((0.5, 0.0, 0.5)))
+    lab.engine.RADIUS = 0.0025  # 5 mm thick, and a step at 3 m/s is 12.5 mm
+    lab.engine.calls.clear()
+    lab.go(1.5, 500 * MS)
+    assert [event.colliding for event in lab.of(CollisionChanged)][:1] == [True]
+    assert lab.engine.calls.count("step") == pytest.approx(4 * 120, abs=8)
+
+
+def test_a_jump_is_no_motion_and_takes_along_what_the_hand_holds():
+    lab = Lab(gripper=Gripper.FINGERS)
+    lab.world.spawn("ball", "ball", Pose((0.02, 0.0, 0.5)))
+    lab.world.spawn("post", "between", Pose((0.5, 0.0, 0.5)))
+    lab.world.attach("a", "ball")
+    lab.now_ns += 10 * MS
+    lab.world.joint_state("a", lab.now_ns, [1.0, 0.0], [0.0, 0.0])
+    lab.world.advance(lab.now_ns + 10 * MS)
+    assert not [e for e in lab.world.take_events() if isinstance(e, CollisionChanged)]
+    assert lab.world.motion("ball").pose.position == pytest.approx((1.02, 0.0, 0.5))
+
+
+@pytest.mark.parametrize(
+    ("positions", "velocities", "says"),
+    [
+        ([np.nan, 0], [0, 0], "NaN"),
+        ([0.0], [0.0], "expected 2"),
+        ([0, 0], [0, 0, 0], "expected 2"),
+        ([1e300, 0], [0, 0], "more than"),
+        ([0, 0], [0, -1e300], "more than"),
+    ],
+)
+def test_a_joint_state_that_is_none_is_refused_and_changes_nothing(positions, velocities, says):
+    lab = Lab()
+    with pytest.raises(BadInput, match=says):
+        lab.world.joint_state("a", lab.now_ns + 1, positions, velocities)
+    lab.go(0.1, 100 * MS)
+    assert lab.engine.arms["a"]["q"] == pytest.approx([0.1, 0.0], abs=0.005)
+
+
+def test_joint_states_that_go_back_in_time_are_left_out_unless_the_clock_began_anew():
+    stream = JointStream(1, SECOND, 2 * SECOND)
+    assert stream.add(5 * SECOND, [0.1], [0.0], 0)
+    assert not stream.add(5 * SECOND - 10 * MS, [0.2], [0.0], 0)
+    assert not stream.add(5 * SECOND, [0.2], [0.0], 0)
+    assert stream.add(1 * SECOND, [0.3], [0.0], 0)
+    assert stream.at(1 * SECOND).positions == (0.3,)
+
+
+def test_the_motion_goes_through_every_joint_state_and_is_straight_between():
+    stream = JointStream(1, SECOND, 2 * SECOND)
+    q = np.cumsum(np.random.default_rng(0).uniform(-0.01, 0.01, 20))
+    for i, x in enumerate(q):
+        stream.add(i * 10 * MS, [x], [0.5], i * 10 * MS - 10 * MS)
+        assert stream.known_until(i * 10 * MS, 10 * MS) == (i * 10 * MS if i else None)
+        if i:
+            middle = stream.at(i * 10 * MS - 5 * MS)
+            assert middle.positions[0] == pytest.approx((q[i - 1] + x) / 2)
+            assert middle.velocities[0] == pytest.approx((x - q[i - 1]) / 0.01)
+        assert stream.at(i * 10 * MS).positions[0] == x
+
+
+def test_a_slow_stream_is_shown_a_period_late():
+    stream = JointStream(1, SECOND, 2 * SECOND)
+    for i in range(5):
+        stream.add(i * 100 * MS, [0.1 * i], [1.0], i * 100 * MS)
+    assert stream.delay_ns == 100 * MS
+    assert stream.at(450 * MS).positions[0] == pytest.approx(0.35)
+    assert stream.shown_ns(450 * MS) == 350 * MS
+    # What comes every two seconds is shown when it comes, and nothing waits for it.
+    for i in range(1, 4):
+        stream.add(2 * i * SECOND, [1.0 * i], [0.5], 2 * i * SECOND)
+    assert stream.known_until(7 * SECOND, 10 * MS) is None
+    assert stream.at(6 * SECOND + MS).positions[0] == 3.0
+
+
+def test_every_state_and_event_of_a_grasp_leads_on_or_is_refused():
+    for state, event in itertools.product(Grasp, GraspEvent):
+        if (state, event) in TRANSITIONS:
+            assert after(state, event) is TRANSITIONS[state, event]
+        else:
+            with pytest.raises(IllegalEvent, match=state.name):
+                after(state, event)
+
+
+def test_two_opposing_stalled_fingers_hold_and_opening_lets_go_with_the_hands_velocity():
+    lab = Lab(gripper=Gripper.FINGERS)
+    lab.world.spawn("ball", "ball", Pose((0.0, 0.0, 0.47)))
+    lab.engine.pinched, lab.engine.block = "ball", 0.02
+    before = lab.world.motion("ball").pose
+    lab.world.set_program("a", GripperProgram((0.1, 2.0), (True, False)))
+    lab.play()
+    lab.go(0.0, 1000 * MS)
+    assert [e.state for e in lab.of(GraspChanged)] == [Grasp.OPEN, Grasp.CLOSING, Grasp.HOLDING]
+    assert lab.world.motion("ball").pose == before
+    assert lab.world.object("ball").held_by == "a"
+    lab.go(0.5, 1000 * MS)
+    assert lab.world.motion("ball").pose.position == pytest.approx((0.5, 0.0, 0.47), abs=0.005)
+    lab.go(0.6, 200 * MS)
+    assert lab.of(GraspChanged)[-1].state is Grasp.OPEN
+    assert lab.world.motion("ball").linear == pytest.approx((0.5, 0.0, 0.0))
+    assert lab.world.object("ball").held_by == ""
+    assert not lab.of(CollisionChanged)
+
+
+def test_closing_on_nothing_is_an_empty_grasp():
+    lab = Lab(gripper=Gripper.FINGERS)
+    lab.world.set_program("a", GripperProgram((0.1,), (True,)))
+    lab.play()
+    lab.go(0.0, 1500 * MS)
+    assert [e.state for e in lab.of(GraspChanged)] == [Grasp.OPEN, Grasp.CLOSING, Grasp.EMPTY]
+
+
+def test_attaching_by_hand_takes_from_another_and_detaching_leaves_an_empty_grasp():
+    lab = Lab(gripper=Gripper.FINGERS)
+    lab.world.add_robot("b", "<robot/>", ("j1", "j2"), Pose((1.0, 0, 0)), Gripper.FINGERS)
+    lab.world.joint_state("b", lab.now_ns, [0, 0], [0, 0])
+    lab.world.spawn("ball", "ball", Pose((0.5, 0.0, 0.5)))
+    lab.go(0.0, 20 * MS)
+    lab.world.attach("a", "ball")
+    with pytest.raises(Misuse, match="holds 'ball' already"):
+        lab.world.attach("a", "ball")
+    lab.world.attach("b", "ball")
+    assert lab.world.robot("a").grasp is Grasp.EMPTY
+    assert lab.world.object("ball").held_by == "b"
+    assert lab.world.detach("b") == "ball"
+    with pytest.raises(Misuse, match="holds nothing"):
+        lab.world.detach("b")
+    lab.world.spawn("post", "post", Pose((3.0, 0.0, 0.5)))
+    with pytest.raises(Misuse, match="fixed to the room"):
+        lab.world.attach("a", "post")
+
+
+class Pair(Lab):
+    """A lab with a second robot, `b`, whose base is 1 m further along x; it holds its tip at x."""
+
+    def __init__(self, gripper: Gripper) -> None:
+        self.b: float | None = None
+        super().__init__(gripper=gripper)
+        self.world.add_robot("b", "<robot/>", ("j1", "j2"), Pose((1.0, 0, 0)), gripper)
+        self.world.spawn("ball", "ball", Pose((0.5, 0.0, 0.5)))
+
+    def both(self, a: float, b: float, duration_ns: int) -> None:
+        self.b = b
+        self.go(a, duration_ns)
+
+    def send_others(self) -> None:
+        if self.b is not None:
+            self.world.joint_state("b", self.now_ns, (self.b - 1.0, 0.0), (0.0, 0.0))
+
+    def close(self, robot: str, *opens: float) -> None:
+        """Let a robot close from here on, and open so many seconds later."""
+        self.world.set_program(
+            robot, GripperProgram((0.0, *opens), (True, *(False for _ in opens)))
+        )
+        clock = PlaybackClock(self.now_ns, 0.0, 1.0)
+        playing = Playing(State.PLAYING, "t", clock, 0, 1001, 100.0, 10.0)
+        self.world.playback(robot, playing)
+
+    def grasps(self, robot: str) -> list[Grasp]:
+        return [e.state for e in self.of(GraspChanged) if e.robot == robot]
+
+
+def test_a_cup_takes_from_another_that_does_not_take_it_back():
+    lab = Pair(Gripper.VACUUM)
+    lab.both(0.46, 1.0, 100 * MS)
+    lab.close("a")
+    lab.both(0.46, 0.56, 100 * MS)
+    lab.close("b")
+    lab.both(0.46, 0.54, 300 * MS)
+    assert lab.world.object("ball").held_by == "b"
+    assert lab.grasps("a") == [Grasp.OPEN, Grasp.CLOSING, Grasp.HOLDING, Grasp.EMPTY]
+    assert lab.grasps("b") == [Grasp.OPEN, Grasp.CLOSING, Grasp.HOLDING]
+    lab.world.detach("b")
+    lab.both(0.46, 0.54, 100 * MS)
+    assert lab.world.object("ball").held_by == ""
+    assert not lab.of(CollisionChanged)
+
+
+def test_fingers_take_an_object_over_from_fingers_that_open_later():
+    lab = Pair(Gripper.FINGERS)
+    lab.engine.pinched, lab.engine.block = "ball", 0.02
+    lab.both(0.46, 1.5, 100 * MS)
+    lab.close("a", 3.0)
+    lab.both(0.46, 0.54, 1000 * MS)
+    assert lab.world.object("ball").held_by == "a"
+    lab.close("b")
+    before = lab.world.motion("ball").pose
+    lab.both(0.46, 0.54, 1000 * MS)
+    assert lab.world.object("ball").held_by == "b"
+    assert lab.world.motion("ball").pose.position == pytest.approx(before.position, abs=1e-4)
+    lab.both(0.46, 0.54, 1500 * MS)
+    assert lab.grasps("a")[2:] == [Grasp.HOLDING, Grasp.EMPTY, Grasp.OPEN]
+    lab.both(0.46, 0.9, 200 * MS)
+    assert lab.world.motion("ball").pose.position[0] > 0.8
+    assert not lab.of(CollisionChanged)
+
+
+def test_of_two_that_close_on_an_object_together_the_first_keeps_it():
+    lab = Pair(Gripper.FINGERS)
+    lab.engine.pinched, lab.engine.block = "ball", 0.02
+    lab.both(0.46, 0.54, 100 * MS)
+    lab.close("a")
+    lab.close("b")
+    lab.both(0.46, 0.54, 2000 * MS)
+    assert lab.world.object("ball").held_by == "a"
+    assert lab.grasps("b") == [Grasp.OPEN, Grasp.CLOSING, Grasp.EMPTY]
+
+
+def test_a_robot_put_into_a_surface_may_move_out_of_it():
+    lab = Lab()
+    lab.world.set_surfaces([wall(1.4)])
+    lab.world.add_robot("b", "<robot/>", ("j1", "j2"), Pose((1.0, 0, 0)), Gripper.NONE)
+
+    def turn(start: int, stop: int, way: int) -> list[CollisionChanged]:
+        for i in range(start, stop, way):
+            lab.now_ns += 10 * MS
+            lab.world.joint_state("b", lab.now_ns, (i / 200, 0.0), (0.5 * way, 0.0))
+            lab.world.advance(lab.now_ns)
+        return [e for e in lab.world.take_events() if isinstance(e, CollisionChanged)]
+
+    assert not turn(100, 60, -1)
+    (hit,) = turn(60, 100, 1)
+    assert (hit.robot, hit.colliding) == ("b", True)
+
+
+def test_a_robot_removed_while_holding_leaves_the_object_behind():
+    lab = Lab()
+    lab.world.spawn("ball", "ball", Pose((0.1, 0.0, 0.5)))
+    lab.world.attach("a", "ball")
+    lab.world.remove_robot("a")
+    assert lab.world.object("ball").held_by == ""
+    assert not lab.engine.held
+
+
+def test_the_oldest_free_object_makes_room_and_that_is_announced():
+    lab = Lab(settings=Settings(max_objects=3))
+    for i in range(3):
+        lab.world.spawn("ball", f"ball_{i}", Pose((0.0, 1.0 + i, 0.5)))
+    lab.world.attach("a", "ball_0")
+    lab.world.spawn("ball", "", Pose((0.0, 5.0, 0.5)))
+    assert [o.name for o in lab.world.objects] == ["ball_0", "ball_2", "ball_3"]
+    (removed,) = [e for e in lab.world.take_events() if isinstance(e, ObjectRemoved)]
+    assert removed.name == "ball_1"
+
+
+def test_refused_objects_say_why():
+    world = Lab().world
+    with pytest.raises(BadInput, match="no object 'cow' in the catalogue; there are: ball, post"):
+        world.spawn("cow")
+    with pytest.raises(BadInput, match="not finite"):
+        world.spawn("ball", pose=Pose((np.nan, 0, 0)))
+    with pytest.raises(BadInput, match="within"):
+        world.spawn("ball", pose=Pose((1e6, 0, 0)))
+    with pytest.raises(BadInput, match="taken"):
+        world.spawn("ball", "a")
+    with pytest.raises(Misuse, match="there are: none"):
+        world.remove("ball")
+    world.spawn("ball", "ball")
+    with pytest.raises(BadInput, match="the velocity"):
+        world.move("ball", Pose(), (0, 0, 1e9), (0, 0, 0), held=False)
+
+
+def test_objects_that_leave_the_room_are_removed():
+    lab = Lab()
+    lab.world.spawn("ball", "ball", Pose((0.0, 0.0, 5.0)))
+    lab.engine.motions["ball"] = BodyState(Pose((0.0, 0.0, -50.0)))
+    lab.go(0.0, 100 * MS)
+    assert [e.name for e in lab.of(ObjectRemoved)] == ["ball"]
+    assert not lab.world.objects
+
+
+def wall(x: float, label: str = "wall") -> Surface:
+    square = np.array([[0, -1, -1], [0, 1, -1], [0, 1, 1], [0, -1, 1.0]])
+    return Surface("wall", label, Pose((x, 0.0, 0.0)), square, np.zeros((0, 3), np.int32))
+
+
+def test_a_surface_in_the_robot_counts_once_the_arm_has_left_it():
+    lab = Lab()
+    lab.go(0.5, 500 * MS)
+    assert lab.world.set_surfaces([wall(0.4)]) == ("wall",)
+    lab.go(0.45, 300 * MS)
+    assert not lab.of(CollisionChanged)
+    lab.go(0.3, 300 * MS)
+    lab.go(0.5, 300 * MS)
+    assert [event.colliding for event in lab.of(CollisionChanged)] == [True]
+
+
+def test_a_mesh_is_made_of_the_vertices_its_triangles_name():
+    vertices = np.arange(3_000_000, dtype=np.float64).reshape(-1, 3) / 1e4
+    triangles = np.array([[9, 70, 800], [70, 9, 5]], np.int32)
+    (part,) = rooms.body(Surface("m", "mesh", Pose(), vertices, triangles), 100).parts
+    assert len(part.vertices) == 4
+    assert np.array_equal(part.vertices[part.triangles], vertices[triangles])
+
+
+def test_surfaces_that_are_none_are_refused_and_the_old_ones_stay():
+    world = Lab().world
+    world.set_surfaces([wall(3.0)])
+    line = Surface("line", "", Pose(), np.array([[0, 0, 0], [1, 0, 0], [2, 0, 0.0]]),
+                   np.zeros((0, 3), np.int32))  # fmt: skip
+    million = Surface("mesh", "", Pose(), np.eye(3), np.zeros((1_000_000, 3), np.int32))
+    stray = Surface("stray", "", Pose(), np.eye(3), np.array([[0, 1, 7]], np.int32))
+    broken = Surface("broken", "", Pose(), np.eye(3) * np.nan, np.zeros((0, 3), np.int32))
+    for surface, says in (
+        (line, "is a line"),
+        (million, "has 1000000 triangles; expected 20000"),
+        (stray, "vertex 7 of 3"),
+        (broken, "not finite"),
+    ):
+        with pytest.raises(BadInput, match=says):
+            world.set_surfaces([surface])
+    assert [s.name for s in world.surfaces] == ["wall", "floor"]
+
+
+def test_scrubbing_back_puts_the_object_down_and_forward_into_the_hand_again():
+    lab = Lab(gripper=Gripper.FINGERS)
+    lab.world.spawn("ball", "ball", Pose((0.0, 0.0, 0.47)))
+    lab.engine.pinched, lab.engine.block = "ball", 0.02
+    lab.world.set_program("a", GripperProgram((0.1,), (True,)))
+    lab.play()
+    lab.go(0.0, 1000 * MS)
+    lab.go(1.0, 1000 * MS)
+    lab.play(2.0, State.PAUSED)
+
+    def seek(position: float, x: float) -> None:
+        lab.play(position, State.PAUSED)
+        lab.now_ns += 10 * MS
+        lab.at = np.array([x, 0.0])
+        lab.world.joint_state("a", lab.now_ns, lab.at, [0.0, 0.0])
+        lab.world.advance(lab.now_ns)
+        lab.go(x, 200 * MS)
+
+    seek(0.05, 0.0)
+    assert lab.world.object("ball").held_by == ""
+    assert lab.world.motion("ball").pose.position == pytest.approx((0.0, 0.0, 0.47))
+    seek(1.5, 0.5)
+    assert lab.world.object("ball").held_by == "a"
+    assert lab.world.motion("ball").pose.position == pytest.approx((0.5, 0.0, 0.47), abs=0.005)
+
+
+def test_snapshots_are_bounded_and_keep_the_whole_run():
+    snapshots = Snapshots(10.0, 20)
+    for i in range(1000):
+        if snapshots.wants(i / 100):
+            snapshots.add(Snapshot(i / 100, {}, False))
+    assert len(snapshots) <= 20
+    assert snapshots.at(0.0).position == 0.0
+    assert snapshots.at(9.9).position > 8.5
+    assert snapshots.at(20.0) is None
+    snapshots.cut(5.0)
+    assert snapshots.at(4.9) is not None
+    assert snapshots.at(9.0) is None
+
+
+def test_clearance_needs_the_margin_without_a_break():
+    clearance = Clearance(0.01, 200)
+    assert clearance.touched()
+    assert not clearance.touched()
+    assert not clearance.apart(0, 0.02)
+    assert not clearance.apart(100, 0.005)
+    assert not clearance.apart(200, 0.02)
+    assert not clearance.apart(399, 0.02)
+    assert clearance.apart(400, 0.02)
+    assert clearance.state is Halt.CLEAR
+
+
+def test_poses_compose_and_invert():
+    a = Pose((1.0, 2.0, 3.0), (0.5, 0.5, 0.5, 0.5))
+    b = Pose((-1.0, 0.5, 2.0), (0.0, 0.6, 0.0, 0.8))
+    assert compose(a, relative(a, b)).position == pytest.approx(b.position)
+    assert compose(a, inverse(a)).position == pytest.approx((0, 0, 0))
+    assert compose(a, inverse(a)).orientation == pytest.approx((0, 0, 0, 1))
+
+
+@pytest.mark.parametrize(
+    ("values", "says"),
+    [({"step_rate": 1}, "60 to 2000"), ({"speed": 1}, "has no 'speed'"),
+     ({"clear_margin": "wide"}, "expected a number"), ({"clear_time": 0}, "above 0")],
+)  # fmt: skip
+def test_settings_that_cannot_be_are_refused(values, says):
+    with pytest.raises(BadInput, match=says):
+        Settings.from_mapping(values)
+
+
+@pytest.mark.parametrize(
+    ("entry", "says"),
+    [
+        ({"shape": "box", "size": [1, 1, 1], "mass": 0}, "mass of 0 kg"),
+        ({"shape": "box", "size": [1, 1, 1], "mass": float("nan")}, "mass is nan"),
+        ({"shape": "box", "size": [1, 1], "mass": 1}, "expected 3 numbers"),
+        ({"shape": "cow", "size": [1], "mass": 1}, "expected box, cylinder, sphere"),
+        ({"shape": "sphere", "size": [99], "mass": 1}, "0.002 to 5"),
+        ({"shape": "sphere", "size": [1], "mass": 1, "fixed": True}, "leave one of the two out"),
+        ({"shape": "sphere", "size": [1], "weight": 1}, "has weight"),
+    ],
+)
+def test_catalogue_entries_that_cannot_be_are_refused(entry, says):
+    with pytest.raises(BadInput, match=says):
+        catalogue.parse({"objects": {"thing": entry}})

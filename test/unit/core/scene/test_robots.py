@@ -1,0 +1,84 @@
+"""The set of robots: names, places, refusals that change nothing."""
+
+from __future__ import annotations
+
+import itertools
+import math
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from mrlab_ros.core.errors import BadInput, Misuse
+from mrlab_ros.core.geometry import Pose
+from mrlab_ros.core.naming import RESERVED
+from mrlab_ros.core.scene.robots import SPACING, PlacedRobot, Scene
+
+
+def robot(scene: Scene, reach: float = 0.9, name: str = "", pose: Pose | None = None):
+    return PlacedRobot(
+        name or scene.free_name("ur5e"), "ur5e", None, pose or scene.free_pose(reach), reach, ()
+    )
+
+
+@given(st.lists(st.floats(0.3, 3.2), max_size=8))
+def test_robots_placed_automatically_keep_their_distance(reaches):
+    scene = Scene()
+    for reach in reaches:
+        scene.spawn(robot(scene, reach))
+    for a, b in itertools.combinations(scene.robots, 2):
+        distance = math.dist(a.pose.position, b.pose.position)
+        assert distance >= SPACING * (a.reach + b.reach) - 1e-9
+
+
+def test_names_are_given_in_order_and_given_back():
+    scene = Scene()
+    for expected in ("ur5e_1", "ur5e_2", "ur5e_3"):
+        assert scene.spawn(robot(scene)).name == expected
+    scene.remove("ur5e_2")
+    assert scene.spawn(robot(scene)).name == "ur5e_2"
+
+
+@pytest.mark.parametrize("name", ["", "UR5e", "1st", "a b", "a/b", "a__b", "a_", "ä", "x" * 64])
+def test_a_name_that_cannot_be_a_namespace_is_refused(name):
+    scene = Scene()
+    placed = PlacedRobot(name, "ur5e", None, Pose(), 0.9, ())
+    with pytest.raises(BadInput, match="lower-case letters"):
+        scene.spawn(placed)
+    assert scene.robots == ()
+
+
+@pytest.mark.parametrize("name", sorted(RESERVED))
+def test_the_lab_s_own_names_are_refused(name):
+    with pytest.raises(BadInput, match="lab's own"):
+        Scene().spawn(PlacedRobot(name, "ur5e", None, Pose(), 0.9, ()))
+
+
+def test_a_taken_name_is_refused():
+    scene = Scene()
+    scene.spawn(robot(scene, name="arm"))
+    with pytest.raises(BadInput, match="'arm' is taken"):
+        scene.spawn(robot(scene, name="arm"))
+
+
+@pytest.mark.parametrize("change", ["robot", "remove", "place", "set_end_effector"])
+def test_an_unknown_robot_is_named_with_those_that_are_there(change):
+    scene = Scene()
+    scene.spawn(robot(scene, name="arm"))
+    arguments = {"place": (Pose(),), "set_end_effector": (None,)}.get(change, ())
+    with pytest.raises(Misuse, match="no robot 'leg' is in the scene; there are: arm"):
+        getattr(scene, change)("leg", *arguments)
+
+
+@pytest.mark.parametrize(
+    ("position", "orientation", "says"),
+    [
+        ((math.nan, 0, 0), (0, 0, 0, 1), "not finite"),
+        ((0, math.inf, 0), (0, 0, 0, 1), "not finite"),
+        ((0, 0, 0), (0, 0, 0, 0), "unit quaternion"),
+        ((0, 0, 0), (1, 1, 1, 1), "unit quaternion"),
+    ],
+)
+def test_a_pose_that_is_none_is_refused(position, orientation, says):
+    with pytest.raises(BadInput, match=says):
+        Pose(position, orientation)

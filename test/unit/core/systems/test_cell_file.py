@@ -1,0 +1,80 @@
+"""A robot system as a file: read as written, refused with the place that is wrong."""
+
+from __future__ import annotations
+
+import pytest
+import yaml
+
+from mrlab_ros.core.errors import BadInput
+from mrlab_ros.core.systems.cell_file import read
+from mrlab_ros.core.systems.robot_system import Policy
+from mrlab_ros.core.systems.timeline import Mode
+
+FULL = """
+name: cell
+mode: sequential
+policy: halt_member
+loop: true
+members:
+  - robot: ur5e_1
+    trajectory: handover_ur5e
+    dwell: 0.5
+    after: kr6_1.frame 120
+  - robot: kr6_1
+    wait: [object cube_1 held by ur5e_1, object cube_2 free]
+    holds:
+      - {frame: 200, wait: object cube_1 free, after: ur5e_1.frame 7}
+"""
+
+
+def test_a_full_file_is_read_as_written():
+    cell = read(yaml.safe_load(FULL))
+    assert (cell.name, cell.mode, cell.policy, cell.loop) == (
+        "cell",
+        Mode.SEQUENTIAL,
+        Policy.HALT_MEMBER,
+        True,
+    )
+    first, second = cell.members
+    assert (first.robot, first.trajectory_id, first.dwell) == ("ur5e_1", "handover_ur5e", 0.5)
+    assert [w.text for w in first.waits] == ["frame 0: after kr6_1.frame 120"]
+    assert [w.text for w in second.waits] == [
+        "frame 0: object cube_1 held by ur5e_1",
+        "frame 0: object cube_2 free",
+        "frame 200: after ur5e_1.frame 7",
+        "frame 200: object cube_1 free",
+    ]
+
+
+def test_the_least_is_a_list_of_robots():
+    cell = read({"members": [{"robot": "a"}, {"robot": "b"}]})
+    assert (cell.name, cell.mode, cell.policy, cell.loop) == (
+        "",
+        Mode.PARALLEL,
+        Policy.HALT_ALL,
+        False,
+    )
+    assert [m.robot for m in cell.members] == ["a", "b"]
+
+
+@pytest.mark.parametrize(
+    ("text", "says"),
+    [
+        ("", "the file is None"),
+        ("members: []", "names no members"),
+        ("robots: [a]", "unknown key robots; expected name, mode"),
+        ("members: [ur5e_1]", "member 1 is 'ur5e_1'; expected keys"),
+        ("members: [{trajectory: x}]", "member 1 names no robot"),
+        ("members: [{robot: a, speed: 2}]", "member 1 has the unknown key speed"),
+        ("mode: serial\nmembers: [{robot: a}]", "mode is 'serial'; expected parallel or sequent"),
+        ("policy: stop\nmembers: [{robot: a}]", "expected halt_all or halt_member"),
+        ("loop: often\nmembers: [{robot: a}]", "expected true or false"),
+        ("members: [{robot: a, dwell: -1}]", "dwell of member a is -1"),
+        ("members: [{robot: a, dwell: long}]", "dwell of member a is 'long'"),
+        ("members: [{robot: a, wait: until noon}]", "is no wait; expected"),
+        ("members: [{robot: a, holds: [{frame: x}]}]", "a hold of member a is 'x'"),
+    ],
+)
+def test_what_is_wrong_is_named_with_its_place(text, says):
+    with pytest.raises(BadInput, match=says):
+        read(yaml.safe_load(text))

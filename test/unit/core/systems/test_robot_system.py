@@ -1,0 +1,550 @@
+"""Robot systems, driving real playback cores on a clock that the tests move by hand."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+import pytest
+from fakes import SECOND, StraightPlanner, make_model, make_trajectory
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from mrlab_ros.core.errors import BadInput, IllegalEvent, LabError, Misuse
+from mrlab_ros.core.playback.playback import Playback
+from mrlab_ros.core.playback.states import State
+from mrlab_ros.core.systems.members import (
+    Command,
+    Loaded,
+    Order,
+    Reply,
+)
+from mrlab_ros.core.systems.registry import Systems
+from mrlab_ros.core.systems.robot_system import Policy, RobotSystem
+from mrlab_ros.core.systems.states import (
+    TRANSITIONS,
+    SystemEvent,
+    SystemState,
+    after,
+)
+from mrlab_ros.core.systems.timeline import Member, Mode
+from mrlab_ros.core.systems.waits import parse
+
+MS = SECOND // 1000
+PERIOD = 10 * MS
+
+
+class World:
+    """Robots that obey at once, and the time they live in."""
+
+    def __init__(self, frames: dict[str, int], rates: dict[str, float] | None = None) -> None:
+        self.now = 5 * SECOND
+        self.playbacks: dict[str, Playback] = {}
+        self.sent: dict[str, list] = {robot: [] for robot in frames}
+        self.seen: dict[str, State] = {}
+        self.refusing: set[str] = set()
+        self.system: RobotSystem
+        for robot, count in frames.items():
+            playback = Playback(make_model(), StraightPlanner(), 0.0)
+            positions = np.column_stack([np.arange(count), -np.arange(count)]) * 1e-3 + 1.0
+            rate = (rates or {}).get(robot, 100.0)
+            playback.load(0, make_trajectory(positions, frame_rate=rate, trajectory_id=robot))
+            self.playbacks[robot] = playback
+
+    # the fleet
+
+    def prepare(self, robot: str, trajectory_id: str) -> Loaded:
+        playback = self.playbacks[robot]
+        playback.claim("cell")
+        trajectory = playback.trajectory
+        if trajectory is None:
+            raise Misuse(f"{robot} has no trajectory")
+        return Loaded(trajectory.id, trajectory.duration, trajectory.frame_rate)
+
+    def drive(self, orders: Sequence[Order]) -> list[Reply]:
+        replies = []
+        for order in orders:
+            if order.robot in self.refusing:
+                raise Misuse(f"{order.robot} refuses")
+            playback, duration = self.playbacks[order.robot], 0.0
+            if order.command is Command.STAGE:
+                duration = playback.stage(self.now, order.position, by="cell")
+            elif order.command is Command.PLAY:
+                playback.play(self.now, order.stamp_ns, order.rate, order.until, by="cell")
+            elif order.command is Command.PAUSE:
+                playback.pause(self.now, by="cell")
+            elif order.command is Command.STOP:
+                playback.stop(self.now, by="cell")
+            elif order.command is Command.SEEK:
+                playback.seek(self.now, order.position, by="cell")
+            elif order.command is Command.SET_RATE:
+                playback.set_rate(self.now, order.rate, order.stamp_ns, by="cell")
+            elif order.command is Command.HOLD:
+                playback.hold_at(order.until, by="cell")
+            # The reply tells it; as over the wire, what is older than a reply is not heard.
+            playback.take_statuses()
+            replies.append(Reply(playback.state, playback.clock.position, duration))
+        return replies
+
+    # time
+
+    def advance(self, seconds: float) -> None:
+        """Let time pass in steps of a millisecond; tell the system what its members do."""
+        for _ in range(round(seconds * 1000)):
+            self.now += MS
+            for robot, playback in self.playbacks.items():
+                while (due := playback.due_ns()) is not None and due <= self.now:
+                    sample = playback.tick(self.now)
+                    if sample is not None and sample.streamed:
+                        self.sent[robot].append((sample.due_ns, sample.frame, self.now))
+            self.tell()
+            self.system.poll(self.now)
+            if self.system.state is SystemState.COMPLETE:
+                self.system.rearm(self.now)
+
+    def tell(self) -> None:
+        for robot, playback in self.playbacks.items():
+            for snapshot in playback.take_statuses():
+                if robot in self.system.members:
+                    self.system.member_changed(
+                        self.now, robot, snapshot.state, snapshot.clock.position
+                    )
+
+    def run_until(self, state: SystemState, seconds: float = 60.0) -> None:
+        for _ in range(round(seconds * 100)):
+            if self.system.state is state:
+                return
+            self.advance(0.01)
+        raise AssertionError(f"{self.system.state} and not {state}: {self.system.message}")
+
+    def frames(self, robot: str) -> list[int]:
+        return [frame for _, frame, _ in self.sent[robot]]
+
+    def first_due(self, robot: str) -> int:
+        return self.sent[robot][0][0]
+
+
+def make(
+    frames: dict[str, int],
+    mode: Mode = Mode.PARALLEL,
+    waits: dict[str, list[str]] | None = None,
+    dwell: float = 0.0,
+    rates: dict[str, float] | None = None,
+    **options,
+) -> World:
+    world = World(frames, rates)
+    members = [
+        Member(robot, dwell=dwell, waits=tuple(map(parse, (waits or {}).get(robot, []))))
+        for robot in frames
+    ]
+    world.system = RobotSystem("cell", members, world, mode, **options)
+    world.system.prepare()
+    world.tell()
+    return world
+
+
+TWO = {"a": 101, "b": 51}
+
+
+@pytest.mark.parametrize("event", SystemEvent)
+@pytest.mark.parametrize("state", SystemState)
+def test_every_pair_has_one_answer(state, event):
+    if (state, event) in TRANSITIONS:
+        assert after(state, event) is TRANSITIONS[state, event]
+    else:
+        with pytest.raises(IllegalEvent, match=f"cannot {event.value} in {state.name}"):
+            after(state, event)
+
+
+def test_parallel_members_begin_at_one_stamp_after_all_have_arrived():
+    world = make(TWO)
+    assert world.system.duration == 1.0
+    assert world.system.play(world.now) == 0.5
+    assert world.system.state is SystemState.STAGING
+    world.advance(0.4)
+    assert world.sent == {"a": [], "b": []}
+    world.run_until(SystemState.READY)
+    assert world.first_due("a") == world.first_due("b")
+    assert world.frames("a") == list(range(101))
+    assert world.frames("b") == list(range(51))
+    assert world.system.message == "played to the end"
+
+
+def test_sequential_members_follow_each_other_with_dwell_to_the_nanosecond():
+    world = make({"a": 101, "b": 51, "c": 11}, Mode.SEQUENTIAL, dwell=0.25)
+    assert world.system.duration == pytest.approx(1.0 + 0.25 + 0.5 + 0.25 + 0.1)
+    world.system.play(world.now)
+    world.run_until(SystemState.READY)
+    begin = world.first_due("a")
+    assert world.first_due("b") == begin + 1_250_000_000
+    assert world.first_due("c") == begin + 2_000_000_000
+    assert [world.frames(r) for r in "abc"] == [list(range(n)) for n in (101, 51, 11)]
+
+
+@pytest.mark.parametrize("mode", Mode)
+def test_pause_and_play_keep_every_frame_and_the_common_line(mode):
+    world = make({"a": 201, "b": 201}, mode, rates={"b": 50.0})
+    world.system.play(world.now)
+    for _ in range(7):
+        world.advance(0.33)
+        if world.system.state is SystemState.PLAYING:
+            world.system.pause(world.now)
+            world.advance(0.107)
+            assert {p.state for p in world.playbacks.values()} <= {State.PAUSED, State.READY}
+            world.system.play(world.now)
+    world.run_until(SystemState.READY)
+    for robot in "ab":
+        assert world.frames(robot) == list(range(201))
+    # Frame k of a and of b left at instants that differ as the timeline says, to a nanosecond.
+    if mode is Mode.PARALLEL:
+        due = {frame: at for at, frame, _ in world.sent["b"]}
+        ends = [world.sent[robot][-1][0] for robot in "ab"]
+        assert due[200] == ends[1]
+        a = {frame: at for at, frame, _ in world.sent["a"]}
+        assert abs((a[200] - a[199]) - PERIOD) <= 1
+
+
+def test_seek_in_sequential_mode_puts_those_before_at_their_end_and_those_behind_at_their_start():
+    world = make({"a": 101, "b": 101, "c": 101}, Mode.SEQUENTIAL)
+    world.system.seek(world.now, 1.5)
+    assert [p.clock.position for p in world.playbacks.values()] == [1.0, 0.5, 0.0]
+    world.system.play(world.now)
+    world.run_until(SystemState.READY)
+    assert world.frames("a") == []
+    assert world.frames("b") == list(range(50, 101))
+    assert world.frames("c") == list(range(101))
+
+
+def test_seek_while_playing_plays_on_from_there():
+    world = make(TWO)
+    world.system.play(world.now)
+    world.run_until(SystemState.PLAYING)
+    world.advance(0.2)
+    world.system.seek(world.now, 0.8)
+    assert world.system.state is SystemState.PLAYING
+    world.run_until(SystemState.READY)
+    assert world.frames("a")[-20:] == list(range(81, 101))
+    assert 50 not in world.frames("b")
+
+
+def test_step_goes_frame_by_frame_and_stops_at_the_ends():
+    world = make(TWO)
+    world.system.seek(world.now, 0.5)
+    assert world.system.step(world.now, 1) == 0.51
+    assert world.system.step(world.now, -2) == 0.49
+    assert world.system.step(world.now, 1000) == 1.0
+    assert world.system.step(world.now, -1000) == 0.0
+    world.system.play(world.now)
+    world.run_until(SystemState.PLAYING)
+    with pytest.raises(Misuse, match="cannot step in PLAYING"):
+        world.system.step(world.now, 1)
+
+
+@pytest.mark.parametrize("mode", Mode)
+@pytest.mark.parametrize("rate", [0.5, 2.0, 4.0])
+def test_a_rate_change_on_the_way_keeps_the_members_on_one_line(mode, rate):
+    world = make({"a": 201, "b": 201}, mode)
+    world.system.play(world.now)
+    world.run_until(SystemState.PLAYING)
+    world.advance(0.5)
+    world.system.set_rate(world.now, rate)
+    line = world.system.clock
+    world.run_until(SystemState.READY)
+    for robot in "ab":
+        start = world.system.members[robot].start
+        assert abs(world.sent[robot][-1][0] - line.due(start + 2.0)) <= 2
+        assert world.frames(robot)[-1] == 200
+
+
+def test_loop_stages_and_begins_anew():
+    world = make({"a": 21, "b": 11}, loop=True)
+    world.system.play(world.now)
+    world.advance(3.0)
+    assert world.frames("a")[:42] == [*range(21), *range(21)]
+    world.system.loop = False
+    world.run_until(SystemState.READY)
+
+
+def test_a_collision_halts_all_in_one_step_and_all_clear_resumes_in_place():
+    world = make({"a": 201, "b": 201})
+    world.system.play(world.now)
+    world.run_until(SystemState.PLAYING)
+    world.advance(0.5)
+    world.playbacks["a"].collide(world.now, "touches")
+    world.tell()
+    assert world.system.state is SystemState.COLLISION_HALT
+    assert world.playbacks["b"].state is State.PAUSED
+    counts = [len(s) for s in world.sent.values()]
+    with pytest.raises(Misuse, match="cannot play in COLLISION_HALT"):
+        world.system.play(world.now)
+    world.advance(1.0)
+    assert [len(s) for s in world.sent.values()] == counts
+    world.playbacks["a"].clear(world.now)
+    world.tell()
+    assert world.system.state is SystemState.PAUSED
+    world.system.play(world.now)
+    world.run_until(SystemState.READY)
+    assert world.frames("a") == world.frames("b") == list(range(201))
+
+
+@pytest.mark.parametrize("mode", Mode)
+def test_a_collision_of_a_member_alone_lets_the_others_go_on(mode):
+    world = make({"a": 201, "b": 201}, mode, policy=Policy.HALT_MEMBER)
+    world.system.play(world.now)
+    world.run_until(SystemState.PLAYING)
+    world.advance(0.5)
+    world.playbacks["a"].collide(world.now, "touches")
+    world.advance(3.0)
+    assert world.system.state is SystemState.PLAYING
+    assert world.frames("b") == ([] if mode is Mode.SEQUENTIAL else list(range(201)))
+    world.playbacks["a"].clear(world.now)
+    world.run_until(SystemState.READY)
+    assert world.frames("a") == world.frames("b") == list(range(201))
+    if mode is Mode.SEQUENTIAL:
+        assert world.first_due("b") >= world.sent["a"][-1][0]
+
+
+def test_a_collision_while_staging_stops_all_and_nothing_starts():
+    world = make(TWO)
+    world.system.play(world.now)
+    world.advance(0.1)
+    world.playbacks["b"].collide(world.now, "touches")
+    world.advance(2.0)
+    assert world.system.state is SystemState.COLLISION_HALT
+    assert world.sent == {"a": [], "b": []}
+    world.playbacks["b"].clear(world.now)
+    world.advance(0.01)
+    world.system.play(world.now)
+    world.run_until(SystemState.READY)
+    assert world.frames("b") == list(range(51))
+
+
+def test_a_member_that_refuses_brings_all_to_rest():
+    world = make(TWO)
+    world.refusing = {"b"}
+    with pytest.raises(Misuse, match="b refuses"):
+        world.system.play(world.now)
+    assert world.system.state is SystemState.READY
+    assert world.playbacks["a"].state is State.READY
+    world.refusing = set()
+    world.system.play(world.now)
+    world.run_until(SystemState.READY)
+    assert world.frames("b") == list(range(51))
+
+
+def test_a_staging_that_never_ends_is_given_up():
+    world = make(TWO)
+    world.system.play(world.now)
+    world.playbacks["b"]._next_ns = None
+    world.run_until(SystemState.READY, 20.0)
+    assert "b did not arrive" in world.system.message
+    assert world.sent == {"a": [], "b": []}
+
+
+def test_a_member_that_lost_its_playback_ends_the_run_and_the_next_play_recovers():
+    world = make(TWO)
+    world.system.play(world.now)
+    world.run_until(SystemState.PLAYING)
+    world.advance(0.3)
+    trajectory = world.playbacks["a"].trajectory
+    world.playbacks["a"] = Playback(make_model(), StraightPlanner(), 0.0)
+    world.playbacks["a"].load(0, trajectory)
+    world.system.member_changed(world.now, "a", State.IDLE, 0.0)
+    assert world.system.state is SystemState.READY
+    assert "a lost its playback" in world.system.message
+    assert world.playbacks["b"].state is State.READY
+    world.sent = {"a": [], "b": []}
+    world.system.play(world.now)
+    world.run_until(SystemState.READY)
+    assert world.frames("a") == list(range(101))
+
+
+def test_a_member_waits_for_another_s_frame():
+    world = make({"a": 101, "b": 51}, waits={"b": ["frame 0: after a.frame 60"]})
+    world.system.play(world.now)
+    world.run_until(SystemState.READY)
+    begin = world.first_due("b") - world.first_due("a")
+    assert 0.6 * SECOND <= begin <= 0.75 * SECOND
+    assert world.frames("b") == list(range(51))
+
+
+def test_a_hold_on_the_way_whose_signal_came_before_is_not_felt():
+    world = make({"a": 101, "b": 101}, waits={"b": ["frame 80: after a.frame 20"]})
+    world.system.play(world.now)
+    world.run_until(SystemState.READY)
+    assert world.first_due("a") == world.first_due("b")
+    assert world.sent["a"][-1][0] == world.sent["b"][-1][0]
+
+
+def test_a_hand_over_waits_for_the_object_whatever_time_that_takes():
+    waits = {
+        "a": ["frame 50: object cube_1 held by b"],
+        "b": ["frame 0: after a.frame 40", "frame 30: object cube_1 free"],
+    }
+    world = make({"a": 101, "b": 61}, waits=waits)
+    world.system.grasped(world.now, "a", "cube_1")
+    world.system.play(world.now)
+    world.run_until(SystemState.PLAYING)
+    world.advance(3.0)
+    assert world.frames("a")[-1] == 50
+    assert world.frames("b")[-1] == 30
+    assert world.system.members["b"].held_by.text == "frame 30: object cube_1 free"
+    world.system.grasped(world.now, "a", None)
+    world.advance(0.2)
+    world.system.grasped(world.now, "b", "cube_1")
+    world.run_until(SystemState.READY)
+    assert world.frames("a") == list(range(101))
+    assert world.frames("b") == list(range(61))
+
+
+def test_in_sequential_mode_those_behind_a_wait_follow_it():
+    waits = {"a": ["frame 50: object cube_1 held by a"]}
+    world = make({"a": 101, "b": 51}, Mode.SEQUENTIAL, waits=waits)
+    world.system.play(world.now)
+    world.run_until(SystemState.PLAYING)
+    world.advance(4.0)
+    assert world.frames("b") == []
+    world.system.grasped(world.now, "a", "cube_1")
+    world.run_until(SystemState.READY)
+    assert world.first_due("b") == world.sent["a"][-1][0]
+
+
+@pytest.mark.parametrize(
+    ("wait", "says"),
+    [
+        ("frame 0: after x.frame 1", "expected a member of the system: a, b"),
+        ("frame 51: after a.frame 1", "its trajectory has frames 0 to 50"),
+        ("when ready", "is no wait; expected"),
+    ],
+)
+def test_a_wait_that_cannot_be_is_refused(wait, says):
+    with pytest.raises(BadInput, match=says):
+        make(TWO, waits={"b": [wait]})
+
+
+def test_the_mode_changes_only_while_nothing_is_under_way():
+    world = make(TWO)
+    world.system.set_mode(Mode.SEQUENTIAL)
+    assert world.system.duration == 1.5
+    world.system.play(world.now)
+    with pytest.raises(Misuse, match="cannot change the mode in STAGING; stop first"):
+        world.system.set_mode(Mode.PARALLEL)
+
+
+@pytest.mark.parametrize("position", [-1.0, 1.1, float("nan")])
+def test_a_place_off_the_timeline_is_refused(position):
+    world = make(TWO)
+    with pytest.raises(BadInput, match="the length of the timeline"):
+        world.system.seek(world.now, position)
+    assert world.system.state is SystemState.READY
+
+
+step = st.tuples(
+    st.sampled_from(
+        ["play", "pause", "stop", "seek", "rate", "collide", "clear", "lose", "wait", "wait"]
+    ),
+    st.sampled_from(["a", "b", "c"]),
+    st.floats(0, 1),
+)
+
+
+@settings(max_examples=150, deadline=None)
+@given(st.sampled_from(list(Mode)), st.sampled_from(list(Policy)), st.lists(step, max_size=25))
+def test_whatever_happens_no_member_moves_while_the_system_stands_and_play_recovers(
+    mode, policy, steps
+):
+    world = make({"a": 31, "b": 21, "c": 11}, mode, policy=policy)
+    system = world.system
+    for name, robot, x in steps:
+        playback = world.playbacks[robot]
+        try:
+            if name == "play":
+                system.play(world.now)
+            elif name == "pause":
+                system.pause(world.now)
+            elif name == "stop":
+                system.stop(world.now)
+            elif name == "seek":
+                system.seek(world.now, x * system.duration)
+            elif name == "rate":
+                system.set_rate(world.now, 0.1 + 3.9 * x)
+            elif name == "collide":
+                playback.collide(world.now, "touches")
+            elif name == "clear":
+                playback.clear(world.now)
+            elif name == "lose":
+                fresh = Playback(make_model(), StraightPlanner(), 0.0)
+                fresh.load(0, playback.trajectory)
+                fresh.take_statuses()
+                world.playbacks[robot] = fresh
+                system.member_changed(world.now, robot, State.IDLE, 0.0)
+        except LabError:
+            pass
+        world.tell()
+        standing = system.state in (
+            SystemState.READY, SystemState.PAUSED, SystemState.COLLISION_HALT,
+        )  # fmt: skip
+        moving = [
+            r for r, p in world.playbacks.items() if p.state in (State.PLAYING, State.ADJUSTING)
+        ]
+        assert not (standing and moving), (system.state, system.message)
+        assert 0 <= system.clock.position <= system.duration + 1e-6
+        assert system.duration >= max(m.duration for m in system.members.values())
+        world.advance(round(x * 0.3, 3))
+    # However it went: once nothing touches anything, stop and play lead to the end.
+    for playback in world.playbacks.values():
+        if playback.state is State.COLLISION_HALT:
+            playback.clear(world.now)
+    world.advance(0.01)
+    system.stop(world.now)
+    system.set_rate(world.now, 1.0)
+    world.sent = {robot: [] for robot in world.sent}
+    system.play(world.now)
+    world.run_until(SystemState.READY)
+    assert system.message == "played to the end"
+    assert [world.frames(r) for r in "abc"] == [list(range(n)) for n in (31, 21, 11)]
+
+
+SCENE = frozenset({"a", "b", "c"})
+
+
+def test_a_robot_is_in_one_system_at_a_time():
+    systems = Systems()
+    cell = RobotSystem("cell", [Member("a"), Member("b")], World({}))
+    assert systems.check("cell", ["a", "b"], SCENE) == "cell"
+    systems.add(cell)
+    assert systems.of("a") is cell
+    assert systems.of("c") is None
+    with pytest.raises(Misuse, match="'b' is a member of system 'cell'"):
+        systems.check("other", ["c", "b"], SCENE)
+    assert [s.name for s in systems] == ["cell"]
+    systems.dissolve("cell")
+    assert systems.of("a") is None
+    systems.check("other", ["b"], SCENE)
+
+
+def test_names_are_given_and_checked():
+    systems = Systems()
+    systems.add(RobotSystem(systems.check("", ["a"], SCENE), [Member("a")], World({})))
+    assert systems.check("", ["b"], SCENE) == "system_2"
+    for taken in ("system_1", "a"):
+        with pytest.raises(BadInput, match=f"'{taken}' is taken"):
+            systems.check(taken, ["c"], SCENE)
+
+
+@pytest.mark.parametrize(
+    ("robots", "says"),
+    [
+        ([], "at least one member"),
+        (["x"], "no robot 'x' is in the scene; there are: a, b, c"),
+        (["a", "a"], "named 2 times"),
+    ],
+)
+def test_members_that_cannot_be_are_refused(robots, says):
+    with pytest.raises(BadInput, match=says):
+        Systems().check("cell", robots, SCENE)
+
+
+def test_an_unknown_system_is_named_with_those_that_are_there():
+    with pytest.raises(Misuse, match="no system 'cell'; there are: none"):
+        Systems().get("cell")

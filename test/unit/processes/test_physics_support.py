@@ -1,0 +1,57 @@
+"""What a lab says about physics where pybullet is not installed."""
+
+from __future__ import annotations
+
+import importlib.machinery
+import importlib.util
+import subprocess
+import sys
+
+import pytest
+
+from mrlab_ros.core.errors import BadInput
+from mrlab_ros.processes import physics_support
+
+# An interpreter that finds everything but pybullet.
+WITHOUT = """
+import importlib.machinery as machinery
+found = machinery.PathFinder.find_spec
+machinery.PathFinder.find_spec = lambda name, *rest: None if name == "pybullet" else found(
+    name, *rest
+)
+"""
+
+
+def test_physics_is_what_was_chosen_where_it_is_installed():
+    assert physics_support.missing() == ""
+    assert physics_support.wanted(True) == (True, "")
+    assert physics_support.wanted(False) == (False, "")
+    assert physics_support.wanted(None) == (True, "")
+
+
+def test_without_pybullet_physics_is_refused_or_left_out_in_words(monkeypatch):
+    monkeypatch.setattr(importlib.util, "find_spec", lambda name: None)
+    with pytest.raises(BadInput, match="there is no physics: pybullet is not installed"):
+        physics_support.wanted(True)
+    assert physics_support.wanted(False) == (False, "")
+    on, why = physics_support.wanted(None)
+    assert not on
+    assert why.startswith("runs without physics: pybullet")
+
+
+def test_the_node_and_the_command_end_with_the_same_sentence():
+    node = "from mrlab_ros.processes import host\nhost.main(['physics'])"
+    command = (
+        "import sys\nfrom mrlab_ros import cli\nsys.argv[1:] = ['up', '--physics']\ncli.main()"
+    )
+    for code in (node, command):
+        done = subprocess.run(
+            [sys.executable, "-c", WITHOUT + code],
+            capture_output=True,
+            text=True,
+            timeout=60,
+            check=False,
+        )
+        assert done.returncode == 1
+        assert "pybullet is not installed for this Python" in done.stderr
+        assert "Traceback" not in done.stderr

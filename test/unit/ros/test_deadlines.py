@@ -1,0 +1,156 @@
+"""The deadline thread and the coordinator's worker: order, isolation, an end."""
+
+from __future__ import annotations
+
+import threading
+
+import numpy as np
+import pytest
+from fakes import StraightPlanner, make_model, make_trajectory
+from graph import wait_for
+
+from mrlab_ros.core.errors import Misuse
+from mrlab_ros.core.playback.playback import Playback
+from mrlab_ros.core.playback.states import State
+from mrlab_ros.ros.deadlines import Player, Scheduler
+from mrlab_ros.ros.worker import Worker
+
+
+@pytest.fixture
+def scheduler():
+    scheduler = Scheduler()
+    scheduler.start()
+    yield scheduler
+    scheduler.stop()
+
+
+def add(scheduler: Scheduler, frames: int = 50, send=None) -> tuple[Player, list, list]:
+    """Add a player whose arm stands on its first frame."""
+    sent, announced = [], []
+    playback = Playback(make_model(), StraightPlanner(), 0.0)
+    positions = np.arange(2.0 * frames).reshape(frames, 2)
+    playback.load(0, make_trajectory(positions, frame_rate=500.0))
+    playback.seek(0, 0.0)
+    player = Player(
+        playback,
+        send or (lambda sample: sent.append(sample) if sample.streamed else None),
+        lambda now_ns, snapshot: announced.append(snapshot.state),
+    )
+    scheduler.add(player)
+    return player, sent, announced
+
+
+def test_players_started_at_one_stamp_send_the_same_frames_in_order(scheduler):
+    players = [add(scheduler) for _ in range(5)]
+    with scheduler.command() as now_ns:
+        for player, _, _ in players:
+            player.playback.play(now_ns, now_ns + 20_000_000)
+    wait_for(lambda: all(len(sent) == 50 for _, sent, _ in players), "all frames")
+    for _, sent, announced in players:
+        assert [s.frame for s in sent] == list(range(50))
+        assert [s.due_ns for s in sent] == [s.due_ns for s in players[0][1]]
+        wait_for(lambda seen=announced: seen[-1] is State.READY, "the end")
+        assert announced[-3:] == [State.PLAYING, State.COMPLETE, State.READY]
+
+
+def test_nothing_leaves_before_its_deadline(scheduler):
+    early = []
+
+    def send(sample):
+        if sample.streamed and scheduler.clock.now_ns() < sample.due_ns:
+            early.append(sample)
+
+    player, _, announced = add(scheduler, send=send)
+    with scheduler.command() as now_ns:
+        player.playback.play(now_ns)
+    wait_for(lambda: State.COMPLETE in announced, "the end")
+    assert early == []
+
+
+def test_a_player_that_fails_does_not_stop_the_others(scheduler, capfd):
+    def fail(sample):
+        raise RuntimeError("no network")
+
+    broken, _, _ = add(scheduler, send=fail)
+    player, sent, _ = add(scheduler)
+    with scheduler.command() as now_ns:
+        broken.playback.play(now_ns)
+        player.playback.play(now_ns)
+    wait_for(lambda: len(sent) == 50, "all frames of the other")
+    assert "no network" in capfd.readouterr().err
+
+
+@pytest.mark.parametrize("connected", [True, False])
+def test_a_player_that_cannot_tell_is_trouble_only_while_the_graph_is_there(capfd, connected):
+    failed = []
+
+    def announce(now_ns, snapshot):
+        if threading.current_thread().name == "deadlines":
+            failed.append(snapshot)
+            raise RuntimeError("no network")
+
+    scheduler = Scheduler(lambda: connected)
+    scheduler.start()
+    try:
+        playback = Playback(make_model(), StraightPlanner(), 0.0)
+        scheduler.add(Player(playback, lambda sample: None, announce))
+        player, sent, _ = add(scheduler)
+        with scheduler.command() as now_ns:
+            playback.load(now_ns, make_trajectory(np.zeros((50, 2)), frame_rate=500.0))
+            playback.play(now_ns)
+        wait_for(lambda: failed, "a state of the deadline thread")
+        with scheduler.command() as now_ns:
+            player.playback.play(now_ns)
+        wait_for(lambda: len(sent) == 50, "all frames of the other")
+    finally:
+        scheduler.stop()
+    assert ("no network" in capfd.readouterr().err) is connected
+
+
+def test_a_command_that_cannot_tell_lets_others_go_on(scheduler):
+    def announce(now_ns, snapshot):
+        raise RuntimeError("no network")
+
+    playback = Playback(make_model(), StraightPlanner(), 0.0)
+    scheduler.add(Player(playback, lambda sample: None, announce))
+    with pytest.raises(RuntimeError), scheduler.command() as now_ns:
+        playback.load(now_ns, make_trajectory(np.zeros((50, 2)), frame_rate=500.0))
+    with scheduler.command() as now_ns:
+        assert now_ns
+
+
+def test_a_removed_player_is_served_no_more(scheduler):
+    player, sent, _ = add(scheduler, frames=5000)
+    with scheduler.command() as now_ns:
+        player.playback.play(now_ns)
+    wait_for(lambda: len(sent) > 5, "frames")
+    scheduler.remove(player)
+    count = len(sent)
+    other, others, _ = add(scheduler)
+    with scheduler.command() as now_ns:
+        other.playback.play(now_ns)
+    wait_for(lambda: len(others) == 50, "frames of another")
+    assert len(sent) == count
+
+
+def test_the_worker_does_one_thing_after_another_and_returns_what_it_returns():
+    worker, seen = Worker("test", lambda: None, lambda: None), []
+    for i in range(100):
+        worker.later(lambda i=i: seen.append((i, threading.current_thread().name)))
+    assert worker.do(lambda: 42) == 42
+    assert seen == [(i, "test") for i in range(100)]
+
+    def refuse():
+        raise Misuse("not now")
+
+    with pytest.raises(Misuse, match="not now"):
+        worker.do(refuse)
+    assert worker.do(lambda: "still there") == "still there"
+    worker.close()
+
+
+def test_the_worker_looks_around_while_nothing_comes():
+    looked = threading.Event()
+    worker = Worker("test", looked.set, lambda: 0.001)
+    assert looked.wait(10)
+    worker.close()
