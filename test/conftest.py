@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import Iterator
+from pathlib import Path
 
 import domain_coordinator
 import pytest
@@ -12,6 +13,19 @@ from hypothesis import settings
 # How long an example takes is the machine's affair: a timing is a benchmark, never a test.
 settings.register_profile("lab", deadline=None)
 settings.load_profile("lab")
+
+
+# Folders whose tests need no graph and no launched process of the lab.
+FAST_FOLDERS = ("unit", "fuzz")
+
+
+def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
+    """Mark every test of FAST_FOLDERS as `fast`, except those that are marked `slow`."""
+    root = Path(__file__).parent
+    for item in items:
+        folder = item.path.relative_to(root).parts[0]
+        if folder in FAST_FOLDERS and item.get_closest_marker("slow") is None:
+            item.add_marker(pytest.mark.fast)
 
 
 @pytest.fixture(scope="session", autouse=True)

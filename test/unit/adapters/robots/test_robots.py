@@ -114,6 +114,7 @@ def test_meshes_keep_their_bounds(folder: Path) -> None:
     assert 1000 < triangles <= 40_000
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("folder", folders(), ids=lambda folder: folder.name)
 def test_hulls_are_few_and_convex(folder: Path) -> None:
     files = sorted((folder / "meshes").glob("*_hull_*.stl"))
@@ -125,6 +126,7 @@ def test_hulls_are_few_and_convex(folder: Path) -> None:
         assert hull.volume == pytest.approx(hull.convex_hull.volume, rel=0.002, abs=1e-9)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("folder", folders(), ids=lambda folder: folder.name)
 def test_hulls_follow_what_is_seen(folder: Path) -> None:
     text = next(folder.glob("*.urdf")).read_text()
@@ -157,6 +159,7 @@ def deepest(one: list[trimesh.Trimesh], other: list[trimesh.Trimesh]) -> float:
     return depth
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("tool", [None, *LIBRARY.end_effectors()])
 @pytest.mark.parametrize("robot", IDS)
 def test_no_links_collide_at_home(robot: str, tool: str | None) -> None:
@@ -175,6 +178,7 @@ def test_no_links_collide_at_home(robot: str, tool: str | None) -> None:
             assert max(deepest(hulls[a], hulls[b]), deepest(hulls[b], hulls[a])) < 0.002, (a, b)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("robot", IDS)
 def test_links_touch_only_where_their_bodies_nearly_do(robot: str) -> None:
     sys.path.insert(0, str(GENERATOR))
