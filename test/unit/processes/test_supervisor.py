@@ -203,7 +203,7 @@ class TestSupervisor:
     def test_stop_takes_grandchildren_along(self, lines: Lines) -> None:
         with Supervisor([spec("a", PARENT)], lines):
             wait_for(lambda: lines.of("a"), "the grandchild's id")
-        assert gone(int(lines.of("a")[0]))
+        wait_for(lambda: gone(int(lines.of("a")[0])), "the end of the grandchild")
 
     def test_stop_ends_a_wait_for_a_restart(self, lines: Lines) -> None:
         with Supervisor(
