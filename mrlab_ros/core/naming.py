@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import difflib
 import re
+from collections.abc import Iterable
 
 from mrlab_ros.core.errors import BadInput
 
@@ -44,3 +46,9 @@ def checked_name(name: str, taken: frozenset[str], what: str) -> str:
     if name in taken:
         raise BadInput(f"the name '{name}' is taken; choose another or leave it empty")
     return name
+
+
+def did_you_mean(name: str, known: Iterable[str]) -> str:
+    """Return "; did you mean 'NAME'?" with the known name that is closest; empty: none is."""
+    close = difflib.get_close_matches(name.lower(), list(known), n=1)
+    return f"; did you mean '{close[0]}'?" if close else ""

@@ -1,0 +1,481 @@
+"""Checked fields of a YAML or JSON mapping.
+
+Every mistake is one sentence: where it is, the value found, what was expected. Two ways to read:
+
+- `Record` reads a mapping field by field, where fields depend on each other.
+- `read(Kind, mapping, place)` builds a dataclass whose fields are made with `field(...)`: one
+  record per field with its check, its default and its meaning. It names all mistakes at once.
+
+None (an empty YAML value) counts as a missing field. NaN and infinities are never accepted.
+"""
+
+from __future__ import annotations
+
+import dataclasses
+import math
+import re
+import reprlib
+from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
+from dataclasses import MISSING, dataclass
+from enum import Enum
+from typing import Any, Generic, Protocol, TypeVar
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mrlab_ros.core import naming
+from mrlab_ros.core.errors import BadInput
+
+T = TypeVar("T")
+T_co = TypeVar("T_co", covariant=True)
+S = TypeVar("S")
+EnumT = TypeVar("EnumT", bound=Enum)
+
+# Long enough for a vector or a path; a whole mesh is cut.
+_shorten = reprlib.Repr()
+_shorten.maxstring = _shorten.maxother = 120
+_shorten.maxlist = _shorten.maxtuple = _shorten.maxdict = 8
+
+
+@dataclass(frozen=True)
+class Range:
+    """The numbers from `low` to `high`; an open end is not part of it."""
+
+    low: float = -math.inf
+    high: float = math.inf
+    low_open: bool = False
+    high_open: bool = False
+
+    def __contains__(self, value: float) -> bool:
+        above = value > self.low if self.low_open else value >= self.low
+        below = value < self.high if self.high_open else value <= self.high
+        return above and below
+
+    def __str__(self) -> str:
+        """Return words such as 'from 60 to 2000', 'above 0' or 'above 0, at most 1'."""
+        low, high = format(self.low, ".10g"), format(self.high, ".10g")
+        if math.isinf(self.low) and math.isinf(self.high):
+            return ""
+        below = f"below {high}" if self.high_open else f"at most {high}"
+        if math.isinf(self.low):
+            return below
+        above = f"above {low}" if self.low_open else f"at least {low}"
+        if math.isinf(self.high):
+            return above
+        return f"{above}, {below}" if self.low_open or self.high_open else f"from {low} to {high}"
+
+
+ANY = Range()
+
+
+def above(low: float, at_most: float = math.inf) -> Range:
+    """Return the numbers above `low`, which is not part of them."""
+    return Range(low, at_most, low_open=True)
+
+
+def at_least(low: float) -> Range:
+    """Return the numbers of `low` and more."""
+    return Range(low)
+
+
+def between(low: float, high: float) -> Range:
+    """Return the numbers from `low` to `high`, both included."""
+    return Range(low, high)
+
+
+class Check(Protocol[T_co]):
+    """What a value must be.
+
+    expected: the words after 'expected' in an error. read: returns the value in its type; raises
+    ValueError, with a remedy in its text where there is one, for a value that is not expected.
+    """
+
+    @property
+    def expected(self) -> str: ...
+
+    def read(self, value: object) -> T_co: ...
+
+
+def _phrase(noun: str, limits: Range, unit: str) -> str:
+    words = f"{noun} {limits}".strip()
+    return f"{words} ({unit})" if unit else words
+
+
+def _number(value: object, limits: Range) -> float:
+    if isinstance(value, str):
+        try:
+            number = float(value)
+        except ValueError:
+            raise ValueError from None
+        # YAML takes 1e3 for a text: its numbers need a point and a sign, as in 1.0e+3.
+        raise ValueError(f"write {number!r}, without quotes" if math.isfinite(number) else "")
+    if type(value) not in (int, float):
+        raise ValueError
+    try:
+        number = float(value)  # type: ignore[arg-type]
+    except OverflowError:
+        raise ValueError from None
+    if not math.isfinite(number) or number not in limits:
+        raise ValueError
+    return number
+
+
+@dataclass(frozen=True)
+class Number:
+    """A finite number; whole numbers and decimals alike."""
+
+    limits: Range = ANY
+    unit: str = ""
+
+    @property
+    def expected(self) -> str:
+        return _phrase("a number", self.limits, self.unit)
+
+    def read(self, value: object) -> float:
+        return _number(value, self.limits)
+
+
+@dataclass(frozen=True)
+class Integer:
+    """A whole number; 5.0 is one too."""
+
+    limits: Range = ANY
+    unit: str = ""
+
+    @property
+    def expected(self) -> str:
+        return _phrase("a whole number", self.limits, self.unit)
+
+    def read(self, value: object) -> int:
+        number = _number(value, self.limits)
+        if not number.is_integer():
+            raise ValueError
+        return value if isinstance(value, int) else int(number)
+
+
+@dataclass(frozen=True)
+class Flag:
+    """True or false."""
+
+    @property
+    def expected(self) -> str:
+        return "true or false"
+
+    def read(self, value: object) -> bool:
+        if not isinstance(value, bool):
+            raise ValueError
+        return value
+
+
+@dataclass(frozen=True)
+class Text:
+    """A text that matches `pattern` as a whole, which `what` describes."""
+
+    pattern: re.Pattern[str] | None = None
+    what: str = "a text"
+
+    @property
+    def expected(self) -> str:
+        return self.what
+
+    def read(self, value: object) -> str:
+        if not isinstance(value, str):
+            raise ValueError(f'write "{value}", in quotes' if _is_number(value) else "")
+        if self.pattern is not None and not self.pattern.fullmatch(value):
+            raise ValueError
+        return value
+
+
+@dataclass(frozen=True)
+class Choice(Generic[T]):
+    """One of a few texts or numbers, each with what it stands for."""
+
+    values: Mapping[Any, T]
+
+    @property
+    def expected(self) -> str:
+        return alternatives(str(key) for key in self.values)
+
+    def read(self, value: object) -> T:
+        # 1 and True are the same key of a dict.
+        if type(value) not in (str, int) or value not in self.values:
+            raise ValueError
+        return self.values[value]
+
+
+def enum_values(kind: type[EnumT]) -> Choice[EnumT]:
+    """Return the choice of an enum's values."""
+    return Choice({member.value: member for member in kind})
+
+
+def enum_names(kind: type[EnumT]) -> Choice[EnumT]:
+    """Return the choice of an enum's names, in lower case."""
+    return Choice({name.lower(): member for name, member in kind.__members__.items()})
+
+
+@dataclass(frozen=True)
+class Numbers:
+    """A list of `count` numbers; of at least one where `count` is None."""
+
+    count: int | None = None
+    limits: Range = ANY
+    unit: str = ""
+
+    @property
+    def expected(self) -> str:
+        noun = "a list of numbers" if self.count is None else f"{self.count} numbers"
+        if self.count == 1:
+            noun = "a list of 1 number"
+        return _phrase(noun, self.limits, self.unit)
+
+    def read(self, value: object) -> tuple[float, ...]:
+        if not isinstance(value, list | tuple) or not value:
+            raise ValueError
+        if self.count is not None and len(value) != self.count:
+            raise ValueError
+        return tuple(_number(number, self.limits) for number in value)
+
+
+@dataclass(frozen=True)
+class Matrix:
+    """A list of rows of `columns` numbers each, whole ones where `whole` is true; may be empty.
+
+    Read as an (N, columns) array of float64, or of int32.
+    """
+
+    columns: int
+    whole: bool = False
+
+    @property
+    def expected(self) -> str:
+        return f"a list of rows of {self.columns} {'whole ' * self.whole}numbers each"
+
+    def read(self, value: object) -> NDArray[Any]:
+        if not isinstance(value, list | tuple):
+            raise ValueError
+        try:
+            rows = np.array(value) if value else np.zeros((0, self.columns), np.int64)
+        except (ValueError, OverflowError):
+            raise ValueError from None
+        numeric = rows.dtype.kind in ("i" if self.whole else "if")
+        if not numeric or rows.ndim != 2 or rows.shape[1] != self.columns:
+            raise ValueError
+        kind = np.dtype(np.int32 if self.whole else np.float64)
+        if not np.isfinite(rows).all() or (
+            self.whole and np.abs(rows).max(initial=0) > np.iinfo(np.int32).max
+        ):
+            raise ValueError
+        return rows.astype(kind)
+
+
+@dataclass(frozen=True)
+class Texts:
+    """A list of texts; may be empty. single: one text alone is a list of one."""
+
+    single: bool = False
+
+    @property
+    def expected(self) -> str:
+        return "a text or a list of texts" if self.single else "a list of texts"
+
+    def read(self, value: object) -> tuple[str, ...]:
+        if self.single and isinstance(value, str):
+            return (value,)
+        if not isinstance(value, list | tuple) or not all(isinstance(v, str) for v in value):
+            raise ValueError
+        return tuple(value)
+
+
+FLAG = Flag()
+TEXT = Text()
+TEXTS = Texts()
+FILLED_TEXT = Text(re.compile(r".+", re.DOTALL), "a text that is not empty")
+NAME = Text(
+    naming.NAME,
+    "a name of lower-case letters, digits and underscores that begins with a letter, such as "
+    "cube_1",
+)
+
+
+def _is_number(value: object) -> bool:
+    return isinstance(value, int | float) and not isinstance(value, bool)
+
+
+def alternatives(words: Iterable[str]) -> str:
+    """Return 'a', 'a or b', 'a, b or c'."""
+    *others, last = words
+    return f"{', '.join(others)} or {last}" if others else last
+
+
+def shown(value: object) -> str:
+    """Return a value as an error shows it: short, and true or false as YAML writes them."""
+    if isinstance(value, bool):
+        return str(value).lower()
+    return "empty" if value is None else _shorten.repr(value)
+
+
+def checked(what: str, value: object, check: Check[T]) -> T:
+    """Return `value` as `check` reads it; raise BadInput that names `what`."""
+    try:
+        return check.read(value)
+    except ValueError as error:
+        remedy = f"; {error}" if str(error) else ""
+        raise BadInput(f"{what} is {shown(value)}; expected {check.expected}{remedy}") from None
+
+
+def unknown_field(place: str, key: object, known: Collection[str]) -> str:
+    """Return the sentence for a field that does not exist."""
+    return (
+        f"{place}: '{key}' is unknown; expected {', '.join(known)}"
+        f"{naming.did_you_mean(str(key), known)}"
+    )
+
+
+def raise_all(mistakes: Sequence[str], whole: str) -> None:
+    """Raise BadInput that names all mistakes of `whole`; do nothing where there are none."""
+    if len(mistakes) == 1:
+        raise BadInput(mistakes[0])
+    if mistakes:
+        raise BadInput("\n  ".join((f"{whole} has {len(mistakes)} mistakes:", *mistakes)))
+
+
+def every(build: Callable[[S], T], sources: Iterable[S], whole: str) -> list[T]:
+    """Return what `build` makes of each source; raise BadInput that names all their mistakes."""
+    built, mistakes = [], []
+    for source in sources:
+        try:
+            built.append(build(source))
+        except BadInput as error:
+            mistakes.append(str(error))
+    raise_all(mistakes, whole)
+    return built
+
+
+class Record:
+    """A mapping with known fields.
+
+    place: what the mapping is, such as "object 'can', part 2"; every error begins with it.
+    fields: the names that the mapping may hold. Raises BadInput where `value` is no mapping or
+    holds another name.
+    """
+
+    def __init__(self, value: object, place: str, fields: Collection[str]) -> None:
+        if not isinstance(value, Mapping):
+            raise BadInput(
+                f"{place} is {shown(value)}; expected a mapping with the fields "
+                f"{', '.join(fields)}"
+            )
+        raise_all([unknown_field(place, key, fields) for key in value if key not in fields], place)
+        self.place = place
+        self._values = value
+
+    def __contains__(self, key: str) -> bool:
+        return self._values.get(key) is not None
+
+    def error(self, text: str) -> BadInput:
+        """Return an error about this mapping."""
+        return BadInput(f"{self.place}: {text}")
+
+    def optional(self, key: str, check: Check[T]) -> T | None:
+        """Return the field, None where it is missing; raise BadInput where it is wrong."""
+        value = self._values.get(key)
+        return None if value is None else checked(f"{self.place}: {key}", value, check)
+
+    def value(self, key: str, check: Check[T], default: T) -> T:
+        """Return the field, `default` where it is missing; raise BadInput where it is wrong."""
+        found = self.optional(key, check)
+        return default if found is None else found
+
+    def required(self, key: str, check: Check[T]) -> T:
+        """Return the field; raise BadInput where it is missing or wrong."""
+        found = self.optional(key, check)
+        if found is None:
+            raise self.error(f"{key} is missing; expected {check.expected}")
+        return found
+
+    def record(self, key: str, fields: Collection[str]) -> Record | None:
+        """Return the mapping below `key`, None where it is missing."""
+        value = self._values.get(key)
+        return None if value is None else Record(value, f"{self.place}, {key}", fields)
+
+    def records(self, key: str, fields: Collection[str], one: str) -> list[Record]:
+        """Return the list of mappings below `key`; `one` names an entry: 'part' -> 'part 2'."""
+        return [
+            Record(entry, f"{self.place}, {one} {i}", fields)
+            for i, entry in enumerate(self.entries(key), 1)
+        ]
+
+    def entries(self, key: str) -> Sequence[object]:
+        """Return the list below `key` as it is, empty where it is missing."""
+        value = self._values.get(key)
+        if value is None:
+            return ()
+        if not isinstance(value, list | tuple):
+            raise self.error(f"{key} is {shown(value)}; expected a list")
+        return value
+
+
+@dataclass(frozen=True)
+class Field:
+    """One field of a dataclass that `read` builds.
+
+    name: in the file. default: MISSING where the field must be given. about: one sentence for
+    the documentation.
+    """
+
+    name: str
+    check: Check[Any]
+    default: Any
+    about: str
+
+
+def field(check: Check[T], about: str, default: T | Any = MISSING, *, name: str = "") -> Any:
+    """Return a dataclass field with its record; `name`: where the file calls it otherwise."""
+    return dataclasses.field(
+        default=default, metadata={"check": check, "about": about, "name": name}
+    )
+
+
+def fields_of(kind: type) -> dict[str, Field]:
+    """Return the records of a dataclass whose fields are made with `field`, by attribute."""
+    return {
+        f.name: Field(
+            f.metadata["name"] or f.name, f.metadata["check"], f.default, f.metadata["about"]
+        )
+        for f in dataclasses.fields(kind)
+    }
+
+
+def read(kind: Callable[..., T], values: object, place: str) -> T:
+    """Build a dataclass from a mapping; raise BadInput that names all mistakes of `place`."""
+    fields = fields_of(kind)  # type: ignore[arg-type]
+    names = [f.name for f in fields.values()]
+    if not isinstance(values, Mapping):
+        raise BadInput(
+            f"{place} is {shown(values)}; expected a mapping with the fields {', '.join(names)}"
+        )
+    mistakes = [unknown_field(place, key, names) for key in values if key not in names]
+    found: dict[str, Any] = {}
+    for attribute, f in fields.items():
+        value = values.get(f.name)
+        if value is None:
+            if f.default is MISSING:
+                mistakes.append(f"{place}: {f.name} is missing; expected {f.check.expected}")
+            continue
+        try:
+            found[attribute] = checked(f"{place}: {f.name}", value, f.check)
+        except BadInput as error:
+            mistakes.append(str(error))
+    raise_all(mistakes, place)
+    return kind(**found)
+
+
+def check_fields(instance: Any, place: str) -> None:
+    """Check the fields of a dataclass that was built by hand, as `read` does."""
+    mistakes = []
+    for attribute, f in fields_of(type(instance)).items():
+        try:
+            checked(f"{place}: {f.name}", getattr(instance, attribute), f.check)
+        except BadInput as error:
+            mistakes.append(str(error))
+    raise_all(mistakes, place)
