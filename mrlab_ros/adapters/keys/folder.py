@@ -316,6 +316,29 @@ class Keys:
         certificates.check(found.certificate, found.certificate, now, "the authority")
         return found
 
+    @classmethod
+    @contextmanager
+    def while_unchanged(cls, folder: Path) -> Iterator[Keys | None]:
+        """Open a keys folder and keep commands from changing it; None: one changes it now.
+
+        A command writes several files, one after the other: without the lock a reader could see
+        a new certificate beside an old key.
+        """
+        try:
+            handle = os.open(folder.expanduser().resolve(), os.O_RDONLY)
+        except OSError:
+            yield cls(folder)  # raises BadInput, which says what is wrong with the folder
+            return
+        try:
+            try:
+                fcntl.flock(handle, fcntl.LOCK_SH | fcntl.LOCK_NB)
+            except BlockingIOError:
+                yield None
+            else:
+                yield cls(folder)
+        finally:
+            os.close(handle)
+
     @contextmanager
     def _alone(self) -> Iterator[None]:
         """Keep other commands out, and know what those before have changed."""

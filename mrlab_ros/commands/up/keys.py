@@ -83,18 +83,19 @@ def follow_keys(
     """
     from mrlab_ros.adapters.keys.folder import Keys, now
 
-    told = ""
+    reported = ""
     while not stop.wait(KEYS_PERIOD):
         try:
-            keys = Keys(folder)
-            changed = keys.changed_at()
-            if changed != seen:
+            with Keys.while_unchanged(folder) as keys:
+                # A command that changes the keys right now has not written all files yet.
+                if keys is None or (changed := keys.changed_at()) == seen:
+                    continue
                 keys.check(now())
-                say(SELF, "the keys have changed; the bridge starts again with them")
-                restart()
-                seen = changed
-                told = ""
+            say(SELF, "the keys have changed; the bridge starts again with them")
+            restart()
+            seen = changed
+            reported = ""
         except BadInput as error:
-            if str(error) != told:
-                told = str(error)
-                say(SELF, f"the keys have changed and cannot be used: {told}")
+            if str(error) != reported:
+                reported = str(error)
+                say(SELF, f"the keys have changed and cannot be used: {reported}")

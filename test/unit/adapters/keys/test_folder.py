@@ -16,7 +16,6 @@ import yaml
 import zenoh
 from cryptography import x509
 from cryptography.x509.oid import ExtendedKeyUsageOID, NameOID
-from graph import wait_for
 from typer.testing import CliRunner
 
 from mrlab_ros.adapters.keys import certificates
@@ -441,36 +440,77 @@ def test_a_lab_says_when_its_certificate_expires_soon(tmp_path):
     assert "mrlab keys renew" in said[0]
 
 
-def test_a_running_lab_follows_its_keys_and_never_into_a_broken_folder(tmp_path, monkeypatch):
-    monkeypatch.setattr(up_keys, "KEYS_PERIOD", 0.005)
+class Turns:
+    """Stands in for the event that ends follow_keys: each wait is one step of a test."""
+
+    def __init__(self, steps) -> None:
+        self.steps = steps
+
+    def wait(self, _period: float) -> bool:
+        """Run the test up to its next yield; True: it has ended."""
+        return next(self.steps, True) is True
+
+
+def test_a_running_lab_follows_its_keys_and_never_into_a_broken_folder(tmp_path):
     keys = Keys.create(tmp_path / "keys", [], Login.CERTIFICATE, datetime.now(timezone.utc))
-    stop, said, restarts = threading.Event(), [], []
+    said, restarts = [], []
 
-    seen = up_keys.keys_changed_at(keys.folder)
-
-    def follow():
-        def say(_, line):
-            said.append(line)
-
-        up_keys.follow_keys(keys.folder, seen, stop, say, lambda: restarts.append(1))
-
-    thread = threading.Thread(target=follow)
-    thread.start()
-    try:
+    def steps():
+        yield
+        assert said == []
         (keys.folder / "server.pem").unlink()
         keys.add("anna", Role.VIEWER, datetime.now(timezone.utc))
-        wait_for(lambda: said, "the complaint")
+        yield
+        yield
+        (complaint,) = said
+        assert "cannot be used: there is no file" in complaint
         assert restarts == []
         keys.renew([], datetime.now(timezone.utc))
-        wait_for(lambda: restarts, "the restart")
+        yield
+        yield
+        assert len(restarts) == 1
         assert "starts again" in said[-1]
         aside = keys.folder.rename(tmp_path / "aside")
-        wait_for(lambda: "has no keys" in said[-1], "the complaint about the folder")
+        yield
+        yield
+        assert "has no keys" in said[-1]
+        assert len(said) == 3
         aside.rename(keys.folder)
+        yield
+        assert len(restarts) == 1
         keys.add("ben", Role.VIEWER, datetime.now(timezone.utc))
-        wait_for(lambda: len(restarts) == 2, "the restart with the folder that came back")
-    finally:
-        stop.set()
-        thread.join()
-    assert sum("cannot be used: there is no file" in line for line in said) == 1
-    assert "starts again" in said[-1]
+        yield
+        assert len(restarts) == 2
+        assert "starts again" in said[-1]
+        assert len(said) == 4
+
+    def say(_, line):
+        said.append(line)
+
+    seen = up_keys.keys_changed_at(keys.folder)
+    up_keys.follow_keys(keys.folder, seen, Turns(steps()), say, lambda: restarts.append(1))
+    assert len(restarts) == 2
+
+
+def test_keys_are_not_read_while_a_command_changes_them(tmp_path):
+    keys = Keys.create(tmp_path / "keys", [], Login.CERTIFICATE, datetime.now(timezone.utc))
+    server = keys.folder / "server.pem"
+    said, restarts = [], []
+
+    def steps():
+        with keys._alone():
+            whole = server.read_bytes()
+            server.unlink()
+            yield
+            yield
+            assert said == []
+            server.write_bytes(whole)
+        yield
+        assert len(restarts) == 1
+
+    def say(_, line):
+        said.append(line)
+
+    seen = up_keys.keys_changed_at(keys.folder)
+    up_keys.follow_keys(keys.folder, seen, Turns(steps()), say, lambda: restarts.append(1))
+    assert len(restarts) == len(said) == 1
