@@ -1,13 +1,15 @@
-"""Makes robot.urdf and meshes/ of every robot and end effector: `generate.py [ID ...]`.
+"""Generate robot.urdf and meshes/ of robots and end effectors: `generate.py [--out DIR] [ID ...]`.
 
-The same figures and descriptions give the same bytes.
+The same description gives the same bytes on one machine, and on every machine the same surfaces
+within the tolerances of test/generated_meshes.py: processors sum in different orders, and the
+last bits decide which edge the thinning removes first.
 """
 
 from __future__ import annotations
 
+import argparse
 import shutil
 import struct
-import sys
 from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
@@ -33,6 +35,7 @@ from mrlab_ros.core.geometry import inverse_transform, transform_from_xyz_rpy
 ROBOTS = Path(__file__).resolve().parents[2] / "robots"
 TRIANGLES = 15_200  # a model; the files of a robot stay below 400 kB
 CELLS = 56  # along the longest side of a part
+FIGURE = "figure"  # the person of 1.8 m beside the robots in pictures
 
 BODIES: dict[str, Callable[[], Body]] = {
     "kuka_kr3_r540": kuka_small.kr3_r540,
@@ -103,15 +106,20 @@ def _hull_files(
     return names
 
 
-def make(folder: Path, source: str, target: str) -> None:
-    """Make the meshes and the URDF of one model from its figures and its body."""
-    figures = yaml.safe_load((folder / source).read_text())
+def make(place: Path, source: str, target: str, out: Path) -> None:
+    """Generate the meshes and the URDF of one model from its figures and its body.
+
+    place: the model's folder, relative to the library; source, target: the names of its figures
+    and its URDF; out: the library that the files are written to.
+    """
+    folder = out / place
+    figures = yaml.safe_load((ROBOTS / place / source).read_text())
     body = BODIES[figures["id"]]()
     poses = zero_poses(figures)
-    # Made aside and put in place at the end: a robot is whole at any time.
+    # Written aside and renamed at the end: a model is complete at any time.
     meshes = folder / "meshes.new"
     shutil.rmtree(meshes, ignore_errors=True)
-    meshes.mkdir()
+    meshes.mkdir(parents=True)
     raw = []
     for link, parts in body.links.items():
         for part in parts:
@@ -139,8 +147,7 @@ def make(folder: Path, source: str, target: str) -> None:
         ]
         names = _hull_files(meshes, link, shells, np.concatenate(seen), pose)
         files[link] = LinkFiles(f"{link}.glb", tuple(names))
-    place = folder.relative_to(ROBOTS.parent)
-    text = urdf(figures, files, f"package://mrlab_ros/{place.as_posix()}/meshes")
+    text = urdf(figures, files, f"package://mrlab_ros/robots/{place.as_posix()}/meshes")
     shutil.rmtree(folder / "meshes", ignore_errors=True)
     meshes = meshes.rename(folder / "meshes")
     (folder / target).write_text(text)
@@ -159,19 +166,25 @@ def _joined(meshes: list[Mesh]) -> Mesh:
 
 
 def main() -> None:
-    """Make the models named on the command line, or all."""
-    wanted = sys.argv[1:] or list(BODIES)
-    unknown = sorted(set(wanted) - set(BODIES))
+    """Generate the models named on the command line, or all of them and the person."""
+    parser = argparse.ArgumentParser(description="Generate the bodies of robots.")
+    parser.add_argument("ids", nargs="*", metavar="ID", help="models, or figure; none: all")
+    parser.add_argument("--out", type=Path, default=ROBOTS, help="the library to write to")
+    chosen = parser.parse_args()
+    known = [*BODIES, FIGURE]
+    unknown = sorted(set(chosen.ids) - set(known))
     if unknown:
-        sys.exit(f"no body is described for {', '.join(unknown)}; known: {', '.join(BODIES)}")
-    person = creased(decimated(contour(figure(), 0.016), 2400))
-    glb.write(ROBOTS / "figure.glb", [(SKIN, person)])
-    for name in wanted:
-        if (ROBOTS / name).is_dir():
-            make(ROBOTS / name, "robot.yaml", "robot.urdf")
+        parser.error(f"no body is described for {', '.join(unknown)}; known: {', '.join(known)}")
+    chosen.out.mkdir(parents=True, exist_ok=True)
+    for name in chosen.ids or known:
+        if name == FIGURE:
+            person = creased(decimated(contour(figure(), 0.016), 2400))
+            glb.write(chosen.out / f"{FIGURE}.glb", [(SKIN, person)])
+        elif (ROBOTS / name).is_dir():
+            make(Path(name), "robot.yaml", "robot.urdf", chosen.out)
         else:
-            tool = ROBOTS / "end_effectors" / name
-            make(tool, "end_effector.yaml", "end_effector.urdf")
+            tool = Path("end_effectors") / name
+            make(tool, "end_effector.yaml", "end_effector.urdf", chosen.out)
 
 
 if __name__ == "__main__":

@@ -6,6 +6,7 @@ import itertools
 import subprocess
 import sys
 import warnings
+import xml.etree.ElementTree as ET
 from pathlib import Path
 
 import numpy as np
@@ -13,6 +14,7 @@ import pytest
 import trimesh
 import yaml
 import yourdfpy
+from generated_meshes import assert_same_body
 
 from mrlab_ros.adapters.robots import checks, urdf
 from mrlab_ros.adapters.robots import hulls as robots_hulls
@@ -239,9 +241,47 @@ def test_loads_with_meshes_without_a_warning(robot: str, caplog: pytest.LogCaptu
     assert len(loaded.scene.geometry) >= 7
 
 
-def test_the_same_description_gives_the_same_bytes() -> None:
-    folder = ROBOTS / "end_effectors" / "vacuum_cup"
-    files = {path: path.read_bytes() for path in folder.rglob("*") if path.is_file()}
-    command = [sys.executable, str(GENERATOR / "generate.py"), "vacuum_cup"]
+def without_hulls(path: Path) -> str:
+    """Return the text of a URDF without its collision geometry."""
+    root = urdf.parse(path.read_text(), path.name)
+    for link in root.iterfind("link"):
+        for shape in link.findall("collision"):
+            link.remove(shape)
+    return ET.tostring(root, encoding="unicode")
+
+
+def test_the_generator_makes_what_is_shipped(tmp_path: Path) -> None:
+    command = [
+        sys.executable,
+        GENERATOR / "generate.py",
+        "--out",
+        tmp_path,
+        "vacuum_cup",
+        "figure",
+    ]
     subprocess.run(command, check=True, capture_output=True, timeout=100)
-    assert {path: path.read_bytes() for path in folder.rglob("*") if path.is_file()} == files
+    assert_same_body(tmp_path / "figure.glb", ROBOTS / "figure.glb")
+    made = tmp_path / "end_effectors" / "vacuum_cup"
+    shipped = ROBOTS / "end_effectors" / "vacuum_cup"
+    file = "end_effector.urdf"
+    assert without_hulls(made / file) == without_hulls(shipped / file)
+    for mesh in (shipped / "meshes").glob("*.glb"):
+        assert_same_body(made / "meshes" / mesh.name, mesh)
+    # Which hull is grown first depends on the last bits too; how closely they fit does not.
+    hulls = len(list((shipped / "meshes").glob("*_hull_*.stl")))
+    assert abs(len(list((made / "meshes").glob("*_hull_*.stl"))) - hulls) <= 1
+
+    def resolve(uri: str) -> Path:
+        return made / "meshes" / Path(uri).name
+
+    for fit in robots_hulls.fits((made / file).read_text(), file, resolve, most=400):
+        assert fit.smaller <= robots_hulls.MOST_SMALLER, fit
+        assert fit.larger <= robots_hulls.MOST_LARGER, fit
+
+
+def test_an_unknown_body_is_refused_and_nothing_is_written(tmp_path: Path) -> None:
+    command = [sys.executable, GENERATOR / "generate.py", "--out", tmp_path, "vacuum_cup", "ur5"]
+    done = subprocess.run(command, capture_output=True, text=True, timeout=100, check=False)
+    assert done.returncode == 2
+    assert "no body is described for ur5; known: " in done.stderr
+    assert list(tmp_path.iterdir()) == []
