@@ -5,8 +5,9 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
 from enum import IntEnum
+from typing import Any
 
 from mrlab_ros.core.errors import BadInput
 
@@ -20,8 +21,27 @@ class Severity(IntEnum):
 
 
 @dataclass(frozen=True)
+class Fix:
+    """One way to mend what was found.
+
+    option: the field of ConvertTrajectory that mends it, empty where only MATLAB does. value:
+    what to set it to, as text. matlab: statements that do the same in MATLAB, may be empty.
+    """
+
+    option: str = ""
+    value: str = ""
+    matlab: str = ""
+
+
+@dataclass(frozen=True)
 class Diagnostic:
-    """One finding. `where` is a place inside `variable`, such as 'row 12, column 3'."""
+    """One finding.
+
+    `where` is a place inside `variable`, such as 'row 12, column 3'. first_row, last_row: the
+    rows it applies to, from 1, 0 where no row is named. joint: the robot's joint, or empty. value
+    and limit: what was found and what it was compared with, in `unit`, None where there is no
+    number. fixes: ways to mend it, the likeliest first.
+    """
 
     code: str
     severity: Severity
@@ -29,6 +49,13 @@ class Diagnostic:
     remedy: str = ""
     variable: str = ""
     where: str = ""
+    first_row: int = 0
+    last_row: int = 0
+    joint: str = ""
+    value: float | None = None
+    limit: float | None = None
+    unit: str = ""
+    fixes: tuple[Fix, ...] = ()
 
 
 class Refused(BadInput):
@@ -444,18 +471,20 @@ KINDS: dict[str, Kind] = {
 del INFO, WARNING, ERROR
 
 
-def finding(code: str, /, *, variable: str = "", where: str = "", **values: object) -> Diagnostic:
-    """Return the finding `code` with its texts filled in from `values`."""
+# the fields of a finding that hold data, beside its texts
+DATA = frozenset(field.name for field in fields(Diagnostic)[4:])
+
+
+def finding(code: str, /, **values: Any) -> Diagnostic:
+    """Return the finding `code`.
+
+    values: its data, by the names of Diagnostic's fields, and whatever else its texts name.
+    """
     kind = KINDS[code]
-    words = {**values, "variable": variable, "where": where}
-    return Diagnostic(
-        code,
-        kind.severity,
-        kind.message.format(**words),
-        kind.remedy.format(**words),
-        variable,
-        where,
-    )
+    words = {"variable": "", "where": "", **values}
+    data = {name: values[name] for name in DATA if name in values}
+    message, remedy = kind.message.format(**words), kind.remedy.format(**words)
+    return Diagnostic(code, kind.severity, message, remedy, **data)
 
 
 def document() -> str:

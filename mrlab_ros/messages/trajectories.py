@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import array
+import math
+from dataclasses import fields
 from typing import Any
 
 import numpy as np
@@ -10,7 +12,9 @@ from mrlab_msgs import msg
 from numpy.typing import NDArray
 
 from mrlab_ros.core.conversion.candidates import Candidate
-from mrlab_ros.core.diagnostics import Diagnostic, Severity
+from mrlab_ros.core.conversion.options import Options
+from mrlab_ros.core.conversion.preview import Preview
+from mrlab_ros.core.diagnostics import Diagnostic, Fix, Severity
 from mrlab_ros.core.geometry import Array
 from mrlab_ros.core.trajectory.document import warnings_of
 from mrlab_ros.core.trajectory.trajectory import Channels, Source, Trajectory
@@ -25,7 +29,18 @@ def diagnostic_to_message(diagnostic: Diagnostic) -> msg.Diagnostic:
         remedy=diagnostic.remedy,
         variable=diagnostic.variable,
         where=diagnostic.where,
+        first_row=diagnostic.first_row,
+        last_row=diagnostic.last_row,
+        joint=diagnostic.joint,
+        value=_number(diagnostic.value),
+        limit=_number(diagnostic.limit),
+        unit=diagnostic.unit,
+        fixes=[msg.Fix(option=f.option, value=f.value, matlab=f.matlab) for f in diagnostic.fixes],
     )
+
+
+def _number(value: float | None) -> float:
+    return math.nan if value is None else value
 
 
 def diagnostic_from_message(message: msg.Diagnostic) -> Diagnostic:
@@ -36,6 +51,13 @@ def diagnostic_from_message(message: msg.Diagnostic) -> Diagnostic:
         message.remedy,
         message.variable,
         message.where,
+        message.first_row,
+        message.last_row,
+        message.joint,
+        None if math.isnan(message.value) else message.value,
+        None if math.isnan(message.limit) else message.limit,
+        message.unit,
+        tuple(Fix(f.option, f.value, f.matlab) for f in message.fixes),
     )
 
 
@@ -102,7 +124,7 @@ def trajectory_from_message(message: msg.Trajectory) -> Trajectory:
 
 
 def candidate_to_message(candidate: Candidate) -> msg.Candidate:
-    rows, columns = candidate.variable.shape
+    rows, columns = candidate.shape
     return msg.Candidate(
         variable=candidate.path,
         rows=rows,
@@ -111,7 +133,22 @@ def candidate_to_message(candidate: Candidate) -> msg.Candidate:
         maximum=candidate.maximum,
         score=candidate.score,
         why=candidate.why,
+        preview=preview_to_message(candidate.preview),
     )
+
+
+def preview_to_message(preview: Preview) -> msg.Preview:
+    return msg.Preview(
+        variable=preview.variable,
+        rows=array.array("I", preview.rows.astype(np.uint32).tobytes()),
+        columns=preview.values.shape[1],
+        values=array.array("f", np.ascontiguousarray(preview.values, np.float32).tobytes()),
+    )
+
+
+def options_from_request(request: Any) -> Options:
+    """Return what a request of ConvertTrajectory asks for."""
+    return Options(**{field.name: getattr(request, field.name) for field in fields(Options)})
 
 
 def info_from_head(head: dict[str, Any]) -> msg.TrajectoryInfo:

@@ -19,7 +19,6 @@ from mrlab_ros.adapters.trajectories.coefficients import load_coefficients
 from mrlab_ros.adapters.trajectories.store import TrajectoryStore
 from mrlab_ros.adapters.workspaces.reader import Limits, MiB, WorkspaceReader
 from mrlab_ros.core.conversion.convert import DEFAULT_FRAME_RATE, ConversionResult, convert
-from mrlab_ros.core.conversion.options import Options
 from mrlab_ros.core.errors import BadInput, LabError
 from mrlab_ros.messages import qos, trajectories
 from mrlab_ros.messages.trajectories import candidate_to_message, info_from_head
@@ -130,14 +129,7 @@ class ConverterNode(Node):
         result = convert(
             file,
             read,
-            Options(
-                variable=request.variable,
-                columns=request.columns,
-                transpose=request.transpose,
-                degrees=request.degrees,
-                unwrap=request.unwrap,
-                frame_rate=request.frame_rate,
-            ),
+            trajectories.options_from_request(request),
             robot,
             self._coefficients,
             end_effector=request.end_effector or None,
@@ -162,6 +154,8 @@ class ConverterNode(Node):
         response.message = result.message
         response.outcome = result.outcome.value
         response.candidates = [candidate_to_message(c) for c in result.candidates]
+        if result.preview is not None:
+            response.preview = trajectories.preview_to_message(result.preview)
         response.diagnostics = [trajectories.diagnostic_to_message(d) for d in result.diagnostics]
 
     def _get(self, request: Any, response: Any) -> None:

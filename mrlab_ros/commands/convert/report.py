@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import asdict
 from pathlib import Path
 from typing import Any
 
@@ -30,7 +31,7 @@ def record(given: str, result: ConversionResult, written: Path | None) -> dict[s
         "candidates": [
             {
                 "variable": c.path,
-                "shape": list(c.variable.shape),
+                "shape": list(c.shape),
                 "score": c.score,
                 "why": c.why,
                 "minimum": c.minimum,
@@ -40,15 +41,7 @@ def record(given: str, result: ConversionResult, written: Path | None) -> dict[s
             for c in result.candidates
         ],
         "diagnostics": [
-            {
-                "code": d.code,
-                "severity": d.severity.name.lower(),
-                "message": d.message,
-                "remedy": d.remedy,
-                "variable": d.variable,
-                "where": d.where,
-            }
-            for d in result.diagnostics
+            {**asdict(d), "severity": d.severity.name.lower()} for d in result.diagnostics
         ],
         "message": result.message,
         "trajectory": str(written) if written else None,
@@ -81,7 +74,7 @@ def _choices(result: ConversionResult) -> Table:
     for c in result.candidates:
         table.add_row(
             c.path,
-            c.variable.size,
+            c.size,
             f"{c.minimum:.3g}",
             f"{c.maximum:.3g}",
             c.sparkline(),

@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mrlab_ros.core.conversion.named_columns import misnamed, names_joints
+from mrlab_ros.core.conversion.preview import Preview, preview
 from mrlab_ros.core.conversion.variable_names import Hint, hint
 from mrlab_ros.core.conversion.workspace import Variable
 from mrlab_ros.core.robots.model import RobotModel
@@ -32,22 +33,29 @@ SPARK_WIDTH = 24
 
 @dataclass(frozen=True, eq=False)
 class Candidate:
-    """A matrix that could be the joint positions; score 0 to 1, minimum and maximum as stored."""
+    """A matrix that could be the joint positions.
 
-    variable: Variable
+    path: as MATLAB writes it. shape: as MATLAB's size() gives it. score: 0 to 1, larger is
+    likelier. minimum, maximum: in the matrix's own unit.
+    """
+
+    path: str
+    shape: tuple[int, ...]
     score: float
     why: str
     minimum: float
     maximum: float
+    preview: Preview
 
     @property
-    def path(self) -> str:
-        return self.variable.path
+    def size(self) -> str:
+        """Return the dimensions as MATLAB's whos writes them, such as 450x6."""
+        return "x".join(str(n) for n in self.shape)
 
     def sparkline(self) -> str:
         """Return the course of the column that moves most, as text."""
-        values = self.variable.values
-        if values is None or not np.isfinite([self.minimum, self.maximum]).all():
+        values = self.preview.values
+        if not np.isfinite([self.minimum, self.maximum]).all():
             return ""
         sample = values[np.linspace(0, len(values) - 1, SPARK_WIDTH).astype(int)].astype(float)
         spans = np.ptp(sample, axis=0)
@@ -83,7 +91,7 @@ def score(variable: Variable, robot: RobotModel, *, has_time: bool = False) -> C
     assert values is not None
     if variable.is_message:
         why = "it is a JointTrajectory for these joints"
-        return Candidate(variable, 1.0, why, float(values.min()), float(values.max()))
+        return _candidate(variable, 1.0, [why], float(values.min()), float(values.max()))
     rows, columns = values.shape
     joints = len(robot.joints)
     reasons: list[str] = []
@@ -98,7 +106,7 @@ def score(variable: Variable, robot: RobotModel, *, has_time: bool = False) -> C
     minimum, maximum = float(values.min()), float(values.max())
     if not np.isfinite([minimum, maximum]).all():
         reasons.append("it holds NaN or Inf")
-        return Candidate(variable, _bounded(points), "; ".join(reasons), minimum, maximum)
+        return _candidate(variable, points, reasons, minimum, maximum)
     arm = values[:, :joints]
     low, high = arm.min(axis=0), arm.max(axis=0)
     limits = np.array([(j.lower, j.upper) for j in robot.joints])
@@ -133,11 +141,17 @@ def score(variable: Variable, robot: RobotModel, *, has_time: bool = False) -> C
     if has_time:
         points += 0.05
         reasons.append("it has a time vector")
-    return Candidate(variable, _bounded(points), "; ".join(reasons), minimum, maximum)
+    return _candidate(variable, points, reasons, minimum, maximum)
 
 
-def _bounded(points: float) -> float:
-    return round(min(max(points, 0.0), 1.0), 3)
+def _candidate(
+    variable: Variable, points: float, reasons: list[str], minimum: float, maximum: float
+) -> Candidate:
+    score = round(min(max(points, 0.0), 1.0), 3)
+    shown = preview(variable)
+    return Candidate(
+        variable.path, variable.shape, score, "; ".join(reasons), minimum, maximum, shown
+    )
 
 
 def fits(variable: Variable, robot: RobotModel) -> bool:

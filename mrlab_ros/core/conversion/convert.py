@@ -21,6 +21,7 @@ from mrlab_ros.core.conversion.candidates import Candidate
 from mrlab_ros.core.conversion.explain import bad_message
 from mrlab_ros.core.conversion.layout import Layout, lay_out, reshaped
 from mrlab_ros.core.conversion.options import Options
+from mrlab_ros.core.conversion.preview import Preview, preview
 from mrlab_ros.core.conversion.variable_names import Hint, hint
 from mrlab_ros.core.conversion.workspace import Variable, Workspace
 from mrlab_ros.core.diagnostics import Diagnostic, Refused, Severity, finding
@@ -45,13 +46,17 @@ class Outcome(Enum):
 
 @dataclass(frozen=True, eq=False)
 class ConversionResult:
-    """What became of a file; diagnostics worst first, candidates where a choice is needed."""
+    """What became of a file; diagnostics worst first, candidates where a choice is needed.
+
+    preview: some rows of the matrix that was refused, where one was found.
+    """
 
     file: str
     outcome: Outcome
     trajectory: Trajectory | None
     candidates: tuple[Candidate, ...]
     diagnostics: tuple[Diagnostic, ...]
+    preview: Preview | None = None
 
     @property
     def message(self) -> str:
@@ -100,6 +105,7 @@ def convert(
         )
     notes: list[Diagnostic] = []
     offered: list[Candidate] = []
+    variable: Variable | None = None
     try:
         options.checked_rate()
         workspace = read()
@@ -116,7 +122,7 @@ def convert(
         arm = layout.arm
         notes += limits.against_robot(arm, rate, robot.joints, variable.path, robot.id)
         if any(n.severity is Severity.ERROR for n in notes):
-            return ConversionResult(file, Outcome.REJECTED, None, (), _worst_first(notes))
+            return _rejected(file, notes, variable)
         trajectory = Trajectory(
             id=trajectory_id,
             robot_model=robot.id,
@@ -132,8 +138,16 @@ def convert(
         )
     except Refused as refused:
         notes.append(refused.finding)
-        return ConversionResult(file, Outcome.REJECTED, None, (), _worst_first(notes))
+        return _rejected(file, notes, variable)
     return ConversionResult(file, Outcome.ACCEPTED, trajectory, (), _worst_first(notes))
+
+
+def _rejected(file: str, notes: list[Diagnostic], variable: Variable | None) -> ConversionResult:
+    found = _worst_first(notes)
+    shown = None
+    if variable is not None and variable.values is not None and variable.values.size:
+        shown = preview(variable, [row for d in found for row in (d.first_row, d.last_row) if row])
+    return ConversionResult(file, Outcome.REJECTED, None, (), found, shown)
 
 
 def _worst_first(notes: list[Diagnostic]) -> tuple[Diagnostic, ...]:

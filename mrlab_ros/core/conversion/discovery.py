@@ -63,7 +63,7 @@ def choose(
                 notes.append(object_finding("object_ignored", hidden or objects, file))
             return best, [], notes
     if conceivable and not (hidden and not plausible):
-        listed = "; ".join(f"'{c.path}' ({c.variable.size}, {c.why})" for c in conceivable[:5])
+        listed = "; ".join(f"'{c.path}' ({c.size}, {c.why})" for c in conceivable[:5])
         count = f"{len(conceivable)} matrices" if len(conceivable) > 1 else "One matrix"
         notes.append(finding("ambiguous", file=file, count=count, found=listed))
         return None, conceivable, notes
@@ -73,7 +73,7 @@ def choose(
 def _rival(variable: Variable, best: Candidate, robot: RobotModel) -> bool:
     """Say whether another matrix is laid out as samples by joints in some other way."""
     return (
-        variable is not best.variable
+        variable.path != best.path
         and variable.values is not None
         and variable.shape[0] in (len(robot.joints), len(robot.joints) + 1)
         and variable.shape[1] >= FEW_ROWS

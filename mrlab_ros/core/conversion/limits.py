@@ -80,13 +80,17 @@ def _range(
             variable=variable,
             where=_place(frame, column),
             joint=joint.name,
-            value=q[frame],
             degrees=np.degrees(q[frame]),
             frame=frame,
             time=frame / frame_rate,
             lower=joint.lower,
             upper=joint.upper,
             count=counted(outside, "frame"),
+            first_row=frame + 1,
+            last_row=frame + 1,
+            value=float(q[frame]),
+            limit=joint.upper if q[frame] > upper else joint.lower,
+            unit="rad",
         )
     ]
 

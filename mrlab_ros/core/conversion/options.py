@@ -15,8 +15,9 @@ TERM = re.compile(r"(\d+|end)(?:\s*:\s*(?:(\d+)\s*:\s*)?(\d+|end))?$")
 class Options:
     """What was asked for explicitly; nothing of it is ever assumed.
 
-    variable: the matrix, as MATLAB writes it; empty: found. columns: which columns hold the
-    joints, as in MATLAB, after `transpose`; empty: all. frame_rate: Hz; 0: from the file.
+    The fields are those of the request of mrlab_msgs/ConvertTrajectory. variable: the matrix, as
+    MATLAB writes it; empty: found. columns: which columns hold the joints, as in MATLAB, after
+    `transpose`; empty: all. frame_rate: Hz; 0: from the file.
     """
 
     variable: str = ""

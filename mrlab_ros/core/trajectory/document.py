@@ -12,7 +12,7 @@ from typing import Any
 
 import numpy as np
 
-from mrlab_ros.core.diagnostics import Diagnostic, Severity
+from mrlab_ros.core.diagnostics import Diagnostic, Fix, Severity
 from mrlab_ros.core.errors import BadInput
 from mrlab_ros.core.trajectory.channels import ProxyCoefficients, accelerations
 from mrlab_ros.core.trajectory.trajectory import (
@@ -81,6 +81,13 @@ def warnings_of(head: Mapping[str, Any]) -> tuple[Diagnostic, ...]:
             w["remedy"],
             w["variable"],
             w["where"],
+            w.get("first_row", 0),
+            w.get("last_row", 0),
+            w.get("joint", ""),
+            w.get("value"),
+            w.get("limit"),
+            w.get("unit", ""),
+            tuple(Fix(**fix) for fix in w.get("fixes", ())),
         )
         for w in head["warnings"]
     )

@@ -7,9 +7,13 @@ import pytest
 from fakes import make_trajectory
 from hypothesis import given
 from hypothesis import strategies as st
+from mrlab_msgs.msg import Diagnostic as DiagnosticMessage
 from mrlab_msgs.msg import Trajectory as TrajectoryMessage
 from rclpy.serialization import deserialize_message, serialize_message
 
+from mrlab_ros.core.conversion.preview import preview
+from mrlab_ros.core.conversion.workspace import Variable
+from mrlab_ros.core.diagnostics import Diagnostic, Fix, Severity
 from mrlab_ros.core.errors import BadInput
 from mrlab_ros.messages import trajectories
 from mrlab_ros.messages.poses import transform_to_pose_message
@@ -56,3 +60,38 @@ def test_a_rotation_becomes_its_quaternion(q):
     ]
     o = transform_to_pose_message(transform).orientation
     assert abs(np.dot([o.x, o.y, o.z, o.w], [x, y, z, w])) == pytest.approx(1.0, abs=1e-12)
+
+
+@pytest.mark.parametrize("numbers", [{}, {"value": 3.5, "limit": 0.0, "unit": "rad"}])
+def test_a_finding_survives_the_wire(numbers):
+    found = Diagnostic(
+        "joint_limit",
+        Severity.ERROR,
+        "too far",
+        "less",
+        "q",
+        "row 3, column 2",
+        first_row=3,
+        last_row=9,
+        joint="joint_2",
+        fixes=(Fix("columns", "1:6", "q = q(:, 1:6)"), Fix(matlab="q = unwrap(q)")),
+        **numbers,
+    )
+    wire = serialize_message(trajectories.diagnostic_to_message(found))
+    message = deserialize_message(wire, DiagnosticMessage)
+    assert trajectories.diagnostic_from_message(message) == found
+
+
+def test_a_preview_is_bounded_and_holds_the_marked_rows():
+    values = np.arange(2000 * 40, dtype=np.float64).reshape(2000, 40)
+    values[10, 3] = np.inf
+    shown = preview(Variable("q", "double", values.shape, values), marked=[11, 5, 9999])
+    message = trajectories.preview_to_message(shown)
+    assert (message.variable, message.columns) == ("q", 32)
+    rows = list(message.rows)
+    assert rows == sorted(set(rows))
+    assert len(rows) <= 400
+    assert {1, 5, 11, 2000} <= set(rows)
+    back = np.array(message.values).reshape(len(rows), 32)
+    assert np.isnan(back[rows.index(11), 3])
+    np.testing.assert_array_equal(back[rows.index(5)], values[4, :32].astype(np.float32))

@@ -10,7 +10,7 @@ from hypothesis.extra import numpy as hnp
 
 from mrlab_ros.adapters.trajectories import store as trajectories_store
 from mrlab_ros.adapters.trajectories.store import TrajectoryStore
-from mrlab_ros.core.diagnostics import Diagnostic, Severity
+from mrlab_ros.core.diagnostics import Diagnostic, Fix, Severity
 from mrlab_ros.core.errors import BadInput
 from mrlab_ros.core.trajectory import document as trajectory_document
 from mrlab_ros.core.trajectory.channels import ProxyCoefficients, derive
@@ -20,7 +20,21 @@ COEFFICIENTS = ProxyCoefficients((1.0,), (1.0,), (1.0,), (0.1,), 50.0)
 
 
 def make(positions, rate=100.0, gripper=None, name="pick"):
-    warning = Diagnostic("gripper_range", Severity.WARNING, 'says ,"frames":{ ', "fix", "q", "x")
+    warning = Diagnostic(
+        "gripper_range",
+        Severity.WARNING,
+        'says ,"frames":{ ',
+        "fix",
+        "q",
+        "x",
+        first_row=2,
+        last_row=9,
+        joint="j1",
+        value=0.5,
+        limit=1.0,
+        unit="rad",
+        fixes=(Fix("gripper", "7", "q(:, 7) = 1 - q(:, 7)"),),
+    )
     return Trajectory(
         id=name,
         robot_model="ur5e",
