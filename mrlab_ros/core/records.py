@@ -52,17 +52,19 @@ class Range:
         return above and below
 
     def __str__(self) -> str:
-        """Return words such as 'from 60 to 2000', 'above 0' or 'above 0, at most 1'."""
+        """Return words after a noun: 'from 60 to 2000', 'above 0', 'of at least 0 and below 1'."""
         low, high = format(self.low, ".10g"), format(self.high, ".10g")
         if math.isinf(self.low) and math.isinf(self.high):
             return ""
         below = f"below {high}" if self.high_open else f"at most {high}"
         if math.isinf(self.low):
-            return below
-        above = f"above {low}" if self.low_open else f"at least {low}"
+            return below if self.high_open else f"of {below}"
+        above = f"above {low}" if self.low_open else f"of at least {low}"
         if math.isinf(self.high):
             return above
-        return f"{above}, {below}" if self.low_open or self.high_open else f"from {low} to {high}"
+        if self.low_open or self.high_open:
+            return f"{above} and {below}"
+        return f"from {low} to {high}"
 
 
 ANY = Range()
@@ -188,7 +190,7 @@ class Text:
 
 @dataclass(frozen=True)
 class Choice(Generic[T]):
-    """One of a few texts or numbers, each with what it stands for."""
+    """One of a few texts or numbers, each with what it stands for; the case does not matter."""
 
     values: Mapping[Any, T]
 
@@ -197,10 +199,11 @@ class Choice(Generic[T]):
         return alternatives(str(key) for key in self.values)
 
     def read(self, value: object) -> T:
+        key = value.lower() if isinstance(value, str) else value
         # 1 and True are the same key of a dict.
-        if type(value) not in (str, int) or value not in self.values:
+        if type(key) not in (str, int) or key not in self.values:
             raise ValueError
-        return self.values[value]
+        return self.values[key]
 
 
 def enum_values(kind: type[EnumT]) -> Choice[EnumT]:
@@ -398,6 +401,13 @@ class Record:
         value = self._values.get(key)
         return None if value is None else Record(value, f"{self.place}, {key}", fields)
 
+    def mapping(self, key: str) -> Mapping[object, object]:
+        """Return the mapping below `key` as it is; raise BadInput where there is none."""
+        value = self._values.get(key)
+        if not isinstance(value, Mapping):
+            raise self.error(f"{key} is {shown(value)}; expected a mapping of names to entries")
+        return value
+
     def records(self, key: str, fields: Collection[str], one: str) -> list[Record]:
         """Return the list of mappings below `key`; `one` names an entry: 'part' -> 'part 2'."""
         return [
@@ -436,7 +446,7 @@ def field(check: Check[T], about: str, default: T | Any = MISSING, *, name: str 
     )
 
 
-def fields_of(kind: type) -> dict[str, Field]:
+def fields_of(kind: type[Any]) -> dict[str, Field]:
     """Return the records of a dataclass whose fields are made with `field`, by attribute."""
     return {
         f.name: Field(
@@ -446,9 +456,9 @@ def fields_of(kind: type) -> dict[str, Field]:
     }
 
 
-def read(kind: Callable[..., T], values: object, place: str) -> T:
+def read(kind: type[T], values: object, place: str) -> T:
     """Build a dataclass from a mapping; raise BadInput that names all mistakes of `place`."""
-    fields = fields_of(kind)  # type: ignore[arg-type]
+    fields = fields_of(kind)
     names = [f.name for f in fields.values()]
     if not isinstance(values, Mapping):
         raise BadInput(

@@ -6,22 +6,45 @@ service is its name without the leading slash, below an optional prefix.
 
 from __future__ import annotations
 
-import math
 import re
 from collections.abc import Mapping
-from dataclasses import dataclass, fields
+from dataclasses import dataclass
 from enum import Enum
 from functools import cached_property
-from typing import Any, Generic, TypeVar
+from typing import Generic, TypeVar
 
 from mrlab_ros.core.errors import BadInput
+from mrlab_ros.core.records import (
+    FLAG,
+    TEXT,
+    Integer,
+    Number,
+    Record,
+    Text,
+    between,
+    enum_values,
+    every,
+    field,
+    read,
+    shown,
+)
 
 SECOND = 1_000_000_000
-NAME = re.compile(r"(?:/(?:[A-Za-z_][A-Za-z0-9_]*|\*{1,2}))+")
-TYPE = re.compile(r"[a-z][a-z0-9_]*/(?:msg|srv)/[A-Za-z][A-Za-z0-9]*")
+PLACE = "the bridge's allow-list"
+FULL_NAME = Text(
+    re.compile(r"(?:/(?:[A-Za-z_][A-Za-z0-9_]*|\*{1,2}))+"),
+    "a full name such as /ur5e_1/joint_states, with * for one part and ** for any parts",
+)
 PREFIX = re.compile(r"[A-Za-z0-9_.-]+(?:/[A-Za-z0-9_.-]+)*")
 # A liveliness token holds a key and a type as one chunk each, with this for every slash.
 SLASH = "§"
+
+
+def _type_check(kind: str) -> Text:
+    return Text(
+        re.compile(rf"|[a-z][a-z0-9_]*/{kind}/[A-Za-z][A-Za-z0-9]*"),
+        f"package/{kind}/Name, or nothing for any type",
+    )
 
 
 class Direction(Enum):
@@ -62,38 +85,47 @@ class Role(Enum):
 class TopicRule:
     """One line of the allow-list for topics.
 
-    name: a topic name in which `*` stands for one part and `**` for any number of parts.
-    type: the only type that is carried, such as sensor_msgs/msg/JointState; empty: any.
-    max_rate: Hz; 0: every message. priority: 1 (first) to 7 (last), zenoh's. express: sent at
-    once, not batched. depth: messages kept for the bridge before the oldest is lost. history:
-    messages of a latched topic kept for late joiners. role: who may send a topic that comes in;
-    whoever may connect may receive one that goes out.
+    A topic that goes out may be received by everybody who may connect, so it has no role.
     """
 
-    name: str
-    about: str = ""
-    type: str = ""
-    direction: Direction = Direction.OUT
-    max_rate: float = 0.0
-    priority: int = 5
-    reliability: Reliability = Reliability.RELIABLE
-    express: bool = False
-    congestion: Congestion = Congestion.BLOCK
-    depth: int = 10
-    history: int = 1
-    role: Role = Role.INSTRUCTOR
+    name: str = field(
+        FULL_NAME, "Topic name; `*` stands for one part, `**` for any number of parts."
+    )
+    about: str = field(TEXT, "What the topic is for.", "")
+    type: str = field(_type_check("msg"), "The only type that is carried; empty: any.", "")
+    direction: Direction = field(
+        enum_values(Direction),
+        "From the graph to zenoh, or from zenoh to the graph.",
+        Direction.OUT,
+    )
+    max_rate: float = field(
+        Number(between(0, 100_000), "Hz"), "Largest rate; 0: every message.", 0.0
+    )
+    priority: int = field(Integer(between(1, 7)), "zenoh's priority; 1 goes first.", 5)
+    reliability: Reliability = field(
+        enum_values(Reliability), "zenoh's reliability.", Reliability.RELIABLE
+    )
+    express: bool = field(FLAG, "Send each message at once instead of in batches.", False)
+    congestion: Congestion = field(
+        enum_values(Congestion), "What happens to a message on a full link.", Congestion.BLOCK
+    )
+    depth: int = field(
+        Integer(between(1, 10_000), "messages"), "Queue of the bridge's subscription.", 10
+    )
+    history: int = field(
+        Integer(between(1, 10_000), "messages"),
+        "Messages of a latched topic that late joiners get.",
+        1,
+    )
+    role: Role = field(
+        enum_values(Role), "Who may publish a topic that comes in.", Role.INSTRUCTOR
+    )
 
     def __post_init__(self) -> None:
-        _check_name(self.name)
-        _check_type(self.name, self.type, "msg")
-        _check(self.name, "max_rate", self.max_rate, 0, 100_000, "Hz, 0 for every message")
-        _check(self.name, "priority", self.priority, 1, 7, "1 goes first")
-        _check(self.name, "depth", self.depth, 1, 10_000, "messages")
-        _check(self.name, "history", self.history, 1, 10_000, "messages")
         if self.direction is Direction.OUT and self.role is not Role.INSTRUCTOR:
             raise BadInput(
-                f"the rule for {self.name} has a role but goes out; whoever may connect may "
-                "receive it, so leave the role out, or set direction: in"
+                f"the rule for {self.name} has a role but goes out; everybody who may connect "
+                "receives it, so leave the role out, or set direction: in"
             )
 
     @cached_property
@@ -103,24 +135,22 @@ class TopicRule:
 
 @dataclass(frozen=True)
 class ServiceRule:
-    """One line of the allow-list for services.
+    """One line of the allow-list for services."""
 
-    timeout: s within which the graph must answer. waiting: calls that may wait for those before
-    them; further ones are refused. role: who may call it.
-    """
-
-    name: str
-    about: str = ""
-    type: str = ""
-    timeout: float = 5.0
-    waiting: int = 64
-    role: Role = Role.INSTRUCTOR
-
-    def __post_init__(self) -> None:
-        _check_name(self.name)
-        _check_type(self.name, self.type, "srv")
-        _check(self.name, "timeout", self.timeout, 0.01, 3600, "s")
-        _check(self.name, "waiting", self.waiting, 1, 10_000, "calls")
+    name: str = field(
+        FULL_NAME, "Service name; `*` stands for one part, `**` for any number of parts."
+    )
+    about: str = field(TEXT, "What the service is for.", "")
+    type: str = field(_type_check("srv"), "The only type that is carried; empty: any.", "")
+    timeout: float = field(
+        Number(between(0.01, 3600), "s"), "Time within which the server must respond.", 5.0
+    )
+    waiting: int = field(
+        Integer(between(1, 10_000), "calls"),
+        "Calls that may wait for the ones before them; more are refused.",
+        64,
+    )
+    role: Role = field(enum_values(Role), "Who may call the service.", Role.INSTRUCTOR)
 
     @cached_property
     def pattern(self) -> re.Pattern[str]:
@@ -145,75 +175,28 @@ class Rules:
 
 
 def parse(document: object) -> Rules:
-    """Read the allow-list from what the YAML file holds; raise BadInput where it is not one."""
-    if not isinstance(document, Mapping) or set(document) - {"topics", "services"}:
-        found = ", ".join(map(str, document)) if isinstance(document, Mapping) else document
-        raise BadInput(
-            f"the bridge's allow-list holds {found!r}; expected the lists topics and services, "
-            "as in config/bridge.yaml"
-        )
+    """Read the allow-list from the content of its YAML file.
+
+    Raises BadInput that names all mistakes.
+    """
+    record = Record(document, PLACE, ("topics", "services"))
+    kinds = {"topics": TopicRule, "services": ServiceRule}
+    entries = [(kind, entry) for key, kind in kinds.items() for entry in record.entries(key)]
+    rules = every(lambda entry: _rule(*entry), entries, PLACE)
     return Rules(
-        tuple(_rule(TopicRule, entry) for entry in document.get("topics") or ()),
-        tuple(_rule(ServiceRule, entry) for entry in document.get("services") or ()),
+        tuple(rule for rule in rules if isinstance(rule, TopicRule)),
+        tuple(rule for rule in rules if isinstance(rule, ServiceRule)),
     )
 
 
-def _rule(kind: type[RuleT], entry: object) -> RuleT:
-    if not isinstance(entry, Mapping) or not isinstance(entry.get("name"), str):
+def _rule(kind: type[TopicRule | ServiceRule], entry: object) -> TopicRule | ServiceRule:
+    name = entry.get("name") if isinstance(entry, Mapping) else None
+    if not isinstance(name, str):
         raise BadInput(
-            f"the bridge's allow-list holds {entry!r}; expected an entry with a name, such as "
+            f"{PLACE} holds {shown(entry)}; expected an entry with a name, such as "
             "{name: /robots}"
         )
-    name, known = entry["name"], {f.name: f for f in fields(kind)}
-    values: dict[str, Any] = {}
-    for field, value in entry.items():
-        if field not in known:
-            raise BadInput(
-                f"the rule for {name} has the field {field!r}; expected one of {', '.join(known)}"
-            )
-        default = known[field].default
-        values[field] = value if field == "name" else _value(name, field, value, default)
-    return kind(**values)
-
-
-def _value(name: str, field: str, value: object, default: object) -> object:
-    if isinstance(default, Enum):
-        choices = [str(member.value) for member in type(default)]
-        if value not in choices:
-            raise BadInput(
-                f"the rule for {name} has {field}: {value!r}; expected {' or '.join(choices)}"
-            )
-        return type(default)(value)
-    if isinstance(default, float) and type(value) is int:
-        return float(value)
-    if type(value) is not type(default):
-        raise BadInput(
-            f"the rule for {name} has {field}: {value!r}; expected a value such as {default!r}"
-        )
-    return value
-
-
-def _check_name(name: str) -> None:
-    if not NAME.fullmatch(name):
-        raise BadInput(
-            f"the bridge's allow-list names {name!r}; expected a full name such as "
-            "/ur5e_1/joint_states, with * for one part and ** for any parts"
-        )
-
-
-def _check_type(name: str, type_name: str, kind: str) -> None:
-    if type_name and (not TYPE.fullmatch(type_name) or f"/{kind}/" not in type_name):
-        raise BadInput(
-            f"the rule for {name} has the type {type_name!r}; expected package/{kind}/Name, or "
-            "none for any type"
-        )
-
-
-def _check(name: str, field: str, value: float, low: float, high: float, unit: str) -> None:
-    if not (math.isfinite(value) and low <= value <= high):
-        raise BadInput(
-            f"the rule for {name} has {field}: {value}; expected {low:g} to {high:g} ({unit})"
-        )
+    return read(kind, entry, f"the rule for {name}")
 
 
 def _pattern(name: str) -> re.Pattern[str]:

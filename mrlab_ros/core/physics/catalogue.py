@@ -1,4 +1,4 @@
-"""The kinds of objects a lab knows, read from config/objects.yaml and checked."""
+"""The types of objects that a lab can spawn, read from config/objects.yaml and checked."""
 
 from __future__ import annotations
 
@@ -20,28 +20,39 @@ from mrlab_ros.core.geometry import (
     rotate,
     subtract,
 )
-from mrlab_ros.core.naming import NAME
+from mrlab_ros.core.naming import did_you_mean
 from mrlab_ros.core.physics.engine import Body, Part, Shape
-
-SOLID = (Shape.BOX, Shape.CYLINDER, Shape.SPHERE)
-COUNTS = {Shape.BOX: 3, Shape.CYLINDER: 2, Shape.SPHERE: 1}
-FIELDS = frozenset(
-    (
-        "shape",
-        "size",
-        "parts",
-        "mass",
-        "fixed",
-        "color",
-        "mesh",
-        "friction",
-        "restitution",
-        "about",
-    )
+from mrlab_ros.core.records import (
+    FLAG,
+    NAME,
+    TEXT,
+    Choice,
+    Number,
+    Numbers,
+    Record,
+    between,
+    checked,
+    every,
 )
-SIZE_RANGE = (0.002, 5.0)
-MASS_RANGE = (0.001, 500.0)
-# A hull of more corners than this costs time at every step and is no better.
+
+SOLID = Choice({shape.value: shape for shape in (Shape.BOX, Shape.CYLINDER, Shape.SPHERE)})
+PART_FIELDS = ("shape", "size", "at", "rpy_deg")
+FIELDS = ("shape", "size", "parts", "mass", "fixed", "color", "mesh", "friction", "restitution",
+          "about")  # fmt: skip
+SIZE_LIMITS = between(0.002, 5.0)
+# How many numbers the size of a shape has.
+SIZES = {
+    Shape.BOX: Numbers(3, SIZE_LIMITS, "m: x, y, z"),
+    Shape.CYLINDER: Numbers(2, SIZE_LIMITS, "m: radius, length"),
+    Shape.SPHERE: Numbers(1, SIZE_LIMITS, "m: radius"),
+}
+POSITION = Numbers(3, between(-5.0, 5.0), "m")
+ANGLES = Numbers(3, between(-360.0, 360.0), "degrees: roll, pitch, yaw")
+MASS = Number(between(0.001, 500.0), "kg; an object that never moves has fixed: true instead")
+FRICTION = Number(between(0.0, 5.0))
+RESTITUTION = Number(between(0.0, 1.0))
+COLOR = Numbers(4, between(0.0, 1.0), "red, green, blue, alpha")
+# More corners cost time at every step and make the hull no better.
 HULL_CORNERS = 128
 
 
@@ -54,7 +65,7 @@ class Mesh:
 
 
 class Meshes(Protocol):
-    """Where the meshes of a catalogue are. Both raise BadInput where a URI names none."""
+    """Finds and reads the meshes of a catalogue. Both raise BadInput for an unknown URI."""
 
     def find(self, uri: str) -> object: ...
 
@@ -103,62 +114,54 @@ class Catalogue:
         except KeyError:
             raise BadInput(
                 f"there is no object '{type_id}' in the catalogue; there are: "
-                f"{', '.join(self._types)}"
+                f"{', '.join(self._types)}{did_you_mean(type_id, self._types)}"
             ) from None
 
 
 def parse(document: object, meshes: Meshes | None = None) -> Catalogue:
-    """Read the catalogue from what the YAML file holds; raise BadInput where it is not one.
+    """Read the catalogue from the content of config/objects.yaml.
 
-    A mesh that collides is read, one for displays alone is only found. Without `meshes` none is
-    looked at, and none can be collided with.
+    A mesh that collides is read; a mesh for displays alone must only exist. Without `meshes` no
+    mesh is checked, and none can collide. Raises BadInput that names all mistakes.
     """
-    if not isinstance(document, Mapping) or not isinstance(document.get("objects"), Mapping):
-        raise BadInput("the object catalogue has no mapping 'objects'; see config/objects.yaml")
-    types = {str(k): _type(str(k), v, meshes) for k, v in document["objects"].items()}
-    return Catalogue(types)
+    place = "the catalogue of objects"
+    entries = Record(document, place, ("objects",)).mapping("objects")
+    types = every(lambda entry: _type(*entry, meshes), entries.items(), place)
+    return Catalogue({kind.id: kind for kind in types})
 
 
-def _type(type_id: str, entry: object, meshes: Meshes | None) -> ObjectType:
-    where = f"object '{type_id}' of the catalogue"
-    if not NAME.fullmatch(type_id):
-        raise BadInput(f"{where} has no usable id; expected lower-case letters, digits and _")
-    if not isinstance(entry, Mapping) or set(entry) - FIELDS:
-        found = ", ".join(sorted(set(entry) - FIELDS)) if isinstance(entry, Mapping) else entry
-        raise BadInput(f"{where} has {found}; expected {', '.join(sorted(FIELDS))}")
-    fixed = entry.get("fixed", False) is True
-    mass = _number(where, "mass", entry.get("mass", 0.0), 0.0, MASS_RANGE[1])
-    if fixed and mass:
-        raise BadInput(f"{where} is fixed and has {mass:g} kg; leave one of the two out")
-    if not fixed and mass < MASS_RANGE[0]:
-        raise BadInput(
-            f"{where} has a mass of {mass:g} kg; expected {MASS_RANGE[0]:g} to "
-            f"{MASS_RANGE[1]:g} kg, or fixed: true for what never moves"
-        )
-    uri = str(entry.get("mesh", ""))
-    shaped = "shape" in entry or bool(entry.get("parts"))
-    if uri and meshes is not None and not shaped:
+def _type(name: object, value: object, meshes: Meshes | None) -> ObjectType:
+    type_id = checked("an object's id in the catalogue", name, NAME)
+    entry = Record(value, f"object '{type_id}'", FIELDS)
+    fixed = entry.value("fixed", FLAG, False)
+    if fixed and entry.value("mass", Number(), 0.0):
+        raise entry.error("fixed is true and a mass is given; leave one of the two out")
+    mass = 0.0 if fixed else entry.required("mass", MASS)
+    uri = entry.value("mesh", TEXT, "")
+    described = entry.records("parts", PART_FIELDS, "part")
+    if "shape" in entry and described:
+        raise entry.error("it has a shape and parts; leave one of the two out")
+    if uri and meshes is not None and "shape" not in entry and not described:
         parts = [_of_mesh(meshes.read(uri), fixed)]
     else:
         if uri and meshes is not None:
             meshes.find(uri)
-        described = entry.get("parts") or [entry]
-        parts = [_part(f"{where}, part {i + 1}", p) for i, p in enumerate(described)]
+        parts = [_part(part) for part in described or [entry]]
     boxes = [_bounds(part) for part in parts]
-    color = _numbers(where, "color", entry.get("color", (0.7, 0.7, 0.7, 1.0)), 4, 0.0, 1.0)
+    red, green, blue, alpha = entry.value("color", COLOR, (0.7, 0.7, 0.7, 1.0))
     return ObjectType(
         id=type_id,
         body=Body(
             tuple(parts),
             mass,
-            _number(where, "friction", entry.get("friction", 0.6), 0.0, 5.0),
-            _number(where, "restitution", entry.get("restitution", 0.1), 0.0, 1.0),
+            entry.value("friction", FRICTION, 0.6),
+            entry.value("restitution", RESTITUTION, 0.1),
         ),
         low=_corner(min, [b[0] for b in boxes]),
         high=_corner(max, [b[1] for b in boxes]),
-        color=(color[0], color[1], color[2], color[3]),
+        color=(red, green, blue, alpha),
         mesh=uri,
-        about=str(entry.get("about", "")),
+        about=entry.value("about", TEXT, ""),
     )
 
 
@@ -183,30 +186,12 @@ def _extreme(vertices: Array) -> Array:
     return kept
 
 
-def _part(where: str, entry: Mapping[str, Any]) -> Part:
-    names = {shape.value: shape for shape in SOLID}
-    shape = names.get(str(entry.get("shape")))
-    if shape is None:
-        raise BadInput(f"{where}: shape is {entry.get('shape')!r}; expected {', '.join(names)}")
-    size = _numbers(where, "size", entry.get("size"), COUNTS[shape], *SIZE_RANGE)
-    at = _numbers(where, "at", entry.get("at", (0.0, 0.0, 0.0)), 3, -5.0, 5.0)
-    x, y, z = _numbers(where, "rpy_deg", entry.get("rpy_deg", (0.0, 0.0, 0.0)), 3, -360.0, 360.0)
-    turn = quaternion_from_rpy(math.radians(x), math.radians(y), math.radians(z))
-    return Part(shape, size, Pose((at[0], at[1], at[2]), turn))
-
-
-def _number(where: str, field: str, value: object, low: float, high: float) -> float:
-    if isinstance(value, bool) or not isinstance(value, int | float) or not low <= value <= high:
-        raise BadInput(f"{where}: {field} is {value!r}; expected a number of {low:g} to {high:g}")
-    return float(value)
-
-
-def _numbers(
-    where: str, field: str, values: object, count: int, low: float, high: float
-) -> tuple[float, ...]:
-    if not isinstance(values, Sequence) or isinstance(values, str) or len(values) != count:
-        raise BadInput(f"{where}: {field} is {values!r}; expected {count} numbers")
-    return tuple(_number(where, field, v, low, high) for v in values)
+def _part(entry: Record) -> Part:
+    shape = entry.required("shape", SOLID)
+    size = entry.required("size", SIZES[shape])
+    x, y, z = entry.value("at", POSITION, (0.0, 0.0, 0.0))
+    roll, pitch, yaw = map(math.radians, entry.value("rpy_deg", ANGLES, (0.0, 0.0, 0.0)))
+    return Part(shape, size, Pose((x, y, z), quaternion_from_rpy(roll, pitch, yaw)))
 
 
 def _half(part: Part) -> Vector:

@@ -9,50 +9,40 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from mrlab_ros.core.errors import BadInput
+from mrlab_ros.core import records
+from mrlab_ros.core.records import Number, Numbers, above, at_least, field
 from mrlab_ros.core.trajectory.trajectory import Channels
 
 Array = NDArray[np.float64]
 
 GRAVITY = 9.80665  # m/s^2, the standard value
-FIELDS = ("inertia", "damping", "mass", "length")
+PLACE = "config/torque_proxy.yaml"
 
 
 @dataclass(frozen=True)
 class ProxyCoefficients:
-    """Nominal coefficients, base joint first; a robot with more joints repeats the last one.
+    """Nominal coefficients, base joint first; a robot with more joints repeats the last one."""
 
-    inertia: kg*m^2; damping: N*m*s/rad; mass: kg; length: m from the joint to that mass;
-    max_acceleration: rad/s^2, where the acceleration is clipped.
-    """
-
-    inertia: tuple[float, ...]
-    damping: tuple[float, ...]
-    mass: tuple[float, ...]
-    length: tuple[float, ...]
-    max_acceleration: float
+    inertia: tuple[float, ...] = field(
+        Numbers(None, at_least(0), "kg*m^2, one per joint"), "Inertia that the joint moves."
+    )
+    damping: tuple[float, ...] = field(
+        Numbers(None, at_least(0), "N*m*s/rad, one per joint"), "Viscous friction of the joint."
+    )
+    mass: tuple[float, ...] = field(
+        Numbers(None, at_least(0), "kg, one per joint"), "Mass that the joint lifts."
+    )
+    length: tuple[float, ...] = field(
+        Numbers(None, at_least(0), "m, one per joint"), "Distance from the joint to that mass."
+    )
+    max_acceleration: float = field(
+        Number(above(0), "rad/s^2"), "Largest acceleration that enters the proxy; more is clipped."
+    )
 
     @classmethod
     def from_mapping(cls, values: Mapping[str, Any]) -> ProxyCoefficients:
-        """Build from the content of config/torque_proxy.yaml; raise BadInput where it is wrong."""
-        limit = values.get("max_acceleration")
-        if not isinstance(limit, int | float) or not limit > 0:
-            raise BadInput(f"max_acceleration is {limit}; expected a number above 0, rad/s^2")
-        lists = []
-        for name in FIELDS:
-            numbers = values.get(name)
-            if not (
-                isinstance(numbers, list)
-                and numbers
-                and all(isinstance(n, int | float) and n >= 0 for n in numbers)
-            ):
-                raise BadInput(
-                    f"'{name}' of the torque proxy is {numbers}; expected a list of numbers of 0 "
-                    "or more, one a joint, base first"
-                )
-            lists.append(tuple(float(n) for n in numbers))
-        inertia, damping, mass, length = lists
-        return cls(inertia, damping, mass, length, float(limit))
+        """Build from the content of the file; raise BadInput that names all mistakes."""
+        return records.read(cls, values, PLACE)
 
     def of_joint(self, joint: int) -> tuple[float, float, float]:
         """Return inertia, damping and m*g*l, N*m, of the joint with this index."""

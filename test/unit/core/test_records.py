@@ -67,12 +67,12 @@ CHECKS = [
         (Range(), ""),
         (between(60, 2000), "from 60 to 2000"),
         (above(0), "above 0"),
-        (above(0, 1), "above 0, at most 1"),
-        (at_least(0), "at least 0"),
-        (Range(high=3), "at most 3"),
-        (Range(0, 3600, high_open=True), "at least 0, below 3600"),
-        (Range(-1, 1, low_open=True, high_open=True), "above -1, below 1"),
-        (at_least(1_000_000), "at least 1000000"),
+        (above(0, 1), "above 0 and at most 1"),
+        (at_least(0), "of at least 0"),
+        (Range(high=3), "of at most 3"),
+        (Range(0, 3600, high_open=True), "of at least 0 and below 3600"),
+        (Range(-1, 1, low_open=True, high_open=True), "above -1 and below 1"),
+        (at_least(1_000_000), "of at least 1000000"),
     ],
 )
 def test_a_range_says_its_ends(limits, words):

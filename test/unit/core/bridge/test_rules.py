@@ -58,22 +58,27 @@ def test_nothing_is_carried_that_is_not_named():
 @pytest.mark.parametrize(
     ("document", "words"),
     [
-        (None, "expected the lists topics and services"),
-        ({"topic": []}, "expected the lists topics and services"),
+        (None, "is empty; expected a mapping with the fields topics, services"),
+        ({"topic": []}, "'topic' is unknown; expected topics, services; did you mean 'topics'?"),
         ({"topics": ["/robots"]}, "expected an entry with a name"),
         ({"topics": [{"priority": 1}]}, "expected an entry with a name"),
         ({"topics": [{"name": "robots"}]}, "expected a full name"),
         ({"topics": [{"name": "/a b"}]}, "expected a full name"),
-        ({"topics": [{"name": "/a", "color": 1}]}, "the field 'color'"),
-        ({"topics": [{"name": "/a", "priority": 0}]}, "priority: 0; expected 1 to 7"),
-        ({"topics": [{"name": "/a", "priority": "high"}]}, "priority: 'high'"),
-        ({"topics": [{"name": "/a", "express": 1}]}, "express: 1"),
-        ({"topics": [{"name": "/a", "max_rate": float("nan")}]}, "max_rate: nan"),
+        ({"topics": [{"name": "/a", "color": 1}]}, "'color' is unknown"),
+        (
+            {"topics": [{"name": "/a", "priority": 0}]},
+            "priority is 0; expected a whole number from 1 to 7",
+        ),
+        ({"topics": [{"name": "/a", "priority": "high"}]}, "priority is 'high'"),
+        ({"topics": [{"name": "/a", "express": 1}]}, "express is 1; expected true or false"),
+        ({"topics": [{"name": "/a", "max_rate": float("nan")}]}, "max_rate is nan"),
         ({"topics": [{"name": "/a", "direction": "both"}]}, "expected out or in"),
         ({"topics": [{"name": "/a", "type": "std_srvs/srv/Trigger"}]}, "package/msg/Name"),
-        ({"services": [{"name": "/a", "timeout": 0}]}, "timeout: 0"),
-        ({"services": [{"name": "/a", "waiting": 0}]}, "waiting: 0"),
-        ({"services": [{"name": "/a", "priority": 1}]}, "the field 'priority'"),
+        ({"topics": {"name": "/a"}}, "expected a list"),
+        ({"topics": [5], "services": [{"name": "b"}]}, "allow-list has 2 mistakes"),
+        ({"services": [{"name": "/a", "timeout": 0}]}, "timeout is 0"),
+        ({"services": [{"name": "/a", "waiting": 0}]}, "waiting is 0"),
+        ({"services": [{"name": "/a", "priority": 1}]}, "'priority' is unknown"),
     ],
 )
 def test_a_wrong_list_is_refused_in_words(document, words):
@@ -108,7 +113,7 @@ def test_who_may_receive_cannot_be_said_topic_by_topic():
     assert topics({"name": "/a", "direction": "in", "role": "viewer"}).topics[0].role
     with pytest.raises(BadInput, match="goes out"):
         topics({"name": "/a", "role": "operator"})
-    with pytest.raises(BadInput, match="viewer or operator or instructor"):
+    with pytest.raises(BadInput, match="viewer, operator or instructor"):
         topics({"name": "/a", "direction": "in", "role": "boss"})
 
 

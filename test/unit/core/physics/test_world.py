@@ -528,8 +528,10 @@ def test_poses_compose_and_invert():
 
 @pytest.mark.parametrize(
     ("values", "says"),
-    [({"step_rate": 1}, "60 to 2000"), ({"speed": 1}, "has no 'speed'"),
-     ({"clear_margin": "wide"}, "expected a number"), ({"clear_time": 0}, "above 0")],
+    [({"step_rate": 1}, "60 to 2000"), ({"speed": 1}, "'speed' is unknown"),
+     ({"clear_margin": "wide"}, "expected a number"), ({"clear_time": 0}, "above 0"),
+     ({"max_objects": 2.5}, "expected a whole number"), ({"stall_time": float("nan")}, "is nan"),
+     ({"clear_time": 0, "step_rat": 240}, "has 2 mistakes")],
 )  # fmt: skip
 def test_settings_that_cannot_be_are_refused(values, says):
     with pytest.raises(BadInput, match=says):
@@ -539,13 +541,25 @@ def test_settings_that_cannot_be_are_refused(values, says):
 @pytest.mark.parametrize(
     ("entry", "says"),
     [
-        ({"shape": "box", "size": [1, 1, 1], "mass": 0}, "mass of 0 kg"),
+        ({"shape": "box", "size": [1, 1, 1], "mass": 0}, "mass is 0; expected .* fixed: true"),
+        ({"shape": "box", "size": [1, 1, 1]}, "mass is missing; expected .* fixed: true"),
         ({"shape": "box", "size": [1, 1, 1], "mass": float("nan")}, "mass is nan"),
         ({"shape": "box", "size": [1, 1], "mass": 1}, "expected 3 numbers"),
-        ({"shape": "cow", "size": [1], "mass": 1}, "expected box, cylinder, sphere"),
+        ({"shape": "cow", "size": [1], "mass": 1}, "expected box, cylinder or sphere"),
         ({"shape": "sphere", "size": [99], "mass": 1}, "0.002 to 5"),
         ({"shape": "sphere", "size": [1], "mass": 1, "fixed": True}, "leave one of the two out"),
-        ({"shape": "sphere", "size": [1], "weight": 1}, "has weight"),
+        ({"shape": "sphere", "size": [1], "weight": 1}, "'weight' is unknown"),
+        ({"shape": "sphere", "size": [1], "fixed": "yes"}, "expected true or false"),
+        (
+            {
+                "parts": [
+                    {"shape": "box", "size": [1, 1, 1]},
+                    {"shape": "box", "size": [0, 1, 1]},
+                ],
+                "mass": 1,
+            },
+            r"object 'thing', part 2: size is \[0, 1, 1\]; expected 3 numbers from",
+        ),
     ],
 )
 def test_catalogue_entries_that_cannot_be_are_refused(entry, says):
