@@ -28,8 +28,13 @@ Scene = Annotated[str, typer.Argument(help="A scene; mrlab scene list shows them
 @scene.command("list")
 def list_scenes(as_json: AsJson = False) -> None:
     """List the scenes: those that came with the lab, and those saved in it."""
-    with _graph() as graph:
-        names = list(_catalogue(graph).scenes)
+    from mrlab_msgs import srv
+
+    from mrlab_ros.ros.graph import Graph
+
+    with Graph() as graph:
+        answer = graph.call(srv.ListScenes, "/lab/list_scenes", srv.ListScenes.Request())
+    names = list(answer.scenes)
     print(json.dumps(names) if as_json else "\n".join(names))
 
 
@@ -161,7 +166,7 @@ def _graph() -> Graph:
     graph = Graph()
     try:
         graph.robots()
-        client = graph.node.create_client(srv.ListObjects, "/physics/list_objects")
+        client = graph.node.create_client(srv.ListCatalogue, "/physics/list_catalogue")
         if not client.wait_for_service(timeout_sec=FIND_TIMEOUT):
             raise Misuse("this lab runs without physics; start it with: mrlab up --physics")
     except BaseException:
@@ -173,7 +178,7 @@ def _graph() -> Graph:
 def _catalogue(graph: Graph) -> Any:
     from mrlab_msgs import srv
 
-    return graph.call(srv.ListObjects, "/physics/list_objects", srv.ListObjects.Request())
+    return graph.call(srv.ListCatalogue, "/physics/list_catalogue", srv.ListCatalogue.Request())
 
 
 def _place(text: str) -> tuple[float, float, float]:

@@ -130,7 +130,10 @@ class RosFleet:
             by_host.setdefault(self._links[order.robot].host(), []).append(order)
         answers = call_all(
             [
-                (self._hosts.client(host), srv.Drive.Request(system=self._system, orders=part))
+                (
+                    self._hosts.client(host),
+                    srv.CommandMembers.Request(system=self._system, orders=part),
+                )
                 for host, part in by_host.items()
             ]
         )
@@ -146,7 +149,7 @@ class RosFleet:
 
 
 class Hosts:
-    """The drive services of the playback hosts, one client each."""
+    """Clients of the playback hosts' command_members services, one a host."""
 
     def __init__(self, node: Node) -> None:
         self._node = node
@@ -154,7 +157,8 @@ class Hosts:
 
     def client(self, host: str) -> Client:
         if host not in self._clients:
-            self._clients[host] = self._node.create_client(srv.Drive, f"{host}/drive")
+            service = f"{host}/command_members"
+            self._clients[host] = self._node.create_client(srv.CommandMembers, service)
         return self._clients[host]
 
 

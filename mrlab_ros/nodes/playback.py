@@ -305,7 +305,7 @@ class PlaybackHostNode(Node):
         self._caller = Caller(self)
         self._get = self._caller.node.create_client(srv.GetTrajectory, "/converter/get")
         self.create_subscription(msg.Robots, "/robots", self._on_robots, qos.LATCHED)
-        self.create_service(srv.Drive, "~/drive", self._drive)
+        self.create_service(srv.CommandMembers, "~/command_members", self._command_members)
         telemetry_rate = parameter("telemetry_rate", 10.0)
         self.create_timer(1 / telemetry_rate, self._telemetry)
         self.create_timer(1.0, self._states)
@@ -363,7 +363,7 @@ class PlaybackHostNode(Node):
         return trajectories.trajectory_from_message(answer.trajectory)
 
     @answered
-    def _drive(self, request: Any, response: Any) -> str:
+    def _command_members(self, request: Any, response: Any) -> str:
         with self.scheduler.command() as now_ns:
             response.stamp = time_to_message(now_ns)
             for order in request.orders:

@@ -160,12 +160,12 @@ def test_a_service_that_does_not_answer_is_given_up(graph, listed, endpoint):
 
 def test_what_is_not_named_stays_inside(graph, bridge, session):
     graph.client.create_publisher(String, "secret", qos.LATCHED).publish(String(data="x"))
-    graph.client.create_service(Trigger, "ur5e_1/drive", lambda q, r: r)
+    graph.client.create_service(Trigger, "ur5e_1/command_members", lambda q, r: r)
     graph.client.create_publisher(Robots, "robots", qos.LATCHED)
     wait_for(lambda: any("MP/robots/" in t for t in tokens(session)), "a topic that is named")
     announced = "".join(tokens(session))
     assert "secret" not in announced
-    assert "drive" not in announced
+    assert "command_members" not in announced
     assert "rosout" not in announced
     assert list(session.get("secret")) == []
 

@@ -47,7 +47,7 @@ def commands(graph: Graph, monkeypatch: pytest.MonkeyPatch) -> Iterator[None]:
 def test_objects_and_scenes_are_listed_changed_and_refused_in_words(
     graph: Graph, commands: None, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ):
-    graph.add(LabNode)
+    graph.add(LabNode, state_dir=str(tmp_path))
     with monkeypatch.context() as patched:
         patched.setattr(ros_graph, "FIND_TIMEOUT", 0.5)
         with pytest.raises(LabError, match="runs without physics; start it with"):

@@ -29,7 +29,7 @@ TAKEN, STOOD = (0.3536, -0.3536, 0.08), (0.817, -0.321, 0.08)
 @pytest.fixture
 def lab(graph: Graph, tmp_path: Path):
     graph.add(ConverterNode, state_dir=str(tmp_path))
-    graph.add(LabNode)
+    graph.add(LabNode, state_dir=str(tmp_path))
     graph.add(PlaybackHostNode)
     graph.add(CoordinatorNode)
     graph.add(PhysicsNode, state_dir=str(tmp_path))
@@ -201,12 +201,13 @@ def test_one_scene_follows_another_at_once_and_leaves_nothing_of_it(graph, lab):
 
 
 def test_the_catalogue_is_listed_and_what_the_lab_removes_is_announced(graph, lab):
-    answer = graph.call(srv.ListObjects, "/physics/list_objects")
+    answer = graph.call(srv.ListCatalogue, "/physics/list_catalogue")
     types = {kind.id: kind for kind in answer.types}
     assert types["cube"].mass == pytest.approx(0.1)
     assert types["cube"].about == "a wooden cube of 5 cm"
     assert types["table"].mass == 0
-    assert {"empty", "handover", "pick_and_place"} <= set(answer.scenes)
+    scenes = graph.call(srv.ListScenes, "/lab/list_scenes").scenes
+    assert {"empty", "handover", "pick_and_place"} <= set(scenes)
     removed = graph.listen(msg.ObjectRemoved, "/objects/removed", qos.EVENTS)
     wait_for(lambda: graph.client.count_publishers("/objects/removed"), "the topic")
     for _ in range(answer.limit + 1):

@@ -11,7 +11,7 @@ from mrlab_ros.core.playback.states import State
 
 
 class Command(Enum):
-    """The values are those of mrlab_msgs/Drive."""
+    """The values are those of mrlab_msgs/DriveOrder."""
 
     STAGE = 2
     PLAY = 3

@@ -14,6 +14,7 @@ from rclpy.publisher import Publisher
 from std_msgs.msg import String
 
 from mrlab_ros.adapters.robots.library import RobotLibrary
+from mrlab_ros.adapters.scenes.files import SceneFiles
 from mrlab_ros.core.errors import BadInput, LabError
 from mrlab_ros.core.geometry import Pose
 from mrlab_ros.core.scene.robots import PlacedRobot, Scene
@@ -43,6 +44,8 @@ class LabNode(Node):
         state_dir = self.declare_parameter("state_dir", "").value
         initial = [m for m in self.declare_parameter("robots", [""]).value if m]
         self._file = Path(state_dir) / "scene.json" if state_dir else None
+        folder = Path(state_dir) if state_dir else Path.home() / ".local" / "share" / "mrlab"
+        self._scenes = SceneFiles(share.directory() / "config" / "scenes", folder / "scenes")
         self._library = RobotLibrary(share.directory() / "robots")
         self._scene = Scene()
         self._descriptions: dict[str, Publisher] = {}
@@ -60,6 +63,7 @@ class LabNode(Node):
         self.create_service(srv.PlaceRobot, "~/place_robot", self._on_place)
         self.create_service(srv.SetEndEffector, "~/set_end_effector", self._on_end_effector)
         self.create_service(srv.Remove, "~/remove_robot", self._on_remove)
+        self.create_service(srv.ListScenes, "~/list_scenes", self._on_list_scenes)
 
     def _spawn(
         self, model_id: str, end_effector: str | None, name: str, pose: Pose | None
@@ -166,6 +170,10 @@ class LabNode(Node):
         self.destroy_publisher(self._descriptions.pop(request.name))
         self._announce()
         return f"{request.name} is removed"
+
+    def _on_list_scenes(self, request: Any, response: Any) -> Any:
+        response.scenes = self._scenes.names()
+        return response
 
 
 def main() -> None:

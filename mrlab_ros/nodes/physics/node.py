@@ -106,7 +106,7 @@ class PhysicsNode(Node):
             (srv.MoveObject, "move_object", self._on_move),
             (srv.Remove, "remove_object", self._on_remove),
             (Trigger, "clear_objects", self._on_clear),
-            (srv.ListObjects, "list_objects", self._on_list),
+            (srv.ListCatalogue, "list_catalogue", self._on_list),
             (srv.SetSurfaces, "set_surfaces", self._on_surfaces),
             (srv.Attach, "attach", self._on_attach),
             (srv.Detach, "detach", self._on_detach),
@@ -251,7 +251,6 @@ class PhysicsNode(Node):
 
     def _on_list(self, request: Any, response: Any) -> Any:
         response.types = [messages.type_to_message(self._types.get(i)) for i in self._types.ids]
-        response.scenes = self._files.names()
         response.limit = self._settings.max_objects
         return response
 

@@ -55,7 +55,7 @@ def test_each_role_may_call_what_the_list_gives_it_and_no_more(role, prefix):
         allowed = permits(rules, "query", "ingress", br.key_of(name, prefix))
         assert allowed == role.may(service.role), service.name
     assert not permits(rules, "query", "ingress", br.key_of("/**", prefix))
-    assert not permits(rules, "query", "ingress", br.key_of("/*/drive", prefix))
+    assert not permits(rules, "query", "ingress", br.key_of("/*/command_members", prefix))
 
 
 @pytest.mark.parametrize("role", Role)

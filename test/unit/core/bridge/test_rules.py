@@ -11,6 +11,7 @@ from mrlab_ros.core.bridge import rules as br
 from mrlab_ros.core.errors import BadInput
 
 JOINTS = "sensor_msgs/msg/JointState"
+COMMAND_MEMBERS = "mrlab_msgs/srv/CommandMembers"
 ROOT = Path(__file__).parents[4]
 SHIPPED = ROOT / "config" / "bridge.yaml"
 
@@ -94,7 +95,7 @@ def test_the_shipped_list_carries_the_lab_and_keeps_the_rest_inside():
     assert rules.topic("/robots", "mrlab_msgs/msg/Robots").congestion is br.Congestion.BLOCK
     assert rules.topic("/rosout", "rcl_interfaces/msg/Log") is None
     assert rules.service("/ur5e_1/play", "std_srvs/srv/Trigger") is not None
-    assert rules.service("/ur5e_1/drive", "mrlab_msgs/srv/Drive") is None
+    assert rules.service("/ur5e_1/command_members", COMMAND_MEMBERS) is None
     assert rules.service("/lab/set_parameters", "rcl_interfaces/srv/SetParameters") is None
 
 
