@@ -103,6 +103,12 @@ KINDS: dict[str, Kind] = {
         "'{file}' brought the file reader down ({problem}); the file is damaged or made to do so.",
         "Save it again in MATLAB: save('traj.mat', 'q').",
     ),
+    "readers_disagree": Kind(
+        ERROR,
+        "Two independent readers do not find the same numbers: the file is damaged.",
+        "'{variable}' of '{file}' cannot be trusted, as two readers disagree: {problem}.",
+        "Save it again in MATLAB and send the new file: save('traj.mat', 'q', '-v7').",
+    ),
     "too_large": Kind(
         ERROR,
         "The file, or what it inflates to, passes the limit on size or memory.",

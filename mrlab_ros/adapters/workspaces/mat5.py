@@ -55,6 +55,8 @@ ELEMENTS = {
     12: "i8",
     13: "u8",
 }
+# data types of the elements that hold text: bytes of a code unit
+TEXT_SIZES = {1: 1, 2: 1, 4: 2, 16: 1, 17: 2, 18: 4}
 MI_INT8, MI_INT32, MI_UINT32, MI_MATRIX, MI_COMPRESSED, MI_UTF8 = 1, 5, 6, 14, 15, 16
 CELL, STRUCT, OBJECT, CHAR, SPARSE, DOUBLE, SINGLE = 1, 2, 3, 4, 5, 6, 7
 FUNCTION, OPAQUE = 16, 17
@@ -95,6 +97,13 @@ def product(shape: tuple[int, ...]) -> int:
     return math.prod(shape)
 
 
+def name_of(text: bytes) -> str:
+    """Return the name of a variable, field or class; raise Damaged where it is not ASCII text."""
+    if not all(32 <= character < 127 for character in text):
+        raise Damaged(f"a name is written as {text[:40]!r}, which MATLAB never writes")
+    return text.decode("ascii")
+
+
 class Cursor:
     """Walks over the elements of a stretch of a v5 to v7 file."""
 
@@ -128,9 +137,9 @@ class Cursor:
 
     def text(self) -> str:
         kind, data = self.next()
-        if kind not in (MI_INT8, 2, MI_UTF8):
+        if kind not in (MI_INT8, MI_UTF8):
             raise Damaged(f"a name has the element type {kind}, which is not text")
-        return bytes(data).rstrip(b"\0").decode("utf-8", "replace")
+        return name_of(bytes(data).rstrip(b"\0"))
 
     def integers(self) -> tuple[int, ...]:
         kind, data = self.next()
@@ -156,6 +165,7 @@ class Mat5Reader:
         (subsystem,) = struct.unpack_from(self.order + "Q", data, 116)
         cursor = Cursor(data, self.order)
         cursor.at = 128
+        names: set[str] = set()
         while cursor:
             if not any(data[cursor.at : cursor.at + 8]):
                 if any(data[cursor.at :]):
@@ -167,11 +177,20 @@ class Mat5Reader:
                 kind, body = self._inflate(body)
             if kind != MI_MATRIX:
                 raise Damaged(f"element type {kind} stands where a variable should begin")
-            # objects keep their contents in one nameless variable that only MATLAB can read
+            # objects keep their contents in one nameless variable, which `objects` opens
             if begin != subsystem:
-                self._matrix(body, "", 0)
+                name = self._matrix(body, "", 0)
+                if name in names:
+                    raise Damaged(f"two variables have the name '{name}'")
+                names.add(name)
 
     def _inflate(self, body: memoryview) -> tuple[int, memoryview]:
+        """Return the element inside a miCOMPRESSED element: its data type and its bytes.
+
+        The zlib stream must end where the element ends, hold exactly the bytes that its tag
+        declares, and match its Adler-32 checksum (RFC 1950). zlib verifies the checksum only when
+        it reaches the end of the stream, hence the last call.
+        """
         inflater = zlib.decompressobj()
         try:
             head = inflater.decompress(body, 8)
@@ -184,24 +203,34 @@ class Mat5Reader:
                     f"{self.limit / 2**20:.0f} MiB"
                 )
             inflated = inflater.decompress(inflater.unconsumed_tail, size) if size else b""
+            if len(inflated) < size:
+                raise Damaged(
+                    f"a compressed variable inflates to {len(inflated)} bytes, it declares {size}"
+                )
+            more = b"" if inflater.eof else inflater.decompress(inflater.unconsumed_tail, 1)
         except zlib.error as error:
+            if "data check" in str(error):
+                raise Damaged("a compressed variable does not match its checksum") from None
             raise Damaged(f"a compressed variable cannot be inflated ({error})") from error
-        if len(inflated) < size:
+        if more:
+            raise Damaged(f"a compressed variable inflates to more than the {size} bytes declared")
+        if not inflater.eof:
+            raise Damaged("a compressed variable is cut off before its checksum")
+        if inflater.unused_data:
             raise Damaged(
-                f"a compressed variable inflates to {len(inflated)} bytes, it declares {size}"
+                f"{len(inflater.unused_data)} bytes follow the checksum of a compressed variable"
             )
-        try:  # the checksum sits behind the last byte
-            inflater.decompress(inflater.unconsumed_tail, 1)
-        except zlib.error as error:
-            raise Damaged(f"a compressed variable does not match its checksum ({error})") from None
         return kind, memoryview(inflated)
 
-    def _matrix(self, body: memoryview, path: str, depth: int) -> None:
+    def _matrix(self, body: memoryview, path: str, depth: int) -> str:
+        """Hand one matrix element to the sink and return its path."""
         if depth > DEEPEST:
             raise Damaged(f"'{path}' is nested deeper than {DEEPEST} levels")
         if not len(body):
+            if not path:
+                raise Damaged("a variable has no name")
             self.sink.add(path, "double", (0, 0))
-            return
+            return path
         cursor = Cursor(body, self.order)
         kind, data = cursor.next()
         if kind != MI_UINT32 or len(data) < 8:
@@ -210,13 +239,18 @@ class Mat5Reader:
         array_class, flags = flags & 0xFF, flags >> 8 & 0xFF
         if array_class == OPAQUE:
             name, _, class_name = cursor.text(), cursor.text(), cursor.text()
-            self.sink.add(path or name, class_name or "object", is_object=True, shape=())
-            return
+            path = path or name
+            if not path:
+                raise Damaged("an object has no name")
+            self.sink.add(path, class_name or "object", is_object=True, shape=())
+            return path
         shape = cursor.integers()
         if len(shape) < 2:
             raise Damaged(f"a variable has {len(shape)} dimensions, expected at least 2")
         name = cursor.text()
         path = path or name
+        if not path:
+            raise Damaged("a variable has no name")
         count = product(shape)
         if array_class == CELL:
             self.sink.add(path, "cell", shape)
@@ -230,6 +264,7 @@ class Mat5Reader:
             raise Damaged(
                 f"'{path}' has the class number {array_class}, which MATLAB never writes"
             )
+        return path
 
     def _child(self, cursor: Cursor, path: str, depth: int) -> None:
         kind, body = cursor.next()
@@ -246,11 +281,15 @@ class Mat5Reader:
         self.sink.add(path, "struct", shape)
         lengths = cursor.integers()
         length = lengths[0] if lengths else 0
-        _, names = cursor.next()
-        if length < 1 and len(names):
-            raise Damaged(f"the field names of '{path}' have the length {length}")
+        kind, names = cursor.next()
+        if kind != MI_INT8:
+            raise Damaged(f"the field names of '{path}' have the element type {kind}, not int8")
+        if len(names) and (length < 1 or len(names) % length):
+            raise Damaged(
+                f"the field names of '{path}' have {len(names)} bytes in pieces of {length}"
+            )
         fields = [
-            bytes(names[i : i + length]).split(b"\0")[0].decode("utf-8", "replace")
+            name_of(bytes(names[i : i + length]).split(b"\0")[0])
             for i in range(0, len(names), length or 1)
         ]
         count = product(shape)
@@ -263,23 +302,58 @@ class Mat5Reader:
         self, cursor: Cursor, array_class: int, flags: int, path: str, shape: tuple[int, ...]
     ) -> None:
         kind = "logical" if flags & LOGICAL_FLAG else CLASSES[array_class]
-        if flags & COMPLEX_FLAG:
-            self.sink.add(path, kind, shape, note="complex")
-            return
-        if kind not in ("double", "single"):
+        if array_class == FUNCTION:
             self.sink.add(path, kind, shape)
             return
+        if array_class == SPARSE:
+            rows, columns = self._element(cursor, path), self._element(cursor, path)
+            if {rows[0], columns[0]} - {"i4", "u4"}:
+                raise Damaged(f"the sparse '{path}' has indices of another type than int32")
+            self.sink.add(path, "sparse", shape)
+            return
+        count = product(shape)
+        if array_class == CHAR:
+            self._text(cursor, path, count)
+            self.sink.add(path, kind, shape)
+            return
+        dtype, data = self._element(cursor, path, shape)
+        if flags & COMPLEX_FLAG:
+            self._element(cursor, path, shape)
+            self.sink.add(path, kind, shape, note="complex")
+        elif kind in ("double", "single"):
+            self.sink.add(path, kind, shape, data, self.order + dtype)
+        else:
+            self.sink.add(path, kind, shape)
+
+    def _element(
+        self, cursor: Cursor, path: str, shape: tuple[int, ...] | None = None
+    ) -> tuple[str, memoryview]:
+        """Return the numpy type and the bytes of the next numbers of `path`.
+
+        Raises Damaged where there are not as many as `shape` needs, None: any number.
+        """
         element, data = cursor.next()
         if element not in ELEMENTS:
             raise Damaged(f"the numbers of '{path}' have the element type {element}, unknown")
-        dtype = self.order + ELEMENTS[element]
-        expected = product(shape) * int(dtype[-1])
-        if len(data) != expected:
+        dtype = ELEMENTS[element]
+        if shape is not None and len(data) != product(shape) * int(dtype[-1]):
             raise Damaged(
                 f"'{path}' has {len(data)} bytes of numbers where its dimensions "
-                f"{'x'.join(map(str, shape))} need {expected}"
+                f"{'x'.join(map(str, shape))} need {product(shape) * int(dtype[-1])}"
             )
-        self.sink.add(path, kind, shape, data, dtype)
+        return dtype, data
+
+    def _text(self, cursor: Cursor, path: str, count: int) -> None:
+        """Step over the characters of `path`; raise Damaged where they are not `count`."""
+        if not cursor and not count:
+            return
+        element, data = cursor.next()
+        if element not in TEXT_SIZES:
+            raise Damaged(f"the text '{path}' has the element type {element}, which is not text")
+        size = TEXT_SIZES[element]
+        enough = len(data) >= count if element == MI_UTF8 else len(data) == count * size
+        if not enough:
+            raise Damaged(f"the text '{path}' has {len(data)} bytes for {count} characters")
 
 
 MAT4_NUMBERS = {0: ("f8", 8), 1: ("f4", 4), 2: ("i4", 4), 3: ("i2", 2), 4: ("u2", 2), 5: ("u1", 1)}
@@ -312,12 +386,16 @@ def mat4_order(data: memoryview | bytes) -> str | None:
 def read_mat4(data: memoryview, sink: Sink) -> None:
     """Hand every variable of a v4 workspace to the sink; raise Damaged."""
     at = 0
+    names: set[str] = set()
     while at < len(data):
         order = mat4_order(data[at:])
         if order is None:
             raise Damaged(f"no variable begins at byte {at}, where one should")
         kind, rows, columns, imaginary, length = struct.unpack_from(order + "5i", data, at)
         name = bytes(data[at + 20 : at + 20 + length]).rstrip(b"\0").decode("latin-1")
+        if name in names:
+            raise Damaged(f"two variables have the name '{name}'")
+        names.add(name)
         number, size = MAT4_NUMBERS[kind // 10 % 10]
         begin = at + 20 + length
         one = rows * columns * size
@@ -372,7 +450,12 @@ def recognise(data: memoryview) -> str:
                 version, f"a MAT file of the version {version.hex()}, which nobody knows"
             )
         return "a MATLAB file whose header is damaged"
-    if head[126:128] in (b"IM", b"MI") and head[124:126] in (b"\x00\x01", b"\x01\x00"):
+    readable = b"\0" not in head[:4]  # else v4, by the format's definition
+    if (
+        readable
+        and head[126:128] in (b"IM", b"MI")
+        and head[124:126] in (b"\x00\x01", b"\x01\x00")
+    ):
         return "mat5"
     if mat4_order(head):
         return "mat4"

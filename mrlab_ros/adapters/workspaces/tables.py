@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 
 from mrlab_ros.adapters.workspaces.mat5 import Damaged, Sink, TooLarge
+from mrlab_ros.adapters.workspaces.view import View
 
 
 def _add(sink: Sink, name: str, values: Any, columns: tuple[str, ...] = ()) -> None:
@@ -71,7 +72,7 @@ def _is_number(text: str) -> bool:
 def read_npz(data: memoryview, sink: Sink, limit: int) -> None:
     """Hand every array of an npz file to the sink; nothing pickled is opened."""
     try:
-        with zipfile.ZipFile(io.BytesIO(data)) as archive:
+        with zipfile.ZipFile(io.BufferedReader(View(data))) as archive:
             for entry in archive.infolist():
                 if entry.file_size > limit:
                     raise TooLarge(

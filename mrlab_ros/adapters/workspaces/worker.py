@@ -27,6 +27,7 @@ import numpy as np
 
 from mrlab_ros.adapters.workspaces import joint_trajectories, mat5, tables
 from mrlab_ros.adapters.workspaces.mat73 import read_hdf5
+from mrlab_ros.adapters.workspaces.view import View
 
 MOST_VARIABLES = 20_000
 MESSAGE_SIZE = 65_536
@@ -80,7 +81,7 @@ class OutputFile:
 def inflate(data: memoryview, limit: int) -> bytes:
     """Return the contents of a gzip file; raise Damaged, or TooLarge above `limit` bytes."""
     try:
-        with gzip.open(io.BytesIO(data)) as file:
+        with gzip.open(View(data)) as file:
             inflated = file.read(limit + 1)
     except (OSError, EOFError, zlib.error) as error:
         raise mat5.Damaged(f"the gzip file cannot be inflated ({error})") from error
@@ -103,7 +104,7 @@ def read(data: memoryview, name: str, sink: mat5.Sink, limit: int) -> str:
         mat5.read_mat4(data, sink)
         return "MATLAB v4"
     if form == "hdf5":
-        read_hdf5(io.BytesIO(data), sink, limit)
+        read_hdf5(io.BufferedReader(View(data)), sink, limit)
         return "MATLAB v7.3"
     if form in joint_trajectories.SUFFIXES:
         joint_trajectories.read_bag(data, form, sink, limit)

@@ -322,15 +322,76 @@ def test_a_bomb_is_refused_by_what_it_declares():
 def test_a_wrong_checksum_is_refused():
     body = bytearray(SMALL)
     body[-1] ^= 0xFF
-    with pytest.raises(Damaged, match="cannot be inflated"):
+    with pytest.raises(Damaged, match="checksum"):
         read(bytes(body))
+
+
+def compressed(content, *, checksum=None, extra=b"", declared=None):
+    """Return a v7 file of one matrix element `content`, with its zlib stream made by hand."""
+    size = len(content) - 8 if declared is None else declared
+    content = content[:4] + struct.pack("<I", size) + content[8:]
+    stream = zlib.compress(content)
+    if checksum is not None:
+        stream = stream[: len(stream) - 4 + len(checksum)][: len(stream) - 4] + checksum
+    stream += extra
+    return header5() + struct.pack("<II", 15, len(stream)) + stream
+
+
+ONE = matrix5(6, [element(5, struct.pack("<ii", 1, 6)), element(1, b"q"), element(9, bytes(48))])
+
+
+@pytest.mark.parametrize(
+    ("change", "words"),
+    [
+        ({"checksum": bytes(4)}, "does not match its checksum"),
+        ({"checksum": b""}, "cut off before its checksum"),
+        ({"checksum": zlib.adler32(ONE).to_bytes(4, "big")[:2]}, "cut off before its checksum"),
+        ({"extra": b"garbage"}, "7 bytes follow the checksum"),
+        ({"declared": len(ONE) - 16}, "inflates to more than the"),
+        ({"declared": len(ONE)}, f"inflates to {len(ONE) - 8} bytes, it declares {len(ONE)}"),
+    ],
+)
+def test_a_compressed_variable_ends_where_it_says_and_matches_its_checksum(change, words):
+    assert "q" in read(compressed(ONE))[1]
+    with pytest.raises(Damaged, match=words):
+        read(compressed(ONE, **change))
+
+
+def test_no_changed_bit_of_a_compressed_file_changes_a_number():
+    q = np.cumsum(np.random.default_rng(1).normal(size=(20, 6)), axis=0)
+    data = saved(q=q, compressed=True)
+    refused = 0
+    for at in range(128, len(data)):
+        for bit in range(8):
+            damaged = bytearray(data)
+            damaged[at] ^= 1 << bit
+            try:
+                _, sink = read(bytes(damaged))
+            except (Damaged, TooLarge):
+                refused += 1
+                continue
+            np.testing.assert_array_equal(sink.values("q"), q)
+    assert refused > 0.99 * 8 * (len(data) - 128)
+
+
+def test_a_variable_without_a_name_is_refused():
+    parts = [element(5, struct.pack("<ii", 1, 6)), element(1, b""), element(9, bytes(48))]
+    with pytest.raises(Damaged, match="has no name"):
+        read(header5() + matrix5(6, parts))
+
+
+@pytest.mark.parametrize("form", ["4", "5"])
+def test_two_variables_of_one_name_are_refused(form):
+    once = saved(q=np.ones((2, 6)), form=form)
+    with pytest.raises(Damaged, match="two variables have the name 'q'"):
+        read(once + once[128 if form == "5" else 0 :])
 
 
 def test_nesting_has_an_end():
     inner = b""
     for _ in range(60):
         inner = matrix5(
-            1, [element(5, struct.pack("<ii", 1, 1)), element(1, b""), inner or element(14, b"")]
+            1, [element(5, struct.pack("<ii", 1, 1)), element(1, b"c"), inner or element(14, b"")]
         )
     with pytest.raises(Damaged, match="nested"):
         Mat5Reader(Collected(), LIMIT).read(memoryview(header5() + inner))

@@ -1,0 +1,155 @@
+"""Reads a matrix of a workspace again with scipy (v4 to v7) or h5py (v7.3) and compares.
+
+Damage that one reader overlooks shows as a difference between two. scipy's parser is written in
+Cython and can end the process on damaged bytes, so `verify` is called only in the walled-off
+process, after the own reader has checked every length and checksum of the file.
+"""
+
+from __future__ import annotations
+
+import io
+import re
+import warnings
+from typing import Any
+
+import h5py
+import numpy as np
+from numpy.typing import NDArray
+
+from mrlab_ros.adapters.workspaces.mat5 import recognise
+from mrlab_ros.adapters.workspaces.view import View
+from mrlab_ros.core.diagnostics import Refused, finding
+
+STEP = re.compile(r"\.(?P<field>[^.({]+)|\((?P<element>[\d,]+)\)|\{(?P<cell>[\d,]+)\}")
+ROOT = re.compile(r"[^.({]+")
+
+
+class _Opaque(Exception):
+    """The path leads into a MATLAB object, whose contents `objects` has compared already."""
+
+
+def verify(data: memoryview, file: str, path: str, values: NDArray[Any]) -> None:
+    """Read the matrix at `path` again; raise Refused unless every bit of it is the same.
+
+    data: the whole file, not compressed with gzip. file: its name. path: as the own reader gave
+    it, such as `out.q.signals.values`. values: (N, d) what the own reader found, of any byte
+    order and of the type that is stored. Formats with one reader only (CSV, npz, bags) pass.
+    Raises MemoryError where the memory does not suffice.
+    """
+    form = recognise(data)
+    if form not in ("mat4", "mat5", "hdf5"):
+        return
+    second = "h5py" if form == "hdf5" else "scipy"
+    try:
+        found = _with_h5py(data, path) if form == "hdf5" else _with_scipy(data, path)
+    except _Opaque:
+        return
+    except MemoryError:
+        raise
+    except Exception as error:
+        # what damage makes the libraries raise has no common base
+        problem = f"{second} cannot read it ({error or type(error).__name__})"
+        raise Refused(
+            finding("readers_disagree", file=file, variable=path, problem=problem)
+        ) from None
+    problem = difference(values, found)
+    if problem:
+        problem = f"{second} {problem}"
+        raise Refused(finding("readers_disagree", file=file, variable=path, problem=problem))
+
+
+def difference(first: NDArray[Any], second: NDArray[Any]) -> str:
+    """Say how `second` differs from `first`, as a verb with its object; empty: it does not.
+
+    Both are compared as float64, bit for bit: a NaN equals itself, 0.0 does not equal -0.0.
+    """
+    if second.dtype.kind not in "fiu":
+        return f"finds values of the type {second.dtype}"
+    if first.shape != second.shape:
+        return f"finds {'x'.join(map(str, second.shape))} values"
+    same = np.asarray(first, "<f8").view(np.uint64) == np.asarray(second, "<f8").view(np.uint64)
+    wrong = np.argwhere(~same)
+    if not len(wrong):
+        return ""
+    row, column = wrong[0]
+    return (
+        f"finds {float(second[row, column])!r} where {float(first[row, column])!r} was read "
+        f"(row {row + 1}, column {column + 1}; {len(wrong)} of {first.size} values differ)"
+    )
+
+
+def steps(path: str) -> tuple[str, list[tuple[str, Any]]]:
+    """Return the variable that `path` begins with, and the steps from it to the matrix.
+
+    A step is ('field', name), or ('element' or 'cell', subscripts from 0). Raises ValueError
+    where `path` is not written as MATLAB writes it.
+    """
+    root = ROOT.match(path)
+    if root is None:
+        raise ValueError(f"'{path}' begins with no name")
+    found: list[tuple[str, Any]] = []
+    at = root.end()
+    while at < len(path):
+        step = STEP.match(path, at)
+        if step is None:
+            raise ValueError(f"'{path}' cannot be followed after '{path[:at]}'")
+        kind = str(step.lastgroup)
+        text = step.group(kind)
+        found.append((kind, text if kind == "field" else _subscripts(text)))
+        at = step.end()
+    return root.group(), found
+
+
+def _subscripts(text: str) -> tuple[int, ...]:
+    return tuple(int(number) - 1 for number in text.split(","))
+
+
+def _with_scipy(data: memoryview, path: str) -> NDArray[Any]:
+    import scipy.io
+    from scipy.io.matlab import MatlabFunction, MatlabOpaque
+
+    root, followed = steps(path)
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")
+        found = scipy.io.loadmat(
+            io.BufferedReader(View(data)), variable_names=[root], chars_as_strings=False
+        )
+    value: Any = found[root]
+    for kind, where in followed:
+        if isinstance(value, (MatlabOpaque, MatlabFunction)):
+            raise _Opaque
+        if kind == "field":
+            value = value[where]
+            if isinstance(value, np.ndarray) and value.dtype == object and value.size == 1:
+                value = value.item()
+        elif len(where) == 1:
+            value = value.reshape(-1, order="F")[where[0]]
+        else:
+            value = value[where]
+    if not isinstance(value, np.ndarray):
+        raise ValueError(f"a {type(value).__name__} is at '{path}'")
+    return value
+
+
+def _with_h5py(data: memoryview, path: str) -> NDArray[Any]:
+    root, followed = steps(path)
+    with h5py.File(io.BufferedReader(View(data)), "r") as file:
+        item = file[root]
+        number: int | None = None
+        for kind, where in followed:
+            if "MATLAB_object_decode" in item.attrs:
+                raise _Opaque
+            if kind == "element":
+                number = _number(next(iter(item.values())).shape, where)
+            elif kind == "field":
+                item = item[where]
+                if number is not None:
+                    item, number = file[item[()].reshape(-1)[number]], None
+            else:
+                item = file[item[()].reshape(-1)[_number(item.shape, where)]]
+        return np.asarray(item[...]).T
+
+
+def _number(shape: tuple[int, ...], where: tuple[int, ...]) -> int:
+    """Return the place of MATLAB's subscripts in an HDF5 array, whose axes are reversed."""
+    return where[0] if len(where) == 1 else int(np.ravel_multi_index(where[::-1], shape))
