@@ -1,25 +1,37 @@
 """The lab under ROS's own launcher: ros2 launch mrlab_ros lab.launch.py [robots:=ur5e]."""
 
-import os
 import tempfile
+from pathlib import Path
 
-from ament_index_python.packages import get_package_share_directory
 from launch import LaunchDescription
 from launch.actions import DeclareLaunchArgument, OpaqueFunction
 from launch.substitutions import LaunchConfiguration
 from launch_ros.actions import Node
 
 from mrlab_ros.processes import physics_support
+from mrlab_ros.processes.lab import (
+    HOST_EXECUTABLE,
+    LabOptions,
+    lab_processes,
+    parameter_file,
+    robot_models,
+)
+
+# A process that ends is started again after this time, s, and at most so many times: the launcher
+# cannot know that a process refuses its configuration and would start it for ever.
+RESPAWN_DELAY_S = 1.0
+RESPAWN_MAX_RETRIES = 10
 
 
 def generate_launch_description():
     """Declare the arguments; the processes follow from their values."""
-    config = os.path.join(get_package_share_directory("mrlab_ros"), "config", "lab.yaml")
     flags = ["true", "false"]
     return LaunchDescription(
         [
             DeclareLaunchArgument(
-                "config", default_value=config, description="ROS parameter file"
+                "config",
+                default_value="",
+                description="ROS parameter file; empty: the shipped config/lab.yaml",
             ),
             DeclareLaunchArgument(
                 "robots",
@@ -74,45 +86,39 @@ def generate_launch_description():
 
 
 def processes(context):
-    """Return the same processes that `mrlab up` keeps, each started again when it ends."""
+    """Return the processes that `mrlab up` keeps, each with its name in the launcher's output."""
 
     def value(name):
-        return LaunchConfiguration(name).perform(context)
+        return LaunchConfiguration(name).perform(context).strip()
+
+    def path(name):
+        return Path(value(name)).expanduser().absolute() if value(name) else None
 
     if value("web") == "true":
         raise RuntimeError("this version of the lab has no web gateway; leave web:=false")
-    state = {"state_dir": value("state_dir") or tempfile.mkdtemp(prefix="mrlab-")}
-    robots = [model.strip() for model in value("robots").split(",") if model.strip()]
-
-    def host(nodes, **parameters):
-        return Node(
+    physics, _ = physics_support.wanted(value("physics") == "true")
+    options = LabOptions(
+        config=parameter_file(path("config")),
+        state_dir=path("state_dir") or Path(tempfile.mkdtemp(prefix="mrlab-")),
+        robots=robot_models(value("robots")),
+        physics=physics,
+        bridge=value("bridge") == "true",
+        listen=value("listen"),
+        connect=value("connect"),
+        keys=path("keys"),
+        insecure=value("insecure") == "true",
+    )
+    return [
+        Node(
             package="mrlab_ros",
-            executable="host",
-            arguments=nodes.split(),
-            parameters=[value("config"), {**state, **parameters}],
+            executable=HOST_EXECUTABLE,
+            exec_name=process.name,
+            arguments=list(process.arguments(options)),
             output="screen",
             emulate_tty=True,
             respawn=True,
-            respawn_delay=1.0,
+            respawn_delay=RESPAWN_DELAY_S,
+            respawn_max_retries=RESPAWN_MAX_RETRIES,
         )
-
-    started = [
-        host("converter lab coordinator", **({"robots": robots} if robots else {})),
-        host("playback"),
-        host("recorder"),
+        for process in lab_processes(options)
     ]
-    if value("physics") == "true":
-        why_not = physics_support.missing()
-        if why_not:
-            raise RuntimeError(f"{why_not}; or leave physics:=false")
-        started.append(host("physics"))
-    if value("bridge") == "true":
-        chosen = {"insecure": value("insecure") == "true"}
-        if value("keys"):
-            chosen["keys"] = os.path.abspath(os.path.expanduser(value("keys")))
-        if value("listen"):
-            chosen["listen"] = [value("listen")]
-        if value("connect"):
-            chosen |= {"connect": [value("connect")], "mode": "client"}
-        started.append(host("bridge", **chosen))
-    return started

@@ -17,7 +17,7 @@ from mrlab_ros.core.bridge.links import (
     is_local,
 )
 from mrlab_ros.core.bridge.rules import Congestion, Reliability, TopicRule
-from mrlab_ros.core.errors import BadInput
+from mrlab_ros.core.errors import BadInput, Unavailable
 
 LOOPBACK = ("tcp/127.0.0.1:7447",)
 # A put waits so long, us, for a full link before its message is lost, and so long before the
@@ -179,7 +179,7 @@ class ZenohSession:
         try:
             self._session = zenoh.open(config)
         except zenoh.ZError as error:
-            raise BadInput(_why_not_open(config, error)) from error
+            raise _why_not_open(config, error) from error
 
     @property
     def zid(self) -> str:
@@ -310,14 +310,14 @@ def _first_line(error: Exception) -> str:
     return str(error).split(" at /", 1)[0].strip()
 
 
-def _why_not_open(config: zenoh.Config, error: zenoh.ZError) -> str:
+def _why_not_open(config: zenoh.Config, error: zenoh.ZError) -> Unavailable:
     endpoints = ", ".join(_endpoints(config.get_json("listen/endpoints")))
     if "Address already in use" in str(error):
-        return (
+        return Unavailable(
             f"the bridge cannot listen on {endpoints}: another program has that port, perhaps a "
             "lab that still runs; stop it, or choose another port with the parameter listen"
         )
-    return (
+    return Unavailable(
         f"the bridge cannot open zenoh on {endpoints}: {_first_line(error)}; check the "
         "parameters listen, connect and zenoh_config"
     )

@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
+from mrlab_ros.processes.lab import NODES
 from mrlab_ros.processes.run_file import RunFile
 
 if TYPE_CHECKING:
@@ -137,6 +138,7 @@ class View:
         return {
             "domain": self._graph.domain,
             "supervisor": self._run_file.read(),
+            "nodes": self._nodes(),
             "robots": [_robot_facts(robot, follower) for robot, follower in self.robots()],
             "trajectories": [
                 {
@@ -163,6 +165,11 @@ class View:
             "recorder": _recorder_facts(self._recorder.value),
         }
 
+    def _nodes(self) -> dict[str, bool]:
+        """Return whether each node of a lab is in the graph."""
+        present = set(self._graph.node.get_node_names())
+        return {entry.graph_name: entry.graph_name in present for entry in NODES.values()}
+
     def table(self) -> RenderableType:
         """Return the facts as tables."""
         from rich.console import Group
@@ -172,6 +179,8 @@ class View:
         supervisor = facts["supervisor"]
         kept = f"kept by process {supervisor['pid']}" if supervisor else "not kept by mrlab"
         parts: list[RenderableType] = [Text(f"Lab on ROS domain {facts['domain']}, {kept}")]
+        if absent := [name for name, present in facts["nodes"].items() if not present]:
+            parts.append(Text(f"Not in the graph: {', '.join(absent)}"))
         if recorder := _recorder_line(facts["recorder"]):
             parts.append(Text(recorder))
         sections: tuple[tuple[str, tuple[str, ...], list[tuple[str, ...]]], ...] = (

@@ -11,6 +11,10 @@ class BadInput(LabError):
     """Something from outside (a file, a request) is not what it must be."""
 
 
+class Unavailable(BadInput):
+    """An input names something that is in use or out of reach now; it may work a moment later."""
+
+
 class Misuse(LabError):
     """A call that the present state does not allow; nothing was changed."""
 

@@ -8,39 +8,28 @@ import signal
 import sys
 import time
 from collections.abc import Callable
-from contextlib import suppress
 
 import rclpy
 import rclpy.utilities
-from rclpy.impl.implementation_singleton import rclpy_implementation
 from rclpy.node import Node
 
-from mrlab_ros.core.errors import LabError
-from mrlab_ros.processes.stand_aside import STAYS, StandAside
-from mrlab_ros.processes.supervisor import RESTARTS
-from mrlab_ros.ros.spinning import SpunNode
+from mrlab_ros.core.errors import BadInput, LabError, Unavailable
+from mrlab_ros.processes.lab import NODES
+from mrlab_ros.processes.stand_aside import StandAside
+from mrlab_ros.processes.supervisor import RESTARTS, WRONG_CONFIGURATION
+from mrlab_ros.ros.spinning import SpunNode, shut_down
 
-# By name: the module and the class of each node.
-NODES = {
-    "bridge": ("mrlab_ros.nodes.bridge.node", "BridgeNode"),
-    "converter": ("mrlab_ros.nodes.converter", "ConverterNode"),
-    "coordinator": ("mrlab_ros.nodes.coordinator", "CoordinatorNode"),
-    "lab": ("mrlab_ros.nodes.lab.node", "LabNode"),
-    "physics": ("mrlab_ros.nodes.physics.node", "PhysicsNode"),
-    "playback": ("mrlab_ros.nodes.playback", "PlaybackHostNode"),
-    "recorder": ("mrlab_ros.nodes.recorder.node", "RecorderNode"),
-}
-# How often a process looks whether it was asked to stop, s.
-LOOK = 0.1
-# A process that is started anew must not join a replay that goes on: so long it looks for the
-# recorder, s. Discovery takes up to 3 s.
-FIND_TIMEOUT = 3.0
+# How often a process checks whether it was asked to stop, s.
+POLL_PERIOD_S = 0.1
+# A restarted process must not join the graph during a replay: it waits up to this long for the
+# recorder to be discovered, s. Discovery takes up to 3 s.
+FIND_TIMEOUT_S = 3.0
 
 
 def maker(name: str) -> Callable[[], Node]:
     """Import the node called `name`; what is returned builds it in the default context."""
-    module, kind = NODES[name]
-    made: Callable[[], Node] = getattr(importlib.import_module(module), kind)
+    entry = NODES[name]
+    made: Callable[[], Node] = getattr(importlib.import_module(entry.module), entry.kind)
     return made
 
 
@@ -62,8 +51,9 @@ def main(names: list[str] | None = None) -> None:
 def run(names: list[str]) -> int:
     """Spin the nodes until SIGINT or SIGTERM; return the process's exit code.
 
-    While a bag is replayed, the nodes that would publish the same topics are not there; made
-    anew, they heal as after a restart.
+    That is 0 after a signal, WRONG_CONFIGURATION where a node refuses its parameters or files,
+    1 after any other error. While a bag is replayed, the nodes that would publish the same topics
+    are closed; afterwards they are made again and recover as after a restart.
     """
     rclpy.init()
     # rclpy's own handler of SIGTERM shuts the context down and calls nobody.
@@ -72,32 +62,33 @@ def run(names: list[str]) -> int:
     spun: dict[str, SpunNode] = {}
     name = ""
     try:
-        if set(names) - STAYS:
+        if not all(NODES[name].in_replay for name in names):
             aside = StandAside()
         makers = {name: maker(name) for name in names}
         if aside is not None:
-            aside.hear(FIND_TIMEOUT if os.environ.get(RESTARTS, "0") != "0" else 0.0)
+            aside.wait_for_recorder(
+                FIND_TIMEOUT_S if os.environ.get(RESTARTS, "0") != "0" else 0.0
+            )
         while running():
             replay = aside is not None and aside.wanted
-            wanted = [name for name in names if name in STAYS or not replay]
+            wanted = [name for name in names if NODES[name].in_replay or not replay]
             for name in [name for name in reversed(spun) if name not in wanted]:
                 spun.pop(name).close()
             for name in wanted:
                 if name not in spun:
                     spun[name] = SpunNode(makers[name]())
-            time.sleep(LOOK)
+            time.sleep(POLL_PERIOD_S)
         return 0
     except LabError as error:
         print(f"{name}: {error}", file=sys.stderr, flush=True)
-        return 1
+        lasting = isinstance(error, BadInput) and not isinstance(error, Unavailable)
+        return WRONG_CONFIGURATION if lasting else 1
     except KeyboardInterrupt:
         return 0
     finally:
-        # A second Ctrl-C must not cut the tidying short: the supervisor sets the deadline.
+        # A second Ctrl-C must not interrupt the clean-up: the supervisor sets its deadline.
         signal.signal(signal.SIGINT, signal.SIG_IGN)
-        # rclpy's handler of the signal shuts down too, in a thread of its own, and may be first.
-        with suppress(rclpy_implementation.RCLError):
-            rclpy.utilities.try_shutdown()
+        shut_down()
         for node in reversed(spun.values()):
             node.close()
         if aside is not None:

@@ -1,58 +1,181 @@
-"""The one list of the lab's processes."""
+"""The one list of the lab's nodes and processes.
+
+`mrlab up`, `mrlab demo` and `launch/lab.launch.py` start these processes, the host makes the
+nodes, and the readiness check and `mrlab status` expect them in the graph.
+"""
 
 from __future__ import annotations
 
 import json
 import os
 import sys
+from collections.abc import Callable
+from dataclasses import dataclass
 from pathlib import Path
 
+from mrlab_ros.core.errors import BadInput
 from mrlab_ros.processes.supervisor import ProcessSpec
 
+# The module that runs the nodes of a process, and its name as a ROS executable.
+HOST_MODULE = "mrlab_ros.processes.host"
+HOST_EXECUTABLE = "host"
+# One short line a message: the supervisor puts the process's name before it.
+LOG_FORMAT = "[{severity}] [{name}]: {message}"
 
-def lab_processes(
-    *,
-    config: Path,
-    robots: tuple[str, ...],
-    listen: str | None,
-    state_dir: Path,
-    physics: bool = False,
-    keys: Path | None = None,
-    insecure: bool = False,
-    router: bool = False,
-) -> list[ProcessSpec]:
-    """Return the processes of a lab.
 
-    listen: where people connect, None without a bridge. router: there is a router, to which the
-    bridge connects, too.
+@dataclass(frozen=True)
+class NodeEntry:
+    """A node that a process can run.
+
+    module, kind: where its class is. graph_name: its name in the graph. state: the latched topic
+    whose first message says that the node is complete, and the topic's type in mrlab_msgs; where
+    there is none, the node's presence in the graph says so. in_replay: it stays in the graph
+    while a bag is replayed.
     """
 
-    def host(name: str, nodes: str, *parameters: str) -> ProcessSpec:
-        options = [o for p in (f"state_dir:={state_dir}", *parameters) for o in ("-p", p)]
-        argv = (sys.executable, "-m", "mrlab_ros.processes.host", *nodes.split(), "--ros-args")
-        # One short line a message: the process's name stands before it already.
+    module: str
+    kind: str
+    graph_name: str
+    state: tuple[str, str] | None = None
+    in_replay: bool = False
+
+
+NODES = {
+    "bridge": NodeEntry("mrlab_ros.nodes.bridge.node", "BridgeNode", "bridge", in_replay=True),
+    "converter": NodeEntry(
+        "mrlab_ros.nodes.converter",
+        "ConverterNode",
+        "converter",
+        ("/trajectories", "TrajectoryCatalogue"),
+    ),
+    "coordinator": NodeEntry(
+        "mrlab_ros.nodes.coordinator",
+        "CoordinatorNode",
+        "coordinator",
+        ("/systems", "RobotSystems"),
+    ),
+    "lab": NodeEntry("mrlab_ros.nodes.lab.node", "LabNode", "lab", ("/robots", "Robots")),
+    "physics": NodeEntry("mrlab_ros.nodes.physics.node", "PhysicsNode", "physics"),
+    "playback": NodeEntry("mrlab_ros.nodes.playback", "PlaybackHostNode", "playback_host"),
+    "recorder": NodeEntry(
+        "mrlab_ros.nodes.recorder.node", "RecorderNode", "recorder", in_replay=True
+    ),
+}
+
+
+@dataclass(frozen=True)
+class LabOptions:
+    """What a lab is started with.
+
+    config: a ROS parameter file. state_dir: the folder for scene and trajectories. robots: models
+    to begin with. listen: where zenoh clients connect; empty: the bridge's default. connect: a
+    router that clients connect to in place of the bridge. keys: a keys folder. insecure: listen
+    beyond this machine without keys.
+    """
+
+    config: Path
+    state_dir: Path
+    robots: tuple[str, ...] = ()
+    physics: bool = True
+    bridge: bool = True
+    listen: str = ""
+    connect: str = ""
+    keys: Path | None = None
+    insecure: bool = False
+
+
+Parameters = dict[str, object]
+
+
+def _lab_parameters(options: LabOptions) -> Parameters:
+    return {"lab:robots": options.robots} if options.robots else {}
+
+
+def _bridge_parameters(options: LabOptions) -> Parameters:
+    found: Parameters = {}
+    if options.connect:
+        found |= {"bridge:connect": [options.connect], "bridge:mode": "client"}
+    elif options.listen:
+        found["bridge:listen"] = [options.listen]
+    if options.insecure:
+        found["bridge:insecure"] = True
+    if options.keys is not None:
+        found["bridge:keys"] = str(options.keys.expanduser().resolve())
+    return found
+
+
+@dataclass(frozen=True)
+class LabProcess:
+    """A process of the lab: its name, its nodes, their parameters, and when it is started.
+
+    A parameter that the options decide is named `node:name`: so it wins over the parameter file,
+    whose own `node:` section would win over one for all nodes.
+    """
+
+    name: str
+    nodes: tuple[str, ...]
+    parameters: Callable[[LabOptions], Parameters] = lambda _: {}
+    wanted: Callable[[LabOptions], bool] = lambda _: True
+
+    def arguments(self, options: LabOptions) -> tuple[str, ...]:
+        """Return the host's command line: the nodes, then their ROS arguments."""
+        parameters = {"state_dir": str(options.state_dir), **self.parameters(options)}
+        # A value is YAML, and JSON is YAML in which a text stays a text.
+        given = [a for n, v in parameters.items() for a in ("-p", f"{n}:={json.dumps(v)}")]
+        return (*self.nodes, "--ros-args", "--params-file", str(options.config), *given)
+
+    def spec(self, options: LabOptions) -> ProcessSpec:
+        """Return the process as the supervisor starts it."""
         env = {
             "PYTHONUNBUFFERED": "1",
             "RCUTILS_CONSOLE_OUTPUT_FORMAT": os.environ.get(
-                "RCUTILS_CONSOLE_OUTPUT_FORMAT", "[{severity}] [{name}]: {message}"
+                "RCUTILS_CONSOLE_OUTPUT_FORMAT", LOG_FORMAT
             ),
         }
-        return ProcessSpec(name, (*argv, "--params-file", str(config), *options), env)
+        argv = (sys.executable, "-m", HOST_MODULE, *self.arguments(options))
+        return ProcessSpec(self.name, argv, env)
 
-    spawn = [f"lab:robots:={json.dumps(robots)}"] if robots else []
-    specs = [
-        host("lab", "converter lab coordinator", *spawn),
-        host("playback", "playback"),
-        host("recorder", "recorder"),
-    ]
-    if physics:
-        specs.append(host("physics", "physics"))
-    if listen is not None:
-        there = json.dumps([listen])
-        where = [f"connect:={there}", "mode:=client"] if router else [f"listen:={there}"]
-        security = [f"insecure:={json.dumps(insecure)}"]
-        if keys is not None:
-            # A ROS parameter that looks like a number would be one.
-            security.append(f"keys:={json.dumps(str(keys.expanduser().resolve()))}")
-        specs.append(host("bridge", "bridge", *where, *security))
-    return specs
+
+PROCESSES = (
+    LabProcess("lab", ("converter", "lab", "coordinator"), _lab_parameters),
+    LabProcess("playback", ("playback",)),
+    LabProcess("recorder", ("recorder",)),
+    LabProcess("physics", ("physics",), wanted=lambda options: options.physics),
+    LabProcess("bridge", ("bridge",), _bridge_parameters, wanted=lambda options: options.bridge),
+)
+
+
+def lab_processes(options: LabOptions) -> tuple[LabProcess, ...]:
+    """Return the processes of a lab with these options."""
+    return tuple(process for process in PROCESSES if process.wanted(options))
+
+
+def lab_nodes(options: LabOptions) -> tuple[NodeEntry, ...]:
+    """Return the nodes of a lab with these options."""
+    return tuple(NODES[name] for process in lab_processes(options) for name in process.nodes)
+
+
+def parameter_file(chosen: Path | None) -> Path:
+    """Return the parameter file, the shipped one where none is chosen; raise BadInput without."""
+    if chosen is None:
+        from mrlab_ros.ros import share
+
+        chosen = share.directory() / "config" / "lab.yaml"
+    if not chosen.is_file():
+        raise BadInput(
+            f"there is no parameter file {chosen}; name an existing one as config, or leave it out"
+        )
+    return chosen.resolve()
+
+
+def robot_models(text: str) -> tuple[str, ...]:
+    """Return the models in a list such as 'ur5e,kuka_kr3_r540'; raise BadInput for an unknown."""
+    models = tuple(model for model in (part.strip() for part in text.split(",")) if model)
+    if models:
+        from mrlab_ros.adapters.robots.library import RobotLibrary
+        from mrlab_ros.ros import share
+
+        library = RobotLibrary(share.directory() / "robots")
+        for model in models:
+            library.model(model)
+    return models

@@ -1,4 +1,4 @@
-"""Whether a replay wants the lab's own nodes out of the graph."""
+"""Detects a running replay, during which the lab's own nodes leave the graph."""
 
 from __future__ import annotations
 
@@ -12,19 +12,17 @@ from rclpy.node import Node
 from mrlab_ros.messages import qos
 from mrlab_ros.ros.spinning import SpunNode
 
-# These have a part in a replay.
-STAYS = frozenset({"bridge", "recorder"})
 TOPIC = "/recorder/state"
-# How long a recorder that was found may take to be heard, s.
-HEAR_TIMEOUT = 3.0
-LOOK = 0.02
+# How long the state of a discovered recorder may take to arrive, s.
+STATE_TIMEOUT_S = 3.0
+POLL_PERIOD_S = 0.02
 
 
 class StandAside:
-    """Listens to the recorder through a hidden node."""
+    """Subscribes to the recorder's state through a hidden node."""
 
     def __init__(self, context: Context | None = None) -> None:
-        self._replays = self._heard = False
+        self._replays = self._received = False
         node = Node(
             f"_stand_aside_{os.getpid()}",
             context=context,
@@ -35,18 +33,18 @@ class StandAside:
         node.create_subscription(RecorderState, TOPIC, self._on_state, qos.LATCHED)
         self._spun = SpunNode(node)
 
-    def hear(self, find_timeout: float) -> None:
-        """Wait until a recorder was heard, or until none was found within `find_timeout` s."""
+    def wait_for_recorder(self, find_timeout: float) -> None:
+        """Wait for a recorder's state, or until none was discovered within `find_timeout` s."""
         began = time.monotonic()
-        while not self._heard:
+        while not self._received:
             there = self._spun.node.count_publishers(TOPIC) > 0
-            if time.monotonic() - began >= find_timeout + HEAR_TIMEOUT * there:
+            if time.monotonic() - began >= find_timeout + STATE_TIMEOUT_S * there:
                 return
-            time.sleep(LOOK)
+            time.sleep(POLL_PERIOD_S)
 
     @property
     def wanted(self) -> bool:
-        """True while a recorder that is there replays a bag."""
+        """True while a recorder is in the graph and replays a bag."""
         return self._replays and self._spun.node.count_publishers(TOPIC) > 0
 
     def close(self) -> None:
@@ -54,4 +52,4 @@ class StandAside:
 
     def _on_state(self, message: RecorderState) -> None:
         self._replays = message.state in (RecorderState.REPLAYING, RecorderState.PAUSED)
-        self._heard = True
+        self._received = True

@@ -51,8 +51,10 @@ class ProcessSpec:
     env: Mapping[str, str] = field(default_factory=dict)
 
 
-# Tells a process how many before it have ended.
+# The environment variable with the number of restarts of a process so far.
 RESTARTS = "MRLAB_RESTARTS"
+# EX_CONFIG of sysexits.h: the configuration is wrong, so a restart would end the same way.
+WRONG_CONFIGURATION = 78
 
 
 class RestartPolicy:
@@ -90,6 +92,7 @@ class Phase(Enum):
     STARTING = "starting"
     RUNNING = "running"
     WAITING = "waiting to restart"
+    REFUSED = "wrong configuration"
     STOPPED = "stopped"
 
 
@@ -107,6 +110,8 @@ class ProcessState:
 
 def describe_exit(code: int) -> str:
     """Say in words how a process ended; negative codes are signals."""
+    if code == WRONG_CONFIGURATION:
+        return "wrong configuration"
     if code >= 0:
         return f"exit code {code}"
     try:
@@ -132,6 +137,8 @@ class Child:
         # Guards _process: while it is set, its process group exists and is ours.
         self._lock = threading.Lock()
         self._stop = threading.Event()
+        # Set while there is no process: end the wait for the next start.
+        self._start_now = threading.Event()
         self._thread = threading.Thread(target=self._keep, name=spec.name, daemon=True)
 
     @property
@@ -153,13 +160,16 @@ class Child:
         """Send the whole process group a signal and do not start the process again."""
         self._stop.set()
         with self._lock:
+            self._start_now.set()
             if self._process is not None:
                 _signal_group(self._process.pid, number)
 
     def restart(self) -> None:
-        """Have the process end; it is started again like one that ended by itself."""
+        """End the process, which then starts again; start it at once where it does not run."""
         with self._lock:
-            if self._process is not None:
+            if self._process is None:
+                self._start_now.set()
+            else:
                 _signal_group(self._process.pid, signal.SIGINT)
 
     def join(self, timeout: float) -> bool:
@@ -173,23 +183,34 @@ class Child:
 
     def _keep(self) -> None:
         while not self._stop.is_set():
-            ended = self._run_once()
+            code, self._last_exit = self._run_once()
             if self._stop.is_set():
                 break
-            self._last_exit = ended
-            delay = self._policy.ended(time.monotonic())
-            self._emit(SELF, f"{self.spec.name} ended ({ended}); restarts in {delay:g} s")
-            self._enter(Phase.WAITING)
-            self._stop.wait(delay)
-            self._restarts += 1
+            if code == WRONG_CONFIGURATION:
+                self._emit(
+                    SELF,
+                    f"{self.spec.name} ended ({self._last_exit}) and is not started again; "
+                    "correct what it named, then start the lab again",
+                )
+                self._enter(Phase.REFUSED)
+                self._start_now.wait()
+            else:
+                delay = self._policy.ended(time.monotonic())
+                self._emit(
+                    SELF, f"{self.spec.name} ended ({self._last_exit}); restarts in {delay:g} s"
+                )
+                self._enter(Phase.WAITING)
+                self._start_now.wait(delay)
+            if not self._stop.is_set():
+                self._restarts += 1
         self._enter(Phase.STOPPED)
 
-    def _run_once(self) -> str:
-        """Run the process to its end and return how it ended."""
+    def _run_once(self) -> tuple[int | None, str]:
+        """Run the process to its end; return its exit code, and in words how it ended."""
         guard = (sys.executable, "-I", "-S", "-c", GUARDED, str(os.getpid()))
         with self._lock:
             if self._stop.is_set():
-                return "not started"
+                return None, "not started"
             try:
                 process = subprocess.Popen(
                     guard + self.spec.argv,
@@ -200,8 +221,9 @@ class Child:
                     start_new_session=True,
                 )
             except OSError as error:
-                return f"could not be started: {error}"
+                return None, f"could not be started: {error}"
             self._process = process
+            self._start_now.clear()
         self._policy.started(time.monotonic())
         self._enter(Phase.RUNNING)
         assert process.stdout is not None
@@ -215,7 +237,7 @@ class Child:
             code = process.wait()
         # Somebody who left the group may still hold the pipe; its reader then goes on alone.
         reader.join(READ_PATIENCE)
-        return describe_exit(code)
+        return code, describe_exit(code)
 
     def _read(self, stream: IO[bytes]) -> None:
         with stream:

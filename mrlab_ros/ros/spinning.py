@@ -11,7 +11,9 @@ from __future__ import annotations
 
 import threading
 import traceback
+from contextlib import suppress
 
+import rclpy.utilities
 from rclpy.context import Context
 from rclpy.executors import Executor, ExternalShutdownException
 from rclpy.experimental.events_executor import EventsExecutor
@@ -46,6 +48,15 @@ def spin(executor: Executor, context: Context, stop: threading.Event | None = No
             # What fails because the context was shut down beneath it is no mistake.
             if context.ok():
                 traceback.print_exc()
+
+
+def shut_down() -> None:
+    """Shut the default context down, unless rclpy's signal handler did so a moment before.
+
+    The handler does it in a thread of its own, so that both may try at once.
+    """
+    with suppress(rclpy_implementation.RCLError):
+        rclpy.utilities.try_shutdown()
 
 
 class SpunNode:

@@ -1,4 +1,4 @@
-"""Who hears that a replay wants the lab's own nodes out of the graph."""
+"""A replay is detected, during which the lab's own nodes leave the graph."""
 
 from __future__ import annotations
 
@@ -21,12 +21,12 @@ def aside(graph: Graph) -> Iterator[StandAside]:
 
 
 def test_who_comes_during_a_replay_knows_before_it_joins(graph, monkeypatch):
-    monkeypatch.setattr(stand_aside, "HEAR_TIMEOUT", 15.0)
+    monkeypatch.setattr(stand_aside, "STATE_TIMEOUT_S", 15.0)
     recorder = graph.client.create_publisher(RecorderState, TOPIC, qos.LATCHED)
     recorder.publish(RecorderState(state=RecorderState.PAUSED))
     aside = StandAside(graph.context)
     try:
-        aside.hear(15.0)
+        aside.wait_for_recorder(15.0)
         assert aside.wanted
         recorder.publish(RecorderState(state=RecorderState.STOPPED))
         wait_for(lambda: not aside.wanted, "the end of the replay")
@@ -43,5 +43,5 @@ def test_a_recorder_that_is_gone_wants_nothing(graph, aside):
 
 
 def test_without_a_recorder_nobody_waits(aside):
-    aside.hear(0.0)
+    aside.wait_for_recorder(0.0)
     assert not aside.wanted

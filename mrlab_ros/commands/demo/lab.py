@@ -14,12 +14,11 @@ from typing import TYPE_CHECKING
 
 from mrlab_ros.commands.up.command import (
     Speaker,
-    checked_config,
     folder_for_state,
     stay_on_this_machine,
 )
 from mrlab_ros.core.errors import LabError, Misuse
-from mrlab_ros.processes.lab import lab_processes
+from mrlab_ros.processes.lab import LabOptions, lab_processes, parameter_file
 from mrlab_ros.processes.run_file import RunFile
 from mrlab_ros.processes.supervisor import Supervisor
 from mrlab_ros.ros.domain import domain_id
@@ -36,6 +35,7 @@ DOMAINS = range(102)
 class Stage:
     """The lab that the demo has started."""
 
+    options: LabOptions
     domain: int
     endpoint: str
     log: Log
@@ -72,13 +72,14 @@ def running_lab(console: Console, config: Path | None) -> Iterator[Stage]:
         os.environ["ROS_DOMAIN_ID"] = str(domain)
         log = Log(console)
         try:
-            specs = lab_processes(
-                config=checked_config(config), robots=(), listen=endpoint, state_dir=folder
+            options = LabOptions(
+                config=parameter_file(config), state_dir=folder, physics=False, listen=endpoint
             )
+            specs = [process.spec(options) for process in lab_processes(options)]
             with Supervisor(specs, log, run_file.write):
                 console.print(f"Lab on ROS domain {domain}, zenoh at {endpoint}", style="bold")
                 try:
-                    yield Stage(domain, endpoint, log, begin)
+                    yield Stage(options, domain, endpoint, log, begin)
                 finally:
                     log.stopping = True
         finally:

@@ -15,7 +15,8 @@ from typing import TYPE_CHECKING, Any
 from mrlab_ros.commands.demo.arrivals import Arrivals, frames_in_order
 from mrlab_ros.commands.demo.report import Display, RobotSummary
 from mrlab_ros.core.errors import LabError
-from mrlab_ros.processes.readiness import lab_is_missing
+from mrlab_ros.processes.lab import lab_nodes
+from mrlab_ros.processes.readiness import missing_parts
 
 if TYPE_CHECKING:
     from rich.console import Console
@@ -106,7 +107,7 @@ class Run:
         return f"its last complaint: {trouble[-1]}" if trouble else "nothing complained"
 
     def _wait_for_lab(self, graph: Graph) -> None:
-        missing = lab_is_missing(graph, robots=0, bridge=True)
+        missing = missing_parts(graph, lab_nodes(self._stage.options), robots=0)
         self._until(lambda: not missing(), START_TIMEOUT, "all parts of the lab")
         self._say("start", f"the lab is ready after {time.monotonic() - self._stage.begin:.1f} s")
 

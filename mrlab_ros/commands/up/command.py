@@ -21,10 +21,16 @@ from mrlab_ros.commands.up.keys import (
     keys_changed_at,
     tell_when_keys_expire,
 )
-from mrlab_ros.core.errors import BadInput
 from mrlab_ros.processes import physics_support
-from mrlab_ros.processes.lab import lab_processes
-from mrlab_ros.processes.readiness import READY_TIMEOUT, wait_until_complete
+from mrlab_ros.processes.lab import (
+    PROCESSES,
+    LabOptions,
+    lab_nodes,
+    lab_processes,
+    parameter_file,
+    robot_models,
+)
+from mrlab_ros.processes.readiness import READY_TIMEOUT_S, wait_until_complete
 from mrlab_ros.processes.run_file import RunFile
 from mrlab_ros.processes.supervisor import SELF, Supervisor
 from mrlab_ros.ros.domain import domain_id
@@ -33,13 +39,9 @@ if TYPE_CHECKING:
     from rich.console import Console
 
 
-COLOURS = {
-    SELF: "bold",
-    "lab": "cyan",
-    "playback": "green",
-    "physics": "yellow",
-    "bridge": "magenta",
-    "recorder": "red",
+PALETTE = ("cyan", "green", "red", "yellow", "magenta")
+COLOURS = {SELF: "bold"} | {
+    process.name: colour for process, colour in zip(PROCESSES, PALETTE, strict=True)
 }
 # Any of these says that the user has chosen whom the graph can see.
 DISCOVERY = (
@@ -103,7 +105,7 @@ def up(
     The graph stays on this machine unless ROS_AUTOMATIC_DISCOVERY_RANGE says otherwise, and is
     on the domain of ROS_DOMAIN_ID.
     """
-    models = checked_robots(robots)
+    models = robot_models(robots)
     listen = None
     if bridge and zenoh_connect:
         listen = checked_router(zenoh_connect, zenoh_listen, keys, insecure)
@@ -115,16 +117,18 @@ def up(
     run_file = RunFile(domain)
     say = Speaker()
     with folder_for_state(state_dir) as folder, stop_signals() as stop:
-        specs = lab_processes(
-            config=checked_config(config),
+        options = LabOptions(
+            config=parameter_file(config),
+            state_dir=folder,
             robots=models,
-            listen=listen,
+            physics=with_physics,
+            bridge=bridge,
+            listen=zenoh_listen,
+            connect=zenoh_connect,
             keys=keys,
             insecure=insecure,
-            router=bool(zenoh_connect),
-            physics=with_physics,
-            state_dir=folder,
         )
+        specs = [process.spec(options) for process in lab_processes(options)]
         seen = keys_changed_at(keys) if keys is not None and bridge else ()
         run_file.claim(state_dir=str(folder), zenoh=listen)
         begin = time.monotonic()
@@ -137,9 +141,9 @@ def up(
                     tell_when_keys_expire(keys, say, router=bool(zenoh_connect))
                 if no_physics:
                     say(SELF, no_physics)
-                missing = wait_until_complete(stop, len(models), bridge, with_physics)
+                missing = wait_until_complete(stop, lab_nodes(options), len(models))
                 if missing:
-                    say(SELF, f"not complete after {READY_TIMEOUT:g} s: {missing} missing")
+                    say(SELF, f"not complete after {READY_TIMEOUT_S:g} s: {missing} missing")
                 elif not stop.is_set():
                     took = time.monotonic() - begin
                     zenoh = f"; zenoh clients connect to {listen}" if bridge else ""
@@ -172,32 +176,6 @@ def stay_on_this_machine() -> None:
     """Keep the graph off the network unless the user has chosen otherwise."""
     if not any(os.environ.get(name) for name in DISCOVERY):
         os.environ["ROS_AUTOMATIC_DISCOVERY_RANGE"] = "LOCALHOST"
-
-
-def checked_config(config: Path | None) -> Path:
-    """Return the parameter file; raise BadInput where there is none."""
-    if config is None:
-        from mrlab_ros.ros import share
-
-        config = share.directory() / "config" / "lab.yaml"
-    if not config.is_file():
-        raise BadInput(
-            f"there is no parameter file {config}; name one with --config, or leave it out"
-        )
-    return config.resolve()
-
-
-def checked_robots(robots: str) -> tuple[str, ...]:
-    """Return the ids in a list such as 'ur5e,kuka_kr3_r540'; raise BadInput for an unknown one."""
-    models = tuple(model for model in (part.strip() for part in robots.split(",")) if model)
-    if models:
-        from mrlab_ros.adapters.robots.library import RobotLibrary
-        from mrlab_ros.ros import share
-
-        library = RobotLibrary(share.directory() / "robots")
-        for model in models:
-            library.model(model)
-    return models
 
 
 @contextmanager

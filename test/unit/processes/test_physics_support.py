@@ -11,6 +11,7 @@ import pytest
 
 from mrlab_ros.core.errors import BadInput
 from mrlab_ros.processes import physics_support
+from mrlab_ros.processes.supervisor import WRONG_CONFIGURATION
 
 # An interpreter that finds everything but pybullet.
 WITHOUT = """
@@ -44,7 +45,7 @@ def test_the_node_and_the_command_end_with_the_same_sentence():
     command = (
         "import sys\nfrom mrlab_ros import cli\nsys.argv[1:] = ['up', '--physics']\ncli.main()"
     )
-    for code in (node, command):
+    for code, status in ((node, WRONG_CONFIGURATION), (command, 1)):
         done = subprocess.run(
             [sys.executable, "-c", WITHOUT + code],
             capture_output=True,
@@ -52,6 +53,6 @@ def test_the_node_and_the_command_end_with_the_same_sentence():
             timeout=60,
             check=False,
         )
-        assert done.returncode == 1
+        assert done.returncode == status
         assert "pybullet is not installed for this Python" in done.stderr
         assert "Traceback" not in done.stderr

@@ -18,6 +18,7 @@ from mrlab_ros.core.errors import Misuse
 from mrlab_ros.processes.run_file import RunFile
 from mrlab_ros.processes.supervisor import (
     RESTARTS,
+    WRONG_CONFIGURATION,
     ProcessSpec,
     RestartPolicy,
     Supervisor,
@@ -122,7 +123,13 @@ class TestRestartPolicy:
 
 @pytest.mark.parametrize(
     ("code", "words"),
-    [(0, "exit code 0"), (3, "exit code 3"), (-9, "SIGKILL"), (-99, "signal 99")],
+    [
+        (0, "exit code 0"),
+        (WRONG_CONFIGURATION, "wrong configuration"),
+        (3, "exit code 3"),
+        (-9, "SIGKILL"),
+        (-99, "signal 99"),
+    ],
 )
 def test_an_exit_is_told_in_words(code: int, words: str) -> None:
     assert describe_exit(code) == words
@@ -212,6 +219,31 @@ class TestSupervisor:
             wait_for(lambda: supervisor.states[0].phase == "waiting to restart", "waiting")
         assert supervisor.states[0].phase == "stopped"
         assert supervisor.states[0].last_exit == "exit code 3"
+
+    def test_a_process_that_refuses_its_configuration_is_not_started_again(
+        self, lines: Lines
+    ) -> None:
+        refuse = spec("a", f"print('no such robot')\nraise SystemExit({WRONG_CONFIGURATION})")
+        with Supervisor([refuse], lines, policy=lambda: RestartPolicy(0.01)) as supervisor:
+            wait_for(lambda: supervisor.states[0].phase == "wrong configuration", "the refusal")
+            assert "is not started again" in lines.of("mrlab")[-1]
+            assert lines.of("a") == ["no such robot"]
+            # The keys were corrected, say: whoever asks for a restart gets one.
+            supervisor.restart("a")
+            wait_for(lambda: len(lines.of("a")) == 2, "the second start")
+            wait_for(lambda: len(lines.of("mrlab")) == 2, "the second refusal")
+        assert supervisor.states[0].phase == "stopped"
+        assert supervisor.states[0].restarts == 1
+
+    def test_a_restart_does_not_wait_for_the_delay(self, lines: Lines) -> None:
+        with Supervisor(
+            [spec("a", "print('up')\nraise SystemExit(3)")],
+            lines,
+            policy=lambda: RestartPolicy(600.0),
+        ) as supervisor:
+            wait_for(lambda: supervisor.states[0].phase == "waiting to restart", "waiting")
+            supervisor.restart("a")
+            wait_for(lambda: len(lines.of("a")) == 2, "the second start")
 
     def test_every_change_is_reported(self, lines: Lines) -> None:
         phases: list[str] = []

@@ -32,7 +32,7 @@ from mrlab_ros.core.bridge import rules
 from mrlab_ros.core.bridge.access import Login
 from mrlab_ros.core.bridge.rules import Role
 from mrlab_ros.core.errors import BadInput, LabError, Misuse
-from mrlab_ros.processes.lab import lab_processes
+from mrlab_ros.processes.lab import LabOptions, lab_processes
 
 NOW = datetime(2026, 9, 1, 8, tzinfo=timezone.utc)
 ROOT = Path(__file__).parents[4]
@@ -349,12 +349,10 @@ def test_up_connects_to_a_router_with_keys_alone(tmp_path):
         checked_router(there, "", keys.folder, False)
     assert "zenohd -c router.json5" in run("router", "--dir", keys.folder).stdout
     assert checked_router(there, "", keys.folder, False) == there
-    specs = lab_processes(
-        config=tmp_path, robots=(), listen=there, state_dir=tmp_path, keys=keys.folder, router=True
-    )
-    argv = next(spec.argv for spec in specs if spec.name == "bridge")
-    assert f'connect:=["{there}"]' in argv
-    assert "mode:=client" in argv
+    options = LabOptions(tmp_path / "lab.yaml", tmp_path, connect=there, keys=keys.folder)
+    argv = next(p.arguments(options) for p in lab_processes(options) if p.name == "bridge")
+    assert f'bridge:connect:=["{there}"]' in argv
+    assert 'bridge:mode:="client"' in argv
     assert not any("listen" in part for part in argv)
 
 

@@ -1,0 +1,225 @@
+"""The list of the lab's processes, and that every launcher starts what it says."""
+
+from __future__ import annotations
+
+import ast
+import importlib.util
+import json
+import sys
+import types
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import mrlab_msgs.msg
+import pytest
+
+from mrlab_ros.commands.up.command import COLOURS
+from mrlab_ros.core.errors import BadInput
+from mrlab_ros.processes import physics_support
+from mrlab_ros.processes.lab import (
+    NODES,
+    PROCESSES,
+    LabOptions,
+    lab_nodes,
+    lab_processes,
+    parameter_file,
+    robot_models,
+)
+
+ROOT = Path(__file__).parents[3]
+CONFIG = ROOT / "config" / "lab.yaml"
+
+
+def options(**changes: Any) -> LabOptions:
+    return LabOptions(**{"config": CONFIG, "state_dir": Path("/state"), **changes})
+
+
+def arguments(process: str, **changes: Any) -> tuple[str, ...]:
+    chosen = options(**changes)
+    return next(p for p in lab_processes(chosen) if p.name == process).arguments(chosen)
+
+
+def parameters(process: str, **changes: Any) -> dict[str, Any]:
+    given = arguments(process, **changes)
+    pairs = [given[i + 1].split(":=", 1) for i, word in enumerate(given) if word == "-p"]
+    return {name: json.loads(value) for name, value in pairs}
+
+
+def test_every_node_is_in_one_process() -> None:
+    assert sorted(node for process in PROCESSES for node in process.nodes) == sorted(NODES)
+
+
+@pytest.mark.parametrize("name", NODES)
+def test_a_node_is_where_the_list_says(name: str) -> None:
+    entry = NODES[name]
+    source = ROOT.joinpath(*entry.module.split(".")).with_suffix(".py")
+    made = [n for n in ast.parse(source.read_text()).body if isinstance(n, ast.ClassDef)]
+    assert entry.kind in [n.name for n in made]
+    assert f'"{entry.graph_name}"' in source.read_text()
+    if entry.state is not None:
+        assert hasattr(mrlab_msgs.msg, entry.state[1])
+
+
+def test_every_node_is_an_executable_of_the_package() -> None:
+    tree = ast.parse((ROOT / "setup.py").read_text())
+    found = next(
+        node.value
+        for node in tree.body
+        if isinstance(node, ast.Assign) and ast.unparse(node.targets[0]) == "NODES"
+    )
+    modules = {name: f"mrlab_ros.nodes.{path}" for name, path in ast.literal_eval(found).items()}
+    assert modules == {name: entry.module for name, entry in NODES.items()}
+
+
+def test_every_process_has_a_colour() -> None:
+    assert {process.name for process in PROCESSES} < set(COLOURS)
+
+
+def test_physics_and_bridge_can_be_left_out() -> None:
+    everything = [process.name for process in lab_processes(options())]
+    assert everything == [process.name for process in PROCESSES]
+    less = lab_processes(options(physics=False, bridge=False))
+    assert [process.name for process in less] == ["lab", "playback", "recorder"]
+    assert NODES["physics"] not in lab_nodes(options(physics=False))
+
+
+def test_robots_are_parameters_of_the_lab_node_and_win_over_the_file() -> None:
+    assert parameters("lab", robots=("ur5e", "ur5e"))["lab:robots"] == ["ur5e", "ur5e"]
+    assert "lab:robots" not in parameters("lab")
+
+
+def test_what_is_not_chosen_is_left_to_the_parameter_file() -> None:
+    assert parameters("bridge") == {"state_dir": "/state"}
+
+
+def test_the_bridge_s_options_are_its_parameters(tmp_path: Path) -> None:
+    assert parameters("bridge", listen="tcp/0.0.0.0:1", insecure=True) == {
+        "state_dir": "/state",
+        "bridge:listen": ["tcp/0.0.0.0:1"],
+        "bridge:insecure": True,
+    }
+    routed = parameters("bridge", connect="tls/router:7447", keys=tmp_path / "12")
+    assert routed == {
+        "state_dir": "/state",
+        "bridge:connect": ["tls/router:7447"],
+        "bridge:mode": "client",
+        "bridge:keys": str(tmp_path / "12"),
+    }
+
+
+def test_a_text_stays_a_text() -> None:
+    assert parameters("lab", state_dir=Path('/a: "b" # 12'))["state_dir"] == '/a: "b" # 12'
+
+
+def test_the_supervisor_starts_the_host_with_the_arguments() -> None:
+    chosen = options(robots=("ur5e",))
+    spec = PROCESSES[0].spec(chosen)
+    assert spec.name == "lab"
+    assert spec.argv[1:3] == ("-m", "mrlab_ros.processes.host")
+    assert spec.argv[3:] == PROCESSES[0].arguments(chosen)
+    assert spec.argv[3:7] == ("converter", "lab", "coordinator", "--ros-args")
+
+
+def test_robots_and_parameter_files_that_do_not_exist_are_refused() -> None:
+    assert robot_models(" ur5e, ,kuka_kr3_r540") == ("ur5e", "kuka_kr3_r540")
+    assert robot_models("") == ()
+    with pytest.raises(BadInput, match="there is no robot 'ur6'; known are:"):
+        robot_models("ur5e,ur6")
+    with pytest.raises(BadInput, match="no parameter file /nowhere.yaml"):
+        parameter_file(Path("/nowhere.yaml"))
+    assert parameter_file(None).name == "lab.yaml"
+
+
+class Recorded:
+    """Stands for a class of `launch`: keeps what it was made with."""
+
+    def __init__(self, *args: Any, **kwargs: Any) -> None:
+        self.args, self.kwargs = args, kwargs
+
+
+class Configuration(Recorded):
+    """Stands for launch.substitutions.LaunchConfiguration; the context is a mapping."""
+
+    def perform(self, context: dict[str, str]) -> str:
+        return context[self.args[0]]
+
+
+@pytest.fixture
+def launched(monkeypatch: pytest.MonkeyPatch) -> Callable[..., list[Recorded]]:
+    """Return what makes the launch file's processes; ROS's launcher is not on PyPI."""
+    for name, kinds in (
+        ("launch", ("LaunchDescription",)),
+        ("launch.actions", ("DeclareLaunchArgument", "OpaqueFunction")),
+        ("launch.substitutions", ()),
+        ("launch_ros", ()),
+        ("launch_ros.actions", ("Node",)),
+    ):
+        module = types.ModuleType(name)
+        for kind in kinds:
+            setattr(module, kind, type(kind, (Recorded,), {}))
+        monkeypatch.setitem(sys.modules, name, module)
+    sys.modules["launch.substitutions"].LaunchConfiguration = Configuration  # type: ignore[attr-defined]
+    spec = importlib.util.spec_from_file_location("lab_launch", ROOT / "launch" / "lab.launch.py")
+    assert spec is not None
+    assert spec.loader is not None
+    module = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(module)
+
+    def run(**values: str) -> list[Recorded]:
+        *declared, opaque = module.generate_launch_description().args[0]
+        context = {each.args[0]: each.kwargs["default_value"] for each in declared}
+        assert values.keys() <= context.keys()
+        processes: list[Recorded] = opaque.kwargs["function"]({**context, **values})
+        return processes
+
+    return run
+
+
+def test_the_launch_file_starts_the_same_processes_as_up(
+    launched: Callable[..., list[Recorded]], tmp_path: Path
+) -> None:
+    chosen = options(
+        config=parameter_file(None),
+        state_dir=tmp_path,
+        robots=("ur5e",),
+        listen="tcp/127.0.0.1:7000",
+        keys=tmp_path / "keys",
+    )
+    nodes = launched(
+        state_dir=str(tmp_path),
+        robots="ur5e",
+        listen="tcp/127.0.0.1:7000",
+        keys=str(tmp_path / "keys"),
+    )
+    specs = [process.spec(chosen) for process in lab_processes(chosen)]
+    assert [node.kwargs["exec_name"] for node in nodes] == [spec.name for spec in specs]
+    assert [tuple(node.kwargs["arguments"]) for node in nodes] == [spec.argv[3:] for spec in specs]
+    for node in nodes:
+        assert (node.kwargs["package"], node.kwargs["executable"]) == ("mrlab_ros", "host")
+        # A name here would rename every node of the process.
+        assert "name" not in node.kwargs
+
+
+def test_the_launch_file_starts_nothing_for_ever(
+    launched: Callable[..., list[Recorded]],
+) -> None:
+    for node in launched():
+        assert node.kwargs["respawn"] is True
+        assert node.kwargs["respawn_max_retries"] > 0
+
+
+def test_the_launch_file_leaves_out_and_refuses_what_it_is_told_to(
+    launched: Callable[..., list[Recorded]], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    names = [node.kwargs["exec_name"] for node in launched(physics="false", bridge="false")]
+    assert names == ["lab", "playback", "recorder"]
+    with pytest.raises(BadInput, match="no robot 'ur6'"):
+        launched(robots="ur6")
+    with pytest.raises(BadInput, match="no parameter file"):
+        launched(config="/nowhere.yaml")
+    with pytest.raises(RuntimeError, match="no web gateway"):
+        launched(web="true")
+    monkeypatch.setattr(physics_support, "missing", lambda: "pybullet is not installed")
+    with pytest.raises(BadInput, match="there is no physics"):
+        launched(physics="true")
