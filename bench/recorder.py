@@ -97,8 +97,8 @@ def write_by_executor(library: str, folder: Path) -> None:
     from rclpy.executors import ExternalShutdownException, SingleThreadedExecutor
     from rosbags.rosbag2 import StoragePlugin, Writer
 
-    from mrlab_ros.adapters.bags.definitions import definition
     from mrlab_ros.core.recording.topics import LAB_TOPICS, Topics
+    from mrlab_ros.messages.definitions import definition
     from mrlab_ros.messages.qos import message_class, profile, topic_of
 
     rclpy.init()
@@ -256,9 +256,9 @@ def write_only(messages: int, folder: Path) -> list[dict[str, Any]]:
     from mcap.writer import Writer as McapWriter
     from rosbags.rosbag2 import StoragePlugin, Writer
 
-    from mrlab_ros.adapters.bags.definitions import definition
     from mrlab_ros.adapters.bags.writer import BagWriter
     from mrlab_ros.core.recording.metadata import QosProfile, Topic
+    from mrlab_ros.messages.definitions import definition
 
     kind, text = "sensor_msgs/msg/JointState", definition("sensor_msgs/msg/JointState")
     names = [f"/bench_{number}/joint_states" for number in range(50)]

@@ -14,13 +14,13 @@ from rclpy.serialization import serialize_message
 from sensor_msgs.msg import JointState
 from typer.testing import CliRunner
 
-from mrlab_ros.adapters.bags.definitions import definition
 from mrlab_ros.adapters.bags.writer import BagWriter
 from mrlab_ros.cli import app
 from mrlab_ros.commands.replay import Keyboard, next_rate
 from mrlab_ros.commands.status import _recorder_facts, _recorder_line
 from mrlab_ros.core.errors import BadInput
 from mrlab_ros.core.recording.metadata import QosProfile, Topic
+from mrlab_ros.messages.definitions import definition
 from mrlab_ros.messages.time import make_header
 
 START_NS = 1_700_000_000_000_000_000

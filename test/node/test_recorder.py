@@ -26,7 +26,6 @@ from sensor_msgs.msg import JointState
 from std_msgs.msg import String
 from std_srvs.srv import SetBool, Trigger
 
-from mrlab_ros.adapters.bags.definitions import definition
 from mrlab_ros.adapters.bags.reader import Bag
 from mrlab_ros.adapters.bags.repair import repair
 from mrlab_ros.adapters.bags.writer import BagWriter
@@ -34,6 +33,7 @@ from mrlab_ros.adapters.trajectories.coefficients import load_coefficients
 from mrlab_ros.adapters.trajectories.store import chunks, parse
 from mrlab_ros.core.recording.metadata import QosProfile, Topic
 from mrlab_ros.messages import qos
+from mrlab_ros.messages.definitions import definition
 from mrlab_ros.nodes.recorder import recording, replaying
 from mrlab_ros.nodes.recorder.node import RecorderNode
 from mrlab_ros.ros.share import directory

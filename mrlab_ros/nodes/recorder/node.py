@@ -13,13 +13,13 @@ from rclpy.node import Node
 from rclpy.parameter import Parameter
 from std_srvs.srv import SetBool, Trigger
 
-from mrlab_ros.adapters.bags.definitions import definition
 from mrlab_ros.adapters.bags.reader import Bag, default_folder
 from mrlab_ros.adapters.bags.writer import BagWriter
 from mrlab_ros.core.errors import LabError, Misuse
 from mrlab_ros.core.recording.timeline import ReplayTimeline
 from mrlab_ros.core.recording.topics import LAB_TOPICS, Split, Topics
 from mrlab_ros.messages import qos
+from mrlab_ros.messages.definitions import definition
 from mrlab_ros.messages.time import make_header
 from mrlab_ros.nodes.lab.memory import LabRestore
 from mrlab_ros.nodes.recorder.attachments import SessionContent, versions

@@ -10,7 +10,6 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from mrlab_ros.core.errors import BadInput
-from mrlab_ros.core.recording.definitions import SEPARATOR, full_definition
 from mrlab_ros.core.recording.metadata import (
     NEVER_NS,
     ROOT,
@@ -83,26 +82,6 @@ def test_a_file_is_full_by_age_or_size(split, age, size, due):
 def test_a_split_that_makes_no_sense_is_refused(wrong):
     with pytest.raises(BadInput, match="split"):
         Split(**wrong)
-
-
-TEXTS = {
-    "a/msg/Root": "# a/Comment\nstd_msgs/Header header\nInner[] list\nuint8 X=1\nstring<=5 s\n",
-    "std_msgs/msg/Header": "builtin_interfaces/Time stamp\nstring frame_id\n",
-    "builtin_interfaces/msg/Time": "int32 sec\nuint32 nanosec\n",
-    "a/msg/Inner": "builtin_interfaces/Time when\nfloat64[3] xyz\n",
-}
-
-
-def test_a_definition_holds_every_type_within_once():
-    text = full_definition("a/msg/Root", TEXTS.__getitem__)
-    parts = text.split(SEPARATOR + "\n")
-    assert parts[0] == TEXTS["a/msg/Root"]
-    heads = [part.splitlines()[0] for part in parts[1:]]
-    assert heads == [
-        "MSG: std_msgs/Header",
-        "MSG: a/Inner",
-        "MSG: builtin_interfaces/Time",
-    ]
 
 
 def test_a_quality_survives_its_document():
