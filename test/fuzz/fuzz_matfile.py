@@ -52,10 +52,7 @@ class Discard:
         shape: tuple[int, ...],
         data: memoryview | bytes | None = None,
         dtype: str = "",
-        *,
-        is_object: bool = False,
-        note: str = "",
-        columns: tuple[str, ...] = (),
+        **_: object,
     ) -> None:
         if data is not None:
             np.frombuffer(data, dtype).reshape(shape, order="F")

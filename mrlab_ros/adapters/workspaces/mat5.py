@@ -25,7 +25,11 @@ class TooLarge(Exception):
 
 
 class Sink(Protocol):
-    """Takes what a reader finds, in the order of the file."""
+    """Takes what a reader finds, in the order of the file.
+
+    The arguments are the fields of `core.conversion.workspace.Variable`, with the numbers as
+    bytes.
+    """
 
     def add(
         self,
@@ -38,6 +42,10 @@ class Sink(Protocol):
         is_object: bool = False,
         note: str = "",
         columns: tuple[str, ...] = (),
+        units: tuple[str, ...] = (),
+        time: str = "",
+        label: str = "",
+        text: str = "",
     ) -> None:
         """Take one variable; `data` is column by column, of numpy type `dtype`."""
 
@@ -75,8 +83,10 @@ CLASSES = {
     15: "uint64",
     FUNCTION: "function_handle",
 }
+UNREAD = (OBJECT, SPARSE, FUNCTION)  # classes whose contents are not read to the end
 COMPLEX_FLAG, LOGICAL_FLAG = 0x08, 0x02
 DEEPEST = 32
+LONGEST_TEXT = 200  # characters of a line of text that is kept
 
 
 def index(shape: tuple[int, ...], number: int) -> str:
@@ -177,6 +187,8 @@ class Mat5Reader:
                 kind, body = self._inflate(body)
             if kind != MI_MATRIX:
                 raise Damaged(f"element type {kind} stands where a variable should begin")
+            if len(body) % 8:
+                raise Damaged(f"a variable has {len(body)} bytes, which is no multiple of 8")
             # objects keep their contents in one nameless variable, which `objects` opens
             if begin != subsystem:
                 name = self._matrix(body, "", 0)
@@ -264,6 +276,8 @@ class Mat5Reader:
             raise Damaged(
                 f"'{path}' has the class number {array_class}, which MATLAB never writes"
             )
+        if array_class not in UNREAD and any(body[cursor.at :]):
+            raise Damaged(f"{len(body) - cursor.at} bytes follow the contents of '{path}'")
         return path
 
     def _child(self, cursor: Cursor, path: str, depth: int) -> None:
@@ -311,10 +325,8 @@ class Mat5Reader:
                 raise Damaged(f"the sparse '{path}' has indices of another type than int32")
             self.sink.add(path, "sparse", shape)
             return
-        count = product(shape)
         if array_class == CHAR:
-            self._text(cursor, path, count)
-            self.sink.add(path, kind, shape)
+            self.sink.add(path, kind, shape, text=self._text(cursor, path, shape))
             return
         dtype, data = self._element(cursor, path, shape)
         if flags & COMPLEX_FLAG:
@@ -343,10 +355,14 @@ class Mat5Reader:
             )
         return dtype, data
 
-    def _text(self, cursor: Cursor, path: str, count: int) -> None:
-        """Step over the characters of `path`; raise Damaged where they are not `count`."""
+    def _text(self, cursor: Cursor, path: str, shape: tuple[int, ...]) -> str:
+        """Return a short line of text, else an empty one; step over the characters of `path`.
+
+        Raises Damaged where there are not as many characters as `shape` needs.
+        """
+        count = product(shape)
         if not cursor and not count:
-            return
+            return ""
         element, data = cursor.next()
         if element not in TEXT_SIZES:
             raise Damaged(f"the text '{path}' has the element type {element}, which is not text")
@@ -354,6 +370,10 @@ class Mat5Reader:
         enough = len(data) >= count if element == MI_UTF8 else len(data) == count * size
         if not enough:
             raise Damaged(f"the text '{path}' has {len(data)} bytes for {count} characters")
+        if shape[0] != 1 or count > LONGEST_TEXT:
+            return ""
+        suffix = "" if size == 1 else "-le" if self.order == "<" else "-be"
+        return bytes(data).decode(f"utf-{8 * size}{suffix}", "replace")
 
 
 MAT4_NUMBERS = {0: ("f8", 8), 1: ("f4", 4), 2: ("i4", 4), 3: ("i2", 2), 4: ("u2", 2), 5: ("u1", 1)}
@@ -383,6 +403,13 @@ def mat4_order(data: memoryview | bytes) -> str | None:
     return None
 
 
+def characters(codes: memoryview, order: str, number: str) -> str:
+    """Return the text that a v4 file keeps as numbers of the numpy type `number`."""
+    letter = {"f8": "d", "f4": "f", "i4": "i", "i2": "h", "u2": "H", "u1": "B"}[number]
+    values = struct.unpack(f"{order}{len(codes) // int(number[1])}{letter}", codes)
+    return "".join(chr(int(v)) if 0 <= v < 0x110000 else "\ufffd" for v in values)
+
+
 def read_mat4(data: memoryview, sink: Sink) -> None:
     """Hand every variable of a v4 workspace to the sink; raise Damaged."""
     at = 0
@@ -403,7 +430,11 @@ def read_mat4(data: memoryview, sink: Sink) -> None:
         if at > len(data):
             raise Damaged(f"'{name}' needs {at - begin} bytes where {len(data) - begin} are left")
         if kind % 10 == 1:
-            sink.add(name, "char", (rows, columns))
+            text = ""
+            if rows == 1 and columns <= LONGEST_TEXT:
+                codes = memoryview(data[begin : begin + one])
+                text = characters(codes, order, number)
+            sink.add(name, "char", (rows, columns), text=text)
         elif kind % 10 == 2:
             sink.add(name, "sparse", (rows, columns))
         elif imaginary:

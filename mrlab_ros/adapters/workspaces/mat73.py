@@ -12,6 +12,7 @@ import h5py
 
 from mrlab_ros.adapters.workspaces.mat5 import (
     DEEPEST,
+    LONGEST_TEXT,
     Damaged,
     NotAWorkspace,
     Sink,
@@ -123,12 +124,21 @@ class _Reader:
                 f"{self.limit / 2**20:.0f} MiB"
             )
 
+    def _text(self, item: Any, shape: tuple[int, ...]) -> str:
+        """Return a short line of text, else an empty one."""
+        if shape[0] != 1 or item.size > LONGEST_TEXT or item.dtype.kind != "u":
+            return ""
+        return bytes(item[()].astype("<u2")).decode("utf-16-le", "replace")
+
     def _numbers(self, item: Any, path: str, kind: str) -> None:
         shape = self._shape(item)
         if item.dtype.names:
             self.sink.add(path, kind or "double", shape, note="complex")
             return
         kind = kind or {"f": "double", "i": "int64", "u": "uint64"}.get(item.dtype.kind, "unknown")
+        if kind == "char" and "MATLAB_empty" not in item.attrs:
+            self.sink.add(path, kind, shape, text=self._text(item, shape))
+            return
         if kind not in ("double", "single") or item.dtype.kind not in "fiu":
             self.sink.add(path, kind, shape)
             return

@@ -214,15 +214,14 @@ def _variable(
     shape: list[int],
     offset: int,
     dtype: str,
-    is_object: bool,
-    note: str,
-    columns: list[str],
+    facts: dict[str, Any],
 ) -> Variable:
     values = None
     if offset >= 0:
         flat = np.frombuffer(numbers, np.dtype(dtype), shape[0] * shape[1], offset)
         values = flat.reshape(tuple(shape), order="F")
-    return Variable(path, kind, tuple(shape), values, is_object, note, tuple(columns))
+    facts |= {name: tuple(facts[name]) for name in ("columns", "units")}
+    return Variable(path, kind, tuple(shape), values, **facts)
 
 
 def _sha256(source: int, size: int) -> str:

@@ -147,7 +147,8 @@ def _with_h5py(data: memoryview, path: str) -> NDArray[Any]:
                     item, number = file[item[()].reshape(-1)[number]], None
             else:
                 item = file[item[()].reshape(-1)[_number(item.shape, where)]]
-        return np.asarray(item[...]).T
+        values = np.asarray(item[...]).T
+        return values.reshape(values.shape + (1,) * (2 - values.ndim))
 
 
 def _number(shape: tuple[int, ...], where: tuple[int, ...]) -> int:

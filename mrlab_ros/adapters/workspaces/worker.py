@@ -56,6 +56,10 @@ class OutputFile:
         is_object: bool = False,
         note: str = "",
         columns: tuple[str, ...] = (),
+        units: tuple[str, ...] = (),
+        time: str = "",
+        label: str = "",
+        text: str = "",
     ) -> None:
         if len(self.index) >= MOST_VARIABLES:
             self.omitted += 1
@@ -69,7 +73,9 @@ class OutputFile:
             padding = -len(data) % 8
             self.file.write(bytes(padding))
             self.at += len(data) + padding
-        self.index.append([path, kind, shape, offset, dtype, is_object, note, columns])
+        facts: dict[str, Any] = {"note": note, "columns": columns, "units": units, "time": time}
+        facts |= {"is_object": is_object, "label": label, "text": text}
+        self.index.append([path, kind, shape, offset, dtype, facts])
 
     def finish(self, **words: Any) -> None:
         words |= {"variables": self.index, "omitted": self.omitted}

@@ -51,7 +51,10 @@ def rate_of_times(times: NDArray[Any], source: str) -> FrameRate | None:
 
 
 def time_beside(workspace: Workspace, path: str) -> Variable | None:
-    """Return the `time` of the Simulink structure that `path` lies in, if it does."""
+    """Return the own time of the matrix at `path`, else that of the structure it lies in."""
+    variable = workspace.find(path)
+    if variable is not None and variable.time:
+        return workspace.find(variable.time)
     match = re.match(r"(.*?)\.signals(?:\(\d+\))?\.values$", path)
     outer = match.group(1) if match else path.rpartition(".")[0]
     if not outer:

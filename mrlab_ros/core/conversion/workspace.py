@@ -13,13 +13,24 @@ JOINT_TRAJECTORY = "trajectory_msgs/msg/JointTrajectory"
 
 @dataclass(frozen=True, eq=False)
 class Variable:
-    """One variable of a workspace, or one part of a struct, a cell or an array of structs.
+    """One variable of a workspace, or one part of a struct, a cell, an object and so on.
 
-    path: as MATLAB writes it, such as `out.q.signals.values`. kind: MATLAB's class, such as
-    double; of an object its class name. shape: as MATLAB's size() gives it, empty if unknown.
-    values: the numbers of a real double or single matrix in MATLAB's orientation, else None.
-    note: why there are no values, such as complex or sparse. columns: their names, where the
-    file names them: the headings of a table, the joints of a message.
+    path: as MATLAB writes it, such as `out.q.signals.values`, `log{1}.Values.Data` or
+    `map('q')`. kind: MATLAB's class, such as double; of an object its class name. shape: as
+    MATLAB's size() gives it, empty if unknown. values: the numbers of a real double or single
+    matrix in MATLAB's orientation, else None. is_object: an object that could not be opened.
+    note: why there are no values, such as complex or sparse.
+
+    columns: their names, where the file names them: the headings of a table, the joints of a
+    message. units: of each column, as the file writes them ('rad', 'deg', 'm/s', may be empty);
+    one entry alone is that of every column; empty where the file gives none. time: the path of
+    the variable, (N, 1) s, that holds the time of each row, where the file itself says so (a
+    timeseries, a timetable); empty where it does not. label: the name that the signal carries in
+    the file, such as that of a timeseries or of an element of a Dataset. text: of a char or a
+    string, where it is one line of at most 200 characters.
+
+    The samples of a timeseries are its rows, along whichever axis its time runs. Durations are in
+    s; a datetime is in s since its first element.
 
     A message of the kind JOINT_TRAJECTORY has its positions as values; its times and velocities
     are the variables `path.time_from_start` (s) and, where every point has them,
@@ -33,6 +44,10 @@ class Variable:
     is_object: bool = False
     note: str = ""
     columns: tuple[str, ...] = ()
+    units: tuple[str, ...] = ()
+    time: str = ""
+    label: str = ""
+    text: str = ""
 
     @property
     def is_message(self) -> bool:

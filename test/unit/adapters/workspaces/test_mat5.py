@@ -32,14 +32,13 @@ EXAMPLES = [
 
 
 class Collected(dict):
-    """A sink: path -> (kind, shape, values or None, is_object, note)."""
+    """A sink: path -> (kind, shape, values or None, is_object, note, text)."""
 
-    def add(self, path, kind, shape, data=None, dtype="", *, is_object=False, note="", columns=()):
-        del columns
+    def add(self, path, kind, shape, data=None, dtype="", *, is_object=False, note="", **facts):
         values = None
         if data is not None:
             values = np.frombuffer(bytes(data), dtype).reshape(shape, order="F")
-        self[path] = kind, tuple(shape), values, is_object, note
+        self[path] = kind, tuple(shape), values, is_object, note, facts.get("text", "")
 
     def kind(self, path):
         return self[path][0]
@@ -152,6 +151,15 @@ def test_what_has_no_numbers_is_listed_with_its_class():
     kinds = {k: sink.kind(k) for k in "ibset"}
     assert kinds == {"i": "int16", "b": "logical", "s": "sparse", "e": "double", "t": "char"}
     assert sink["e"][1] == (0, 6)
+    assert sink["t"][5] == "abc"
+
+
+@pytest.mark.parametrize("form", ["4", "5"])
+def test_a_line_of_text_is_kept_and_longer_text_is_not(form):
+    _, sink = read(saved(a="Gelenk 1", b=["ab", "cd"], c="x" * 300, form=form))
+    assert [sink[name][5] for name in "abc"] == ["Gelenk 1", "", ""]
+    if form == "5":
+        assert read(saved(a="Größe"))[1]["a"][5] == "Größe"
 
 
 def element(kind, data, order="<"):
@@ -221,7 +229,7 @@ def test_v7_3_containers_and_objects():
         thing = file.create_dataset("ts", data=np.zeros((1, 6), np.uint32))
         thing.attrs["MATLAB_class"] = np.bytes_("timeseries")
         thing.attrs["MATLAB_object_decode"] = np.int32(3)
-        text = file.create_dataset("t", data=np.zeros((3, 1), np.uint16))
+        text = file.create_dataset("t", data=np.array([[111], [107], [0xE4]], np.uint16))
         text.attrs["MATLAB_class"] = np.bytes_("char")
         nothing = file.create_dataset("e", data=np.array([0, 6], np.uint64))
         nothing.attrs["MATLAB_class"] = np.bytes_("double")
@@ -234,7 +242,7 @@ def test_v7_3_containers_and_objects():
     np.testing.assert_array_equal(sink.values("s.q"), q)
     np.testing.assert_array_equal(sink.values("a(2).q"), q + 1)
     assert (sink.kind("ts"), sink["ts"][3]) == ("timeseries", True)
-    assert sink.kind("t") == "char"
+    assert (sink.kind("t"), sink["t"][5]) == ("char", "okä")
     assert sink["e"][1:3] == ((0, 6), None)
     assert sink["z"][4] == "complex"
     assert "elsewhere" not in sink

@@ -331,6 +331,12 @@ def test_the_time_of_the_structure_itself_comes_first():
     assert result.trajectory.frame_rate == 40.0
 
 
+def test_the_own_time_of_a_signal_comes_first():
+    own = var("log{1}.Values.Time", np.arange(300)[:, None] / 250)
+    q = var("log{1}.Values.Data", motion(), time="log{1}.Values.Time")
+    assert accepted(var("fs", 50.0), own, q).frame_rate == 250.0
+
+
 def test_uneven_times_are_a_warning():
     t = np.cumsum(np.where(np.arange(300) % 2, 0.01, 0.03))[:, None]
     result = convert(var("q", motion()), var("t", t))
