@@ -23,8 +23,9 @@ from sensor_msgs.msg import JointState
 
 from mrlab_ros.adapters.robots.library import RobotLibrary
 from mrlab_ros.adapters.robots.ruckig_planner import RuckigPlanner
-from mrlab_ros.core.playback.playback import Playback, Sample
+from mrlab_ros.core.playback.playback import Playback
 from mrlab_ros.core.playback.states import State
+from mrlab_ros.core.playback.stream import Sample
 from mrlab_ros.core.trajectory.trajectory import Channels, Source, Trajectory
 from mrlab_ros.messages import qos
 from mrlab_ros.messages.joint_states import JointStateEncoder

@@ -6,8 +6,7 @@ from __future__ import annotations
 import argparse
 import re
 import sys
-from collections.abc import Callable, Mapping
-from enum import Enum
+from collections.abc import Callable
 from pathlib import Path
 
 import protocol_page
@@ -15,24 +14,28 @@ import roles_page
 
 from mrlab_ros.core import diagnostics
 from mrlab_ros.core.physics import grasp
-from mrlab_ros.core.playback import states
-from mrlab_ros.core.systems import states as systems_states
+from mrlab_ros.core.playback import states as playback
+from mrlab_ros.core.recording import states as recording
+from mrlab_ros.core.state_machine import Table
+from mrlab_ros.core.systems import states as systems
 
 ROOT = Path(__file__).resolve().parent.parent
 
 
-def diagram(transitions: Mapping[tuple[Enum, Enum], Enum], first: str) -> str:
-    """Draw a table of transitions as a Mermaid state diagram."""
-    lines = ["```mermaid", "stateDiagram-v2", f"    [*] --> {first}"]
-    for (state, event), target in transitions.items():
-        lines.append(f"    {state.name} --> {target.name}: {event.value}")
-    return "\n".join([*lines, "```"])
-
-
+# The state machines of the lab: page, name of its blocks, table.
+MACHINES: tuple[tuple[str, str, Table], ...] = (
+    ("docs/playback.md", "playback", playback.TABLE),
+    ("docs/systems.md", "system", systems.TABLE),
+    ("docs/recorder.md", "recorder", recording.TABLE),
+    ("docs/physics.md", "grasp", grasp.TABLE),
+)
 BLOCKS: dict[tuple[str, str], Callable[[], str]] = {
-    ("docs/playback.md", "playback states"): lambda: diagram(states.TRANSITIONS, "IDLE"),
-    ("docs/physics.md", "grasp states"): lambda: diagram(grasp.TRANSITIONS, "OPEN"),
-    ("docs/systems.md", "system states"): lambda: diagram(systems_states.TRANSITIONS, "READY"),
+    **{(page, f"{name} states"): table.mermaid for page, name, table in MACHINES},
+    **{
+        (page, f"{name} table"): table.markdown
+        for page, name, table in MACHINES
+        if page != "docs/physics.md"
+    },
 }
 FILES: dict[str, Callable[[], str]] = {
     "docs/diagnostics.md": diagnostics.document,

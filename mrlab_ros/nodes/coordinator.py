@@ -33,21 +33,20 @@ from mrlab_ros.ros.spinning import Caller
 from mrlab_ros.ros.worker import Worker
 
 Claim = msg.DriveOrder
-# How often a moving system looks for what time has made due, s.
-POLL = 0.02
-LOAD_TIMEOUT = 15.0
-FIND_TIMEOUT = 5.0
+# Period at which an active system is polled, s.
+POLL_PERIOD_S = 0.02
+# A playback loads a trajectory within this time, and publishes its state within this time, s.
+LOAD_TIMEOUT_S = 15.0
+FIND_TIMEOUT_S = 5.0
 
 
 class MemberClient:
-    """What the coordinator holds of one robot: its services and its newest state."""
+    """The services and topics of one member."""
 
     def __init__(self, coordinator: CoordinatorNode, robot: str) -> None:
         self.robot = robot
-        self.state: msg.PlaybackState | None = None
+        self._host = ""
         self._known = threading.Event()
-        # A state from before the last reply says nothing of how things are now.
-        self.replied_ns = 0
         self._coordinator = coordinator
         self._node = coordinator.caller.node
         self.load = self._node.create_client(srv.LoadTrajectory, f"/{robot}/load")
@@ -60,21 +59,21 @@ class MemberClient:
         ]
 
     def host(self) -> str:
-        """Return the node that plays the robot; raise NoAnswer where none says it does."""
-        if not self._known.wait(FIND_TIMEOUT) or self.state is None:
+        """Return the node that plays the robot; raise NoAnswer where none publishes its state."""
+        if not self._known.wait(FIND_TIMEOUT_S):
             raise NoAnswer(
-                f"no playback tells the state of {self.robot}; is the playback running?"
+                f"no playback publishes the state of {self.robot}; is the playback running?"
             )
-        return str(self.state.host)
+        return self._host
 
     def _on_state(self, message: msg.PlaybackState) -> None:
-        self.state = message
+        self._host = str(message.host)
         self._known.set()
-        self._coordinator.worker.later(lambda: self._coordinator.follow(self, message))
+        self._coordinator.worker.later(lambda: self._coordinator.on_state(self, message))
 
     def _on_grasp(self, message: msg.Grasp) -> None:
         held = message.object if message.state == msg.Grasp.HOLDING else None
-        self._coordinator.worker.later(lambda: self._coordinator.grasped(self.robot, held))
+        self._coordinator.worker.later(lambda: self._coordinator.on_grasp(self.robot, held))
 
     def close(self) -> None:
         for subscription in self._subscriptions:
@@ -83,29 +82,28 @@ class MemberClient:
 
 
 class RosFleet:
-    """The members of one system, reached through the hosts that play them."""
+    """The members of one system, commanded through the hosts that play them."""
 
-    def __init__(self, system: str, links: dict[str, MemberClient], hosts: Hosts) -> None:
+    def __init__(self, system: str, members: dict[str, MemberClient], hosts: Hosts) -> None:
         self._system = system
-        self._links = links
+        self._members = members
         self._hosts = hosts
 
-    def prepare(self, robot: str, trajectory_id: str) -> Loaded:
-        reply = self._send([msg.DriveOrder(robot=robot, command=Claim.CLAIM)])[0]
-        if trajectory_id not in ("", reply.trajectory_id):
-            # A member loads nothing by itself: it is let go for that.
-            self.release(robot)
-            request = srv.LoadTrajectory.Request(id=trajectory_id)
-            answer = call(self._links[robot].load, request, LOAD_TIMEOUT)
-            if not answer.success:
-                raise Misuse(f"{robot}: {answer.message}")
-            reply = self._send([msg.DriveOrder(robot=robot, command=Claim.CLAIM)])[0]
-        if not reply.trajectory_id:
-            raise Misuse(f"{robot} has no trajectory; load one, or name one for the system")
-        return Loaded(reply.trajectory_id, reply.trajectory_duration, reply.frame_rate)
+    def claim(self, robot: str) -> Loaded:
+        """Make the robot a member of the system."""
+        [(reply, stamp_ns)] = self._send([msg.DriveOrder(robot=robot, command=Claim.CLAIM)])
+        return Loaded(reply.trajectory_id, reply.trajectory_duration, reply.frame_rate, stamp_ns)
 
     def release(self, robot: str) -> None:
+        """Let the robot leave the system."""
         self._send([msg.DriveOrder(robot=robot, command=Claim.RELEASE)])
+
+    def load(self, robot: str, trajectory_id: str) -> None:
+        """Load a trajectory on a robot that is no member; raise Misuse where it is refused."""
+        request = srv.LoadTrajectory.Request(id=trajectory_id)
+        answer = call(self._members[robot].load, request, LOAD_TIMEOUT_S)
+        if not answer.success:
+            raise Misuse(f"{robot}: {answer.message}")
 
     def drive(self, orders: Sequence[Order]) -> list[Reply]:
         replies = self._send(
@@ -121,13 +119,19 @@ class RosFleet:
                 for order in orders
             ]
         )
-        return [Reply(State(r.state), r.position, r.duration) for r in replies]
+        return [
+            Reply(State(reply.state), reply.position, reply.duration, stamp_ns)
+            for reply, stamp_ns in replies
+        ]
 
-    def _send(self, orders: Sequence[msg.DriveOrder]) -> list[msg.DriveReply]:
-        """Give each host its members' orders, all hosts at once; return the replies in order."""
+    def _send(self, orders: Sequence[msg.DriveOrder]) -> list[tuple[msg.DriveReply, int]]:
+        """Send each host its members' orders, all hosts at once.
+
+        Returns for each order its reply and when it was carried out, ns.
+        """
         by_host: dict[str, list[msg.DriveOrder]] = {}
         for order in orders:
-            by_host.setdefault(self._links[order.robot].host(), []).append(order)
+            by_host.setdefault(self._members[order.robot].host(), []).append(order)
         answers = call_all(
             [
                 (
@@ -139,12 +143,10 @@ class RosFleet:
         )
         replies = {}
         for answer in answers:
-            for reply in answer.replies:
-                self._links[reply.robot].replied_ns = time_from_message(answer.stamp)
-                replies[reply.robot] = reply
-        for answer in answers:
             if not answer.success:
                 raise Misuse(answer.message)
+            stamp_ns = time_from_message(answer.stamp)
+            replies.update({reply.robot: (reply, stamp_ns) for reply in answer.replies})
         return [replies[order.robot] for order in orders]
 
 
@@ -177,12 +179,12 @@ class CoordinatorNode(Node):
         self.caller = Caller(self)
         self._hosts = Hosts(self.caller.node)
         self._systems = Systems()
-        self._links: dict[str, MemberClient] = {}
+        self._members: dict[str, MemberClient] = {}
         self._fleets: dict[str, RosFleet] = {}
         self._offered: dict[str, list[Service]] = {}
         self._robots: frozenset[str] = frozenset()
-        # All decisions are made in one thread, one after another.
-        self.worker = Worker("coordinator", self._poll, self._patience)
+        # Every use of a system runs in this one thread, one after another.
+        self.worker = Worker("coordinator", self._poll, self._poll_period)
         self._topic = self.create_publisher(msg.RobotSystems, "/systems", qos.LATCHED_EVENTS)
         self.create_subscription(msg.Robots, "/robots", self._on_robots, qos.LATCHED)
         self.create_service(srv.CreateSystem, "~/create_system", self._create)
@@ -213,17 +215,17 @@ class CoordinatorNode(Node):
                 "(parallel) or 1 (sequential), and 0 (halt all) or 1 (halt member)"
             ) from None
         members = [
-            Member(m.robot, m.trajectory_id, self._dwell(m.dwell), tuple(map(parse, m.waits)))
+            Member(m.robot, m.trajectory_id, float(m.dwell), tuple(map(parse, m.waits)))
             for m in request.members
         ]
         robots = [member.robot for member in members]
         name = self._systems.check(request.name, robots, self._robots)
-        fleet = self._fleets[name] = RosFleet(name, self._links, self._hosts)
-        system = RobotSystem(name, members, fleet, mode, policy, request.loop)
+        fleet = self._fleets[name] = RosFleet(name, self._members, self._hosts)
+        system = RobotSystem(name, members, fleet, mode, policy, request.loop, self._publish)
         self._systems.add(system)
         try:
             for robot in robots:
-                self._links[robot] = MemberClient(self, robot)
+                self._members[robot] = MemberClient(self, robot)
             system.prepare()
         except LabError:
             self._do_dissolve(name, "could not be created")
@@ -245,12 +247,6 @@ class CoordinatorNode(Node):
         response.system = self._message(system)
         return f"{name} drives {', '.join(robots)}: {system.duration:g} s, {mode.name.lower()}"
 
-    @staticmethod
-    def _dwell(dwell: float) -> float:
-        if not 0 <= dwell < 3600:
-            raise BadInput(f"the dwell is {dwell} s; expected 0 to 3600 s")
-        return float(dwell)
-
     def _callback(
         self, name: str, action: Callable[[RobotSystem, Any], str]
     ) -> Callable[[Any, Any], Any]:
@@ -270,16 +266,16 @@ class CoordinatorNode(Node):
         system = self._systems.dissolve(name)
         fleet = self._fleets.pop(name)
         for robot in system.members:
-            link = self._links.get(robot)
-            if link is None:
+            client = self._members.get(robot)
+            if client is None:
                 continue
             if robot in self._robots:
                 try:
                     fleet.release(robot)
                 except LabError as error:
                     self.get_logger().warning(f"{robot} was not released: {error}")
-            link.close()
-            del self._links[robot]
+            client.close()
+            del self._members[robot]
         for service in self._offered.pop(name, []):
             self.destroy_service(service)
         self._publish()
@@ -323,52 +319,42 @@ class CoordinatorNode(Node):
         system.loop = request.data
         return "loops" if request.data else "plays once"
 
-    # what happens, in the worker's thread ---------------------------------------------------
+    # reports, in the worker's thread --------------------------------------------------------
 
-    def follow(self, link: MemberClient, message: msg.PlaybackState) -> None:
-        """Take a member's state as its playback tells it."""
-        system = self._systems.of(link.robot)
-        stamp_ns = time_from_message(message.header.stamp)
-        if system is None or link.robot not in self._links or stamp_ns < link.replied_ns:
+    def on_state(self, client: MemberClient, message: msg.PlaybackState) -> None:
+        """Pass a member's published state on to its system."""
+        system = self._systems.of(client.robot)
+        if system is None or self._members.get(client.robot) is not client:
             return
-        before = system.state, system.message, self._held(system)
-        self._guarded(
-            lambda: system.member_changed(
-                self._now_ns(), link.robot, State(message.state), message.clock.position
+        self._logged(
+            partial(
+                system.member_changed,
+                self._now_ns(),
+                client.robot,
+                State(message.state),
+                message.clock.position,
+                time_from_message(message.header.stamp),
             )
         )
-        self._announce(system, before)
 
-    def grasped(self, robot: str, held: str | None) -> None:
-        """Tell every system what `robot` holds: a wait may name a robot of another system."""
+    def on_grasp(self, robot: str, held: str | None) -> None:
+        """Pass on what `robot` holds to every system: a wait may name another system's robot."""
         for system in self._systems:
-            before = system.state, system.message, self._held(system)
-            self._guarded(partial(system.grasped, self._now_ns(), robot, held))
-            self._announce(system, before)
+            self._logged(partial(system.grasped, self._now_ns(), robot, held))
 
     def _poll(self) -> None:
         for system in self._systems:
-            before = system.state, system.message, self._held(system)
-            self._guarded(partial(system.poll, self._now_ns()))
-            self._announce(system, before)
+            self._logged(partial(system.poll, self._now_ns()))
 
-    def _patience(self) -> float | None:
-        active = (SystemState.STAGING, SystemState.PLAYING)
-        return POLL if any(system.state in active for system in self._systems) else None
+    def _poll_period(self) -> float | None:
+        return POLL_PERIOD_S if any(system.active for system in self._systems) else None
 
-    def _guarded(self, work: Callable[[], None]) -> None:
-        """Do something nobody waits for: a refusal is in the system's message, and logged."""
+    def _logged(self, work: Callable[[], None]) -> None:
+        """Do something without a caller: a failure is logged, and in the system's message."""
         try:
             work()
         except LabError as error:
             self.get_logger().warning(str(error))
-
-    def _announce(self, system: RobotSystem, before: Any) -> None:
-        if system.state is SystemState.COMPLETE:
-            self._publish()
-            self._guarded(lambda: system.rearm(self._now_ns()))
-        if (system.state, system.message, self._held(system)) != before:
-            self._publish()
 
     def _on_robots(self, message: msg.Robots) -> None:
         robots = frozenset(robot.name for robot in message.robots)
@@ -376,19 +362,13 @@ class CoordinatorNode(Node):
 
     def _set_robots(self, robots: frozenset[str]) -> None:
         self._robots = robots
-        for system in self._systems:
-            gone = [robot for robot in system.members if robot not in robots]
-            if gone:
-                self._do_dissolve(system.name, f"{', '.join(gone)} left the scene")
+        for system, missing in self._systems.without_members(robots):
+            self._do_dissolve(system.name, f"{', '.join(missing)} left the scene")
 
     # messages -------------------------------------------------------------------------------
 
     def _now_ns(self) -> int:
         return int(self.get_clock().now().nanoseconds)
-
-    @staticmethod
-    def _held(system: RobotSystem) -> list[str]:
-        return [w.text if (w := m.held_by) else "" for m in system.members.values()]
 
     def _message(self, system: RobotSystem) -> msg.RobotSystem:
         playing = system.state is SystemState.PLAYING
@@ -401,10 +381,10 @@ class CoordinatorNode(Node):
                     start=m.start,
                     duration=m.duration,
                     dwell=m.dwell,
-                    state=m.state.value,
+                    state=m.playback_state.value,
                     position=m.position,
                     waits=[wait.text for wait in m.waits],
-                    waiting_for=m.held_by.text if playing and m.held_by else "",
+                    waiting_for=m.waiting_for.text if playing and m.waiting_for else "",
                 )
                 for m in system.members.values()
             ],

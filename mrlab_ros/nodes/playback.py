@@ -17,8 +17,9 @@ from mrlab_ros.adapters.robots.library import RobotLibrary
 from mrlab_ros.adapters.robots.ruckig_planner import RuckigPlanner, StagingLimits
 from mrlab_ros.core.errors import BadInput, LabError, Misuse
 from mrlab_ros.core.playback.planner import MotionPlanner
-from mrlab_ros.core.playback.playback import Playback, PlaybackStatus, Sample
+from mrlab_ros.core.playback.playback import Playback, PlaybackStatus
 from mrlab_ros.core.playback.states import State
+from mrlab_ros.core.playback.stream import Sample
 from mrlab_ros.core.robots.model import RobotModel
 from mrlab_ros.core.trajectory.trajectory import Trajectory
 from mrlab_ros.messages import qos, trajectories
@@ -33,7 +34,6 @@ from mrlab_ros.ros.calls import call
 from mrlab_ros.ros.deadlines import Player, Scheduler
 from mrlab_ros.ros.spinning import Caller
 
-MOVING = (State.ADJUSTING, State.PLAYING)
 Order = msg.DriveOrder
 
 
@@ -65,8 +65,6 @@ class PlaybackNode(Node):
         self._scheduler = scheduler
         self._fetch = fetch
         self._host = host
-        self._colliding = False
-        self.end_effector = ""
         self.playback = Playback(model, planner, standing_rate)
         self._encoder = JointStateEncoder(robot, model.joint_names)
         self._joint_states = self.create_publisher(JointState, "joint_states", qos.STREAM)
@@ -100,7 +98,7 @@ class PlaybackNode(Node):
         with self._scheduler.command() as now_ns:
             sample, playback = self.player.last, self.playback
             trajectory = playback.trajectory
-            if sample is None or trajectory is None or playback.state not in MOVING:
+            if sample is None or trajectory is None or not playback.moving:
                 return
             sent, lost = playback.sent, playback.lost
             errors = self.player.error_ns, self.player.error_max_ns
@@ -126,7 +124,7 @@ class PlaybackNode(Node):
     def publish_state(self) -> None:
         """Publish the present state again, while the robot moves."""
         with self._scheduler.command() as now_ns:
-            if self.playback.state in MOVING:
+            if self.playback.moving:
                 self._announce(now_ns, self.playback.status())
 
     def _send(self, sample: Sample) -> None:
@@ -163,12 +161,6 @@ class PlaybackNode(Node):
     @answered
     def _load(self, request: Any, response: Any) -> str:
         trajectory = self._fetch(request.id) if request.id else None
-        if trajectory is not None and trajectory.end_effector not in (None, self.end_effector):
-            raise BadInput(
-                f"trajectory '{trajectory.id}' was made for the end effector "
-                f"{trajectory.end_effector}, this robot carries {self.end_effector or 'none'}; "
-                "exchange the end effector, or convert the file again"
-            )
         with self._scheduler.command() as now_ns:
             if trajectory is None:
                 self.playback.unload(now_ns)
@@ -221,12 +213,7 @@ class PlaybackNode(Node):
     @answered
     def _clear_halt(self, request: Any, response: Any) -> str:
         with self._scheduler.command() as now_ns:
-            if self._colliding and self.playback.state is State.COLLISION_HALT:
-                raise Misuse(
-                    "the arm still touches something; place the robot elsewhere, move what it "
-                    "touches away, or seek back"
-                )
-            self.playback.clear(now_ns)
+            self.playback.clear_halt(now_ns)
         return "clear; play resumes in place"
 
     def drive(self, now_ns: int, by: str, order: msg.DriveOrder) -> msg.DriveReply:
@@ -265,11 +252,10 @@ class PlaybackNode(Node):
 
     def _on_collision(self, message: msg.Collision) -> None:
         with self._scheduler.command() as now_ns:
-            self._colliding = message.colliding
             if message.colliding:
                 contact = message.contact
                 self.playback.collide(now_ns, f"{contact.link} touches {contact.other}")
-            elif self.playback.state is State.COLLISION_HALT:
+            else:
                 self.playback.clear(now_ns)
 
 
@@ -332,7 +318,8 @@ class PlaybackHostNode(Node):
         for robot in wanted.values():
             if robot.name not in self.nodes:
                 self._add(robot.name, robot.model)
-            self.nodes[robot.name].end_effector = robot.end_effector
+            with self.scheduler.command():
+                self.nodes[robot.name].playback.end_effector = robot.end_effector
 
     def _add(self, robot: str, model: str) -> None:
         node = PlaybackNode(

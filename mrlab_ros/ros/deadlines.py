@@ -14,7 +14,8 @@ import traceback
 from collections.abc import Callable
 
 from mrlab_ros.core.clock import SECOND
-from mrlab_ros.core.playback.playback import Playback, PlaybackStatus, Sample
+from mrlab_ros.core.playback.playback import Playback, PlaybackStatus
+from mrlab_ros.core.playback.stream import Sample
 
 PR_SET_TIMERSLACK = 29
 # The longest the thread sleeps without a deadline, s.

@@ -277,7 +277,9 @@ def test_a_split_that_the_disk_refuses_ends_the_recording(graph, counter, launch
     process = launch()
     folder = start(graph, "class")
     wait_for(lambda: states and states.last().messages > 100, "messages in the bag")
-    size = states.last().bytes
+    # The first chunk is written some time after the first messages are counted.
+    wait_for(lambda: Bag(folder).message_count, "messages on the disk")
+    size = (folder / "class_0.mcap").stat().st_size
     resource.prlimit(process.pid, resource.RLIMIT_FSIZE, (size, resource.RLIM_INFINITY))
     answer = graph.call(Trigger, "/recorder/split")
     assert "cannot be written (File too large)" in answer.message

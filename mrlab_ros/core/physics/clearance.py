@@ -1,51 +1,61 @@
-"""When an arm collides and when it is clear again: two states with room between them."""
+"""When an arm collides and when it is clear again: two states with hysteresis."""
 
 from __future__ import annotations
 
 from enum import Enum
 
+from mrlab_ros.core.state_machine import Machine, Table
+
 
 class Halt(Enum):
+    """Whether an arm collides."""
+
     CLEAR = "clear"
     COLLIDING = "colliding"
 
 
 class HaltEvent(Enum):
+    """What is observed of an arm."""
+
     TOUCHED = "touch"
     LEFT = "keep clear"
 
 
-TRANSITIONS: dict[tuple[Halt, HaltEvent], Halt] = {
-    (Halt.CLEAR, HaltEvent.TOUCHED): Halt.COLLIDING,
-    (Halt.CLEAR, HaltEvent.LEFT): Halt.CLEAR,
-    (Halt.COLLIDING, HaltEvent.TOUCHED): Halt.COLLIDING,
-    (Halt.COLLIDING, HaltEvent.LEFT): Halt.CLEAR,
-}
+TABLE: Table[Halt, HaltEvent] = Table(
+    initial=Halt.CLEAR,
+    transitions={
+        (Halt.CLEAR, HaltEvent.TOUCHED): Halt.COLLIDING,
+        (Halt.COLLIDING, HaltEvent.LEFT): Halt.CLEAR,
+    },
+    ignored={HaltEvent.TOUCHED: (Halt.COLLIDING,), HaltEvent.LEFT: (Halt.CLEAR,)},
+    commands=(),
+)
 
 
 class Clearance:
-    """Raises a collision at the first touch; ends it when the margin was kept for a while.
+    """A collision begins at the first touch and ends when the margin was kept for a while.
 
     margin: m; hold_ns: how long, without a break, the margin must be kept.
     """
 
     def __init__(self, margin: float, hold_ns: int) -> None:
-        self.state = Halt.CLEAR
+        self._machine = Machine(TABLE)
         self._margin = margin
         self._hold_ns = hold_ns
         self._since_ns: int | None = None
 
+    @property
+    def state(self) -> Halt:
+        """Whether the arm collides."""
+        return self._machine.state
+
     def touched(self) -> bool:
-        """Note a touch; return whether a collision begins with it."""
-        before = self.state
-        self.state = TRANSITIONS[before, HaltEvent.TOUCHED]
+        """Take a touch; return whether a collision begins with it."""
         self._since_ns = None
-        return before is not self.state
+        return self._fire(HaltEvent.TOUCHED)
 
     def apart(self, now_ns: int, distance: float) -> bool:
-        """Note a look without touch at `distance`, m; return whether the collision ends."""
-        if self.state is Halt.CLEAR:
-            return False
+        """Take that nothing is touched, at `distance` (m); return whether the collision ends."""
         if distance < self._margin:
             self._since_ns = None
             return False
@@ -53,5 +63,9 @@ class Clearance:
             self._since_ns = now_ns
         if now_ns - self._since_ns < self._hold_ns:
             return False
-        self.state = TRANSITIONS[self.state, HaltEvent.LEFT]
-        return True
+        return self._fire(HaltEvent.LEFT)
+
+    def _fire(self, event: HaltEvent) -> bool:
+        """Fire an event; return whether it changed the state."""
+        before = self._machine.state
+        return self._machine.fire(event) is not before

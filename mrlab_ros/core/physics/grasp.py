@@ -1,4 +1,4 @@
-"""What a gripper does: four states, one table, and when fingers count as stalled."""
+"""The states of a gripper in one table, and when fingers count as stalled."""
 
 from __future__ import annotations
 
@@ -6,9 +6,9 @@ from collections.abc import Sequence
 from enum import Enum
 
 from mrlab_ros.core.clock import SECOND
-from mrlab_ros.core.errors import IllegalEvent
 from mrlab_ros.core.geometry import Vector, dot
 from mrlab_ros.core.physics.engine import Finger, FingerState, Kind, Touch
+from mrlab_ros.core.state_machine import Table
 
 # Two fingers oppose each other when the cosine between their contact normals is below this;
 # three fingers 120 degrees apart have -0.5.
@@ -33,7 +33,7 @@ class Grasp(Enum):
 
 
 class GraspEvent(Enum):
-    """What can happen to a gripper. The value says it as a person would."""
+    """What can happen to a gripper. The value is the verb in "cannot <value> while <STATE>"."""
 
     CLOSE = "close"
     OPEN = "open"
@@ -43,33 +43,29 @@ class GraspEvent(Enum):
 
 
 G, E = Grasp, GraspEvent
-TRANSITIONS: dict[tuple[Grasp, GraspEvent], Grasp] = {
-    (G.OPEN, E.OPEN): G.OPEN,
-    (G.OPEN, E.CLOSE): G.CLOSING,
-    (G.OPEN, E.SEIZED): G.HOLDING,
-    (G.CLOSING, E.CLOSE): G.CLOSING,
-    (G.CLOSING, E.OPEN): G.OPEN,
-    (G.CLOSING, E.SEIZED): G.HOLDING,
-    (G.CLOSING, E.SHUT): G.EMPTY,
-    (G.HOLDING, E.CLOSE): G.HOLDING,
-    (G.HOLDING, E.OPEN): G.OPEN,
-    (G.HOLDING, E.LOST): G.EMPTY,
-    (G.EMPTY, E.CLOSE): G.EMPTY,
-    (G.EMPTY, E.OPEN): G.OPEN,
-    (G.EMPTY, E.SEIZED): G.HOLDING,
-}
+TABLE: Table[Grasp, GraspEvent] = Table(
+    initial=G.OPEN,
+    transitions={
+        (G.OPEN, E.OPEN): G.OPEN,
+        (G.OPEN, E.CLOSE): G.CLOSING,
+        (G.OPEN, E.SEIZED): G.HOLDING,
+        (G.CLOSING, E.CLOSE): G.CLOSING,
+        (G.CLOSING, E.OPEN): G.OPEN,
+        (G.CLOSING, E.SEIZED): G.HOLDING,
+        (G.CLOSING, E.SHUT): G.EMPTY,
+        (G.HOLDING, E.CLOSE): G.HOLDING,
+        (G.HOLDING, E.OPEN): G.OPEN,
+        (G.HOLDING, E.LOST): G.EMPTY,
+        (G.EMPTY, E.CLOSE): G.EMPTY,
+        (G.EMPTY, E.OPEN): G.OPEN,
+        (G.EMPTY, E.SEIZED): G.HOLDING,
+    },
+    # A vacuum cup that seized nothing in time goes on sucking.
+    ignored={E.SHUT: (G.EMPTY,)},
+    commands=tuple(GraspEvent),
+    refusal="the gripper cannot {event} while {state}; possible now: {possible}",
+)
 del G, E
-
-
-def after(state: Grasp, event: GraspEvent) -> Grasp:
-    """Return the state that `event` leads to; raise IllegalEvent where the table has none."""
-    try:
-        return TRANSITIONS[state, event]
-    except KeyError:
-        possible = ", ".join(e.value for e in GraspEvent if (state, e) in TRANSITIONS)
-        raise IllegalEvent(
-            f"the gripper cannot {event.value} while {state.name}; possible now: {possible}"
-        ) from None
 
 
 class StallWatch:

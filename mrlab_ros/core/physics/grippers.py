@@ -156,8 +156,7 @@ class Hands:
         thing = self._stage.objects.get(reached) if reached is not None else None
         if thing is not None and thing.graspable and self._may_take(robot, thing):
             self._seize(robot, thing)
-        elif shut and robot.grasp is Grasp.CLOSING:
-            robot.fire(GraspEvent.SHUT)
+        elif shut and robot.fire(GraspEvent.SHUT):
             self.tell(robot)
 
     def _may_take(self, robot: Robot, thing: SceneObject) -> bool:

@@ -11,15 +11,15 @@ from mrlab_ros.core.clock import SECOND, PlaybackClock
 from mrlab_ros.core.geometry import Pose
 from mrlab_ros.core.physics.clearance import Clearance
 from mrlab_ros.core.physics.engine import Arm, Kind, Touch
-from mrlab_ros.core.physics.grasp import Grasp, GraspEvent, Gripper, StallWatch, after
+from mrlab_ros.core.physics.grasp import TABLE, Grasp, GraspEvent, Gripper, StallWatch
 from mrlab_ros.core.physics.joint_stream import Joints, JointStream
 from mrlab_ros.core.physics.settings import Settings
 from mrlab_ros.core.physics.snapshots import Snapshot, Snapshots
-from mrlab_ros.core.playback.states import State
+from mrlab_ros.core.playback.states import MOVING, State
+from mrlab_ros.core.state_machine import Machine
 
 # In these states the gripper is where the trajectory says; in the others it stays as it is.
 COMMANDING = (State.PLAYING, State.PAUSED, State.COLLISION_HALT)
-MOVING = (State.PLAYING, State.ADJUSTING)
 # The clock of a playback that goes on normally is off by less than this, s.
 SEEK_TOLERANCE = 0.03
 
@@ -103,7 +103,6 @@ class Robot:
     # which velocities that is the share.
     share: float = 1.0
     share_of: Joints | None = None
-    grasp: Grasp = Grasp.OPEN
     closed: bool = False
     closing_since_ns: int = 0
     held: str = ""
@@ -114,6 +113,7 @@ class Robot:
     pending: tuple[int, Snapshot] | None = None
 
     def __post_init__(self) -> None:
+        self._grasp = Machine(TABLE)
         s = self.settings
         self.stream = JointStream(
             len(self.joints), round(s.max_silence * SECOND), round(s.max_catch_up * SECOND)
@@ -154,10 +154,15 @@ class Robot:
         ways = zip(start, end, self.arm.levers, strict=True)
         return sum([abs(b - a) * lever for a, b, lever in ways])
 
+    @property
+    def grasp(self) -> Grasp:
+        """The state of the gripper."""
+        return self._grasp.state
+
     def fire(self, event: GraspEvent) -> bool:
-        """Take the transition of the gripper; return whether its state changed."""
-        before, self.grasp = self.grasp, after(self.grasp, event)
-        return before is not self.grasp
+        """Fire an event of the gripper; return whether its state changed."""
+        before = self._grasp.state
+        return self._grasp.fire(event) is not before
 
     def may_grasp(self, link: str) -> bool:
         """Return whether `link` may touch an object without that being a collision."""

@@ -1,51 +1,27 @@
-"""One robot's playback: a trajectory, a clock and the seven states. No node, no thread.
+"""One robot's playback: its commands and the seven states. No node, no thread.
 
 The caller owns time: it passes `now_ns` to every command, asks `due_ns()` when the next joint
-state leaves, and calls `tick(now_ns)` then. What changed comes out of `take_statuses()`.
+state leaves, and calls `tick(now_ns)` then. Changes of state come out of `take_statuses()`.
 """
 
 from __future__ import annotations
 
-import math
 from dataclasses import dataclass
 
-import numpy as np
-
-from mrlab_ros.core.clock import SECOND, PlaybackClock, checked_position, checked_rate
+from mrlab_ros.core.clock import PlaybackClock, checked_position, checked_rate
 from mrlab_ros.core.errors import BadInput, Misuse
 from mrlab_ros.core.geometry import Array
-from mrlab_ros.core.playback.planner import Motion, MotionPlanner
-from mrlab_ros.core.playback.states import Event, State, after
+from mrlab_ros.core.playback.planner import MotionPlanner
+from mrlab_ros.core.playback.states import MOVING, TABLE, Event, State
+from mrlab_ros.core.playback.stream import Sample, Stream
 from mrlab_ros.core.robots.model import RobotModel
-from mrlab_ros.core.trajectory.trajectory import ON_FRAME, Trajectory
-
-# A machine that stalls for less than this delays joint states but loses none; what is later than
-# this is left out, for catching up would take longer than it is worth.
-LOST_AFTER_NS = 10 * SECOND
-# Late joint states follow each other no closer than this share of the period: the stream
-# catches up without a burst.
-CATCH_UP_SPACING = 0.5
-# The arm stands on the trajectory when no joint is further off than this, rad.
-ON_TRAJECTORY = 1e-6
-# Rate of joint states while the arm moves without a trajectory's frame rate, Hz.
-MOTION_RATE = 100.0
-
-
-@dataclass(frozen=True)
-class Sample:
-    """One joint state. due_ns is its deadline and its stamp; arrays are (J,) rad and rad/s."""
-
-    due_ns: int
-    positions: Array
-    velocities: Array
-    position: float
-    frame: int
-    streamed: bool
+from mrlab_ros.core.state_machine import Machine
+from mrlab_ros.core.trajectory.trajectory import Trajectory
 
 
 @dataclass(frozen=True)
 class PlaybackStatus:
-    """What a client may know of a playback at one instant."""
+    """The state of a playback at one instant, as it is published."""
 
     state: State
     message: str
@@ -61,60 +37,103 @@ class Playback:
     """Plays one trajectory at a time on one robot.
 
     A command that the state forbids raises Misuse, a bad argument BadInput; either way nothing
-    changes. `by` names the robot system that commands; a member obeys its system alone.
+    changes. `by` names the robot system that gives the command; a member of a system accepts
+    commands from that system alone.
+
+    end_effector: what the robot carries; empty: nothing.
     """
 
     def __init__(self, model: RobotModel, planner: MotionPlanner, standing_rate: float) -> None:
         """Stand at the model's home pose; `standing_rate` (Hz, 0: never) repeats the pose."""
         self.model = model
-        self._planner = planner
-        self._standing_ns = round(SECOND / standing_rate) if standing_rate > 0 else None
-        self.state = State.IDLE
-        self.trajectory: Trajectory | None = None
-        self.clock = PlaybackClock()
-        self.rate = 1.0
+        self.end_effector = ""
         self.loop = False
         self.system = ""
-        self.sent = 0
-        self.lost = 0
+        self._planner = planner
+        self._machine = Machine(TABLE)
+        self._stream = Stream(model.home, standing_rate)
         self._message = ""
-        self._arm: Array = model.home
-        self._next_ns: int | None = 0
-        # The next joint state: its number at this rate, its position (s) and its deadline.
-        self._tick, self._place, self._due_ns = 0, 0.0, 0
-        self._streamed: float | None = None
-        self._motion: Motion | None = None
-        self._motion_start_ns = 0
+        self._touching = False
         self._play_on_arrival = False
-        self._until: float | None = None
         self._statuses: list[PlaybackStatus] = []
         self._announce("")
+
+    # what it is -----------------------------------------------------------------------------
+
+    @property
+    def state(self) -> State:
+        """The state of the playback."""
+        return self._machine.state
+
+    @property
+    def moving(self) -> bool:
+        """Whether the arm moves."""
+        return self.state in MOVING
+
+    @property
+    def trajectory(self) -> Trajectory | None:
+        """The loaded trajectory."""
+        return self._stream.trajectory
+
+    @property
+    def clock(self) -> PlaybackClock:
+        """The position on the trajectory at any time."""
+        return self._stream.clock
+
+    @property
+    def rate(self) -> float:
+        """The speed of playback; 1 is the trajectory's own."""
+        return self._stream.rate
+
+    @property
+    def arm(self) -> Array:
+        """The joint positions sent last, (J,) rad."""
+        return self._stream.arm
+
+    @property
+    def frame(self) -> int:
+        """The last source frame reached."""
+        return self._stream.frame
+
+    @property
+    def sent(self) -> int:
+        """The number of joint states of this run that were sent."""
+        return self._stream.sent
+
+    @property
+    def lost(self) -> int:
+        """The number of joint states of this run that were left out because they were late."""
+        return self._stream.lost
+
+    def status(self) -> PlaybackStatus:
+        """Return the present state as it is published."""
+        return PlaybackStatus(
+            self.state,
+            self._message,
+            self.trajectory,
+            self.clock,
+            self.frame,
+            self.rate,
+            self.loop,
+            self.system,
+        )
 
     # commands -------------------------------------------------------------------------------
 
     def load(self, now_ns: int, trajectory: Trajectory, by: str = "") -> None:
-        """Load a trajectory made for this model; the arm stays where it is."""
-        self._require_master(by)
-        state = after(self.state, Event.LOAD)
-        if trajectory.robot_model != self.model.id:
-            raise BadInput(
-                f"trajectory '{trajectory.id}' was made for {trajectory.robot_model}, this robot "
-                f"is a {self.model.id}; convert the file again for {self.model.id}"
-            )
-        if trajectory.joint_names != self.model.joint_names:
-            raise BadInput(
-                f"trajectory '{trajectory.id}' has the joints {', '.join(trajectory.joint_names)}"
-                f"; expected {', '.join(self.model.joint_names)}; convert the file again"
-            )
-        self.trajectory = trajectory
-        self._stand(now_ns, state, 0.0, f"loaded {trajectory.id}")
+        """Load a trajectory made for this model and end effector; the arm stays where it is."""
+        self._require_owner(by)
+        self._machine.check(Event.LOAD)
+        self._check_fits(trajectory)
+        self._stream.trajectory = trajectory
+        self._stand(now_ns, Event.LOAD, 0.0, f"loaded {trajectory.id}")
 
     def unload(self, now_ns: int, by: str = "") -> None:
         """Forget the trajectory; the arm stays where it is."""
-        self._require_master(by)
-        state = after(self.state, Event.UNLOAD)
-        self.trajectory = None
-        self._stand(now_ns, state, 0.0, "unloaded")
+        self._require_owner(by)
+        self._machine.check(Event.UNLOAD)
+        self._stream.trajectory = None
+        self._stand(now_ns, Event.UNLOAD, 0.0, "unloaded")
 
     def play(
         self,
@@ -127,65 +146,66 @@ class Playback:
         """Play on from the clock's position: the clock shows it at `start_ns` (default: now).
 
         An arm that stands elsewhere moves there first, in ADJUSTING, and plays when it arrives.
-        A system may set the rate with it, have the clock pair begin a little in the past, and
-        have the arm wait in PAUSED at the position `until` (s).
+        A system may set the rate as well, choose a `start_ns` a little in the past, and have the
+        arm wait in PAUSED at the position `until` (s).
         """
-        self._require_master(by)
-        after(self.state, Event.PLAY)
+        self._require_owner(by)
+        self._machine.check(Event.PLAY)
         position = self.clock.position
         if until is not None:
             checked_position(until, self._loaded().duration)
-        self.rate = self.rate if rate is None else checked_rate(rate)
-        if by and not self._on_trajectory(position):
+        rate = self.rate if rate is None else checked_rate(rate)
+        there = self._stream.is_at(position)
+        if by and not there:
             raise Misuse(f"does not stand at {position:g} s of its trajectory; stage it first")
-        if self._on_trajectory(position):
-            self._until = until
-            self._begin(
-                now_ns if start_ns is None else start_ns, position, after(self.state, Event.PLAY)
-            )
+        self._stream.rate = rate
+        if there:
+            self._stream.until = until
+            self._follow(now_ns if start_ns is None else start_ns, position, Event.PLAY)
         else:
-            self._move_to(now_ns, position, play_on_arrival=True)
+            self._approach(now_ns, position, Event.STAGE, play_on_arrival=True)
 
     def stage(self, now_ns: int, position: float, by: str = "") -> float:
         """Move to `position` (s) and wait there in PAUSED; return how long that takes, s.
 
         An arm that is paused there already stays as it is.
         """
-        self._require_master(by)
-        after(self.state, Event.STAGE)
+        self._require_owner(by)
+        self._machine.check(Event.STAGE)
         checked_position(position, self._loaded().duration)
-        there = self.clock.position == position and self._on_trajectory(position)
-        if self.state is State.PAUSED and there:
+        there = self.clock.position == position and self._stream.is_at(position)
+        if there and self._machine.can(Event.IN_PLACE):
+            self._machine.fire(Event.IN_PLACE)
             return 0.0
-        return self._move_to(now_ns, position, play_on_arrival=False)
+        return self._approach(now_ns, position, Event.STAGE, play_on_arrival=False)
 
     def pause(self, now_ns: int, by: str = "") -> None:
         """Stand still where the last joint state left the arm."""
-        self._require_master(by)
-        state = after(self.state, Event.PAUSE)
-        self._halt(now_ns, state, "paused")
+        self._require_owner(by)
+        self._halt(now_ns, Event.PAUSE, "paused")
 
     def stop(self, now_ns: int, by: str = "") -> None:
         """End the run: READY to play from the first frame, the arm stays where it is.
 
-        In COLLISION_HALT the arm goes back to the first frame and waits there to be clear.
+        In COLLISION_HALT the arm goes back to the first frame, and the halt goes on until the
+        arm is clear.
         """
-        self._require_master(by)
-        state = after(self.state, Event.STOP)
-        if state is State.COLLISION_HALT:
-            self._jump(now_ns, state, 0.0, "back at the first frame, waits until it is clear")
+        self._require_owner(by)
+        if self._machine.check(Event.STOP) is State.COLLISION_HALT:
+            message = "back at the first frame, waits until it is clear"
+            self._jump(now_ns, Event.STOP, 0.0, message)
         else:
-            self._stand(now_ns, state, 0.0, "stopped")
+            self._stand(now_ns, Event.STOP, 0.0, "stopped")
 
     def seek(self, now_ns: int, position: float, by: str = "") -> None:
         """Go to `position` (s) at once; PLAYING plays on from there, the rest stand there."""
-        self._require_master(by)
-        state = after(self.state, Event.SEEK)
+        self._require_owner(by)
+        target = self._machine.check(Event.SEEK)
         checked_position(position, self._loaded().duration)
-        if state is State.PLAYING:
-            self._begin(now_ns, position, state)
+        if target is State.PLAYING:
+            self._follow(now_ns, position, Event.SEEK)
         else:
-            self._jump(now_ns, state, position, f"stands at {position:g} s")
+            self._jump(now_ns, Event.SEEK, position, f"stands at {position:g} s")
 
     def set_rate(
         self, now_ns: int, rate: float, since_ns: int | None = None, by: str = ""
@@ -195,46 +215,37 @@ class Playback:
         A system names the instant, a little in the past, from which on the new rate holds, so
         that its members stay together.
         """
-        self._require_master(by)
-        self.rate = checked_rate(rate)
-        if self.state is State.PLAYING:
-            start_ns = max(now_ns if since_ns is None else since_ns, self.clock.stamp_ns)
-            self.clock = PlaybackClock(start_ns, self.clock.at(start_ns), rate)
-            if self._streamed is None:
-                self._aim(self.clock.position, skip=False)
-            else:
-                self._aim(max(self.clock.position, self._streamed), skip=True)
+        self._require_owner(by)
+        self._stream.set_rate(now_ns if since_ns is None else since_ns, checked_rate(rate))
         self._announce(f"rate {rate:g}")
 
     def hold_at(self, until: float | None, by: str = "") -> None:
         """Wait in PAUSED at a later position than now, `until` (s); None: play to the end."""
-        self._require_master(by)
+        self._require_owner(by)
         if until is not None:
             checked_position(until, self._loaded().duration)
-            if self._streamed is not None and until <= self._streamed:
+            streamed = self._stream.streamed
+            if streamed is not None and until <= streamed:
                 raise Misuse(f"has passed {until:g} s already; pause, then seek back")
-        self._until = until
-        if self.state is State.PLAYING:
-            self._take_up(self._tick)
-            self._next_ns = self._due_ns
+        self._stream.end_at(until)
 
     def set_loop(self, loop: bool, by: str = "") -> None:
         """Set whether the trajectory starts over after its last frame."""
-        self._require_master(by)
+        self._require_owner(by)
         self.loop = loop
         self._announce("loops" if loop else "plays once")
 
-    def collide(self, now_ns: int, why: str) -> bool:
-        """Halt where the arm stands; return False where the arm did not move anyway."""
-        if self.state not in (State.PLAYING, State.ADJUSTING):
-            return False
-        self._halt(now_ns, after(self.state, Event.COLLIDED), why)
-        return True
+    def clear_halt(self, now_ns: int) -> None:
+        """End a halt by command; raise Misuse while physics still reports a collision."""
+        self._machine.check(Event.CLEAR_HALT)
+        if self._touching:
+            raise Misuse(
+                "the arm still touches something; place the robot elsewhere, move what it "
+                "touches away, or seek back"
+            )
+        self._halt(now_ns, Event.CLEAR_HALT, "clear again")
 
-    def clear(self, now_ns: int) -> None:
-        """End the halt: physics confirmed that the arm is clear; playing on resumes in place."""
-        state = after(self.state, Event.CLEARED)
-        self._halt(now_ns, state, "clear again")
+    # membership -----------------------------------------------------------------------------
 
     def claim(self, system: str) -> None:
         """Become a member of `system`; raise Misuse where another system has the robot."""
@@ -244,65 +255,64 @@ class Playback:
         self._announce(f"driven by system {system}")
 
     def release(self, now_ns: int, by: str) -> None:
-        """Leave the system, paused where the arm is; nothing to do for a stranger."""
+        """Leave the system, paused where the arm is; no effect for another system's robot."""
         if self.system != by:
             return
-        if self.state in (State.PLAYING, State.ADJUSTING):
-            self._halt(now_ns, after(self.state, Event.PAUSE), "")
+        self._report(now_ns, Event.RELEASED, "")
         self.system = ""
         self._announce(f"released by system {by}")
+
+    # reports of physics ---------------------------------------------------------------------
+
+    def collide(self, now_ns: int, why: str) -> bool:
+        """Take that the arm collides: halt where it is.
+
+        Returns False where the arm did not move anyway; then the state stays.
+        """
+        self._touching = True
+        return self._report(now_ns, Event.COLLIDED, why)
+
+    def clear(self, now_ns: int) -> bool:
+        """Take that the arm is clear again: end a halt; play then goes on in place.
+
+        Returns False where there was no halt.
+        """
+        self._touching = False
+        return self._report(now_ns, Event.CLEARED, "clear again")
 
     # time -----------------------------------------------------------------------------------
 
     def due_ns(self) -> int | None:
         """Return when the next joint state leaves; None: not before something changes."""
-        return self._next_ns
+        return self._stream.next_ns
 
     def tick(self, now_ns: int) -> Sample | None:
         """Return the joint state that is due at `now_ns`, or None."""
-        if self._next_ns is None or now_ns < self._next_ns:
+        stream, next_ns = self._stream, self._stream.next_ns
+        if next_ns is None or now_ns < next_ns:
             return None
         if self.state is State.PLAYING:
-            return self._stream(now_ns)
+            sample = stream.trajectory_sample(now_ns)
+            if stream.at_end:
+                self._finish(sample.due_ns)
+            elif stream.at_hold:
+                self._halt(now_ns, Event.HELD, "waits for its signal")
+            return sample
         if self.state is State.ADJUSTING:
-            return self._adjust(now_ns)
-        self._next_ns = None if self._standing_ns is None else now_ns + self._standing_ns
-        return self._unstreamed(now_ns, np.zeros_like(self._arm))
+            sample = stream.approach_sample(now_ns)
+            if stream.arrived:
+                self._arrive(sample.due_ns)
+            return sample
+        return stream.standing_sample(now_ns)
 
     def take_statuses(self) -> list[PlaybackStatus]:
-        """Return the snapshots of all changes since the last call, oldest first."""
+        """Return the statuses of all changes since the last call, oldest first."""
         taken, self._statuses = self._statuses, []
         return taken
 
-    def status(self) -> PlaybackStatus:
-        """Return the present state as a client may know it."""
-        return PlaybackStatus(
-            self.state,
-            self._message,
-            self.trajectory,
-            self.clock,
-            self.frame,
-            self.rate,
-            self.loop,
-            self.system,
-        )
+    # inside ---------------------------------------------------------------------------------
 
-    @property
-    def frame(self) -> int:
-        """The last source frame reached."""
-        if self.trajectory is None:
-            return 0
-        position = self.clock.position if self._streamed is None else self._streamed
-        return self.trajectory.frame_at(position)
-
-    @property
-    def arm(self) -> Array:
-        """The joint positions sent last, (J,) rad."""
-        return self._arm
-
-    # the inside -----------------------------------------------------------------------------
-
-    def _require_master(self, by: str) -> None:
+    def _require_owner(self, by: str) -> None:
         if by != self.system:
             raise Misuse(
                 f"is driven by system '{self.system}'; command the system, or dissolve it"
@@ -315,134 +325,93 @@ class Playback:
             raise Misuse(f"cannot move in {self.state.name}: load a trajectory first")
         return self.trajectory
 
-    def _on_trajectory(self, position: float) -> bool:
-        goal = self._loaded().sample(position)
-        return bool(np.abs(goal - self._arm).max() <= ON_TRAJECTORY)
+    def _check_fits(self, trajectory: Trajectory) -> None:
+        """Raise BadInput where the trajectory was not made for this robot."""
+        if trajectory.robot_model != self.model.id:
+            raise BadInput(
+                f"trajectory '{trajectory.id}' was made for {trajectory.robot_model}, this robot "
+                f"is a {self.model.id}; convert the file again for {self.model.id}"
+            )
+        if trajectory.joint_names != self.model.joint_names:
+            raise BadInput(
+                f"trajectory '{trajectory.id}' has the joints {', '.join(trajectory.joint_names)}"
+                f"; expected {', '.join(self.model.joint_names)}; convert the file again"
+            )
+        if trajectory.end_effector not in (None, self.end_effector):
+            raise BadInput(
+                f"trajectory '{trajectory.id}' was made for the end effector "
+                f"{trajectory.end_effector}, this robot carries {self.end_effector or 'none'}; "
+                "exchange the end effector, or convert the file again"
+            )
 
     def _announce(self, message: str) -> None:
         self._message = message
         self._statuses.append(self.status())
 
-    def _stand(self, now_ns: int, state: State, position: float, message: str) -> None:
+    # Each of these fires an event, has the arm do what the new state says, and announces it.
+
+    def _stand(self, now_ns: int, event: Event, position: float, message: str) -> None:
         """Stand still; the next play begins at `position` (s)."""
-        self.state = state
-        self._motion = None
-        self._streamed = None
-        self._until = None
-        self.clock = PlaybackClock(now_ns, position, 0.0)
-        self._next_ns = now_ns
+        self._machine.fire(event)
+        self._stream.stand(now_ns, position)
         self._announce(message)
 
-    def _jump(self, now_ns: int, state: State, position: float, message: str) -> None:
-        self._arm = self._loaded().sample(position)
-        self._stand(now_ns, state, position, message)
+    def _jump(self, now_ns: int, event: Event, position: float, message: str) -> None:
+        """Put the arm at `position` (s) of the trajectory at once."""
+        self._machine.fire(event)
+        self._stream.jump(now_ns, position)
+        self._announce(message)
 
-    def _halt(self, now_ns: int, state: State, message: str) -> None:
+    def _halt(self, now_ns: int, event: Event, message: str) -> None:
         """Stand still exactly where the last joint state left the arm."""
-        position = self.clock.position if self._streamed is None else self._streamed
-        streamed = self._streamed
-        self._stand(now_ns, state, position, message)
-        self._streamed = streamed
+        self._machine.fire(event)
+        self._stream.halt(now_ns)
+        self._announce(message)
 
-    def _move_to(self, now_ns: int, position: float, *, play_on_arrival: bool) -> float:
+    def _approach(
+        self, now_ns: int, position: float, event: Event, *, play_on_arrival: bool
+    ) -> float:
+        """Move to `position` (s) of the trajectory; return how long that takes, s."""
         goal = self._loaded().sample(position)
-        motion = self._planner.plan(self.model, self._arm, goal)
-        self._stand(now_ns, after(self.state, Event.STAGE), position, "moves to the start")
-        self._motion, self._motion_start_ns = motion, now_ns
+        motion = self._planner.plan(self.model, self.arm, goal)
+        self._machine.fire(event)
         self._play_on_arrival = play_on_arrival
+        self._stream.approach(now_ns, motion, position)
+        self._announce("moves to the start")
         return motion.duration
 
-    def _begin(self, start_ns: int, position: float, state: State) -> None:
-        """Stream from `position` (s) on, its joint state first unless it was the last sent."""
-        resumed = self._streamed == position
-        if self.state is not State.PLAYING and not resumed:
-            self.sent = self.lost = 0
-        self.state = state
-        self._motion = None
-        self.clock = PlaybackClock(start_ns, position, self.rate)
-        self._streamed = position if resumed else None
-        self._aim(position, skip=resumed)
+    def _follow(self, start_ns: int, position: float, event: Event) -> None:
+        """Follow the trajectory from `position` (s) on."""
+        self._machine.fire(event)
+        self._stream.follow(start_ns, position)
         self._announce("")
 
-    @property
-    def _step(self) -> float:
-        """Return the time on the trajectory between two joint states, s."""
-        return self.rate / self._loaded().frame_rate
+    def _report(self, now_ns: int, event: Event, message: str) -> bool:
+        """Take an event from outside; halt the arm unless the state ignores the event."""
+        if self._machine.ignores(event):
+            self._machine.fire(event)
+            return False
+        self._halt(now_ns, event, message)
+        return True
 
-    def _aim(self, position: float, *, skip: bool) -> None:
-        """Aim at the first joint state at (or, with skip, after) `position` (s)."""
-        ticks = position / self._step
-        self._take_up(math.floor(ticks + 1e-6) + 1 if skip else math.ceil(ticks - 1e-6))
-        self._next_ns = self._due_ns
-
-    @property
-    def _end(self) -> float:
-        """Return where this run ends, s."""
-        return self._loaded().duration if self._until is None else self._until
-
-    def _take_up(self, tick: int) -> None:
-        """Make `tick` the next joint state: its position, the last one's being the end itself."""
-        trajectory = self._loaded()
-        position, end = tick * self.rate / trajectory.frame_rate, self._end
-        if position > end - ON_FRAME / trajectory.frame_rate:
-            position = end
-        self._tick, self._place = tick, position
-        self._due_ns = self.clock.due(position)
-
-    def _stream(self, now_ns: int) -> Sample:
-        trajectory = self._loaded()
-        if now_ns - self._due_ns > LOST_AFTER_NS:
-            shown = min(self.clock.at(now_ns), self._end)
-            newest = math.floor(shown / self._step + ON_FRAME)
-            self.lost += max(newest - self._tick, 0)
-            self._take_up(max(newest, self._tick))
-        position, due_ns = self._place, self._due_ns
-        self._streamed = position
-        frame, self._arm, velocities = trajectory.at(position)
-        if self.rate != 1.0:
-            velocities = velocities * self.rate
-        sample = Sample(due_ns, self._arm, velocities, position, frame, True)
-        self.sent += 1
-        self._take_up(self._tick + 1)
-        period_ns = SECOND / trajectory.frame_rate
-        self._next_ns = max(self._due_ns, now_ns + round(CATCH_UP_SPACING * period_ns))
-        if position >= trajectory.duration:
-            self._finish(due_ns, round(period_ns))
-        elif position == self._until:
-            self._halt(now_ns, after(self.state, Event.PAUSE), "waits for its signal")
-        return sample
-
-    def _finish(self, end_ns: int, period_ns: int) -> None:
-        trajectory = self._loaded()
-        if self.loop and self._on_trajectory(0.0):
-            self._streamed = None
-            self._begin(end_ns + period_ns, 0.0, after(self.state, Event.SEEK))
-        elif self.loop:
-            self._move_to(end_ns, 0.0, play_on_arrival=True)
+    def _arrive(self, due_ns: int) -> None:
+        """Play, or wait at the start: the last joint state of the approach left at `due_ns`."""
+        position, next_ns = self.clock.position, self._stream.next_ns
+        if self._play_on_arrival:
+            assert next_ns is not None
+            self._follow(next_ns, position, Event.ARRIVED)
         else:
-            complete = after(self.state, Event.FINISHED)
-            self._stand(end_ns, complete, trajectory.duration, "played to the end")
-            self._stand(end_ns, after(complete, Event.REARMED), 0.0, "played to the end")
-            self._next_ns = None if self._standing_ns is None else end_ns + self._standing_ns
+            self._stand(due_ns, Event.STAGED, position, "at the start")
 
-    def _adjust(self, now_ns: int) -> Sample:
-        assert self._motion is not None
-        assert self._next_ns is not None
-        due_ns = self._next_ns
-        elapsed = (due_ns - self._motion_start_ns) / SECOND
-        self._arm, velocities = self._motion.at(elapsed)
-        sample = self._unstreamed(due_ns, velocities)
-        rate = self.trajectory.frame_rate if self.trajectory else MOTION_RATE
-        # A motion that fell behind goes on from the present: nobody counts its joint states.
-        self._next_ns = max(due_ns, now_ns - round(SECOND / rate)) + round(SECOND / rate)
-        if elapsed >= self._motion.duration:
-            position = self.clock.position
-            if self._play_on_arrival:
-                self._begin(self._next_ns, position, after(self.state, Event.ARRIVED))
-            else:
-                self._stand(due_ns, after(self.state, Event.STAGED), position, "at the start")
-        return sample
-
-    def _unstreamed(self, due_ns: int, velocities: Array) -> Sample:
-        """Return a joint state of an arm that is not on its way along the trajectory."""
-        return Sample(due_ns, self._arm, velocities, self.clock.position, self.frame, False)
+    def _finish(self, end_ns: int) -> None:
+        """End the run, or start over: the last frame left at `end_ns`."""
+        if not self.loop:
+            # COMPLETE lasts no longer than its announcement.
+            self._stand(end_ns, Event.FINISHED, self._loaded().duration, "played to the end")
+            self._machine.fire(Event.REARMED)
+            self._stream.stand(end_ns, 0.0, sent=True)
+            self._announce("played to the end")
+        elif self._stream.is_at(0.0):
+            self._follow(end_ns + self._stream.period_ns, 0.0, Event.REPEATED)
+        else:
+            self._approach(end_ns, 0.0, Event.RETURNED, play_on_arrival=True)

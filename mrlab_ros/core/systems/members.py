@@ -1,4 +1,4 @@
-"""The robots of a system as the system reaches them: orders out, replies back."""
+"""The port through which a robot system commands its members."""
 
 from __future__ import annotations
 
@@ -36,29 +36,43 @@ class Order:
 
 @dataclass(frozen=True)
 class Reply:
-    """What a member says after an order; duration is how long its staging takes, s."""
+    """The state of a member after an order.
+
+    duration: how long its staging takes, s. stamp_ns: when the order was carried out.
+    """
 
     state: State
     position: float
     duration: float = 0.0
+    stamp_ns: int = 0
 
 
 @dataclass(frozen=True)
 class Loaded:
-    """What a member has loaded."""
+    """The trajectory of a member; an empty id: it has none. stamp_ns: when it was claimed."""
 
     trajectory_id: str
     duration: float
     frame_rate: float
+    stamp_ns: int = 0
 
 
 class Fleet(Protocol):
-    """The members, as the system reaches them."""
+    """The members of one system. Every method raises LabError where a member cannot be reached
+    or refuses."""
 
-    def prepare(self, robot: str, trajectory_id: str) -> Loaded:
-        """Claim the robot and load the trajectory (empty: what it has); raise LabError."""
+    def claim(self, robot: str) -> Loaded:
+        """Make the robot a member; from then on it accepts commands of the system alone."""
+        ...
+
+    def release(self, robot: str) -> None:
+        """Let the robot go, paused where it is."""
+        ...
+
+    def load(self, robot: str, trajectory_id: str) -> None:
+        """Load a trajectory; a robot loads only while it is no member."""
         ...
 
     def drive(self, orders: Sequence[Order]) -> list[Reply]:
-        """Give all orders at once; raise LabError where one is refused or unanswered."""
+        """Send all orders at once; return one reply for each, in their order."""
         ...

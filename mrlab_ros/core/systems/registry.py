@@ -1,4 +1,4 @@
-"""The robot systems of a lab: who is a member of which."""
+"""The robot systems of a lab, and which robot is a member of which."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from mrlab_ros.core.systems.robot_system import RobotSystem
 
 
 class Systems:
-    """All systems; a robot is in at most one."""
+    """All systems of the lab; a robot is a member of at most one."""
 
     def __init__(self) -> None:
         self._systems: dict[str, RobotSystem] = {}
@@ -27,16 +27,17 @@ class Systems:
             raise Misuse(f"there is no system '{name}'; there are: {known}") from None
 
     def of(self, robot: str) -> RobotSystem | None:
-        """Return the system that `robot` is a member of."""
+        """Return the system that `robot` is a member of; None where it is independent."""
         return next((s for s in self if robot in s.members), None)
 
     def check(self, name: str, robots: Sequence[str], scene: frozenset[str]) -> str:
-        """Return the name for a system of `robots`; `scene` names all robots there are.
+        """Return the name for a system of `robots`; an empty `name` is chosen here.
 
-        Raises BadInput or Misuse where that system cannot be.
+        scene: the names of all robots. Raises BadInput where the robots or the name cannot be
+        taken, Misuse where a robot is a member of another system.
         """
         if not robots:
-            raise BadInput("a system needs at least one member; name the robots it shall drive")
+            raise BadInput("a system needs at least one member; name the robots it drives")
         for robot in robots:
             if robot not in scene:
                 raise BadInput(
@@ -56,8 +57,18 @@ class Systems:
         return checked_name(name or f"system_{number}", taken, "system")
 
     def add(self, system: RobotSystem) -> None:
+        """Add a system whose name check() returned."""
         self._systems[system.name] = system
 
     def dissolve(self, name: str) -> RobotSystem:
+        """Remove and return the system called `name`; raise Misuse where there is none."""
         self.get(name)
         return self._systems.pop(name)
+
+    def without_members(self, scene: frozenset[str]) -> list[tuple[RobotSystem, list[str]]]:
+        """Return the systems that cannot go on with the robots of `scene`.
+
+        Each comes with its members that are missing: without one of them there is no timeline.
+        """
+        missing = [(system, [r for r in system.members if r not in scene]) for system in self]
+        return [(system, robots) for system, robots in missing if robots]

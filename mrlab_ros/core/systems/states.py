@@ -1,13 +1,14 @@
-"""The six states of a robot system, in one table that nothing else decides.
+"""The six states of a robot system: one table decides every transition.
 
-`docs/systems.md` shows the diagram that is drawn from the table.
+`docs/systems.md` shows the diagram and the table. Setting the rate and the loop changes no state
+and is allowed in every state, so these are no events.
 """
 
 from __future__ import annotations
 
 from enum import Enum
 
-from mrlab_ros.core.errors import IllegalEvent
+from mrlab_ros.core.state_machine import Table
 
 
 class SystemState(Enum):
@@ -22,58 +23,90 @@ class SystemState(Enum):
 
 
 class SystemEvent(Enum):
-    """What can happen to a system. The value says it as a person would."""
+    """What can happen to a system. The value is the verb in "cannot <value> in <STATE>"."""
 
     STAGE = "play"
-    START = "start"
-    ABORT = "give up"
+    STAGED = "have all members in place"
     PAUSE = "pause"
     STOP = "stop"
     SEEK = "seek"
-    FINISH = "finish"
-    REARM = "be ready again"
+    STEP = "step"
+    SET_MODE = "change the mode"
     COLLIDE = "collide"
+    COLLIDE_ALONE = "halt one member alone"
     CLEAR = "be clear again"
+    LOSE = "lose a member"
+    ABORT = "give up"
+    FINISH = "finish"
+    REPEAT = "start over"
+    REARM = "be ready again"
 
 
 S, E = SystemState, SystemEvent
-TRANSITIONS: dict[tuple[SystemState, SystemEvent], SystemState] = {
-    (S.READY, E.STAGE): S.STAGING,
-    (S.READY, E.STOP): S.READY,
-    (S.READY, E.SEEK): S.PAUSED,
-    (S.READY, E.ABORT): S.READY,
-    (S.STAGING, E.START): S.PLAYING,
-    (S.STAGING, E.ABORT): S.READY,
-    (S.STAGING, E.PAUSE): S.PAUSED,
-    (S.STAGING, E.STOP): S.READY,
-    (S.STAGING, E.COLLIDE): S.COLLISION_HALT,
-    (S.PLAYING, E.PAUSE): S.PAUSED,
-    (S.PLAYING, E.STOP): S.READY,
-    (S.PLAYING, E.SEEK): S.PLAYING,
-    (S.PLAYING, E.FINISH): S.COMPLETE,
-    (S.PLAYING, E.COLLIDE): S.COLLISION_HALT,
-    (S.PLAYING, E.ABORT): S.READY,
-    (S.PAUSED, E.STAGE): S.STAGING,
-    (S.PAUSED, E.PAUSE): S.PAUSED,
-    (S.PAUSED, E.STOP): S.READY,
-    (S.PAUSED, E.SEEK): S.PAUSED,
-    (S.PAUSED, E.ABORT): S.READY,
-    (S.COLLISION_HALT, E.STOP): S.COLLISION_HALT,
-    (S.COLLISION_HALT, E.SEEK): S.COLLISION_HALT,
-    (S.COLLISION_HALT, E.CLEAR): S.PAUSED,
-    (S.COLLISION_HALT, E.ABORT): S.READY,
-    (S.COMPLETE, E.REARM): S.READY,
-}
-COMMANDS = (E.STAGE, E.PAUSE, E.STOP, E.SEEK)
+TABLE: Table[SystemState, SystemEvent] = Table(
+    initial=S.READY,
+    transitions={
+        (S.READY, E.STAGE): S.STAGING,
+        (S.READY, E.STOP): S.READY,
+        (S.READY, E.SEEK): S.PAUSED,
+        (S.READY, E.STEP): S.PAUSED,
+        (S.READY, E.SET_MODE): S.READY,
+        (S.READY, E.ABORT): S.READY,
+        (S.STAGING, E.STAGED): S.PLAYING,
+        (S.STAGING, E.PAUSE): S.PAUSED,
+        (S.STAGING, E.STOP): S.READY,
+        (S.STAGING, E.COLLIDE): S.COLLISION_HALT,
+        # A staging waits for all members, so one that halts halts it whatever the policy.
+        (S.STAGING, E.COLLIDE_ALONE): S.COLLISION_HALT,
+        (S.STAGING, E.LOSE): S.READY,
+        (S.STAGING, E.ABORT): S.READY,
+        (S.PLAYING, E.PAUSE): S.PAUSED,
+        (S.PLAYING, E.STOP): S.READY,
+        (S.PLAYING, E.SEEK): S.PLAYING,
+        (S.PLAYING, E.COLLIDE): S.COLLISION_HALT,
+        (S.PLAYING, E.COLLIDE_ALONE): S.PLAYING,
+        (S.PLAYING, E.LOSE): S.READY,
+        (S.PLAYING, E.ABORT): S.READY,
+        (S.PLAYING, E.FINISH): S.COMPLETE,
+        (S.PAUSED, E.STAGE): S.STAGING,
+        (S.PAUSED, E.PAUSE): S.PAUSED,
+        (S.PAUSED, E.STOP): S.READY,
+        (S.PAUSED, E.SEEK): S.PAUSED,
+        (S.PAUSED, E.STEP): S.PAUSED,
+        (S.PAUSED, E.LOSE): S.READY,
+        (S.PAUSED, E.ABORT): S.READY,
+        (S.COLLISION_HALT, E.STOP): S.COLLISION_HALT,
+        (S.COLLISION_HALT, E.SEEK): S.COLLISION_HALT,
+        (S.COLLISION_HALT, E.STEP): S.COLLISION_HALT,
+        (S.COLLISION_HALT, E.CLEAR): S.PAUSED,
+        (S.COLLISION_HALT, E.LOSE): S.READY,
+        (S.COLLISION_HALT, E.ABORT): S.READY,
+        (S.COMPLETE, E.REPEAT): S.STAGING,
+        (S.COMPLETE, E.REARM): S.READY,
+        (S.COMPLETE, E.LOSE): S.READY,
+        (S.COMPLETE, E.ABORT): S.READY,
+    },
+    # What members report in a state that does not wait for it.
+    ignored={
+        E.STAGED: (S.READY, S.PLAYING, S.PAUSED, S.COLLISION_HALT, S.COMPLETE),
+        E.COLLIDE: (S.READY, S.PAUSED, S.COLLISION_HALT, S.COMPLETE),
+        E.COLLIDE_ALONE: (S.READY, S.PAUSED, S.COLLISION_HALT, S.COMPLETE),
+        E.CLEAR: (S.READY, S.STAGING, S.PLAYING, S.PAUSED, S.COMPLETE),
+        E.LOSE: (S.READY,),
+    },
+    commands=(E.STAGE, E.PAUSE, E.STOP, E.SEEK, E.STEP, E.SET_MODE),
+    no_command="only waiting",
+)
+# The states in which members move and time makes something due.
+ACTIVE = (S.STAGING, S.PLAYING)
 del S, E
 
 
-def after(state: SystemState, event: SystemEvent) -> SystemState:
-    """Return the state that `event` leads to; raise IllegalEvent where the table has none."""
-    try:
-        return TRANSITIONS[state, event]
-    except KeyError:
-        allowed = ", ".join(e.value for e in COMMANDS if (state, e) in TRANSITIONS)
-        raise IllegalEvent(
-            f"cannot {event.value} in {state.name}; possible now: {allowed or 'only waiting'}"
-        ) from None
+def reason(state: SystemState, event: SystemEvent) -> str:
+    """Return what a refused command needs first, for the text of the error; may be empty."""
+    if event is SystemEvent.STEP and state in ACTIVE:
+        return "pause first"
+    if event is SystemEvent.SET_MODE:
+        halted = state is SystemState.COLLISION_HALT
+        return "wait until all members are clear, then stop" if halted else "stop first"
+    return ""

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import threading
 import time
+from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
@@ -15,9 +16,11 @@ from std_srvs.srv import SetBool, Trigger
 
 from mrlab_ros.adapters.bags.reader import Bag, default_folder
 from mrlab_ros.adapters.bags.writer import BagWriter
-from mrlab_ros.core.errors import LabError, Misuse
+from mrlab_ros.core.errors import LabError
+from mrlab_ros.core.recording.states import TABLE, RecorderEvent, RecorderState, reason
 from mrlab_ros.core.recording.timeline import ReplayTimeline
 from mrlab_ros.core.recording.topics import LAB_TOPICS, Split, Topics
+from mrlab_ros.core.state_machine import Machine
 from mrlab_ros.messages import qos
 from mrlab_ros.messages.definitions import definition
 from mrlab_ros.messages.time import make_header
@@ -67,7 +70,9 @@ class RecorderNode(Node):
         )
         self._caller = Caller(self)
         self._memory = LabRestore(self._caller, self.get_logger().warning)
+        # Guards the machine and what its state is about; nothing slow is done under it.
         self._lock = threading.RLock()
+        self._machine = Machine(TABLE, self._reason)
         self._recording: Recording | None = None
         self._content: SessionContent | None = None
         self._replaying: Replaying | None = None
@@ -95,7 +100,7 @@ class RecorderNode(Node):
     def destroy_node(self) -> None:
         """Close what is written, end what is replayed."""
         try:
-            self._end()
+            self._end(RecorderEvent.CLOSE)
         except LabError as error:
             self.get_logger().error(str(error))
         self._memory.close()
@@ -107,7 +112,7 @@ class RecorderNode(Node):
 
     @answered
     def _start(self, request: Any, response: Any) -> str:
-        self._must_be_idle()
+        self._check(RecorderEvent.START)
         split = Split(request.split_duration, self._split_size)
         topics = Topics(list(request.topics) or self._topics)
         name = request.bag or time.strftime("session_%Y-%m-%d_%H-%M-%S")
@@ -124,10 +129,10 @@ class RecorderNode(Node):
         )
         content = SessionContent(self._caller, recording.attach, self.get_logger().warning)
         with self._lock:
+            self._machine.fire(RecorderEvent.START)
             self._trouble = ""
             self._recording, self._content = recording, content
-        if not recording.start():
-            raise Misuse(self._trouble)
+        recording.start()
         self._tell()
         response.bag = str(writer.folder)
         self.get_logger().info(f"records into {writer.folder}")
@@ -135,19 +140,18 @@ class RecorderNode(Node):
 
     @answered
     def _split(self, request: Any, response: Any) -> str:
+        self._check(RecorderEvent.SPLIT)
         recording = self._recording
-        if recording is None:
-            raise Misuse("nothing is recorded; start a recording first")
-        recording.split()
-        if self._recording is None:
-            raise Misuse(self._trouble)
+        if recording is not None:
+            recording.split()
+        with self._lock:
+            # Raises where the recording has ended meanwhile.
+            self._machine.fire(RecorderEvent.SPLIT)
         return "goes on in a new file"
 
     @answered
     def _stop(self, request: Any, response: Any) -> str:
-        if self._recording is None and self._replaying is None:
-            raise Misuse("nothing is recorded or replayed")
-        return self._end()
+        return self._end(RecorderEvent.STOP)
 
     def _discover(self) -> None:
         recording = self._recording
@@ -162,6 +166,7 @@ class RecorderNode(Node):
     def _on_disk_trouble(self, error: LabError) -> None:
         self.get_logger().error(str(error))
         with self._lock:
+            self._machine.fire(RecorderEvent.FAIL)
             self._trouble = str(error)
             self._recording = None
             content, self._content = self._content, None
@@ -173,28 +178,33 @@ class RecorderNode(Node):
 
     @answered
     def _replay(self, request: Any, response: Any) -> str:
-        self._must_be_idle()
+        self._check(RecorderEvent.REPLAY)
         path = Path(request.bag).expanduser()
         bag = Bag(path if path.is_absolute() or path.exists() else self._folder / path)
         timeline = ReplayTimeline(bag.duration, request.rate, request.start, request.loop)
         replaying = Replaying(self._streams, bag, timeline, self._on_replay_end)
         self._memory.remember()
-        self._preparing, self._trouble = bag, ""
-        # The lab's own nodes stand aside as soon as they hear this.
+        with self._lock:
+            self._machine.fire(RecorderEvent.REPLAY)
+            self._preparing, self._trouble = bag, ""
+        # The lab's own nodes leave the graph as soon as they receive this.
         self._tell()
         try:
             replaying.wait_until_alone()
             self._trajectories = ReplayedTrajectories(self, bag)
-            # Known before it begins: a short one is over at once.
-            self._replaying = replaying
+            # Before it starts: a short one may be over at once.
+            with self._lock:
+                self._machine.fire(RecorderEvent.BEGIN)
+                self._replaying, self._preparing = replaying, None
             replaying.start()
         except Exception:
-            self._replaying = None
+            with self._lock:
+                self._machine.fire(RecorderEvent.FAIL)
+                self._replaying = self._preparing = None
             self._close(replaying)
             self._memory.restore()
             raise
         finally:
-            self._preparing = None
             self._tell()
         self.get_logger().info(f"replays {bag.path}")
         return f"replays {bag.duration:.1f} s with {bag.message_count} messages"
@@ -210,6 +220,7 @@ class RecorderNode(Node):
         with self._lock:
             if self._replaying is not replaying:
                 return
+            self._machine.fire(RecorderEvent.FAIL if trouble else RecorderEvent.END)
             self._replaying, self._trouble = None, trouble
         self.get_logger().info(f"the replay of {replaying.bag.path} is over")
         self._tell()
@@ -224,52 +235,66 @@ class RecorderNode(Node):
 
     @answered
     def _pause(self, request: Any, response: Any) -> str:
-        replaying = self._replay_at_hand()
-        replaying.pause()
-        self._tell()
+        replaying = self._command(RecorderEvent.PAUSE, Replaying.pause)
         return f"paused at {replaying.position:.3f} s"
 
     @answered
     def _resume(self, request: Any, response: Any) -> str:
-        self._replay_at_hand().resume()
-        self._tell()
+        self._command(RecorderEvent.RESUME, Replaying.resume)
         return "goes on"
 
     @answered
     def _seek(self, request: Any, response: Any) -> str:
-        self._replay_at_hand().seek(request.position)
-        self._tell()
+        self._command(RecorderEvent.SEEK, lambda replaying: replaying.seek(request.position))
         return f"at {request.position:g} s"
 
     @answered
     def _set_rate(self, request: Any, response: Any) -> str:
-        self._replay_at_hand().set_rate(request.rate)
-        self._tell()
+        self._command(RecorderEvent.SET_RATE, lambda replaying: replaying.set_rate(request.rate))
         return f"rate {request.rate:g}"
 
     @answered
     def _set_loop(self, request: Any, response: Any) -> str:
-        self._replay_at_hand().set_loop(request.data)
+        self._command(RecorderEvent.SET_LOOP, lambda replaying: replaying.set_loop(request.data))
         return "loops" if request.data else "ends at the end"
 
-    def _replay_at_hand(self) -> Replaying:
-        if self._replaying is None:
-            raise Misuse("nothing is replayed; start a replay first")
-        return self._replaying
+    def _command(self, event: RecorderEvent, act: Callable[[Replaying], None]) -> Replaying:
+        """Do with the replay what `event` asks for; raise Misuse where there is none."""
+        with self._lock:
+            self._machine.check(event)
+            replaying = self._replaying
+        assert replaying is not None
+        act(replaying)
+        with self._lock:
+            # Raises where the replay has ended meanwhile.
+            self._machine.fire(event)
+        self._tell()
+        return replaying
 
     # both -----------------------------------------------------------------------------------
 
-    def _must_be_idle(self) -> None:
-        if self._recording is not None:
-            raise Misuse(f"a recording into {self._recording.folder} runs; stop it first")
-        if self._replaying is not None:
-            raise Misuse(f"{self._replaying.bag.path} is being replayed; stop that first")
-
-    def _end(self) -> str:
+    def _check(self, event: RecorderEvent) -> None:
+        """Raise Misuse where the present state does not allow `event`."""
         with self._lock:
+            self._machine.check(event)
+
+    def _reason(self, state: RecorderState, event: RecorderEvent) -> str:
+        bag = ""
+        if self._recording is not None:
+            bag = self._recording.folder
+        elif self._replaying is not None:
+            bag = str(self._replaying.bag.path)
+        elif self._preparing is not None:
+            bag = str(self._preparing.path)
+        return reason(state, event, bag)
+
+    def _end(self, event: RecorderEvent) -> str:
+        with self._lock:
+            self._machine.fire(event)
             recording, self._recording = self._recording, None
             content, self._content = self._content, None
             replaying, self._replaying = self._replaying, None
+            self._preparing = None
         try:
             if content is not None:
                 content.close()
@@ -297,19 +322,17 @@ class RecorderNode(Node):
         with self._lock:
             state = State(message=self._trouble, rate=1.0)
             state.header = make_header(time.time_ns())
+            state.state = self._machine.state.announced.value
             recording, replaying = self._recording, self._replaying
             if recording is not None:
-                state.state = State.RECORDING
                 state.bag = recording.folder
                 state.position = recording.position
                 state.messages, state.bytes = recording.messages, recording.size
             elif replaying is not None:
-                state.state = State.PAUSED if replaying.standing else State.REPLAYING
                 state.position, state.rate = replaying.position, replaying.rate
                 state.messages = replaying.messages
                 self._tell_of_bag(state, replaying.bag)
             elif self._preparing is not None:
-                state.state = State.REPLAYING
                 self._tell_of_bag(state, self._preparing)
             try:
                 self._state.publish(state)

@@ -73,16 +73,18 @@ class Recording:
         # Of the clock that never goes back: the other one may be set while a recording runs.
         self._began_ns = self._part_ns = self._flushed_ns = self._noted_ns = time.monotonic_ns()
         self._closed = False
+        # Why the recording ended by itself.
+        self._trouble: LabError | None = None
         self.messages = 0
         self._poll = TopicPoll("recorder", PERIOD, self._take)
 
-    def start(self) -> bool:
-        """Follow the topics that there are; return False where it ended at once by itself."""
+    def start(self) -> None:
+        """Follow the topics that there are; raise DiskTrouble where the disk refuses."""
         if self._guarded(self._writer.flush):
             self.discover()
+        self._check_disk()
         if not self._closed:
             self._poll.start()
-        return not self._closed
 
     @property
     def folder(self) -> str:
@@ -118,8 +120,12 @@ class Recording:
             self._guarded(lambda: self._written(self._writer.write_metadata))
 
     def split(self) -> None:
-        """Go on in a new file of the bag; where the disk refuses, the recording ends."""
+        """Go on in a new file of the bag; raise DiskTrouble where the disk refuses.
+
+        The recording has then ended, or is about to end, by itself.
+        """
         self._guarded(self._split_now)
+        self._check_disk()
 
     def attach(self, name: str, media_type: str, data: bytes) -> None:
         """Put a file into the bag, unless it is closed."""
@@ -213,7 +219,7 @@ class Recording:
             with self._lock:
                 if self._closed:
                     return False
-                self._closed = True
+                self._closed, self._trouble = True, error
             try:
                 self._writer.close()
             except LabError as second:
@@ -222,6 +228,10 @@ class Recording:
             self._on_trouble(error)
             return False
         return True
+
+    def _check_disk(self) -> None:
+        if self._trouble is not None:
+            raise self._trouble
 
     def _leave(self) -> None:
         for followed in self._followed.values():

@@ -116,10 +116,6 @@ class Replaying:
         return self._bag
 
     @property
-    def standing(self) -> bool:
-        return self._timeline.standing
-
-    @property
     def rate(self) -> float:
         return self._timeline.rate
 

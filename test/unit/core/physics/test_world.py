@@ -2,21 +2,19 @@
 
 from __future__ import annotations
 
-import itertools
-
 import numpy as np
 import pytest
 from fake_engine import FakeEngine
 
 from mrlab_ros.core.clock import SECOND, PlaybackClock
-from mrlab_ros.core.errors import BadInput, IllegalEvent, Misuse
+from mrlab_ros.core.errors import BadInput, Misuse
 from mrlab_ros.core.geometry import Pose, compose, inverse, relative
 from mrlab_ros.core.physics import catalogue
 from mrlab_ros.core.physics import surfaces as rooms
 from mrlab_ros.core.physics.clearance import Clearance, Halt
 from mrlab_ros.core.physics.engine import BodyState
 from mrlab_ros.core.physics.events import CollisionChanged, GraspChanged, ObjectRemoved
-from mrlab_ros.core.physics.grasp import TRANSITIONS, Grasp, GraspEvent, Gripper, after
+from mrlab_ros.core.physics.grasp import Grasp, Gripper
 from mrlab_ros.core.physics.joint_stream import JointStream
 from mrlab_ros.core.physics.settings import Settings
 from mrlab_ros.core.physics.simulated_robot import GripperProgram, Playing
@@ -225,15 +223,6 @@ def test_a_slow_stream_is_shown_a_period_late():
         stream.add(2 * i * SECOND, [1.0 * i], [0.5], 2 * i * SECOND)
     assert stream.known_until(7 * SECOND, 10 * MS) is None
     assert stream.at(6 * SECOND + MS).positions[0] == 3.0
-
-
-def test_every_state_and_event_of_a_grasp_leads_on_or_is_refused():
-    for state, event in itertools.product(Grasp, GraspEvent):
-        if (state, event) in TRANSITIONS:
-            assert after(state, event) is TRANSITIONS[state, event]
-        else:
-            with pytest.raises(IllegalEvent, match=state.name):
-                after(state, event)
 
 
 def test_two_opposing_stalled_fingers_hold_and_opening_lets_go_with_the_hands_velocity():

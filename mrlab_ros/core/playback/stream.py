@@ -1,0 +1,252 @@
+"""The joint states of one robot: what each one holds and when it leaves.
+
+A `Stream` follows a trajectory, an approach to it, or repeats a standing pose. It knows no
+states: `Playback` decides what the arm does and calls the matching method.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+
+from mrlab_ros.core.clock import SECOND, PlaybackClock
+from mrlab_ros.core.geometry import Array
+from mrlab_ros.core.playback.planner import Motion
+from mrlab_ros.core.trajectory.trajectory import ON_FRAME, Trajectory
+
+# Joint states that are late by less than this are sent late; later ones are left out, because
+# catching up would take too long.
+LOST_AFTER_NS = 10 * SECOND
+# Late joint states follow each other no closer than this share of the period: the stream
+# catches up without a burst.
+CATCH_UP_SPACING = 0.5
+# The arm is on the trajectory when no joint is further off than this, rad.
+ON_TRAJECTORY = 1e-6
+# Slack when a position is turned into a number of ticks, ticks.
+ON_TICK = 1e-6
+
+
+@dataclass(frozen=True)
+class Sample:
+    """One joint state.
+
+    due_ns: its deadline and its stamp, ns. positions, velocities: (J,) rad and rad/s.
+    position: on the trajectory, s. frame: the last source frame reached. streamed: whether it
+    is part of the trajectory, not of an approach or a standing pose.
+    """
+
+    due_ns: int
+    positions: Array
+    velocities: Array
+    position: float
+    frame: int
+    streamed: bool
+
+
+class Stream:
+    """The joint states of one robot. The methods between the samples say what the arm does.
+
+    trajectory: what follow() follows; the caller loads one before it calls anything but stand().
+    clock: the position on the trajectory at any time; its rate is 0 unless the arm follows.
+    rate: the speed of the next follow(). until: where it ends, s; None: at the last frame.
+    arm: the joint positions sent last, (J,) rad. streamed: the position of the last joint state
+    of the trajectory, s; None where none was sent since the arm was moved otherwise.
+    sent, lost: joint states of this run that left, and that were left out.
+    next_ns: when the next joint state leaves; None: not before something changes.
+    arrived: whether the last joint state of the approach was taken.
+    """
+
+    def __init__(self, home: Array, standing_rate: float) -> None:
+        """Stand at `home`, (J,) rad; repeat a standing pose at `standing_rate` Hz (0: never)."""
+        self.trajectory: Trajectory | None = None
+        self.clock = PlaybackClock()
+        self.rate = 1.0
+        self.until: float | None = None
+        self.arm = home
+        self.streamed: float | None = None
+        self.sent = 0
+        self.lost = 0
+        self.next_ns: int | None = 0
+        self._standing_ns = round(SECOND / standing_rate) if standing_rate > 0 else None
+        # The next joint state of the trajectory: its number at this rate, its position (s) and
+        # its deadline.
+        self._tick, self._next_position, self._due_ns = 0, 0.0, 0
+        self._motion: Motion | None = None
+        self._motion_start_ns = 0
+        self.arrived = False
+
+    # what the arm does ----------------------------------------------------------------------
+
+    def stand(self, now_ns: int, position: float, *, sent: bool = False) -> None:
+        """Stand still at `position` (s) of the clock.
+
+        sent: the pose has just left, so its first repetition follows a standing period later.
+        """
+        self._motion = None
+        self.streamed = None
+        self.until = None
+        self.clock = PlaybackClock(now_ns, position, 0.0)
+        self.next_ns = self._repetition(now_ns) if sent else now_ns
+
+    def jump(self, now_ns: int, position: float) -> None:
+        """Put the arm at `position` (s) of the trajectory at once and stand there."""
+        self.arm = self._loaded.sample(position)
+        self.stand(now_ns, position)
+
+    def halt(self, now_ns: int) -> None:
+        """Stand still where the last joint state left the arm; follow() goes on behind it."""
+        streamed = self.streamed
+        self.stand(now_ns, self.position)
+        self.streamed = streamed
+
+    def approach(self, now_ns: int, motion: Motion, position: float) -> None:
+        """Start `motion`, which brings the arm to `position` (s) of the trajectory."""
+        self.stand(now_ns, position)
+        self._motion, self._motion_start_ns = motion, now_ns
+        self.arrived = False
+
+    def follow(self, start_ns: int, position: float) -> None:
+        """Follow the trajectory from `position` (s) on, which the clock shows at `start_ns`.
+
+        The joint state at `position` leaves first, unless it was the last that was sent.
+        """
+        resumed = self.streamed == position
+        if self.clock.rate == 0 and not resumed:
+            self.sent = self.lost = 0
+        self._motion = None
+        self.clock = PlaybackClock(start_ns, position, self.rate)
+        self.streamed = position if resumed else None
+        self._schedule_from(position, skip=resumed)
+
+    def set_rate(self, since_ns: int, rate: float) -> None:
+        """Set the speed; an arm that follows the trajectory goes on at it from `since_ns` on."""
+        self.rate = rate
+        if self.clock.rate == 0:
+            return
+        start_ns = max(since_ns, self.clock.stamp_ns)
+        self.clock = PlaybackClock(start_ns, self.clock.at(start_ns), rate)
+        if self.streamed is None:
+            self._schedule_from(self.clock.position, skip=False)
+        else:
+            self._schedule_from(max(self.clock.position, self.streamed), skip=True)
+
+    def end_at(self, until: float | None) -> None:
+        """End the run at `until` (s), which lies ahead; None: at the last frame."""
+        self.until = until
+        if self.clock.rate != 0:
+            self._schedule(self._tick)
+            self.next_ns = self._due_ns
+
+    # where it is ----------------------------------------------------------------------------
+
+    @property
+    def position(self) -> float:
+        """The position of the last joint state on the trajectory, s."""
+        return self.clock.position if self.streamed is None else self.streamed
+
+    @property
+    def frame(self) -> int:
+        """The last source frame reached; 0 without a trajectory."""
+        return 0 if self.trajectory is None else self.trajectory.frame_at(self.position)
+
+    def is_at(self, position: float) -> bool:
+        """Return whether the arm is on the trajectory at `position`, s."""
+        goal = self._loaded.sample(position)
+        return bool(np.abs(goal - self.arm).max() <= ON_TRAJECTORY)
+
+    @property
+    def at_end(self) -> bool:
+        """Whether the last frame of the trajectory was sent."""
+        return self.streamed is not None and self.streamed >= self._loaded.duration
+
+    @property
+    def at_hold(self) -> bool:
+        """Whether the joint state at `until` was sent."""
+        return self.streamed is not None and self.streamed == self.until
+
+    @property
+    def period_ns(self) -> int:
+        """The time between two joint states, ns."""
+        return round(SECOND / self._loaded.frame_rate)
+
+    # the joint states -----------------------------------------------------------------------
+
+    def standing_sample(self, now_ns: int) -> Sample:
+        """Return the standing pose, and schedule its repetition."""
+        self.next_ns = self._repetition(now_ns)
+        return self._sample_off_trajectory(now_ns, np.zeros_like(self.arm))
+
+    def approach_sample(self, now_ns: int) -> Sample:
+        """Return the next joint state of the approach, and schedule the one after it."""
+        assert self._motion is not None
+        assert self.next_ns is not None
+        due_ns = self.next_ns
+        elapsed = (due_ns - self._motion_start_ns) / SECOND
+        self.arm, velocities = self._motion.at(elapsed)
+        self.arrived = elapsed >= self._motion.duration
+        # An approach that is late goes on from the present: its joint states are not counted.
+        self.next_ns = max(due_ns, now_ns - self.period_ns) + self.period_ns
+        return self._sample_off_trajectory(due_ns, velocities)
+
+    def trajectory_sample(self, now_ns: int) -> Sample:
+        """Return the next joint state of the trajectory, and schedule the one after it."""
+        trajectory = self._loaded
+        if now_ns - self._due_ns > LOST_AFTER_NS:
+            self._skip_lost(now_ns)
+        position, due_ns = self._next_position, self._due_ns
+        self.streamed = position
+        frame, self.arm, velocities = trajectory.at(position)
+        if self.rate != 1.0:
+            velocities = velocities * self.rate
+        sample = Sample(due_ns, self.arm, velocities, position, frame, True)
+        self.sent += 1
+        self._schedule(self._tick + 1)
+        spacing_ns = round(CATCH_UP_SPACING * SECOND / trajectory.frame_rate)
+        self.next_ns = max(self._due_ns, now_ns + spacing_ns)
+        return sample
+
+    # inside ---------------------------------------------------------------------------------
+
+    @property
+    def _loaded(self) -> Trajectory:
+        assert self.trajectory is not None
+        return self.trajectory
+
+    @property
+    def _step(self) -> float:
+        """Time on the trajectory between two joint states, s."""
+        return self.rate / self._loaded.frame_rate
+
+    @property
+    def _end(self) -> float:
+        """Where this run ends, s."""
+        return self._loaded.duration if self.until is None else self.until
+
+    def _repetition(self, now_ns: int) -> int | None:
+        return None if self._standing_ns is None else now_ns + self._standing_ns
+
+    def _sample_off_trajectory(self, due_ns: int, velocities: Array) -> Sample:
+        return Sample(due_ns, self.arm, velocities, self.clock.position, self.frame, False)
+
+    def _schedule_from(self, position: float, *, skip: bool) -> None:
+        """Schedule the first joint state at (or, with skip, after) `position` (s)."""
+        ticks = position / self._step
+        self._schedule(math.floor(ticks + ON_TICK) + 1 if skip else math.ceil(ticks - ON_TICK))
+        self.next_ns = self._due_ns
+
+    def _schedule(self, tick: int) -> None:
+        """Make `tick` the next joint state; the last one is exactly at the end of the run."""
+        trajectory = self._loaded
+        position, end = tick * self.rate / trajectory.frame_rate, self._end
+        if position > end - ON_FRAME / trajectory.frame_rate:
+            position = end
+        self._tick, self._next_position = tick, position
+        self._due_ns = self.clock.due(position)
+
+    def _skip_lost(self, now_ns: int) -> None:
+        """Leave out the joint states whose successor is due too, and count them."""
+        newest = math.floor(min(self.clock.at(now_ns), self._end) / self._step + ON_FRAME)
+        self.lost += max(newest - self._tick, 0)
+        self._schedule(max(newest, self._tick))
