@@ -9,6 +9,7 @@ import sys
 from collections.abc import Callable
 from pathlib import Path
 
+import parameters_page
 import protocol_page
 import roles_page
 
@@ -39,6 +40,7 @@ BLOCKS: dict[tuple[str, str], Callable[[], str]] = {
 }
 FILES: dict[str, Callable[[], str]] = {
     "docs/diagnostics.md": diagnostics.document,
+    "docs/parameters.md": parameters_page.current,
     "docs/protocol.md": lambda: protocol_page.current(ROOT),
     "config/zenoh/roles.json5": lambda: roles_page.current(ROOT),
 }

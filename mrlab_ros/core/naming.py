@@ -32,6 +32,8 @@ RESERVED = frozenset(
         "trajectories",
     }
 )
+# Beginnings of the names of parameters that rclpy declares on every node.
+PARAMETERS_OF_RCLPY = ("use_sim_time", "start_type_description_service", "qos_overrides.")
 
 
 def checked_name(name: str, taken: frozenset[str], what: str) -> str:

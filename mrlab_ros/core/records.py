@@ -31,6 +31,8 @@ T_co = TypeVar("T_co", covariant=True)
 S = TypeVar("S")
 EnumT = TypeVar("EnumT", bound=Enum)
 
+# A longer list of known fields is left out where one of them is close to what was written.
+LONGEST_LIST = 12
 # Long enough for a vector or a path; a whole mesh is cut.
 _shorten = reprlib.Repr()
 _shorten.maxstring = _shorten.maxother = 120
@@ -273,20 +275,30 @@ class Matrix:
 
 @dataclass(frozen=True)
 class Texts:
-    """A list of texts; may be empty. single: one text alone is a list of one."""
+    """A list of texts, each as `item` expects it; may be empty.
 
+    single: one text alone is a list of one. skip_empty: empty texts are left out, as ROS writes
+    [''] where it means a list of no texts.
+    """
+
+    item: Text = Text()
     single: bool = False
+    skip_empty: bool = False
 
     @property
     def expected(self) -> str:
-        return "a text or a list of texts" if self.single else "a list of texts"
+        noun = "a text or a list of texts" if self.single else "a list of texts"
+        return noun if self.item == Text() else f"{noun}, each {self.item.what}"
 
     def read(self, value: object) -> tuple[str, ...]:
-        if self.single and isinstance(value, str):
-            return (value,)
-        if not isinstance(value, list | tuple) or not all(isinstance(v, str) for v in value):
+        if isinstance(value, str):
+            if not self.single:
+                raise ValueError(f"write [{value}]")
+            value = [value]
+        if not isinstance(value, list | tuple):
             raise ValueError
-        return tuple(value)
+        texts = (text for text in value if text != "" or not self.skip_empty)
+        return tuple(self.item.read(text) for text in texts)
 
 
 FLAG = Flag()
@@ -328,10 +340,23 @@ def checked(what: str, value: object, check: Check[T]) -> T:
 
 def unknown_field(place: str, key: object, known: Collection[str]) -> str:
     """Return the sentence for a field that does not exist."""
-    return (
-        f"{place}: '{key}' is unknown; expected {', '.join(known)}"
-        f"{naming.did_you_mean(str(key), known)}"
-    )
+    close = naming.did_you_mean(str(key), known)
+    if close and len(known) > LONGEST_LIST:
+        return f"{place}: '{key}' is unknown{close}"
+    return f"{place}: '{key}' is unknown; expected {', '.join(known) or 'no fields'}{close}"
+
+
+class Mistakes(BadInput):
+    """Several mistakes of one thing, each a sentence."""
+
+    def __init__(self, mistakes: Sequence[str], whole: str) -> None:
+        self.mistakes = tuple(mistakes)
+        super().__init__("\n  ".join((f"{whole} has {len(mistakes)} mistakes:", *mistakes)))
+
+
+def mistakes_of(error: BadInput) -> tuple[str, ...]:
+    """Return the sentences of an error."""
+    return error.mistakes if isinstance(error, Mistakes) else (str(error),)
 
 
 def raise_all(mistakes: Sequence[str], whole: str) -> None:
@@ -339,17 +364,18 @@ def raise_all(mistakes: Sequence[str], whole: str) -> None:
     if len(mistakes) == 1:
         raise BadInput(mistakes[0])
     if mistakes:
-        raise BadInput("\n  ".join((f"{whole} has {len(mistakes)} mistakes:", *mistakes)))
+        raise Mistakes(mistakes, whole)
 
 
 def every(build: Callable[[S], T], sources: Iterable[S], whole: str) -> list[T]:
     """Return what `build` makes of each source; raise BadInput that names all their mistakes."""
-    built, mistakes = [], []
+    built: list[T] = []
+    mistakes: list[str] = []
     for source in sources:
         try:
             built.append(build(source))
         except BadInput as error:
-            mistakes.append(str(error))
+            mistakes += mistakes_of(error)
     raise_all(mistakes, whole)
     return built
 
@@ -430,27 +456,38 @@ class Field:
     """One field of a dataclass that `read` builds.
 
     name: in the file. default: MISSING where the field must be given. about: one sentence for
-    the documentation.
+    the documentation. changeable: a new value can take effect without a restart.
     """
 
     name: str
     check: Check[Any]
     default: Any
     about: str
+    changeable: bool
 
 
-def field(check: Check[T], about: str, default: T | Any = MISSING, *, name: str = "") -> Any:
+def field(
+    check: Check[T],
+    about: str,
+    default: T | Any = MISSING,
+    *,
+    name: str = "",
+    changeable: bool = False,
+) -> Any:
     """Return a dataclass field with its record; `name`: where the file calls it otherwise."""
-    return dataclasses.field(
-        default=default, metadata={"check": check, "about": about, "name": name}
-    )
+    metadata = {"check": check, "about": about, "name": name, "changeable": changeable}
+    return dataclasses.field(default=default, metadata=metadata)
 
 
 def fields_of(kind: type[Any]) -> dict[str, Field]:
     """Return the records of a dataclass whose fields are made with `field`, by attribute."""
     return {
         f.name: Field(
-            f.metadata["name"] or f.name, f.metadata["check"], f.default, f.metadata["about"]
+            f.metadata["name"] or f.name,
+            f.metadata["check"],
+            f.default,
+            f.metadata["about"],
+            f.metadata["changeable"],
         )
         for f in dataclasses.fields(kind)
     }

@@ -11,22 +11,24 @@ from typing import Any
 from mrlab_msgs import msg, srv
 from rclpy.callback_groups import ReentrantCallbackGroup
 from rclpy.context import Context
-from rclpy.node import Node
 from rclpy.parameter import Parameter
 
 from mrlab_ros.adapters.robots.library import RobotLibrary
 from mrlab_ros.adapters.trajectories.coefficients import load_coefficients
 from mrlab_ros.adapters.trajectories.store import TrajectoryStore
 from mrlab_ros.adapters.workspaces.reader import Limits, MiB, WorkspaceReader
-from mrlab_ros.core.conversion.convert import DEFAULT_FRAME_RATE, ConversionResult, convert
+from mrlab_ros.core.conversion.convert import ConversionResult, convert
 from mrlab_ros.core.errors import BadInput, LabError
 from mrlab_ros.messages import qos, trajectories
 from mrlab_ros.messages.trajectories import candidate_to_message, info_from_head
+from mrlab_ros.nodes import parameters
+from mrlab_ros.nodes.parameters import ConverterParameters
 from mrlab_ros.processes import host
 from mrlab_ros.ros import share
+from mrlab_ros.ros.parameters import ParameterNode
 
 
-class ConverterNode(Node):
+class ConverterNode(ParameterNode[ConverterParameters]):
     """Converts, keeps and announces trajectories; no callback ever holds up the executor."""
 
     def __init__(
@@ -35,20 +37,19 @@ class ConverterNode(Node):
         context: Context | None = None,
         parameter_overrides: list[Parameter] | None = None,
     ) -> None:
-        super().__init__("converter", context=context, parameter_overrides=parameter_overrides)
-        state = self.declare_parameter("state_dir", "").value
-        folder = Path(state) if state else Path.home() / ".local" / "share" / "mrlab"
-        self._rate = float(self.declare_parameter("default_frame_rate", DEFAULT_FRAME_RATE).value)
-        limits = Limits(
-            memory=int(self.declare_parameter("memory_limit", 1024).value) * MiB,
-            time=float(self.declare_parameter("time_limit", 20.0).value),
-            output=int(self.declare_parameter("output_limit", 1024).value) * MiB,
-            file_size=int(self.declare_parameter("file_size_limit", 1024).value) * MiB,
+        super().__init__(
+            "converter",
+            ConverterParameters,
+            parameters.ALL,
+            context=context,
+            parameter_overrides=parameter_overrides,
         )
+        state = self.parameters.state_dir
+        folder = Path(state) if state else Path.home() / ".local" / "share" / "mrlab"
         self._coefficients = load_coefficients(share.directory() / "config" / "torque_proxy.yaml")
         self._library = RobotLibrary(share.directory() / "robots")
         self._store = TrajectoryStore(folder / "trajectories", self._coefficients)
-        self._reader = WorkspaceReader(limits)
+        self._reader = WorkspaceReader(self._limits())
         # One thread: conversions and changes of the catalogue happen one after another.
         self._work = ThreadPoolExecutor(max_workers=1, thread_name_prefix="converter")
         self._infos: dict[str, msg.TrajectoryInfo] = {}
@@ -67,6 +68,18 @@ class ConverterNode(Node):
         self._read_catalogue()
         self._announce()
         self._work.submit(self._reader.start)
+
+    def parameters_changed(self) -> None:
+        self._reader.limits = self._limits()
+
+    def _limits(self) -> Limits:
+        values = self.parameters
+        return Limits(
+            memory=values.memory_limit * MiB,
+            time=values.time_limit,
+            output=values.output_limit * MiB,
+            file_size=values.file_size_limit * MiB,
+        )
 
     def destroy_node(self) -> None:
         """Give up what is being read and end the reading process."""
@@ -135,7 +148,7 @@ class ConverterNode(Node):
             end_effector=request.end_effector or None,
             trajectory_id=request.id,
             created_ns=time.time_ns(),
-            default_frame_rate=self._rate,
+            default_frame_rate=self.parameters.default_frame_rate,
         )
         self._answer(result, response)
         trajectory = result.trajectory

@@ -26,9 +26,12 @@ from mrlab_ros.core.systems.waits import parse
 from mrlab_ros.messages import qos
 from mrlab_ros.messages.playback import clock_to_message
 from mrlab_ros.messages.time import make_header, time_from_message, time_to_message
+from mrlab_ros.nodes import parameters
+from mrlab_ros.nodes.parameters import CoordinatorParameters
 from mrlab_ros.processes import host
 from mrlab_ros.ros.answers import answered
 from mrlab_ros.ros.calls import NoAnswer, call, call_all
+from mrlab_ros.ros.parameters import ParameterNode
 from mrlab_ros.ros.spinning import Caller
 from mrlab_ros.ros.worker import Worker
 
@@ -164,7 +167,7 @@ class Hosts:
         return self._clients[host]
 
 
-class CoordinatorNode(Node):
+class CoordinatorNode(ParameterNode[CoordinatorParameters]):
     """Creates and dissolves systems and offers each one's services below its name."""
 
     def __init__(
@@ -174,7 +177,11 @@ class CoordinatorNode(Node):
         parameter_overrides: list[Parameter] | None = None,
     ) -> None:
         super().__init__(
-            "coordinator", context=context, parameter_overrides=parameter_overrides or []
+            "coordinator",
+            CoordinatorParameters,
+            parameters.ALL,
+            context=context,
+            parameter_overrides=parameter_overrides,
         )
         self.caller = Caller(self)
         self._hosts = Hosts(self.caller.node)

@@ -27,11 +27,14 @@ from mrlab_ros.messages.joint_states import JointStateEncoder
 from mrlab_ros.messages.playback import status_to_message
 from mrlab_ros.messages.poses import transform_to_pose_message
 from mrlab_ros.messages.time import make_header, time_from_message, time_to_message
+from mrlab_ros.nodes import parameters
+from mrlab_ros.nodes.parameters import PlaybackParameters
 from mrlab_ros.processes import host
 from mrlab_ros.ros import share
 from mrlab_ros.ros.answers import answered
 from mrlab_ros.ros.calls import call
 from mrlab_ros.ros.deadlines import Player, Scheduler
+from mrlab_ros.ros.parameters import ParameterNode
 from mrlab_ros.ros.spinning import Caller
 
 Order = msg.DriveOrder
@@ -259,7 +262,7 @@ class PlaybackNode(Node):
                 self.playback.clear(now_ns)
 
 
-class PlaybackHostNode(Node):
+class PlaybackHostNode(ParameterNode[PlaybackParameters]):
     """Keeps one playback node for each robot of the scene, all on one deadline thread."""
 
     def __init__(
@@ -269,21 +272,14 @@ class PlaybackHostNode(Node):
         parameter_overrides: list[Parameter] | None = None,
     ) -> None:
         super().__init__(
-            "playback_host", context=context, parameter_overrides=parameter_overrides or []
+            "playback_host",
+            PlaybackParameters,
+            parameters.ALL,
+            context=context,
+            parameter_overrides=parameter_overrides,
         )
-
-        def parameter(name: str, default: Any) -> Any:
-            return self.declare_parameter(name, default).value
-
-        self._standing_rate = parameter("standing_rate", 2.0)
-        self._only = set(parameter("robots", [""])) - {""}
-        self._planner = RuckigPlanner(
-            StagingLimits(
-                velocity_share=parameter("staging.velocity_share", 0.5),
-                acceleration=parameter("staging.acceleration", 6.0),
-                jerk=parameter("staging.jerk", 30.0),
-            )
-        )
+        self._only = set(self.parameters.robots)
+        self._planner = RuckigPlanner(self._staging_limits())
         self._library = RobotLibrary(share.directory() / "robots")
         self.scheduler = Scheduler(self.context.ok)
         self.nodes: dict[str, PlaybackNode] = {}
@@ -292,10 +288,22 @@ class PlaybackHostNode(Node):
         self._get = self._caller.node.create_client(srv.GetTrajectory, "/converter/get")
         self.create_subscription(msg.Robots, "/robots", self._on_robots, qos.LATCHED)
         self.create_service(srv.CommandMembers, "~/command_members", self._command_members)
-        telemetry_rate = parameter("telemetry_rate", 10.0)
-        self.create_timer(1 / telemetry_rate, self._telemetry)
+        self._telemetry_timer = self.create_timer(
+            1 / self.parameters.telemetry_rate, self._telemetry
+        )
         self.create_timer(1.0, self._states)
         self.scheduler.start()
+
+    def parameters_changed(self) -> None:
+        self._planner.limits = self._staging_limits()
+        self.destroy_timer(self._telemetry_timer)
+        self._telemetry_timer = self.create_timer(
+            1 / self.parameters.telemetry_rate, self._telemetry
+        )
+
+    def _staging_limits(self) -> StagingLimits:
+        values = self.parameters
+        return StagingLimits(values.velocity_share, values.acceleration, values.jerk)
 
     def adopt(self, executor: Executor) -> None:
         """Let `executor` spin the playback nodes too, those of now and those to come."""
@@ -328,7 +336,7 @@ class PlaybackHostNode(Node):
             self._planner,
             self.scheduler,
             self._fetch,
-            self._standing_rate,
+            self.parameters.standing_rate,
             host=self.get_fully_qualified_name(),
             context=self.context,
         )

@@ -17,7 +17,8 @@ from mrlab_ros.core.errors import BadInput, LabError, Unavailable
 from mrlab_ros.processes.lab import NODES
 from mrlab_ros.processes.stand_aside import StandAside
 from mrlab_ros.processes.supervisor import RESTARTS, WRONG_CONFIGURATION
-from mrlab_ros.ros.spinning import SpunNode, shut_down
+from mrlab_ros.ros.parameters import WrongParameters
+from mrlab_ros.ros.spinning import SpunNode, shut_down, start_up
 
 # How often a process checks whether it was asked to stop, s.
 POLL_PERIOD_S = 0.1
@@ -55,7 +56,11 @@ def run(names: list[str]) -> int:
     1 after any other error. While a bag is replayed, the nodes that would publish the same topics
     are closed; afterwards they are made again and recover as after a restart.
     """
-    rclpy.init()
+    try:
+        start_up()
+    except BadInput as error:
+        print(error, file=sys.stderr, flush=True)
+        return WRONG_CONFIGURATION
     # rclpy's own handler of SIGTERM shuts the context down and calls nobody.
     running = rclpy.utilities.get_default_context().ok
     aside: StandAside | None = None
@@ -74,11 +79,21 @@ def run(names: list[str]) -> int:
             wanted = [name for name in names if NODES[name].in_replay or not replay]
             for name in [name for name in reversed(spun) if name not in wanted]:
                 spun.pop(name).close()
+            # The mistakes of all nodes are named at once.
+            mistakes = []
             for name in wanted:
                 if name not in spun:
-                    spun[name] = SpunNode(makers[name]())
+                    try:
+                        spun[name] = SpunNode(makers[name]())
+                    except WrongParameters as error:
+                        mistakes.append(str(error))
+            if mistakes:
+                raise WrongParameters("\n".join(mistakes))
             time.sleep(POLL_PERIOD_S)
         return 0
+    except WrongParameters as error:
+        print(error, file=sys.stderr, flush=True)
+        return WRONG_CONFIGURATION
     except LabError as error:
         print(f"{name}: {error}", file=sys.stderr, flush=True)
         lasting = isinstance(error, BadInput) and not isinstance(error, Unavailable)

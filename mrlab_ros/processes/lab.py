@@ -14,6 +14,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from mrlab_ros.core.errors import BadInput
+from mrlab_ros.processes.parameter_file import check_parameter_file
 from mrlab_ros.processes.supervisor import ProcessSpec
 
 # The module that runs the nodes of a process, and its name as a ROS executable.
@@ -156,7 +157,10 @@ def lab_nodes(options: LabOptions) -> tuple[NodeEntry, ...]:
 
 
 def parameter_file(chosen: Path | None) -> Path:
-    """Return the parameter file, the shipped one where none is chosen; raise BadInput without."""
+    """Return the parameter file, the shipped one where none is chosen.
+
+    Raises BadInput where there is none, or names all its mistakes.
+    """
     if chosen is None:
         from mrlab_ros.ros import share
 
@@ -165,6 +169,7 @@ def parameter_file(chosen: Path | None) -> Path:
         raise BadInput(
             f"there is no parameter file {chosen}; name an existing one as config, or leave it out"
         )
+    check_parameter_file(chosen)
     return chosen.resolve()
 
 

@@ -13,6 +13,7 @@ import threading
 import traceback
 from contextlib import suppress
 
+import rclpy
 import rclpy.utilities
 from rclpy.context import Context
 from rclpy.executors import Executor, ExternalShutdownException
@@ -20,6 +21,8 @@ from rclpy.experimental.events_executor import EventsExecutor
 from rclpy.impl.implementation_singleton import rclpy_implementation
 from rclpy.node import Node
 from rclpy.task import Future
+
+from mrlab_ros.core.errors import BadInput
 
 # The longest the executor waits at a time, s; what arrives is handed on at once all the same.
 MOMENT = 0.2
@@ -48,6 +51,19 @@ def spin(executor: Executor, context: Context, stop: threading.Event | None = No
             # What fails because the context was shut down beneath it is no mistake.
             if context.ok():
                 traceback.print_exc()
+
+
+def start_up() -> None:
+    """Initialise the default context; raise BadInput where rcl refuses the command line."""
+    try:
+        rclpy.init()
+    except (rclpy_implementation.RCLError, rclpy_implementation.UnknownROSArgsError) as error:
+        # After the reason rcl names lines of its own sources.
+        reason = str(error).split(", at /")[0].removeprefix("failed to initialize rcl: ")
+        raise BadInput(
+            f"ROS refuses the command line: {reason}; expected arguments such as --ros-args -p "
+            "lab:robots:='[ur5e]' --params-file config/lab.yaml"
+        ) from error
 
 
 def shut_down() -> None:

@@ -300,11 +300,11 @@ def test_an_occupied_port_is_said_in_one_sentence(graph, bridge, endpoint):
     ("setting", "value", "words"),
     [
         ("listen", ["tcp/0.0.0.0:7447"], "anybody in the network"),
-        ("listen", ["7447"], "expected protocol/address:port"),
-        ("mode", "server", "zenoh does not accept"),
+        ("listen", ["7447"], "each protocol/address:port"),
+        ("mode", "server", "expected peer, client or router"),
         ("allow_list", "/nowhere/bridge.yaml", "cannot read its allow-list"),
         ("zenoh_config", "/nowhere/zenoh.json5", "zenoh does not accept"),
-        ("prefix", "lab/*", "the bridge's prefix"),
+        ("prefix", "lab/*", "prefix is .* parts divided by"),
     ],
 )
 def test_a_wrong_parameter_is_said_in_one_sentence(graph, setting, value, words):

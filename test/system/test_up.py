@@ -165,6 +165,40 @@ def test_a_wrong_argument_is_one_sentence(arguments: tuple[str, ...], words: str
     assert done.stderr.count("\n") == 1
 
 
+def test_a_wrong_parameter_file_is_named_whole_and_nothing_starts(tmp_path: Path) -> None:
+    config = tmp_path / "bad.yaml"
+    config.write_text(
+        "playback_host: {ros__parameters: {telemetry_rate: 0, standing_rate: .nan}}\n"
+        "recorder: {ros__parameters: {split_size: -5}}\n"
+        "laab: {ros__parameters: {robots: [ur5e]}}\n"
+    )
+    done = mrlab("up", "--config", str(config))
+    assert done.returncode == 1
+    for words in (
+        "bad.yaml has 4 mistakes",
+        "telemetry_rate is 0; expected a number above 0",
+        "standing_rate is nan",
+        "split_size is -5",
+        "did you mean 'lab'",
+    ):
+        assert words in done.stderr
+    assert "Traceback" not in done.stdout + done.stderr
+    assert "starts the lab" not in done.stdout
+
+
+def test_a_process_that_refuses_its_configuration_ends_the_start(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setenv("XDG_RUNTIME_DIR", str(tmp_path))
+    config = tmp_path / "lab.yaml"
+    config.write_text("bridge: {ros__parameters: {allow_list: /nowhere.yaml}}\n")
+    done = mrlab("up", "--no-physics", "--config", str(config))
+    assert done.returncode == 1
+    assert "the bridge cannot read its allow-list /nowhere.yaml" in done.stdout
+    assert "the lab does not start: bridge refused the configuration" in done.stderr
+    assert "Traceback" not in done.stdout + done.stderr
+
+
 def test_debug_shows_where() -> None:
     done = mrlab("--debug", "up", "--robots", "ur6")
     assert done.returncode == 1

@@ -51,7 +51,7 @@ class RuckigPlanner:
     """Time-optimal motions inside the limits, all joints arriving together."""
 
     def __init__(self, limits: StagingLimits | None = None) -> None:
-        self._limits = limits or StagingLimits()
+        self.limits = limits or StagingLimits()
 
     def plan(self, model: RobotModel, start: Array, goal: Array) -> RuckigMotion:
         count = len(model.joints)
@@ -60,7 +60,7 @@ class RuckigPlanner:
                 f"a motion of {model.id} from {start.shape} to {goal.shape} values was asked for; "
                 f"expected {count} joint positions each"
             )
-        limits = self._limits
+        limits = self.limits
         target = InputParameter(count)
         target.current_position, target.target_position = start.tolist(), goal.tolist()
         target.max_velocity = [limits.velocity_share * j.max_velocity for j in model.joints]

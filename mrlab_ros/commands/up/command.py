@@ -7,7 +7,7 @@ import signal
 import tempfile
 import threading
 import time
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
@@ -21,6 +21,7 @@ from mrlab_ros.commands.up.keys import (
     keys_changed_at,
     tell_when_keys_expire,
 )
+from mrlab_ros.core.errors import BadInput
 from mrlab_ros.processes import physics_support
 from mrlab_ros.processes.lab import (
     PROCESSES,
@@ -32,7 +33,7 @@ from mrlab_ros.processes.lab import (
 )
 from mrlab_ros.processes.readiness import READY_TIMEOUT_S, wait_until_complete
 from mrlab_ros.processes.run_file import RunFile
-from mrlab_ros.processes.supervisor import SELF, Supervisor
+from mrlab_ros.processes.supervisor import SELF, Phase, ProcessState, Supervisor
 from mrlab_ros.ros.domain import domain_id
 
 if TYPE_CHECKING:
@@ -102,6 +103,8 @@ def up(
     """Start the lab and keep it running until Ctrl-C.
 
     Every line of output says which process it came from. A process that dies is started again.
+    Where the parameter file is wrong, nothing starts and all its mistakes are named; where a
+    process refuses its configuration, the lab ends with exit code 1.
     The graph stays on this machine unless ROS_AUTOMATIC_DISCOVERY_RANGE says otherwise, and is
     on the domain of ROS_DOMAIN_ID.
     """
@@ -132,8 +135,14 @@ def up(
         seen = keys_changed_at(keys) if keys is not None and bridge else ()
         run_file.claim(state_dir=str(folder), zenoh=listen)
         begin = time.monotonic()
+        refusals = Refusals(stop)
+
+        def changed(states: list[ProcessState]) -> None:
+            run_file.write(states)
+            refusals.check(states)
+
         try:
-            with Supervisor(specs, say, run_file.write) as supervisor:
+            with Supervisor(specs, say, changed) as supervisor:
                 say(SELF, f"starts the lab on ROS domain {domain}; Ctrl-C stops it")
                 if listen is not None and insecure:
                     say(SELF, f"--insecure: whoever reaches {listen} sees and moves everything")
@@ -142,6 +151,7 @@ def up(
                 if no_physics:
                     say(SELF, no_physics)
                 missing = wait_until_complete(stop, lab_nodes(options), len(models))
+                refusals.raise_any()
                 if missing:
                     say(SELF, f"not complete after {READY_TIMEOUT_S:g} s: {missing} missing")
                 elif not stop.is_set():
@@ -155,6 +165,30 @@ def up(
                 say(SELF, "stops")
         finally:
             run_file.release()
+
+
+class Refusals:
+    """The processes that refuse their configuration while the lab starts; they set `stop`."""
+
+    def __init__(self, stop: threading.Event) -> None:
+        self._stop = stop
+        self._names: set[str] = set()
+        self._started = False
+
+    def check(self, states: Iterable[ProcessState]) -> None:
+        if not self._started:
+            self._names |= {s.name for s in states if s.phase == Phase.REFUSED.value}
+            if self._names:
+                self._stop.set()
+
+    def raise_any(self) -> None:
+        """End the check; raise BadInput where a process refused. Later ones do not end a lab."""
+        self._started = True
+        if self._names:
+            raise BadInput(
+                f"the lab does not start: {', '.join(sorted(self._names))} refused the "
+                "configuration and said above what is wrong; correct it and start again"
+            )
 
 
 class Speaker:

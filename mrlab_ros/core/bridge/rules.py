@@ -22,6 +22,7 @@ from mrlab_ros.core.records import (
     Record,
     Text,
     between,
+    checked,
     enum_values,
     every,
     field,
@@ -35,7 +36,10 @@ FULL_NAME = Text(
     re.compile(r"(?:/(?:[A-Za-z_][A-Za-z0-9_]*|\*{1,2}))+"),
     "a full name such as /ur5e_1/joint_states, with * for one part and ** for any parts",
 )
-PREFIX = re.compile(r"[A-Za-z0-9_.-]+(?:/[A-Za-z0-9_.-]+)*")
+PREFIX = Text(
+    re.compile(r"|[A-Za-z0-9_.-]+(?:/[A-Za-z0-9_.-]+)*"),
+    "letters, digits, '_', '-' and '.', in parts divided by '/', such as campus/lab_1, or nothing",
+)
 # A liveliness token holds a key and a type as one chunk each, with this for every slash.
 SLASH = "§"
 
@@ -213,12 +217,7 @@ def _first(rules: tuple[RuleT, ...], name: str, type_name: str) -> RuleT | None:
 
 def checked_prefix(prefix: str) -> str:
     """Return `prefix` where keys may begin with it; raise BadInput otherwise."""
-    if prefix and not PREFIX.fullmatch(prefix):
-        raise BadInput(
-            f"the bridge's prefix is {prefix!r}; expected letters, digits, '_', '-' and '.', in "
-            "parts divided by '/', such as lab_1, or nothing"
-        )
-    return prefix
+    return checked("the bridge's prefix", prefix, PREFIX)
 
 
 def key_of(name: str, prefix: str = "") -> str:

@@ -29,12 +29,15 @@ from mrlab_ros.core.bridge.links import check_endpoints, check_router
 from mrlab_ros.core.bridge.rules import Direction, ServiceRule, TopicRule
 from mrlab_ros.core.errors import BadInput
 from mrlab_ros.messages import qos
+from mrlab_ros.nodes import parameters
 from mrlab_ros.nodes.bridge.crossing import BridgeContext
 from mrlab_ros.nodes.bridge.inward import Inward
 from mrlab_ros.nodes.bridge.outward import Outward
 from mrlab_ros.nodes.bridge.services import Services
+from mrlab_ros.nodes.parameters import AUTOMATIC, BridgeParameters
 from mrlab_ros.processes import host
 from mrlab_ros.ros import share
+from mrlab_ros.ros.parameters import ParameterNode
 from mrlab_ros.ros.spinning import SpunNode
 
 STATISTICS = "/@mrlab/bridge/statistics"
@@ -46,7 +49,7 @@ THOROUGH = 10
 SWITCH_INTERVAL = 5e-4
 
 
-class BridgeNode(Node):
+class BridgeNode(ParameterNode[BridgeParameters]):
     """Looks at the graph, carries what the allow-list names, forgets what is gone."""
 
     def __init__(
@@ -56,9 +59,15 @@ class BridgeNode(Node):
         parameter_overrides: list[Parameter] | None = None,
         session: Session | None = None,
     ) -> None:
-        super().__init__("bridge", context=context, parameter_overrides=parameter_overrides)
-        self._rules = _rules(Path(self._setting("allow_list", "")))
-        prefix = rules.checked_prefix(self._setting("prefix", ""))
+        super().__init__(
+            "bridge",
+            BridgeParameters,
+            parameters.ALL,
+            context=context,
+            parameter_overrides=parameter_overrides,
+        )
+        self._rules = _rules(Path(self.parameters.allow_list))
+        prefix = self.parameters.prefix
         settings = self._zenoh_settings(prefix)
         self._session: Session = session or ZenohSession(settings)
         self._started = time.monotonic()
@@ -90,24 +99,22 @@ class BridgeNode(Node):
         self.create_subscription(Latency, "latency/clients", lambda _: None, qos.LATCHED_EVENTS)
         self._reported = time.monotonic()
         self.create_timer(REPORT_PERIOD, self._report)
-        self.create_timer(self._setting("discovery_period", 0.2), self.discover)
+        self._discovery = self.create_timer(self.parameters.discovery_period, self.discover)
         self.get_logger().info(
             f"carries {len(self._rules.topics)} kinds of topics and "
             f"{len(self._rules.services)} of services under '{prefix or '/'}', zenoh {zid}"
         )
 
-    def _setting(self, name: str, default: Any) -> Any:
-        return self.declare_parameter(name, default).value
+    def parameters_changed(self) -> None:
+        self.destroy_timer(self._discovery)
+        self._discovery = self.create_timer(self.parameters.discovery_period, self.discover)
 
     def _zenoh_settings(self, prefix: str) -> Any:
-        file = self._setting("zenoh_config", "")
-        folder = self._setting("keys", "")
-        mode = self._setting("mode", "peer")
-        connect = tuple(e for e in self._setting("connect", [""]) if e)
-        usual = [""] if folder and connect else EVERYWHERE if folder else LOOPBACK
-        listen = tuple(e for e in self._setting("listen", list(usual)) if e)
-        insecure = self._setting("insecure", False)
-        lease = self._setting("lease", 0.0)
+        values = self.parameters
+        file, folder, mode = values.zenoh_config, values.keys, values.mode
+        connect, listen, lease = values.connect, values.listen, values.lease
+        if AUTOMATIC in listen:
+            listen = () if folder and connect else EVERYWHERE if folder else LOOPBACK
         if file and folder:
             raise BadInput(
                 f"the bridge has both zenoh_config ({file}) and keys ({folder}); expected one, as "
@@ -120,7 +127,7 @@ class BridgeNode(Node):
             )
         if file:
             return configuration(Path(file))
-        check_endpoints(listen, insecure, bool(folder))
+        check_endpoints(listen, values.insecure, bool(folder))
         if not folder:
             return configuration(mode=mode, listen=listen, connect=connect, lease=lease)
         keys = Keys(Path(folder))

@@ -8,7 +8,6 @@ from typing import Any
 
 from mrlab_msgs import msg, srv
 from rclpy.context import Context
-from rclpy.node import Node
 from rclpy.parameter import Parameter
 from rclpy.publisher import Publisher
 from std_msgs.msg import String
@@ -21,9 +20,12 @@ from mrlab_ros.core.scene.robots import PlacedRobot, Scene
 from mrlab_ros.messages import qos
 from mrlab_ros.messages.poses import pose_from_message, pose_to_message, transforms_to_message
 from mrlab_ros.messages.time import make_header
+from mrlab_ros.nodes import parameters
+from mrlab_ros.nodes.parameters import LabParameters
 from mrlab_ros.processes import host
 from mrlab_ros.ros import share
 from mrlab_ros.ros.answers import answered
+from mrlab_ros.ros.parameters import ParameterNode
 
 try:  # not among the ROS wheels; where it is missing, a client places robots by /robots
     from tf2_msgs.msg import TFMessage
@@ -31,7 +33,7 @@ except ImportError:
     TFMessage = None
 
 
-class LabNode(Node):
+class LabNode(ParameterNode[LabParameters]):
     """Spawns, places and removes robots, and announces who is where."""
 
     def __init__(
@@ -40,9 +42,14 @@ class LabNode(Node):
         context: Context | None = None,
         parameter_overrides: list[Parameter] | None = None,
     ) -> None:
-        super().__init__("lab", context=context, parameter_overrides=parameter_overrides or [])
-        state_dir = self.declare_parameter("state_dir", "").value
-        initial = [m for m in self.declare_parameter("robots", [""]).value if m]
+        super().__init__(
+            "lab",
+            LabParameters,
+            parameters.ALL,
+            context=context,
+            parameter_overrides=parameter_overrides,
+        )
+        state_dir = self.parameters.state_dir
         self._file = Path(state_dir) / "scene.json" if state_dir else None
         folder = Path(state_dir) if state_dir else Path.home() / ".local" / "share" / "mrlab"
         self._scenes = SceneFiles(share.directory() / "config" / "scenes", folder / "scenes")
@@ -56,7 +63,7 @@ class LabNode(Node):
         if self._file is not None and self._file.exists():
             self._restore(self._file)
         else:
-            for model in initial:
+            for model in self.parameters.robots:
                 self._spawn(model, None, "", None)
         self._announce()
         self.create_service(srv.SpawnRobot, "~/spawn_robot", self._on_spawn)

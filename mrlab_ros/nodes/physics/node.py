@@ -11,7 +11,6 @@ from typing import Any
 
 from mrlab_msgs import srv
 from rclpy.context import Context
-from rclpy.node import Node
 from rclpy.parameter import Parameter
 from std_srvs.srv import Trigger
 
@@ -29,18 +28,21 @@ from mrlab_ros.core.physics.world import World
 from mrlab_ros.core.scene.document import ObjectEntry
 from mrlab_ros.messages import physics as messages
 from mrlab_ros.messages.poses import pose_from_message
+from mrlab_ros.nodes import parameters
 from mrlab_ros.nodes.lab.scenes import (
     PendingGrasp,
     SceneLoader,
     Shared,
     document,
 )
+from mrlab_ros.nodes.parameters import PhysicsParameters
 from mrlab_ros.nodes.physics.listener import GraphListener
 from mrlab_ros.nodes.physics.publishers import WorldPublishers
 from mrlab_ros.processes import host, physics_support
 from mrlab_ros.ros import share
 from mrlab_ros.ros.answers import answered
 from mrlab_ros.ros.deadlines import SWITCH_INTERVAL, LabClock
+from mrlab_ros.ros.parameters import ParameterNode
 from mrlab_ros.ros.spinning import Caller
 
 try:
@@ -57,7 +59,7 @@ MOST_STEPS = 24
 SAVE_PERIOD = 2.0  # s
 
 
-class PhysicsNode(Node):
+class PhysicsNode(ParameterNode[PhysicsParameters]):
     """Steps the world as joint states arrive; publishes contacts, collisions, grasps, objects."""
 
     def __init__(
@@ -66,8 +68,14 @@ class PhysicsNode(Node):
         context: Context | None = None,
         parameter_overrides: list[Parameter] | None = None,
     ) -> None:
-        super().__init__("physics", context=context, parameter_overrides=parameter_overrides or [])
-        state = self.declare_parameter("state_dir", "").value
+        super().__init__(
+            "physics",
+            PhysicsParameters,
+            parameters.ALL,
+            context=context,
+            parameter_overrides=parameter_overrides,
+        )
+        state = self.parameters.state_dir
         folder = Path(state) if state else Path.home() / ".local" / "share" / "mrlab"
         self._file = folder / "physics.json" if state else None
         config = share.directory() / "config"

@@ -19,28 +19,28 @@ from mrlab_ros.adapters.bags.writer import BagWriter
 from mrlab_ros.core.errors import LabError
 from mrlab_ros.core.recording.states import TABLE, RecorderEvent, RecorderState, reason
 from mrlab_ros.core.recording.timeline import ReplayTimeline
-from mrlab_ros.core.recording.topics import LAB_TOPICS, Split, Topics
+from mrlab_ros.core.recording.topics import Split, Topics
 from mrlab_ros.core.state_machine import Machine
 from mrlab_ros.messages import qos
 from mrlab_ros.messages.definitions import definition
 from mrlab_ros.messages.time import make_header
+from mrlab_ros.nodes import parameters
 from mrlab_ros.nodes.lab.memory import LabRestore
+from mrlab_ros.nodes.parameters import RecorderParameters
 from mrlab_ros.nodes.recorder.attachments import SessionContent, versions
 from mrlab_ros.nodes.recorder.recording import Recording
 from mrlab_ros.nodes.recorder.replaying import Replaying
 from mrlab_ros.nodes.recorder.trajectories import ReplayedTrajectories
 from mrlab_ros.processes import host
 from mrlab_ros.ros.answers import answered
+from mrlab_ros.ros.parameters import ParameterNode
 from mrlab_ros.ros.spinning import Caller
 
 State = msg.RecorderState
 MEGABYTE = 1_000_000
-# Size at which a recording goes on in a new file, MB. The index of a file stays in memory until
-# its end: of fifty robots some 100 MB an hour.
-SPLIT_SIZE = 256
 
 
-class RecorderNode(Node):
+class RecorderNode(ParameterNode[RecorderParameters]):
     """Records or replays, one at a time, and tells what it does on ~/state."""
 
     def __init__(
@@ -50,16 +50,12 @@ class RecorderNode(Node):
         parameter_overrides: list[Parameter] | None = None,
     ) -> None:
         super().__init__(
-            "recorder", context=context, parameter_overrides=parameter_overrides or []
+            "recorder",
+            RecorderParameters,
+            parameters.ALL,
+            context=context,
+            parameter_overrides=parameter_overrides,
         )
-
-        def parameter(name: str, default: Any) -> Any:
-            return self.declare_parameter(name, default).value
-
-        folder = parameter("bag_dir", "")
-        self._folder = Path(folder).expanduser() if folder else default_folder()
-        self._topics = [t for t in parameter("topics", list(LAB_TOPICS)) if t]
-        self._split_size = int(parameter("split_size", SPLIT_SIZE)) * MEGABYTE
         # The raw topics are on a node that no executor spins.
         self._streams = Node(
             "recorder_streams",
@@ -97,6 +93,11 @@ class RecorderNode(Node):
         self.create_timer(0.25, self._discover)
         self._tell()
 
+    @property
+    def _folder(self) -> Path:
+        chosen = self.parameters.bag_dir
+        return Path(chosen).expanduser() if chosen else default_folder()
+
     def destroy_node(self) -> None:
         """Close what is written, end what is replayed."""
         try:
@@ -113,8 +114,8 @@ class RecorderNode(Node):
     @answered
     def _start(self, request: Any, response: Any) -> str:
         self._check(RecorderEvent.START)
-        split = Split(request.split_duration, self._split_size)
-        topics = Topics(list(request.topics) or self._topics)
+        split = Split(request.split_duration, self.parameters.split_size * MEGABYTE)
+        topics = Topics(list(request.topics) or list(self.parameters.topics))
         name = request.bag or time.strftime("session_%Y-%m-%d_%H-%M-%S")
         writer = BagWriter(self._folder / Path(name).expanduser(), definition, versions())
         writer.note("mrlab", writer.facts.custom)

@@ -1,0 +1,202 @@
+"""The parameters of the lab's nodes: one record each. docs/parameters.md is made from them."""
+
+from __future__ import annotations
+
+import re
+from dataclasses import dataclass
+from typing import Any
+
+from mrlab_ros.core.bridge.rules import FULL_NAME, PREFIX
+from mrlab_ros.core.conversion.convert import DEFAULT_FRAME_RATE
+from mrlab_ros.core.naming import NAME
+from mrlab_ros.core.recording.topics import LAB_TOPICS
+from mrlab_ros.core.records import (
+    FLAG,
+    TEXT,
+    Choice,
+    Integer,
+    Number,
+    Text,
+    Texts,
+    above,
+    between,
+    field,
+)
+
+RATE = Number(above(0, 100), "Hz")
+SIZE = Integer(between(1, 1_048_576), "MiB")
+ROBOTS = Texts(Text(NAME, "a name such as ur5e"), skip_empty=True)
+# In `listen`: the bridge chooses the endpoints.
+AUTOMATIC = "auto"
+ENDPOINT = r"[a-z][a-z-]*/.+"
+ENDPOINT_EXAMPLE = "protocol/address:port such as tcp/127.0.0.1:7447"
+LISTEN = Texts(
+    Text(re.compile(f"{AUTOMATIC}|{ENDPOINT}"), f"{ENDPOINT_EXAMPLE}, or {AUTOMATIC}"),
+    skip_empty=True,
+)
+CONNECT = Texts(Text(re.compile(ENDPOINT), ENDPOINT_EXAMPLE), skip_empty=True)
+
+
+def _state_dir(about: str) -> Any:
+    return field(TEXT, about, "")
+
+
+@dataclass(frozen=True)
+class ConverterParameters:
+    state_dir: str = _state_dir("Folder for the trajectories; empty: ~/.local/share/mrlab.")
+    default_frame_rate: float = field(
+        Number(above(0, 100_000), "Hz"),
+        "Frame rate of a file that does not give one.",
+        DEFAULT_FRAME_RATE,
+        changeable=True,
+    )
+    time_limit: float = field(
+        Number(above(0, 3600), "s"), "Time for reading one file.", 20.0, changeable=True
+    )
+    memory_limit: int = field(
+        Integer(between(64, 1_048_576), "MiB"),
+        "Memory of the process that reads one file.",
+        1024,
+        changeable=True,
+    )
+    output_limit: int = field(SIZE, "Size of the content of one file.", 1024, changeable=True)
+    file_size_limit: int = field(SIZE, "Size of one file.", 1024, changeable=True)
+
+
+@dataclass(frozen=True)
+class LabParameters:
+    state_dir: str = _state_dir(
+        "Folder for the scene; empty: the scene is lost when the node ends."
+    )
+    robots: tuple[str, ...] = field(
+        ROBOTS,
+        "Models of the robots to spawn at the start, such as [ur5e, kuka_kr3_r540], where no "
+        "scene is restored.",
+        (),
+    )
+
+
+@dataclass(frozen=True)
+class CoordinatorParameters:
+    pass
+
+
+@dataclass(frozen=True)
+class PlaybackParameters:
+    standing_rate: float = field(
+        Number(between(0, 100), "Hz"),
+        "How often a robot that does not move repeats its joint state; 0: never.",
+        2.0,
+    )
+    telemetry_rate: float = field(
+        RATE, "How often the telemetry of a moving robot is published.", 10.0, changeable=True
+    )
+    robots: tuple[str, ...] = field(
+        ROBOTS, "Names of the robots that this process plays; empty: all.", ()
+    )
+    velocity_share: float = field(
+        Number(above(0, 1)),
+        "Share of each joint's velocity limit in the motion to a trajectory's first frame.",
+        0.5,
+        name="staging.velocity_share",
+        changeable=True,
+    )
+    acceleration: float = field(
+        Number(above(0, 1000), "rad/s^2"),
+        "Acceleration limit of each joint in that motion.",
+        6.0,
+        name="staging.acceleration",
+        changeable=True,
+    )
+    jerk: float = field(
+        Number(above(0, 100_000), "rad/s^3"),
+        "Jerk limit of each joint in that motion.",
+        30.0,
+        name="staging.jerk",
+        changeable=True,
+    )
+
+
+@dataclass(frozen=True)
+class PhysicsParameters:
+    state_dir: str = _state_dir(
+        "Folder for objects, surfaces and saved scenes; empty: saved scenes are in "
+        "~/.local/share/mrlab, the rest is lost when the node ends."
+    )
+
+
+@dataclass(frozen=True)
+class RecorderParameters:
+    bag_dir: str = field(
+        TEXT,
+        "Folder of bags that are named without one; empty: ~/.local/share/mrlab/bags.",
+        "",
+        changeable=True,
+    )
+    topics: tuple[str, ...] = field(
+        Texts(FULL_NAME, skip_empty=True),
+        "Topics to record where the request names none.",
+        LAB_TOPICS,
+        changeable=True,
+    )
+    split_size: int = field(
+        Integer(between(0, 1_000_000), "MB"),
+        "Size at which a recording continues in a new file; 0: never. The index of the open file "
+        "is in memory: about 100 MB an hour for fifty robots.",
+        256,
+        changeable=True,
+    )
+
+
+@dataclass(frozen=True)
+class BridgeParameters:
+    allow_list: str = field(TEXT, "YAML file with the rules; empty: config/bridge.yaml.", "")
+    prefix: str = field(PREFIX, "What every key begins with.", "")
+    mode: str = field(
+        Choice({mode: mode for mode in ("peer", "client", "router")}), "zenoh's mode.", "peer"
+    )
+    listen: tuple[str, ...] = field(
+        LISTEN,
+        f"Endpoints to listen on; {AUTOMATIC}: tcp/127.0.0.1:7447, with keys tls/0.0.0.0:7447, "
+        "with keys and connect none.",
+        (AUTOMATIC,),
+    )
+    connect: tuple[str, ...] = field(
+        CONNECT, "Endpoints to connect to; with keys those of a secured router.", ()
+    )
+    keys: str = field(
+        TEXT,
+        "Keys folder: only its people may connect, over TLS, each in their role; empty: no keys.",
+        "",
+    )
+    lease: float = field(
+        Number(between(0, 3600), "s"),
+        "Time after which a silent link counts as broken; 0: 1.5 beyond this machine, 10 within.",
+        0.0,
+    )
+    insecure: bool = field(FLAG, "Allow listening beyond this machine without encryption.", False)
+    zenoh_config: str = field(
+        TEXT,
+        "zenoh configuration file (json5) in place of mode, listen, connect, insecure, keys and "
+        "lease.",
+        "",
+    )
+    discovery_period: float = field(
+        Number(between(0.01, 60), "s"),
+        "Time between two checks of the graph for new topics and services.",
+        0.2,
+        changeable=True,
+    )
+
+
+# By the node's name in the graph.
+NODES: dict[str, type[Any]] = {
+    "converter": ConverterParameters,
+    "lab": LabParameters,
+    "coordinator": CoordinatorParameters,
+    "playback_host": PlaybackParameters,
+    "physics": PhysicsParameters,
+    "recorder": RecorderParameters,
+    "bridge": BridgeParameters,
+}
+ALL = tuple(NODES.values())
