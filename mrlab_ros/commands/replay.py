@@ -82,7 +82,7 @@ def replay(
 def _follow(watch: Watch[Any], keyboard: Keyboard | None, show: Callable[[str], None]) -> None:
     from mrlab_msgs import msg
 
-    from mrlab_ros.ros.graph import NoAnswer
+    from mrlab_ros.ros.calls import NoAnswer
 
     working = (msg.RecorderState.REPLAYING, msg.RecorderState.PAUSED)
     # A short one may be over already; what is latched from before says nothing of it.

@@ -247,7 +247,8 @@ def _systems(graph: Graph, name: str = "") -> list[Any]:
     """
     from mrlab_msgs import msg
 
-    from mrlab_ros.ros.graph import LATCHED_BURST, NoAnswer
+    from mrlab_ros.ros.calls import NoAnswer
+    from mrlab_ros.ros.graph import LATCHED_BURST
 
     watch = graph.watch(msg.RobotSystems, "/systems")
     watch.wait(lambda _: True, 5.0, "the systems")

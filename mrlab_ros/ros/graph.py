@@ -19,8 +19,9 @@ from rclpy.node import Node
 from rclpy.qos import QoSProfile
 from rclpy.signals import SignalHandlerOptions
 
-from mrlab_ros.core.errors import LabError, Misuse
+from mrlab_ros.core.errors import Misuse
 from mrlab_ros.messages import qos
+from mrlab_ros.ros.calls import NoAnswer, call
 from mrlab_ros.ros.domain import domain_id
 
 T = TypeVar("T")
@@ -30,10 +31,6 @@ CALL_TIMEOUT = 15.0
 # What a latched topic has kept for late joiners comes oldest first, with pauses shorter than
 # this, s.
 LATCHED_BURST = 0.5
-
-
-class NoAnswer(LabError):
-    """The lab, or a part of it, is not there or did not answer in time."""
 
 
 class Watch(Generic[T]):
@@ -136,13 +133,7 @@ class Graph:
             raise NoAnswer(
                 f"nobody offers {service} on ROS domain {self.domain}; {self._advice()}"
             )
-        done = threading.Event()
-        future = client.call_async(request)
-        future.add_done_callback(lambda _: done.set())
-        if not done.wait(timeout):
-            client.remove_pending_request(future)
-            raise NoAnswer(f"{service} did not answer within {timeout:g} s; try again")
-        return future.result()
+        return call(client, request, timeout)
 
     def order(self, kind: Any, service: str, request: Any, timeout: float = CALL_TIMEOUT) -> Any:
         """Call a service and return its answer; raise Misuse with its words where it refuses."""

@@ -1,59 +1,128 @@
-"""A thread that does one thing after another, and something small in between."""
+"""A thread that runs one piece of work after another."""
 
 from __future__ import annotations
 
-import queue
 import threading
+import time
+from collections import deque
 from collections.abc import Callable
 from concurrent.futures import CancelledError, Future
-from typing import Any
+from typing import Any, NamedTuple
+
+Work = Callable[[], Any]
+
+
+class _Task(NamedTuple):
+    """A piece of work, the bytes that it holds, and where its result goes, if anywhere."""
+
+    work: Work
+    size: int
+    future: Future[Any] | None
 
 
 class Worker:
-    """Runs work in the order in which it was given; no two pieces ever at once.
+    """Runs work in the order in which it was given, no two pieces at once, in its own thread.
 
-    `idle` is called whenever nothing came for `patience()` s; patience None means never.
+    idle: called whenever no work came for `idle_after()` s; None of it: never. capacity: bytes
+    of sent work that may wait; beyond it the oldest work is dropped, so that the newest state
+    still arrives. on_drop: called after that. on_error: gets what sent work raised.
     """
 
     def __init__(
-        self, name: str, idle: Callable[[], None], patience: Callable[[], float | None]
+        self,
+        name: str,
+        idle: Callable[[], None] = lambda: None,
+        idle_after: Callable[[], float | None] = lambda: None,
+        *,
+        capacity: int | None = None,
+        on_drop: Callable[[], None] = lambda: None,
+        on_error: Callable[[Exception], None] = lambda error: None,
     ) -> None:
-        self._idle = idle
-        self._patience = patience
-        self._queue: queue.Queue[tuple[Callable[[], Any], Future[Any]] | None] = queue.Queue()
+        self._idle, self._idle_after = idle, idle_after
+        self._capacity, self._on_drop, self._on_error = capacity, on_drop, on_error
+        self._changed = threading.Condition()
+        self._tasks: deque[_Task] = deque()
+        self._bytes = 0
+        self._closed = False
         self._thread = threading.Thread(target=self._run, name=name, daemon=True)
         self._thread.start()
 
-    def do(self, work: Callable[[], Any]) -> Any:
-        """Run `work` in its turn and return what it returns, or raise what it raises."""
+    def do(self, work: Work) -> Any:
+        """Run `work` after what waits; return what it returns or raise what it raises."""
         return self.later(work).result()
 
-    def later(self, work: Callable[[], Any]) -> Future[Any]:
-        """Run `work` in its turn."""
+    def later(self, work: Work) -> Future[Any]:
+        """Run `work` after what waits; the future is cancelled where the worker is closed."""
         future: Future[Any] = Future()
-        self._queue.put((work, future))
+        if not self._put(_Task(work, 0, future)):
+            future.set_exception(CancelledError())
         return future
 
-    def close(self) -> None:
-        """Finish the work at hand and stop; what still waits is cancelled."""
-        self._queue.put(None)
+    def send(self, work: Work, size: int = 0) -> None:
+        """Run `work` after what waits, without a result; it holds `size` bytes until then."""
+        self._put(_Task(work, size, None))
+
+    def close(self, timeout: float | None = None) -> None:
+        """Run what waits, for `timeout` s at most (None: all of it), drop the rest, and end."""
+        with self._changed:
+            self._closed = True
+            self._changed.notify()
+        self._thread.join(timeout)
+        with self._changed:
+            dropped = list(self._tasks)
+            self._tasks.clear()
+        for task in dropped:
+            if task.future is not None:
+                task.future.set_exception(CancelledError())
         self._thread.join()
-        while not self._queue.empty():
-            item = self._queue.get()
-            if item is not None:
-                item[1].set_exception(CancelledError())
+
+    def _put(self, task: _Task) -> bool:
+        dropped = False
+        with self._changed:
+            if self._closed:
+                return False
+            self._tasks.append(task)
+            self._bytes += task.size
+            if self._capacity is not None:
+                while self._bytes > self._capacity and len(self._tasks) > 1:
+                    self._bytes -= self._tasks.popleft().size
+                    dropped = True
+            self._changed.notify()
+        if dropped:
+            self._on_drop()
+        return True
 
     def _run(self) -> None:
         while True:
-            try:
-                item = self._queue.get(timeout=self._patience())
-            except queue.Empty:
-                self._idle()
-                continue
-            if item is None:
+            task = self._next()
+            if task is None:
                 return
-            work, future = item
             try:
-                future.set_result(work())
+                result = task.work()
             except Exception as error:
-                future.set_exception(error)
+                if task.future is None:
+                    self._on_error(error)
+                else:
+                    task.future.set_exception(error)
+            else:
+                if task.future is not None:
+                    task.future.set_result(result)
+
+    def _next(self) -> _Task | None:
+        """Wait for the next task, with a call of idle where it is due; None at the end."""
+        while True:
+            wait = self._idle_after()
+            deadline = None if wait is None else time.monotonic() + wait
+            with self._changed:
+                while not (self._tasks or self._closed):
+                    left = None if deadline is None else deadline - time.monotonic()
+                    if left is not None and left <= 0:
+                        break
+                    self._changed.wait(left)
+                if self._tasks:
+                    task = self._tasks.popleft()
+                    self._bytes -= task.size
+                    return task
+                if self._closed:
+                    return None
+            self._idle()

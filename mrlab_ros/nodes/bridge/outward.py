@@ -22,7 +22,7 @@ from mrlab_ros.core.bridge.rules import (
     TopicRule,
 )
 from mrlab_ros.nodes.bridge.crossing import BridgeContext, Count, profile
-from mrlab_ros.nodes.bridge.rate_caps import Caps
+from mrlab_ros.nodes.bridge.rate_caps import RateCaps
 from mrlab_ros.nodes.bridge.sender import Sender
 from mrlab_ros.ros.raw_callback import OnMessage, Stamped
 
@@ -45,7 +45,7 @@ class Outward:
     def __init__(self, crossing: BridgeContext, ledger: Ledger) -> None:
         self._crossing = crossing
         self._ledger = ledger
-        self._caps = Caps()
+        self._caps = RateCaps()
         self._routes: dict[str, OutRoute] = {}
         self._must_arrive = Sender("bridge_sender", crossing.warn_once)
 

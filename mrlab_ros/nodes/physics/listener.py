@@ -27,7 +27,7 @@ from mrlab_ros.messages import physics as messages
 from mrlab_ros.messages.poses import pose_from_message
 from mrlab_ros.nodes.physics.publishers import WorldPublishers
 from mrlab_ros.ros import share
-from mrlab_ros.ros.wait_set import WaitSetThread
+from mrlab_ros.ros.raw_streams import WaitSetThread
 
 
 @dataclass(eq=False)
@@ -95,18 +95,14 @@ class GraphListener:
         self, kind: Any, topic: str, callback: Callable[[Any], None], quality: Any
     ) -> Subscription:
         subscription = self._node.create_subscription(kind, topic, _unused, quality, raw=True)
-        self._thread.add_subscription(
-            subscription, lambda data: callback(deserialize_message(data, kind))
-        )
+        self._thread.add(subscription, lambda data: callback(deserialize_message(data, kind)))
         return subscription
 
     def _hear_joints(self, name: str, joints: tuple[str, ...]) -> Subscription:
         subscription = self._node.create_subscription(
             JointState, f"/{name}/joint_states", _unused, qos.STREAM, raw=True
         )
-        self._thread.add_subscription(
-            subscription, functools.partial(self._on_joint_state, name, joints)
-        )
+        self._thread.add(subscription, functools.partial(self._on_joint_state, name, joints))
         return subscription
 
     def _on_error(self, error: Exception) -> None:

@@ -25,8 +25,8 @@ from mrlab_ros.core.errors import BadInput, LabError
 from mrlab_ros.messages import trajectories
 from mrlab_ros.ros import share
 from mrlab_ros.ros.calls import call
+from mrlab_ros.ros.raw_streams import Received
 from mrlab_ros.ros.spinning import Caller
-from mrlab_ros.ros.topic_poll import Received
 from mrlab_ros.ros.worker import Worker
 
 Attach = Callable[[str, str, bytes], None]
@@ -50,7 +50,7 @@ class SessionContent:
         self._there: set[str] = set()
         # The last scene that was told, unless it is in the bag already.
         self._scene: bytes | None = None
-        self._worker = Worker("recorder_content", lambda: None, lambda: None)
+        self._worker = Worker("recorder_content")
         self._get = caller.node.create_client(srv.GetTrajectory, "/converter/get")
         self._closed = False
         self._readers: dict[str, tuple[Any, Callable[[str, Any], None]]] = {

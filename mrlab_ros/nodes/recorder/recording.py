@@ -15,7 +15,7 @@ from mrlab_ros.core.errors import BadInput, LabError
 from mrlab_ros.core.recording.metadata import Topic
 from mrlab_ros.core.recording.topics import Split, Topics
 from mrlab_ros.messages.qos import message_class, profile, topic_of
-from mrlab_ros.ros.topic_poll import Received, TopicPoll
+from mrlab_ros.ros.raw_streams import Received, TopicPoll
 
 # How often subscriptions are looked at, s.
 PERIOD = 0.04

@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-import queue
 import threading
 import time
 from collections import deque
 from collections.abc import Callable
+from concurrent.futures import Future, ThreadPoolExecutor
 
 from rclpy.node import Node
 from rclpy.publisher import Publisher
@@ -34,42 +34,24 @@ SETTLE = 0.5
 
 
 class Feed:
-    """A thread that reads a bag ahead of the replay."""
+    """Reads a bag ahead of the replay, in a thread of its own."""
 
     def __init__(self, bag: Bag, start_ns: int, topics: frozenset[str]) -> None:
-        self._queue: queue.Queue[list[Message] | Exception | None] = queue.Queue(AHEAD)
-        self._stopped = False
-        self._thread = threading.Thread(
-            target=self._run, args=(bag, start_ns, topics), name="replay_feed", daemon=True
-        )
-        self._thread.start()
+        self._batches = bag.batches(start_ns, topics)
+        self._reader = ThreadPoolExecutor(1, thread_name_prefix="replay_feed")
+        self._ahead = deque(self._read() for _ in range(AHEAD))
 
     def next(self) -> list[Message] | None:
         """Return the messages that follow, None at the end; raise what reading raised."""
-        item = self._queue.get()
-        if isinstance(item, Exception):
-            raise item
-        return item
+        self._ahead.append(self._read())
+        return self._ahead.popleft().result()
 
     def stop(self) -> None:
         """End the thread and wait for it."""
-        self._stopped = True
-        while self._thread.is_alive():
-            try:
-                self._queue.get(timeout=LOOK)
-            except queue.Empty:
-                continue
-        self._thread.join()
+        self._reader.shutdown(cancel_futures=True)
 
-    def _run(self, bag: Bag, start_ns: int, topics: frozenset[str]) -> None:
-        try:
-            for batch in bag.batches(start_ns, topics):
-                if self._stopped:
-                    return
-                self._queue.put(batch)
-            self._queue.put(None)
-        except Exception as error:  # the replay's thread tells it
-            self._queue.put(error)
+    def _read(self) -> Future[list[Message] | None]:
+        return self._reader.submit(next, self._batches, None)
 
 
 class Replaying:

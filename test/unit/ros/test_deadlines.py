@@ -1,4 +1,4 @@
-"""The deadline thread and the coordinator's worker: order, isolation, an end."""
+"""The deadline thread: order, isolation, an end."""
 
 from __future__ import annotations
 
@@ -9,11 +9,9 @@ import pytest
 from fakes import StraightPlanner, make_model, make_trajectory
 from graph import wait_for
 
-from mrlab_ros.core.errors import Misuse
 from mrlab_ros.core.playback.playback import Playback
 from mrlab_ros.core.playback.states import State
 from mrlab_ros.ros.deadlines import Player, Scheduler
-from mrlab_ros.ros.worker import Worker
 
 
 @pytest.fixture
@@ -131,26 +129,3 @@ def test_a_removed_player_is_served_no_more(scheduler):
         other.playback.play(now_ns)
     wait_for(lambda: len(others) == 50, "frames of another")
     assert len(sent) == count
-
-
-def test_the_worker_does_one_thing_after_another_and_returns_what_it_returns():
-    worker, seen = Worker("test", lambda: None, lambda: None), []
-    for i in range(100):
-        worker.later(lambda i=i: seen.append((i, threading.current_thread().name)))
-    assert worker.do(lambda: 42) == 42
-    assert seen == [(i, "test") for i in range(100)]
-
-    def refuse():
-        raise Misuse("not now")
-
-    with pytest.raises(Misuse, match="not now"):
-        worker.do(refuse)
-    assert worker.do(lambda: "still there") == "still there"
-    worker.close()
-
-
-def test_the_worker_looks_around_while_nothing_comes():
-    looked = threading.Event()
-    worker = Worker("test", looked.set, lambda: 0.001)
-    assert looked.wait(10)
-    worker.close()
