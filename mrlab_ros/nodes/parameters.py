@@ -87,6 +87,7 @@ class PlaybackParameters:
         Number(between(0, 100), "Hz"),
         "How often a robot that does not move repeats its joint state; 0: never.",
         2.0,
+        changeable=True,
     )
     telemetry_rate: float = field(
         RATE, "How often the telemetry of a moving robot is published.", 10.0, changeable=True

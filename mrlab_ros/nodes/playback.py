@@ -295,6 +295,9 @@ class PlaybackHostNode(ParameterNode[PlaybackParameters]):
         self.scheduler.start()
 
     def parameters_changed(self) -> None:
+        with self.scheduler.command() as now_ns:
+            for node in self.nodes.values():
+                node.playback.set_standing_rate(now_ns, self.parameters.standing_rate)
         self._planner.limits = self._staging_limits()
         self.destroy_timer(self._telemetry_timer)
         self._telemetry_timer = self.create_timer(

@@ -14,6 +14,7 @@ from mrlab_msgs import msg, srv
 from rcl_interfaces.msg import ParameterType
 from rcl_interfaces.srv import DescribeParameters, GetParameters, SetParameters
 from rclpy.parameter import Parameter
+from sensor_msgs.msg import JointState
 from std_srvs.srv import Trigger
 
 from mrlab_ros.messages import qos
@@ -135,6 +136,18 @@ def test_the_telemetry_rate_changes_while_a_robot_moves(graph):
         return len(stamps) == 6 and stamps[-1] - stamps[0] < 0.5
 
     wait_for(fast, "six messages within half a second")
+
+
+def test_the_standing_rate_counts_for_robots_that_stand(graph):
+    lab = small_lab.start(graph)
+    robot = small_lab.spawn(graph)
+    inbox = graph.listen(JointState, f"/{robot}/joint_states", qos.STREAM)
+    assert change(graph, lab.host, "standing_rate", 0).successful
+    node = wait_for(lambda: lab.host.nodes.get(robot), "the robot's playback")
+    wait_for(lambda: node.playback.due_ns() is None, "no repetition")
+    assert change(graph, lab.host, "standing_rate", 50).successful
+    before = len(inbox)
+    wait_for(lambda: len(inbox) > before + 5, "poses of the standing robot")
 
 
 def test_a_gentler_staging_takes_longer(graph):

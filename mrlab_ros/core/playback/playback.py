@@ -219,6 +219,10 @@ class Playback:
         self._stream.set_rate(now_ns if since_ns is None else since_ns, checked_rate(rate))
         self._announce(f"rate {rate:g}")
 
+    def set_standing_rate(self, now_ns: int, rate: float) -> None:
+        """Repeat the joint state of a robot that does not move at `rate` Hz (0: never)."""
+        self._stream.set_standing_rate(now_ns, rate)
+
     def hold_at(self, until: float | None, by: str = "") -> None:
         """Wait in PAUSED at a later position than now, `until` (s); None: play to the end."""
         self._require_owner(by)

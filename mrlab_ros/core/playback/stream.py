@@ -69,7 +69,7 @@ class Stream:
         self.sent = 0
         self.lost = 0
         self.next_ns: int | None = 0
-        self._standing_ns = round(SECOND / standing_rate) if standing_rate > 0 else None
+        self._standing_ns = _period_ns(standing_rate)
         # The next joint state of the trajectory: its number at this rate, its position (s) and
         # its deadline.
         self._tick, self._next_position, self._due_ns = 0, 0.0, 0
@@ -207,6 +207,13 @@ class Stream:
         self.next_ns = max(self._due_ns, now_ns + spacing_ns)
         return sample
 
+    def set_standing_rate(self, now_ns: int, rate: float) -> None:
+        """Repeat a standing pose at `rate` Hz (0: never); a pose that is due still leaves."""
+        self._standing_ns = _period_ns(rate)
+        standing = self._motion is None and self.clock.rate == 0.0
+        if standing and (self.next_ns is None or self.next_ns > now_ns):
+            self.next_ns = self._repetition(now_ns)
+
     # inside ---------------------------------------------------------------------------------
 
     @property
@@ -250,3 +257,7 @@ class Stream:
         newest = math.floor(min(self.clock.at(now_ns), self._end) / self._step + ON_FRAME)
         self.lost += max(newest - self._tick, 0)
         self._schedule(max(newest, self._tick))
+
+
+def _period_ns(rate: float) -> int | None:
+    return round(SECOND / rate) if rate > 0 else None

@@ -477,6 +477,23 @@ def test_leaving_a_system_pauses_what_moves_and_nothing_else(state):
     assert playback.system == ""
 
 
+def test_the_standing_rate_can_change_at_any_time():
+    playback = make(standing_rate=0.0)
+    playback.set_standing_rate(0, 2.0)
+    assert playback.due_ns() == 0, "the first pose still leaves at once"
+    playback.tick(0)
+    assert playback.due_ns() == SECOND // 2
+    playback.set_standing_rate(SECOND // 4, 10.0)
+    assert playback.due_ns() == SECOND // 4 + SECOND // 10
+    playback.set_standing_rate(SECOND // 4, 0.0)
+    assert playback.due_ns() is None
+    moving = on_start()
+    moving.play(START)
+    due = moving.due_ns()
+    moving.set_standing_rate(START, 100.0)
+    assert moving.due_ns() == due, "a moving robot keeps its deadlines"
+
+
 def test_a_standing_robot_repeats_its_pose():
     playback = make(standing_rate=2.0)
     samples = run(playback, 2 * SECOND)
