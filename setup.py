@@ -3,16 +3,8 @@ from pathlib import Path
 from setuptools import find_packages, setup
 
 package_name = "mrlab_ros"
-# Where the `main` of each node is.
-NODES = {
-    "bridge": "bridge.node",
-    "converter": "converter",
-    "coordinator": "coordinator",
-    "lab": "lab.node",
-    "physics": "physics.node",
-    "playback": "playback",
-    "recorder": "recorder.node",
-}
+# Each is an executable of its own, too; the host runs the node that it is named after.
+NODES = ("bridge", "converter", "coordinator", "lab", "physics", "playback", "recorder")
 
 
 def data_tree(*folders):
@@ -40,7 +32,7 @@ setup(
         "console_scripts": [
             "mrlab = mrlab_ros.cli:main",
             "host = mrlab_ros.processes.host:main",
-            *(f"{node} = mrlab_ros.nodes.{module}:main" for node, module in NODES.items()),
+            *(f"{node} = mrlab_ros.processes.host:run_named_node" for node in NODES),
         ],
     },
 )

@@ -8,6 +8,7 @@ from launch.actions import DeclareLaunchArgument, OpaqueFunction
 from launch.substitutions import LaunchConfiguration
 from launch_ros.actions import Node
 
+from mrlab_ros.adapters.bullet.support import missing
 from mrlab_ros.processes import physics_support
 from mrlab_ros.processes.lab import (
     HOST_EXECUTABLE,
@@ -68,7 +69,7 @@ def generate_launch_description():
             ),
             DeclareLaunchArgument(
                 "physics",
-                default_value="false" if physics_support.missing() else "true",
+                default_value="false" if missing() else "true",
                 choices=flags,
                 description="simulate contacts and grasps",
             ),

@@ -23,7 +23,6 @@ from mrlab_ros.messages import qos, trajectories
 from mrlab_ros.messages.trajectories import candidate_to_message, info_from_head
 from mrlab_ros.nodes import parameters
 from mrlab_ros.nodes.parameters import ConverterParameters
-from mrlab_ros.processes import host
 from mrlab_ros.ros import share
 from mrlab_ros.ros.parameters import ParameterNode
 
@@ -202,12 +201,3 @@ class ConverterNode(ParameterNode[ConverterParameters]):
     def _announce(self) -> None:
         infos = [self._infos[key] for key in sorted(self._infos)]
         self._catalogue.publish(msg.TrajectoryCatalogue(trajectories=infos))
-
-
-def main() -> None:
-    """Run the converter alone."""
-    host.main(["converter"])
-
-
-if __name__ == "__main__":
-    main()

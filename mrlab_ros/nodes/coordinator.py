@@ -28,7 +28,6 @@ from mrlab_ros.messages.playback import clock_to_message
 from mrlab_ros.messages.time import make_header, time_from_message, time_to_message
 from mrlab_ros.nodes import parameters
 from mrlab_ros.nodes.parameters import CoordinatorParameters
-from mrlab_ros.processes import host
 from mrlab_ros.ros.answers import answered
 from mrlab_ros.ros.calls import NoAnswer, call, call_all
 from mrlab_ros.ros.parameters import ParameterNode
@@ -413,7 +412,3 @@ class CoordinatorNode(ParameterNode[CoordinatorParameters]):
                 systems=[self._message(system) for system in self._systems],
             )
         )
-
-
-def main() -> None:
-    host.main(["coordinator"])

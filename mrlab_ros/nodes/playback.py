@@ -29,7 +29,6 @@ from mrlab_ros.messages.poses import transform_to_pose_message
 from mrlab_ros.messages.time import make_header, time_from_message, time_to_message
 from mrlab_ros.nodes import parameters
 from mrlab_ros.nodes.parameters import PlaybackParameters
-from mrlab_ros.processes import host
 from mrlab_ros.ros import share
 from mrlab_ros.ros.answers import answered
 from mrlab_ros.ros.calls import call
@@ -381,7 +380,3 @@ class PlaybackHostNode(ParameterNode[PlaybackParameters]):
     def _states(self) -> None:
         for node in self.nodes.values():
             node.publish_state()
-
-
-def main() -> None:
-    host.main(["playback"])

@@ -8,6 +8,7 @@ import signal
 import sys
 import time
 from collections.abc import Callable
+from pathlib import Path
 
 import rclpy
 import rclpy.utilities
@@ -47,6 +48,11 @@ def main(names: list[str] | None = None) -> None:
             f"of {', '.join(NODES)}, as in: host converter lab coordinator"
         )
     sys.exit(run(names))
+
+
+def run_named_node() -> None:
+    """Run the node that the executable is named after, as `ros2 run mrlab_ros converter` does."""
+    main([Path(sys.argv[0]).name])
 
 
 def run(names: list[str]) -> int:

@@ -3,14 +3,34 @@
 from __future__ import annotations
 
 import ast
+import re
 import sys
+from collections.abc import Iterable, Mapping
+from functools import cache
+from graphlib import CycleError, TopologicalSorter
 from pathlib import Path
 
 import pytest
 
 PACKAGE = Path(__file__).parents[2] / "mrlab_ros"
+TESTS = Path(__file__).parent
 CORE = sorted((PACKAGE / "core").rglob("*.py"))
 ADAPTERS = sorted((PACKAGE / "adapters").rglob("*.py"))
+SOURCES = sorted(PACKAGE.rglob("*.py"))
+# From the bottom to the top; below each stands what it may import. docs/architecture.md has the
+# same table.
+LAYERS = {
+    "core": (),
+    "adapters": ("core",),
+    "messages": ("core",),
+    "ros": ("core", "messages"),
+    "nodes": ("core", "adapters", "messages", "ros"),
+    "processes": ("core", "adapters", "messages", "ros", "nodes"),
+    "commands": ("core", "adapters", "messages", "ros", "processes"),
+    "cli": ("core", "commands"),
+}
+# Parts of rclpy that may change with any release.
+INSIDES = re.compile(r"rclpy\.impl|rclpy\.experimental|\.handle\b")
 # The graph. Not ament_index_python: it finds installed files and knows no node.
 GRAPH = {
     "builtin_interfaces",
@@ -46,9 +66,43 @@ def imports(source: str, package: str) -> set[str]:
     return names
 
 
-def imports_of(path: Path) -> set[str]:
+@cache
+def imports_of(path: Path) -> frozenset[str]:
     package = ".".join(path.relative_to(PACKAGE.parent).parent.parts)
-    return imports(path.read_text(), package)
+    return frozenset(imports(path.read_text(), package))
+
+
+def module_name(path: Path) -> str:
+    parts = path.relative_to(PACKAGE.parent).with_suffix("").parts
+    return ".".join(parts[:-1] if parts[-1] == "__init__" else parts)
+
+
+def layer_of(module: str) -> str:
+    return module.split(".")[1]
+
+
+MODULES = {module_name(path): path for path in SOURCES}
+
+
+def own_imports(path: Path) -> set[str]:
+    """Return the modules of this package that a module imports, wherever it does so."""
+    found = set()
+    for name in imports_of(path):
+        while name and name not in MODULES:
+            name = name.rpartition(".")[0]
+        # The package itself holds nothing but its version.
+        if name not in ("", "mrlab_ros", module_name(path)):
+            found.add(name)
+    return found
+
+
+def circle(graph: Mapping[str, Iterable[str]]) -> list[str]:
+    """Return the nodes of one circle of a graph, or nothing."""
+    try:
+        TopologicalSorter(graph).prepare()
+    except CycleError as error:
+        return list(error.args[1])
+    return []
 
 
 def within(name: str, package: str) -> bool:
@@ -85,6 +139,38 @@ def test_adapters_know_no_node_and_nothing_above_them(path: Path) -> None:
     }
 
 
+@pytest.mark.parametrize("path", SOURCES, ids=module_name)
+def test_a_layer_imports_only_the_layers_below_it(path: Path) -> None:
+    module = module_name(path)
+    if module == "mrlab_ros":
+        assert not own_imports(path)
+        return
+    allowed = {layer_of(module), *LAYERS[layer_of(module)]}
+    assert not {name for name in own_imports(path) if layer_of(name) not in allowed}
+
+
+def test_no_module_imports_itself_over_others() -> None:
+    assert circle({module: own_imports(path) for module, path in MODULES.items()}) == []
+
+
+def test_the_layers_are_the_folders_of_the_package() -> None:
+    folders = {path.name for path in PACKAGE.iterdir() if (path / "__init__.py").exists()}
+    assert folders | {"cli"} == set(LAYERS)
+    assert {path.name for path in PACKAGE.glob("*.py")} == {"__init__.py", "cli.py"}
+
+
+@pytest.mark.parametrize("path", SOURCES, ids=module_name)
+def test_only_ros_touches_the_insides_of_rclpy(path: Path) -> None:
+    if "ros" not in path.relative_to(PACKAGE).parts[:1]:
+        assert INSIDES.findall(path.read_text()) == []
+
+
+def test_unit_tests_lie_where_what_they_test_lies() -> None:
+    for path in TESTS.rglob("test_*.py"):
+        folder = PACKAGE / path.parent.relative_to(TESTS)
+        assert (folder / "__init__.py").exists(), f"{path} tests no folder of the package"
+
+
 def test_every_layer_has_sources() -> None:
     assert len(CORE) > 5
     assert len(ADAPTERS) > 1
@@ -98,3 +184,8 @@ def test_imports_are_found_in_every_form() -> None:
     assert imports(source, "mrlab_ros.core") == {
         "a.b", "c", "e.f", "mrlab_ros.core.g", "mrlab_ros.h.i", "rclpy",
     }  # fmt: skip
+
+
+def test_circles_are_found() -> None:
+    assert circle({"a": ["b"], "b": ["c"]}) == []
+    assert set(circle({"a": ["b"], "b": ["c"], "c": ["a"]})) == {"a", "b", "c"}

@@ -35,7 +35,6 @@ from mrlab_ros.nodes.bridge.inward import Inward
 from mrlab_ros.nodes.bridge.outward import Outward
 from mrlab_ros.nodes.bridge.services import Services
 from mrlab_ros.nodes.parameters import AUTOMATIC, BridgeParameters
-from mrlab_ros.processes import host
 from mrlab_ros.ros import share
 from mrlab_ros.ros.parameters import ParameterNode
 from mrlab_ros.ros.spinning import SpunNode
@@ -249,8 +248,3 @@ def _rules(path: Path) -> rules.Rules:
             "parameter allow_list"
         ) from error
     return rules.parse(document)
-
-
-def main() -> None:
-    """Run the bridge."""
-    host.main(["bridge"])

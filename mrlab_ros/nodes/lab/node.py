@@ -22,7 +22,6 @@ from mrlab_ros.messages.poses import pose_from_message, pose_to_message, transfo
 from mrlab_ros.messages.time import make_header
 from mrlab_ros.nodes import parameters
 from mrlab_ros.nodes.parameters import LabParameters
-from mrlab_ros.processes import host
 from mrlab_ros.ros import share
 from mrlab_ros.ros.answers import answered
 from mrlab_ros.ros.parameters import ParameterNode
@@ -181,7 +180,3 @@ class LabNode(ParameterNode[LabParameters]):
     def _on_list_scenes(self, request: Any, response: Any) -> Any:
         response.scenes = self._scenes.names()
         return response
-
-
-def main() -> None:
-    host.main(["lab"])

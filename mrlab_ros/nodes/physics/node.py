@@ -14,6 +14,7 @@ from rclpy.context import Context
 from rclpy.parameter import Parameter
 from std_srvs.srv import Trigger
 
+from mrlab_ros.adapters.bullet import support
 from mrlab_ros.adapters.robots.library import RobotLibrary
 from mrlab_ros.adapters.scenes import files
 from mrlab_ros.adapters.scenes.files import SceneFiles
@@ -38,7 +39,6 @@ from mrlab_ros.nodes.lab.scenes import (
 from mrlab_ros.nodes.parameters import PhysicsParameters
 from mrlab_ros.nodes.physics.listener import GraphListener
 from mrlab_ros.nodes.physics.publishers import WorldPublishers
-from mrlab_ros.processes import host, physics_support
 from mrlab_ros.ros import share
 from mrlab_ros.ros.answers import answered
 from mrlab_ros.ros.deadlines import SWITCH_INTERVAL, LabClock
@@ -50,7 +50,7 @@ try:
 except ModuleNotFoundError as error:
     if error.name != "pybullet":
         raise
-    raise BadInput(physics_support.missing()) from None
+    raise BadInput(support.missing()) from None
 
 # The world is looked after at least this often, ns: its own step.
 TURN_NS = SECOND // 240
@@ -309,7 +309,3 @@ class PhysicsNode(ParameterNode[PhysicsParameters]):
             surfaces = self._world.surfaces
         self._news.tell_surfaces(self._lab_clock.now_ns(), surfaces)
         return len(surfaces)
-
-
-def main() -> None:
-    host.main(["physics"])

@@ -31,7 +31,6 @@ from mrlab_ros.nodes.recorder.attachments import SessionContent, versions
 from mrlab_ros.nodes.recorder.recording import Recording
 from mrlab_ros.nodes.recorder.replaying import Replaying
 from mrlab_ros.nodes.recorder.trajectories import ReplayedTrajectories
-from mrlab_ros.processes import host
 from mrlab_ros.ros.answers import answered
 from mrlab_ros.ros.parameters import ParameterNode
 from mrlab_ros.ros.spinning import Caller
@@ -344,7 +343,3 @@ class RecorderNode(ParameterNode[RecorderParameters]):
 
     def _tell_of_bag(self, state: Any, bag: Bag) -> None:
         state.bag, state.duration, state.bytes = str(bag.path), bag.duration, bag.size
-
-
-def main() -> None:
-    host.main(["recorder"])

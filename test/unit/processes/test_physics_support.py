@@ -9,6 +9,7 @@ import sys
 
 import pytest
 
+from mrlab_ros.adapters.bullet import support
 from mrlab_ros.core.errors import BadInput
 from mrlab_ros.processes import physics_support
 from mrlab_ros.processes.supervisor import WRONG_CONFIGURATION
@@ -24,7 +25,7 @@ machinery.PathFinder.find_spec = lambda name, *rest: None if name == "pybullet" 
 
 
 def test_physics_is_what_was_chosen_where_it_is_installed():
-    assert physics_support.missing() == ""
+    assert support.missing() == ""
     assert physics_support.wanted(True) == (True, "")
     assert physics_support.wanted(False) == (False, "")
     assert physics_support.wanted(None) == (True, "")
