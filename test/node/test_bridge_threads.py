@@ -14,7 +14,7 @@ from std_srvs.srv import Trigger
 
 from mrlab_ros.adapters.zenoh_session import ZenohSession, configuration
 from mrlab_ros.core.bridge.rules import ServiceRule, TopicRule
-from mrlab_ros.nodes.bridge.crossing import BridgeContext, Count
+from mrlab_ros.nodes.bridge.context import BridgeContext, Count
 from mrlab_ros.nodes.bridge.inward import Inward
 from mrlab_ros.nodes.bridge.sender import Sender
 from mrlab_ros.nodes.bridge.services import Services
@@ -147,7 +147,7 @@ def test_who_takes_no_answer_holds_up_neither_the_graph_nor_the_look_at_it(offer
 
     def looked():
         # Refuses the second once its time is over.
-        looking = in_a_thread(routes.give_up)
+        looking = in_a_thread(routes.refuse_late)
         wait_for(lambda: not looking.is_alive(), "the look")
         takes.set()
         return second.answers

@@ -193,6 +193,6 @@ def test_the_recorder_takes_a_new_folder_and_new_topics(graph, tmp_path):
 
 def test_the_bridge_checks_the_graph_as_often_as_it_is_set(graph, endpoint):
     node = graph.add(BridgeNode, listen=[endpoint], discovery_period=60.0)
-    before = node._looks
+    before = node._checks
     assert change(graph, node, "discovery_period", 0.02).successful
-    wait_for(lambda: node._looks > before + 3, "the bridge to check the graph often")
+    wait_for(lambda: node._checks > before + 3, "the bridge to check the graph often")

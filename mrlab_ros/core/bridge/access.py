@@ -1,9 +1,9 @@
-"""Who may do what over zenoh: access-control rules from the allow-list and the people's roles.
+"""zenoh's access-control rules, made from the allow-list and the people's roles.
 
-zenoh lets a message pass a link where a rule's key expression includes the message's whole key
-expression. So who may call `*/play` and not `*/load` cannot ask `**` either. A deny rule wins
-over every allow rule; what no rule names is denied. Flows are the bridge's: ingress comes from a
-client.
+A rule applies to a message where its key expression includes the message's whole key expression:
+a person who may call `*/play` but not `*/load` cannot query `**` either. A deny rule overrides
+every allow rule; what no rule names is denied. Flows are seen from the bridge: ingress is what
+clients send.
 """
 
 from __future__ import annotations
@@ -34,12 +34,12 @@ MESSAGES = (
     "declare_liveliness_subscriber",
     "liveliness_query",
 )
-# The lab among a router's subjects; no person's name has a space.
+# The lab's own subject at a router; a person's name cannot contain a space.
 LAB = "the lab"
 
 
 class Login(Enum):
-    """How a client proves who it is."""
+    """How a client authenticates."""
 
     CERTIFICATE = "certificate"  # mutual TLS
     PASSWORD = "password"  # TLS, then user name and password
@@ -56,7 +56,7 @@ class Login(Enum):
 
 @dataclass(frozen=True)
 class Person:
-    """Somebody who may connect; common_name: of the person's certificate, never used twice."""
+    """A person who may connect; common_name: of the certificate, never reused."""
 
     name: str
     role: Role
@@ -66,7 +66,7 @@ class Person:
 def access_control(
     rules: Rules, people: Iterable[Person], login: Login, prefix: str = "", lab: str = ""
 ) -> dict[str, Any]:
-    """Return zenoh's `access_control` for a lab that carries what `rules` name below `prefix`.
+    """Return zenoh's `access_control` for a lab that forwards what `rules` name below `prefix`.
 
     lab: for a router, the common name of the certificate with which the lab itself connects.
     """
@@ -102,19 +102,19 @@ def access_control(
 
 
 def role_rules(rules: Rules, role: Role, prefix: str = "") -> list[dict[str, Any]]:
-    """Return all of zenoh's rules for the people of one role."""
+    """Return zenoh's rules for the people of one role."""
     everything, history, statistics = _all_keys(prefix)
-    # Topics come last: a topic's name must not open a service that has the same one.
-    questions = [_Entry(rule.name, rule.type, role.may(rule.role)) for rule in rules.services]
+    # Topics come last: a topic must not allow the service of the same name.
+    queried = [_Entry(rule.name, rule.type, role.may(rule.role)) for rule in rules.services]
     messages = []
     for topic in rules.topics:
         comes_in = topic.direction is Direction.IN
         messages.append(_Entry(topic.name, topic.type, comes_in and role.may(topic.role)))
         if not comes_in:
-            questions.append(_Entry(topic.name, topic.type, True))
-    asks, asks_not = _divided(questions, prefix)
-    sends, sends_not = _divided(messages, prefix)
-    histories = [f"{key}/@adv/**" for key in sends]
+            queried.append(_Entry(topic.name, topic.type, True))
+    queries, queries_not = _divided(queried, prefix)
+    published, published_not = _divided(messages, prefix)
+    histories = [f"{key}/@adv/**" for key in published]
     seen = [TOKENS, history]
     found: list[dict[str, Any]] = []
 
@@ -134,33 +134,33 @@ def role_rules(rules: Rules, role: Role, prefix: str = "") -> list[dict[str, Any
 
     rule("subscribes", "ingress", ["declare_subscriber"], [everything, history])
     rule("receives", "egress", ["put"], [everything, history])
-    rule("asks", "ingress", ["query"], [*asks, statistics, history])
-    rule("asks_not", "ingress", ["query"], asks_not, "deny")
-    rule("finds", "egress", ["declare_queryable"], [*asks, statistics, history])
-    rule("is_answered", "egress", ["reply"], [everything, statistics, history])
-    rule("looks", "ingress", ["liveliness_query", "declare_liveliness_subscriber"], seen)
-    rule("sees", "egress", ["liveliness_token"], seen)
-    rule("sends", "ingress", ["put"], [*sends, *histories])
-    rule("sends_not", "ingress", ["put"], sends_not, "deny")
-    rule("is_heard", "egress", ["declare_subscriber"], [*sends, *histories])
-    # The history of a latched topic that comes in: the bridge asks the client for it.
-    rule("keeps", "ingress", ["declare_queryable", "liveliness_token"], histories)
-    rule("is_asked", "egress", ["query", "liveliness_query"], histories)
-    rule("is_watched", "egress", ["declare_liveliness_subscriber"], histories)
-    rule("answers", "ingress", ["reply"], [*sends, *histories])
+    rule("queries", "ingress", ["query"], [*queries, statistics, history])
+    rule("queries_not", "ingress", ["query"], queries_not, "deny")
+    rule("finds_queryables", "egress", ["declare_queryable"], [*queries, statistics, history])
+    rule("receives_replies", "egress", ["reply"], [everything, statistics, history])
+    rule("watches_tokens", "ingress", ["liveliness_query", "declare_liveliness_subscriber"], seen)
+    rule("receives_tokens", "egress", ["liveliness_token"], seen)
+    rule("publishes", "ingress", ["put"], [*published, *histories])
+    rule("publishes_not", "ingress", ["put"], published_not, "deny")
+    rule("finds_subscribers", "egress", ["declare_subscriber"], [*published, *histories])
+    # The bridge queries clients for the history of latched topics that come in.
+    rule("offers_history", "ingress", ["declare_queryable", "liveliness_token"], histories)
+    rule("is_queried_for_history", "egress", ["query", "liveliness_query"], histories)
+    rule("has_history_watched", "egress", ["declare_liveliness_subscriber"], histories)
+    rule("replies_history", "ingress", ["reply"], [*published, *histories])
     return found
 
 
 def _all_keys(prefix: str) -> list[str]:
     """Return the keys of messages and services, of histories, and of the bridge itself.
 
-    A wildcard includes no part that begins with an @.
+    A wildcard does not match parts that begin with @.
     """
     return [key_of(name, prefix) for name in ("/**", "/**/@adv/**", "/@mrlab/**")]
 
 
 def _lab_rule(prefix: str) -> dict[str, Any]:
-    """Return the rule of the lab at a router, which may do everything below its prefix."""
+    """Return the rule that allows the lab everything below its prefix at a router."""
     return {
         "id": "lab_does_everything",
         "permission": "allow",
@@ -172,7 +172,7 @@ def _lab_rule(prefix: str) -> dict[str, Any]:
 
 @dataclass(frozen=True)
 class _Entry:
-    """A line of the allow-list, and whether a role may use what it names."""
+    """A line of the allow-list, and whether a role may use it."""
 
     name: str
     type: str
@@ -180,10 +180,10 @@ class _Entry:
 
 
 def _divided(entries: list[_Entry], prefix: str) -> tuple[list[str], list[str]]:
-    """Return the keys to allow, and those to deny as an allowed one would include some of them.
+    """Return the keys to allow, and the keys to deny because an allowed one overlaps them.
 
-    The first entry that fits a name and its type decides. zenoh knows neither order nor type:
-    where they matter, more is denied, never more allowed.
+    In the allow-list the first entry that fits a name and its type decides. zenoh's rules have
+    neither order nor type; where that matters, more is denied, never more allowed.
     """
     allow, deny = [], []
     for i, entry in enumerate(entries):
@@ -199,7 +199,7 @@ def _divided(entries: list[_Entry], prefix: str) -> tuple[list[str], list[str]]:
 
 
 def overlap(one: Sequence[str], other: Sequence[str]) -> bool:
-    """Return whether some name fits both; given as parts, `*` and `**` as in the allow-list."""
+    """Return whether a name can match both patterns, given as parts with `*` and `**`."""
     if not one or not other:
         return all(part == "**" for part in (*one, *other))
     if one[0] == "**":
@@ -214,7 +214,7 @@ def _parts(name: str) -> list[str]:
 
 
 def _key(name: str, prefix: str) -> str:
-    """Return the key expression of an allow-list name in the one form that zenoh accepts."""
+    """Return the key expression of an allow-list name in zenoh's canonical form."""
     parts: list[str] = []
     for part in _parts(name):
         if parts[-1:] == ["**"] and part == "*":

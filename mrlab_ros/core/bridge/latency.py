@@ -1,4 +1,4 @@
-"""How long messages take: the stamps that travel with them, and what became of them in a window.
+"""Latency of messages: the stamps attached to them, and percentiles of their delays per window.
 
 Pure: every time is an argument, ns since 1970.
 """
@@ -12,9 +12,9 @@ from dataclasses import dataclass
 import numpy as np
 
 SECOND = 1_000_000_000
-# Delays kept of one topic in one window. Beyond, every second one is kept, then every fourth.
+# Delays stored per topic and window; beyond it every second one is stored, then every fourth.
 SAMPLES = 1024
-# Topics that a report names; those with the largest p95.
+# Topics in a report: those with the largest p95.
 TOPICS = 64
 _STAMPS = struct.Struct("<qqq")
 _CLOCK = struct.Struct("<qq")
@@ -24,8 +24,8 @@ _CLOCK = struct.Struct("<qq")
 class Stamps:
     """What the bridge attaches to a message.
 
-    sequence: 1 for the first message of a key that this bridge put, one more for each.
-    published_ns: when it was published in the graph. bridged_ns: when the bridge put it.
+    sequence: counts the messages of a key from 1. published_ns: when it was published in the
+    graph. bridged_ns: when the bridge published it over zenoh.
     """
 
     sequence: int
@@ -38,7 +38,7 @@ class Stamps:
 
 
 def attachment(sequence: int, published_ns: int, bridged_ns: int) -> bytes:
-    """Return three int64, little-endian, in this order."""
+    """Return the three values as int64, little-endian, in this order."""
     return _STAMPS.pack(sequence, published_ns, bridged_ns)
 
 
@@ -48,13 +48,13 @@ def stamps(data: bytes) -> Stamps | None:
 
 
 def clock_answer(asked_ns: int, answered_ns: int) -> bytes:
-    """Return the answer to who asks for the time: when the question came, when it is answered."""
+    """Return the reply to a query for the time: when it was received, when it is answered."""
     return _CLOCK.pack(asked_ns, answered_ns)
 
 
 @dataclass(frozen=True)
 class Delays:
-    """The delays of one topic, or of all (topic ""), in one window. s."""
+    """Percentiles of the delays, s, of one topic in one window; topic "": of all topics."""
 
     topic: str
     count: int
@@ -64,7 +64,7 @@ class Delays:
 
 
 class _Batch:
-    """Delays since the last report, ns, thinned evenly so that few are kept."""
+    """Delays since the last report, ns, thinned evenly: each stored one stands for `stride`."""
 
     __slots__ = ("count", "kept", "max_ns", "skip", "stride")
 
@@ -97,11 +97,11 @@ class Window:
         self._batch = _Batch()
 
     def add(self, delay_ns: int) -> None:
-        """Note a delay. One that is negative comes from another machine's clock."""
+        """Record a delay, ns; it is negative where the publisher's clock is ahead of ours."""
         self._batch.add(delay_ns)
 
     def take(self) -> _Batch:
-        """Return what was collected and begin anew. Another thread may add meanwhile."""
+        """Return the collected delays and start a new window; another thread may add meanwhile."""
         batch, self._batch = self._batch, _Batch()
         return batch
 
@@ -113,18 +113,18 @@ class Ledger:
         self._windows: dict[str, Window] = {}
 
     def window(self, topic: str) -> Window:
-        """Return the window of a topic; made where there is none."""
+        """Return the window of a topic, a new one where there is none."""
         return self._windows.setdefault(topic, Window())
 
     def forget(self, topic: str) -> None:
         self._windows.pop(topic, None)
 
     def report(self) -> list[Delays]:
-        """Return the delays since the last report: of all topics first, then of the slowest.
+        """Return the delays since the last report: of all topics together, then of the slowest.
 
-        A topic without a message is left out, and so are those beyond the TOPICS slowest. Empty
-        where nothing moved. Percentiles are by nearest rank; those of all topics weigh each kept
-        delay by how many it stands for.
+        Only topics with messages are in it, at most TOPICS of them; empty without any message.
+        Percentiles are by nearest rank; those of all topics weigh each stored delay by the number
+        it stands for.
         """
         batches = [(topic, window.take()) for topic, window in list(self._windows.items())]
         moved = [(topic, batch) for topic, batch in batches if batch.kept]

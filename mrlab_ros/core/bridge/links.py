@@ -1,4 +1,4 @@
-"""Where the bridge may listen, and how soon a link that breaks is given up and tried again."""
+"""Endpoints that the bridge may use; leases and retries of its links."""
 
 from __future__ import annotations
 
@@ -9,19 +9,19 @@ from typing import Any
 
 from mrlab_ros.core.errors import BadInput
 
-# A link that says nothing for so long, s, is given up. Beyond this machine soon, so that what is
-# broken heals within 2 s; within it a link breaks only by its end's death, which is told at once,
-# and a stall of the machine must not look like one. 10 s are zenoh's own.
+# A link that is silent for so long, s, counts as broken. Beyond this machine that is short, so a
+# broken link heals within 2 s. On loopback a link only breaks when its process dies, which TCP
+# reports at once, and a stall of the machine must not count as a break: 10 s is zenoh's default.
 LEASE_BEYOND = 1.5
 LEASE_WITHIN = 10.0
-# When a link is tried again, ms, and how long a try may take: beyond a second TCP's own repeats
-# grow rare. zenoh's own are 1 to 4 s, and 10 s.
+# Timeout of one attempt to connect and periods of the retries, ms: TCP itself repeats less often
+# after the first second. zenoh's defaults are 1 to 4 s, and 10 s.
 OPEN_TIMEOUT = 2000
 RETRY = {"period_init_ms": 250, "period_max_ms": 500, "period_increase_factor": 1.5}
 
 
 def healing(lease: float) -> dict[str, Any]:
-    """Return zenoh's settings, path -> value, of links that heal soon. lease: s."""
+    """Return zenoh's settings, path -> value, for links that heal quickly. lease: s."""
     return {
         "transport/link/tx/lease": round(1000 * lease),
         "transport/unicast/open_timeout": OPEN_TIMEOUT,
@@ -30,7 +30,7 @@ def healing(lease: float) -> dict[str, Any]:
 
 
 def nested(settings: Mapping[str, object]) -> dict[str, Any]:
-    """Return settings, path -> value, as a configuration file has them: one in the other."""
+    """Return settings, path -> value, as the nested mappings of a configuration file."""
     document: dict[str, Any] = {}
     for path, value in settings.items():
         *folders, last = path.split("/")
@@ -42,7 +42,7 @@ def nested(settings: Mapping[str, object]) -> dict[str, Any]:
 
 
 def is_local(endpoint: str) -> bool:
-    """Return whether an endpoint such as tcp/127.0.0.1:7447 is within this machine."""
+    """Return whether an endpoint such as tcp/127.0.0.1:7447 is on this machine."""
     protocol, _, address = endpoint.partition("/")
     host = address.rsplit(":", 1)[0].strip("[]")
     if protocol == "unixsock-stream" or host == "localhost":
@@ -50,14 +50,14 @@ def is_local(endpoint: str) -> bool:
     try:
         return ipaddress.ip_address(host).is_loopback
     except ValueError:
-        # A name, of which nobody knows where it leads, even if it begins with 127.
+        # A host name may resolve to any address, even one that begins with 127.
         return False
 
 
 def check_router(mode: str, listen: tuple[str, ...], connect: tuple[str, ...]) -> None:
-    """Raise BadInput where a lab with keys cannot connect to a router as it is told to.
+    """Raise BadInput where a lab with keys cannot connect to a router with these settings.
 
-    It then listens nowhere: the router alone lets people in and enforces the rules.
+    Such a lab does not listen: only the router accepts people, and it enforces the rules.
     """
     if mode != "client" or listen:
         raise BadInput(
@@ -68,7 +68,7 @@ def check_router(mode: str, listen: tuple[str, ...], connect: tuple[str, ...]) -
     for endpoint in connect:
         if not endpoint.startswith(("tls/", "quic/")):
             raise BadInput(
-                f"the bridge has keys and is to connect to {endpoint}, where it can show none; "
+                f"the bridge has keys and is to connect to {endpoint}, which does not use them; "
                 "expected a router's endpoint such as tls/router.example.org:7447"
             )
 
@@ -76,7 +76,7 @@ def check_router(mode: str, listen: tuple[str, ...], connect: tuple[str, ...]) -
 def check_endpoints(listen: tuple[str, ...], insecure: bool, keys: bool = False) -> None:
     """Raise BadInput where an endpoint is open to other machines without encryption.
 
-    insecure: that is wanted. keys: the lab has a keys folder, and so listens with TLS alone.
+    insecure: allow it. keys: the lab has a keys folder and listens with TLS only.
     """
     for endpoint in listen:
         if not re.fullmatch(r"[a-z][a-z-]*/.+", endpoint):
@@ -88,8 +88,8 @@ def check_endpoints(listen: tuple[str, ...], insecure: bool, keys: bool = False)
         encrypted = protocol in ("tls", "quic")
         if keys and not encrypted:
             raise BadInput(
-                f"the lab has keys, and the bridge is to listen on {endpoint}, where nobody can "
-                f"show one; listen on tls/{address}, or leave the keys out"
+                f"the lab has keys, and the bridge is to listen on {endpoint}, where nobody "
+                f"can show one; listen on tls/{address}, or leave the keys out"
             )
         if encrypted and not keys:
             raise BadInput(

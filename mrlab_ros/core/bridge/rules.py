@@ -1,4 +1,4 @@
-"""What the bridge carries: the allow-list, the keys, the rate caps. No zenoh and no ROS here.
+"""The allow-list, the keys and the rate caps of the bridge; without zenoh and ROS.
 
 Keys, payloads and liveliness tokens are those of zenoh-plugin-ros2dds: the key of a topic or a
 service is its name without the leading slash, below an optional prefix.
@@ -40,7 +40,7 @@ PREFIX = Text(
     re.compile(r"|[A-Za-z0-9_.-]+(?:/[A-Za-z0-9_.-]+)*"),
     "letters, digits, '_', '-' and '.', in parts divided by '/', such as campus/lab_1, or nothing",
 )
-# A liveliness token holds a key and a type as one chunk each, with this for every slash.
+# In a liveliness token a key and a type are one chunk each; this replaces their slashes.
 SLASH = "§"
 
 
@@ -52,28 +52,28 @@ def _type_check(kind: str) -> Text:
 
 
 class Direction(Enum):
-    """Which way a topic goes."""
+    """The direction in which a topic is forwarded."""
 
     OUT = "out"  # from the graph to zenoh
     IN = "in"  # from zenoh to the graph
 
 
 class Congestion(Enum):
-    """What happens to a message when a link is full."""
+    """What happens to a message on a full link."""
 
-    DROP = "drop"  # it is lost: the next one is newer
+    DROP = "drop"  # it is dropped: the next one is newer
     BLOCK = "block"  # it waits: each one counts
 
 
 class Reliability(Enum):
-    """What zenoh promises on a link that may lose."""
+    """zenoh's reliability on a link that can lose messages."""
 
     RELIABLE = "reliable"
     BEST_EFFORT = "best_effort"
 
 
 class Role(Enum):
-    """What a person may do in a lab with keys; a later role may all that an earlier one may."""
+    """What a person may do in a lab with keys; a later role includes the earlier ones."""
 
     VIEWER = "viewer"  # watch
     OPERATOR = "operator"  # play robots
@@ -166,7 +166,7 @@ RuleT = TypeVar("RuleT", TopicRule, ServiceRule)
 
 @dataclass(frozen=True)
 class Rules:
-    """The allow-list. The first rule that fits a name and its type decides."""
+    """The allow-list; the first rule that fits a name and its type decides."""
 
     topics: tuple[TopicRule, ...] = ()
     services: tuple[ServiceRule, ...] = ()
@@ -227,7 +227,7 @@ def key_of(name: str, prefix: str = "") -> str:
 
 @dataclass(frozen=True)
 class TopicQos:
-    """What a liveliness token says of a topic's quality of service."""
+    """The QoS of a topic as its liveliness token holds it."""
 
     reliable: bool
     latched: bool
@@ -264,10 +264,10 @@ ValueT = TypeVar("ValueT")
 
 
 class RateCap(Generic[ValueT]):
-    """Lets the newest value through at most `max_rate` times a second (Hz).
+    """Passes the newest value at most `max_rate` times a second (Hz).
 
-    A value that comes too early is kept and replaced by a newer one; `due_ns` says when to ask
-    for it. So the last value of a burst always arrives.
+    A value that comes too early is stored, and replaced by a newer one, until `due_ns`. So the
+    last value of a burst always arrives.
     """
 
     def __init__(self, max_rate: float) -> None:
@@ -277,20 +277,20 @@ class RateCap(Generic[ValueT]):
 
     @property
     def due_ns(self) -> int | None:
-        """When the kept value is due, ns; None while nothing is kept."""
+        """When the stored value is due, ns; None while there is none."""
         return None if self._kept is None else self._next_ns
 
     def offer(self, value: ValueT, now_ns: int) -> ValueT | None:
-        """Return `value` where it may go at once; keep it in place of an older one otherwise."""
+        """Return `value` where it may pass at once; otherwise store it and return None."""
         self._kept = value
         return self.take(now_ns)
 
     def take(self, now_ns: int) -> ValueT | None:
-        """Return the kept value where it is due, and forget it."""
+        """Return the stored value where it is due, and drop it."""
         if self._kept is None or (self._next_ns is not None and now_ns < self._next_ns):
             return None
         value, self._kept = self._kept, None
-        # On the grid while values keep coming, so that the mean rate is max_rate itself.
+        # Stay on the grid while values keep coming: the mean rate is then max_rate.
         on_grid = self._next_ns is not None and now_ns - self._next_ns < self.period_ns
         self._next_ns = (self._next_ns if on_grid and self._next_ns else now_ns) + self.period_ns
         return value

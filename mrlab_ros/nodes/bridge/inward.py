@@ -1,4 +1,4 @@
-"""Topics of zenoh that go to the graph, each message looked at before."""
+"""Forwards topics from zenoh to the graph; each message is checked before it is published."""
 
 from __future__ import annotations
 
@@ -13,12 +13,12 @@ from rclpy.serialization import deserialize_message
 from mrlab_ros.adapters.zenoh_session import Declared
 from mrlab_ros.core.bridge import rules
 from mrlab_ros.core.bridge.rules import Direction, TopicQos, TopicRule
-from mrlab_ros.nodes.bridge.crossing import BridgeContext, Count, profile
+from mrlab_ros.nodes.bridge.context import BridgeContext, Count, profile
 
 
 @dataclass
 class InRoute:
-    """One topic's way."""
+    """The route of one topic."""
 
     type: str
     qos: TopicQos
@@ -28,34 +28,34 @@ class InRoute:
 
 
 class Inward:
-    """The routes inwards."""
+    """The routes from zenoh to the graph."""
 
-    def __init__(self, crossing: BridgeContext) -> None:
-        self._crossing = crossing
+    def __init__(self, bridge: BridgeContext) -> None:
+        self._bridge = bridge
         self._routes: dict[str, InRoute] = {}
 
     def keep(self, wanted: dict[str, tuple[TopicRule, str]]) -> None:
-        """Make the routes those of `wanted`: name -> rule and type."""
+        """Open and close routes until they are those of `wanted`: name -> rule and type."""
         for name in [n for n in self._routes if n not in wanted]:
             self._close(name)
         for name, (rule, type_name) in wanted.items():
             self._renew(name, rule, type_name)
 
     def _renew(self, name: str, rule: TopicRule, type_name: str) -> None:
-        crossing = self._crossing
-        ends = crossing.streams.get_subscriptions_info_by_topic(name)
-        qos = crossing.quality(ends, rule, type_name)
+        bridge = self._bridge
+        ends = bridge.streams.get_subscriptions_info_by_topic(name)
+        qos = bridge.quality(ends, rule, type_name)
         known = self._routes.get(name)
         if known is not None and (known.qos, known.type) == (qos, type_name):
             return
         if known is not None:
             self._close(name)
-        kind = crossing.kind(name, type_name)
+        kind = bridge.kind(name, type_name)
         if qos is None or kind is None:
             return
-        key, session = crossing.key(name), crossing.session
-        publisher = crossing.streams.create_publisher(kind, name, profile(qos))
-        count = crossing.count(key, type_name, Direction.IN.value)
+        key, session = bridge.key(name), bridge.session
+        publisher = bridge.streams.create_publisher(kind, name, profile(qos))
+        count = bridge.count(key, type_name, Direction.IN.value)
         subscriber = session.subscriber(
             key, self._receiver(key, kind, publisher, count), qos.latched
         )
@@ -66,7 +66,7 @@ class Inward:
         route = self._routes.pop(name)
         route.token.undeclare()
         route.subscriber.undeclare()
-        self._crossing.streams.destroy_publisher(route.publisher)
+        self._bridge.streams.destroy_publisher(route.publisher)
 
     def _receiver(
         self, key: str, kind: Any, publisher: Publisher, count: Count
@@ -76,14 +76,14 @@ class Inward:
                 deserialize_message(payload, kind)
             except Exception:
                 count.refused += 1
-                self._crossing.warn_once(
-                    f"a client sent something on {key} that is not CDR of {count.type}; such "
+                self._bridge.warn_once(
+                    f"a client published bytes on {key} that are not CDR of {count.type}; such "
                     "messages are dropped"
                 )
                 return
             try:
                 publisher.publish(payload)
-            except InvalidHandle:  # the topic has just gone
+            except InvalidHandle:  # the route was closed meanwhile
                 return
             count.messages += 1
             count.bytes += len(payload)

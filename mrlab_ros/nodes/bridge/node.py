@@ -1,4 +1,4 @@
-"""Carries the graph over zenoh, both ways, as raw CDR."""
+"""Forwards the graph over zenoh in both directions, as raw CDR."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ from mrlab_ros.core.bridge.rules import Direction, ServiceRule, TopicRule
 from mrlab_ros.core.errors import BadInput
 from mrlab_ros.messages import qos
 from mrlab_ros.nodes import parameters
-from mrlab_ros.nodes.bridge.crossing import BridgeContext
+from mrlab_ros.nodes.bridge.context import BridgeContext
 from mrlab_ros.nodes.bridge.inward import Inward
 from mrlab_ros.nodes.bridge.outward import Outward
 from mrlab_ros.nodes.bridge.services import Services
@@ -42,14 +42,14 @@ from mrlab_ros.ros.spinning import SpunNode
 STATISTICS = "/@mrlab/bridge/statistics"
 CLOCK = "/@mrlab/bridge/clock"
 REPORT_PERIOD = 1.0
-# Every so many looks at the graph each publisher is looked at, too.
+# At every nth check of the graph the QoS of each publisher is read too.
 THOROUGH = 10
 # How long the forwarding thread may wait for another Python thread, s; Python's own is 5 ms.
 SWITCH_INTERVAL = 5e-4
 
 
 class BridgeNode(ParameterNode[BridgeParameters]):
-    """Looks at the graph, carries what the allow-list names, forgets what is gone."""
+    """Checks the graph, forwards what the allow-list names, closes the routes of what is gone."""
 
     def __init__(
         self,
@@ -70,9 +70,9 @@ class BridgeNode(ParameterNode[BridgeParameters]):
         settings = self._zenoh_settings(prefix)
         self._session: Session = session or ZenohSession(settings)
         self._started = time.monotonic()
-        self._looks = 0
-        self._complained: set[str] = set()
-        # The forwarding entities are on a node and a thread of their own.
+        self._checks = 0
+        self._logged: set[str] = set()
+        # The forwarding publishers, subscriptions and clients are on a node of their own.
         streams = Node(
             "bridge_streams",
             context=context,
@@ -80,28 +80,28 @@ class BridgeNode(ParameterNode[BridgeParameters]):
             enable_rosout=False,
             use_global_arguments=False,
         )
-        self._crossing = BridgeContext(self._session, streams, prefix, self._complain)
+        self._bridge = BridgeContext(self._session, streams, prefix, self._warn_once)
         self._ledger = Ledger()
-        self._outward = Outward(self._crossing, self._ledger)
-        self._inward = Inward(self._crossing)
-        self._callable = Services(self._crossing)
+        self._outward = Outward(self._bridge, self._ledger)
+        self._inward = Inward(self._bridge)
+        self._service_routes = Services(self._bridge)
         self._streams = SpunNode(streams)
         sys.setswitchinterval(SWITCH_INTERVAL)
         zid = self._session.zid
         self._declared = [
             self._session.token(rules.bridge_token(zid)),
-            self._session.queryable(self._crossing.key(STATISTICS), self._answer_statistics),
-            self._session.queryable(self._crossing.key(CLOCK), _answer_clock),
+            self._session.queryable(self._bridge.key(STATISTICS), self._answer_statistics),
+            self._session.queryable(self._bridge.key(CLOCK), _answer_clock),
         ]
         self._reports = self.create_publisher(Latency, "latency", qos.LATCHED)
-        # Clients' reports come in all the time, so that who asks late has the newest at once.
+        # Keeps the newest reports of clients in the graph for late joiners.
         self.create_subscription(Latency, "latency/clients", lambda _: None, qos.LATCHED_EVENTS)
         self._reported = time.monotonic()
         self.create_timer(REPORT_PERIOD, self._report)
         self._discovery = self.create_timer(self.parameters.discovery_period, self.discover)
         self.get_logger().info(
-            f"carries {len(self._rules.topics)} kinds of topics and "
-            f"{len(self._rules.services)} of services under '{prefix or '/'}', zenoh {zid}"
+            f"carries what {len(self._rules.topics)} rules for topics and "
+            f"{len(self._rules.services)} for services name, under '{prefix or '/'}', zenoh {zid}"
         )
 
     def parameters_changed(self) -> None:
@@ -116,8 +116,8 @@ class BridgeNode(ParameterNode[BridgeParameters]):
             listen = () if folder and connect else EVERYWHERE if folder else LOOPBACK
         if file and folder:
             raise BadInput(
-                f"the bridge has both zenoh_config ({file}) and keys ({folder}); expected one, as "
-                "either says who may connect"
+                f"the bridge has both zenoh_config ({file}) and keys ({folder}); expected "
+                "one, as each decides who may connect"
             )
         if folder and mode == "client" and not connect:
             raise BadInput(
@@ -147,7 +147,7 @@ class BridgeNode(ParameterNode[BridgeParameters]):
         )
 
     def discover(self) -> None:
-        """Carry what is new in the graph, let go what is gone, give up what waits too long."""
+        """Open and close routes as the graph changed; refuse calls that wait too long."""
         going_out: dict[str, tuple[TopicRule, str]] = {}
         coming_in: dict[str, tuple[TopicRule, str]] = {}
         for name, types in self.get_topic_names_and_types():
@@ -156,21 +156,21 @@ class BridgeNode(ParameterNode[BridgeParameters]):
                 if rule is not None:
                     out = rule.direction is Direction.OUT
                     (going_out if out else coming_in).setdefault(name, (rule, type_name))
-        self._looks += 1
-        self._outward.keep(going_out, thorough=self._looks % THOROUGH == 0)
+        self._checks += 1
+        self._outward.keep(going_out, thorough=self._checks % THOROUGH == 0)
         self._inward.keep(coming_in)
         called: dict[str, tuple[ServiceRule, str]] = {}
         for name, types in self.get_service_names_and_types():
-            # A client, the bridge's own too, keeps its service's name in the graph.
+            # A client keeps its service's name in the graph, and the bridge has clients itself.
             for type_name in types:
                 service = self._rules.service(name, type_name)
                 if service is not None and self.count_services(name):
                     called.setdefault(name, (service, type_name))
-        self._callable.keep(called)
-        self._callable.give_up()
+        self._service_routes.keep(called)
+        self._service_routes.refuse_late()
 
     def _report(self) -> None:
-        """Publish how long messages took from the graph to zenoh since the last report."""
+        """Publish the delays from the graph to zenoh since the last report."""
         now = time.monotonic()
         window, self._reported = now - self._reported, now
         report = Latency(observer="bridge", window=window)
@@ -189,16 +189,16 @@ class BridgeNode(ParameterNode[BridgeParameters]):
         self._reports.publish(report)
 
     def statistics(self) -> dict[str, Any]:
-        """Return what was carried: totals since the start, and what each key carried."""
-        heard = self._outward.heard()
-        counts = self._crossing.counts.copy()
+        """Return the traffic since the start: totals and each key's."""
+        subscribed = self._outward.subscribed()
+        counts = self._bridge.counts.copy()
         keys = {
-            key: {**vars(count), **({"heard": heard[key]} if key in heard else {})}
+            key: {**vars(count), **({"heard": subscribed[key]} if key in subscribed else {})}
             for key, count in sorted(counts.items())
         }
         return {
             "zid": self._session.zid,
-            "prefix": self._crossing.prefix,
+            "prefix": self._bridge.prefix,
             "uptime_s": round(time.monotonic() - self._started, 3),
             "messages": sum(count.messages for count in counts.values()),
             "bytes": sum(count.bytes for count in counts.values()),
@@ -209,22 +209,22 @@ class BridgeNode(ParameterNode[BridgeParameters]):
     def _answer_statistics(self, query: Query) -> None:
         query.reply(json.dumps(self.statistics()).encode())
 
-    def _complain(self, text: str) -> None:
-        if text not in self._complained:
-            self._complained.add(text)
+    def _warn_once(self, text: str) -> None:
+        if text not in self._logged:
+            self._logged.add(text)
             self.get_logger().warning(text)
 
     def destroy_node(self) -> None:
-        """Let everything go and say what was carried."""
+        """Close everything and log the totals."""
         total = self.statistics()
         for declared in self._declared:
             declared.undeclare()
-        self._callable.stop()
+        self._service_routes.stop()
         self._outward.stop()
         self._inward.keep({})
         self._streams.close()
         self._session.close()
-        # Not through the node's logger: after a signal the context, and /rosout with it, is gone.
+        # Not by the node's logger: after a signal the context is shut down, and /rosout with it.
         print(
             f"bridge: carried {total['messages']} messages and {total['bytes']} bytes over "
             f"{len(total['keys'])} keys in {total['uptime_s']:.1f} s",
@@ -234,8 +234,8 @@ class BridgeNode(ParameterNode[BridgeParameters]):
 
 
 def _answer_clock(query: Query) -> None:
-    asked = time.time_ns()
-    query.reply(clock_answer(asked, time.time_ns()))
+    received = time.time_ns()
+    query.reply(clock_answer(received, time.time_ns()))
 
 
 def _rules(path: Path) -> rules.Rules:

@@ -1,7 +1,7 @@
-"""Topics of the graph that go to zenoh, undecoded, each message with its stamps.
+"""Forwards topics from the graph to zenoh, undecoded, each message with its stamps.
 
-The thread that receives from the graph puts what may be dropped. Another puts what must arrive,
-so that a client that does not read holds up nobody's motion.
+The thread that receives from the graph also publishes what may be dropped. What must arrive is
+published by a second thread, so that a client that does not read delays no motion.
 """
 
 from __future__ import annotations
@@ -21,7 +21,7 @@ from mrlab_ros.core.bridge.rules import (
     TopicQos,
     TopicRule,
 )
-from mrlab_ros.nodes.bridge.crossing import BridgeContext, Count, profile
+from mrlab_ros.nodes.bridge.context import BridgeContext, Count, profile
 from mrlab_ros.nodes.bridge.rate_caps import RateCaps
 from mrlab_ros.nodes.bridge.sender import Sender
 from mrlab_ros.ros.raw_callback import OnMessage, Stamped
@@ -29,68 +29,72 @@ from mrlab_ros.ros.raw_callback import OnMessage, Stamped
 
 @dataclass
 class OutRoute:
-    """One topic's way."""
+    """The route of one topic; sources: its publishers at the last check."""
 
     type: str
     qos: TopicQos
-    ends: int
+    sources: int
     publisher: Publisher
     token: Declared
     subscription: Subscription
 
 
 class Outward:
-    """The routes outwards."""
+    """The routes from the graph to zenoh."""
 
-    def __init__(self, crossing: BridgeContext, ledger: Ledger) -> None:
-        self._crossing = crossing
+    def __init__(self, bridge: BridgeContext, ledger: Ledger) -> None:
+        self._bridge = bridge
         self._ledger = ledger
         self._caps = RateCaps()
         self._routes: dict[str, OutRoute] = {}
-        self._must_arrive = Sender("bridge_sender", crossing.warn_once)
+        self._must_arrive = Sender("bridge_sender", bridge.warn_once)
 
     def stop(self) -> None:
-        """Take nothing more, put what waits, close all routes."""
+        """Stop receiving, publish what waits, close all routes."""
         for route in self._routes.values():
-            self._crossing.streams.destroy_subscription(route.subscription)
+            self._bridge.streams.destroy_subscription(route.subscription)
         self._caps.stop()
         self._must_arrive.stop()
         self.keep({})
 
     def keep(self, wanted: dict[str, tuple[TopicRule, str]], thorough: bool = True) -> None:
-        """Make the routes those of `wanted`: name -> rule and type.
+        """Open and close routes until they are those of `wanted`: name -> rule and type.
 
-        Unless `thorough`, a topic with as many publishers as before is taken to be as before.
+        Unless `thorough`, a topic whose number of publishers is unchanged is not checked further.
         """
         for name in [n for n in self._routes if n not in wanted]:
             self._close(name)
         for name, (rule, type_name) in wanted.items():
             self._renew(name, rule, type_name, thorough)
 
-    def heard(self) -> dict[str, bool]:
-        """Return for every key whether anybody subscribes to it."""
-        crossing = self._crossing
-        return {crossing.key(n): r.publisher.heard() for n, r in list(self._routes.items())}
+    def subscribed(self) -> dict[str, bool]:
+        """Return for every key whether it has a zenoh subscriber."""
+        bridge = self._bridge
+        return {bridge.key(n): r.publisher.heard() for n, r in list(self._routes.items())}
 
     def _renew(self, name: str, rule: TopicRule, type_name: str, thorough: bool) -> None:
-        crossing = self._crossing
+        bridge = self._bridge
         known = self._routes.get(name)
-        # Counting takes a fifth of the time.
-        ends = crossing.streams.count_publishers(name)
-        if known is not None and not thorough and (known.ends, known.type) == (ends, type_name):
+        # Counting takes a fifth of the time of the full information.
+        sources = bridge.streams.count_publishers(name)
+        if (
+            known is not None
+            and not thorough
+            and (known.sources, known.type) == (sources, type_name)
+        ):
             return
-        infos = crossing.streams.get_publishers_info_by_topic(name)
-        qos = crossing.quality(infos, rule, type_name)
+        infos = bridge.streams.get_publishers_info_by_topic(name)
+        qos = bridge.quality(infos, rule, type_name)
         if known is not None and (known.qos, known.type) == (qos, type_name):
-            known.ends = ends
+            known.sources = sources
             return
         if known is not None:
             self._close(name)
-        kind = crossing.kind(name, type_name)
+        kind = bridge.kind(name, type_name)
         if qos is None or kind is None:
             return
-        key, session = crossing.key(name), crossing.session
-        count = crossing.count(key, type_name, Direction.OUT.value)
+        key, session = bridge.key(name), bridge.session
+        count = bridge.count(key, type_name, Direction.OUT.value)
         publisher = session.publisher(key, rule, rule.history if qos.latched else 0)
         token = session.token(rules.topic_token(session.zid, Direction.OUT, key, type_name, qos))
         on_message = self._emitter(name, publisher, count)
@@ -98,27 +102,27 @@ class Outward:
             on_message = self._queued(on_message)
         if rule.max_rate:
             on_message = self._caps.limit(rule.max_rate, on_message)
-        subscription = crossing.streams.create_subscription(
+        subscription = bridge.streams.create_subscription(
             kind, name, Stamped(on_message), profile(qos), raw=True
         )
-        self._routes[name] = OutRoute(type_name, qos, ends, publisher, token, subscription)
+        self._routes[name] = OutRoute(type_name, qos, sources, publisher, token, subscription)
 
     def _close(self, name: str) -> None:
         route = self._routes.pop(name)
-        self._crossing.streams.destroy_subscription(route.subscription)
+        self._bridge.streams.destroy_subscription(route.subscription)
         route.token.undeclare()
         route.publisher.undeclare()
         self._ledger.forget(name)
 
     def _emitter(self, name: str, publisher: Publisher, count: Count) -> OnMessage:
-        """Return what puts a message and notes its delay.
+        """Return a callback that publishes a message and records its delay.
 
-        Of one from before the route, a latched one, no delay is noted.
+        Latched messages older than the route are not timed.
         """
-        put, note, complain_of = (
+        put, note, warn_of_loss = (
             publisher.put,
             self._ledger.window(name).add,
-            self._crossing.complain_of,
+            self._bridge.warn_of_loss,
         )
         since = time.time_ns()
 
@@ -130,8 +134,8 @@ class Outward:
                 note(now - published_ns)
             try:
                 put(payload, attachment(count.messages, published_ns, now))
-            except Exception as error:  # its topic may have gone meanwhile
-                complain_of(error)
+            except Exception as error:  # the route may be closed meanwhile
+                warn_of_loss(error)
 
         return emit
 

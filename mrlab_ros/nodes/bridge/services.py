@@ -1,7 +1,7 @@
-"""Services of the graph that zenoh may call, each as a queryable.
+"""Offers services of the graph to zenoh clients, each as a queryable.
 
-A thread of its own answers, so that who takes no answers holds up neither the graph nor the look
-at it.
+Replies are sent by a thread of their own, so that a client that does not read them delays neither
+the graph nor discovery.
 """
 
 from __future__ import annotations
@@ -21,26 +21,29 @@ from rclpy.task import Future
 from mrlab_ros.adapters.zenoh_session import Declared, Query
 from mrlab_ros.core.bridge import rules
 from mrlab_ros.core.bridge.rules import ServiceRule
-from mrlab_ros.nodes.bridge.crossing import BridgeContext, Count
+from mrlab_ros.nodes.bridge.context import BridgeContext, Count
 from mrlab_ros.nodes.bridge.sender import Sender
 
-# Calls that one service has at a time; DDS keeps ten for a server and forgets older ones.
+# Calls that one service has at a time; DDS keeps ten for a server and drops older ones.
 IN_FLIGHT = 8
 
 
 @dataclass(eq=False)
 class Call:
-    """A question on its way; it is given up at `give_up` (monotonic, ns)."""
+    """A call that waits for its response until `deadline_ns` (monotonic, ns)."""
 
     query: Query
     request: Any
-    give_up: int
+    deadline_ns: int
     future: Future | None = None
 
 
 @dataclass
 class ServiceRoute:
-    """One service's way. It is offered once its server is matched."""
+    """The route of one service; it is offered to zenoh once its server is matched.
+
+    in_flight: calls that were sent to the server; waiting: calls that were not.
+    """
 
     name: str
     type: str
@@ -48,27 +51,27 @@ class ServiceRoute:
     count: Count
     client: Client
     declared: list[Declared] = field(default_factory=list)
-    asked: set[Call] = field(default_factory=set)
+    in_flight: set[Call] = field(default_factory=set)
     waiting: deque[Call] = field(default_factory=deque)
 
 
 class Services:
-    """The services' routes."""
+    """The routes of services."""
 
-    def __init__(self, crossing: BridgeContext) -> None:
-        self._crossing = crossing
-        # Taken again where an answer is there before anybody waits for it.
+    def __init__(self, bridge: BridgeContext) -> None:
+        self._bridge = bridge
+        # Reentrant: add_done_callback may run at once when the response is already there.
         self._lock = threading.RLock()
         self._routes: dict[str, ServiceRoute] = {}
-        self._answers = Sender("bridge_answers", crossing.warn_once)
+        self._replies = Sender("bridge_replies", bridge.warn_once)
 
     def stop(self) -> None:
-        """Close all routes and end once what waits is answered."""
+        """Close all routes; end once all replies are sent."""
         self.keep({})
-        self._answers.stop()
+        self._replies.stop()
 
     def keep(self, wanted: dict[str, tuple[ServiceRule, str]]) -> None:
-        """Make the routes those of `wanted`: name -> rule and type."""
+        """Open and close routes until they are those of `wanted`: name -> rule and type."""
         for name, route in list(self._routes.items()):
             if name not in wanted or wanted[name][1] != route.type:
                 self._close(name)
@@ -76,42 +79,44 @@ class Services:
             self._renew(name, rule, type_name)
 
     def _renew(self, name: str, rule: ServiceRule, type_name: str) -> None:
-        crossing = self._crossing
+        bridge = self._bridge
         route = self._routes.get(name)
-        key, session = crossing.key(name), crossing.session
+        key, session = bridge.key(name), bridge.session
         if route is None:
-            kind = crossing.kind(name, type_name)
+            kind = bridge.kind(name, type_name)
             if kind is None:
                 return
-            client = crossing.streams.create_client(kind, name)
-            count = crossing.count(key, type_name, "service")
+            client = bridge.streams.create_client(kind, name)
+            count = bridge.count(key, type_name, "service")
             route = ServiceRoute(name, type_name, rule, count, client)
             self._routes[name] = route
         if not route.declared and route.client.service_is_ready():
             token = rules.service_token(session.zid, key, type_name)
-            route.declared = [session.queryable(key, self._asker(route)), session.token(token)]
+            route.declared = [session.queryable(key, self._on_query(route)), session.token(token)]
 
     def _close(self, name: str) -> None:
         route = self._routes.pop(name)
         for declared in route.declared:
             declared.undeclare()
         with self._lock:
-            calls = [*route.asked, *route.waiting]
-            route.asked.clear()
+            calls = [*route.in_flight, *route.waiting]
+            route.in_flight.clear()
             route.waiting.clear()
-            self._crossing.streams.destroy_client(route.client)
+            self._bridge.streams.destroy_client(route.client)
         for call in calls:
             self._refuse(
-                route, call.query, f"the service {name} has gone; see what runs, then call again"
+                route,
+                call.query,
+                f"the service {name} has gone; check which nodes run, then call again",
             )
 
-    def _asker(self, route: ServiceRoute) -> Callable[[Query], None]:
+    def _on_query(self, route: ServiceRoute) -> Callable[[Query], None]:
         read = _reader(route)
-        key = self._crossing.key(route.name)
+        key = self._bridge.key(route.name)
 
-        def ask(query: Query) -> None:
+        def on_query(query: Query) -> None:
             if query.key != key:
-                # Who looks around with ** must not call everything there is.
+                # A query for ** must not call every service.
                 words = f"the service {route.name} is called by its key {key}, not as {query.key}"
                 self._refuse(route, query, words)
                 return
@@ -131,45 +136,45 @@ class Services:
             route.count.messages += 1
             route.count.bytes += len(query.payload or b"")
 
-        return ask
+        return on_query
 
     def _why_full(self, route: ServiceRoute) -> str:
         if self._routes.get(route.name) is not route:
-            return f"the service {route.name} has gone; see what runs, then call again"
+            return f"the service {route.name} has gone; check which nodes run, then call again"
         if len(route.waiting) >= route.rule.waiting:
             return (
-                f"the service {route.name} has {route.rule.waiting} calls waiting and takes no "
-                "more; wait for an answer, then call again"
+                f"the service {route.name} has {route.rule.waiting} calls waiting and accepts no "
+                "more; wait for a response, then call again"
             )
         return ""
 
     def _send(self, route: ServiceRoute) -> None:
-        """Pass on what waits while the server has room for it. The lock must be held."""
-        while route.waiting and len(route.asked) < IN_FLIGHT:
+        """Send waiting calls while fewer than IN_FLIGHT are open. The lock must be held."""
+        while route.waiting and len(route.in_flight) < IN_FLIGHT:
             call = route.waiting.popleft()
-            route.asked.add(call)
+            route.in_flight.add(call)
             call.future = route.client.call_async(call.request)
-            call.future.add_done_callback(partial(self._answer, route, call))
+            call.future.add_done_callback(partial(self._on_response, route, call))
 
-    def _answer(self, route: ServiceRoute, call: Call, future: Future) -> None:
+    def _on_response(self, route: ServiceRoute, call: Call, future: Future) -> None:
         with self._lock:
-            waited_for = call in route.asked
-            route.asked.discard(call)
+            expected = call in route.in_flight
+            route.in_flight.discard(call)
             self._send(route)
         response = future.result()
-        if waited_for and response is not None:
+        if expected and response is not None:
             payload = serialize_message(response)
             route.count.bytes += len(payload)
-            self._answers.send(partial(call.query.reply, payload), len(payload))
+            self._replies.send(partial(call.query.reply, payload), len(payload))
 
-    def give_up(self) -> None:
-        """Refuse the questions whose time is over."""
+    def refuse_late(self) -> None:
+        """Refuse the calls whose deadline has passed."""
         now = time.monotonic_ns()
         for route in self._routes.values():
             with self._lock:
-                late = [c for c in (*route.asked, *route.waiting) if c.give_up <= now]
-                route.asked.difference_update(late)
-                route.waiting = deque(c for c in route.waiting if c.give_up > now)
+                late = [c for c in (*route.in_flight, *route.waiting) if c.deadline_ns <= now]
+                route.in_flight.difference_update(late)
+                route.waiting = deque(c for c in route.waiting if c.deadline_ns > now)
                 self._send(route)
             for call in late:
                 if call.future is not None:
@@ -178,24 +183,24 @@ class Services:
                     route,
                     call.query,
                     f"the service {route.name} did not answer within {route.rule.timeout:g} s; "
-                    "see whether its node runs, then call again",
+                    "check whether its node runs, then call again",
                 )
 
     def _refuse(self, route: ServiceRoute, query: Query, reason: str) -> None:
-        """Answer a query with the reason why it has no other answer."""
+        """Reply to a query with an error that says the reason."""
         route.count.refused += 1
-        self._answers.send(partial(query.refuse, reason), len(reason))
+        self._replies.send(partial(query.refuse, reason), len(reason))
 
 
 def _reader(route: ServiceRoute) -> Callable[[bytes | None], tuple[Any, str]]:
-    """Return what reads a request: the request and "", or None and why it is none."""
+    """Return a function that decodes a request: the request and "", or None and the reason."""
     service: Any = route.client.srv_type
     kind = service.Request
-    bare = not kind.get_fields_and_field_types()
+    empty = not kind.get_fields_and_field_types()
 
     def read(payload: bytes | None) -> tuple[Any, str]:
         if not payload or len(payload) <= 4:
-            if bare:
+            if empty:
                 return kind(), ""
             return None, (
                 f"the service {route.name} was called without a request; send the CDR of "

@@ -1,4 +1,4 @@
-"""What every route of the bridge needs: both shores, the counts and a way to warn_once."""
+"""Shared context of all routes: zenoh session, ROS node, counters, warn-once log."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ from mrlab_ros.core.bridge.rules import Direction, TopicQos, TopicRule
 
 @dataclass
 class Count:
-    """What went over one key since the bridge started."""
+    """Traffic of one key since the bridge started."""
 
     type: str
     direction: str
@@ -29,9 +29,11 @@ class Count:
 
 @dataclass
 class BridgeContext:
-    """The zenoh session, the node of the forwarding entities, and what is told of the traffic.
+    """What the routes share.
 
-    streams: a node with a thread of its own. warn_once: says a text once.
+    streams: the node of the forwarding publishers, subscriptions and clients; it is spun in a
+    thread of its own. prefix: what every key begins with. warn_once: logs a text, each text once.
+    counts: by key.
     """
 
     session: Session
@@ -47,27 +49,30 @@ class BridgeContext:
         return self.counts.setdefault(key, Count(type_name, direction))
 
     def kind(self, name: str, type_name: str) -> Any:
-        """Return the class of a type such as std_srvs/srv/Trigger, or None and warn_once once."""
+        """Return the class of a type such as std_srvs/srv/Trigger.
+
+        Where its package is not installed, log that once and return None.
+        """
         package, folder, kind = type_name.split("/")
         try:
             return getattr(importlib.import_module(f"{package}.{folder}"), kind)
         except (ImportError, AttributeError):
             self.warn_once(
-                f"{name} has the type {type_name}, which is not installed here, so it is not "
-                "carried; install its package and start the bridge again"
+                f"{name} is not forwarded: its type {type_name} is not installed here; install "
+                "its package and restart the bridge"
             )
             return None
 
-    def complain_of(self, error: Exception) -> None:
+    def warn_of_loss(self, error: Exception) -> None:
         self.warn_once(f"a message was lost: {type(error).__name__}: {error}")
 
     def quality(
         self, ends: list[TopicEndpointInfo], rule: TopicRule, type_name: str
     ) -> TopicQos | None:
-        """Return the quality that suits all of `ends` but the bridge's own; None without any.
+        """Return a QoS that is compatible with all `ends` but the bridge's own; None without any.
 
-        A subscription asks for no more than every publisher offers; a publisher offers as much
-        as any subscription asks for.
+        A subscription requests no more than every publisher offers; a publisher offers as much
+        as any subscription requests.
         """
         others = [
             end
@@ -87,7 +92,7 @@ class BridgeContext:
 
 
 def profile(qos: TopicQos) -> QoSProfile:
-    """Return rclpy's words for a quality."""
+    """Return rclpy's QoS profile."""
     return QoSProfile(
         depth=qos.depth,
         reliability=ReliabilityPolicy.RELIABLE if qos.reliable else ReliabilityPolicy.BEST_EFFORT,
