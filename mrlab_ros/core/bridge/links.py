@@ -68,7 +68,7 @@ def check_router(mode: str, listen: tuple[str, ...], connect: tuple[str, ...]) -
     for endpoint in connect:
         if not endpoint.startswith(("tls/", "quic/")):
             raise BadInput(
-                f"the bridge has keys and is to connect to {endpoint}, which does not use them; "
+                f"the bridge has keys and is to connect to {endpoint}, where it can show none; "
                 "expected a router's endpoint such as tls/router.example.org:7447"
             )
 
