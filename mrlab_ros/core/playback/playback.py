@@ -292,17 +292,17 @@ class Playback:
 
     def tick(self, now_ns: int) -> Sample | None:
         """Return the joint state that is due at `now_ns`, or None."""
-        stream, next_ns = self._stream, self._stream.next_ns
-        if next_ns is None or now_ns < next_ns:
+        stream, state = self._stream, self._machine.state
+        if stream.next_ns is None or now_ns < stream.next_ns:
             return None
-        if self.state is State.PLAYING:
+        if state is State.PLAYING:
             sample = stream.trajectory_sample(now_ns)
-            if stream.at_end:
+            if stream.ended:
                 self._finish(sample.due_ns)
-            elif stream.at_hold:
+            elif stream.held:
                 self._halt(now_ns, Event.HELD, "waits for its signal")
             return sample
-        if self.state is State.ADJUSTING:
+        if state is State.ADJUSTING:
             sample = stream.approach_sample(now_ns)
             if stream.arrived:
                 self._arrive(sample.due_ns)

@@ -55,7 +55,8 @@ class Stream:
     of the trajectory, s; None where none was sent since the arm was moved otherwise.
     sent, lost: joint states of this run that left, and that were left out.
     next_ns: when the next joint state leaves; None: not before something changes.
-    arrived: whether the last joint state of the approach was taken.
+    arrived, ended, held: whether the last joint state taken was the last one of the approach, of
+    the trajectory, or the one at `until`.
     """
 
     def __init__(self, home: Array, standing_rate: float) -> None:
@@ -75,7 +76,7 @@ class Stream:
         self._tick, self._next_position, self._due_ns = 0, 0.0, 0
         self._motion: Motion | None = None
         self._motion_start_ns = 0
-        self.arrived = False
+        self.arrived = self.ended = self.held = False
 
     # what the arm does ----------------------------------------------------------------------
 
@@ -105,7 +106,6 @@ class Stream:
         """Start `motion`, which brings the arm to `position` (s) of the trajectory."""
         self.stand(now_ns, position)
         self._motion, self._motion_start_ns = motion, now_ns
-        self.arrived = False
 
     def follow(self, start_ns: int, position: float) -> None:
         """Follow the trajectory from `position` (s) on, which the clock shows at `start_ns`.
@@ -157,16 +157,6 @@ class Stream:
         return bool(np.abs(goal - self.arm).max() <= ON_TRAJECTORY)
 
     @property
-    def at_end(self) -> bool:
-        """Whether the last frame of the trajectory was sent."""
-        return self.streamed is not None and self.streamed >= self._loaded.duration
-
-    @property
-    def at_hold(self) -> bool:
-        """Whether the joint state at `until` was sent."""
-        return self.streamed is not None and self.streamed == self.until
-
-    @property
     def period_ns(self) -> int:
         """The time between two joint states, ns."""
         return round(SECOND / self._loaded.frame_rate)
@@ -205,6 +195,8 @@ class Stream:
         self._schedule(self._tick + 1)
         spacing_ns = round(CATCH_UP_SPACING * SECOND / trajectory.frame_rate)
         self.next_ns = max(self._due_ns, now_ns + spacing_ns)
+        self.ended = position >= trajectory.duration
+        self.held = position == self.until
         return sample
 
     def set_standing_rate(self, now_ns: int, rate: float) -> None:
