@@ -1,4 +1,4 @@
-"""The coordinator node: systems of robots that play as one."""
+"""The coordinator node: robot systems and their services."""
 
 from __future__ import annotations
 
@@ -167,7 +167,7 @@ class Hosts:
 
 
 class CoordinatorNode(ParameterNode[CoordinatorParameters]):
-    """Creates and dissolves systems and offers each one's services below its name."""
+    """Creates and dissolves systems, and offers the services of each below its name."""
 
     def __init__(
         self,
@@ -233,7 +233,7 @@ class CoordinatorNode(ParameterNode[CoordinatorParameters]):
             for robot in robots:
                 self._members[robot] = MemberClient(self, robot)
             system.prepare()
-        except LabError:
+        except Exception:
             self._do_dissolve(name, "could not be created")
             raise
         self._offered[name] = [

@@ -1,4 +1,4 @@
-"""Playback nodes, one a robot, and the host that makes them."""
+"""Playback nodes, one for each robot, and the host that makes them."""
 
 from __future__ import annotations
 
@@ -40,7 +40,7 @@ Order = msg.DriveOrder
 
 
 class PlaybackNode(Node):
-    """Streams one robot's joint states and answers its playback services."""
+    """Publishes one robot's joint states and offers its playback services."""
 
     def __init__(
         self,
@@ -54,7 +54,8 @@ class PlaybackNode(Node):
         host: str,
         context: Context | None = None,
     ) -> None:
-        # A class of fifty has fifty of these: each leaves out what nobody asks a playback for.
+        # A lab of fifty robots has fifty of these nodes: each does without rosout and the
+        # services for parameters, of which it has none.
         super().__init__(
             "playback",
             namespace=robot,
@@ -91,7 +92,7 @@ class PlaybackNode(Node):
         scheduler.add(self.player)
 
     def close(self) -> None:
-        """Leave the scheduler, then the graph."""
+        """Remove the playback from the scheduler, then the node from the graph."""
         self._scheduler.remove(self.player)
         self.destroy_node()
 
@@ -219,7 +220,7 @@ class PlaybackNode(Node):
         return "clear; play resumes in place"
 
     def drive(self, now_ns: int, by: str, order: msg.DriveOrder) -> msg.DriveReply:
-        """Carry out an order of the system `by`; the caller holds the deadline thread off."""
+        """Carry out an order of the system `by`; call it inside `scheduler.command()`."""
         playback, start_ns, duration = self.playback, time_from_message(order.stamp) or None, 0.0
         if order.command == Order.CLAIM:
             playback.claim(by)
@@ -262,7 +263,7 @@ class PlaybackNode(Node):
 
 
 class PlaybackHostNode(ParameterNode[PlaybackParameters]):
-    """Keeps one playback node for each robot of the scene, all on one deadline thread."""
+    """Runs one playback node for each robot of the scene, all on one deadline thread."""
 
     def __init__(
         self,
@@ -308,7 +309,7 @@ class PlaybackHostNode(ParameterNode[PlaybackParameters]):
         return StagingLimits(values.velocity_share, values.acceleration, values.jerk)
 
     def adopt(self, executor: Executor) -> None:
-        """Let `executor` spin the playback nodes too, those of now and those to come."""
+        """Have `executor` spin all playback nodes too, present and future."""
         self._executor = executor
         for node in self.nodes.values():
             executor.add_node(node)
@@ -345,7 +346,7 @@ class PlaybackHostNode(ParameterNode[PlaybackParameters]):
         self.nodes[robot] = node
         if self._executor is not None:
             self._executor.add_node(node)
-        self.get_logger().info(f"plays for {robot} ({model})")
+        self.get_logger().info(f"added the playback of {robot} ({model})")
 
     def _remove(self, robot: str) -> None:
         node = self.nodes.pop(robot)
@@ -366,7 +367,7 @@ class PlaybackHostNode(ParameterNode[PlaybackParameters]):
             for order in request.orders:
                 node = self.nodes.get(order.robot)
                 if node is None:
-                    raise Misuse(f"{order.robot}: is not played here; is it still in the scene?")
+                    raise Misuse(f"{order.robot}: has no playback here; is it still in the scene?")
                 try:
                     response.replies.append(node.drive(now_ns, request.system, order))
                 except LabError as error:

@@ -1,4 +1,4 @@
-"""A motion that brings an arm from where it stands to where a trajectory begins."""
+"""The port of the motion planner: motions from one standing pose to another."""
 
 from __future__ import annotations
 
@@ -13,13 +13,13 @@ class Motion(Protocol):
 
     @property
     def duration(self) -> float:
-        """Time from start to standstill, s."""
+        """Time from the start until the arm stands at the goal, s."""
         ...
 
     def at(self, elapsed: float) -> tuple[Array, Array]:
         """Return joint positions and velocities, (J,) rad and rad/s, `elapsed` s after the start.
 
-        Before 0 that is the start, after the duration the goal, both at rest.
+        Before 0 the arm is at rest at the start, after the duration at rest at the goal.
         """
         ...
 
@@ -28,5 +28,5 @@ class MotionPlanner(Protocol):
     """Plans rest-to-rest motions inside a robot's velocity limits."""
 
     def plan(self, model: RobotModel, start: Array, goal: Array) -> Motion:
-        """Plan from `start` to `goal`, both (J,) rad; raise BadInput where there is none."""
+        """Plan from `start` to `goal`, both (J,) rad; raise BadInput where no motion exists."""
         ...

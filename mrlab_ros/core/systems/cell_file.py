@@ -1,4 +1,4 @@
-"""A robot system as a file: everything of it in one place.
+"""A robot system as a YAML file.
 
 ```yaml
 name: cell                    # optional
@@ -7,7 +7,7 @@ policy: halt_all              # or halt_member
 loop: false
 members:                      # in order of their turns
   - robot: ur5e_1
-    trajectory: handover_ur5e # optional: what the robot has loaded
+    trajectory: handover_ur5e # optional; default: the one that the robot has loaded
     dwell: 0.5                # s after its end, sequential mode
     after: kr6_1.frame 120    # before its first frame
   - robot: kr6_1

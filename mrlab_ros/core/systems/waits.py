@@ -1,6 +1,6 @@
-"""What a member of a robot system waits for before it plays past a frame.
+"""The conditions for which a member of a robot system waits before it plays past a frame.
 
-Written as `frame 0: after kr6_1.frame 120`, `frame 200: object cube_1 held by ur5e_1` or
+A wait is written as `frame 0: after kr6_1.frame 120`, `frame 200: object cube_1 held by ur5e_1` or
 `frame 310: object cube_1 free`.
 """
 
@@ -30,7 +30,7 @@ class AfterFrame:
 
 @dataclass(frozen=True)
 class Held:
-    """True while `robot` holds `object`; robot None: while nobody does."""
+    """True while `robot` holds `object`; with robot None: while no robot holds it."""
 
     object: str
     robot: str | None
@@ -38,7 +38,7 @@ class Held:
 
 @dataclass(frozen=True)
 class Wait:
-    """Before playing past `frame`, the condition must have been true once."""
+    """The condition must have been true once before the member plays past `frame`."""
 
     frame: int
     condition: AfterFrame | Held
@@ -46,7 +46,7 @@ class Wait:
 
 
 def parse(text: str) -> Wait:
-    """Return the wait that `text` says; raise BadInput where it says none."""
+    """Parse the text of a wait; raise BadInput where it does not follow the grammar."""
     match = GRAMMAR.fullmatch(" ".join(text.split()))
     if match is None:
         raise BadInput(
