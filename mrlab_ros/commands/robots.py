@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import math
 import os
 import sys
 from pathlib import Path
@@ -15,9 +16,6 @@ from mrlab_ros.core.errors import BadInput
 from mrlab_ros.ros import share
 
 if TYPE_CHECKING:
-    import numpy as np
-    from numpy.typing import NDArray
-
     from mrlab_ros.adapters.robots.library import RobotLibrary
 
 app = typer.Typer(help="The robots of the library: list, show, check, import, meshes, remove.")
@@ -99,7 +97,8 @@ def show(
         str, typer.Option("--joints", help="Angles in degrees, 0,-90,90,0,0,0; empty: home.")
     ] = "",
     output: Annotated[
-        Path | None, typer.Option("--out", "--output", "-o", help="Name of the PNG.")
+        Path | None,
+        typer.Option("--out", "--output", "-o", help="A .png, a .html page or a .glb (glTF)."),
     ] = None,
     collision: Annotated[
         bool, typer.Option("--collision", help="Draw the convex hulls instead of the bodies.")
@@ -108,33 +107,33 @@ def show(
         bool, typer.Option("--open/--no-open", help="Open the picture where there is a desktop.")
     ] = True,
 ) -> None:
-    """Write a PNG of a robot beside a person of 1.8 m, and open it where there is a desktop."""
-    from mrlab_ros.adapters.robots.picture import take
+    """Draw a robot with its sizes in metres, and open the picture where there is a desktop."""
+    from mrlab_ros.adapters.robots import drawing
 
     library = _library()
     positions = _positions(library, robot, joints) if joints else None
     path = (output or Path(f"{robot}.png")).resolve()
-    take(library, robot, path, end_effector or None, positions=positions, collision=collision)
+    drawn = drawing.bodies(library, robot, end_effector or None, positions, collision=collision)
+    drawing.write(drawn, path)
     print(path)
     desktop = os.environ.get("DISPLAY") or os.environ.get("WAYLAND_DISPLAY")
     if opened and desktop and sys.stdout.isatty():
         typer.launch(str(path))
 
 
-def _positions(library: RobotLibrary, robot: str, text: str) -> NDArray[np.float64]:
-    import numpy as np
-
+def _positions(library: RobotLibrary, robot: str, text: str) -> dict[str, float]:
+    """Return the angles, rad, of the joints that --joints gives in degrees."""
     names = library.model(robot).joint_names
     try:
         degrees = [float(part) for part in text.split(",")]
     except ValueError:
         degrees = []
-    if len(degrees) != len(names) or not np.isfinite(degrees).all():
+    if len(degrees) != len(names) or not all(map(math.isfinite, degrees)):
         raise BadInput(
             f"--joints is '{text}'; expected {len(names)} angles in degrees with commas between "
             f"them, one each for {', '.join(names)}"
         )
-    return np.radians(degrees)
+    return dict(zip(names, map(math.radians, degrees), strict=True))
 
 
 @app.command()

@@ -5,8 +5,9 @@ from __future__ import annotations
 import sys
 from pathlib import Path
 
+from picture import take
+
 from mrlab_ros.adapters.robots.library import RobotLibrary
-from mrlab_ros.adapters.robots.picture import take
 
 ROOT = Path(__file__).resolve().parents[2]
 

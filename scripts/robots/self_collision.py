@@ -7,16 +7,17 @@ a sample of these the bodies that are seen touch as well.
 from __future__ import annotations
 
 import argparse
+import tempfile
 from collections.abc import Iterator
 from pathlib import Path
 
 import numpy as np
 import pybullet
-import trimesh
 from numpy.typing import NDArray
 from scipy.spatial import cKDTree
 
 from mrlab_ros.adapters.robots import urdf
+from mrlab_ros.adapters.robots.assembly import Assembly
 from mrlab_ros.adapters.robots.hulls import inside, samples
 from mrlab_ros.adapters.robots.library import RobotLibrary
 
@@ -36,8 +37,8 @@ def touching_poses(
     """
     allowed = library.touching_links(robot)
     engine = pybullet.connect(pybullet.DIRECT)
-    path = ROOT / "build" / f"{robot}_{engine}.urdf"
-    path.parent.mkdir(exist_ok=True)
+    folder = tempfile.TemporaryDirectory()
+    path = Path(folder.name) / f"{robot}.urdf"
     try:
         path.write_text(library.collision_description(robot))
         flags = pybullet.URDF_USE_SELF_COLLISION | pybullet.URDF_USE_INERTIA_FROM_FILE
@@ -68,7 +69,7 @@ def touching_poses(
                 yield number, frozenset(pairs)
     finally:
         pybullet.disconnect(engine)
-        path.unlink(missing_ok=True)
+        folder.cleanup()
 
 
 def random_poses(library: RobotLibrary, robot: str, count: int) -> Array:
@@ -83,14 +84,8 @@ class Bodies:
 
     def __init__(self, library: RobotLibrary, robot: str) -> None:
         self.names = library.model(robot).joint_names
-        self.root = urdf.parse(library.description(robot), robot)
-        self.faces: dict[str, Array] = {}
-        for link in self.root.iterfind("link"):
-            mesh = link.find("visual/geometry/mesh")
-            if mesh is not None:
-                parts = trimesh.load_scene(library.mesh_path(str(mesh.get("filename")))).dump()
-                triangles = [np.asarray(part.triangles) for part in parts]
-                self.faces[str(link.get("name"))] = np.concatenate(triangles)
+        root = urdf.parse(library.description(robot), robot)
+        self.robot = Assembly(root, robot, library.mesh_path)
 
     def distance(self, pair: Pair, pose: Array) -> float:
         """Return the distance between the bodies of two links, m; 0 where they touch."""
@@ -100,8 +95,12 @@ class Bodies:
         return float(cKDTree(one).query(other)[0].min())
 
     def _placed(self, pair: Pair, pose: Array) -> list[Array]:
-        at = urdf.poses(self.root, dict(zip(self.names, map(float, pose), strict=True)), "robot")
-        return [self.faces[name] @ at[name][:3, :3].T + at[name][:3, 3] for name in pair]
+        self.robot.move(dict(zip(self.names, pose, strict=True)))
+        faces: dict[str, list[Array]] = {name: [] for name in pair}
+        for link, mesh, at in self.robot.meshes():
+            if link in faces:
+                faces[link].append(np.asarray(mesh.triangles) @ at[:3, :3].T + at[:3, 3])
+        return [np.concatenate(faces[name]) for name in pair]
 
     def touch(self, pair: Pair, pose: Array) -> bool:
         """Say whether the bodies of two links reach into each other at a pose, (J,) rad."""

@@ -2,10 +2,8 @@
 
 from __future__ import annotations
 
-import xml.etree.ElementTree as ET
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from dataclasses import dataclass
-from pathlib import Path
 
 import numpy as np
 import trimesh
@@ -13,8 +11,9 @@ from numpy.typing import NDArray
 from scipy.spatial import ConvexHull, cKDTree
 
 from mrlab_ros.adapters.robots import urdf
+from mrlab_ros.adapters.robots.assembly import Assembly, Resolve
 from mrlab_ros.core.diagnostics import Diagnostic, finding
-from mrlab_ros.core.geometry import Array, transform_from_xyz_rpy
+from mrlab_ros.core.geometry import Array
 
 # A hull may be smaller than the body by so much, and larger by so much, m.
 MOST_SMALLER = 0.005
@@ -22,7 +21,6 @@ MOST_LARGER = 0.020
 # Points of a hull nearer to the surface than this need no closer look, m.
 NEAR = 0.012
 SPACING = 0.008  # m, of the points that are looked at
-Resolve = Callable[[str], Path]
 
 
 @dataclass(frozen=True)
@@ -54,13 +52,13 @@ def check(text: str, origin: str, resolve: Resolve) -> tuple[Diagnostic, ...]:
 def fits(text: str, origin: str, resolve: Resolve, most: int = 40_000) -> Iterator[Fit]:
     """Yield the fit of each link that has meshes for both, from at most `most` points a side."""
     root = urdf.parse(text, origin)
-    for link in root.iterfind("link"):
-        seen = [faces for mesh in link.iterfind("visual") for faces in _faces(mesh, resolve)]
-        hulls = [faces for mesh in link.iterfind("collision") for faces in _faces(mesh, resolve)]
-        if seen and hulls:
-            body = np.concatenate(seen)
-            smaller = sticks_out(body, hulls, most)
-            yield Fit(str(link.get("name")), smaller, stands_off(body, hulls, most))
+    seen = _faces(Assembly(root, origin, resolve))
+    hulls = _faces(Assembly(root, origin, resolve, collision=True))
+    for link in seen:
+        if link in hulls:
+            body = np.concatenate(seen[link])
+            smaller = sticks_out(body, hulls[link], most)
+            yield Fit(link, smaller, stands_off(body, hulls[link], most))
 
 
 def _few(points: Array, most: int) -> Array:
@@ -134,17 +132,10 @@ def samples(faces: Array, spacing: float) -> Array:
     return np.concatenate(result)
 
 
-def _faces(shape: ET.Element, resolve: Resolve) -> Iterator[Array]:
-    """Yield the triangles, (F, 3, 3) m in the link's frame, of a visual or a collision mesh."""
-    mesh = shape.find("geometry/mesh")
-    if mesh is None:
-        return
-    place = shape.find("origin")
-    values = ("0 0 0", "0 0 0")
-    if place is not None:
-        values = (place.get("xyz", values[0]), place.get("rpy", values[1]))
-    pose = transform_from_xyz_rpy(*(urdf.numbers(value, 3, "origin") for value in values))
-    scale = np.array(urdf.numbers(mesh.get("scale", "1 1 1"), 3, "scale"))
-    for part in trimesh.load_scene(resolve(str(mesh.get("filename")))).dump():
-        if isinstance(part, trimesh.Trimesh) and len(part.faces):
-            yield np.asarray(part.triangles) * scale @ pose[:3, :3].T + pose[:3, 3]
+def _faces(robot: Assembly) -> dict[str, list[Array]]:
+    """Return the triangles, (F, 3, 3) m in the root's frame, of the meshes of each link."""
+    found: dict[str, list[Array]] = {}
+    for link, mesh, pose in robot.meshes():
+        triangles = np.asarray(mesh.triangles) @ pose[:3, :3].T + pose[:3, 3]
+        found.setdefault(link, []).append(triangles)
+    return found

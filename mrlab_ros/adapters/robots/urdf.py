@@ -1,29 +1,49 @@
-"""Reads the kinematics and the limits out of a URDF."""
+"""Reads the kinematics and the limits out of a URDF.
+
+What a playing lab needs of a robot, without meshes. `assembly` reads whole robots, with yourdfpy.
+"""
 
 from __future__ import annotations
 
 import xml.etree.ElementTree as ET
-from collections.abc import Mapping
 from dataclasses import dataclass
+from pathlib import Path
 
 import numpy as np
 
 from mrlab_ros.core.errors import BadInput
-from mrlab_ros.core.geometry import Array, transform_from_xyz_rpy
+from mrlab_ros.core.geometry import transform_from_xyz_rpy
 from mrlab_ros.core.robots.kinematics import KinematicChain, Segment
 from mrlab_ros.core.robots.model import Joint
 
 MOVING = ("revolute", "continuous", "prismatic")
+XACRO = "{http://www.ros.org/wiki/xacro}"
 
 
 def parse(text: str, origin: str) -> ET.Element:
-    """Return the root element of a URDF; `origin` names it in errors."""
+    """Return the root element of a URDF; `origin` names it in errors.
+
+    Raises BadInput for text that is not XML, is not a URDF, declares a document type (whose
+    entities can expand without end), or still holds xacro elements.
+    """
+    if "<!DOCTYPE" in text or "<!ENTITY" in text:
+        raise BadInput(
+            f"{origin} declares a document type, which a URDF does not need; remove the lines "
+            "<!DOCTYPE ...> and <!ENTITY ...>"
+        )
     try:
         root = ET.fromstring(text)
     except ET.ParseError as error:
         raise BadInput(f"{origin} is not XML: {error}; expected a URDF") from None
     if root.tag != "robot":
         raise BadInput(f"{origin} begins with <{root.tag}>; expected a URDF, which has <robot>")
+    xacro = next((e.tag for e in root.iter() if str(e.tag).startswith(XACRO)), None)
+    if xacro is not None:
+        name = Path(origin).name
+        raise BadInput(
+            f"{origin} holds <xacro:{xacro.removeprefix(XACRO)}>; expected a plain URDF, as made "
+            f"by: xacro {name} -o robot.urdf"
+        )
     return root
 
 
@@ -152,30 +172,3 @@ def chain(root: ET.Element, tip: str, origin: str) -> tuple[KinematicChain, tupl
     base, path = path_to(tip, all_joints)
     segments = tuple(joint.segment() for joint in path)
     return KinematicChain(base, segments), tuple(j.limits(origin) for j in path if j.moves)
-
-
-def poses(root: ET.Element, positions: Mapping[str, float], origin: str) -> dict[str, Array]:
-    """Return T_root_link, (4, 4), of every link; joints without a position stand at 0.
-
-    A joint that follows another stands where that one does.
-    """
-    waiting = list(joints(root, origin))
-    children = {joint.child for joint in waiting}
-    found = {
-        str(element.get("name")): np.eye(4)
-        for element in root.iterfind("link")
-        if element.get("name") not in children
-    }
-    while waiting:
-        ready = [joint for joint in waiting if joint.parent in found]
-        if not ready:
-            names = ", ".join(joint.name for joint in waiting)
-            raise BadInput(f"{origin}: the joints {names} hang on no link; expected one tree")
-        for joint in ready:
-            position = np.zeros(int(joint.moves))
-            if joint.moves:
-                position[0] = positions.get(joint.mimic or joint.name, 0.0)
-            step = KinematicChain(joint.parent, (joint.segment(),)).tool0(position)
-            found[joint.child] = found[joint.parent] @ step
-            waiting.remove(joint)
-    return found

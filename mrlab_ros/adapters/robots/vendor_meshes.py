@@ -10,6 +10,7 @@ from pathlib import Path
 import numpy as np
 
 from mrlab_ros.adapters.robots import checks, mesh_files, urdf
+from mrlab_ros.adapters.robots.assembly import Assembly
 from mrlab_ros.adapters.robots.importing import MeshFinder
 from mrlab_ros.adapters.robots.library import MESH_PREFIX, RobotLibrary
 from mrlab_ros.core.diagnostics import Diagnostic, finding
@@ -121,10 +122,12 @@ def _frames(
     found: dict[str, Diagnostic] = {}
     joints = [joint.name for joint in urdf.joints(ours, robot_id) if joint.moves]
     first = next(iter(shared))
+    robots = Assembly(ours, robot_id), Assembly(theirs, origin)
     for angle in (0.0, 0.4):
         positions = {name: angle * (number + 1) / 2 for number, name in enumerate(joints)}
-        one = urdf.poses(ours, positions, robot_id)
-        other = urdf.poses(theirs, positions, origin)
+        for robot in robots:
+            robot.move(positions)
+        one, other = (robot.poses() for robot in robots)
         for name in shared:
             between = np.linalg.solve(_between(one, first, name), _between(other, first, name))
             distance = float(np.linalg.norm(between[:3, 3]))

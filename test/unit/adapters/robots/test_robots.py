@@ -18,6 +18,7 @@ from generated_meshes import assert_same_body
 
 from mrlab_ros.adapters.robots import checks, urdf
 from mrlab_ros.adapters.robots import hulls as robots_hulls
+from mrlab_ros.adapters.robots.assembly import Assembly
 from mrlab_ros.adapters.robots.library import RobotLibrary
 from mrlab_ros.core.robots.reach import reach
 
@@ -167,13 +168,12 @@ def deepest(one: list[trimesh.Trimesh], other: list[trimesh.Trimesh]) -> float:
 def test_no_links_collide_at_home(robot: str, tool: str | None) -> None:
     model = LIBRARY.model(robot)
     root = urdf.parse(LIBRARY.description(robot, tool), robot)
-    poses = urdf.poses(root, dict(zip(model.joint_names, model.home, strict=True)), robot)
+    assembly = Assembly(root, robot, LIBRARY.mesh_path, collision=True)
+    assembly.move(dict(zip(model.joint_names, model.home, strict=True)))
     hulls: dict[str, list[trimesh.Trimesh]] = {}
-    for link in root.iterfind("link"):
-        for mesh in link.iterfind("collision/geometry/mesh"):
-            hull = trimesh.load_mesh(LIBRARY.mesh_path(str(mesh.get("filename"))))
-            name = str(link.get("name"))
-            hulls.setdefault(name, []).append(hull.apply_transform(poses[name]))
+    for link, mesh, pose in assembly.meshes():
+        if link != "adapter_plate":
+            hulls.setdefault(link, []).append(mesh.copy().apply_transform(pose))
     touching = LIBRARY.touching_links(robot, tool)
     for a, b in itertools.combinations(hulls, 2):
         if frozenset((a, b)) not in touching:

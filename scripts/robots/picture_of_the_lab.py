@@ -8,13 +8,13 @@ from pathlib import Path
 
 import numpy as np
 import scipy.io
+from picture import surfaces
+from ray_tracer import Camera, Surface, draw
 
 from mrlab_ros.adapters.robots.library import RobotLibrary
-from mrlab_ros.adapters.robots.picture import surfaces
-from mrlab_ros.adapters.robots.ray_tracer import Camera, Surface, draw
 from mrlab_ros.core.geometry import Array, transform_from_xyz_rpy
 
-ROOT = Path(__file__).resolve().parent.parent
+ROOT = Path(__file__).resolve().parents[2]
 FRAME = 430
 CAST = (
     ("ur5e", "two_robot_handover_ur5e", transform_from_xyz_rpy([0.0, 0.0, 0.0], [0.0, 0.0, 0.0])),
