@@ -49,20 +49,33 @@ TRAJECTORIES = {
     "kuka": make("kuka_kr6_r900_sixx", "kuka", frames=90),
 }
 
+# Listed, and refused by /converter/get.
+UNREADABLE: set[str] = set()
+
 
 class Catalogue(Node):
-    """Answers /converter/get from TRAJECTORIES."""
+    """Answers /converter/get and /converter/list from TRAJECTORIES."""
 
     def __init__(self, **kwargs) -> None:
         super().__init__("converter", **kwargs)
         self.create_service(srv.GetTrajectory, "~/get", self._get)
+        self.create_service(srv.ListTrajectories, "~/list", self._list)
 
     def _get(self, request, response):
-        trajectory = TRAJECTORIES.get(request.id)
+        trajectory = None if request.id in UNREADABLE else TRAJECTORIES.get(request.id)
         response.success = trajectory is not None
         response.message = f"there is no trajectory '{request.id}'"
         if trajectory is not None:
             response.trajectory = trajectories.trajectory_to_message(trajectory)
+        return response
+
+    def _list(self, request, response):
+        response.trajectories = [
+            trajectories.info_to_message(trajectory)
+            for trajectory in TRAJECTORIES.values()
+            if trajectory.robot_model == request.robot_model
+            and trajectory.end_effector in (None, request.end_effector)
+        ]
         return response
 
 

@@ -53,9 +53,11 @@ def load(name: Scene) -> None:
 def _scene_file(verb: str, name: str, timeout: float) -> str:
     from mrlab_msgs import srv
 
-    with _graph() as graph:
+    from mrlab_ros.ros.graph import Graph
+
+    with Graph() as graph:
         request = srv.SceneFile.Request(name=name)
-        service = f"/physics/{verb}_scene"
+        service = f"/lab/{verb}_scene"
         return str(graph.order(srv.SceneFile, service, request, timeout).message)
 
 

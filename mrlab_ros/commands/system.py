@@ -12,7 +12,7 @@ import typer
 from mrlab_ros.core.errors import BadInput, Misuse
 
 if TYPE_CHECKING:
-    from mrlab_ros.core.systems.timeline import Member
+    from mrlab_ros.core.systems.cell_file import MemberEntry
     from mrlab_ros.ros.graph import Graph
 
 app = typer.Typer(
@@ -68,45 +68,40 @@ def create(
     ],
 ) -> None:
     """Make a system as its YAML file describes it."""
-    import yaml
-    from mrlab_msgs import msg, srv
+    from dataclasses import replace
 
-    from mrlab_ros.core.systems.cell_file import read
+    from mrlab_msgs import srv
+
+    from mrlab_ros.adapters.scenes.files import content
+    from mrlab_ros.core.scene.document import parse_cell
+    from mrlab_ros.messages.scenes import create_system_request
     from mrlab_ros.ros.graph import Graph
 
-    try:
-        document = yaml.safe_load(file.read_text())
-    except OSError as error:
-        raise BadInput(f"cannot read {file}: {error.strerror}") from None
-    except (UnicodeDecodeError, yaml.YAMLError) as error:
-        raise BadInput(f"{file} is not YAML: {' '.join(str(error).split())}") from None
-    cell = read(document)
+    systems = parse_cell(content(file), file.name)
     with Graph() as graph:
-        request = srv.CreateSystem.Request(
-            name=cell.name,
-            mode=cell.mode.value,
-            policy=cell.policy.value,
-            loop=cell.loop,
-            members=[
-                msg.SystemMember(
-                    robot=m.robot,
-                    trajectory_id=_trajectory(graph, file.parent, m),
-                    dwell=m.dwell,
-                    waits=[wait.text for wait in m.waits],
-                )
-                for m in cell.members
-            ],
-        )
-        answer = graph.order(srv.CreateSystem, "/coordinator/create_system", request, 30.0)
-    print(answer.message)
-    print(f"next: mrlab system play {answer.system.name}")
+        for system in systems:
+            members = tuple(
+                replace(member, trajectory=_trajectory(graph, file.parent, member))
+                for member in system.members
+            )
+            request = create_system_request(replace(system, members=members))
+            answer = graph.order(srv.CreateSystem, "/coordinator/create_system", request, 30.0)
+            name = answer.system.name
+            if system.rate != 1.0:
+                rate = srv.SetRate.Request(rate=system.rate)
+                graph.order(srv.SetRate, f"/{name}/set_rate", rate)
+            if system.at > 0:
+                at = srv.Seek.Request(position=system.at)
+                graph.order(srv.Seek, f"/{name}/seek", at)
+            print(answer.message)
+            print(f"next: mrlab system play {name}")
 
 
-def _trajectory(graph: Graph, folder: Path, member: Member) -> str:
+def _trajectory(graph: Graph, folder: Path, member: MemberEntry) -> str:
     """Return the id of the member's trajectory; convert it where the file names a workspace."""
     from mrlab_ros.commands.play import in_catalogue
 
-    name = member.trajectory_id
+    name = member.trajectory
     if Path(name).suffix.lower() != ".mat":
         return name
     return in_catalogue(graph, graph.robot(member.robot), str(folder / name))

@@ -232,8 +232,8 @@ def test_objects_come_and_go_by_service_and_bad_requests_are_refused_in_words(gr
         (srv.Remove, "/physics/remove_object", {"name": "x"}, "there are: cube_1"),
         (srv.Attach, "/physics/attach", {"robot": "r", "object": "cube_1"}, "no robot 'r'"),
         (srv.Detach, "/physics/detach", {"robot": "r"}, "no robot 'r'"),
-        (srv.SceneFile, "/physics/load_scene", {"name": "nothing"}, "there are: empty"),
-        (srv.SceneFile, "/physics/save_scene", {"name": "../x"}, "cannot name a scene"),
+        (srv.SceneFile, "/lab/load_scene", {"name": "nothing"}, "there are: empty"),
+        (srv.SceneFile, "/lab/save_scene", {"name": "../x"}, "cannot name a scene"),
         (srv.SetSurfaces, "/physics/set_surfaces", {"surfaces": [msg.Surface()]}, "no name"),
     ):
         answer = graph.call(kind, service, **fields)

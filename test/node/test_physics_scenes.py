@@ -46,7 +46,7 @@ def lab(graph: Graph, tmp_path: Path):
 
 
 def load_scene(graph: Graph, name: str):
-    return graph.call(srv.SceneFile, "/physics/load_scene", name=name, timeout=60)
+    return graph.call(srv.SceneFile, "/lab/load_scene", name=name, timeout=60)
 
 
 def done(answer):
@@ -125,7 +125,7 @@ def test_a_rod_goes_from_hand_to_hand_and_the_class_starts_where_it_stopped(grap
     wait_for(lambda: system(lab).label == "PAUSED", "the pause")
 
     # The lesson ends, and begins again where it ended.
-    done(graph.call(srv.SceneFile, "/physics/save_scene", name="lesson"))
+    done(graph.call(srv.SceneFile, "/lab/save_scene", name="lesson"))
     done(load_scene(graph, "empty"))
     wait_for(lambda: not lab.objects.last().objects and not lab.robots.last().robots, "no scene")
     done(load_scene(graph, "lesson"))
@@ -159,8 +159,19 @@ BAD_SCENES = {
     ),
     "crowd": (
         "objects:\n" + "\n".join(f"- {{name: cube_{i}, type: cube}}" for i in range(1, 40)),
-        "the scene has 39 objects; expected 32",
+        "39 objects are too many; expected 32 at most",
     ),
+    "wait": (
+        "robots: [{name: a, model: ur5e, trajectory: two_robot_handover_ur5e}]\n"
+        "systems: [{name: s, members: [{robot: a, waits: ['frame 0: after b.frame 1']}]}]",
+        "which the catalogue does not have",
+    ),
+    "fixed": (
+        "robots: [{name: a, model: ur5e}]\n"
+        "objects: [{name: b, type: table, held_by: a, in_hand: {}}]",
+        "a cannot hold b: it is fixed to the room",
+    ),
+    "cell": ("members: [{robot: a}]", "is a cell, not a scene; mrlab system create takes it"),
     "nowhere": (
         "surfaces: [{name: floor, label: floor, vertices: [[0, 0, 0], [1, 0, 0], [0, 1, 0]]}]\n"
         "objects: [{name: a, type: cube, position: [5, 5, 1], automatic: true}]",
@@ -180,7 +191,7 @@ def test_a_scene_that_cannot_be_is_refused_and_changes_nothing(graph, lab):
         (lab.scenes / f"{name}.yaml").write_text(text)
         answer = load_scene(graph, name)
         assert not answer.success
-        assert says in answer.message
+        assert says in answer.message, answer.message
     assert lab.robots.last() is before
     sent = len(lab.objects)
     wait_for(lambda: len(lab.objects) > sent, "the objects again")

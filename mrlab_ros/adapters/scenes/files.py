@@ -1,4 +1,4 @@
-"""Scenes as YAML files: those that came with the lab, and those saved here.
+"""Documents of the lab as YAML files: scenes, shipped and saved, and cells.
 
 A file named .json holds the same as JSON, which takes a tenth of the time.
 """
@@ -13,7 +13,7 @@ from pathlib import Path
 import yaml
 
 from mrlab_ros.core.errors import BadInput
-from mrlab_ros.core.naming import NAME
+from mrlab_ros.core.naming import NAME, did_you_mean
 from mrlab_ros.core.scene import document as scene_document
 from mrlab_ros.core.scene.document import SceneDocument
 
@@ -30,46 +30,66 @@ class SceneFiles:
     def names(self) -> tuple[str, ...]:
         """Return the names of all scenes, sorted."""
         files = [*self._shipped.glob(f"*{SUFFIX}"), *self._own.glob(f"*{SUFFIX}")]
-        return tuple(sorted({file.stem for file in files}))
+        return tuple(sorted({file.stem for file in files if NAME.fullmatch(file.stem)}))
 
     def load(self, name: str) -> SceneDocument:
         """Read a scene; raise BadInput where there is none or it is damaged."""
         _check(name)
         for folder in (self._own, self._shipped):
             path = folder / f"{name}{SUFFIX}"
-            if path.is_file():
+            if os.path.lexists(path):
                 return read(path)
-        raise BadInput(f"there is no scene '{name}'; there are: {', '.join(self.names())}")
+        known = self.names()
+        raise BadInput(
+            f"there is no scene '{name}'; there are: {', '.join(known)}{did_you_mean(name, known)}"
+        )
 
     def save(self, name: str, scene: SceneDocument) -> Path:
-        """Write a scene; a reader sees the old file or the new one."""
+        """Write a scene as a whole: a reader sees the old file or the new one.
+
+        Raises BadInput where the name is none or the folder cannot be written.
+        """
         _check(name)
         path = self._own / f"{name}{SUFFIX}"
-        write(path, scene)
+        try:
+            write(path, scene)
+        except OSError as error:
+            raise BadInput(f"{path} cannot be written: {error.strerror}") from None
         return path
 
 
 def read(path: Path) -> SceneDocument:
     """Read one scene file; raise BadInput where it is damaged."""
+    return scene_document.parse(content(path), path.name)
+
+
+def content(path: Path) -> object:
+    """Return what a YAML or JSON file holds; raise BadInput where it is not one."""
     loader = getattr(yaml, "CSafeLoader", yaml.SafeLoader)
+    if not path.is_file():
+        # Reading a pipe would wait for ever.
+        what = "a folder" if path.is_dir() else "no file" if path.exists() else "missing"
+        raise BadInput(f"{path.name} cannot be read: it is {what}")
     try:
-        content = path.read_bytes()
+        data = path.read_bytes()
         as_json = path.suffix == ".json"
-        document = json.loads(content) if as_json else yaml.load(content, Loader=loader)
-    except (OSError, ValueError, yaml.YAMLError) as error:
-        raise BadInput(f"{path.name} cannot be read: {error}; save the scene again") from None
-    return scene_document.parse(document, path.name)
+        return json.loads(data) if as_json else yaml.load(data, Loader=loader)
+    except OSError as error:
+        raise BadInput(f"{path.name} cannot be read: {error.strerror}") from None
+    except (ValueError, yaml.YAMLError, RecursionError) as error:
+        kind = "JSON" if path.suffix == ".json" else "YAML"
+        raise BadInput(f"{path.name} is not {kind}: {' '.join(str(error).split())}") from None
 
 
 def write(path: Path, scene: SceneDocument) -> None:
-    """Write one scene file at once."""
-    path.parent.mkdir(parents=True, exist_ok=True)
+    """Write one document at once; raise OSError where that fails."""
     dumper = getattr(yaml, "CSafeDumper", yaml.SafeDumper)
     plain = scene_document.plain(scene)
     if path.suffix == ".json":
         text = json.dumps(plain)
     else:
         text = yaml.dump(plain, Dumper=dumper, sort_keys=False, default_flow_style=None)
+    path.parent.mkdir(parents=True, exist_ok=True)
     descriptor, new = tempfile.mkstemp(dir=path.parent, prefix=".writing-")
     try:
         with os.fdopen(descriptor, "w") as file:

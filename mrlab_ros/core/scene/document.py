@@ -1,29 +1,62 @@
-"""A scene as a file holds it: robots, objects, surfaces and systems, checked when read."""
+"""The one document of the lab: robots, objects, surfaces and systems, checked when read.
+
+A saved scene is one, with all parts. The lab keeps one with robots and systems, physics one with
+objects and surfaces, so that both are there again after a restart. A cell is one with systems
+alone; as a file it may be the mapping of a single system.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
-from typing import Any
+from collections.abc import Callable, Iterable, Mapping
+from dataclasses import dataclass, replace
+from typing import Any, TypeVar
 
 import numpy as np
 
 from mrlab_ros.core.errors import BadInput
-from mrlab_ros.core.geometry import Pose, Quaternion, Vector
-from mrlab_ros.core.naming import NAME, checked_name
+from mrlab_ros.core.geometry import Pose
+from mrlab_ros.core.naming import checked_name
 from mrlab_ros.core.physics.surfaces import Surface
-from mrlab_ros.core.systems.waits import parse as parsed_wait
+from mrlab_ros.core.records import (
+    FILLED_TEXT,
+    FLAG,
+    NAME,
+    TEXT,
+    Matrix,
+    Numbers,
+    Record,
+    raise_all,
+    shown,
+    unknown_field,
+)
+from mrlab_ros.core.systems.cell_file import (
+    POSITION,
+    RATE,
+    MemberEntry,
+    SystemEntry,
+    plain_system,
+    read_system,
+)
 
-# The rates a playback has, and the longest that a place on a timeline or a dwell can be, s.
-RATES = (0.1, 4.0)
-LONGEST = 1e6
+__all__ = ["MemberEntry", "ObjectEntry", "RobotEntry", "SceneDocument", "SystemEntry"]
+
+T = TypeVar("T")
+
 PARTS = ("about", "robots", "objects", "surfaces", "systems")
-POSE = ("position", "orientation")
+POSE_FIELDS = ("position", "orientation")
+ROBOT_FIELDS = (
+    "name", "model", "end_effector", *POSE_FIELDS, "trajectory", "at", "rate", "loop",
+)  # fmt: skip
+OBJECT_FIELDS = ("name", "type", "automatic", *POSE_FIELDS, "held_by", "in_hand")
+SURFACE_FIELDS = ("name", "label", *POSE_FIELDS, "vertices", "triangles")
+VECTOR, QUATERNION = Numbers(3), Numbers(4)
+VERTICES, TRIANGLES = Matrix(3), Matrix(3, whole=True)
 
 
 @dataclass(frozen=True)
 class RobotEntry:
-    """trajectory: what it has loaded, empty for nothing; at: where it stood on that, s."""
+    """end_effector: its id, empty for none. pose: T_world_base. trajectory: id of what is loaded,
+    empty for nothing; at: position on it, s; rate, loop: how it plays."""
 
     name: str
     model: str
@@ -31,12 +64,14 @@ class RobotEntry:
     pose: Pose
     trajectory: str = ""
     at: float = 0.0
+    rate: float = 1.0
+    loop: bool = False
 
 
 @dataclass(frozen=True)
 class ObjectEntry:
     """automatic: on the nearest surface below the pose. held_by: the robot that holds it, and
-    in_hand its pose in the frame of that robot's hand; empty and None: free."""
+    in_hand: T_hand_object, in the frame of the link that holds it; empty and None: free."""
 
     name: str
     type: str
@@ -47,29 +82,6 @@ class ObjectEntry:
 
 
 @dataclass(frozen=True)
-class MemberEntry:
-    """dwell: s; waits: each as in mrlab_msgs/SystemMember."""
-
-    robot: str
-    trajectory: str
-    dwell: float = 0.0
-    waits: tuple[str, ...] = ()
-
-
-@dataclass(frozen=True)
-class SystemEntry:
-    """mode, policy: as in mrlab_msgs/RobotSystem. at: where it stood on its timeline, s."""
-
-    name: str
-    members: tuple[MemberEntry, ...]
-    mode: int = 0
-    policy: int = 0
-    loop: bool = False
-    rate: float = 1.0
-    at: float = 0.0
-
-
-@dataclass(frozen=True)
 class SceneDocument:
     robots: tuple[RobotEntry, ...] = ()
     objects: tuple[ObjectEntry, ...] = ()
@@ -77,57 +89,50 @@ class SceneDocument:
     systems: tuple[SystemEntry, ...] = ()
     about: str = ""
 
+    @property
+    def driven(self) -> frozenset[str]:
+        """The robots that are members of a system."""
+        return frozenset(member.robot for system in self.systems for member in system.members)
 
-def parse(document: object, origin: str) -> SceneDocument:
-    """Read a scene from what its YAML file holds; raise BadInput, naming `origin`."""
-    if document is None:
-        document = {}
-    if not isinstance(document, Mapping) or set(document) - set(PARTS):
-        found = sorted(set(document) - set(PARTS)) if isinstance(document, Mapping) else document
-        raise BadInput(f"{origin} holds {found}; expected {', '.join(PARTS)}")
-    scene = SceneDocument(
-        tuple(_robot(e, w) for e, w in _entries(document, "robots", origin)),
-        tuple(_object(e, w) for e, w in _entries(document, "objects", origin)),
-        tuple(_surface(e, w) for e, w in _entries(document, "surfaces", origin)),
-        tuple(_system(e, w) for e, w in _entries(document, "systems", origin)),
-        str(document.get("about", "")),
-    )
-    _consistent(scene, origin)
+
+def parse(document: object, origin: str, *, whole: bool = True) -> SceneDocument:
+    """Read what a YAML or JSON file holds; raise BadInput that names `origin` and all mistakes.
+
+    whole: every robot that an object or a system names must be among the document's robots, and
+    every system needs a name; a cell names robots of the running lab.
+    """
+    scene, mistakes = _read(document, origin, whole)
+    raise_all(mistakes, origin)
     return scene
 
 
-def _consistent(scene: SceneDocument, origin: str) -> None:
-    """Raise BadInput where names clash or a part names a robot that the scene does not have."""
-    robots = {robot.name for robot in scene.robots}
-    parts = (("robot", scene.robots), ("object", scene.objects), ("system", scene.systems))
-    for what, entries in parts:
-        # Objects and systems may share a name with each other, but not with a robot.
-        taken = set() if what == "robot" else set(robots)
-        for entry in entries:
-            if entry.name in taken:
-                raise BadInput(f"{origin} names the {what} {entry.name} twice; rename one")
-            checked_name(entry.name, frozenset(), f"{what} of {origin}")
-            taken.add(entry.name)
-    surfaces = [surface.name for surface in scene.surfaces]
-    if len(set(surfaces)) != len(surfaces):
-        raise BadInput(f"{origin} has two surfaces of one name; give each its own")
-    needed = [(thing.name, thing.held_by) for thing in scene.objects if thing.held_by]
-    driven = [(system.name, m.robot) for system in scene.systems for m in system.members]
-    for name, robot in needed + driven:
-        if robot not in robots:
-            known = ", ".join(sorted(robots)) or "none"
-            raise BadInput(
-                f"{origin}: {name} names the robot '{robot}'; the robots of the scene: {known}"
-            )
-    for names, what in ((needed, "holds two objects"), (driven, "is a member twice")):
-        several = [robot for _, robot in names]
-        twice = sorted({robot for robot in several if several.count(robot) > 1})
-        if twice:
-            raise BadInput(f"{origin}: {', '.join(twice)} {what}; leave one out")
+def parse_intact(
+    document: object, origin: str, *, whole: bool = True
+) -> tuple[SceneDocument, tuple[str, ...]]:
+    """Read as parse() does, but leave out what is damaged; return the mistakes, too.
+
+    Raises BadInput where the document as a whole is none.
+    """
+    scene, mistakes = _read(document, origin, whole)
+    return scene, tuple(mistakes)
+
+
+def parse_cell(document: object, origin: str) -> tuple[SystemEntry, ...]:
+    """Read the systems of a cell; raise BadInput where it has other parts or none at all."""
+    scene = parse(document, origin, whole=False)
+    others = [part for part in PARTS[1:4] if getattr(scene, part)]
+    if others:
+        raise BadInput(
+            f"{origin} holds {', '.join(others)}; a cell has systems alone. mrlab scene load "
+            "takes a whole scene"
+        )
+    if not scene.systems:
+        raise BadInput(f"{origin} holds no system; expected members, or a list of systems")
+    return scene.systems
 
 
 def plain(scene: SceneDocument) -> dict[str, Any]:
-    """Return the scene as mappings, lists and numbers, for a YAML file."""
+    """Return the scene as mappings, lists and numbers, which parse() reads."""
     result: dict[str, Any] = {"about": scene.about} if scene.about else {}
     result["robots"] = [_plain_robot(robot) for robot in scene.robots]
     result["objects"] = [_plain_object(thing) for thing in scene.objects]
@@ -141,26 +146,7 @@ def plain(scene: SceneDocument) -> dict[str, Any]:
         }
         for s in scene.surfaces
     ]
-    result["systems"] = [
-        {
-            "name": s.name,
-            "members": [
-                {
-                    "robot": m.robot,
-                    "trajectory": m.trajectory,
-                    "dwell": m.dwell,
-                    "waits": list(m.waits),
-                }
-                for m in s.members
-            ],
-            "mode": s.mode,
-            "policy": s.policy,
-            "loop": s.loop,
-            "rate": s.rate,
-            "at": s.at,
-        }
-        for s in scene.systems
-    ]
+    result["systems"] = [plain_system(system) for system in scene.systems]
     return result
 
 
@@ -173,7 +159,7 @@ def _plain_robot(robot: RobotEntry) -> dict[str, Any]:
     result |= _plain_pose(robot.pose)
     if robot.trajectory:
         result |= {"trajectory": robot.trajectory, "at": robot.at}
-    return result
+    return result | {"rate": robot.rate, "loop": robot.loop}
 
 
 def _plain_object(thing: ObjectEntry) -> dict[str, Any]:
@@ -185,145 +171,185 @@ def _plain_object(thing: ObjectEntry) -> dict[str, Any]:
     return result
 
 
-def _entries(
-    document: Mapping[str, Any], part: str, origin: str
-) -> list[tuple[Mapping[str, Any], str]]:
-    entries = document.get(part) or ()
-    if not isinstance(entries, Sequence) or not all(isinstance(e, Mapping) for e in entries):
-        raise BadInput(f"{origin}: '{part}' is {entries!r}; expected a list of mappings")
-    return [(e, f"{origin}, {part}[{i}]") for i, e in enumerate(entries)]
-
-
-def _name(entry: Mapping[str, Any], key: str, where: str) -> str:
-    value = entry.get(key)
-    if not isinstance(value, str) or not NAME.fullmatch(value):
-        raise BadInput(f"{where}: {key} is {value!r}; expected a name such as cube_1")
-    return value
-
-
-def _floats(entry: Mapping[str, Any], key: str, default: list[float], where: str) -> list[float]:
-    value = entry.get(key, default)
-    numbers = isinstance(value, Sequence) and all(type(v) in (int, float) for v in value)
-    if not numbers or len(value) != len(default):
-        raise BadInput(f"{where}: {key} is {value!r}; expected {len(default)} numbers")
-    return [float(v) for v in value]
-
-
-def _pose(entry: Mapping[str, Any], where: str) -> Pose:
-    x, y, z = _floats(entry, "position", [0.0] * 3, where)
-    a, b, c, d = _floats(entry, "orientation", [0.0, 0.0, 0.0, 1.0], where)
-    position: Vector = (x, y, z)
-    orientation: Quaternion = (a, b, c, d)
-    try:
-        return Pose(position, orientation)
-    except BadInput as error:
-        raise BadInput(f"{where}: {error}") from None
-
-
-def _matrix(entry: Mapping[str, Any], key: str, where: str, kind: Any) -> Any:
-    try:
-        rows = np.array(entry.get(key) or np.zeros((0, 3)), dtype=kind)
-    except (TypeError, ValueError):
-        rows = np.zeros(1)
-    if rows.ndim != 2 or rows.shape[1] != 3:
-        raise BadInput(f"{where}: {key} is no list of three numbers each")
-    return rows
-
-
-def _robot(entry: Mapping[str, Any], where: str) -> RobotEntry:
-    _known(entry, ("name", "model", "end_effector", "trajectory", "at", *POSE), where)
-    return RobotEntry(
-        _name(entry, "name", where),
-        _name(entry, "model", where),
-        str(entry.get("end_effector") or ""),
-        _pose(entry, where),
-        str(entry.get("trajectory") or ""),
-        _number(entry, "at", 0.0, (0.0, LONGEST), where),
-    )
-
-
-def _object(entry: Mapping[str, Any], where: str) -> ObjectEntry:
-    _known(entry, ("name", "type", "automatic", "held_by", "in_hand", *POSE), where)
-    holder, in_hand = str(entry.get("held_by") or ""), entry.get("in_hand")
-    if bool(holder) != isinstance(in_hand, Mapping):
-        raise BadInput(f"{where}: held_by and in_hand belong together; leave out both or none")
-    return ObjectEntry(
-        _name(entry, "name", where),
-        _name(entry, "type", where),
-        _pose(entry, where),
-        _flag(entry, "automatic", where),
-        holder,
-        _pose(in_hand, f"{where}, in_hand") if isinstance(in_hand, Mapping) else None,
-    )
-
-
-def _surface(entry: Mapping[str, Any], where: str) -> Surface:
-    _known(entry, ("name", "label", "vertices", "triangles", *POSE), where)
-    return Surface(
-        _name(entry, "name", where),
-        str(entry.get("label", "")),
-        _pose(entry, where),
-        _matrix(entry, "vertices", where, np.float64),
-        _matrix(entry, "triangles", where, np.int32),
-    )
-
-
-def _system(entry: Mapping[str, Any], where: str) -> SystemEntry:
-    _known(entry, ("name", "members", "mode", "policy", "loop", "rate", "at"), where)
-    mode, policy = entry.get("mode", 0), entry.get("policy", 0)
-    if mode not in (0, 1) or policy not in (0, 1):
-        raise BadInput(f"{where}: mode {mode!r}, policy {policy!r}; expected 0 or 1 each")
-    members = tuple(_member(m, w) for m, w in _entries(entry, "members", where))
-    if not members:
-        raise BadInput(f"{where} has no members; expected a robot and a trajectory at least")
-    return SystemEntry(
-        _name(entry, "name", where),
-        members,
-        mode,
-        policy,
-        _flag(entry, "loop", where),
-        _number(entry, "rate", 1.0, RATES, where),
-        _number(entry, "at", 0.0, (0.0, LONGEST), where),
-    )
-
-
-def _member(entry: Mapping[str, Any], where: str) -> MemberEntry:
-    _known(entry, ("robot", "trajectory", "dwell", "waits"), where)
-    trajectory, waits = entry.get("trajectory"), entry.get("waits") or []
-    if not isinstance(trajectory, str) or not trajectory:
-        raise BadInput(f"{where}: trajectory is {trajectory!r}; expected an id of the catalogue")
-    if not isinstance(waits, list):
-        raise BadInput(f"{where}: waits is {waits!r}; expected a list of waits")
-    dwell = _number(entry, "dwell", 0.0, (0.0, LONGEST), where)
-    texts = tuple(parsed_wait(str(wait)).text for wait in waits)
-    return MemberEntry(_name(entry, "robot", where), trajectory, dwell, texts)
-
-
-def _known(entry: Mapping[str, Any], keys: Sequence[str], where: str) -> None:
-    unknown = [str(key) for key in entry if key not in keys]
-    if unknown:
-        raise BadInput(f"{where} has {', '.join(unknown)}; expected {', '.join(keys)}")
-
-
-def _flag(entry: Mapping[str, Any], key: str, where: str) -> bool:
-    value = entry.get(key, False)
-    if not isinstance(value, bool):
-        raise BadInput(f"{where}: {key} is {value!r}; expected true or false")
-    return value
-
-
-def _number(
-    entry: Mapping[str, Any],
-    key: str,
-    default: float,
-    limits: tuple[float, float],
-    where: str,
-) -> float:
-    value, (low, high) = entry.get(key, default), limits
-    if type(value) not in (int, float) or not low <= value <= high:
-        raise BadInput(f"{where}: {key} is {value!r}; expected a number of {low:g} to {high:g}")
-    return float(value)
-
-
 def _plain_pose(pose: Pose) -> dict[str, list[float]]:
     return {"position": list(pose.position), "orientation": list(pose.orientation)}
+
+
+# reading ------------------------------------------------------------------------------------
+
+
+def _read(document: object, origin: str, whole: bool) -> tuple[SceneDocument, list[str]]:
+    """Return what is intact of a document, and a sentence for each mistake."""
+    if isinstance(document, list):
+        # The lab's state file, before it knew more than robots.
+        document = {"robots": document}
+    if document is None and whole:
+        document = {}
+    if not isinstance(document, Mapping) or (document and {*PARTS}.isdisjoint(document)):
+        if not whole:
+            return SceneDocument(systems=(read_system(document, origin),)), []
+        if not isinstance(document, Mapping):
+            raise BadInput(
+                f"{origin} is {shown(document)}; expected a mapping with the fields "
+                f"{', '.join(PARTS)}"
+            )
+        if "members" in document:
+            raise BadInput(f"{origin} is a cell, not a scene; mrlab system create takes it")
+    mistakes = [unknown_field(origin, key, PARTS) for key in document if key not in PARTS]
+    record = Record({k: v for k, v in document.items() if k in PARTS}, origin, PARTS)
+
+    def part(key: str, one: str, read: Callable[[object, str], T]) -> list[T]:
+        found = []
+        try:
+            entries = record.entries(key)
+        except BadInput as error:
+            mistakes.append(str(error))
+            return []
+        for i, entry in enumerate(entries, 1):
+            try:
+                found.append(read(entry, f"{origin}, {one} {i}"))
+            except BadInput as error:
+                mistakes.append(str(error))
+        return found
+
+    try:
+        about = record.value("about", TEXT, "")
+    except BadInput as error:
+        mistakes.append(str(error))
+        about = ""
+    scene = SceneDocument(
+        tuple(part("robots", "robot", _robot)),
+        tuple(part("objects", "object", _object)),
+        tuple(part("surfaces", "surface", _surface)),
+        tuple(part("systems", "system", read_system)),
+        about,
+    )
+    return _consistent(scene, origin, whole, mistakes), mistakes
+
+
+def _consistent(
+    scene: SceneDocument, origin: str, whole: bool, mistakes: list[str]
+) -> SceneDocument:
+    """Leave out what clashes with an earlier entry or names a robot that is not there."""
+
+    def intact(entries: Iterable[T], check: Callable[[T], None]) -> tuple[T, ...]:
+        kept = []
+        for entry in entries:
+            try:
+                check(entry)
+            except BadInput as error:
+                mistakes.append(str(error))
+            else:
+                kept.append(entry)
+        return tuple(kept)
+
+    def named(what: str, taken: set[str]) -> Callable[[Any], None]:
+        def check(entry: Any) -> None:
+            if entry.name in taken:
+                raise BadInput(f"{origin} names the {what} {entry.name} twice; rename one")
+            if entry.name or whole:
+                checked_name(entry.name, frozenset(), f"{what} of {origin}")
+                taken.add(entry.name)
+
+        return check
+
+    robots = intact(scene.robots, named("robot", set()))
+    present = {robot.name for robot in robots}
+    # Objects and systems may share a name with each other, but not with a robot.
+    objects = intact(scene.objects, named("object", set(present)))
+    systems = intact(scene.systems, named("system", set(present)))
+    surfaces = intact(scene.surfaces, _unique(origin))
+
+    def of_robot(name: str, robot: str) -> None:
+        if whole and robot not in present:
+            known = ", ".join(sorted(present)) or "none"
+            raise BadInput(
+                f"{origin}: {name} names the robot '{robot}'; the robots of the scene: {known}"
+            )
+
+    holders: set[str] = set()
+    members: set[str] = set()
+
+    def held(thing: ObjectEntry) -> None:
+        if thing.held_by:
+            of_robot(thing.name, thing.held_by)
+            if thing.held_by in holders:
+                raise BadInput(f"{origin}: {thing.held_by} holds two objects; leave one out")
+            holders.add(thing.held_by)
+
+    def manned(system: SystemEntry) -> None:
+        wanted = [member.robot for member in system.members]
+        for robot in wanted:
+            of_robot(system.name, robot)
+            if robot in members or wanted.count(robot) > 1:
+                raise BadInput(f"{origin}: {robot} is a member twice; leave one out")
+        members.update(wanted)
+
+    return replace(
+        scene,
+        robots=robots,
+        objects=intact(objects, held),
+        surfaces=surfaces,
+        systems=intact(systems, manned),
+    )
+
+
+def _unique(origin: str) -> Callable[[Surface], None]:
+    taken: set[str] = set()
+
+    def check(surface: Surface) -> None:
+        if surface.name in taken:
+            raise BadInput(f"{origin} has two surfaces called {surface.name}; rename one")
+        taken.add(surface.name)
+
+    return check
+
+
+def _pose(entry: Record) -> Pose:
+    x, y, z = entry.value("position", VECTOR, (0.0, 0.0, 0.0))
+    a, b, c, d = entry.value("orientation", QUATERNION, (0.0, 0.0, 0.0, 1.0))
+    try:
+        return Pose((x, y, z), (a, b, c, d))
+    except BadInput as error:
+        raise entry.error(str(error)) from None
+
+
+def _robot(value: object, place: str) -> RobotEntry:
+    entry = Record(value, place, ROBOT_FIELDS)
+    return RobotEntry(
+        entry.required("name", NAME),
+        entry.required("model", NAME),
+        entry.value("end_effector", TEXT, ""),
+        _pose(entry),
+        entry.value("trajectory", TEXT, ""),
+        entry.value("at", POSITION, 0.0),
+        entry.value("rate", RATE, 1.0),
+        entry.value("loop", FLAG, False),
+    )
+
+
+def _object(value: object, place: str) -> ObjectEntry:
+    entry = Record(value, place, OBJECT_FIELDS)
+    holder, in_hand = entry.value("held_by", TEXT, ""), entry.record("in_hand", POSE_FIELDS)
+    if bool(holder) != (in_hand is not None):
+        raise entry.error("held_by and in_hand belong together; leave out both or none")
+    return ObjectEntry(
+        entry.required("name", NAME),
+        entry.required("type", NAME),
+        _pose(entry),
+        entry.value("automatic", FLAG, False),
+        holder,
+        None if in_hand is None else _pose(in_hand),
+    )
+
+
+def _surface(value: object, place: str) -> Surface:
+    entry = Record(value, place, SURFACE_FIELDS)
+    nothing = np.zeros((0, 3))
+    return Surface(
+        entry.required("name", FILLED_TEXT),
+        entry.value("label", TEXT, ""),
+        _pose(entry),
+        entry.value("vertices", VERTICES, nothing),
+        entry.value("triangles", TRIANGLES, nothing.astype(np.int32)),
+    )

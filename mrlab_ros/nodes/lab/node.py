@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
-import json
+import time
+from collections.abc import Sequence
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -14,22 +16,34 @@ from std_msgs.msg import String
 
 from mrlab_ros.adapters.robots.library import RobotLibrary
 from mrlab_ros.adapters.scenes.files import SceneFiles
+from mrlab_ros.adapters.scenes.state_file import StateFile
 from mrlab_ros.core.errors import BadInput, LabError
 from mrlab_ros.core.geometry import Pose
+from mrlab_ros.core.scene.document import RobotEntry, SceneDocument
+from mrlab_ros.core.scene.restore import counted, self_contained, with_pending
 from mrlab_ros.core.scene.robots import PlacedRobot, Scene
 from mrlab_ros.messages import qos
 from mrlab_ros.messages.poses import pose_from_message, pose_to_message, transforms_to_message
+from mrlab_ros.messages.scenes import robot_entry, system_entry
 from mrlab_ros.messages.time import make_header
 from mrlab_ros.nodes import parameters
+from mrlab_ros.nodes.lab.observer import Observer
+from mrlab_ros.nodes.lab.restore import LabRestore, Return
+from mrlab_ros.nodes.lab.scenes import Scenes
 from mrlab_ros.nodes.parameters import LabParameters
 from mrlab_ros.ros import share
 from mrlab_ros.ros.answers import answered
 from mrlab_ros.ros.parameters import ParameterNode
+from mrlab_ros.ros.spinning import Caller
 
 try:  # not among the ROS wheels; where it is missing, a client places robots by /robots
     from tf2_msgs.msg import TFMessage
 except ImportError:
     TFMessage = None
+
+FILE = "scene.json"
+# What robots have loaded and where they stand is written this often where it changed, s.
+SAVE_PERIOD_S = 2.0
 
 
 class LabNode(ParameterNode[LabParameters]):
@@ -49,9 +63,9 @@ class LabNode(ParameterNode[LabParameters]):
             parameter_overrides=parameter_overrides,
         )
         state_dir = self.parameters.state_dir
-        self._file = Path(state_dir) / "scene.json" if state_dir else None
-        folder = Path(state_dir) if state_dir else Path.home() / ".local" / "share" / "mrlab"
-        self._scenes = SceneFiles(share.directory() / "config" / "scenes", folder / "scenes")
+        log = self.get_logger()
+        file = Path(state_dir) / FILE if state_dir else None
+        self._file = StateFile(file, log.error, whole=True)
         self._library = RobotLibrary(share.directory() / "robots")
         self._scene = Scene()
         self._descriptions: dict[str, Publisher] = {}
@@ -59,17 +73,48 @@ class LabNode(ParameterNode[LabParameters]):
         self._transforms = (
             self.create_publisher(TFMessage, "/tf_static", qos.LATCHED) if TFMessage else None
         )
-        if self._file is not None and self._file.exists():
-            self._restore(self._file)
-        else:
+        # Service responses need a second executor thread: load_scene waits for them.
+        self._caller = Caller(self)
+        self._observer = Observer(self._caller.node)
+        self._restore = LabRestore(self._caller.node, self._observer, self)
+        folder = Path(state_dir) if state_dir else Path.home() / ".local" / "share" / "mrlab"
+        self._scenes = Scenes(
+            self._caller.node,
+            SceneFiles(share.directory() / "config" / "scenes", folder / "scenes"),
+            self._library,
+            self._observer,
+            self._restore,
+            self._document,
+        )
+        last = self._file.load()
+        if last is None:
             for model in self.parameters.robots:
                 self._spawn(model, None, "", None)
+            last = SceneDocument()
+        self._return = Return(
+            self._restore_robots(last), self._restore, self._observer, log.warning
+        )
         self._announce()
-        self.create_service(srv.SpawnRobot, "~/spawn_robot", self._on_spawn)
-        self.create_service(srv.PlaceRobot, "~/place_robot", self._on_place)
-        self.create_service(srv.SetEndEffector, "~/set_end_effector", self._on_end_effector)
-        self.create_service(srv.Remove, "~/remove_robot", self._on_remove)
-        self.create_service(srv.ListScenes, "~/list_scenes", self._on_list_scenes)
+        for kind, name, callback in (
+            (srv.SpawnRobot, "spawn_robot", self._on_spawn),
+            (srv.PlaceRobot, "place_robot", self._on_place),
+            (srv.SetEndEffector, "set_end_effector", self._on_end_effector),
+            (srv.Remove, "remove_robot", self._on_remove),
+            (srv.SceneFile, "save_scene", self._on_save_scene),
+            (srv.SceneFile, "load_scene", self._on_load_scene),
+            (srv.ListScenes, "list_scenes", self._on_list_scenes),
+        ):
+            self.create_service(kind, f"~/{name}", callback)
+        self.create_timer(SAVE_PERIOD_S, self._save)
+        self._return.start()
+
+    def destroy_node(self) -> None:
+        self._return.cancel()
+        self._save()
+        self._caller.close()
+        super().destroy_node()
+
+    # robots ---------------------------------------------------------------------------------
 
     def _spawn(
         self, model_id: str, end_effector: str | None, name: str, pose: Pose | None
@@ -111,34 +156,67 @@ class LabNode(ParameterNode[LabParameters]):
         self._robots.publish(msg.Robots(header=make_header(now_ns, "world"), robots=robots))
         if self._transforms is not None:
             self._transforms.publish(transforms_to_message(now_ns, TFMessage, robots))
-        if self._file is not None:
-            self._save(self._file)
+        self._observer.follow([robot.name for robot in robots])
+        self._save()
 
-    def _save(self, file: Path) -> None:
-        """Write the scene so that a restarted lab has it back; a reader sees all or nothing."""
-        scene = [
-            {
-                "name": r.name,
-                "model": r.model,
-                "end_effector": r.end_effector,
-                "position": r.pose.position,
-                "orientation": r.pose.orientation,
-            }
-            for r in self._scene.robots
-        ]
-        file.parent.mkdir(parents=True, exist_ok=True)
-        new = file.with_suffix(".new")
-        new.write_text(json.dumps(scene, indent=1))
-        new.replace(file)
+    def spawn(self, robots: Sequence[RobotEntry]) -> None:
+        """Put the robots of a document into the scene; raise LabError where one cannot be."""
+        try:
+            for robot in robots:
+                self._spawn_entry(robot)
+        finally:
+            self._announce()
 
-    def _restore(self, file: Path) -> None:
-        for r in json.loads(file.read_text()):
+    def _spawn_entry(self, robot: RobotEntry) -> None:
+        self._spawn(robot.model, robot.end_effector or None, robot.name, robot.pose)
+
+    def remove(self, names: Sequence[str]) -> None:
+        """Take robots out of the scene; raise LabError where one is not there."""
+        try:
+            for name in names:
+                self._remove(name)
+        finally:
+            self._announce()
+
+    def _remove(self, name: str) -> None:
+        self._scene.remove(name)
+        self.destroy_publisher(self._descriptions.pop(name))
+
+    # what a restart brings back ---------------------------------------------------------------
+
+    def _document(self) -> SceneDocument:
+        """Return the robots with what they have loaded, and the systems."""
+        now_ns = time.time_ns()
+        observer = self._observer
+        scene = SceneDocument(
+            robots=tuple(
+                robot_entry(robot, observer.state(robot.name), now_ns)
+                for robot in self._scene.robots
+            ),
+            systems=tuple(system_entry(system, now_ns) for system in observer.systems or ()),
+        )
+        return self_contained(with_pending(scene, self._return.pending))
+
+    def _save(self) -> None:
+        self._file.save(self._document())
+
+    def _restore_robots(self, last: SceneDocument) -> SceneDocument:
+        """Spawn the robots of the last run; return the document without those that cannot be."""
+        restored, mistakes = [], []
+        for robot in last.robots:
             try:
-                pose = Pose(tuple(r["position"]), tuple(r["orientation"]))
-                self._spawn(r["model"], r["end_effector"], r["name"], pose)
+                self._spawn_entry(robot)
             except LabError as error:
-                self.get_logger().error(f"{r['name']} of the last scene is left out: {error}")
-        self.get_logger().info(f"the scene is back: {len(self._scene.robots)} robots")
+                mistakes.append(f"{robot.name}: {error}")
+            else:
+                restored.append(robot)
+        if mistakes:
+            self._file.keep_copy(f"left out of the last run: {'; '.join(mistakes)}")
+        if restored:
+            self.get_logger().info(f"the scene is back: {counted(restored, 'robot')}")
+        return self_contained(replace(last, robots=tuple(restored)))
+
+    # services ---------------------------------------------------------------------------------
 
     @answered
     def _on_spawn(self, request: Any, response: Any) -> str:
@@ -172,10 +250,17 @@ class LabNode(ParameterNode[LabParameters]):
 
     @answered
     def _on_remove(self, request: Any, response: Any) -> str:
-        self._scene.remove(request.name)
-        self.destroy_publisher(self._descriptions.pop(request.name))
-        self._announce()
+        self.remove([request.name])
         return f"{request.name} is removed"
+
+    @answered
+    def _on_save_scene(self, request: Any, response: Any) -> str:
+        return self._scenes.save(request.name)
+
+    @answered
+    def _on_load_scene(self, request: Any, response: Any) -> str:
+        self._return.finish()
+        return self._scenes.load(request.name, [robot.name for robot in self._scene.robots])
 
     def _on_list_scenes(self, request: Any, response: Any) -> Any:
         response.scenes = self._scenes.names()

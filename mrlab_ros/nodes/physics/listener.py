@@ -41,11 +41,6 @@ class Followed:
     program: GripperProgram = field(default_factory=GripperProgram)
     playing: Playing = field(default_factory=Playing)
 
-    @property
-    def described(self) -> bool:
-        """Whether its description was read, and the robot put into the world if it could be."""
-        return self.built != ("", "")
-
 
 class GraphListener:
     """Keeps a world as the graph says, in a thread of its own that also calls `turn`.
@@ -70,9 +65,8 @@ class GraphListener:
         self._lock = lock
         self._log = node.get_logger()
         self.robots: dict[str, Followed] = {}
-        self.systems: list[msg.RobotSystem] = []
-        # Whether the lab has said which robots there are.
-        self.heard = False
+        # The names in the newest /robots; None before the first one.
+        self.known_robots: frozenset[str] | None = None
         self._node = Node(
             "physics_ear",
             context=node.context,
@@ -81,7 +75,6 @@ class GraphListener:
         )
         self._thread = WaitSetThread(node.context, "physics", turn, self._on_error)
         self._hear(msg.Robots, "/robots", self._on_robots, qos.LATCHED)
-        self._hear(msg.RobotSystems, "/systems", self._on_systems, qos.LATCHED)
 
     def start(self) -> None:
         self._thread.start()
@@ -109,12 +102,9 @@ class GraphListener:
         said = error if isinstance(error, LabError) else repr(error)
         self._log.error(f"physics: {said}", throttle_duration_sec=1.0)
 
-    def _on_systems(self, message: msg.RobotSystems) -> None:
-        self.systems = list(message.systems)
-
     def _on_robots(self, message: msg.Robots) -> None:
         wanted = {robot.name: robot for robot in message.robots}
-        self.heard = True
+        self.known_robots = frozenset(wanted)
         for name, known in list(self.robots.items()):
             if name not in wanted or wanted[name].model != known.robot.model:
                 self._forget(name)

@@ -25,7 +25,6 @@ from mrlab_ros.messages import qos
 from mrlab_ros.messages.definitions import definition
 from mrlab_ros.messages.time import make_header
 from mrlab_ros.nodes import parameters
-from mrlab_ros.nodes.lab.memory import LabRestore
 from mrlab_ros.nodes.parameters import RecorderParameters
 from mrlab_ros.nodes.recorder.attachments import SessionContent, versions
 from mrlab_ros.nodes.recorder.recording import Recording
@@ -64,7 +63,6 @@ class RecorderNode(ParameterNode[RecorderParameters]):
             use_global_arguments=False,
         )
         self._caller = Caller(self)
-        self._memory = LabRestore(self._caller, self.get_logger().warning)
         # Guards the machine and what its state is about; nothing slow is done under it.
         self._lock = threading.RLock()
         self._machine = Machine(TABLE, self._reason)
@@ -103,7 +101,6 @@ class RecorderNode(ParameterNode[RecorderParameters]):
             self._end(RecorderEvent.CLOSE)
         except LabError as error:
             self.get_logger().error(str(error))
-        self._memory.close()
         self._caller.close()
         self._streams.destroy_node()
         super().destroy_node()
@@ -183,7 +180,6 @@ class RecorderNode(ParameterNode[RecorderParameters]):
         bag = Bag(path if path.is_absolute() or path.exists() else self._folder / path)
         timeline = ReplayTimeline(bag.duration, request.rate, request.start, request.loop)
         replaying = Replaying(self._streams, bag, timeline, self._on_replay_end)
-        self._memory.remember()
         with self._lock:
             self._machine.fire(RecorderEvent.REPLAY)
             self._preparing, self._trouble = bag, ""
@@ -202,7 +198,6 @@ class RecorderNode(ParameterNode[RecorderParameters]):
                 self._machine.fire(RecorderEvent.FAIL)
                 self._replaying = self._preparing = None
             self._close(replaying)
-            self._memory.restore()
             raise
         finally:
             self._tell()
@@ -224,7 +219,6 @@ class RecorderNode(ParameterNode[RecorderParameters]):
             self._replaying, self._trouble = None, trouble
         self.get_logger().info(f"the replay of {replaying.bag.path} is over")
         self._tell()
-        self._memory.restore()
 
     def _close(self, replaying: Replaying) -> None:
         """Take the bag out of the graph, before the lab hears that it may come back."""
@@ -305,8 +299,6 @@ class RecorderNode(ParameterNode[RecorderParameters]):
         finally:
             if self.context.ok():
                 self._tell()
-                if replaying is not None:
-                    self._memory.restore()
         if recording is not None:
             said = f"{recording.folder} holds {recording.messages} messages"
             if self.context.ok():

@@ -11,7 +11,6 @@ import pytest
 
 from mrlab_ros.adapters.bullet.engine import BulletEngine
 from mrlab_ros.adapters.robots.library import RobotLibrary
-from mrlab_ros.adapters.scenes.files import SceneFiles
 from mrlab_ros.adapters.yaml_files import read_yaml
 from mrlab_ros.core.clock import SECOND, PlaybackClock
 from mrlab_ros.core.errors import BadInput, Misuse
@@ -25,7 +24,6 @@ from mrlab_ros.core.physics.simulated_robot import GripperProgram, Playing
 from mrlab_ros.core.physics.surfaces import Surface
 from mrlab_ros.core.physics.world import World
 from mrlab_ros.core.playback.states import State
-from mrlab_ros.core.scene.document import SceneDocument, parse, plain
 
 ROOT = Path(__file__).parents[4]
 LIBRARY = RobotLibrary(ROOT / "robots")
@@ -319,44 +317,3 @@ def test_input_that_would_end_bullet_is_refused_before(engine):
         with pytest.raises((BadInput, Misuse)):
             case()
     engine.step(STEP)
-
-
-def test_the_shipped_scenes_hold_known_robots_and_objects_and_survive_saving(tmp_path):
-    files = SceneFiles(ROOT / "config" / "scenes", tmp_path)
-    assert files.names() == ("empty", "handover", "obstacle_course", "pick_and_place", "table")
-    for name in files.names():
-        scene = files.load(name)
-        assert {r.model for r in scene.robots} <= set(LIBRARY.ids())
-        assert {o.type for o in scene.objects} <= set(TYPES.ids)
-        assert parse(plain(scene), name).robots == scene.robots
-    corners = np.array([[-1, -1, 0], [1, -1, 0], [1, 1, 0.0]])
-    room = Surface("wall", "wall", Pose((1, 0, 0)), corners, np.zeros((0, 3), np.int32))
-    files.save("mine", SceneDocument(surfaces=(room,)))
-    (again,) = files.load("mine").surfaces
-    assert np.array_equal(again.vertices, corners)
-    assert (again.name, again.pose) == ("wall", room.pose)
-
-
-@pytest.mark.parametrize(
-    ("text", "says"),
-    [
-        ("robots: [{name: A}]", r"robots\[0\]: name is 'A'"),
-        ("cows: 1", "expected about, robots"),
-        ("objects: [{name: a, type: cube, position: [0, 0]}]", "expected 3 numbers"),
-        ("objects: [{name: a, type: cube, position: [0, 0, .nan]}]", "not finite"),
-        ("objects: [{name: a, type: cube}, {name: a, type: cube}]", "names the object a twice"),
-        ("surfaces: [{name: a, vertices: [1, 2]}]", "no list of three"),
-        ("systems: [{name: s, mode: 7}]", "mode 7"),
-        ("[", "cannot be read"),
-    ],
-)
-def test_scene_files_that_are_none_are_refused(tmp_path, text, says):
-    (tmp_path / "bad.yaml").write_text(text)
-    with pytest.raises(BadInput, match=says):
-        SceneFiles(ROOT, tmp_path).load("bad")
-
-
-@pytest.mark.parametrize("name", ["../x", "", "A", "no_such"])
-def test_scene_names_that_are_none_are_refused(tmp_path, name):
-    with pytest.raises(BadInput):
-        SceneFiles(tmp_path, tmp_path).load(name)

@@ -6,9 +6,16 @@ import pytest
 import yaml
 
 from mrlab_ros.core.errors import BadInput
-from mrlab_ros.core.systems.cell_file import read
+from mrlab_ros.core.scene.document import parse_cell
+from mrlab_ros.core.systems.cell_file import plain_system
 from mrlab_ros.core.systems.robot_system import Policy
 from mrlab_ros.core.systems.timeline import Mode
+
+
+def read(document):
+    (system,) = parse_cell(document, "the system file")
+    return system
+
 
 FULL = """
 name: cell
@@ -36,14 +43,25 @@ def test_a_full_file_is_read_as_written():
         True,
     )
     first, second = cell.members
-    assert (first.robot, first.trajectory_id, first.dwell) == ("ur5e_1", "handover_ur5e", 0.5)
-    assert [w.text for w in first.waits] == ["frame 0: after kr6_1.frame 120"]
-    assert [w.text for w in second.waits] == [
+    assert (first.robot, first.trajectory, first.dwell) == ("ur5e_1", "handover_ur5e", 0.5)
+    assert list(first.waits) == ["frame 0: after kr6_1.frame 120"]
+    assert list(second.waits) == [
         "frame 0: object cube_1 held by ur5e_1",
         "frame 0: object cube_2 free",
         "frame 200: after ur5e_1.frame 7",
         "frame 200: object cube_1 free",
     ]
+
+
+def test_what_is_written_is_read_back_the_same():
+    cell = read(yaml.safe_load(FULL))
+    assert read(plain_system(cell)) == cell
+    assert parse_cell({"systems": [plain_system(cell)]}, "cell") == (cell,)
+
+
+def test_mode_and_policy_may_be_numbers_as_in_a_message():
+    cell = read({"mode": 1, "policy": 1, "members": [{"robot": "a"}]})
+    assert (cell.mode, cell.policy) == (Mode.SEQUENTIAL, Policy.HALT_MEMBER)
 
 
 def test_the_least_is_a_list_of_robots():
@@ -63,7 +81,12 @@ def test_the_least_is_a_list_of_robots():
         ("", "the system file is empty; expected a mapping with the fields name, mode"),
         ("members: []", "members is empty; expected a list of at least one robot"),
         ("members: ur5e_1", "members is 'ur5e_1'; expected a list"),
-        ("robots: [a]", "'robots' is unknown; expected name, mode"),
+        ("robot: [a]", "'robot' is unknown; expected name, mode"),
+        ("robots: [{name: a, model: ur5e}]", "holds robots; a cell has systems alone"),
+        ("systems: []", "holds no system"),
+        ("mode: true\nmembers: [{robot: a}]", "mode is true; expected parallel or sequential"),
+        ("rate: 5\nmembers: [{robot: a}]", "rate is 5; expected a number from 0.1 to 4"),
+        ("at: -1\nmembers: [{robot: a}]", "at is -1; expected a number from 0"),
         ("members: [ur5e_1]", "member 1 is 'ur5e_1'; expected a mapping with the fields robot"),
         ("members: [{trajectory: x}]", "member 1: robot is missing"),
         ("members: [{robot: a, trajektory: x}]", "did you mean 'trajectory'"),

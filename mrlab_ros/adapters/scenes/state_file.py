@@ -1,0 +1,89 @@
+"""The document that a node keeps for its restart. A damaged one never stops the node."""
+
+from __future__ import annotations
+
+import os
+import shutil
+import time
+from collections.abc import Callable
+from pathlib import Path
+
+from mrlab_ros.adapters.scenes import files
+from mrlab_ros.core.errors import BadInput
+from mrlab_ros.core.scene import document
+from mrlab_ros.core.scene.document import SceneDocument
+
+
+class StateFile:
+    """One JSON file below a node's state folder; without a path nothing is kept.
+
+    whole: as in document.parse(). log: takes what went wrong.
+    """
+
+    def __init__(self, path: Path | None, log: Callable[[str], None], *, whole: bool) -> None:
+        self._path = path
+        self._log = log
+        self._whole = whole
+        self._saved: SceneDocument | None = None
+        self._failed = ""
+
+    def load(self) -> SceneDocument | None:
+        """Return what is kept, None where nothing is.
+
+        A damaged file is renamed and logged. Of one with damaged entries the rest is returned,
+        and a copy is kept as it was.
+        """
+        path = self._path
+        if path is None or not os.path.lexists(path):
+            return None
+        try:
+            scene, mistakes = document.parse_intact(
+                files.content(path), path.name, whole=self._whole
+            )
+        except BadInput as error:
+            self._log(f"{error}. {_set_aside(path)}; the lab starts without it")
+            return None
+        if mistakes:
+            self.keep_copy(f"left out of {path}: {'; '.join(mistakes)}")
+        return scene
+
+    def keep_copy(self, why: str) -> None:
+        """Log why a part of the file is left out; copy it, as the next save() replaces it."""
+        if self._path is not None:
+            self._log(f"{why}. {_set_aside(self._path, copy=True)}")
+
+    def save(self, scene: SceneDocument) -> bool:
+        """Write the document where it differs from the last one; return whether it is kept.
+
+        A failure is logged once, until it is another one.
+        """
+        if self._path is None or scene == self._saved:
+            return True
+        try:
+            files.write(self._path, scene)
+        except OSError as error:
+            said = f"{self._path} cannot be written, a restart will not know: {error.strerror}"
+            if said != self._failed:
+                self._log(said)
+            self._failed = said
+            return False
+        self._saved, self._failed = scene, ""
+        return True
+
+
+def _set_aside(path: Path, *, copy: bool = False) -> str:
+    """Rename or copy a damaged file to NAME.damaged-TIME; return a sentence that says so."""
+    stamp = time.strftime("%Y-%m-%dT%H-%M-%S")
+    number = 1
+    aside = path.with_name(f"{path.name}.damaged-{stamp}")
+    while os.path.lexists(aside):
+        number += 1
+        aside = path.with_name(f"{path.name}.damaged-{stamp}-{number}")
+    try:
+        if copy:
+            shutil.copy2(path, aside)
+        else:
+            path.rename(aside)
+    except OSError as error:
+        return f"It cannot be set aside: {error.strerror}"
+    return f"The file is {'kept as' if copy else 'now'} {aside.name}"

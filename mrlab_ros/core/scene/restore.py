@@ -1,0 +1,289 @@
+"""Which steps lead from what the lab holds to what a document says: the one restore.
+
+A saved scene replaces all that is there. After a restart or a replay only what is missing comes
+back. Nothing here acts: the lab node checks a plan's document, then runs its steps.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, field, replace
+
+from mrlab_ros.core.errors import BadInput, LabError
+from mrlab_ros.core.physics.surfaces import Surface
+from mrlab_ros.core.scene.document import ObjectEntry, RobotEntry, SceneDocument, SystemEntry
+from mrlab_ros.core.systems.members import Loaded, Order, Reply
+from mrlab_ros.core.systems.robot_system import RobotSystem
+from mrlab_ros.core.systems.timeline import Member
+from mrlab_ros.core.systems.waits import parse as parse_wait
+
+
+@dataclass(frozen=True)
+class Present:
+    """What the lab holds. loaded: by robot the trajectory that its playback has loaded, empty
+    for none; a robot whose playback is unknown is left out. physics: whether it runs."""
+
+    robots: frozenset[str] = frozenset()
+    loaded: Mapping[str, str] = field(default_factory=dict)
+    systems: frozenset[str] = frozenset()
+    physics: bool = False
+
+
+@dataclass(frozen=True)
+class DissolveSystems:
+    names: tuple[str, ...]
+
+    def __str__(self) -> str:
+        return f"dissolve {', '.join(self.names)}"
+
+
+@dataclass(frozen=True)
+class RemoveRobots:
+    """Remove them, and wait until their playbacks and their arms in physics are gone."""
+
+    names: tuple[str, ...]
+
+    def __str__(self) -> str:
+        return f"remove {', '.join(self.names)}"
+
+
+@dataclass(frozen=True)
+class SetObjects:
+    """Replace all objects and surfaces; physics lets robots hold theirs as they come."""
+
+    objects: tuple[ObjectEntry, ...]
+    surfaces: tuple[Surface, ...]
+
+    def __str__(self) -> str:
+        return f"set {counted(self.objects, 'object')} and {counted(self.surfaces, 'surface')}"
+
+
+@dataclass(frozen=True)
+class SpawnRobots:
+    robots: tuple[RobotEntry, ...]
+
+    def __str__(self) -> str:
+        return f"spawn {', '.join(robot.name for robot in self.robots)}"
+
+
+@dataclass(frozen=True)
+class LoadTrajectory:
+    """Load a robot's trajectory, with its rate, loop and position."""
+
+    robot: RobotEntry
+
+    def __str__(self) -> str:
+        return f"load {self.robot.trajectory} into {self.robot.name}"
+
+
+@dataclass(frozen=True)
+class CreateSystem:
+    """Create a system whose members all name their trajectories; set its rate and position."""
+
+    system: SystemEntry
+
+    def __str__(self) -> str:
+        return f"create the system {self.system.name}"
+
+
+@dataclass(frozen=True)
+class AwaitGrasps:
+    """Wait until physics announces that the robots hold their objects."""
+
+    objects: tuple[ObjectEntry, ...]
+
+    def __str__(self) -> str:
+        return f"grip {', '.join(f'{o.name} with {o.held_by}' for o in self.objects)}"
+
+
+Step = (
+    DissolveSystems
+    | RemoveRobots
+    | SetObjects
+    | SpawnRobots
+    | LoadTrajectory
+    | CreateSystem
+    | AwaitGrasps
+)
+
+
+def plan_scene(wanted: SceneDocument, present: Present) -> tuple[Step, ...]:
+    """Return the steps that replace all that is there by what the document says."""
+    steps: list[Step] = []
+    if present.systems:
+        steps.append(DissolveSystems(tuple(sorted(present.systems))))
+    if present.robots:
+        steps.append(RemoveRobots(tuple(sorted(present.robots))))
+    if present.physics:
+        # Before the robots come: fingers can only close on what is there.
+        steps.append(SetObjects(wanted.objects, wanted.surfaces))
+    steps += plan_return(wanted, Present())
+    held = tuple(thing for thing in wanted.objects if thing.held_by)
+    if held and present.physics:
+        steps.append(AwaitGrasps(held))
+    return tuple(steps)
+
+
+def plan_return(wanted: SceneDocument, present: Present) -> tuple[Step, ...]:
+    """Return the steps that bring back what is missing, and leave alone what is there.
+
+    Objects and surfaces are not part of it: physics brings back its own.
+    """
+    steps: list[Step] = []
+    missing = tuple(robot for robot in wanted.robots if robot.name not in present.robots)
+    if missing:
+        steps.append(SpawnRobots(missing))
+    # The trajectory of a member is its system's to load, and the position the system's to seek.
+    steps += [
+        LoadTrajectory(robot)
+        for robot in wanted.robots
+        if robot.trajectory
+        and robot.name not in wanted.driven
+        and not present.loaded.get(robot.name)
+    ]
+    steps += [
+        CreateSystem(_complete(system, wanted.robots))
+        for system in wanted.systems
+        if system.name not in present.systems
+    ]
+    return tuple(steps)
+
+
+def left_out(wanted: SceneDocument, present: Present) -> str:
+    """Return a sentence that names what the lab cannot bring back; empty: nothing."""
+    if present.physics or not (wanted.objects or wanted.surfaces):
+        return ""
+    parts = [
+        counted(entries, what)
+        for entries, what in ((wanted.objects, "object"), (wanted.surfaces, "surface"))
+        if entries
+    ]
+    several = len(wanted.objects) + len(wanted.surfaces) > 1
+    return f"{' and '.join(parts)} {'are' if several else 'is'} left out: no physics runs"
+
+
+def with_pending(scene: SceneDocument, pending: SceneDocument) -> SceneDocument:
+    """Return the scene with what is about to be restored in it, in place of what is not yet."""
+    robots = {robot.name: robot for robot in pending.robots}
+    restored = []
+    for robot in scene.robots:
+        before = robots.get(robot.name)
+        if before is not None:
+            robot = replace(
+                robot,
+                trajectory=before.trajectory,
+                at=before.at,
+                rate=before.rate,
+                loop=before.loop,
+            )
+        restored.append(robot)
+    names = {system.name for system in scene.systems}
+    systems = [system for system in pending.systems if system.name not in names]
+    return replace(scene, robots=tuple(restored), systems=(*scene.systems, *systems))
+
+
+def self_contained(scene: SceneDocument) -> SceneDocument:
+    """Return the scene without what names robots that are not in it.
+
+    Its parts come from several nodes: a robot may leave between two of them.
+    """
+    robots = {robot.name for robot in scene.robots}
+    return replace(
+        scene,
+        objects=tuple(
+            thing if thing.held_by in robots else replace(thing, held_by="", in_hand=None)
+            for thing in scene.objects
+        ),
+        systems=tuple(
+            system
+            for system in scene.systems
+            if all(member.robot in robots for member in system.members)
+        ),
+    )
+
+
+def run(steps: Sequence[Step], execute: Callable[[Step], None]) -> None:
+    """Run the steps in order; raise LabError that names what was done and what was not."""
+    for i, step in enumerate(steps):
+        try:
+            execute(step)
+        except LabError as error:
+            done = "; ".join(map(str, steps[:i])) or "nothing"
+            rest = f". Not tried: {'; '.join(map(str, steps[i + 1 :]))}" * (i + 1 < len(steps))
+            raise LabError(
+                f"the scene is loaded in part. Done: {done}. Failed: {step}: {error}{rest}. Load "
+                "it again"
+            ) from error
+
+
+def check_trajectories(
+    wanted: SceneDocument, catalogue: Callable[[RobotEntry], Sequence[Loaded]]
+) -> None:
+    """Raise BadInput where a robot or a system cannot have the trajectories it names.
+
+    catalogue: returns the trajectories that fit a robot with its end effector.
+    """
+    fitting: dict[str, Mapping[str, Loaded]] = {}
+    robots = {robot.name: robot for robot in wanted.robots}
+
+    def fits(name: str, trajectory: str) -> Loaded:
+        if name not in fitting:
+            fitting[name] = {t.trajectory_id: t for t in catalogue(robots[name])}
+        if trajectory not in fitting[name]:
+            known = ", ".join(fitting[name]) or "none"
+            raise BadInput(
+                f"the scene wants {name} to play '{trajectory}', which the catalogue does not "
+                f"have for it; there are: {known}. Convert the file, then load again"
+            )
+        return fitting[name][trajectory]
+
+    for robot in wanted.robots:
+        if robot.trajectory and robot.name not in wanted.driven:
+            loaded = fits(robot.name, robot.trajectory)
+            if robot.at > loaded.duration:
+                raise BadInput(
+                    f"the scene wants {robot.name} at {robot.at:g} s of '{robot.trajectory}', "
+                    f"which lasts {loaded.duration:g} s; convert that trajectory's file again"
+                )
+    for system in wanted.systems:
+        members = []
+        for m in _complete(system, wanted.robots).members:
+            if not m.trajectory:
+                raise BadInput(
+                    f"the system {system.name} names no trajectory for {m.robot}; name one of the "
+                    "catalogue"
+                )
+            waits = tuple(map(parse_wait, m.waits))
+            members.append(Member(m.robot, m.trajectory, m.dwell, waits))
+        # As the coordinator will create it, with the catalogue in place of the robots.
+        RobotSystem(
+            system.name, members, _Rehearsal(fits), system.mode, system.policy, system.loop
+        ).prepare()
+
+
+class _Rehearsal:
+    """A Fleet whose robots have loaded what a catalogue holds."""
+
+    def __init__(self, fits: Callable[[str, str], Loaded]) -> None:
+        self._fits = fits
+
+    def prepare(self, robot: str, trajectory_id: str) -> Loaded:
+        return self._fits(robot, trajectory_id)
+
+    def drive(self, orders: Sequence[Order]) -> list[Reply]:
+        raise NotImplementedError
+
+
+def _complete(system: SystemEntry, robots: Sequence[RobotEntry]) -> SystemEntry:
+    """Return the system whose members play what their robots have where they name nothing."""
+    loaded = {robot.name: robot.trajectory for robot in robots}
+    members = [
+        replace(member, trajectory=member.trajectory or loaded.get(member.robot, ""))
+        for member in system.members
+    ]
+    return replace(system, members=tuple(members))
+
+
+def counted(entries: Sequence[object], what: str) -> str:
+    """Return '1 robot', '2 robots'."""
+    return f"{len(entries)} {what}{'s' * (len(entries) != 1)}"

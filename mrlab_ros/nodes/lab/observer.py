@@ -1,0 +1,85 @@
+"""What the other nodes publish of the lab's robots and systems."""
+
+from __future__ import annotations
+
+import threading
+import time
+from collections.abc import Callable, Collection
+from functools import partial
+
+from mrlab_msgs import msg
+from rclpy.node import Node
+from rclpy.subscription import Subscription
+
+from mrlab_ros.messages import qos
+
+POLL_PERIOD_S = 0.02
+
+
+class Observer:
+    """Keeps the newest playback state of each robot and the newest list of systems.
+
+    node: is spun by another thread than the one that asks.
+    """
+
+    def __init__(self, node: Node) -> None:
+        self._node = node
+        self._lock = threading.Lock()
+        self._states: dict[str, msg.PlaybackState] = {}
+        self._systems: msg.RobotSystems | None = None
+        self._subscriptions: dict[str, Subscription] = {}
+        # Counts what was received, so that a caller sees whether something changed.
+        self.received = 0
+        node.create_subscription(
+            msg.RobotSystems, "/systems", self._on_systems, qos.LATCHED_EVENTS
+        )
+
+    def follow(self, robots: Collection[str]) -> None:
+        """Observe exactly these robots; forget the others."""
+        for name in self._subscriptions.keys() - set(robots):
+            self._node.destroy_subscription(self._subscriptions.pop(name))
+            with self._lock:
+                self._states.pop(name, None)
+        for name in set(robots) - self._subscriptions.keys():
+            self._subscriptions[name] = self._node.create_subscription(
+                msg.PlaybackState,
+                f"/{name}/playback_state",
+                partial(self._on_state, name),
+                qos.LATCHED_EVENTS,
+            )
+
+    def state(self, robot: str) -> msg.PlaybackState | None:
+        """Return the robot's newest playback state, None before the first."""
+        with self._lock:
+            return self._states.get(robot)
+
+    @property
+    def systems(self) -> tuple[msg.RobotSystem, ...] | None:
+        """The systems that a coordinator published last; None before the first list."""
+        with self._lock:
+            return None if self._systems is None else tuple(self._systems.systems)
+
+    def published(self, topics: Collection[str]) -> bool:
+        """Return whether somebody publishes one of the topics."""
+        return any(map(self._node.count_publishers, topics))
+
+    def wait_for(self, condition: Callable[[], bool], timeout: float) -> bool:
+        """Return whether `condition` became true within `timeout`, s."""
+        deadline = time.monotonic() + timeout
+        while not condition():
+            if time.monotonic() > deadline or not self._node.context.ok():
+                return False
+            time.sleep(POLL_PERIOD_S)
+        return True
+
+    def _on_state(self, robot: str, message: msg.PlaybackState) -> None:
+        with self._lock:
+            # A message of a robot that was just removed may still be on its way.
+            if robot in self._subscriptions:
+                self._states[robot] = message
+                self.received += 1
+
+    def _on_systems(self, message: msg.RobotSystems) -> None:
+        with self._lock:
+            self._systems = message
+            self.received += 1

@@ -1,0 +1,280 @@
+"""Runs the steps of a restore: the same for a scene, a restart and the end of a replay."""
+
+from __future__ import annotations
+
+import threading
+import time
+from collections.abc import Callable, Sequence
+from dataclasses import replace
+from typing import Any, Protocol
+
+from mrlab_msgs import msg, srv
+from rclpy.client import Client
+from rclpy.node import Node
+from std_srvs.srv import SetBool
+
+from mrlab_ros.core.errors import LabError, Misuse
+from mrlab_ros.core.physics.surfaces import Surface
+from mrlab_ros.core.scene.document import ObjectEntry, RobotEntry, SceneDocument, SystemEntry
+from mrlab_ros.core.scene.restore import (
+    AwaitGrasps,
+    CreateSystem,
+    DissolveSystems,
+    LoadTrajectory,
+    Present,
+    RemoveRobots,
+    SetObjects,
+    SpawnRobots,
+    Step,
+    plan_return,
+)
+from mrlab_ros.messages import qos
+from mrlab_ros.messages.physics import surface_to_message
+from mrlab_ros.messages.scenes import create_system_request, placement_to_message
+from mrlab_ros.nodes.lab.observer import Observer
+from mrlab_ros.ros.calls import NoAnswer, call
+
+# A change reaches the other nodes after this, s, or something is wrong.
+ARRIVAL_TIMEOUT_S = 10.0
+# Fingers close, or the object is attached, after this, s.
+GRASP_TIMEOUT_S = 10.0
+# A coordinator that did not receive /robots yet refuses a system; a refusal counts after this, s.
+REFUSAL_TIMEOUT_S = 2.0
+RETRY_PERIOD_S = 0.1
+# Loading a trajectory, creating a system or setting all objects takes this at most, s.
+LOAD_TIMEOUT_S = 15.0
+# The other nodes of a lab that is started are there after this, s.
+START_TIMEOUT_S = 20.0
+
+
+class Robots(Protocol):
+    """The lab's own robots."""
+
+    def spawn(self, robots: Sequence[RobotEntry]) -> None: ...
+
+    def remove(self, names: Sequence[str]) -> None: ...
+
+
+class LabRestore:
+    """Executes one step after another on the graph.
+
+    caller: a node that another thread spins than the one that waits here.
+    """
+
+    def __init__(self, caller: Node, observer: Observer, robots: Robots) -> None:
+        self._caller = caller
+        self._observer = observer
+        self._robots = robots
+
+    def execute(self, step: Step) -> None:
+        """Execute a step and wait for its effect; raise LabError where it fails."""
+        match step:
+            case DissolveSystems(names):
+                for name in names:
+                    request = srv.Remove.Request(name=name)
+                    self.order(srv.Remove, "/coordinator/dissolve_system", request)
+            case RemoveRobots(names):
+                self._remove(names)
+            case SetObjects(objects, surfaces):
+                self.set_objects(objects, surfaces)
+            case SpawnRobots(robots):
+                self._robots.spawn(robots)
+            case LoadTrajectory(robot):
+                self._load(robot)
+            case CreateSystem(system):
+                self._create(system)
+            case AwaitGrasps(objects):
+                self._await_grasps({thing.name: thing.held_by for thing in objects})
+
+    def order(self, kind: Any, service: str, request: Any) -> Any:
+        """Call a service; return its answer, raise Misuse where it refuses."""
+        client: Client = self._caller.create_client(kind, service)
+        try:
+            answer = call(client, request, LOAD_TIMEOUT_S)
+        finally:
+            self._caller.destroy_client(client)
+        if not answer.success:
+            raise Misuse(answer.message)
+        return answer
+
+    def set_objects(
+        self,
+        objects: Sequence[ObjectEntry],
+        surfaces: Sequence[Surface],
+        *,
+        dry_run: bool = False,
+    ) -> None:
+        """Replace all objects and surfaces; dry_run: only check them, which changes nothing."""
+        request = srv.SetObjects.Request(
+            objects=list(map(placement_to_message, objects)),
+            surfaces=list(map(surface_to_message, surfaces)),
+            dry_run=dry_run,
+        )
+        self.order(srv.SetObjects, "/physics/set_objects", request)
+
+    def _wait_for(self, condition: Callable[[], bool], what: str, timeout: float) -> None:
+        if not self._observer.wait_for(condition, timeout):
+            raise NoAnswer(f"waited {timeout:g} s for {what}")
+
+    def _remove(self, names: Sequence[str]) -> None:
+        self._robots.remove(names)
+        # A robot of the same name must begin anew, in its playback and in physics.
+        topics = [
+            f"/{name}/{topic}" for name in names for topic in ("playback_state", "collision")
+        ]
+        self._wait_for(
+            lambda: not self._observer.published(topics),
+            f"the playback and physics of {', '.join(names)} to end",
+            ARRIVAL_TIMEOUT_S,
+        )
+
+    def _load(self, robot: RobotEntry) -> None:
+        name = robot.name
+        load = srv.LoadTrajectory.Request(id=robot.trajectory)
+        self.order(srv.LoadTrajectory, f"/{name}/load", load)
+        self._set_rate(name, robot.rate)
+        if robot.loop:
+            self.order(SetBool, f"/{name}/set_loop", SetBool.Request(data=True))
+        self._seek(name, robot.at)
+
+    def _set_rate(self, name: str, rate: float) -> None:
+        if rate != 1.0:
+            self.order(srv.SetRate, f"/{name}/set_rate", srv.SetRate.Request(rate=rate))
+
+    def _seek(self, name: str, position: float) -> None:
+        if position > 0:
+            self.order(srv.Seek, f"/{name}/seek", srv.Seek.Request(position=position))
+
+    def _create(self, system: SystemEntry) -> None:
+        self._wait_for(
+            lambda: all(self._observer.state(m.robot) is not None for m in system.members),
+            f"the playbacks of {', '.join(m.robot for m in system.members)}",
+            ARRIVAL_TIMEOUT_S,
+        )
+        service = "/coordinator/create_system"
+        request = create_system_request(system)
+        deadline = time.monotonic() + REFUSAL_TIMEOUT_S
+        while True:
+            try:
+                made = self.order(srv.CreateSystem, service, request).system
+                break
+            except Misuse:
+                if time.monotonic() > deadline:
+                    raise
+                time.sleep(RETRY_PERIOD_S)
+        self._set_rate(system.name, system.rate)
+        self._seek(system.name, min(system.at, made.duration))
+
+    def _await_grasps(self, holders: dict[str, str]) -> None:
+        held: dict[str, str] = {}
+
+        def on_objects(message: msg.SceneObjects) -> None:
+            held.update({thing.name: thing.held_by for thing in message.objects})
+
+        subscription = self._caller.create_subscription(
+            msg.SceneObjects, "/objects", on_objects, qos.LATCHED
+        )
+        try:
+            self._wait_for(
+                lambda: holders.items() <= held.items(),
+                ", ".join(f"{robot} to hold {name}" for name, robot in holders.items()),
+                GRASP_TIMEOUT_S,
+            )
+        finally:
+            self._caller.destroy_subscription(subscription)
+
+
+class Return:
+    """Brings back, in a thread of its own, what robots had loaded and the systems there were.
+
+    The lab's robots are there already; their playbacks and the coordinator may still be starting.
+    log: takes what cannot be brought back.
+    """
+
+    def __init__(
+        self,
+        wanted: SceneDocument,
+        restore: LabRestore,
+        observer: Observer,
+        log: Callable[[str], None],
+    ) -> None:
+        loaded = tuple(r for r in wanted.robots if r.trajectory and r.name not in wanted.driven)
+        # What is not back yet; a state file that is written meanwhile must still hold it.
+        self.pending = SceneDocument(robots=loaded, systems=wanted.systems)
+        self._robots = frozenset(robot.name for robot in wanted.robots)
+        self._restore = restore
+        self._observer = observer
+        self._log = log
+        self._cancelled = threading.Event()
+        self._thread = threading.Thread(target=self._run, name="return", daemon=True)
+
+    def start(self) -> None:
+        if self.pending != SceneDocument():
+            self._thread.start()
+
+    def cancel(self) -> None:
+        """Begin no further step."""
+        self._cancelled.set()
+
+    def finish(self) -> None:
+        """Cancel, and wait for the step at hand."""
+        self.cancel()
+        if self._thread.is_alive():
+            self._thread.join(LOAD_TIMEOUT_S)
+
+    def _run(self) -> None:
+        pending = self.pending
+        awaited = {robot.name for robot in pending.robots} | pending.driven
+
+        def complete() -> bool:
+            known = all(self._observer.state(name) is not None for name in awaited)
+            systems = not pending.systems or self._observer.systems is not None
+            return self._cancelled.is_set() or (known and systems)
+
+        if not self._observer.wait_for(complete, START_TIMEOUT_S):
+            missing = sorted(name for name in awaited if self._observer.state(name) is None)
+            self._warn(f"no playback of {', '.join(missing) or 'a system'} is there")
+            return
+        present = Present(
+            robots=self._robots,
+            loaded={
+                name: state.trajectory_id
+                for name in awaited
+                if (state := self._observer.state(name)) is not None
+            },
+            systems=frozenset(system.name for system in self._observer.systems or ()),
+        )
+        steps = plan_return(pending, present)
+        self.pending = SceneDocument(
+            robots=tuple(step.robot for step in steps if isinstance(step, LoadTrajectory)),
+            systems=tuple(step.system for step in steps if isinstance(step, CreateSystem)),
+        )
+        for step in steps:
+            if self._cancelled.is_set():
+                return
+            try:
+                self._restore.execute(step)
+            except NoAnswer as error:
+                # It stays pending: the next start tries again.
+                self._warn(f"cannot {step}: {error}")
+            except LabError as error:
+                self._warn(f"cannot {step}: {error}")
+                self._done(step)
+            except Exception as error:
+                # The graph was left beneath it.
+                self._warn(f"cannot {step}: {error!r}")
+            else:
+                self._done(step)
+
+    def _done(self, step: Step) -> None:
+        if isinstance(step, LoadTrajectory):
+            robots = tuple(r for r in self.pending.robots if r.name != step.robot.name)
+            self.pending = replace(self.pending, robots=robots)
+        elif isinstance(step, CreateSystem):
+            systems = tuple(s for s in self.pending.systems if s.name != step.system.name)
+            self.pending = replace(self.pending, systems=systems)
+
+    def _warn(self, text: str) -> None:
+        # What fails because the lab ends is no trouble.
+        if not self._cancelled.is_set():
+            self._log(f"the lab is not as it was: {text}")

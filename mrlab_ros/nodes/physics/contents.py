@@ -1,0 +1,185 @@
+"""The objects and surfaces of the physics node as a whole: read, replaced, kept for a restart."""
+
+from __future__ import annotations
+
+import threading
+from collections.abc import Callable, Sequence
+from contextlib import AbstractContextManager
+from dataclasses import replace
+
+from mrlab_ros.adapters.scenes.state_file import StateFile
+from mrlab_ros.core.clock import SECOND
+from mrlab_ros.core.errors import BadInput, LabError
+from mrlab_ros.core.naming import checked_name
+from mrlab_ros.core.physics.engine import BodyState
+from mrlab_ros.core.physics.pending_grasp import PendingGrasp
+from mrlab_ros.core.physics.surfaces import Surface
+from mrlab_ros.core.physics.world import World
+from mrlab_ros.core.scene.document import ObjectEntry, SceneDocument
+
+# A robot that is to hold an object may come this long after the object, ns.
+ROBOT_TIMEOUT_NS = 20 * SECOND
+
+
+class Contents:
+    """What is in the world beside the robots.
+
+    lock: guards the world. rehearsal: makes an empty world beside it, in which a change is tried;
+    its context closes it. max_objects: active at once.
+    """
+
+    def __init__(
+        self,
+        world: World,
+        lock: threading.Lock,
+        rehearsal: Callable[[], AbstractContextManager[World]],
+        max_objects: int,
+        file: StateFile,
+        log: Callable[[str], None],
+    ) -> None:
+        self._world = world
+        self._lock = lock
+        self._rehearsal = rehearsal
+        self._max_objects = max_objects
+        self._file = file
+        self._log = log
+        self._pending: list[PendingGrasp] = []
+        self.changed = False
+
+    def document(self) -> SceneDocument:
+        """Return the objects and surfaces as they are; the caller holds the lock."""
+        world = self._world
+        awaited = {grasp.name: grasp for grasp in self._pending}
+        objects = []
+        for thing in world.objects:
+            entry = ObjectEntry(thing.name, thing.type.id, world.motion(thing.name).pose)
+            if thing.held_by in world.robots:
+                in_hand = world.robot(thing.held_by).in_hand
+                entry = replace(entry, held_by=thing.held_by, in_hand=in_hand)
+            elif thing.name in awaited:
+                grasp = awaited[thing.name]
+                entry = replace(entry, held_by=grasp.robot, in_hand=grasp.in_hand)
+            objects.append(entry)
+        return SceneDocument(objects=tuple(objects), surfaces=world.surfaces)
+
+    # replacing ------------------------------------------------------------------------------
+
+    def check(
+        self, objects: Sequence[ObjectEntry], surfaces: Sequence[Surface]
+    ) -> tuple[ObjectEntry, ...]:
+        """Return the objects with the poses they would have; raise LabError where one cannot be.
+
+        They are tried in an empty world: robots count only for their names.
+        """
+        if len(objects) > self._max_objects:
+            raise BadInput(
+                f"{len(objects)} objects are too many; expected {self._max_objects} at most, "
+                "max_objects of config/physics.yaml"
+            )
+        placed = []
+        with self._rehearsal() as world:
+            world.set_surfaces(surfaces)
+            for entry in objects:
+                thing = world.spawn(entry.type, entry.name, entry.pose, automatic=entry.automatic)
+                if entry.held_by and not thing.graspable:
+                    raise BadInput(
+                        f"{entry.held_by} cannot hold {thing.name}: it is fixed to the room"
+                    )
+                pose = world.motion(thing.name).pose
+                placed.append(replace(entry, name=thing.name, pose=pose, automatic=False))
+        return tuple(placed)
+
+    def replace(
+        self, objects: Sequence[ObjectEntry], surfaces: Sequence[Surface], now_ns: int
+    ) -> tuple[ObjectEntry, ...]:
+        """Replace all objects and surfaces; raise LabError, with nothing changed, as check().
+
+        An object that a robot holds stays in the air until that robot is there.
+        """
+        placed = self.check(objects, surfaces)
+        with self._lock:
+            for entry in placed:
+                checked_name(entry.name, frozenset(self._world.robots), "object")
+            self._pending.clear()
+            self._world.clear()
+            self._world.set_surfaces(surfaces)
+            for entry in placed:
+                self._put(entry, now_ns + ROBOT_TIMEOUT_NS)
+            self.changed = True
+        return placed
+
+    def _put(self, entry: ObjectEntry, absent_ns: int) -> None:
+        self._world.spawn(entry.type, entry.name, entry.pose, automatic=entry.automatic)
+        if entry.held_by and entry.in_hand is not None:
+            at = BodyState(entry.pose)
+            self._world.move(entry.name, entry.pose, at.linear, at.angular, held=True)
+            grasp = PendingGrasp(entry.name, entry.held_by, entry.in_hand, absent_ns)
+            self._pending.append(grasp)
+
+    def regrip(self, now_ns: int, robots: frozenset[str] | None) -> None:
+        """Let robots hold again what they held; the caller holds the lock.
+
+        robots: those of the lab, None while they are not known.
+        """
+        waiting = []
+        for grasp in self._pending:
+            absent = robots is not None and grasp.robot not in robots
+            try:
+                if not grasp.check(self._world, now_ns, absent=absent):
+                    waiting.append(grasp)
+            except LabError as error:
+                self._log(f"{grasp.robot} does not hold {grasp.name} again: {error}")
+                motion = self._world.motion(grasp.name)
+                self._world.move(
+                    grasp.name, motion.pose, motion.linear, motion.angular, held=False
+                )
+        self._pending = waiting
+
+    @property
+    def waiting(self) -> bool:
+        """Whether a robot is to hold something that it does not hold yet."""
+        return bool(self._pending)
+
+    # for a restart --------------------------------------------------------------------------
+
+    def restore(self) -> None:
+        """Bring back the objects and surfaces of the last run; log what cannot be."""
+        scene = self._file.load()
+        if scene is None:
+            return
+        mistakes = self._restore_surfaces(scene.surfaces)
+        for entry in scene.objects:
+            try:
+                # A robot of the last run that the lab no longer has drops its object at once.
+                self._put(entry, 0)
+            except LabError as error:
+                mistakes.append(f"{entry.name}: {error}")
+        if mistakes:
+            self._file.keep_copy(f"left out of the last run: {'; '.join(mistakes)}")
+
+    def _restore_surfaces(self, surfaces: Sequence[Surface]) -> list[str]:
+        """Set the surfaces, without those that cannot be; return why."""
+        try:
+            self._world.set_surfaces(surfaces)
+            return []
+        except LabError:
+            intact, mistakes = [], []
+        for surface in surfaces:
+            try:
+                self._world.set_surfaces([surface])
+            except LabError as error:
+                mistakes.append(str(error))
+            else:
+                intact.append(surface)
+        self._world.set_surfaces(intact)
+        return mistakes
+
+    def save(self) -> None:
+        """Write what changed since the last call; the world does not wait for the file."""
+        with self._lock:
+            if not self.changed:
+                return
+            self.changed = False
+            scene = self.document()
+        if not self._file.save(scene):
+            self.changed = True
