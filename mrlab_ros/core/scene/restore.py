@@ -12,9 +12,8 @@ from dataclasses import dataclass, field, replace
 from mrlab_ros.core.errors import BadInput, LabError
 from mrlab_ros.core.physics.surfaces import Surface
 from mrlab_ros.core.scene.document import ObjectEntry, RobotEntry, SceneDocument, SystemEntry
-from mrlab_ros.core.systems.members import Loaded, Order, Reply
-from mrlab_ros.core.systems.robot_system import RobotSystem
-from mrlab_ros.core.systems.timeline import Member
+from mrlab_ros.core.systems.members import Loaded
+from mrlab_ros.core.systems.timeline import Member, Timeline
 from mrlab_ros.core.systems.waits import parse as parse_wait
 
 
@@ -254,24 +253,18 @@ def check_trajectories(
                     "catalogue"
                 )
             waits = tuple(map(parse_wait, m.waits))
-            members.append(Member(m.robot, m.trajectory, m.dwell, waits))
-        # As the coordinator will create it, with the catalogue in place of the robots.
-        RobotSystem(
-            system.name, members, _Rehearsal(fits), system.mode, system.policy, system.loop
-        ).prepare()
-
-
-class _Rehearsal:
-    """A Fleet whose robots have loaded what a catalogue holds."""
-
-    def __init__(self, fits: Callable[[str, str], Loaded]) -> None:
-        self._fits = fits
-
-    def prepare(self, robot: str, trajectory_id: str) -> Loaded:
-        return self._fits(robot, trajectory_id)
-
-    def drive(self, orders: Sequence[Order]) -> list[Reply]:
-        raise NotImplementedError
+            loaded = fits(m.robot, m.trajectory)
+            members.append(
+                Member(
+                    m.robot,
+                    m.trajectory,
+                    m.dwell,
+                    waits,
+                    duration=loaded.duration,
+                    frame_rate=loaded.frame_rate,
+                )
+            )
+        Timeline(members, system.mode).check_waits()
 
 
 def _complete(system: SystemEntry, robots: Sequence[RobotEntry]) -> SystemEntry:
