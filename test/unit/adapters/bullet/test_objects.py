@@ -1,4 +1,4 @@
-"""The catalogue's meshes, and scenes as documents."""
+"""The catalogue's meshes."""
 
 from __future__ import annotations
 
@@ -22,15 +22,6 @@ from mrlab_ros.core.physics.catalogue import HULL_CORNERS
 from mrlab_ros.core.physics.engine import Shape
 from mrlab_ros.core.physics.settings import Settings
 from mrlab_ros.core.physics.world import World
-from mrlab_ros.core.scene.document import (
-    MemberEntry,
-    ObjectEntry,
-    RobotEntry,
-    SceneDocument,
-    SystemEntry,
-    parse,
-    plain,
-)
 
 ROOT = Path(__file__).parents[4]
 SHIPPED = sorted((ROOT / "config" / "objects").glob("*.glb"))
@@ -122,99 +113,6 @@ def test_a_mesh_that_is_only_looked_at_must_be_there(folder):
     assert catalogue.parse(entry(mesh=f"{URI}fine.stl", **shown), meshes).get("thing").mesh
     with pytest.raises(BadInput, match="does not exist"):
         catalogue.parse(entry(mesh=f"{URI}nothing.stl", **shown), meshes)
-
-
-def test_a_scene_is_the_same_after_it_was_written_and_read():
-    turned = Pose((0.1, 0.2, 0.3), (0.0, 0.0, 0.6, 0.8))
-    scene = SceneDocument(
-        robots=(
-            RobotEntry("a", "ur5e", "parallel_gripper", turned, "run", 1.25),
-            RobotEntry("b", "ur5e", "", Pose((1.0, 0.0, 0.0))),
-        ),
-        objects=(
-            ObjectEntry("cube_1", "cube", turned, held_by="a", in_hand=Pose((0.0, 0.0, 0.17))),
-            ObjectEntry("cube_2", "cube", turned, automatic=True),
-        ),
-        systems=(
-            SystemEntry(
-                "cell",
-                (MemberEntry("a", "run", 0.5), MemberEntry("b", "go", 0.0, ("frame 3: object "
-                 "cube_1 held by a",))),
-                mode=1,
-                policy=1,
-                loop=True,
-                rate=0.5,
-                at=2.5,
-            ),
-        ),
-    )  # fmt: skip
-    assert parse(plain(scene), "scene") == scene
-
-
-ROBOT = {"name": "a", "model": "ur5e"}
-
-
-@pytest.mark.parametrize(
-    ("document", "says"),
-    [
-        ({"robots": [{**ROBOT, "at": -1}]}, "at is -1; expected a number of 0"),
-        ({"robots": [{**ROBOT, "speed": 1}]}, r"robots\[0\] has speed; expected name, model"),
-        ({"robots": [{**ROBOT, "name": "lab"}]}, "'lab' is a name of the lab's own"),
-        ({"robots": [ROBOT], "objects": [{"name": "a", "type": "cube"}]}, "object a twice"),
-        ({"objects": [{"name": "c", "type": "cube", "held_by": "a"}]}, "belong together"),
-        (
-            {"objects": [{"name": "c", "type": "cube", "held_by": "a", "in_hand": {}}]},
-            "c names the robot 'a'; the robots of the scene: none",
-        ),
-        (
-            {
-                "robots": [ROBOT],
-                "objects": [
-                    {"name": n, "type": "cube", "held_by": "a", "in_hand": {}} for n in "cd"
-                ],
-            },
-            "a holds two objects",
-        ),
-        (
-            {
-                "robots": [ROBOT],
-                "systems": [
-                    {"name": n, "members": [{"robot": "a", "trajectory": "t"}]} for n in "st"
-                ],
-            },
-            "a is a member twice",
-        ),
-        ({"systems": [{"name": "s"}]}, "has no members"),
-        (
-            {"robots": [ROBOT], "systems": [{"name": "s", "members": [{"robot": "a"}]}]},
-            "trajectory is None; expected an id",
-        ),
-        (
-            {
-                "robots": [ROBOT],
-                "systems": [
-                    {
-                        "name": "s",
-                        "members": [{"robot": "a", "trajectory": "t", "waits": ["tea"]}],
-                    }
-                ],
-            },
-            "'tea' is no wait",
-        ),
-        (
-            {
-                "robots": [ROBOT],
-                "systems": [
-                    {"name": "s", "rate": 9, "members": [{"robot": "a", "trajectory": "t"}]}
-                ],
-            },
-            "rate is 9; expected a number of 0.1 to 4",
-        ),
-    ],
-)
-def test_a_scene_that_contradicts_itself_is_refused(document, says):
-    with pytest.raises(BadInput, match=says):
-        parse(document, "scene")
 
 
 def test_the_hull_of_a_mesh_reaches_as_far_as_the_mesh():

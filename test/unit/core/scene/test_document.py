@@ -1,0 +1,131 @@
+"""The one document of the lab: what is written is read, what is wrong is named."""
+
+from __future__ import annotations
+
+import pytest
+
+from mrlab_ros.core.errors import BadInput
+from mrlab_ros.core.geometry import Pose
+from mrlab_ros.core.scene.document import (
+    MemberEntry,
+    ObjectEntry,
+    RobotEntry,
+    SceneDocument,
+    SystemEntry,
+    parse,
+    parse_intact,
+    plain,
+)
+from mrlab_ros.core.systems.robot_system import Policy
+from mrlab_ros.core.systems.timeline import Mode
+
+
+def test_a_scene_is_the_same_after_it_was_written_and_read():
+    turned = Pose((0.1, 0.2, 0.3), (0.0, 0.0, 0.6, 0.8))
+    scene = SceneDocument(
+        robots=(
+            RobotEntry("a", "ur5e", "parallel_gripper", turned, "run", 1.25, 0.5, True),
+            RobotEntry("b", "ur5e", "", Pose((1.0, 0.0, 0.0))),
+        ),
+        objects=(
+            ObjectEntry("cube_1", "cube", turned, held_by="a", in_hand=Pose((0.0, 0.0, 0.17))),
+            ObjectEntry("cube_2", "cube", turned, automatic=True),
+        ),
+        systems=(
+            SystemEntry(
+                "cell",
+                (MemberEntry("a", "run", 0.5), MemberEntry("b", "go", 0.0, ("frame 3: object "
+                 "cube_1 held by a",))),
+                mode=Mode.SEQUENTIAL,
+                policy=Policy.HALT_MEMBER,
+                loop=True,
+                rate=0.5,
+                at=2.5,
+            ),
+        ),
+    )  # fmt: skip
+    assert parse(plain(scene), "scene") == scene
+
+
+ROBOT = {"name": "a", "model": "ur5e"}
+
+
+@pytest.mark.parametrize(
+    ("document", "says"),
+    [
+        ({"robots": [{**ROBOT, "at": -1}]}, "robot 1: at is -1; expected a number from 0"),
+        ({"robots": [{**ROBOT, "speed": 1}]}, "robot 1: 'speed' is unknown; expected name, model"),
+        ({"robots": [{**ROBOT, "name": "lab"}]}, "'lab' is a name of the lab's own"),
+        ({"robots": [ROBOT], "objects": [{"name": "a", "type": "cube"}]}, "object a twice"),
+        ({"objects": [{"name": "c", "type": "cube", "held_by": "a"}]}, "belong together"),
+        (
+            {"objects": [{"name": "c", "type": "cube", "held_by": "a", "in_hand": {}}]},
+            "c names the robot 'a'; the robots of the scene: none",
+        ),
+        (
+            {
+                "robots": [ROBOT],
+                "objects": [
+                    {"name": n, "type": "cube", "held_by": "a", "in_hand": {}} for n in "cd"
+                ],
+            },
+            "a holds two objects",
+        ),
+        (
+            {
+                "robots": [ROBOT],
+                "systems": [
+                    {"name": n, "members": [{"robot": "a", "trajectory": "t"}]} for n in "st"
+                ],
+            },
+            "a is a member twice",
+        ),
+        ({"systems": [{"name": "s"}]}, "system 1: members is empty"),
+        (
+            {
+                "robots": [ROBOT],
+                "systems": [
+                    {
+                        "name": "s",
+                        "members": [{"robot": "a", "trajectory": "t", "waits": ["tea"]}],
+                    }
+                ],
+            },
+            "'tea' is no wait",
+        ),
+        (
+            {
+                "robots": [ROBOT],
+                "systems": [
+                    {"name": "s", "rate": 9, "members": [{"robot": "a", "trajectory": "t"}]}
+                ],
+            },
+            "rate is 9; expected a number from 0.1 to 4",
+        ),
+    ],
+)
+def test_a_scene_that_contradicts_itself_is_refused(document, says):
+    with pytest.raises(BadInput, match=says):
+        parse(document, "scene")
+
+
+def test_all_mistakes_are_named_at_once_and_what_is_intact_can_be_had():
+    document = {
+        "robots": [ROBOT, {**ROBOT, "name": "b", "rate": 0}, 5],
+        "objects": [{"name": "c", "type": "cube", "held_by": "b", "in_hand": {}}],
+        "cows": [],
+    }
+    with pytest.raises(BadInput) as caught:
+        parse(document, "scene")
+    for words in ("4 mistakes", "'cows' is unknown", "rate is 0", "robot 3 is 5", "the robot 'b'"):
+        assert words in str(caught.value)
+    scene, mistakes = parse_intact(document, "scene")
+    assert scene == SceneDocument((RobotEntry("a", "ur5e", "", Pose()),))
+    assert len(mistakes) == 4
+
+
+def test_a_part_of_a_document_may_name_robots_of_elsewhere():
+    held = {"name": "c", "type": "cube", "held_by": "a", "in_hand": {}}
+    scene = parse({"objects": [held]}, "physics", whole=False)
+    assert scene.objects[0].held_by == "a"
+    assert parse({}, "physics", whole=False) == parse(None, "empty") == SceneDocument()
