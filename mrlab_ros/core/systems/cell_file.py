@@ -9,7 +9,7 @@ rate: 1.0                     # 0.1 to 4
 at: 0.0                       # position on its timeline, s
 members:                      # in order of their turns
   - robot: ur5e_1
-    trajectory: handover_ur5e # optional: what the robot has loaded
+    trajectory: handover_ur5e # optional; default: the one that the robot has loaded
     dwell: 0.5                # s after its end, sequential mode
     after: kr6_1.frame 120    # before its first frame
   - robot: kr6_1
