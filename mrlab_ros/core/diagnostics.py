@@ -68,15 +68,20 @@ class Refused(BadInput):
 
 @dataclass(frozen=True)
 class Kind:
-    """One row of the table: `message` and `remedy` are filled in with str.format."""
+    """One row of the table.
+
+    `message`, `remedy` and `fixes`, each (option, value, MATLAB), are filled in with str.format.
+    """
 
     severity: Severity
     meaning: str
     message: str
     remedy: str = ""
+    fixes: tuple[tuple[str, str, str], ...] = ()
 
 
 INFO, WARNING, ERROR = Severity
+SAVE_AGAIN = (("", "", "save('traj.mat', 'q')"),)
 KINDS: dict[str, Kind] = {
     # the file
     "missing": Kind(
@@ -96,39 +101,65 @@ KINDS: dict[str, Kind] = {
         "The file is a workspace but damaged or cut short; nothing of it is taken.",
         "'{file}' is damaged: {problem}.",
         "Copy the file again, or save it again in MATLAB: save('traj.mat', 'q').",
+        SAVE_AGAIN,
     ),
     "reader_died": Kind(
         ERROR,
         "The process that reads files ended while reading this one; the lab goes on.",
         "'{file}' brought the file reader down ({problem}); the file is damaged or made to do so.",
         "Save it again in MATLAB: save('traj.mat', 'q').",
+        SAVE_AGAIN,
     ),
     "readers_disagree": Kind(
         ERROR,
         "Two independent readers do not find the same numbers: the file is damaged.",
         "'{variable}' of '{file}' cannot be trusted, as two readers disagree: {problem}.",
         "Save it again in MATLAB and send the new file: save('traj.mat', 'q', '-v7').",
+        SAVE_AGAIN,
     ),
     "too_large": Kind(
         ERROR,
         "The file, or what it inflates to, passes the limit on size or memory.",
         "'{file}' is too large: {problem}.",
         "Save only the trajectory: save('traj.mat', 'q').",
+        SAVE_AGAIN,
     ),
     "too_slow": Kind(
         ERROR,
         "Reading the file passed the time limit and was stopped.",
         "'{file}' could not be read within {limit:g} s and was stopped.",
         "Save only the trajectory: save('traj.mat', 'q').",
+        SAVE_AGAIN,
     ),
     # finding the matrix
     "no_trajectory": Kind(
         ERROR,
-        "No variable looks like joint positions of the robot.",
+        "No variable looks like joint positions of the robot; what they look like instead.",
         "No variable of '{file}' looks like the joint positions of {robot}, an N x {joints} "
         "matrix of radians with N >= 2. {found}",
         "Save the joint positions, one row a sample: save('traj.mat', 'q'). If one of the "
         "variables is what you want, name it: --variable NAME.",
+    ),
+    "looks_like": Kind(
+        ERROR,
+        "A matrix has the right size, but its numbers are something else than joint positions.",
+        "'{variable}' ({size}) was not taken as joint positions: {why}.",
+        "Save the joint positions, one row a sample: save('traj.mat', 'q'). If it is what you "
+        "want all the same, name it: --variable {variable}.",
+    ),
+    "never_filled": Kind(
+        ERROR,
+        "Every number of the matrix is 0.",
+        "'{variable}' ({size}) holds nothing but zeros; joint positions are expected.",
+        "Run the program that fills it before you save it.",
+        (("", "", "any({variable}(:))"),),
+    ),
+    "rows_not_filled": Kind(
+        ERROR,
+        "Rows at an end of the matrix are zeros that were never filled.",
+        "The rows {first_row} to {last_row} of '{variable}' are all zeros and the motion jumps to "
+        "them: they were reserved (zeros(N, d)) and not filled.",
+        "Leave them out: --variable '{fix}', or fill them before you save.",
     ),
     "ambiguous": Kind(
         ERROR,
@@ -148,6 +179,7 @@ KINDS: dict[str, Kind] = {
         "{found} can be opened by MATLAB alone, and no plain matrix of '{file}' is the "
         "trajectory.",
         "In MATLAB, save the numbers in it: {code}",
+        (("", "", "{code}"),),
     ),
     "object_ignored": Kind(
         INFO,
@@ -157,9 +189,9 @@ KINDS: dict[str, Kind] = {
     ),
     "inside_container": Kind(
         ERROR,
-        "The samples are kept one by one in a struct array or a cell array.",
-        "The samples are kept one by one, as {found} ...",
-        "Put them into one matrix in MATLAB: {code}",
+        "The trajectory is kept in pieces: a variable for each joint, sample or segment.",
+        "The trajectory is not one matrix: {found}.",
+        "Join them with the option join (--join '{join}'), or in MATLAB: {code}",
     ),
     "wrong_shape": Kind(
         ERROR,
@@ -167,86 +199,132 @@ KINDS: dict[str, Kind] = {
         "'{variable}' is {size}; {robot} needs {joints} columns, one a joint, or {more} with "
         "the gripper last.{hint}",
         "Save one row a sample and one column a joint, or pick columns: --columns 1:{joints}.",
+        (("", "", "size({name})"),),
     ),
     "empty": Kind(
         ERROR,
         "The matrix holds no samples.",
         "'{variable}' is empty ({size}).",
         "Run the program that fills it before you save it.",
+        (("", "", "isempty({name})"),),
     ),
     "single_sample": Kind(
         ERROR,
         "The matrix holds one configuration, not a motion.",
         "'{variable}' is {size}, a single configuration; a trajectory has at least 2 rows.",
         "Save a motion, for example q = jtraj(qStart, qEnd, 100).",
+        (("", "", "q = jtraj({name}(:).', qEnd, 100);"),),
     ),
     "not_real": Kind(
         ERROR,
         "The matrix holds complex numbers.",
         "'{variable}' holds complex numbers; joint positions are real.",
         "An inverse kinematics out of reach often gives them. Check the path; if the imaginary "
-        "parts are only rounding: {variable} = real({variable}).",
+        "parts are only rounding: {name} = real({name}).",
+        (("", "", "{name} = real({name});"),),
     ),
     "wrong_class": Kind(
         ERROR,
         "The variable has a class that is not taken as radians: integer, logical, char, sparse.",
         "'{variable}' has the class {kind}; joint positions are double or single.",
-        "Save radians as double: {variable} = {fix}({variable}).",
+        "Save radians as double: {name} = {fix}({name}).",
+        (("", "", "{name} = {fix}({name});"),),
     ),
     "non_finite": Kind(
         ERROR,
         "The matrix holds NaN or Inf.",
         "'{variable}' holds {count} that are NaN or Inf, the first at {where}.",
         "Remove those samples or find what made them: any(~isfinite({variable}), 2).",
+        (("", "", "q = q(all(isfinite(q), 2), :);"),),
     ),
     "transposed": Kind(
         ERROR,
         "The samples are columns instead of rows.",
-        "'{variable}' is {size}: its samples are columns, {robot} needs one row a sample.",
-        "In MATLAB {variable} = {variable}.', or convert with the option transpose "
-        "(--transpose{columns}).",
+        "'{variable}' is {size}: its samples are columns, {robot} needs one row a sample.{time}",
+        "In MATLAB {name} = {name}.', or convert with the option transpose (--transpose).",
+        (("transpose", "true", "{name} = {name}.';"),),
     ),
     "time_column": Kind(
         ERROR,
-        "The first column counts time, so the joints begin at the second.",
-        "Column 1 of '{variable}' is time ({first:g} to {last:g}, evenly spaced), not a joint.",
-        "In MATLAB q = {variable}(:, 2:end), or convert with the option columns "
-        "(--columns {columns}).",
+        "A column counts time and is no joint.",
+        "Column {column} of '{variable}' is time ({first:g} to {last:g}), not a joint: {why}. "
+        "{rest}",
+        "Take the joints alone with the option columns (--columns), or save them alone and the "
+        "time as t.",
     ),
     "seven_axes": Kind(
         ERROR,
         "The last column moves like a joint and not like a gripper.",
         "Column {column} of '{variable}' moves like a joint ({first:g} to {last:g}, {levels}), "
-        "not like a gripper that is open or closed; {robot} has {joints} joints.",
-        "Choose the robot that the file was made for, or convert the joints alone "
-        "(--columns 1:{joints}).",
+        "not like a gripper that is open or closed; {robot} has {joints} joints.{ramp}",
+        "Choose the robot that the file was made for, convert the joints alone "
+        "(--columns 1:{joints}), or say that it is the gripper (--gripper {column}).",
     ),
     "degrees": Kind(
         ERROR,
         "The values are degrees; the lab takes radians.",
-        "'{variable}' reaches {value:g} and is within the limits of {robot} only if it is in "
-        "degrees; radians are expected.",
-        "In MATLAB {variable} = deg2rad({variable}), or convert with the option degrees "
-        "(--degrees).",
+        "'{variable}' seems to be in degrees: {why}; radians are expected.",
+        "In MATLAB {name} = deg2rad({name}), or convert with the option units (--units deg). If "
+        "it is in radians all the same: --units rad.",
+        (("units", "deg", "{name} = deg2rad({name});"),),
+    ),
+    "counts": Kind(
+        ERROR,
+        "The values are encoder counts, hundredths or thousandths of a degree.",
+        "'{variable}' is not in radians: {why}.",
+        "Say how many counts make a turn: --units counts:{counts}, or another number, or in "
+        "MATLAB {name} = {name} * 2*pi / {counts}.",
     ),
     "bad_columns": Kind(
         ERROR,
         "The columns that were asked for do not exist or cannot be read.",
         "The columns '{columns}' cannot be taken from '{variable}', which is {size}: {problem}.",
         "Write columns as in MATLAB: 2:7, or 1,3,5, or 2:end.",
+        (("columns", "", "size({variable}, 2)"),),
     ),
     "bad_rate": Kind(
         ERROR,
-        "The frame rate that was asked for is no number above 0.",
-        "The frame rate is {value:g}; expected a number of samples per second above 0, up to "
-        "100000.",
+        "The frame rate that was asked for is out of bounds.",
+        "The frame rate is {value:g}; expected a number of samples per second from {least:g} to "
+        "{most:g}.",
         "Say how many rows a second you recorded: --rate 100.",
+        (("frame_rate", "0", "fs = 100; save('traj.mat', 'q', 'fs')"),),
+    ),
+    "bad_option": Kind(
+        ERROR,
+        "An option cannot be applied.",
+        "The option {option} is '{found}': {problem}.",
+        "Correct the option or leave it out.",
+        (("{option}", "", ""),),
+    ),
+    "neutral_name": Kind(
+        WARNING,
+        "A matrix whose name does not say what it holds was taken, as nothing speaks against it.",
+        "'{variable}' was taken as joint positions, though {why} ({seen}).",
+        "If it is something else, save the joint positions as q. To confirm it: --variable "
+        "{variable}.",
     ),
     "doubtful_name": Kind(
         WARNING,
         "The name of the matrix speaks against joint positions.",
         "'{variable}' was taken as joint positions, but {why}.",
         "Check that it is what you meant; joint positions are usually named q.",
+        (("", "", "q = {variable}; save('traj.mat', 'q')"),),
+    ),
+    "doubtful_values": Kind(
+        WARNING,
+        "Something in the numbers speaks against joint positions.",
+        "'{variable}' was taken as joint positions, but {why}.",
+        "Look at the motion before you trust it, and save the joint positions as q.",
+        (("", "", "plot({variable})"),),
+    ),
+    "tool_path_differs": Kind(
+        WARNING,
+        "A tool path in the file is not where the robot's tool goes; it may be another robot's.",
+        "'{other}' is not the path of the tool at '{variable}' on this robot: they differ by "
+        "{value:.3g} m, and the path extends over {limit:.3g} m.",
+        "Choose the robot that the file was made for, or check that both belong to one motion.",
+        (("", "", "plot({other})"),),
     ),
     "other_candidates": Kind(
         INFO,
@@ -254,17 +332,45 @@ KINDS: dict[str, Kind] = {
         "'{variable}' was taken; {found} could have been meant too.",
         "To take another one: --variable NAME.",
     ),
+    "twin": Kind(
+        WARNING,
+        "Two matrices hold nearly the same motion, such as measured and commanded positions.",
+        "'{variable}' was taken; {found} holds nearly the same motion.",
+        "To take the other one: --variable NAME.",
+    ),
     # the frame rate
     "rate_default": Kind(
         INFO,
         "The file does not say how many rows make a second; the lab's default was taken.",
         "'{file}' does not say how many rows make a second; {rate:g} was taken.",
         "Save it with the trajectory: fs = 100; save('traj.mat', 'q', 'fs'), or use --rate.",
+        (("frame_rate", "{rate:g}", "fs = {rate:g}; save('traj.mat', 'q', 'fs')"),),
     ),
     "rate_found": Kind(
         INFO,
         "The frame rate was taken from a variable of the file.",
         "{rate:g} rows a second, from '{variable}'.",
+    ),
+    "rate_of_velocity": Kind(
+        WARNING,
+        "The frame rate was computed from velocities, as the file does not say it.",
+        "The file does not say how many rows make a second; '{variable}' is the derivative of the "
+        "positions at {rate:g} rows a second, which was taken.",
+        "If the velocities are not in rad/s, say the rate: --rate 100.",
+        (("frame_rate", "{rate:g}", "fs = {rate:g}; save('traj.mat', 'q', 'fs')"),),
+    ),
+    "rate_assumed": Kind(
+        WARNING,
+        "The frame rate was taken from a variable whose name may mean something else.",
+        "{rate:g} rows a second were taken from '{variable}', whose name may mean something else.",
+        "If it is right, save it as fs, or use --rate {rate:g}; else say the rate: --rate 100.",
+    ),
+    "rate_unclear": Kind(
+        WARNING,
+        "Numbers of the file may say the frame rate, but none does so for certain.",
+        "{found} may be a rate or a step, but may as well mean something else; {rate:g} rows a "
+        "second were taken.",
+        "Save the rate as fs: fs = 100; save('traj.mat', 'q', 'fs'), or use --rate.",
     ),
     "rate_conflict": Kind(
         WARNING,
@@ -273,12 +379,49 @@ KINDS: dict[str, Kind] = {
         "was taken.",
         "Save only one of them, or use --rate.",
     ),
+    "time_unit": Kind(
+        WARNING,
+        "The unit of a time vector is not known; the likeliest one was taken.",
+        "'{variable}' rises by {step} from row to row; that was taken as {what}, which makes "
+        "{rate:g} rows a second.",
+        "Save the time in seconds, or use --rate.",
+    ),
+    "time_counts_rows": Kind(
+        WARNING,
+        "A time vector counts 1, 2, 3 ..., which may be seconds, milliseconds or row numbers.",
+        "'{variable}' counts up by one: seconds, milliseconds or the numbers of the rows; "
+        "{rate:g} rows a second were taken.",
+        "Save the time in seconds, or use --rate.",
+    ),
+    "time_length": Kind(
+        WARNING,
+        "A time vector has almost as many elements as there are rows and was not used.",
+        "'{variable}' has {size} elements and the trajectory {rows} rows, so it was not used; it "
+        "says {rate:g} rows a second.",
+        "Save one time for each row, or use --rate {rate:g}.",
+    ),
     "time_uneven": Kind(
         WARNING,
         "The samples are not evenly spaced in time; they are played at one rate.",
-        "The steps of '{variable}' go from {least:g} to {most:g} s; the rows are played evenly "
-        "at {rate:g} a second.",
-        "Resample in MATLAB: tq = t(1):1/{rate:g}:t(end); q = interp1(t, q, tq).",
+        "The steps of '{variable}' go from {least:.4g} to {most:.4g} s, the worst one before row "
+        "{row}; played evenly at {rate:g} rows a second, a row is up to {deviation:.3g} s away "
+        "from its time.",
+        "Make the rows even with the option resample (--resample), or in MATLAB with interp1.",
+    ),
+    "time_repeated": Kind(
+        WARNING,
+        "Rows have the same time as the row before.",
+        "{count} of '{variable}' have the time of the row before, the first is row {row}; the "
+        "rows are played evenly at {rate:g} a second.",
+        "Leave these rows out and make the others even with the option resample (--resample).",
+    ),
+    "time_backward": Kind(
+        WARNING,
+        "The time goes back.",
+        "The time '{variable}' goes back in {count}, the first is row {row}; the rows are played "
+        "in their order at {rate:g} a second.",
+        "Check whether two recordings were joined; sort the rows in MATLAB, or take one of them "
+        "(--variable 'q(1:{row}, :)').",
     ),
     # messages and tables that name their joints
     "joint_names": Kind(
@@ -287,6 +430,7 @@ KINDS: dict[str, Kind] = {
         "The joints of '{variable}' are not those of {robot}: {problem}.",
         "Choose the robot that it was made for, or name the columns as the robot does: {joints}. "
         "Of a table, columns can be taken by number as well: --columns 1:6.",
+        (("columns", "1:{count}", ""),),
     ),
     "joints_matched": Kind(
         INFO,
@@ -296,7 +440,7 @@ KINDS: dict[str, Kind] = {
     ),
     "resampled": Kind(
         INFO,
-        "The points of a message, which have times of their own, became frames at an even rate.",
+        "Points with times of their own became frames at an even rate.",
         "The {points} points of '{variable}' ({duration:g} s) were joined by {how} and became "
         "{frames} frames at {rate:g} Hz.",
         "For another rate: --rate 250.",
@@ -310,9 +454,10 @@ KINDS: dict[str, Kind] = {
     ),
     "too_long": Kind(
         ERROR,
-        "A JointTrajectory lasts too long for the rate.",
+        "A trajectory lasts too long for the rate.",
         "'{variable}' lasts {duration:g} s, which is more than {most} frames at {rate:g} Hz.",
-        "Check the time_from_start of its last point, or take a lower rate: --rate 10.",
+        "Check the time of its last point, or take a lower rate: --rate 10.",
+        (("frame_rate", "10", ""),),
     ),
     # against the robot
     "joint_limit": Kind(
@@ -321,19 +466,22 @@ KINDS: dict[str, Kind] = {
         "{joint} goes to {value:.4g} rad ({degrees:.4g} deg) at frame {frame} ({time:.3f} s); "
         "its range is {lower:.4g} to {upper:.4g} rad, and {count} are outside.",
         "Plan the motion inside the range, or choose the robot that it was made for.",
+        (("", "", "find(q(:, {column}) < {lower:.6g} | q(:, {column}) > {upper:.6g})"),),
     ),
     "velocity_limit": Kind(
         WARNING,
         "A joint moves faster than the robot can.",
         "{joint} moves at {value:.4g} rad/s at frame {frame} ({time:.3f} s); {robot} reaches "
         "{limit:.4g} rad/s. {count} are too fast.",
-        "Use more samples for the motion, or check that {rate:g} rows a second is right.",
+        "Use more samples for the motion, or check that {rate:g} rows a second is right: at "
+        "{slower:g} the robot can follow.",
+        (("frame_rate", "{slower:g}", "fs = {slower:g}; save('traj.mat', 'q', 'fs')"),),
     ),
     "discontinuity": Kind(
         ERROR,
         "A joint jumps from one sample to the next.",
-        "{joint} jumps by {value:.4g} rad between frame {frame} and the next ({time:.3f} s); its "
-        "other steps stay below {usual:.4g} rad.",
+        "{joint} jumps by {value:.4g} rad between frame {frame} and the next ({time:.3f} s); "
+        "{others}.",
         "Look for a piece that is missing or was joined at the wrong place.",
     ),
     "jump_2pi": Kind(
@@ -341,21 +489,21 @@ KINDS: dict[str, Kind] = {
         "A joint jumps by a full turn, as atan2 makes it.",
         "{joint} jumps by a full turn ({value:.4g} rad) between frame {frame} and the next "
         "({time:.3f} s).",
-        "In MATLAB {variable} = unwrap({variable}), or convert with the option unwrap (--unwrap).",
+        "In MATLAB {name} = unwrap({name}), or convert with the option unwrap (--unwrap).",
+        (("unwrap", "true", "{name} = unwrap({name});"),),
     ),
     "gripper_range": Kind(
         WARNING,
         "The gripper column is not 0 and 1.",
-        "The gripper column goes from {first:g} to {last:g}; it was taken as closed above "
-        "{threshold:g}.",
-        "Save 0 for open and 1 for closed. If it is an opening width, larger means open: invert "
-        "it.",
+        "The gripper column goes from {first:g} to {last:g}. {meaning}It was taken as closed "
+        "{side} {threshold:g}.",
+        "Save 0 for open and 1 for closed. If larger means open: --invert.",
     ),
     "gripper_between": Kind(
         WARNING,
         "The gripper column is not always at one of its two ends; it may be a joint, or a ramp.",
         "{count} of {rows} in the gripper column lie between its ends {first:g} and {last:g}; "
-        "the gripper was taken as closed above {threshold:g}.",
+        "the gripper was taken as closed {side} {threshold:g}.",
         "Save 0 for open and 1 for closed, without ramps. If the column is a joint, take the "
         "joints alone (--columns).",
     ),
@@ -363,6 +511,12 @@ KINDS: dict[str, Kind] = {
         INFO,
         "The gripper column never changes; the gripper stays open.",
         "The gripper column is {first:g} throughout; the gripper stays open.",
+    ),
+    "gripper_beside": Kind(
+        WARNING,
+        "A vector that is named as a gripper lies beside the trajectory and was not taken.",
+        "'{variable}' ({size}) may be the states of the gripper; it was not taken.",
+        "Take it with the option gripper (--gripper {variable}), or save it as the last column.",
     ),
     # a robot's URDF
     "robot_no_link": Kind(
@@ -488,7 +642,11 @@ def finding(code: str, /, **values: Any) -> Diagnostic:
     """
     kind = KINDS[code]
     words = {"variable": "", "where": "", **values}
+    words.setdefault("name", words["variable"])
     data = {name: values[name] for name in DATA if name in values}
+    data.setdefault(
+        "fixes", tuple(Fix(*(text.format(**words) for text in fix)) for fix in kind.fixes)
+    )
     message, remedy = kind.message.format(**words), kind.remedy.format(**words)
     return Diagnostic(code, kind.severity, message, remedy, **data)
 
@@ -508,4 +666,10 @@ def document() -> str:
         lines += [f"> {kind.message}"]
         if kind.remedy:
             lines += [">", f"> *{kind.remedy}*"]
+        for option, value, matlab in kind.fixes:
+            ways = [
+                f"option `{option}` = `{value}`" if option else "",
+                f"`{matlab}`" if matlab else "",
+            ]
+            lines += ["", f"Fix: {', or '.join(filter(None, ways))}"]
     return "\n".join(lines) + "\n"

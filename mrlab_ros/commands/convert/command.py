@@ -24,6 +24,19 @@ def convert(
     transpose: Annotated[bool, typer.Option("--transpose", help="Samples are columns.")] = False,
     degrees: Annotated[bool, typer.Option("--degrees", help="Values are degrees.")] = False,
     unwrap: Annotated[bool, typer.Option("--unwrap", help="Remove jumps of 2*pi.")] = False,
+    units: Annotated[
+        str, typer.Option(help="Unit of the joints: rad, deg, mm or counts:N a turn.")
+    ] = "",
+    join: Annotated[str, typer.Option(help="Join variables, such as q1..q6 or a,b.")] = "",
+    gripper: Annotated[
+        str, typer.Option(help="Column or variable that holds the gripper, or none.")
+    ] = "",
+    invert: Annotated[
+        bool, typer.Option("--invert", help="Larger means an open gripper.")
+    ] = False,
+    resample: Annotated[
+        bool, typer.Option("--resample", help="Make rows at uneven times even.")
+    ] = False,
     rate: Annotated[float, typer.Option(help="Frames a second; 0: the file's, or 100.")] = 0.0,
     end_effector: Annotated[str, typer.Option(help="End effector; empty: none.")] = "",
     out: Annotated[Path | None, typer.Option(help="Folder for what is written.")] = None,
@@ -46,7 +59,19 @@ def convert(
         topic=topic,
         timeout=timeout,
         robot=robot,
-        options=Options(variable, columns, transpose, degrees, unwrap, rate),
+        options=Options(
+            variable=variable,
+            columns=columns,
+            transpose=transpose,
+            degrees=degrees,
+            unwrap=unwrap,
+            frame_rate=rate,
+            resample=resample,
+            join=join,
+            gripper=gripper,
+            invert=invert,
+            units=units,
+        ),
         end_effector=end_effector,
         out=out,
         to=to,

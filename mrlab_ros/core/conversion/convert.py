@@ -14,15 +14,16 @@ from numpy.typing import NDArray
 from mrlab_ros.core.conversion import (
     discovery,
     frame_rate,
+    joining,
     limits,
     resampling,
 )
-from mrlab_ros.core.conversion.candidates import Candidate
-from mrlab_ros.core.conversion.explain import bad_message
-from mrlab_ros.core.conversion.layout import Layout, lay_out, reshaped
+from mrlab_ros.core.conversion.candidates import Assessment, Candidate, Survey, fits, survey
+from mrlab_ros.core.conversion.explain import bad_message, contents
+from mrlab_ros.core.conversion.headings import split_tables
+from mrlab_ros.core.conversion.layout import Chosen, Layout, lay_out, pick, reshaped
 from mrlab_ros.core.conversion.options import Options
 from mrlab_ros.core.conversion.preview import Preview, preview
-from mrlab_ros.core.conversion.variable_names import Hint, hint
 from mrlab_ros.core.conversion.workspace import Variable, Workspace
 from mrlab_ros.core.diagnostics import Diagnostic, Refused, Severity, finding
 from mrlab_ros.core.errors import BadInput
@@ -33,7 +34,8 @@ from mrlab_ros.core.trajectory.trajectory import Source, Trajectory
 
 DEFAULT_FRAME_RATE = 100.0  # Hz
 MOST_FRAMES = 2_000_000  # of a message that is sampled: five hours and a half at 100 Hz
-ID = re.compile(r"[A-Za-z0-9][A-Za-z0-9._-]{0,127}$")
+MOST_OWN_RATE = 10_000.0  # Hz; points that come more often are sampled at the default
+ID = re.compile(r"[A-Za-z0-9][A-Za-z0-9._-]{0,127}")
 
 
 class Outcome(Enum):
@@ -98,27 +100,25 @@ def convert(
     cannot be a name. default_frame_rate: Hz, where neither the options nor the file have one.
     """
     trajectory_id = trajectory_id or id_from(file)
-    if not ID.match(trajectory_id):
+    if not ID.fullmatch(trajectory_id):
         raise BadInput(
             f"the name '{trajectory_id}' cannot be used; expected letters, digits, '.', '_' and "
             "'-', at most 128, beginning with a letter or digit"
         )
     notes: list[Diagnostic] = []
-    offered: list[Candidate] = []
     variable: Variable | None = None
     try:
         options.checked_rate()
-        workspace = read()
-        variable, offered, found = _find(workspace, options, robot, file)
-        notes += found
-        if variable is None:
+        options.factor()
+        workspace, wanted = _prepared(read(), options, robot, file)
+        chosen, survey, offered = _find(workspace, wanted, options, robot, file, notes)
+        if chosen is None:
             outcome = Outcome.AMBIGUOUS if offered else Outcome.REJECTED
-            return ConversionResult(file, outcome, None, tuple(offered), _worst_first(notes))
-        source = Source(file, variable.path, workspace.sha256)
-        layout = lay_out(variable, options, robot, notes)
-        layout, rate = _at_a_rate(
-            workspace, variable, layout, options, default_frame_rate, file, notes
-        )
+            candidates = tuple(a.candidate() for a in offered)
+            return ConversionResult(file, outcome, None, candidates, _worst_first(notes))
+        variable = chosen.variable
+        layout = lay_out(chosen, survey, options, notes)
+        layout, rate = _at_a_rate(survey, chosen, layout, options, default_frame_rate, file, notes)
         arm = layout.arm
         notes += limits.against_robot(arm, rate, robot.joints, variable.path, robot.id)
         if any(n.severity is Severity.ERROR for n in notes):
@@ -132,7 +132,7 @@ def convert(
             positions=arm,
             gripper=layout.gripper,
             channels=channels.derive(arm, rate, coefficients),
-            source=source,
+            source=Source(file, variable.path, workspace.sha256),
             created_ns=created_ns,
             warnings=_worst_first([n for n in notes if n.severity is Severity.WARNING]),
         )
@@ -154,25 +154,63 @@ def _worst_first(notes: list[Diagnostic]) -> tuple[Diagnostic, ...]:
     return tuple(sorted(notes, key=lambda n: -n.severity))
 
 
-def _find(
+def _prepared(
     workspace: Workspace, options: Options, robot: RobotModel, file: str
-) -> tuple[Variable | None, list[Candidate], list[Diagnostic]]:
-    """Return the variable to convert, or what there is to choose from, with the findings."""
-    if options.variable:
-        variable = discovery.named(workspace, options.variable, file)
-        said = hint(variable.path)
-        if said in (Hint.AGAINST, Hint.DOUBTFUL) and not variable.is_message:
-            return variable, [], [finding("doubtful_name", variable=variable.path, why=said.value)]
-        return variable, [], []
-    laid_out = reshaped(workspace, options)
-    ranked = discovery.candidates(laid_out, robot)
-    choice, offered, notes = discovery.choose(laid_out, robot, file, ranked)
-    return workspace.find(choice.path) if choice else None, offered, notes
+) -> tuple[Workspace, str]:
+    """Return the workspace with tables split and joined variables added, and what was asked for.
+
+    The second is the path of the matrix that the options name, or empty.
+    """
+    workspace = split_tables(workspace, robot)
+    wanted = options.variable
+    if options.join:
+        joints = len(robot.joints)
+        whole = joining.joined(workspace, options.join, joints, contents(workspace), file)
+        workspace = replace(workspace, variables=(whole, *workspace.variables))
+        wanted = wanted or whole.path
+    if wanted and workspace.find(wanted) is None:
+        workspace = joining.part_of(workspace, wanted) or workspace
+    return workspace, wanted
+
+
+def _find(
+    workspace: Workspace,
+    wanted: str,
+    options: Options,
+    robot: RobotModel,
+    file: str,
+    notes: list[Diagnostic],
+) -> tuple[Chosen | None, Survey, list[Assessment]]:
+    """Return the matrix to convert, or what there is to choose from, adding to `notes`."""
+    if wanted:
+        variable = discovery.named(workspace, wanted, file)
+        chosen = Chosen(variable, variable, [])
+        if variable.values is not None and len(variable.shape) == 2:
+            chosen = pick(variable, options, workspace, robot)
+            others = tuple(v for v in workspace.variables if v.path != variable.path)
+            workspace = replace(workspace, variables=(chosen.variable, *others))
+        found = survey(workspace, robot, columns_asked=bool(options.columns))
+        if chosen.variable.values is not None and fits(chosen.variable, robot):
+            notes += discovery.doubts(found.of(chosen.variable), asked=True)
+        return chosen, found, []
+    laid_out = reshaped(workspace, options, robot)
+    found = survey(laid_out, robot, columns_asked=bool(options.columns))
+    best, offered, said = discovery.choose(found, file)
+    notes += said
+    if best is None:
+        return None, found, offered
+    stored = workspace.find(best.path)
+    assert stored is not None
+    if stored.is_message or stored.values is None:
+        return Chosen(stored, best.variable, list(range(best.columns))), found, []
+    picked = pick(stored, options, workspace, robot)
+    # the variable that was assessed, so that it is not assessed again
+    return replace(picked, variable=best.variable), found, []
 
 
 def _at_a_rate(
-    workspace: Workspace,
-    variable: Variable,
+    survey: Survey,
+    chosen: Chosen,
     layout: Layout,
     options: Options,
     default: float,
@@ -180,17 +218,54 @@ def _at_a_rate(
     notes: list[Diagnostic],
 ) -> tuple[Layout, float]:
     """Return the samples as frames at an even rate, and that rate, Hz."""
+    variable = chosen.variable
     if variable.is_message:
-        return _resampled(workspace, variable, layout, options, default, notes)
-    if options.frame_rate:
+        return _resampled(survey.workspace, variable, layout, options, default, notes)
+    rows = len(layout.arm)
+    if options.frame_rate and not options.resample:
         return layout, options.frame_rate
-    found = frame_rate.frame_rates(workspace, variable.path, len(layout.arm))
-    if layout.times is not None:
-        column = frame_rate.rate_of_times(layout.times, f"{variable.path}(:, 1)")
-        found = ([column] if column else []) + found
-    rate, said = frame_rate.agreed(found, default, file)
-    notes += said
-    return layout, rate
+    assessment = survey.of(variable)
+    if layout.scale != 1.0:
+        # a derivative in rad/s of positions in another unit says nothing of the rate
+        assessment = replace(assessment, rates=())
+    found = frame_rate.find(survey, assessment, variable.path, rows, layout.times, default, file)
+    if not options.resample:
+        notes += found.notes
+        return layout, found.rate
+    return _made_even(variable.path, found, layout, options, notes)
+
+
+def _made_even(
+    path: str,
+    found: frame_rate.Rate,
+    layout: Layout,
+    options: Options,
+    notes: list[Diagnostic],
+) -> tuple[Layout, float]:
+    """Return rows at times of their own as frames at an even rate, joined by straight lines."""
+    clock = found.clock
+    if clock is None:
+        problem = f"no times of the rows of '{path}' were found"
+        raise Refused(finding("bad_option", option="resample", found="true", problem=problem))
+    flaws = frame_rate.flaws(clock)
+    if clock.backward:
+        raise Refused(replace(flaws[0], severity=Severity.ERROR))
+    notes += [n for n in found.notes if n not in flaws and not n.code.startswith("time_")]
+    times_ns = np.rint(clock.times * 1e9).astype(np.int64)
+    kept = np.flatnonzero(np.diff(times_ns, prepend=times_ns[0] - 1) > 0)
+    times_ns = times_ns[kept]
+    rate = options.frame_rate or frame_rate.resampling_rate(clock)
+    frames = resampling.frame_count(times_ns, rate)
+    words: dict[str, Any] = {"duration": float(times_ns[-1]) * 1e-9, "rate": rate}
+    if frames > MOST_FRAMES:
+        raise Refused(finding("too_long", variable=path, most=MOST_FRAMES, **words))
+    words |= {"points": len(times_ns), "frames": frames, "how": "straight lines"}
+    notes.append(finding("resampled", variable=path, **words))
+    arm = resampling.resample(times_ns, layout.arm[kept], None, rate)
+    gripper = layout.gripper
+    if gripper is not None:
+        gripper = resampling.hold(times_ns, gripper[kept], rate)
+    return replace(layout, arm=arm, gripper=gripper), rate
 
 
 def _resampled(
@@ -220,10 +295,9 @@ def _resampled(
         bad = limits.non_finite(velocities, f"{variable.path}.velocities")
         if bad is not None:
             raise Refused(bad)
-        if options.degrees:
-            velocities = np.radians(velocities)
+        velocities *= layout.scale
     own = resampling.even_rate(times_ns) or 0.0
-    kept = own if default <= own <= frame_rate.RATE_RANGE[1] else default
+    kept = own if default <= own <= MOST_OWN_RATE else default
     rate = options.frame_rate or kept
     frames = resampling.frame_count(times_ns, rate)
     duration = float(times_ns[-1] - times_ns[0]) * 1e-9

@@ -2,83 +2,160 @@
 
 from __future__ import annotations
 
-from mrlab_ros.core.conversion.candidates import (
-    FEW_ROWS,
-    Candidate,
-    columns_of_time,
-    fits,
-    score,
-)
+from mrlab_ros.core.conversion import joining
+from mrlab_ros.core.conversion.candidates import FEW_ROWS, Assessment, Survey
 from mrlab_ros.core.conversion.explain import (
     contents,
     holds_samples,
+    matlab_name,
     object_finding,
     refusal,
 )
-from mrlab_ros.core.conversion.frame_rate import time_beside
-from mrlab_ros.core.conversion.variable_names import Hint, hint
+from mrlab_ros.core.conversion.variable_names import Hint
 from mrlab_ros.core.conversion.workspace import Variable, Workspace
-from mrlab_ros.core.diagnostics import Diagnostic, Refused, finding
-from mrlab_ros.core.robots.model import RobotModel
+from mrlab_ros.core.diagnostics import Diagnostic, Fix, Refused, finding
 
 # A score from which a matrix is taken or offered, and below which it is not even offered.
 PLAUSIBLE, CONCEIVABLE = 0.55, 0.25
 # The likeliest is taken over other plausible ones from this lead on.
 CLEAR_LEAD = 0.25
-
-
-def candidates(workspace: Workspace, robot: RobotModel) -> list[Candidate]:
-    """Return the matrices that fit the robot, likeliest first."""
-    found = [
-        score(v, robot, has_time=time_beside(workspace, v.path) is not None)
-        for v in workspace.variables
-        if fits(v, robot) and not columns_of_time(v, robot)
-    ]
-    return sorted(found, key=lambda c: -c.score)
+MOST_OFFERED = 12
 
 
 def choose(
-    workspace: Workspace, robot: RobotModel, file: str, ranked: list[Candidate]
-) -> tuple[Candidate | None, list[Candidate], list[Diagnostic]]:
-    """Choose the trajectory without being told which it is.
+    survey: Survey, file: str
+) -> tuple[Assessment | None, list[Assessment], list[Diagnostic]]:
+    """Choose the trajectory where nobody named it.
 
-    Returns the choice, or None and the candidates to choose from (empty: none), with findings;
-    where nothing was chosen the last one is the reason.
+    Returns the choice, or None and those to choose from (empty: none), with findings; where
+    nothing was chosen the last one is the reason.
     """
-    plausible = [c for c in ranked if c.score >= PLAUSIBLE]
-    conceivable = [c for c in ranked if c.score >= CONCEIVABLE]
-    objects = [v for v in workspace.variables if v.is_object]
-    hidden = [v for v in objects if hint(v.path) is Hint.POSITIONS and holds_samples(v)]
+    ranked = survey.ranked()
+    plausible = [a for a in ranked if a.score >= PLAUSIBLE]
+    conceivable = [a for a in ranked if a.score >= CONCEIVABLE]
+    objects = [v for v in survey.workspace.variables if v.is_object]
+    named = [v for v in objects if survey.name(v).hint is Hint.POSITIONS]
+    hidden = [v for v in named if holds_samples(v, Hint.POSITIONS)]
     notes: list[Diagnostic] = []
-    if plausible:
-        best, others = plausible[0], plausible[1:]
-        clear = not others or best.score - others[0].score >= CLEAR_LEAD
-        named = hint(best.path) is Hint.POSITIONS
-        rivals = [v for v in workspace.variables if _rival(v, best, robot)]
-        if clear and (named or not (hidden or rivals or conceivable[1:])):
-            if others:
-                names = ", ".join(f"'{c.path}'" for c in others[:5])
-                notes.append(finding("other_candidates", variable=best.path, found=names))
-            if hidden or objects:
-                notes.append(object_finding("object_ignored", hidden or objects, file))
-            return best, [], notes
+    best = _best(plausible, conceivable, survey, bool(hidden))
+    if best is not None:
+        others = [a for a in plausible if a is not best]
+        if others:
+            names = ", ".join(f"'{a.path}'" for a in others[:5])
+            code = "twin" if best.twin in {a.path for a in others} else "other_candidates"
+            notes.append(
+                finding(code, variable=best.path, found=names, fixes=_choices(others[:5]))
+            )
+        if hidden or objects:
+            notes.append(object_finding("object_ignored", hidden or objects, file))
+        notes += doubts(best, asked=False)
+        return best, [], notes
     if conceivable and not (hidden and not plausible):
-        listed = "; ".join(f"'{c.path}' ({c.size}, {c.why})" for c in conceivable[:5])
-        count = f"{len(conceivable)} matrices" if len(conceivable) > 1 else "One matrix"
-        notes.append(finding("ambiguous", file=file, count=count, found=listed))
+        conceivable = conceivable[:MOST_OFFERED]
+        notes.append(_ambiguous(conceivable, survey, file))
         return None, conceivable, notes
-    return None, [], [refusal(workspace, robot, file)]
+    return None, [], [refusal(survey, file)]
 
 
-def _rival(variable: Variable, best: Candidate, robot: RobotModel) -> bool:
+def _best(
+    plausible: list[Assessment], conceivable: list[Assessment], survey: Survey, hidden: bool
+) -> Assessment | None:
+    """Return the matrix that is clearly the likeliest, or None."""
+    if not plausible:
+        return None
+    best, others = plausible[0], plausible[1:]
+    twins = {best.path, best.twin}
+    others = [a for a in others if a.path not in twins and a.twin not in twins - {""}]
+    if others and best.points - others[0].points < CLEAR_LEAD:
+        return None
+    if best.name.hint is Hint.POSITIONS or best.confirmed:
+        return best
+    rivals = any(_rival(v, best, survey) for v in survey.workspace.variables)
+    remaining = [a for a in conceivable if a.path not in twins]
+    return None if hidden or rivals or remaining else best
+
+
+def _rival(variable: Variable, best: Assessment, survey: Survey) -> bool:
     """Say whether another matrix is laid out as samples by joints in some other way."""
+    joints = len(survey.robot.joints)
     return (
         variable.path != best.path
         and variable.values is not None
-        and variable.shape[0] in (len(robot.joints), len(robot.joints) + 1)
+        and len(variable.shape) == 2
+        and variable.shape[0] in (joints, joints + 1)
         and variable.shape[1] >= FEW_ROWS
-        and hint(variable.path) is not Hint.NEUTRAL
+        and survey.name(variable).hint not in (Hint.NEUTRAL, Hint.AGAINST)
     )
+
+
+def _ambiguous(offered: list[Assessment], survey: Survey, file: str) -> Diagnostic:
+    listed = "; ".join(_described(a) for a in offered[:5])
+    count = f"{len(offered)} matrices" if len(offered) > 1 else "One matrix"
+    fixes = _choices(offered)
+    paths = {a.path for a in offered}
+    for found in joining.series(survey.workspace, len(survey.robot.joints)):
+        if not found.beside and len(found.paths) > 1 and set(found.paths) <= paths:
+            fixes = (*fixes, Fix("join", found.text, f"q = [{'; '.join(found.paths[:8])}];"))
+            break
+    return finding(
+        "ambiguous",
+        file=file,
+        variable=offered[0].path,
+        count=count,
+        found=listed,
+        fixes=fixes,
+    )
+
+
+def _described(a: Assessment) -> str:
+    candidate = a.candidate()
+    return f"'{a.path}' ({candidate.size}, {candidate.why})"
+
+
+def _choices(offered: list[Assessment]) -> tuple[Fix, ...]:
+    return tuple(
+        Fix("variable", a.path, f"q = {matlab_name(a.path)}; save('traj.mat', 'q')")
+        for a in offered
+    )
+
+
+def doubts(chosen: Assessment, *, asked: bool) -> list[Diagnostic]:
+    """Return the warnings that go with a matrix. asked: a person named it."""
+    if chosen.variable.is_message:
+        return []
+    path, name = chosen.path, chosen.name
+    notes = []
+    reasons = list(chosen.doubts)
+    if asked:
+        reasons = [*chosen.objections, *reasons]
+        if name.hint in (Hint.AGAINST, Hint.DOUBTFUL) and not chosen.objections:
+            notes.append(finding("doubtful_name", variable=path, why=name.why))
+    elif name.hint in (Hint.NEUTRAL, Hint.TWO_FACED) and not chosen.confirmed:
+        fixes = (Fix("variable", path, f"q = {matlab_name(path)}; save('traj.mat', 'q')"),)
+        notes.append(
+            finding("neutral_name", variable=path, why=name.why, seen=_seen(chosen), fixes=fixes)
+        )
+    if reasons:
+        why = "; ".join(reasons)
+        notes.append(finding("doubtful_values", variable=path, why=why))
+    if chosen.other_tool_path is not None:
+        other, match = chosen.other_tool_path
+        notes.append(
+            finding(
+                "tool_path_differs",
+                variable=path,
+                other=other,
+                value=match.error,
+                limit=match.extent,
+                unit="m",
+            )
+        )
+    return notes
+
+
+def _seen(chosen: Assessment) -> str:
+    """Say what speaks for a matrix beside its name."""
+    return "; ".join(chosen.reasons[1:]) or "nothing speaks against it"
 
 
 def named(workspace: Workspace, path: str, file: str) -> Variable:
@@ -86,5 +163,16 @@ def named(workspace: Workspace, path: str, file: str) -> Variable:
     found = workspace.find(path)
     if found is None:
         found_text = contents(workspace)
-        raise Refused(finding("unknown_variable", file=file, variable=path, found=found_text))
+        fixes = tuple(Fix("variable", name) for name in _similar(workspace, path))
+        raise Refused(
+            finding("unknown_variable", file=file, variable=path, found=found_text, fixes=fixes)
+        )
     return found
+
+
+def _similar(workspace: Workspace, path: str) -> list[str]:
+    """Return paths of matrices, those first that are spelled almost like `path`."""
+    wanted = path.lower().rpartition(".")[2]
+    matrices = [v.path for v in workspace.variables if v.values is not None and v.values.size > 1]
+    same = [p for p in matrices if p.lower().rpartition(".")[2] == wanted]
+    return (same + [p for p in matrices if p not in same])[:5]

@@ -3,14 +3,26 @@
 from __future__ import annotations
 
 import re
-from collections import Counter
 from typing import Any
 
-from mrlab_ros.core.conversion.candidates import FEW_ROWS, columns_of_time, is_time
+import numpy as np
+
+from mrlab_ros.core.conversion import relations
+from mrlab_ros.core.conversion.candidates import (
+    FEW_ROWS,
+    Assessment,
+    ClockColumn,
+    Survey,
+    blocking_clocks,
+    clocks_among,
+)
+from mrlab_ros.core.conversion.gripper import has_states
+from mrlab_ros.core.conversion.joining import Series, series
 from mrlab_ros.core.conversion.named_columns import misnamed
-from mrlab_ros.core.conversion.variable_names import Hint, hint
+from mrlab_ros.core.conversion.options import columns_text
+from mrlab_ros.core.conversion.variable_names import Hint
 from mrlab_ros.core.conversion.workspace import Variable, Workspace
-from mrlab_ros.core.diagnostics import Diagnostic, Refused, finding
+from mrlab_ros.core.diagnostics import Diagnostic, Fix, finding
 from mrlab_ros.core.robots.model import RobotModel
 
 OBJECT_CODE = {
@@ -23,14 +35,21 @@ OBJECT_CODE = {
     "dlarray": "q = extractdata({name}); save('traj.mat', 'q')",
     "gpuArray": "q = gather({name}); save('traj.mat', 'q')",
 }
+MOST_MISSES = 200
+MOST_SHOWN = 5
 
 
-def holds_samples(variable: Variable) -> bool:
+def matlab_name(path: str) -> str:
+    """Return what a line of MATLAB calls the variable at `path`: a joined one, or a part, is q."""
+    return "q" if ".." in path or "," in path or not path[:1].isalpha() else path
+
+
+def holds_samples(variable: Variable, hint: Hint) -> bool:
     """Say whether the object is of a class made to hold numbers, or is named like positions."""
     kind = variable.kind
     if kind in OBJECT_CODE or kind.startswith(("Simulink.", "timeseries", "tscollection")):
         return True
-    return hint(variable.path) is Hint.POSITIONS and not re.search(
+    return hint is Hint.POSITIONS and not re.search(
         r"link|robot|tree|quaternion|^se[23]$|^so[23]$|camera", kind, re.I
     )
 
@@ -46,32 +65,66 @@ def object_finding(code: str, objects: list[Variable], file: str) -> Diagnostic:
     return finding(code, variable=first.path, file=file, found=listed, code=line)
 
 
-def refusal(workspace: Workspace, robot: RobotModel, file: str) -> Diagnostic:
+def refusal(survey: Survey, file: str) -> Diagnostic:
     """Say why nothing in the workspace could be the trajectory, by the nearest miss."""
+    workspace, robot = survey.workspace, survey.robot
     joints = len(robot.joints)
-    misses = [
-        (rank, miss)
-        for v in workspace.variables
-        if (v.is_message or not re.search(r"[({]\d", v.path))
-        and (miss := near_miss(v, robot)) is not None
-        and (rank := {Hint.POSITIONS: 0, Hint.NEUTRAL: 1}.get(hint(v.path), 9)) < 9
-    ]
+    ranks = {Hint.POSITIONS: 0, Hint.TWO_FACED: 1, Hint.NEUTRAL: 1}
+    misses: list[tuple[int, Diagnostic]] = []
+    for v in workspace.variables:
+        rank = ranks.get(survey.name(v).hint, 9)
+        if rank == 9 or not (v.is_message or not re.search(r"[({]\d", v.path)):
+            continue
+        miss = near_miss(v, survey)
+        if miss is not None:
+            misses.append((rank, miss))
+        if len(misses) >= MOST_MISSES:
+            break
     misses.sort(key=lambda pair: pair[0])
-    opaque = [v for v in workspace.variables if v.is_object and holds_samples(v)]
+    opaque = [
+        v for v in workspace.variables if v.is_object and holds_samples(v, survey.name(v).hint)
+    ]
+    named = [miss for rank, miss in misses if rank == 0 and miss.code != "wrong_shape"]
+    if named:
+        return named[0]
+    pieces = series(workspace, joints)
+    if pieces:
+        return _in_pieces(pieces[0], workspace)
     named = [miss for rank, miss in misses if rank == 0]
     if named:
         return named[0]
-    if opaque and (any(hint(v.path) is Hint.POSITIONS for v in opaque) or not misses):
+    if opaque and (any(survey.name(v).hint is Hint.POSITIONS for v in opaque) or not misses):
         return object_finding("unsupported_object", opaque, file)
-    series = _series(workspace, joints)
-    if series is not None:
-        path, code = series
-        return finding("inside_container", variable=path, found=f"'{path}'", code=code)
     if misses:
         return misses[0][1]
+    return no_trajectory(survey, file)
+
+
+def no_trajectory(survey: Survey, file: str) -> Diagnostic:
+    """Return the finding that lists what is there and says what the matrices look like."""
+    robot, joints = survey.robot, len(survey.robot.joints)
+    others = [a for a in survey.fitting if a.finite][:MOST_SHOWN]
+    looks = "".join(f" '{a.path}' ({a.variable.size}): {_looks(a)}." for a in others)
     return finding(
-        "no_trajectory", file=file, robot=robot.id, joints=joints, found=contents(workspace)
+        "no_trajectory",
+        file=file,
+        variable=others[0].path if others else "",
+        robot=robot.id,
+        joints=joints,
+        found=contents(survey.workspace) + looks,
+        fixes=tuple(
+            Fix("variable", a.path, f"q = {matlab_name(a.path)}; save('traj.mat', 'q')")
+            for a in others
+        )
+        or (Fix(matlab="save('traj.mat', 'q')"),),
     )
+
+
+def _looks(a: Assessment) -> str:
+    """Say in words why a matrix that would fit was not taken."""
+    if a.objections:
+        return a.objections[0]
+    return a.name.why if a.name.hint in (Hint.AGAINST, Hint.DOUBTFUL) else "; ".join(a.reasons)
 
 
 def contents(workspace: Workspace) -> str:
@@ -89,18 +142,21 @@ def bad_message(variable: Variable, problem: str) -> Diagnostic:
     return finding("bad_message", variable=variable.path, problem=problem)
 
 
-def near_miss(variable: Variable, robot: RobotModel) -> Diagnostic | None:
+def near_miss(variable: Variable, survey: Survey) -> Diagnostic | None:
     """Say what keeps a variable from being the trajectory, or None where it is far from one."""
+    robot = survey.robot
     joints = len(robot.joints)
     widths = (joints, joints + 1)
     shape, path = variable.shape, variable.path
     words: dict[str, Any] = {
         "variable": path,
+        "name": matlab_name(path),
         "size": variable.size,
         "robot": robot.id,
         "joints": joints,
         "more": joints + 1,
     }
+    named = survey.name(variable).hint is Hint.POSITIONS
     if variable.is_message and variable.note:
         return bad_message(variable, variable.note)
     if variable.values is not None and (wrong := misnamed(variable, robot)) is not None:
@@ -108,10 +164,7 @@ def near_miss(variable: Variable, robot: RobotModel) -> Diagnostic | None:
     if len(shape) < 2 or variable.is_object or variable.kind in ("struct", "cell", "char"):
         return None
     if len(shape) > 2:
-        if joints in shape:
-            hint_text = f" It has {len(shape)} dimensions: try {path} = squeeze({path})."
-            return finding("wrong_shape", **words, hint=hint_text)
-        return None
+        return _many_dimensions(variable, words, joints)
     if 0 in shape:
         return finding("empty", **words) if max(shape) in (0, *widths) else None
     matching = shape[1] in widths or shape[0] in widths
@@ -125,65 +178,194 @@ def near_miss(variable: Variable, robot: RobotModel) -> Diagnostic | None:
     if min(shape) == 1:
         if max(shape) in widths:
             return finding("single_sample", **words)
-        if hint(path) is Hint.POSITIONS and max(shape) > 1:
-            return finding("wrong_shape", **words, hint="")
-        return None
-    if columns_of_time(variable, robot):
-        return _time_finding(variable)
+        return _too_narrow(words) if named and max(shape) > 1 else None
+    if shape[1] in widths and shape[0] >= 2:
+        a = survey.of(variable)
+        clocks = blocking_clocks(a, robot)
+        if clocks:
+            return time_finding(variable, clocks, robot)
+        return _looks_like(a) if a.objections and a.name.hint is not Hint.AGAINST else None
     flipped = Variable(path, variable.kind, shape[::-1], variable.values.T)
-    if shape[1] not in widths and columns_of_time(flipped, robot):
-        return finding("transposed", **words, columns=f" --columns 2:{shape[0]}, as row 1 is time")
-    long_enough = shape[1] >= FEW_ROWS or hint(path) is Hint.POSITIONS
-    if shape[0] in widths and shape[1] not in widths and long_enough:
-        return finding("transposed", **words, columns="")
-    plausible = 3 <= shape[1] <= 16 and shape[0] >= FEW_ROWS
-    if shape[0] > shape[1] and (hint(path) is Hint.POSITIONS or plausible):
-        assumed = f" Column 1 looks like time, {shape[1] - 1} columns follow."
-        return finding(
-            "wrong_shape", **words, hint=assumed if is_time(variable.values[:, 0]) else ""
-        )
+    long_enough = shape[1] >= FEW_ROWS or named
+    if shape[1] not in widths and shape[0] in widths and long_enough:
+        extra = clocks_of(flipped, survey)
+        time = f" Row {extra[0].index + 1} is time." if extra else ""
+        return finding("transposed", **words, time=time)
+    if shape[1] not in widths and shape[0] == joints + 2 and clocks_of(flipped, survey):
+        return finding("transposed", **words, time=" One of its rows is time.")
+    plausible = 3 <= shape[1] <= 64 and shape[0] >= FEW_ROWS
+    if shape[0] > shape[1] and (named or plausible):
+        return wide(variable, survey, words)
     return None
 
 
-def _time_finding(variable: Variable) -> Diagnostic:
+def clocks_of(variable: Variable, survey: Survey) -> tuple[ClockColumn, ...]:
+    """Return the columns of any matrix with values that count time."""
     values = variable.values
-    assert values is not None
+    if values is None or min(values.shape) < 2:
+        return ()
+    with np.errstate(all="ignore"):
+        low, high = values.min(axis=0).astype(float), values.max(axis=0).astype(float)
+    if not (np.isfinite(low).all() and np.isfinite(high).all()):
+        return ()
+    return clocks_among(variable, survey.robot, survey.time_vectors, low, high)
+
+
+def time_finding(
+    variable: Variable, clocks: tuple[ClockColumn, ...], robot: RobotModel
+) -> Diagnostic:
+    """Return the finding of a column of time, with the columns that are left."""
+    joints = len(robot.joints)
+    clock = clocks[0]
+    taken = {c.index for c in clocks}
+    left = [c for c in range(variable.shape[1]) if c not in taken]
+    fixes: tuple[Fix, ...] = ()
+    name = matlab_name(variable.path)
+    if len(left) >= joints:
+        text = columns_text(left[: joints + 1])
+        fixes = (
+            Fix("columns", text, f"q = {name}(:, {text}); t = {name}(:, {clock.index + 1});"),
+        )
+        rest = f"Columns {text} are the joints."
+    else:
+        rest = f"Only {len(left)} columns are left, and {robot.id} has {joints} joints."
+        fixes = (
+            Fix(matlab=f"t = {name}(:, {clock.index + 1}); {name}(:, {clock.index + 1}) = [];"),
+        )
     return finding(
         "time_column",
         variable=variable.path,
-        first=float(values[0, 0]),
-        last=float(values[-1, 0]),
-        columns=f"2:{values.shape[1]}",
+        where=f"column {clock.index + 1}",
+        first_row=1,
+        last_row=variable.shape[0],
+        column=clock.index + 1,
+        first=clock.first,
+        last=clock.last,
+        why=clock.why,
+        rest=rest,
+        fixes=fixes,
     )
 
 
-def _series(workspace: Workspace, joints: int) -> tuple[str, str] | None:
-    """Return a place such as path.pos(1).q that is repeated, and MATLAB that joins them."""
-    seen: Counter[str] = Counter()
-    first: dict[str, Variable] = {}
-    for v in workspace.variables:
-        if (
-            v.values is not None
-            and sorted(v.shape) == [1, joints]
-            and re.search(r"[({]\d", v.path)
-        ):
-            pattern = re.sub(r"([({])[\d,]+([)}])", r"\1\2", v.path)
-            seen[pattern] += 1
-            first.setdefault(pattern, v)
-    if not seen or seen.most_common(1)[0][1] < 2:
+def _looks_like(a: Assessment) -> Diagnostic:
+    if not (a.low.any() or a.high.any()):
+        return finding("never_filled", variable=a.path, size=a.variable.size, last_row=a.rows)
+    return finding(
+        "looks_like",
+        variable=a.path,
+        size=a.variable.size,
+        why=a.objections[0],
+        fixes=(Fix("variable", a.path, f"q = {matlab_name(a.path)}; save('traj.mat', 'q')"),),
+    )
+
+
+def _many_dimensions(variable: Variable, words: dict[str, Any], joints: int) -> Diagnostic | None:
+    shape, name = variable.shape, words["name"]
+    long = [n for n in shape if n > 1]
+    if joints not in shape and joints + 1 not in shape:
         return None
-    pattern = seen.most_common(1)[0][0]
-    path = first[pattern].path
-    join = "vertcat" if first[pattern].shape[0] == 1 else "horzcat"
-    inner = pattern.replace("{}", "{:}").replace("()", "")
-    flip = "" if join == "vertcat" else ".'"
-    return path, f"q = {join}({inner}){flip}; save('traj.mat', 'q')"
+    line = f"q = squeeze({name});"
+    if len(long) == 2:
+        if long[0] in (joints, joints + 1):
+            line = f"q = squeeze({name}).';"
+    else:
+        axis = shape.index(joints) if joints in shape else shape.index(joints + 1)
+        line = f"q = squeeze({name}(:, :, 1));" if axis < 2 else f"q = squeeze({name}(:, 1, :));"
+    hint = f" It has {len(shape)} dimensions: in MATLAB {line}"
+    return finding("wrong_shape", **words, hint=hint, fixes=(Fix(matlab=line),))
 
 
-def named(workspace: Workspace, path: str, file: str) -> Variable:
-    """Return the variable that was asked for; raise Refused with the names there are."""
-    found = workspace.find(path)
-    if found is None:
-        found_text = contents(workspace)
-        raise Refused(finding("unknown_variable", file=file, variable=path, found=found_text))
-    return found
+def _too_narrow(words: dict[str, Any]) -> Diagnostic:
+    name, joints = words["name"], words["joints"]
+    line = f"q = [{name} zeros(size({name}, 1), {joints} - size({name}, 2))];"
+    return finding("wrong_shape", **words, hint="", fixes=(Fix(matlab=line),))
+
+
+def wide(variable: Variable, survey: Survey, words: dict[str, Any]) -> Diagnostic:
+    """Return the finding of a matrix with too many columns, or too few, with those to take."""
+    joints = len(survey.robot.joints)
+    clocks = clocks_of(variable, survey)
+    taken = {c.index for c in clocks}
+    left = [c for c in range(variable.shape[1]) if c not in taken]
+    hint = ""
+    if clocks:
+        hint = f" Column {clocks[0].index + 1} looks like time, {len(left)} columns follow."
+        if clocks[0].index:
+            hint = f" Column {clocks[0].index + 1} looks like time, beside {len(left)} others."
+    if len(left) < joints:
+        return replace_hint(_too_narrow(words), words, hint)
+    block = _block_of_joints(variable, left, survey)
+    text = columns_text(block)
+    hint += f" Columns {text} may be the joints."
+    name = words["name"]
+    fixes = (Fix("columns", text, f"q = {name}(:, {text}); save('traj.mat', 'q')"),)
+    return finding("wrong_shape", **words, hint=hint, fixes=fixes)
+
+
+def replace_hint(found: Diagnostic, words: dict[str, Any], hint: str) -> Diagnostic:
+    return finding("wrong_shape", **words, hint=hint, fixes=found.fixes) if hint else found
+
+
+def _block_of_joints(variable: Variable, left: list[int], survey: Survey) -> list[int]:
+    """Return the columns, from 0, of a wide matrix that are likeliest the joints.
+
+    Blocks of as many columns as there are joints: the one whose derivative another one is, else
+    the first, with a gripper where one column is left behind it.
+    """
+    joints = len(survey.robot.joints)
+    values = variable.values
+    assert values is not None
+    blocks = [left[i : i + joints] for i in range(0, len(left) - joints + 1, joints)][:8]
+    if len(blocks) > 1:
+        part = relations.busiest(values)
+        courses = [relations.course(values[:, block], part) for block in blocks]
+        pairs = [
+            (i, j)
+            for i, own in enumerate(courses)
+            for j, other in enumerate(courses)
+            if i != j
+            and own is not None
+            and other is not None
+            and relations.derivative_rate(own, other) is not None
+        ]
+        derived = {j for _, j in pairs}
+        for i, _ in pairs:
+            if i not in derived:
+                return blocks[i]
+    if len(left) == joints + 1 and has_states(values[:, left[-1]]):
+        return left
+    return blocks[0]
+
+
+def _in_pieces(found: Series, workspace: Workspace) -> Diagnostic:
+    """Return the finding of a trajectory kept in pieces, with what joins them."""
+    first = workspace.find(found.paths[0])
+    assert first is not None
+    row = first.shape[0] == 1
+    paths = found.paths
+    if "{" in paths[0] or "(" in paths[0]:
+        pattern = re.sub(r"\d+(?=\D*$)", ":", paths[0])
+        inner = pattern.replace("(:)", "")
+        one_by_one = inner
+    else:
+        one_by_one = ", ".join(paths[:8]) + (", ..." if len(paths) > 8 else "")
+    if found.beside:
+        flip = ".'" if row else ""
+        code = f"q = {'vertcat' if row else 'horzcat'}({one_by_one}){flip};"
+        kind = f"each joint is a variable of its own, '{paths[0]}' to '{paths[-1]}'"
+    else:
+        down = row or (first.shape[0] != 1 and min(first.shape) > 1)
+        flip = "" if down else ".'"
+        code = f"q = {'vertcat' if down else 'horzcat'}({one_by_one}){flip};"
+        what = "segments" if min(first.shape) > 1 else "samples, one by one,"
+        kind = f"it is kept in {what} as '{paths[0]}' to '{paths[-1]}'"
+    code += " save('traj.mat', 'q')"
+    return finding(
+        "inside_container",
+        variable=paths[0],
+        found=kind,
+        join=found.text,
+        code=code,
+        value=float(len(paths)),
+        fixes=(Fix("join", found.text, code),),
+    )

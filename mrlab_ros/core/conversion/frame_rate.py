@@ -1,57 +1,84 @@
-"""How many rows of a matrix make a second, as far as the file says so."""
+"""How many rows of a matrix make a second, as far as the file says so.
+
+A time vector counts before a scalar, a scalar before the rate at which a velocity beside the
+matrix is its derivative, that before the duration, and the default comes last.
+"""
 
 from __future__ import annotations
 
 import re
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from mrlab_ros.core.conversion.variable_names import leaf, words
+from mrlab_ros.core.conversion.candidates import Assessment, Survey
+from mrlab_ros.core.conversion.joining import first_path
+from mrlab_ros.core.conversion.time_vectors import (
+    LEAST_RATE,
+    MOST_RATE,
+    PATH_PARAMETERS,
+    UNIT_NAMES,
+    Clock,
+    clock_of,
+    counts_rows,
+    is_regular,
+    is_time_name,
+    snapped,
+    unit_named,
+)
+from mrlab_ros.core.conversion.variable_names import Hint, hint, leaf, parts, words
 from mrlab_ros.core.conversion.workspace import Variable, Workspace
-from mrlab_ros.core.diagnostics import Diagnostic, finding
+from mrlab_ros.core.diagnostics import Diagnostic, Fix, finding
 
-RATE_NAMES = words("fs f freq frequency framerate rate samplerate hz fps")
-STEP_NAMES = words("dt ts deltat tstep timestep sampletime steptime h")
-TIME_NAMES = words("t time tout timevec timevector times tvec timecont ts tq")
-RATE_RANGE = (1.0, 10_000.0)
+RATE_NAMES = words(
+    "fs framerate samplerate samplingrate samplefrequency samplingfrequency samplefreq hz fps "
+    "fsample fsampling abtastrate abtastfrequenz bildrate controlrate controlfrequency looprate "
+    "updaterate ratehz freqhz fshz samplespersecond abtastungen recordrate recordingrate "
+    "recordingfrequency publishrate rosrate framespersecond"
+)
+STEP_NAMES = words(
+    "dt ts deltat tstep timestep sampletime samplingtime sampleperiod samplingperiod steptime "
+    "tsample tsampling abtastzeit abtastintervall abtastperiode zeitschritt dtime deltatime "
+    "controlperiod cycletime zykluszeit sampleinterval tcycle takt takzeit taktzeit dts tabtast"
+)
+# These are also frequencies of sines, heights, counts and durations: they need a likely value.
+UNSURE_RATES = words("f freq frequency frequenz rate samples")
+UNSURE_STEPS = words("h step stepsize schrittweite t tau period periode")
+LIKELY_RATES = (20.0, 2000.0)  # Hz
+LIKELY_STEPS = (5e-4, 0.05)  # s
+DURATION_NAMES = words(
+    "tf tfinal tend duration dauer totaltime ttotal ttot tmax movetime gesamtzeit endzeit simtime "
+    "stoptime tstop tges motiontime t"
+)
+LIKELY_OF_DURATION = (5.0, 1000.0)  # Hz
+AGREES = 0.01  # relative; rates that differ by less are the same
+AGREES_WITH_MOTION = 0.05  # the same for a rate from a velocity
+MOST_NAMED = 5
 
 
 @dataclass(frozen=True)
-class FrameRate:
-    """A frame rate, Hz, and the variable that it came from."""
+class Scalar:
+    """A number of the file that may be the rate. sure: its name means nothing else."""
+
+    path: str
+    rate: float
+    sure: bool
+
+
+@dataclass
+class Rate:
+    """The frame rate, Hz, the times of the rows where they are known, and what to say."""
 
     rate: float
-    source: str
-    uneven: tuple[float, float] | None = None
-
-
-def snapped(rate: float) -> float:
-    """Return the whole number that `rate` is up to rounding, or `rate`."""
-    whole = round(rate)
-    return float(whole) if whole and abs(rate - whole) < 1e-6 * whole else rate
-
-
-def rate_of_times(times: NDArray[Any], source: str) -> FrameRate | None:
-    """Return the frame rate of a time vector, s, or None where it is none."""
-    t = np.asarray(times, dtype=np.float64).reshape(-1)
-    if len(t) < 2 or not np.isfinite(t).all():
-        return None
-    steps = np.diff(t)
-    if not (steps >= 0).all() or t[-1] <= t[0]:
-        return None
-    rate = snapped((len(t) - 1) / float(t[-1] - t[0]))
-    if not RATE_RANGE[0] / 10 <= rate <= RATE_RANGE[1]:
-        return None
-    mean = 1 / rate
-    uneven = np.abs(steps - mean).max() > 0.01 * mean
-    return FrameRate(rate, source, (float(steps.min()), float(steps.max())) if uneven else None)
+    clock: Clock | None = None
+    notes: list[Diagnostic] = field(default_factory=list)
 
 
 def time_beside(workspace: Workspace, path: str) -> Variable | None:
     """Return the own time of the matrix at `path`, else that of the structure it lies in."""
+    path = first_path(path)
     variable = workspace.find(path)
     if variable is not None and variable.time:
         return workspace.find(variable.time)
@@ -59,61 +86,397 @@ def time_beside(workspace: Workspace, path: str) -> Variable | None:
     outer = match.group(1) if match else path.rpartition(".")[0]
     if not outer:
         return None
-    for name in ("time", "t", "Time"):
-        found = workspace.find(f"{outer}.{name}")
-        if found is not None and found.values is not None:
-            return found
+    for v in workspace.variables:
+        above, _, name = v.path.rpartition(".")
+        if above != outer or v.values is None or not is_time_name(name):
+            continue
+        if min(v.shape) == 1 and v.values.size > 1:
+            return v
     return None
 
 
-def frame_rates(workspace: Workspace, path: str, rows: int) -> list[FrameRate]:
-    """Return the frame rates that the file gives for the matrix at `path`, likeliest first.
+def find(
+    survey: Survey,
+    chosen: Assessment | None,
+    path: str,
+    rows: int,
+    column: NDArray[Any] | None,
+    default: float,
+    file: str,
+) -> Rate:
+    """Return the frame rate of the matrix at `path` with `rows` rows.
 
-    The time of the structure that holds the matrix, then scalars that are named like a rate or
-    a step, then other time vectors with `rows` elements.
+    chosen: its assessment, where it was found by its numbers. column: the column of it that
+    counts time, or None. default: Hz.
     """
-    found: list[FrameRate] = []
-    beside = time_beside(workspace, path)
-    scalars, vectors = [], []
-    for v in workspace.variables:
-        if v.values is None or re.search(r"[({]", v.path):
-            continue
-        name = re.sub(r"[^a-z]", "", leaf(v.path).lower())
-        number = workspace.scalar(v)
-        if number is not None and np.isfinite(number) and number > 0:
-            if name in RATE_NAMES and RATE_RANGE[0] <= number <= RATE_RANGE[1]:
-                scalars.append(FrameRate(snapped(number), v.path))
-            elif name in STEP_NAMES and RATE_RANGE[0] <= 1 / number <= RATE_RANGE[1]:
-                scalars.append(FrameRate(snapped(1 / number), v.path))
-        elif name in TIME_NAMES and v.values.size == rows and min(v.shape) == 1:
-            of_times = rate_of_times(v.values, v.path)
-            if of_times is not None and v is not beside:
-                vectors.append(of_times)
-    if beside is not None and beside.values is not None and beside.values.size == rows:
-        of_times = rate_of_times(beside.values, beside.path)
-        if of_times is not None:
-            found.append(of_times)
-    return found + scalars + vectors
-
-
-def agreed(found: list[FrameRate], default: float, file: str) -> tuple[float, list[Diagnostic]]:
-    """Return the frame rate, Hz: the first that was found, or the default; and what to say."""
-    if not found:
-        return default, [finding("rate_default", file=file, rate=default)]
-    best = found[0]
-    notes = [finding("rate_found", variable=best.source, rate=best.rate)]
-    for other in found[1:]:
-        if abs(other.rate - best.rate) > 0.01 * best.rate:
-            clash: dict[str, Any] = {
-                "rate": best.rate,
-                "other": other.source,
-                "other_rate": other.rate,
-            }
-            notes.append(finding("rate_conflict", variable=best.source, **clash))
-            break
-    if best.uneven:
-        least, most = best.uneven
+    workspace = survey.workspace
+    coarse = chosen is not None and chosen.coarse
+    motion = chosen.rates if chosen is not None else ()
+    scalars = _scalars(workspace, path)
+    likely = tuple(s.rate for s in scalars if s.sure) + tuple(r for _, r in motion)
+    clocks = _clocks(workspace, path, rows, column, coarse, likely)
+    usable = [c for c in clocks if c.rate]
+    notes: list[Diagnostic] = []
+    if usable:
+        return _by_clock(usable, scalars, motion, notes)
+    unusable = next((c for c in clocks if not c.rate and c.named), None)
+    known = [s for s in scalars if s.sure]
+    if unusable is not None and not (known or motion):
+        notes.append(_counting(unusable, default))
+    wrong_length = _of_other_length(workspace, path, rows)
+    if known:
+        return _by_scalar(known, motion, notes)
+    if motion:
+        source, rate = motion[0]
+        rate = _nice(rate)
         notes.append(
-            finding("time_uneven", variable=best.source, least=least, most=most, rate=best.rate)
+            finding("rate_of_velocity", variable=source, value=rate, unit="Hz", rate=rate)
         )
-    return best.rate, notes
+        return Rate(rate, None, notes)
+    if wrong_length is not None:
+        notes.append(wrong_length)
+    unsure = [s for s in scalars if not s.sure]
+    likely_ones = [s for s in unsure if s.rate and LIKELY_RATES[0] <= s.rate <= LIKELY_RATES[1]]
+    if likely_ones:
+        best = likely_ones[0]
+        notes.append(_assumed(best.path, best.rate, default))
+        return Rate(best.rate, None, notes)
+    of_duration = _of_duration(workspace, path, rows)
+    if of_duration is not None:
+        notes.append(_assumed(of_duration.path, of_duration.rate, default))
+        return Rate(of_duration.rate, None, notes)
+    if unsure:
+        notes.append(
+            finding(
+                "rate_unclear",
+                variable=unsure[0].path,
+                value=default,
+                unit="Hz",
+                found=", ".join(f"'{s.path}'" for s in unsure[:MOST_NAMED]),
+                rate=default,
+                fixes=(_rate_fix(default),),
+            )
+        )
+    notes.append(finding("rate_default", file=file, rate=default, value=default, unit="Hz"))
+    return Rate(default, None, notes)
+
+
+def _by_clock(
+    clocks: list[Clock],
+    scalars: list[Scalar],
+    motion: tuple[tuple[str, float], ...],
+    notes: list[Diagnostic],
+) -> Rate:
+    best = clocks[0]
+    rate = best.rate
+    notes.append(finding("rate_found", variable=best.source, value=rate, unit="Hz", rate=rate))
+    confirmed = [s for s in scalars if abs(s.rate - rate) <= AGREES * rate] if scalars else []
+    by_motion = bool(motion) and _fits_motion(rate, motion[0][1])
+    if not (best.unit_known or confirmed or by_motion):
+        notes.append(
+            finding(
+                "time_unit",
+                variable=best.source,
+                value=rate,
+                unit="Hz",
+                what=UNIT_NAMES[best.unit],
+                rate=rate,
+                step=_step_in_unit(best),
+                fixes=(_rate_fix(rate),),
+            )
+        )
+    if not (best.named or confirmed or by_motion):
+        notes.append(_assumed(best.source, rate, None))
+    rivals = [(c.source, c.rate) for c in clocks[1:]]
+    rivals += [(s.path, s.rate) for s in scalars if s.sure]
+    for other, other_rate in rivals:
+        if abs(other_rate - rate) > AGREES * rate:
+            notes.append(_conflict(best.source, rate, other, other_rate))
+            break
+    else:
+        if motion and not by_motion:
+            notes.append(_conflict(best.source, rate, motion[0][0], _nice(motion[0][1])))
+    notes += flaws(best)
+    return Rate(rate, best, notes)
+
+
+def _by_scalar(
+    known: list[Scalar], motion: tuple[tuple[str, float], ...], notes: list[Diagnostic]
+) -> Rate:
+    best = known[0]
+    notes.append(
+        finding("rate_found", variable=best.path, value=best.rate, unit="Hz", rate=best.rate)
+    )
+    rivals = [(s.path, s.rate) for s in known[1:] if abs(s.rate - best.rate) > AGREES * best.rate]
+    rivals += [(path, _nice(rate)) for path, rate in motion if not _fits_motion(best.rate, rate)]
+    if rivals:
+        notes.append(_conflict(best.path, best.rate, *rivals[0]))
+    return Rate(best.rate, None, notes)
+
+
+def flaws(clock: Clock) -> list[Diagnostic]:
+    """Return what is to say of times that are uneven, repeated or go back."""
+    notes = []
+    resample = Fix("resample", "true", _interpolation(clock))
+    if clock.backward:
+        row = clock.backward[0]
+        notes.append(
+            finding(
+                "time_backward",
+                variable=clock.source,
+                where=f"row {row}",
+                first_row=row,
+                last_row=clock.backward[-1],
+                value=clock.least,
+                unit="s",
+                count=_counted(len(clock.backward), "row"),
+                row=row,
+                rate=clock.rate,
+                fixes=(Fix(matlab=f"[t, order] = sort({clock.source}); q = q(order, :);"),),
+            )
+        )
+    elif clock.repeated:
+        row = clock.repeated[0]
+        notes.append(
+            finding(
+                "time_repeated",
+                variable=clock.source,
+                where=f"row {row}",
+                first_row=row,
+                last_row=clock.repeated[-1],
+                value=0.0,
+                unit="s",
+                count=_counted(len(clock.repeated), "row"),
+                row=row,
+                rate=clock.rate,
+                fixes=(resample,),
+            )
+        )
+    if clock.worst_row and not clock.backward:
+        notes.append(
+            finding(
+                "time_uneven",
+                variable=clock.source,
+                where=f"row {clock.worst_row}",
+                first_row=clock.worst_row,
+                last_row=clock.worst_row,
+                value=clock.deviation,
+                unit="s",
+                least=clock.least,
+                most=clock.most,
+                row=clock.worst_row,
+                deviation=clock.deviation,
+                rate=clock.rate,
+                fixes=(resample,),
+            )
+        )
+    return notes
+
+
+def resampling_rate(clock: Clock) -> float:
+    """Return an even rate, Hz, for rows at uneven times: a whole one where it is 2 or more."""
+    return float(round(clock.rate)) if clock.rate >= 2 else clock.rate
+
+
+def _interpolation(clock: Clock) -> str:
+    t = clock.source
+    return f"[tu, k] = unique({t}); q = interp1(tu, q(k, :), (tu(1):1/{clock.rate:g}:tu(end))');"
+
+
+def _step_in_unit(clock: Clock) -> str:
+    usual = float(np.median(np.diff(clock.times)))
+    scale = {"s": 1.0, "ms": 1e-3, "us": 1e-6, "ns": 1e-9, "days": 86_400.0}[clock.unit]
+    return f"{usual / scale:.4g}"
+
+
+def _counted(number: int, noun: str) -> str:
+    return f"{number} {noun}{'' if number == 1 else 's'}"
+
+
+def _fits_motion(rate: float, factor: float) -> bool:
+    """Say whether velocities that are `factor` times the steps, Hz, agree with a rate.
+
+    They may be in deg/s beside positions in rad, or the other way round.
+    """
+    turns = (1.0, 180 / np.pi, np.pi / 180)
+    return any(abs(factor / (rate * k) - 1) <= AGREES_WITH_MOTION for k in turns)
+
+
+def _nice(rate: float) -> float:
+    """Return a rate that was measured as the whole number it is near, where it is near one."""
+    whole = float(round(rate))
+    if whole >= 2 and abs(rate - whole) <= 0.004 * whole:
+        return whole
+    return float(f"{rate:.4g}")
+
+
+def _rate_fix(rate: float) -> Fix:
+    return Fix("frame_rate", f"{rate:.6g}", f"fs = {rate:.6g}; save('traj.mat', 'q', 'fs')")
+
+
+def _conflict(source: str, rate: float, other: str, other_rate: float) -> Diagnostic:
+    return finding(
+        "rate_conflict",
+        variable=source,
+        value=rate,
+        limit=other_rate,
+        unit="Hz",
+        rate=rate,
+        other=other,
+        other_rate=other_rate,
+        fixes=tuple(_rate_fix(r) for r in (rate, other_rate)),
+    )
+
+
+def _assumed(source: str, rate: float, default: float | None) -> Diagnostic:
+    fixes = [_rate_fix(rate)]
+    if default is not None and abs(default - rate) > AGREES * rate:
+        fixes.append(_rate_fix(default))
+    return finding(
+        "rate_assumed", variable=source, value=rate, unit="Hz", rate=rate, fixes=tuple(fixes)
+    )
+
+
+def _counting(clock: Clock, default: float) -> Diagnostic:
+    return finding(
+        "time_counts_rows",
+        variable=clock.source,
+        value=1.0,
+        rate=default,
+        fixes=tuple(_rate_fix(rate) for rate in dict.fromkeys([1.0, 1000.0, default])),
+    )
+
+
+def _clocks(
+    workspace: Workspace,
+    path: str,
+    rows: int,
+    column: NDArray[Any] | None,
+    coarse: bool,
+    likely: tuple[float, ...],
+) -> list[Clock]:
+    """Return the times that fit `rows` rows, likeliest first.
+
+    The time of the structure that holds the matrix; the matrix' own column; vectors that are
+    named as times; vectors that rise steadily, whatever their name.
+    """
+    words: dict[str, Any] = {"coarse": coarse, "likely_rates": likely}
+    found: list[Clock | None] = []
+    beside = time_beside(workspace, path)
+    if beside is not None and beside.values is not None and beside.values.size == rows:
+        unit = unit_named(leaf(beside.path))
+        found.append(clock_of(beside.values, beside.path, named=True, unit=unit, **words))
+    if column is not None:
+        found.append(clock_of(column, f"{path}, its column of time", named=True, **words))
+    named, others = [], []
+    for v in workspace.variables:
+        if v.values is None or len(v.shape) != 2 or min(v.shape) != 1 or v.values.size != rows:
+            continue
+        if v is beside or rows < 2 or "{" in v.path:
+            continue
+        said = "".join(parts(leaf(v.path))).rstrip("0123456789")
+        if is_time_name(v.path):
+            unit = unit_named(leaf(v.path))
+            named.append(clock_of(v.values, v.path, named=True, unit=unit, **words))
+        elif (
+            rows >= 3
+            and said not in PATH_PARAMETERS
+            and hint(v.path) in (Hint.NEUTRAL, Hint.DOUBTFUL)
+            and is_regular(v.values.reshape(-1))
+            and not counts_rows(v.values.reshape(-1))
+        ):
+            others.append(clock_of(v.values, v.path, named=False, **words))
+    near = path.rpartition(".")[0]
+    everything = [c for c in (*found, *named, *others) if c is not None]
+    # times in the same structure before those of others, named before unnamed
+    everything.sort(key=lambda c: (c not in found, not c.named, not _is_beside(c.source, near)))
+    return everything
+
+
+def _is_beside(path: str, container: str) -> bool:
+    return path.rpartition(".")[0] == container
+
+
+def _of_other_length(workspace: Workspace, path: str, rows: int) -> Diagnostic | None:
+    """Return what to say of times that have a few elements more or less than there are rows."""
+    for v in workspace.variables:
+        if v.values is None or len(v.shape) != 2 or min(v.shape) != 1 or not is_time_name(v.path):
+            continue
+        size = v.values.size
+        if size != rows and size > 2 and abs(size - rows) <= max(2, 0.02 * rows):
+            clock = clock_of(v.values, v.path, named=True, unit=unit_named(leaf(v.path)))
+            if clock is not None and clock.rate:
+                return finding(
+                    "time_length",
+                    variable=v.path,
+                    value=float(size),
+                    limit=float(rows),
+                    size=size,
+                    rows=rows,
+                    rate=clock.rate,
+                    fixes=(
+                        Fix("frame_rate", f"{clock.rate:.6g}", f"{v.path} = {v.path}(1:{rows});"),
+                    ),
+                )
+    return None
+
+
+def _scalars(workspace: Workspace, path: str) -> list[Scalar]:
+    """Return the numbers that are named like a rate or a step, those beside the matrix first."""
+    near = first_path(path).rpartition(".")[0]
+    found: list[tuple[bool, bool, Scalar]] = []
+    for v in workspace.variables:
+        number = workspace.scalar(v)
+        if number is None or not np.isfinite(number) or number <= 0 or re.search(r"[({]", v.path):
+            continue
+        said = parts(leaf(v.path))
+        unit = unit_named(leaf(v.path))
+        whole = re.sub(r"[^a-z]", "", "".join(said))
+        stepped = whole[: -len(said[-1])] if unit and len(said) > 1 else whole
+        step = number * {"ms": 1e-3, "us": 1e-6, "ns": 1e-9}.get(unit, 1.0)
+        rate, sure = 0.0, True
+        if whole in RATE_NAMES:
+            rate = number
+        elif whole in STEP_NAMES or stepped in STEP_NAMES:
+            rate = 1 / step
+            if not unit and rate < 1:
+                # 8 is 8 ms rather than 8 s
+                rate, sure = (1e3 / step, False) if step <= 100 else (0.0, False)
+        elif whole in UNSURE_RATES:
+            rate, sure = number, False
+        elif whole in UNSURE_STEPS:
+            likely = LIKELY_STEPS[0] <= step <= LIKELY_STEPS[1]
+            rate, sure = (1 / step if likely else 0.0), False
+        else:
+            continue
+        if sure and not (1.0 <= rate <= MOST_RATE):
+            rate, sure = 0.0, False
+        if rate and not LEAST_RATE <= rate <= MOST_RATE:
+            rate = 0.0
+        scalar = Scalar(v.path, snapped(rate) if rate else 0.0, sure)
+        found.append((not sure, v.path.rpartition(".")[0] != near, scalar))
+    found.sort(key=lambda item: item[:2])
+    return [scalar for _, _, scalar in found]
+
+
+def _of_duration(workspace: Workspace, path: str, rows: int) -> Scalar | None:
+    """Return the rate that follows from a duration, where it comes out as a usual one."""
+    near = first_path(path).rpartition(".")[0]
+    for v in workspace.variables:
+        number = workspace.scalar(v)
+        if number is None or not np.isfinite(number) or number <= 0 or re.search(r"[({]", v.path):
+            continue
+        if "".join(parts(leaf(v.path))) not in DURATION_NAMES or not _is_near(v.path, near):
+            continue
+        for steps in (rows - 1, rows):
+            rate = steps / number
+            if (
+                LIKELY_OF_DURATION[0] <= rate <= LIKELY_OF_DURATION[1]
+                and abs(rate - round(rate)) <= 1e-6 * rate
+            ):
+                return Scalar(v.path, float(round(rate)), sure=False)
+    return None
+
+
+def _is_near(path: str, container: str) -> bool:
+    return path.rpartition(".")[0] in ("", container)

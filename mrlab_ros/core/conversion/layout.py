@@ -8,23 +8,37 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from mrlab_ros.core.conversion import gripper as grippers
 from mrlab_ros.core.conversion import limits as conversion_limits
+from mrlab_ros.core.conversion import units
 from mrlab_ros.core.conversion.candidates import (
-    between_ends,
+    Assessment,
+    Survey,
+    blocking_clocks,
     fits,
-    is_gripper,
-    is_time,
 )
-from mrlab_ros.core.conversion.explain import near_miss
-from mrlab_ros.core.conversion.named_columns import order
-from mrlab_ros.core.conversion.options import Options, parse_columns
+from mrlab_ros.core.conversion.explain import (
+    clocks_of,
+    matlab_name,
+    near_miss,
+    time_finding,
+)
+from mrlab_ros.core.conversion.named_columns import names_joints, order
+from mrlab_ros.core.conversion.options import (
+    NO_GRIPPER,
+    Options,
+    parse_columns,
+)
+from mrlab_ros.core.conversion.variable_names import parts, words
 from mrlab_ros.core.conversion.workspace import Variable, Workspace
-from mrlab_ros.core.diagnostics import Diagnostic, Refused, finding
+from mrlab_ros.core.diagnostics import Diagnostic, Fix, Refused, finding
 from mrlab_ros.core.robots.model import RobotModel
 from mrlab_ros.core.trajectory.trajectory import Array
 
-# Two turns: radians that went astray by a full turn stay below it, degrees of a motion do not.
-LEAST_DEGREES = 4 * np.pi
+GRIPPER_NAMES = words(
+    "gripper greifer grip grippers gripperstate gripperpos hand finger fingers jaw jaws claw "
+    "schliessen greiferzustand greiferposition zange vacuum suction saugnapf sauger robotiq"
+)
 
 
 @dataclass(frozen=True, eq=False)
@@ -32,94 +46,234 @@ class Layout:
     """The samples of a trajectory, K rows.
 
     arm: (K, J) rad, in the robot's order. gripper: (K,) true where closed, or None. times: the
-    column that holds time, s, or None. source_columns: which columns of the variable, from 0,
-    the joints were.
+    column that holds time, as stored, or None. source_columns: which columns of the variable,
+    from 0, the joints were. scale: what the joints were multiplied by to be rad or m.
     """
 
     arm: Array
     gripper: NDArray[np.bool_] | None
     times: NDArray[Any] | None
     source_columns: list[int]
+    scale: float = 1.0
 
 
-def reshaped(workspace: Workspace, options: Options) -> Workspace:
+@dataclass(frozen=True, eq=False)
+class Chosen:
+    """The matrix that was chosen, as it is stored and as the options pick from it.
+
+    picked: which columns of the stored matrix, from 0, after `transpose`. gripper: the values of
+    the gripper where an option named them, else None; without_gripper: an option said that there
+    is none.
+    """
+
+    stored: Variable
+    variable: Variable
+    picked: list[int]
+    gripper: NDArray[Any] | None = None
+    without_gripper: bool = False
+
+
+def reshaped(workspace: Workspace, options: Options, robot: RobotModel) -> Workspace:
     """Return the workspace as it is once the options that change a shape were applied.
 
-    Matrices that lack the columns are left out: they cannot be what was meant.
+    Matrices that lack the columns are left out: they cannot be what was meant. Raises Refused
+    where no matrix has them.
     """
-    if not (options.transpose or options.columns):
+    if not (options.transpose or options.columns or _is_column(options.gripper)):
         return workspace
-    laid_out = []
+    laid_out, refused, applied = [], None, False
     for v in workspace.variables:
-        if v.values is None or v.values.size == 1 or 1 in v.shape:
+        if v.values is None or len(v.shape) != 2 or v.values.size == 1 or 1 in v.shape:
             laid_out.append(v)
             continue
         try:
-            laid_out.append(_reshaped(v, options)[0])
-        except Refused:
-            continue
+            laid_out.append(pick(v, options, workspace, robot).variable)
+            applied = True
+        except Refused as error:
+            refused = _likelier(refused, error, robot)
+    if refused is not None and not applied:
+        raise refused
     return replace(workspace, variables=tuple(laid_out))
 
 
-def _reshaped(variable: Variable, options: Options) -> tuple[Variable, list[int]]:
-    """Return the variable after `transpose` and `columns`, and which columns those were."""
-    values, names = variable.values, variable.columns
+def _likelier(known: Refused | None, new: Refused, robot: RobotModel) -> Refused:
+    """Return the refusal of the matrix whose width is nearer to the robot's joints."""
+    if known is None:
+        return new
+
+    def distance(refused: Refused) -> float:
+        return abs((refused.finding.limit or 0.0) - len(robot.joints))
+
+    return new if distance(new) < distance(known) else known
+
+
+def _is_column(gripper: str) -> bool:
+    return gripper.strip() == "end" or gripper.strip().isdigit() or gripper == NO_GRIPPER
+
+
+def pick(variable: Variable, options: Options, workspace: Workspace, robot: RobotModel) -> Chosen:
+    """Return the variable with `transpose`, `columns` and `gripper` applied to it."""
+    values, names, given = variable.values, variable.columns, variable.units
     assert values is not None
     if options.transpose:
-        values, names = values.T, ()
-    picked = list(range(values.shape[1]))
+        values, names, given = values.T, (), given[:1] if len(set(given)) == 1 else ()
+    stored = values
+    width, size = values.shape[1], "x".join(str(n) for n in values.shape)
+    picked = list(range(width))
     if options.columns:
-        picked = parse_columns(options.columns, values.shape[1], variable.path, variable.size)
-        values = values[:, picked]
+        picked = parse_columns(options.columns, width, variable.path, size)
+    column, without = _gripper_column(variable, options, workspace, values, size, picked, robot)
+    if isinstance(column, int):
+        picked = [c for c in picked if c != column]
+    elif without and not options.columns and len(picked) == len(robot.joints) + 1:
+        picked = picked[:-1]
+    if options.columns or picked != list(range(width)):
         # numbers overrule headings; the joints of a message keep their names
-        names = tuple(names[i] for i in picked) if variable.is_message and names else ()
-    return replace(variable, values=values, shape=values.shape, columns=names), picked
+        keeps = variable.is_message and names
+        names = tuple(names[i] for i in picked) if keeps else ()
+        given = tuple(given[i] for i in picked) if len(given) == width else given
+        values = values[:, picked]
+    held = None
+    if isinstance(column, int):
+        held = stored[:, column]
+    elif column is not None:
+        held = column
+    laid_out = replace(variable, values=values, shape=values.shape, columns=names, units=given)
+    return Chosen(variable, laid_out, picked, held, without)
 
 
-def lay_out(
-    variable: Variable, options: Options, robot: RobotModel, notes: list[Diagnostic]
-) -> Layout:
-    """Return the samples in `variable`, saying in `notes` what was done to them.
+def _gripper_column(
+    variable: Variable,
+    options: Options,
+    workspace: Workspace,
+    values: NDArray[Any],
+    size: str,
+    picked: list[int],
+    robot: RobotModel,
+) -> tuple[int | NDArray[Any] | None, bool]:
+    """Return the column, from 0, or the vector that holds the gripper, and whether there is none.
+
+    (None, False): no option says so.
+    """
+    text = options.gripper.strip()
+    if not text:
+        return None, False
+    if text == NO_GRIPPER:
+        return None, True
+    if _is_column(text):
+        (column,) = parse_columns(text, values.shape[1], variable.path, size)
+        return column, False
+    found = workspace.find(text)
+    if found is None or found.values is None or found.values.size != len(values):
+        problem = (
+            f"there is no variable '{text}'"
+            if found is None
+            else f"'{text}' is {found.size}, and '{variable.path}' has {len(values)} rows"
+        )
+        raise Refused(finding("bad_option", option="gripper", found=text, problem=problem))
+    return found.values.reshape(-1), False
+
+
+def lay_out(chosen: Chosen, survey: Survey, options: Options, notes: list[Diagnostic]) -> Layout:
+    """Return the samples of the chosen matrix, adding to `notes` what was done to them.
 
     Raises Refused where they do not fit the robot.
     """
-    path, joints = variable.path, len(robot.joints)
-    if variable.values is None or min(variable.shape) == 0:
-        raise Refused(_misfit(variable, robot))
-    laid_out, picked = _reshaped(variable, options)
-    values, times = laid_out.values, None
-    assert values is not None
+    robot = survey.robot
+    variable, path, joints = chosen.variable, chosen.variable.path, len(robot.joints)
+    values, times = variable.values, None
+    if values is None or min(variable.shape) == 0 or len(variable.shape) != 2:
+        raise Refused(_misfit(variable, survey))
     if options.transpose:
         notes.append(finding("option_applied", variable=path, what=f"'{path}' was transposed"))
     if options.columns:
-        first = (variable.values.T if options.transpose else variable.values)[:, 0]
-        if 0 not in picked and is_time(first):
-            times = first
+        times = _left_out_time(chosen, options, survey)
         what = f"columns {options.columns} of '{path}' were taken"
         notes.append(finding("option_applied", variable=path, what=what))
-    if not fits(laid_out, robot):
-        raise Refused(_misfit(laid_out, robot))
-    by_name, said = order(laid_out, robot)
+    if chosen.gripper is not None:
+        what = f"the gripper was taken from '{options.gripper}'"
+        notes.append(finding("option_applied", variable=path, what=what))
+    named = names_joints(variable, robot)
+    separate = chosen.gripper is not None and not named
+    if not fits(variable, robot) or (separate and variable.shape[1] != joints):
+        raise Refused(_misfit(variable, survey))
+    by_name, said = order(variable, robot)
     notes += said
+    assessment = survey.of(variable)
+    if not variable.is_message and not assessment.by_name:
+        _refuse_unfilled(assessment)
     values = values[:, by_name]
     bad = conversion_limits.non_finite(values, path)
     if bad is not None:
         raise Refused(bad)
-    if not options.columns:
-        miss = near_miss(laid_out, robot)
-        if miss is not None and miss.code == "time_column":
-            raise Refused(miss)
+    _refuse_times(assessment, survey, notes)
     arm = np.array(values[:, :joints], dtype=np.float64, order="C")
-    gripper = None
-    if values.shape[1] > joints:
-        gripper = _gripper(values[:, joints], options, robot, path, notes)
-    arm = _in_radians(arm, options, robot, path, notes)
-    return Layout(arm, gripper, times, [picked[i] for i in by_name[:joints]])
+    column = chosen.gripper
+    if column is None and values.shape[1] > joints and not chosen.without_gripper:
+        column = values[:, joints]
+        if not (options.columns or options.gripper) and assessment.last_is_joint:
+            raise Refused(_seven_axes(column, robot, path))
+    held = None if column is None else _gripper(column, options, path, chosen, joints, notes)
+    if column is None and not chosen.without_gripper:
+        notes += _gripper_beside(survey.workspace, path, len(arm))
+    arm, scale = _in_radians(arm, options, assessment, robot, notes)
+    return Layout(arm, held, times, [chosen.picked[i] for i in by_name[:joints]], scale)
 
 
-def _misfit(variable: Variable, robot: RobotModel) -> Diagnostic:
+def _left_out_time(chosen: Chosen, options: Options, survey: Survey) -> NDArray[Any] | None:
+    """Return the column of time among those that were not picked, or None."""
+    stored = chosen.stored
+    assert stored.values is not None
+    if options.transpose:
+        flipped = stored.values.T
+        stored = replace(stored, values=flipped, shape=flipped.shape, columns=())
+    clocks = [c for c in clocks_of(stored, survey) if c.index not in chosen.picked]
+    if clocks:
+        assert stored.values is not None
+        return np.asarray(stored.values[:, clocks[0].index])
+    return None
+
+
+def _refuse_times(assessment: Assessment, survey: Survey, notes: list[Diagnostic]) -> None:
+    """Refuse columns of time among the joints; those that were asked for are a warning."""
+    clocks = blocking_clocks(assessment, survey.robot)
+    if clocks and not survey.columns_asked:
+        raise Refused(time_finding(assessment.variable, clocks, survey.robot))
+    if clocks and not any(d.code == "doubtful_values" for d in notes):
+        column = clocks[0].index + 1
+        why = f"column {column} of those you picked may be time and not a joint: {clocks[0].why}"
+        notes.append(finding("doubtful_values", variable=assessment.path, why=why))
+
+
+def _refuse_unfilled(assessment: Assessment) -> None:
+    path, rows = assessment.path, assessment.rows
+    name = matlab_name(path)
+    if assessment.finite and not (assessment.low.any() or assessment.high.any()):
+        raise Refused(
+            finding("never_filled", variable=path, size=assessment.variable.size, last_row=rows)
+        )
+    if assessment.unfilled is not None:
+        first, last = assessment.unfilled
+        kept = f"{last + 1}:{rows}" if first == 1 else f"1:{first - 1}"
+        raise Refused(
+            finding(
+                "rows_not_filled",
+                variable=path,
+                where=f"rows {first} to {last}",
+                first_row=first,
+                last_row=last,
+                value=0.0,
+                count=last - first + 1,
+                fix=f"{path}({kept}, :)",
+                fixes=(Fix("variable", f"{path}({kept}, :)", f"q = {name}({kept}, :);"),),
+            )
+        )
+
+
+def _misfit(variable: Variable, survey: Survey) -> Diagnostic:
+    robot = survey.robot
     joints = len(robot.joints)
-    return near_miss(variable, robot) or finding(
+    return near_miss(variable, survey) or finding(
         "wrong_shape",
         variable=variable.path,
         size=" ".join(filter(None, (variable.size, variable.kind))),
@@ -127,53 +281,183 @@ def _misfit(variable: Variable, robot: RobotModel) -> Diagnostic:
         joints=joints,
         more=joints + 1,
         hint="",
+        name=matlab_name(variable.path),
+    )
+
+
+def _seven_axes(column: NDArray[Any], robot: RobotModel, path: str) -> Diagnostic:
+    joints = len(robot.joints)
+    name = matlab_name(path)
+    found = grippers.meaning(column)
+    ramp = f" If it is a gripper that moves slowly, {found.meaning}, name it." if found else ""
+    return finding(
+        "seven_axes",
+        variable=path,
+        where=f"column {joints + 1}",
+        first_row=1,
+        last_row=len(column),
+        column=joints + 1,
+        first=float(column[0]),
+        last=float(column[-1]),
+        levels=f"{len(np.unique(column))} values",
+        robot=robot.id,
+        joints=joints,
+        ramp=ramp,
+        fixes=(
+            Fix("columns", f"1:{joints}", f"q = {name}(:, 1:{joints});"),
+            Fix("gripper", str(joints + 1), f"q = [{name}(:, 1:{joints}) {name}(:, end) > 0.5];"),
+        ),
     )
 
 
 def _gripper(
-    column: NDArray[Any], options: Options, robot: RobotModel, path: str, notes: list[Diagnostic]
+    column: NDArray[Any],
+    options: Options,
+    path: str,
+    chosen: Chosen,
+    joints: int,
+    notes: list[Diagnostic],
 ) -> NDArray[np.bool_]:
-    """Return true where closed: above the middle of the column's range, open if it is constant."""
+    """Return true where closed: above the middle of the column's range, open if it is constant.
+
+    With the option invert, closed is below the middle.
+    """
+    if not np.isfinite(column).all():
+        bad = conversion_limits.non_finite(column.reshape(-1, 1), options.gripper or path)
+        assert bad is not None
+        raise Refused(bad)
     low, high = float(column.min()), float(column.max())
-    joints = len(robot.joints)
-    place = {"variable": path, "where": f"column {joints + 1}"}
+    where = f"column {joints + 1}" if chosen.gripper is None else f"gripper {options.gripper}"
+    place: dict[str, Any] = {"variable": path, "where": where}
+    if options.invert:
+        notes.append(
+            finding("option_applied", variable=path, what="larger values of the gripper are open")
+        )
     if low == high:
-        notes.append(finding("gripper_constant", first=low, **place))
+        notes.append(finding("gripper_constant", first=low, value=low, **place))
         return np.zeros(len(column), dtype=np.bool_)
-    if not options.columns and not is_gripper(column):
-        levels = f"{len(np.unique(column))} values"
-        words: dict[str, Any] = {"first": float(column[0]), "last": float(column[-1])}
-        words |= {"levels": levels, "robot": robot.id, "joints": joints, "column": joints + 1}
-        raise Refused(finding("seven_axes", **place, **words))
     threshold = (low + high) / 2
-    words = {"first": low, "last": high, "threshold": threshold}
+    above = np.asarray(column > threshold)
+    closed = ~above if options.invert else above
+    side = "below" if options.invert else "above"
+    numbers: dict[str, Any] = {"first": low, "last": high, "threshold": threshold, "side": side}
+    name = matlab_name(path)
     if (low, high) != (0.0, 1.0):
-        notes.append(finding("gripper_range", **place, **words))
-    between = between_ends(column)
+        found = grippers.meaning(column)
+        meaning = f"That is {found.meaning}. " if found else ""
+        invert = Fix(
+            "invert",
+            "false" if options.invert else "true",
+            f"{name}(:, end) = 1 - {name}(:, end);",
+        )
+        states = Fix(matlab=f"{name}(:, end) = {name}(:, end) > {threshold:g};")
+        if not (options.invert and found):
+            fixes = (invert, states) if found and found.opens else (states, invert)
+            words = {"meaning": meaning, "value": high, "fixes": fixes}
+            notes.append(finding("gripper_range", **words, **numbers, **place))
+    between = grippers.between_ends(column)
     if between:
         count = conversion_limits.counted(between, "sample")
-        notes.append(finding("gripper_between", count=count, rows=len(column), **place, **words))
-    return np.asarray(column > threshold)
+        rows = len(column)
+        states = Fix(matlab=f"{name}(:, end) = {name}(:, end) > {threshold:g};")
+        notes.append(
+            finding("gripper_between", count=count, rows=rows, fixes=(states,), **numbers, **place)
+        )
+    return closed
+
+
+def _gripper_beside(workspace: Workspace, path: str, rows: int) -> list[Diagnostic]:
+    """Return what to say of a vector that is named as a gripper and was not taken."""
+    for v in workspace.variables:
+        if v.values is None or v.values.size != rows or min(v.shape) != 1:
+            continue
+        said = parts(v.label or v.path)
+        if GRIPPER_NAMES.intersection(said) or "".join(said) in GRIPPER_NAMES:
+            column = matlab_name(v.path) + "(:)"
+            line = f"q = [{matlab_name(path)} {column}]; save('traj.mat', 'q')"
+            return [
+                finding(
+                    "gripper_beside",
+                    variable=v.path,
+                    size=v.size,
+                    fixes=(Fix("gripper", v.path, line),),
+                )
+            ]
+    return []
 
 
 def _in_radians(
-    arm: Array, options: Options, robot: RobotModel, path: str, notes: list[Diagnostic]
-) -> Array:
-    """Apply the options that change values; raise Refused where degrees were not declared."""
-    limits = np.array([(j.lower, j.upper) for j in robot.joints])
-    if options.degrees:
-        np.radians(arm, out=arm)
-        what = f"'{path}' was taken as degrees"
+    arm: Array,
+    options: Options,
+    assessment: Assessment,
+    robot: RobotModel,
+    notes: list[Diagnostic],
+) -> tuple[Array, float]:
+    """Apply the options that change values; raise Refused where a unit has to be named first."""
+    path, name = assessment.path, matlab_name(assessment.path)
+    unit, factor = options.factor()
+    if unit == "mm":
+        arm = _in_metres(arm, robot, options)
+        notes.append(finding("option_applied", variable=path, what=f"'{path}' was taken as mm"))
+    elif unit:
+        if factor != 1.0:
+            arm *= factor
+        words = {"deg": "degrees", "rad": "radians", "counts": f"{options.units} a turn"}[unit]
+        what = f"'{path}' was taken as {words}"
         notes.append(finding("option_applied", variable=path, what=what))
-    else:
-        ends = np.array([arm.min(axis=0), arm.max(axis=0)])
-        low, high = np.radians(ends)
-        inside = (low >= limits[:, 0]).all() and (high <= limits[:, 1]).all()
-        largest = float(np.abs(ends).max())
-        if inside and largest > max(LEAST_DEGREES, 2 * float(np.abs(limits).max())):
-            raise Refused(finding("degrees", variable=path, value=largest, robot=robot.id))
+    elif assessment.unit.option and not assessment.by_name:
+        raise Refused(_unit_finding(arm, assessment, name, robot))
+    elif assessment.by_name or assessment.variable.is_message:
+        ends = (arm.min(axis=0), arm.max(axis=0))
+        if units.evidence(arm, *ends, robot, "").unit == "deg":
+            largest = float(np.abs(arm).max())
+            raise Refused(
+                finding(
+                    "degrees",
+                    variable=path,
+                    name=name,
+                    value=largest,
+                    unit="deg",
+                    limit=float(np.abs(units.limits_of(robot)).max()),
+                    why=f"it reaches {largest:g}",
+                    robot=robot.id,
+                )
+            )
     if options.unwrap:
         arm = np.unwrap(arm, axis=0)
         what = f"jumps of 2*pi in '{path}' were removed"
         notes.append(finding("option_applied", variable=path, what=what))
+    return arm, factor
+
+
+def _unit_finding(arm: Array, assessment: Assessment, name: str, robot: RobotModel) -> Diagnostic:
+    evidence = assessment.unit
+    row = int(np.abs(arm).max(axis=1).argmax()) + 1
+    words: dict[str, Any] = {
+        "variable": assessment.path,
+        "name": name,
+        "where": f"row {row}",
+        "first_row": row,
+        "last_row": row,
+        "value": float(np.abs(arm).max()),
+        "limit": float(np.abs(units.limits_of(robot)).max()),
+        "robot": robot.id,
+        "why": evidence.why,
+    }
+    if evidence.unit == "deg":
+        return finding("degrees", unit="deg", **words)
+    per_turn = evidence.option.removeprefix("counts:")
+    line = f"{name} = {name} * 2*pi / {per_turn};"
+    fixes = (Fix("units", evidence.option, line),)
+    return finding("counts", counts=per_turn, fixes=fixes, **words)
+
+
+def _in_metres(arm: Array, robot: RobotModel, options: Options) -> Array:
+    """Return the prismatic joints' mm as m; raise Refused where all joints turn."""
+    moving = [s for s in robot.chain.segments if s.axis is not None] if robot.chain else []
+    sliding = [i for i, segment in enumerate(moving) if segment.prismatic]
+    if not sliding:
+        problem = f"all joints of {robot.id} turn: they take rad, deg or counts:N"
+        raise Refused(finding("bad_option", option="units", found=options.units, problem=problem))
+    arm[:, sliding] *= 1e-3
     return arm

@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from mrlab_ros.core.diagnostics import Diagnostic, finding
+from mrlab_ros.core.conversion.options import LEAST_RATE
+from mrlab_ros.core.diagnostics import Diagnostic, Fix, finding
 from mrlab_ros.core.robots.model import Joint
 
 Array = NDArray[np.float64]
@@ -43,7 +45,27 @@ def non_finite(values: NDArray[Any], variable: str) -> Diagnostic | None:
         return None
     row, column = bad[0] + 1
     where = f"row {row}, column {column}"
-    return finding("non_finite", variable=variable, where=where, count=counted(len(bad), "value"))
+    rows = np.unique(bad[:, 0]) + 1
+    return finding(
+        "non_finite",
+        variable=variable,
+        where=where,
+        first_row=int(rows[0]),
+        last_row=int(rows[-1]),
+        count=counted(len(bad), "value"),
+        fixes=_without(rows, len(values), variable),
+    )
+
+
+def _without(rows: NDArray[Any], count: int, variable: str) -> tuple[Fix, ...]:
+    """Return what leaves out rows, from 1, that are not finite: whole ends, or in MATLAB any."""
+    line = "q = q(all(isfinite(q), 2), :);"
+    first, last = int(rows[0]), int(rows[-1])
+    if len(rows) == last - first + 1 and last == count and first > 2:
+        return (Fix("variable", f"{variable}(1:{first - 1}, :)", line),)
+    if len(rows) == last - first + 1 and first == 1 and last < count - 1:
+        return (Fix("variable", f"{variable}({last + 1}:{count}, :)", line),)
+    return (Fix("", "", line),)
 
 
 def _place(frame: int, column: int) -> str:
@@ -73,7 +95,7 @@ def _range(
     if lower <= low and high <= upper:
         return []
     frame = int(q.argmin() if lower - low > high - upper else q.argmax())
-    outside = int(np.count_nonzero((q < lower) | (q > upper)))
+    rows = np.flatnonzero((q < lower) | (q > upper))
     return [
         finding(
             "joint_limit",
@@ -81,13 +103,14 @@ def _range(
             where=_place(frame, column),
             joint=joint.name,
             degrees=np.degrees(q[frame]),
+            column=column + 1,
             frame=frame,
             time=frame / frame_rate,
             lower=joint.lower,
             upper=joint.upper,
-            count=counted(outside, "frame"),
-            first_row=frame + 1,
-            last_row=frame + 1,
+            count=counted(len(rows), "frame"),
+            first_row=int(rows[0]) + 1,
+            last_row=int(rows[-1]) + 1,
             value=float(q[frame]),
             limit=joint.upper if q[frame] > upper else joint.lower,
             unit="rad",
@@ -106,25 +129,61 @@ def _steps(
         return []
     place: dict[str, Any] = {
         "variable": variable,
+        "name": variable,
         "where": _place(frame, column),
         "joint": joint.name,
+        "first_row": frame + 1,
+        "last_row": frame + 2,
+        "frame": frame,
+        "time": frame / frame_rate,
     }
-    place |= {"frame": frame, "time": frame / frame_rate}
     usual = float(np.quantile(steps, 0.95))
     isolated = largest > max(reach * JUMP_VELOCITY_FACTOR, usual * JUMP_USUAL_FACTOR, JUMP_LEAST)
     if isolated and abs(largest - FULL_TURN) < TURN_TOLERANCE:
-        return [finding("jump_2pi", value=largest, **place)]
+        return [finding("jump_2pi", value=largest, limit=reach, unit="rad", **place)]
     # A handful of waypoints has no usual step that one could stand out from.
     if isolated and len(steps) >= 10:
-        return [finding("discontinuity", value=largest, usual=usual, **place)]
+        return [_jump(largest, usual, reach, len(q), place)]
+    too_fast = int(np.count_nonzero(steps > reach * 1.01))
     return [
         finding(
             "velocity_limit",
             value=largest * frame_rate,
             limit=joint.max_velocity,
+            unit="rad/s",
             rate=frame_rate,
+            slower=_slower(frame_rate * joint.max_velocity / (largest * frame_rate)),
             robot=robot,
-            count=counted(int(np.count_nonzero(steps > reach * 1.01)), "step"),
+            count=counted(too_fast, "step"),
             **place,
         )
     ]
+
+
+def _slower(rate: float) -> float:
+    """Return a rate, Hz, with two digits that is not above `rate`."""
+    digit = 10.0 ** (math.floor(math.log10(rate)) - 1)
+    return max(float(f"{math.floor(rate / digit + 1e-9) * digit:.2g}"), LEAST_RATE)
+
+
+def _jump(
+    largest: float, usual: float, reach: float, rows: int, place: dict[str, Any]
+) -> Diagnostic:
+    """Return the finding of a jump, with the parts before and behind it as fixes."""
+    frame, variable = place["frame"], place["variable"]
+    others = (
+        f"its other steps stay below {usual:.4g} rad"
+        if usual >= 1e-9
+        else "it hardly moves otherwise"
+    )
+    parts = [f"{frame + 2}:{rows}", f"1:{frame + 1}"]
+    longer = sorted(parts, key=lambda p: p.startswith("1:") != (frame + 1 >= rows / 2))
+    return finding(
+        "discontinuity",
+        value=largest,
+        limit=reach,
+        unit="rad",
+        others=others,
+        fixes=tuple(Fix("variable", f"{variable}({p}, :)", f"q = q({p}, :);") for p in longer),
+        **place,
+    )

@@ -38,6 +38,7 @@ def misnamed(variable: Variable, robot: RobotModel) -> Diagnostic | None:
         robot=robot.id,
         problem="; ".join(problems),
         joints=", ".join(joints),
+        count=len(joints),
     )
 
 

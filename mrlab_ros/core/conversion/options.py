@@ -6,9 +6,15 @@ import math
 import re
 from dataclasses import dataclass
 
+import numpy as np
+
 from mrlab_ros.core.diagnostics import Refused, finding
 
 TERM = re.compile(r"(\d+|end)(?:\s*:\s*(?:(\d+)\s*:\s*)?(\d+|end))?$")
+LEAST_RATE, MOST_RATE = 0.1, 100_000.0  # Hz
+UNITS = ("rad", "deg", "mm")
+MOST_COUNTS = 1e9  # a turn; encoders have at most 2^30
+NO_GRIPPER = "none"
 
 
 @dataclass(frozen=True)
@@ -16,8 +22,12 @@ class Options:
     """What was asked for explicitly; nothing of it is ever assumed.
 
     The fields are those of the request of mrlab_msgs/ConvertTrajectory. variable: the matrix, as
-    MATLAB writes it; empty: found. columns: which columns hold the joints, as in MATLAB, after
-    `transpose`; empty: all. frame_rate: Hz; 0: from the file.
+    MATLAB writes it, also a part such as q(1:200, :); empty: found. join: matrices or vectors to
+    join, such as q1..q6; empty: none. columns: which columns hold the joints, as in MATLAB,
+    after `transpose`; empty: all. gripper: the gripper's column, or a vector of the file, or
+    none; empty: the column after the joints. invert: larger values of the gripper mean open.
+    units: rad, deg, counts:N with N counts a turn, or mm for joints in m; empty: rad. frame_rate:
+    Hz; 0: from the file. resample: rows at uneven times become frames at an even rate.
     """
 
     variable: str = ""
@@ -26,13 +36,48 @@ class Options:
     degrees: bool = False
     unwrap: bool = False
     frame_rate: float = 0.0
+    resample: bool = False
+    join: str = ""
+    gripper: str = ""
+    invert: bool = False
+    units: str = ""
 
     def checked_rate(self) -> float:
         """Return the frame rate, Hz, 0 where none was asked for; raise Refused if impossible."""
         rate = self.frame_rate
-        if rate and not (math.isfinite(rate) and 0 < rate <= 100_000):
-            raise Refused(finding("bad_rate", value=rate))
+        if rate and not (math.isfinite(rate) and LEAST_RATE <= rate <= MOST_RATE):
+            raise Refused(finding("bad_rate", value=rate, least=LEAST_RATE, most=MOST_RATE))
         return rate
+
+    def factor(self) -> tuple[str, float]:
+        """Return the unit of the joints, empty where none was named, and its factor to rad or m.
+
+        The unit is rad, deg, counts or mm. Raises Refused where it is none of these, or where
+        `degrees` and `units` contradict each other.
+        """
+        text = self.units.strip().lower()
+        if self.degrees and text not in ("", "deg"):
+            problem = f"--degrees and --units {self.units} contradict each other"
+            raise Refused(finding("bad_option", option="units", found=self.units, problem=problem))
+        if self.degrees or text == "deg":
+            return "deg", math.pi / 180
+        if text in ("", "rad"):
+            return text, 1.0
+        if text == "mm":
+            return "mm", 1e-3
+        name, _, number = text.partition(":")
+        try:
+            counts = float(number)
+        except ValueError:
+            counts = math.nan
+        if name == "counts" and 1 <= counts <= MOST_COUNTS:
+            return "counts", 2 * math.pi / counts
+        problem = (
+            "counts needs the counts of one turn, such as counts:4096"
+            if name == "counts"
+            else "there are rad, deg, mm and counts:N"
+        )
+        raise Refused(finding("bad_option", option="units", found=self.units, problem=problem))
 
 
 def parse_columns(text: str, width: int, variable: str, size: str) -> list[int]:
@@ -43,7 +88,14 @@ def parse_columns(text: str, width: int, variable: str, size: str) -> list[int]:
 
     def refuse(problem: str) -> Refused:
         return Refused(
-            finding("bad_columns", variable=variable, columns=text, size=size, problem=problem)
+            finding(
+                "bad_columns",
+                variable=variable,
+                columns=text,
+                size=size,
+                problem=problem,
+                width=width,
+            )
         )
 
     indices: list[int] = []
@@ -63,3 +115,11 @@ def parse_columns(text: str, width: int, variable: str, size: str) -> list[int]:
     if not indices:
         raise refuse("that is no column at all")
     return indices
+
+
+def columns_text(indices: list[int]) -> str:
+    """Return columns, from 0, as MATLAB writes them: 2:7, or [1 3 4]."""
+    if len(indices) > 1 and (np.diff(indices) == 1).all():
+        return f"{indices[0] + 1}:{indices[-1] + 1}"
+    numbers = " ".join(str(i + 1) for i in indices)
+    return numbers if len(indices) == 1 else f"[{numbers}]"

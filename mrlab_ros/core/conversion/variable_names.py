@@ -1,51 +1,162 @@
-"""What the name of a variable says about being joint positions; a name alone never decides.
+"""What a name says about the numbers under it: names of variables, headings of tables.
 
-The words were collected from workspaces in public repositories.
+A name is evidence beside the numbers and never decides alone. The words were collected from
+workspaces in public repositories, from the logs of robot controllers and from lecture notes, in
+English and German.
 """
 
 from __future__ import annotations
 
 import re
+from dataclasses import dataclass
 from enum import Enum
 
 
 class Hint(Enum):
-    """What a name says; the value is a person's words for it."""
+    """What a name says; the value says it in words for a person."""
 
     POSITIONS = "its name is one that joint positions have"
-    NEUTRAL = "its name says nothing"
+    NEUTRAL = "its name does not say what it holds"
+    TWO_FACED = "its name is given to joint positions and to tool paths alike"
     DOUBTFUL = "its name is often given to something else than joint positions"
     AGAINST = "its name says that it is something else than joint positions"
+
+
+@dataclass(frozen=True)
+class Name:
+    """What a name says. what: the quantity it names, in words, or empty; unit: deg or empty."""
+
+    hint: Hint
+    what: str = ""
+    unit: str = ""
+
+    @property
+    def why(self) -> str:
+        """Return the hint in words, with the quantity where the name says one."""
+        if self.hint is Hint.AGAINST and self.what:
+            return f"its name says {self.what}"
+        if self.hint is Hint.DOUBTFUL and self.what:
+            return f"its name is often given to {self.what}"
+        return self.hint.value
 
 
 def words(text: str) -> frozenset[str]:
     return frozenset(text.lower().split())
 
 
+VELOCITIES, ACCELERATIONS = "velocities", "accelerations"
+TORQUES, CURRENTS, ERRORS = "torques or forces", "motor currents", "errors or differences"
+POSES, TIMES, PARAMETERS = "positions of the tool", "times", "parameters of a controller or model"
+GRIPPERS, OBSTACLES, TEMPERATURES = "the state of a gripper", "obstacles", "temperatures"
+
+# Whole names, without case, separators and trailing digits.
 POSITIONS = words(
     "q qmatrix qmat qcombined qtraj qraw qfilt qfilter qds qlist qj qc qt qpath qs qhistory "
-    "qactual qact qtarget qdes qref qmeas qsim qout qall qall qinterp qsol qik "
-    "traj trajectory trajectories jointtraj jointtrajectory jointangles jointangle joints "
+    "qactual qact qtarget qdes qref qmeas qsim qout qall qinterp qsol qik qlog qcmd qcurrent "
+    "currentq qsoll qist "
+    "jointtraj jointtrajectory jointangles jointangle joints jointstates "
     "jointpositions jointposition jointpos angleexport angles jointvalues theta thetas thetalist "
-    "thetares thl thr refjoint pointrecord configs robotconfigs configurations"
+    "thetares thl thr refjoint pointrecord configs robotconfigs configurations phi "
+    "gelenke achsen gelenkwinkel achswinkel winkel gelenkstellung gelenkstellungen stellungen "
+    "gelenkpositionen achspositionen gelenkkoordinaten"
 )
-DOUBTFUL = words("qd qobs qerr qerror qerrors u v")
-AGAINST = words(
-    "tau torque torques i f force forces wrench ft pose poses xd xdd xe kp kd ki k j jac jacobian "
-    "m dh g time tout qlim limits cpol vel velocity velocities acc accel acceleration "
-    "accelerations speed jerk current currents error errors inertia gravity gains gain mask cov"
+TWO_FACED = words(
+    "traj trajectory trajectories trj path paths pfad bahn bahndaten pos position positions "
+    "positionen waypoints waypoint wp wps wegpunkte stuetzpunkte points punkte route plan motion "
+    "bewegung trajektorie movement ref reference desired target actual measured soll ist "
+    "pathpoints viapoints keyframes"
 )
-AGAINST_PREFIXES = ("qdd", "dq", "ddq", "dtheta", "ddtheta", "tcp", "toolvector", "tau", "torque")
-AGAINST_PARTS = words(
-    "torque torques force forces vel velocity velocities speed acc accel acceleration jerk "
-    "error tau current tcp pose dot ddot d1 d2 d3 d4 limit limits inertia gains cartesian"
+WHOLE_DOUBTFUL = {
+    "qd": "joint velocities",
+    "qobs": OBSTACLES,
+    "qerr": ERRORS,
+    "qerror": ERRORS,
+    "u": "control inputs or pixel coordinates",
+    "v": "velocities or pixel coordinates",
+    "x": "positions of the tool or states",
+    "p": "points",
+    "s": "states or path parameters",
+    "w": "angular velocities or weights",
+    "state": "states",
+    "states": "states",
+    "b": PARAMETERS,
+}
+WHOLE_AGAINST = {
+    VELOCITIES: words("qp qv qdot omega omegas dq vel thetad thetadot thetap phid phip"),
+    ACCELERATIONS: words("qdd qpp qa ddq acc thetadd thetapp phidd phipp"),
+    TORQUES: words("tau f ft wrench torque torques trq mom moment momente kraft kraefte"),
+    CURRENTS: words("i current currents amps ampere strom stroeme"),
+    ERRORS: words("e err error errors fehler residuals residuum diff delta"),
+    POSES: words(
+        "pose poses xyz xyzrpy xyzabc xd xdd xe ee eef tcp tool toolpath toolvector rpy cart "
+        "cartesian kartesisch cpath ctraj tpose tcppos cpol xc xr xref xdes xact"
+    ),
+    TIMES: words("time tout times zeit timestamp timestamps tspan"),
+    PARAMETERS: words(
+        "kp kd ki k j jac jacobian m dh g qlim limits limit inertia gravity gains gain mask cov "
+        "weights bounds dhparams dhtable"
+    ),
+}
+# Where one of these words is in a name, whatever else is in it.
+AGAINST_PARTS = {
+    VELOCITIES: words(
+        "vel velocity velocities speed speeds dot d1 qd dq qp qv rate rates geschw omega"
+    ),
+    ACCELERATIONS: words("acc accel accels acceleration accelerations ddot d2 qdd ddq qpp"),
+    "third derivatives": words("jerk jerks d3 d4 ruck"),
+    TORQUES: words(
+        "torque torques force forces tau wrench moment moments load loads effort efforts ft trq"
+    ),
+    CURRENTS: words("currents amps voltage voltages pwm"),
+    ERRORS: words("error errors err errs deviation deviations residual residuals diff delta"),
+    POSES: words(
+        "tcp pose poses cartesian cart xyz rpy quat quaternion eef ee endeffector tool workspace"
+    ),
+    PARAMETERS: words("limit limits inertia gains gain jacobian covariance coefficients noise"),
+    TEMPERATURES: words("temp temps temperature temperatures temperatur"),
+}
+# German writes such words together: they count anywhere in a name.
+AGAINST_STEMS = {
+    VELOCITIES: ("geschwindigkeit", "drehzahl", "velocit", "speeds"),
+    ACCELERATIONS: ("beschleunigung", "accelerat"),
+    TORQUES: ("drehmoment", "gelenkmoment", "achsmoment", "kraefte", "torque"),
+    CURRENTS: ("motorstrom", "motorstroeme", "gelenkstrom", "achsstrom"),
+    ERRORS: ("fehler", "abweichung", "differenz"),
+    POSES: ("werkzeug", "kartesisch", "cartesian", "endeffekt", "endeffector", "quaternion"),
+    PARAMETERS: ("jacobi", "verstaerkung", "grenzwert"),
+    TEMPERATURES: ("temperatur",),
+}
+AGAINST_PREFIXES = (
+    ("qdd", ACCELERATIONS),
+    ("ddq", ACCELERATIONS),
+    ("ddtheta", ACCELERATIONS),
+    ("dq", VELOCITIES),
+    ("dtheta", VELOCITIES),
+    ("thetadd", ACCELERATIONS),
+    ("thetad", VELOCITIES),
+    ("tcp", POSES),
+    ("toolvector", POSES),
+    ("tau", TORQUES),
+    ("torque", TORQUES),
 )
 POSITION_PARTS = words(
-    "q theta thetas joint joints traj trajectory angle angles configs waypoints pos position "
-    "positions"
+    "q th theta thetas thl thr joint joints jointpos angle angles configs config configuration "
+    "configurations jpos jangles gelenk gelenke achse achsen winkel axis axes phi joints"
 )
+POSITION_STEMS = ("winkel", "gelenkpos", "achspos", "gelenkstellung", "jointangle", "jointpos")
+TWO_FACED_PARTS = words(
+    "traj trajectory trajectories trj path waypoints waypoint pos position positions points bahn "
+    "trajektorie punkte pfad"
+)
+DEGREE_PARTS = words("deg degs degree degrees grad")
+DEGREE_ENDINGS = ("deg", "degrees", "indeg", "ingrad", "grad")
+# what joints are called where each has a variable or a column of its own: A1 to A6, q1 to q6
+NUMBERED_JOINTS = words("q th theta j joint a axis achse gelenk winkel phi angle")
+UMLAUTS = str.maketrans({"ä": "ae", "ö": "oe", "ü": "ue", "ß": "ss"})
 # fields that only say "the values are in here"
-CONTAINER_TAIL = re.compile(r"(\.(signals|values|data|Data|Values|q_?data)(\(\d+\))?)+$")
+CONTAINER_TAIL = re.compile(
+    r"(\.(signals|values|data|Data|Values|Value|q_?data)(\(\d+\))?)+(\([\d:, end]+\))?$"
+)
 
 
 def leaf(path: str) -> str:
@@ -56,30 +167,71 @@ def leaf(path: str) -> str:
 
 def parts(name: str) -> list[str]:
     """Return the lower-case words of a name: joint_Angles2 is joint, angles, 2."""
-    spaced = re.sub(r"(?<=[a-z])(?=[A-Z])", "_", name)
+    spaced = re.sub(r"(?<=[a-zäöüß])(?=[A-ZÄÖÜ])", "_", name)
     spaced = re.sub(r"(?<=[A-Za-z]{2})(?=\d)", "_", spaced)
-    return [p for p in re.split(r"[^A-Za-z0-9]+", spaced.lower()) if p]
+    found = re.split(r"[^0-9a-zäöüß]+", spaced.lower())
+    return [p.translate(UMLAUTS) for p in found if p]
+
+
+def describe(path: str) -> Name:
+    """Return what the name of the variable at `path` says.
+
+    Of a series such as q1..q6, or a list, the first name speaks.
+    """
+    first = re.split(r"\.\.|,(?![^(]*\))", path)[0].strip("[] ")
+    series = first != path
+    path = first
+    name = re.sub(r"[({][^.]*$", "", leaf(path))
+    said = parts(name)
+    unit = ""
+    if said and (DEGREE_PARTS.intersection(said) or said[-1].endswith(DEGREE_ENDINGS)):
+        unit = "deg"
+        stripped = [p for p in said if p not in DEGREE_PARTS]
+        said = stripped or said
+    whole = "".join(said)
+    bare = whole.rstrip("0123456789") or whole
+    if series and bare in NUMBERED_JOINTS:
+        return Name(Hint.POSITIONS, "", unit)
+    return Name(*_said_by(bare, whole, [p.rstrip("0123456789") or p for p in said], said), unit)
 
 
 def hint(path: str) -> Hint:
-    """Return what the name of the variable at `path` says."""
-    name = re.sub(r"[({][^.]*$", "", leaf(path))
-    said = parts(name)
-    whole = "".join(said)
-    bare = whole.rstrip("0123456789")
-    if bare in DOUBTFUL or said[:1] == ["qd"]:
-        return Hint.DOUBTFUL
+    """Return what the name of the variable at `path` says of joint positions."""
+    return describe(path).hint
+
+
+def _said_by(bare: str, whole: str, said: list[str], numbered: list[str]) -> tuple[Hint, str]:
+    """Return the hint and the quantity of a name, given whole and as its words."""
+    if bare in WHOLE_DOUBTFUL and len(said) == 1:
+        return Hint.DOUBTFUL, WHOLE_DOUBTFUL[bare]
+    if said[:1] == ["qd"]:
+        return Hint.DOUBTFUL, "joint velocities"
     if bare in POSITIONS:
-        return Hint.POSITIONS
-    if (
-        bare in AGAINST
-        or whole.startswith(AGAINST_PREFIXES)
-        or whole.endswith("dot")
-        or whole == "t"
-        or (said[:1] == ["i"] and len(said) > 1)
-        or AGAINST_PARTS.intersection(said)
-    ):
-        return Hint.AGAINST
-    if POSITION_PARTS.intersection(said):
-        return Hint.POSITIONS
-    return Hint.NEUTRAL
+        return Hint.POSITIONS, ""
+    of_whole = next((what for what, names in WHOLE_AGAINST.items() if bare in names), "")
+    if of_whole:
+        return Hint.AGAINST, of_whole
+    if whole == "t":
+        return Hint.AGAINST, TIMES
+    if said[:1] == ["i"] and len(said) > 1:
+        return Hint.AGAINST, CURRENTS
+    for prefix, what in AGAINST_PREFIXES:
+        if whole.startswith(prefix):
+            return Hint.AGAINST, what
+    if whole.endswith("dot"):
+        return Hint.AGAINST, VELOCITIES
+    is_joint = bool(POSITION_PARTS.intersection(said))
+    for what, names in AGAINST_PARTS.items():
+        if names.intersection(said) or names.intersection(numbered):
+            return Hint.AGAINST, what
+    if said[-1:] == ["current"] and len(said) > 1 and said[0] not in ("q", "config"):
+        # motor currents end in it, the present positions begin with it
+        return Hint.AGAINST, CURRENTS
+    for what, stems in AGAINST_STEMS.items():
+        if any(stem in whole for stem in stems):
+            return Hint.AGAINST, what
+    if is_joint or any(stem in whole for stem in POSITION_STEMS):
+        return Hint.POSITIONS, ""
+    if bare in TWO_FACED or TWO_FACED_PARTS.intersection(said):
+        return Hint.TWO_FACED, ""
+    return Hint.NEUTRAL, ""

@@ -316,7 +316,7 @@ def test_a_constant_gripper_is_open(value):
         ([var("f", 1e9)], 100.0, "rate_default"),
         ([var("fs", -5.0)], 100.0, "rate_default"),
         ([var("F", np.ones((3, 1)))], 100.0, "rate_default"),
-        ([var("dt", 0.01), var("t", np.arange(300)[:, None] / 50)], 100.0, "rate_conflict"),
+        ([var("dt", 0.01), var("t", np.arange(300)[:, None] / 50)], 50.0, "rate_conflict"),
     ],
 )
 def test_the_frame_rate_comes_from_the_file_or_the_default(company, rate, code):

@@ -6,14 +6,18 @@ from mrlab_ros.core.conversion.variable_names import Hint, hint, leaf
 
 POSITIONS = """
 q Q qMatrix qMat qCombined q_history q_traj qtraj q_raw q_filt q_filter q_ds q_actual q_act
-q_target q_des qlist qj qc qt qPath qs traj trajectory jointTraj jointTrajectory
+q_target q_des qlist qj qc qt qPath qs jointTraj jointTrajectory
 joint_trajectory joint_angles jointangles JointAngles angle_export theta theta_list
 thetalist thetaRes th_l th_r ref_joint point_record configs robotConfigs q1 q_0 traj_q0_q1
 q_actual.signals.values s.q out.q.signals.values TrajectoryData.theta out.q.Data
-q_target.signals(1).values run(2).q c.joint_positions
+q_target.signals(1).values run(2).q c.joint_positions q_current currentJoints
+Gelenkwinkel Achswinkel q1..q6 A1..A6 log.j1..log.j6 actual_q_0..actual_q_5 theta_deg sollwinkel
+"""
+TWO_FACED = """
+traj trajectory pos position waypoints path trj Bahn Trajektorie refTraj traj_points
 """
 NEUTRAL = """
-result results data A X Y ans simout out out.simout.signals.values c{3} m.Y t1
+result results data A Y ans simout out out.simout.signals.values c{3} m.Y t1
 """
 SPEAKS_AGAINST = """
 qd qdd q_dd qdd1 qd_des dq dq_des ddq qDot qDot_list q_dot theta_dot dtheta dtheta_list
@@ -21,12 +25,19 @@ speed_record acceleration_record tau tau_g_all torque torques i_actual F force t
 tcp_force tool_vector pose Kp Kd J M DH qlim T u v qobs xd xe c_pol joint_velocity
 jointVelocities qVel qd_target.signals.values tool_vector.signals.values robot.qlim Jacobian
 joint_torques target_speed phi_d1
+X qp qv omega thetad joint_speeds currents errors xyzrpy Gelenkgeschwindigkeit Drehmoment
+Motorstrom Regelabweichung actual_current actual_TCP_pose
 """
 
 
 @pytest.mark.parametrize("path", POSITIONS.split())
 def test_names_of_positions(path):
     assert hint(path) is Hint.POSITIONS
+
+
+@pytest.mark.parametrize("path", TWO_FACED.split())
+def test_names_of_joint_positions_and_of_tool_paths(path):
+    assert hint(path) is Hint.TWO_FACED
 
 
 @pytest.mark.parametrize("path", NEUTRAL.split())

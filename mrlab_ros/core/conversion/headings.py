@@ -1,0 +1,123 @@
+"""Tables whose headings say what their columns hold, such as actual_q_0 ... actual_qd_0 ..."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+
+from mrlab_ros.core.conversion.named_columns import names_joints
+from mrlab_ros.core.conversion.time_vectors import is_time_name
+from mrlab_ros.core.conversion.variable_names import POSES, Hint, Name, describe
+from mrlab_ros.core.conversion.workspace import Variable, Workspace
+from mrlab_ros.core.robots.model import RobotModel
+
+BRACKETS = re.compile(r"\s*[\[({]\s*([^\])}]*?)\s*[\])}]\s*$")
+DEGREES = frozenset(("deg", "degree", "degrees", "grad", "°"))
+POINT = (("x", "y", "z"), ("px", "py", "pz"), ("posx", "posy", "posz"), ("tcpx", "tcpy", "tcpz"))
+MOST_HEADINGS = 2000
+
+
+@dataclass(frozen=True)
+class Group:
+    """Neighbouring headings that differ in one number alone: their columns, from 0."""
+
+    columns: tuple[int, ...]
+    headings: tuple[str, ...]
+
+    @property
+    def path(self) -> str:
+        return f"{self.headings[0]}..{self.headings[-1]}"
+
+
+def plain(heading: str) -> tuple[str, str]:
+    """Return a heading without its unit in brackets, and deg or an empty unit."""
+    match = BRACKETS.search(heading)
+    if match is None or match[1].isdigit() or not match.start():
+        return heading.strip(), ""
+    unit = match[1].lower()
+    return heading[: match.start()].strip(), "deg" if unit in DEGREES else ""
+
+
+def groups(headings: Sequence[str]) -> list[Group]:
+    """Return the runs of headings that count upwards, such as q1 to q6, from 2 columns on."""
+    found: list[Group] = []
+    run: list[int] = []
+    previous: tuple[str, str, int] | None = None
+    for column, heading in enumerate([*headings, ""]):
+        match = re.search(r"\d+(?=\D*$)", plain(heading)[0])
+        now = None
+        if match is not None:
+            text = plain(heading)[0]
+            now = (text[: match.start()], text[match.end() :], int(match[0]))
+        continues = now and previous and now[:2] == previous[:2] and now[2] == previous[2] + 1
+        if not continues:
+            if len(run) > 1:
+                found.append(Group(tuple(run), tuple(headings[i] for i in run)))
+            run = []
+        if now is not None:
+            run.append(column)
+        previous = now
+    return found
+
+
+def describe_table(variable: Variable) -> Name | None:
+    """Return what the headings of a table say together, or None where they say nothing."""
+    names = [plain(h)[0].lower() for h in variable.columns]
+    if not names:
+        return None
+    bare = [re.sub(r"[^a-z]", "", n) for n in names]
+    if any(tuple(bare[i : i + 3]) in POINT for i in range(len(bare) - 2)):
+        return Name(Hint.AGAINST, POSES)
+    unit = "deg" if any(plain(h)[1] for h in variable.columns) else ""
+    runs = groups(variable.columns)
+    if is_whole(variable, runs):
+        said = describe(plain_path(runs[0]))
+        return replace(said, unit=unit or said.unit)
+    hints = {describe(n).hint for n in names}
+    if hints == {Hint.AGAINST}:
+        return Name(Hint.AGAINST, describe(names[0]).what)
+    return Name(Hint.NEUTRAL, "", unit)
+
+
+def plain_path(group: Group) -> str:
+    """Return the path of a group without units, for its name."""
+    return f"{plain(group.headings[0])[0]}..{plain(group.headings[-1])[0]}"
+
+
+def is_whole(table: Variable, runs: list[Group]) -> bool:
+    """Say whether a table is one group, or one with a column behind it that is no time."""
+    count = len(table.columns)
+    if len(runs) != 1 or runs[0].columns[0] != 0:
+        return False
+    grouped = len(runs[0].columns)
+    return grouped == count or (
+        grouped == count - 1 and not is_time_name(plain(table.columns[-1])[0])
+    )
+
+
+def split_tables(workspace: Workspace, robot: RobotModel) -> Workspace:
+    """Return the workspace with the groups and the single columns of its tables as variables.
+
+    A group is called by its first and last heading, such as actual_q_0..actual_q_5; a column by
+    its heading. Tables of one group, and columns named as the robot's joints, stay as they are.
+    """
+    added: list[Variable] = []
+    for v in workspace.variables:
+        if v.values is None or not v.columns or v.is_message or len(v.columns) > MOST_HEADINGS:
+            continue
+        runs = groups(v.columns)
+        if not names_joints(v, robot) and not is_whole(v, runs):
+            for run in runs:
+                values = v.values[:, run.columns[0] : run.columns[-1] + 1]
+                added.append(
+                    Variable(run.path, v.kind, values.shape, values, columns=run.headings)
+                )
+        grouped = {c for run in runs for c in run.columns}
+        for c, heading in enumerate(v.columns):
+            if c not in grouped and (is_time_name(plain(heading)[0]) or len(v.columns) > 1):
+                column = v.values[:, c : c + 1]
+                added.append(Variable(heading, v.kind, column.shape, column))
+    taken = {v.path for v in workspace.variables}
+    kept = [v for v in added if v.path and v.path not in taken]
+    return replace(workspace, variables=(*workspace.variables, *kept)) if kept else workspace

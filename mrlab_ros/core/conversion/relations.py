@@ -1,0 +1,163 @@
+"""Which matrix is the derivative of which, and which poses belong to which joint positions."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mrlab_ros.core.trajectory.trajectory import Array
+
+MOST_ROWS = 4000  # rows that a derivative is looked for in: those where most moves
+WINDOWS = 256
+FEWEST_ROWS = 8
+EXPLAINED = 0.95  # share of the motion that a velocity explains when it is integrated
+EXPLAINED_OF_JOINT = 0.8
+LEAST_RATE, MOST_RATE = 0.5, 20_000.0  # Hz; what a derivative's factor may be
+
+POSES = 48  # rows that poses are compared at
+AGREED, AGREED_M = 0.02, 2e-3  # of the path's extent, m: what poses may differ by
+DIFFERS, DIFFERS_M = 0.15, 0.02
+LONGEST_TOOL, FARTHEST_BASE = 0.8, 5.0  # m
+MILLIMETRES = 20.0  # coordinates beyond are not metres
+# turns of the base about the vertical that are in use: URDF and controllers differ by them
+BASE_TURNS = (0.0, np.pi, np.pi / 2, -np.pi / 2)
+
+
+def busiest(values: NDArray[Any], most: int = MOST_ROWS) -> slice:
+    """Return the at most `most` neighbouring rows in which a long matrix moves most."""
+    rows = len(values)
+    if rows <= most:
+        return slice(0, rows)
+    chosen = np.linspace(0, rows - 1, 512).astype(int)
+    with np.errstate(all="ignore"):
+        travel = np.nan_to_num(np.abs(np.diff(values[chosen].astype(np.float64), axis=0)))
+    middle = int(chosen[int(travel.sum(axis=1).argmax())])
+    start = min(max(middle - most // 2, 0), rows - most)
+    return slice(start, start + most)
+
+
+@dataclass(frozen=True, eq=False)
+class Course:
+    """Neighbouring rows of a matrix, prepared for comparisons.
+
+    positions: (K, C). summed: (K,
+    C), the sum of the means of each row and the next up to row i; summed_short: the sum of the
+    rows before row i, for a matrix with a row less, as diff gives it.
+    """
+
+    positions: Array
+    summed: Array
+    summed_short: Array
+
+
+def course(values: NDArray[Any], part: slice) -> Course | None:
+    """Prepare the rows `part` of a matrix, (N, C); None where they are not finite, or too few."""
+    v = values[part].astype(np.float64)
+    if len(v) < FEWEST_ROWS or not np.isfinite(v).all():
+        return None
+    nothing = np.zeros((1, v.shape[1]))
+    means = np.vstack([nothing, np.cumsum((v[1:] + v[:-1]) / 2, axis=0)])
+    return Course(v, means, np.vstack([nothing, np.cumsum(v, axis=0)]))
+
+
+def derivative_rate(
+    positions: Course, velocities: Course, *, shorter: bool = False
+) -> float | None:
+    """Return the factor k, Hz, where velocities are k times the step from row to row, else None.
+
+    shorter: the velocities have a row less, as diff gives them. The sum of the velocities over
+    windows of rows is compared with the way travelled, so noise averages out. Where the
+    velocities are per second, k is the rate of the rows.
+    """
+    q = positions.positions
+    total = velocities.summed_short if shorter else velocities.summed
+    rows = min(len(q), len(total))
+    if q.shape[1] != total.shape[1] or rows < FEWEST_ROWS:
+        return None
+    window = max(2, rows // 32)
+    starts = np.unique(np.linspace(0, rows - 1 - window, min(rows - window, WINDOWS)).astype(int))
+    way = q[starts + window] - q[starts]
+    summed = total[starts + window] - total[starts]
+    moved = float((way * way).sum())
+    across = float((way * summed).sum())
+    if moved <= 1e-12 or across <= 0:
+        return None
+    factor = across / float((summed * summed).sum())
+    if not LEAST_RATE <= 1 / factor <= MOST_RATE:
+        return None
+    left = ((way - factor * summed) ** 2).sum(axis=0)
+    if float(left.sum()) > (1 - EXPLAINED) * moved:
+        return None
+    of_joint = (way * way).sum(axis=0)
+    moves = of_joint > 1e-4 * moved
+    if (left[moves] > (1 - EXPLAINED_OF_JOINT) * of_joint[moves]).any():
+        return None
+    return 1 / factor
+
+
+@dataclass(frozen=True)
+class PoseMatch:
+    """How poses agree with the tool of a robot at joint positions: rms and extent in m."""
+
+    error: float
+    extent: float
+
+    @property
+    def agrees(self) -> bool:
+        return self.error <= AGREED * self.extent + AGREED_M and self.extent > 10 * AGREED_M
+
+    @property
+    def differs(self) -> bool:
+        return self.error > DIFFERS * self.extent + DIFFERS_M
+
+
+def tool_points(values: NDArray[Any]) -> Array | None:
+    """Return the positions, (N, 3), of poses as matrices hold them, or None.
+
+    values: (N, 3) positions, (N, 6) or (N, 7) with an orientation behind them, or (4, 4, N)
+    transforms. The unit is that of the values.
+    """
+    if values.ndim == 3 and values.shape[:2] == (4, 4):
+        return np.asarray(values[:3, 3, :].T, dtype=np.float64)
+    if values.ndim == 2 and values.shape[1] in (3, 6, 7):
+        return np.asarray(values[:, :3], dtype=np.float64)
+    return None
+
+
+def compare_poses(poses: Array, points: Array) -> PoseMatch | None:
+    """Compare poses of a flange in its base, (K, 4, 4), with points, (K, 3) m or mm.
+
+    The tool on the flange and the place of the base are not known: the offset of the tool and the
+    base's position are fitted, the base's turn is tried. None where nothing can be said.
+    """
+    if len(points) < FEWEST_ROWS or not np.isfinite(points).all():
+        return None
+    if float(np.abs(points).max()) > MILLIMETRES:
+        points = points / 1e3
+    extent = float(np.sqrt(((points - points.mean(axis=0)) ** 2).sum(axis=1).mean()))
+    if extent < 1e-3:
+        return None
+    flange, turns = poses[:, :3, 3], poses[:, :3, :3]
+    best = np.inf
+    for angle in BASE_TURNS:
+        cos, sin = np.cos(angle), np.sin(angle)
+        base = np.array([[cos, -sin, 0], [sin, cos, 0], [0, 0, 1.0]])
+        # base @ (flange + turns @ tool) + place = points
+        unknown = np.concatenate(
+            [base @ turns, np.broadcast_to(np.eye(3), turns.shape)], axis=2
+        ).reshape(-1, 6)
+        wanted = (points - flange @ base.T).reshape(-1)
+        found = np.linalg.lstsq(unknown, wanted, rcond=1e-6)[0]
+        if np.linalg.norm(found[:3]) > LONGEST_TOOL or np.linalg.norm(found[3:]) > FARTHEST_BASE:
+            found = np.zeros(6)
+        left = (unknown @ found - wanted).reshape(-1, 3)
+        best = min(best, float(np.sqrt((left**2).sum(axis=1).mean())))
+    return PoseMatch(best, extent)
+
+
+def rows_to_compare(count: int) -> NDArray[np.intp]:
+    """Return which of `count` rows poses are compared at."""
+    return np.unique(np.linspace(0, count - 1, min(count, POSES)).astype(np.intp))

@@ -1,0 +1,89 @@
+"""The unit that joint positions are in, by their range against a robot's limits and by name."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mrlab_ros.core.robots.model import RobotModel
+from mrlab_ros.core.trajectory.trajectory import Array
+
+# Two turns: radians that went astray by a full turn stay below it, degrees of a motion do not.
+LEAST_DEGREES = 4 * np.pi
+TOLERANCE = 1e-3  # rad
+# degrees may pass a limit by this much of it and still be meant as degrees
+LOOSELY = 1.5
+CENTIDEGREES, MILLIDEGREES = 36_000, 360_000  # counts a turn
+LEAST_COUNTS = 1000.0
+COUNTS = tuple(2**n for n in range(9, 25))
+
+
+@dataclass(frozen=True)
+class UnitEvidence:
+    """The unit that values are likely in.
+
+    unit: rad, deg, counts, or empty where none fits. option: what the option units is set to, and
+    why: what speaks for it; both empty for rad.
+    """
+
+    unit: str
+    option: str = ""
+    why: str = ""
+
+
+def limits_of(robot: RobotModel) -> Array:
+    """Return the limits of the joints, (J, 2) rad."""
+    return np.array([(j.lower, j.upper) for j in robot.joints])
+
+
+def inside(low: Array, high: Array, limits: Array, tolerance: float = TOLERANCE) -> bool:
+    """Say whether columns from low to high, (J,), are within limits, (J, 2)."""
+    return bool(
+        (low >= limits[:, 0] - tolerance).all() and (high <= limits[:, 1] + tolerance).all()
+    )
+
+
+def evidence(
+    arm: NDArray[Any], low: Array, high: Array, robot: RobotModel, named: str
+) -> UnitEvidence:
+    """Say which unit finite values, (N, J) from low to high, are likely in.
+
+    named: deg where the name says degrees, else empty.
+    """
+    limits = limits_of(robot)
+    largest = float(max(np.abs(low).max(), np.abs(high).max()))
+    in_radians = inside(low, high, limits)
+    if named == "deg" and largest > 0:
+        return UnitEvidence("deg", "deg", "its name says degrees")
+    farthest = float(np.abs(limits).max())
+    least = max(LEAST_DEGREES, 2 * farthest)
+    if in_radians or largest <= least:
+        return UnitEvidence("rad" if in_radians else "")
+    fitting = f"it reaches {largest:g} and is within the limits of {robot.id} only if it is in"
+    if inside(np.radians(low), np.radians(high), limits):
+        return UnitEvidence("deg", "deg", f"{fitting} degrees")
+    if largest <= LOOSELY * np.degrees(farthest):
+        why = f"it reaches {largest:g}, as degrees do and radians of {robot.id} do not"
+        return UnitEvidence("deg", "deg", why)
+    for per_turn, words in (
+        (CENTIDEGREES, "hundredths of a degree"),
+        (MILLIDEGREES, "millidegrees"),
+    ):
+        scale = 2 * np.pi / per_turn
+        if inside(low * scale, high * scale, limits):
+            return UnitEvidence("counts", f"counts:{per_turn}", f"{fitting} {words}, or counts")
+    if largest >= LEAST_COUNTS and _is_whole(arm):
+        for per_turn in COUNTS:
+            scale = 2 * np.pi / per_turn
+            if inside(low * scale, high * scale, limits):
+                why = f"it holds whole numbers up to {largest:g}, as encoders count them"
+                return UnitEvidence("counts", f"counts:{per_turn}", why)
+    return UnitEvidence("")
+
+
+def _is_whole(values: NDArray[Any]) -> bool:
+    part = values[:: max(1, len(values) // 4096)]
+    return bool((part == np.rint(part)).all())
