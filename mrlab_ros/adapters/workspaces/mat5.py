@@ -160,11 +160,17 @@ class Cursor:
 
 
 class Mat5Reader:
-    """Reads a v5, v6 or v7 workspace: `limit` bounds, in bytes, what one variable inflates to."""
+    """Reads a v5, v6 or v7 workspace.
 
-    def __init__(self, sink: Sink, limit: int) -> None:
+    limit: bytes that one variable may inflate to. inside_objects: hand on the numbers inside
+    objects as well, at their place in the file and under made-up paths; a complex matrix as its
+    two parts.
+    """
+
+    def __init__(self, sink: Sink, limit: int, *, inside_objects: bool = False) -> None:
         self.sink = sink
         self.limit = limit
+        self.inside_objects = inside_objects
         self.order = "<"
 
     def read(self, data: memoryview) -> None:
@@ -189,12 +195,36 @@ class Mat5Reader:
                 raise Damaged(f"element type {kind} stands where a variable should begin")
             if len(body) % 8:
                 raise Damaged(f"a variable has {len(body)} bytes, which is no multiple of 8")
-            # objects keep their contents in one nameless variable, which `objects` opens
-            if begin != subsystem:
+            # objects keep their contents in one nameless variable, which `objects` reads
+            if begin == subsystem:
+                if self.inside_objects:
+                    self._subsystem(body)
+            else:
                 name = self._matrix(body, "", 0)
                 if name in names:
                     raise Damaged(f"two variables have the name '{name}'")
                 names.add(name)
+
+    def _subsystem(self, body: memoryview) -> None:
+        """Read the nameless variable that holds the contents of all objects.
+
+        It is a uint8 matrix whose bytes are a workspace without the text of its header.
+        """
+        cursor = Cursor(body, self.order)
+        for _ in ("flags", "dimensions", "name"):
+            cursor.next()
+        _, inner = cursor.next()
+        if len(inner) < 8:
+            raise Damaged("the part that holds the contents of objects is empty")
+        reader = Mat5Reader(self.sink, self.limit, inside_objects=True)
+        reader.order = ">" if bytes(inner[2:4]) == b"MI" else "<"
+        cursor = Cursor(inner[8:], reader.order)
+        while cursor:
+            kind, element = cursor.next()
+            if kind == MI_COMPRESSED:
+                kind, element = reader._inflate(element)
+            if kind == MI_MATRIX:
+                reader._matrix(element, "#", 0)
 
     def _inflate(self, body: memoryview) -> tuple[int, memoryview]:
         """Return the element inside a miCOMPRESSED element: its data type and its bytes.
@@ -255,6 +285,8 @@ class Mat5Reader:
             if not path:
                 raise Damaged("an object has no name")
             self.sink.add(path, class_name or "object", is_object=True, shape=())
+            if self.inside_objects:
+                self._child(cursor, path, depth)
             return path
         shape = cursor.integers()
         if len(shape) < 2:
@@ -291,7 +323,8 @@ class Mat5Reader:
     ) -> None:
         if array_class == OBJECT:
             self.sink.add(path, cursor.text() or "object", shape, is_object=True)
-            return
+            if not self.inside_objects:
+                return
         self.sink.add(path, "struct", shape)
         lengths = cursor.integers()
         length = lengths[0] if lengths else 0
@@ -317,7 +350,7 @@ class Mat5Reader:
     ) -> None:
         kind = "logical" if flags & LOGICAL_FLAG else CLASSES[array_class]
         if array_class == FUNCTION:
-            self.sink.add(path, kind, shape)
+            self.sink.add(path, kind, shape, is_object=True)
             return
         if array_class == SPARSE:
             rows, columns = self._element(cursor, path), self._element(cursor, path)
@@ -330,9 +363,12 @@ class Mat5Reader:
             return
         dtype, data = self._element(cursor, path, shape)
         if flags & COMPLEX_FLAG:
-            self._element(cursor, path, shape)
+            imaginary, more = self._element(cursor, path, shape)
             self.sink.add(path, kind, shape, note="complex")
-        elif kind in ("double", "single"):
+            if self.inside_objects:
+                self.sink.add(path, kind, shape, data, self.order + dtype)
+                self.sink.add(path, kind, shape, more, self.order + imaginary)
+        elif kind in ("double", "single") or self.inside_objects:
             self.sink.add(path, kind, shape, data, self.order + dtype)
         else:
             self.sink.add(path, kind, shape)

@@ -6,6 +6,8 @@ column. Only what lies in the file itself is followed: no external links, no vir
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+from contextlib import contextmanager
 from typing import Any
 
 import h5py
@@ -23,13 +25,49 @@ from mrlab_ros.adapters.workspaces.mat5 import (
 
 def read_hdf5(file: Any, sink: Sink, limit: int) -> None:
     """Hand every variable to the sink; `limit` bounds one variable's bytes."""
+    with _opened(file) as root:
+        reader = _Reader(root, sink, limit)
+        if any("OCTAVE_NEW_FORMAT" in root[name].attrs for name in reader.names(root)):
+            raise NotAWorkspace("an Octave HDF5 file (save it with: save -7 traj.mat q)")
+        for name in reader.names(root):
+            reader.item(root[name], name, 0)
+
+
+def read_contents_of_objects(file: Any, sink: Sink, limit: int) -> None:
+    """Hand the numbers inside objects to the sink, at their place in the file.
+
+    Their paths are made up; a complex matrix is handed on as its two parts.
+    """
+    with _opened(file) as root:
+        reader = _Reader(root, sink, limit, inside_objects=True)
+        for part in root.get("#subsystem#", {}).values():
+            reader.cell(part, "#", 0)
+
+
+def check_self_contained(file: Any) -> None:
+    """Raise Damaged where an HDF5 file has a link or a dataset that leads out of it."""
+
+    def leads_out(name: str, link: Any) -> str | None:
+        if isinstance(link, h5py.ExternalLink):
+            return f"'{name}' lies in another file; that is not followed"
+        item = root.get(name)
+        if isinstance(item, h5py.Dataset) and (item.is_virtual or item.external):
+            return f"'{name}' takes its values from another file; that is not followed"
+        return None
+
+    with _opened(file) as root:
+        # h5py loses an exception that is raised while it visits
+        problem = root.visititems_links(leads_out)
+        if problem:
+            raise Damaged(problem)
+
+
+@contextmanager
+def _opened(file: Any) -> Iterator[Any]:
+    """Give the root of an HDF5 file; what h5py raises on damage is Damaged."""
     try:
         with h5py.File(file, "r") as root:
-            reader = _Reader(root, sink, limit)
-            if any("OCTAVE_NEW_FORMAT" in root[name].attrs for name in reader.names(root)):
-                raise NotAWorkspace("an Octave HDF5 file (save it with: save -7 traj.mat q)")
-            for name in reader.names(root):
-                reader.item(root[name], name, 0)
+            yield root
     except (Damaged, NotAWorkspace, TooLarge, MemoryError):
         raise
     except Exception as error:
@@ -42,7 +80,8 @@ def _word(value: Any) -> str:
 
 
 class _Reader:
-    def __init__(self, root: Any, sink: Sink, limit: int) -> None:
+    def __init__(self, root: Any, sink: Sink, limit: int, *, inside_objects: bool = False) -> None:
+        self.inside_objects = inside_objects
         self.root = root
         self.sink = sink
         self.limit = limit
@@ -60,14 +99,14 @@ class _Reader:
         if depth > DEEPEST:
             raise Damaged(f"'{path}' is nested deeper than {DEEPEST} levels")
         kind = _word(item.attrs.get("MATLAB_class", ""))
-        if "MATLAB_object_decode" in item.attrs and kind != "function_handle":
+        if "MATLAB_object_decode" in item.attrs:
             self.sink.add(path, kind or "object", is_object=True, shape=())
         elif "MATLAB_sparse" in item.attrs:
             self.sink.add(path, "sparse", (int(item.attrs["MATLAB_sparse"]), 0))
         elif isinstance(item, h5py.Group):
             self._struct(item, path, depth)
         elif kind == "cell":
-            self._cell(item, path, depth)
+            self.cell(item, path, depth)
         else:
             self._numbers(item, path, kind)
 
@@ -101,7 +140,7 @@ class _Reader:
             and "MATLAB_class" not in item.attrs
         )
 
-    def _cell(self, item: Any, path: str, depth: int) -> None:
+    def cell(self, item: Any, path: str, depth: int) -> None:
         shape = self._shape(item)
         self.sink.add(path, "cell", shape)
         if "MATLAB_empty" in item.attrs:
@@ -134,12 +173,19 @@ class _Reader:
         shape = self._shape(item)
         if item.dtype.names:
             self.sink.add(path, kind or "double", shape, note="complex")
+            if self.inside_objects and "MATLAB_empty" not in item.attrs:
+                self._bounded(item, path)
+                for name in item.dtype.names:
+                    values = item[()][name].copy()
+                    data = memoryview(values).cast("B")
+                    self.sink.add(path, "double", shape, data, values.dtype.str)
             return
         kind = kind or {"f": "double", "i": "int64", "u": "uint64"}.get(item.dtype.kind, "unknown")
         if kind == "char" and "MATLAB_empty" not in item.attrs:
             self.sink.add(path, kind, shape, text=self._text(item, shape))
             return
-        if kind not in ("double", "single") or item.dtype.kind not in "fiu":
+        wanted = kind in ("double", "single") or (self.inside_objects and kind != "char")
+        if not wanted or item.dtype.kind not in "fiu":
             self.sink.add(path, kind, shape)
             return
         if "MATLAB_empty" in item.attrs:

@@ -25,8 +25,9 @@ from typing import Any
 
 import numpy as np
 
-from mrlab_ros.adapters.workspaces import joint_trajectories, mat5, tables
+from mrlab_ros.adapters.workspaces import joint_trajectories, mat5, objects, tables
 from mrlab_ros.adapters.workspaces.mat73 import read_hdf5
+from mrlab_ros.adapters.workspaces.object_sinks import ObjectSink
 from mrlab_ros.adapters.workspaces.view import View
 
 MOST_VARIABLES = 20_000
@@ -103,15 +104,17 @@ def read(data: memoryview, name: str, sink: mat5.Sink, limit: int) -> str:
         data = memoryview(inflate(data, limit))
         form = mat5.recognise(data)
         name = name.removesuffix(".gz")
-    if form == "mat5":
-        mat5.Mat5Reader(sink, limit).read(data)
-        return "MATLAB v5 to v7"
+    if form in ("mat5", "hdf5"):
+        found = ObjectSink(sink)
+        if form == "mat5":
+            mat5.Mat5Reader(found, limit).read(data)
+        else:
+            read_hdf5(io.BufferedReader(View(data)), found, limit)
+        objects.open_objects(data, found, limit)
+        return "MATLAB v5 to v7" if form == "mat5" else "MATLAB v7.3"
     if form == "mat4":
         mat5.read_mat4(data, sink)
         return "MATLAB v4"
-    if form == "hdf5":
-        read_hdf5(io.BufferedReader(View(data)), sink, limit)
-        return "MATLAB v7.3"
     if form in joint_trajectories.SUFFIXES:
         joint_trajectories.read_bag(data, form, sink, limit)
         return "rosbag2"

@@ -1,0 +1,108 @@
+"""Opens MATLAB's objects (timeseries, table, Simulink's logs and so on) with mat-io.
+
+Runs in the walled-off process, and imports mat-io only for a file that holds an object. mat-io
+decodes the undocumented part of a workspace where MATLAB keeps the properties of objects; what
+the properties of a class mean is known to `object_classes`. Every matrix that is handed on was
+also found, bit for bit, by the own reader in that part of the file: two readers agree, as for
+plain matrices.
+"""
+
+from __future__ import annotations
+
+import importlib.util
+import io
+import os
+import re
+import warnings
+from typing import Any
+
+from mrlab_ros.adapters.workspaces.mat5 import Damaged, Mat5Reader, recognise
+from mrlab_ros.adapters.workspaces.mat73 import (
+    check_self_contained,
+    read_contents_of_objects,
+)
+from mrlab_ros.adapters.workspaces.object_classes import Opener
+from mrlab_ros.adapters.workspaces.object_sinks import Digests, ObjectSink
+from mrlab_ros.adapters.workspaces.view import View
+
+MISSING = (
+    "the lab runs without the package mat-io, which opens it and needs Python 3.11 and numpy 2.2 "
+    "or newer"
+)
+
+
+def open_objects(data: memoryview, found: ObjectSink, limit: int) -> None:
+    """Hand the parts of the objects in `found` to its sink, and name those that stay closed.
+
+    data: the whole file, v5 to v7.3. limit: bytes that one variable may have. Raises MemoryError
+    where the memory does not suffice.
+    """
+    if not found.closed:
+        return
+    if importlib.util.find_spec("matio") is None:
+        _leave_closed(found, set(), MISSING)
+        return
+    hdf5 = recognise(data) == "hdf5"
+    roots = list(dict.fromkeys(re.split(r"[.({]", path)[0] for path in found.closed))
+    opener: Opener | None = None
+    try:
+        known = Digests()
+        if hdf5:
+            check_self_contained(io.BufferedReader(View(data)))
+            read_contents_of_objects(io.BufferedReader(View(data)), known, limit)
+        else:
+            Mat5Reader(known, limit, inside_objects=True).read(data)
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore")
+            loaded = _loaded_v73(data, roots) if hdf5 else _loaded(data, roots)
+        opener = Opener(found, known)
+        for root in roots:
+            opener.variable(root, loaded.get(root))
+    except MemoryError:
+        raise
+    except Damaged as error:
+        _leave_closed(found, opener.opened if opener else set(), str(error))
+        return
+    except Exception as error:
+        # what damage makes mat-io raise has no common base
+        said = f"mat-io cannot read it ({type(error).__name__}: {error})"
+        _leave_closed(found, opener.opened if opener else set(), said)
+        return
+    _leave_closed(found, opener.opened, "")
+
+
+def _leave_closed(found: ObjectSink, opened: set[str], why: str) -> None:
+    for path, kind in found.closed.items():
+        if path not in opened:
+            found.sink.add(path, kind, (), is_object=True, note=why)
+
+
+def _loaded(data: memoryview, names: list[str]) -> dict[str, Any]:
+    """Return what mat-io reads of these variables of a v5 to v7 file, objects as properties."""
+    from matio import load_from_mat
+
+    file = os.memfd_create("workspace", os.MFD_CLOEXEC)
+    try:
+        view = data
+        while len(view):
+            view = view[os.write(file, view) :]
+        found: dict[str, Any] = load_from_mat(
+            f"/proc/self/fd/{file}", raw_data=True, variable_names=list(names)
+        )
+        return found
+    finally:
+        os.close(file)
+
+
+def _loaded_v73(data: memoryview, names: list[str]) -> dict[str, Any]:
+    """Return the same of a v7.3 file.
+
+    HDF5 opens no file in memory by a path, so mat-io's reader is given the open file.
+    """
+    import h5py
+    from matio.v7.matreader7 import MatRead7, read_subsystem
+
+    with h5py.File(io.BufferedReader(View(data)), "r") as file:
+        reader = MatRead7(file, read_subsystem(file, "<", True, False))
+        found: dict[str, Any] = reader.get_variables(list(names))
+        return found
