@@ -13,6 +13,7 @@ import stat
 import subprocess
 import sys
 import threading
+import weakref
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -107,7 +108,7 @@ class WorkspaceReader:
             raise Refused(finding("too_large", file=name, problem=problem))
         target = os.memfd_create("variables", os.MFD_CLOEXEC)
         try:
-            status = self._ask(source, target, name)
+            status = self._ask([source, target], name)
             if status is None or status == -signal.SIGALRM:
                 raise Refused(finding("too_slow", file=name, limit=self.limits.time))
             if status:
@@ -116,15 +117,39 @@ class WorkspaceReader:
         finally:
             os.close(target)
 
-    def _ask(self, source: int, target: int, name: str) -> int | None:
-        """Return the exit status of the process that read the file, None past the time limit."""
+    def read_again(self, source: int, numbers: int, name: str, place: list[Any]) -> None:
+        """Read one matrix with a second reader; raise Refused unless both find the same bits.
+
+        source, numbers: descriptors of the file and of what was read of it. place: path, shape,
+        offset and numpy type of the matrix.
+        """
+        target = os.memfd_create("second", os.MFD_CLOEXEC)
+        try:
+            status = self._ask([source, target, numbers], name, again=place)
+            if status is None or status == -signal.SIGALRM:
+                raise Refused(finding("too_slow", file=name, limit=self.limits.time))
+            if status:
+                problem = f"the second reader crashed on it ({_death(status)})"
+            else:
+                answer = _index(target)
+                if answer.get("code") == "too_large":
+                    raise Refused(finding("too_large", file=name, problem=answer["problem"]))
+                problem = answer["problem"]
+        finally:
+            os.close(target)
+        if problem:
+            words = {"file": name, "problem": problem}
+            raise Refused(finding("readers_disagree", variable=place[0], **words))
+
+    def _ask(self, descriptors: list[int], name: str, **more: Any) -> int | None:
+        """Return the exit status of the process that did a request, None past the time limit."""
         limits = self.limits
         request = {"memory": limits.memory, "time": limits.time, "output": limits.output}
-        message = json.dumps({**request, "name": name[-255:]}).encode()
+        message = json.dumps({**request, **more, "name": name[-255:]}).encode()
         with self._lock:
             connection = self._warm()
             try:
-                socket.send_fds(connection, [message], [source, target])
+                socket.send_fds(connection, [message], descriptors)
                 # the kernel's own timer ends the reading process; this deadline is the last resort
                 connection.settimeout(limits.time + 5)
                 answer = connection.recv(4096)
@@ -140,17 +165,15 @@ class WorkspaceReader:
             return status
 
     def _collect(self, source: int, target: int, size: int, name: str) -> Workspace:
-        length = os.fstat(target).st_size
-        with mmap.mmap(target, length, prot=mmap.PROT_READ) as tail:
-            end = int.from_bytes(tail[length - 8 :], "little")
-            index: dict[str, Any] = json.loads(tail[length - 8 - end : length - 8])
+        index = _index(target)
         if "code" in index:
             found = index["problem"]
             raise Refused(finding(index["code"], file=name, problem=found, found=found))
-        numbers = mmap.mmap(target, length, prot=mmap.PROT_READ)
+        numbers = mmap.mmap(target, os.fstat(target).st_size, prot=mmap.PROT_READ)
         variables = tuple(_variable(numbers, *entry) for entry in index["variables"])
         digest = _sha256(source, size)
-        return Workspace(index["format"], variables, index["omitted"], digest)
+        confirm = _Confirmation(self, source, target, name, index["variables"])
+        return Workspace(index["format"], variables, index["omitted"], digest, confirm)
 
     def _warm(self) -> socket.socket:
         if self._process and self._process.poll() is None and self._connection:
@@ -205,6 +228,37 @@ def _kill(process: subprocess.Popen[bytes]) -> None:
     if process.returncode is None:
         with contextlib.suppress(ProcessLookupError):
             os.killpg(process.pid, signal.SIGKILL)
+
+
+class _Confirmation:
+    """Reads matrices of a file again, as long as the workspace that holds this exists."""
+
+    def __init__(
+        self, reader: WorkspaceReader, source: int, numbers: int, name: str, index: list[Any]
+    ) -> None:
+        self._reader = reader
+        self._name = name
+        self._places: dict[str, list[Any]] = {}
+        for path, _, shape, offset, dtype, _ in index:
+            if offset >= 0:
+                self._places.setdefault(path, [path, shape, offset, dtype])
+        self._descriptors = os.dup(source), os.dup(numbers)
+        for descriptor in self._descriptors:
+            weakref.finalize(self, os.close, descriptor)
+
+    def __call__(self, path: str) -> None:
+        place = self._places.get(path)
+        if place is not None:
+            self._reader.read_again(*self._descriptors, self._name, place)
+
+
+def _index(target: int) -> dict[str, Any]:
+    """Return the index at the end of a memory file that a worker filled."""
+    length = os.fstat(target).st_size
+    with mmap.mmap(target, length, prot=mmap.PROT_READ) as tail:
+        end = int.from_bytes(tail[length - 8 :], "little")
+        index: dict[str, Any] = json.loads(tail[length - 8 - end : length - 8])
+    return index
 
 
 def _variable(

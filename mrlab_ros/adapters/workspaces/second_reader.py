@@ -10,6 +10,7 @@ from __future__ import annotations
 import io
 import re
 import warnings
+from collections.abc import Iterator
 from typing import Any
 
 import h5py
@@ -31,31 +32,36 @@ class _Opaque(Exception):
 def verify(data: memoryview, file: str, path: str, values: NDArray[Any]) -> None:
     """Read the matrix at `path` again; raise Refused unless every bit of it is the same.
 
-    data: the whole file, not compressed with gzip. file: its name. path: as the own reader gave
-    it, such as `out.q.signals.values`. values: (N, d) what the own reader found, of any byte
-    order and of the type that is stored. Formats with one reader only (CSV, npz, bags) pass.
-    Raises MemoryError where the memory does not suffice.
+    file: the file's name; the rest as in `disagreement`.
+    """
+    problem = disagreement(data, path, values)
+    if problem:
+        raise Refused(finding("readers_disagree", file=file, variable=path, problem=problem))
+
+
+def disagreement(data: memoryview, path: str, values: NDArray[Any]) -> str:
+    """Read the matrix at `path` again; say what differs, or nothing.
+
+    data: the whole file, not compressed with gzip. path: as the own reader gave it, such as
+    `out.q.signals.values`. values: (N, d) what the own reader found, of any byte order and of the
+    type that is stored. Formats with one reader only (CSV, npz, bags) pass. Raises MemoryError
+    where the memory does not suffice.
     """
     form = recognise(data)
     if form not in ("mat4", "mat5", "hdf5"):
-        return
+        return ""
     second = "h5py" if form == "hdf5" else "scipy"
     try:
         found = _with_h5py(data, path) if form == "hdf5" else _with_scipy(data, path)
     except _Opaque:
-        return
+        return ""
     except MemoryError:
         raise
     except Exception as error:
         # what damage makes the libraries raise has no common base
-        problem = f"{second} cannot read it ({error or type(error).__name__})"
-        raise Refused(
-            finding("readers_disagree", file=file, variable=path, problem=problem)
-        ) from None
+        return f"{second} cannot read it ({error or type(error).__name__})"
     problem = difference(values, found)
-    if problem:
-        problem = f"{second} {problem}"
-        raise Refused(finding("readers_disagree", file=file, variable=path, problem=problem))
+    return f"{second} {problem}" if problem else ""
 
 
 def difference(first: NDArray[Any], second: NDArray[Any]) -> str:
@@ -78,16 +84,16 @@ def difference(first: NDArray[Any], second: NDArray[Any]) -> str:
     )
 
 
-def steps(path: str) -> tuple[str, list[tuple[str, Any]]]:
-    """Return the variable that `path` begins with, and the steps from it to the matrix.
+def steps(path: str) -> Iterator[tuple[str, Any]]:
+    """Yield the variable that `path` begins with, and the steps from it to the matrix.
 
-    A step is ('field', name), or ('element' or 'cell', subscripts from 0). Raises ValueError
-    where `path` is not written as MATLAB writes it.
+    They are ('variable', name), ('field', name), ('element' or 'cell', subscripts from 0). Raises
+    ValueError where `path` goes on in a way that only objects have, such as `T{:,:}`.
     """
     root = ROOT.match(path)
     if root is None:
         raise ValueError(f"'{path}' begins with no name")
-    found: list[tuple[str, Any]] = []
+    yield "variable", root.group()
     at = root.end()
     while at < len(path):
         step = STEP.match(path, at)
@@ -95,9 +101,8 @@ def steps(path: str) -> tuple[str, list[tuple[str, Any]]]:
             raise ValueError(f"'{path}' cannot be followed after '{path[:at]}'")
         kind = str(step.lastgroup)
         text = step.group(kind)
-        found.append((kind, text if kind == "field" else _subscripts(text)))
+        yield kind, text if kind == "field" else _subscripts(text)
         at = step.end()
-    return root.group(), found
 
 
 def _subscripts(text: str) -> tuple[int, ...]:
@@ -106,19 +111,24 @@ def _subscripts(text: str) -> tuple[int, ...]:
 
 def _with_scipy(data: memoryview, path: str) -> NDArray[Any]:
     import scipy.io
-    from scipy.io.matlab import MatlabFunction, MatlabOpaque
+    from scipy.io.matlab import MatlabFunction, MatlabObject, MatlabOpaque
 
-    root, followed = steps(path)
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore")
-        found = scipy.io.loadmat(
-            io.BufferedReader(View(data)), variable_names=[root], chars_as_strings=False
-        )
-    value: Any = found[root]
-    for kind, where in followed:
-        if isinstance(value, (MatlabOpaque, MatlabFunction)):
+    value: Any = None
+    followed = steps(path)
+    while True:
+        if isinstance(value, (MatlabOpaque, MatlabFunction, MatlabObject)):
             raise _Opaque
-        if kind == "field":
+        step = next(followed, None)
+        if step is None:
+            break
+        kind, where = step
+        if kind == "variable":
+            with warnings.catch_warnings():
+                warnings.simplefilter("ignore")
+                file = io.BufferedReader(View(data))
+                loaded = scipy.io.loadmat(file, variable_names=[where], chars_as_strings=False)
+            value = loaded[where]
+        elif kind == "field":
             value = value[where]
             if isinstance(value, np.ndarray) and value.dtype == object and value.size == 1:
                 value = value.item()
@@ -132,16 +142,20 @@ def _with_scipy(data: memoryview, path: str) -> NDArray[Any]:
 
 
 def _with_h5py(data: memoryview, path: str) -> NDArray[Any]:
-    root, followed = steps(path)
     with h5py.File(io.BufferedReader(View(data)), "r") as file:
-        item = file[root]
+        item = file
         number: int | None = None
-        for kind, where in followed:
+        followed = steps(path)
+        while True:
             if "MATLAB_object_decode" in item.attrs:
                 raise _Opaque
+            step = next(followed, None)
+            if step is None:
+                break
+            kind, where = step
             if kind == "element":
                 number = _number(next(iter(item.values())).shape, where)
-            elif kind == "field":
+            elif kind in ("field", "variable"):
                 item = item[where]
                 if number is not None:
                     item, number = file[item[()].reshape(-1)[number]], None

@@ -6,7 +6,9 @@ dump), writes what it found into the memory file it was given, and ends. Whateve
 it, the waiting process and the lab never see more than an exit status.
 
 One request is a JSON message with two descriptors: the file to read, the memory file to fill
-with numbers, then the JSON index of them, then that index' length (8 bytes, little-endian).
+with numbers, then the JSON index of them, then that index' length (8 bytes, little-endian). With
+a third descriptor, the memory file of an earlier reading, one matrix of it is compared with what
+a second reader finds in the file.
 """
 
 from __future__ import annotations
@@ -25,7 +27,7 @@ from typing import Any
 
 import numpy as np
 
-from mrlab_ros.adapters.workspaces import joint_trajectories, mat5, objects, tables
+from mrlab_ros.adapters.workspaces import joint_trajectories, mat5, objects, second_reader, tables
 from mrlab_ros.adapters.workspaces.mat73 import read_hdf5
 from mrlab_ros.adapters.workspaces.object_sinks import ObjectSink
 from mrlab_ros.adapters.workspaces.view import View
@@ -130,8 +132,26 @@ def read(data: memoryview, name: str, sink: mat5.Sink, limit: int) -> str:
     raise mat5.NotAWorkspace(form)
 
 
-def serve(source: int, target: int, request: dict[str, Any]) -> None:
-    """Read one file, in the forked process; ends with an index that says how it went."""
+def read_again(data: memoryview, numbers: int, place: list[Any]) -> str:
+    """Compare a matrix that was read before with what the second reader finds in its file.
+
+    numbers: the memory file that `read` filled. place: path, shape, offset and numpy type of the
+    matrix. Returns what differs, or nothing.
+    """
+    path, shape, offset, dtype = place
+    if mat5.recognise(data) == "gzip":
+        data = memoryview(inflate(data, len(data) * 1100 + (1 << 20)))
+    size = os.fstat(numbers).st_size
+    with_numbers = mmap.mmap(numbers, size, prot=mmap.PROT_READ)
+    flat = np.frombuffer(with_numbers, np.dtype(dtype), shape[0] * shape[1], offset)
+    return second_reader.disagreement(data, path, flat.reshape(tuple(shape), order="F"))
+
+
+def serve(source: int, target: int, numbers: int | None, request: dict[str, Any]) -> None:
+    """Do one request, in the forked process; ends with an index that says how it went.
+
+    numbers: the memory file of the first reading, where the request is to read a matrix again.
+    """
     memory, seconds, output = request["memory"], request["time"], request["output"]
     resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
     resource.setrlimit(resource.RLIMIT_FSIZE, (output + (1 << 26), output + (1 << 26)))
@@ -146,7 +166,10 @@ def serve(source: int, target: int, request: dict[str, Any]) -> None:
     try:
         size = os.fstat(source).st_size
         data = memoryview(mmap.mmap(source, size, prot=mmap.PROT_READ) if size else b"")
-        sink.finish(format=read(data, request["name"], sink, limit))
+        if numbers is None:
+            sink.finish(format=read(data, request["name"], sink, limit))
+        else:
+            sink.finish(problem=read_again(data, numbers, request["again"]))
     except mat5.NotAWorkspace as error:
         sink.finish(code="unsupported_format", problem=str(error))
     except mat5.Damaged as error:
@@ -172,18 +195,20 @@ def main() -> None:
     for number in (signal.SIGINT, signal.SIGTERM):
         signal.signal(number, signal.SIG_IGN if number == signal.SIGINT else signal.SIG_DFL)
     np.zeros(1).sum()
+    import scipy.io  # noqa: F401  the second reader's, loaded once for all files
+
     connection = socket.socket(fileno=int(sys.argv[1]))
     connection.send(b"{}")
     while True:
-        message, descriptors, _, _ = socket.recv_fds(connection, MESSAGE_SIZE, 2)
+        message, descriptors, _, _ = socket.recv_fds(connection, MESSAGE_SIZE, 3)
         if not message:
             return
         child = os.fork()
         if child == 0:
             connection.close()
             try:
-                source, target = descriptors
-                serve(source, target, json.loads(message))
+                source, target, *numbers = descriptors
+                serve(source, target, next(iter(numbers), None), json.loads(message))
                 os._exit(0)
             finally:
                 os._exit(1)

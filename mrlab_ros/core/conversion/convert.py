@@ -123,6 +123,8 @@ def convert(
         notes += limits.against_robot(arm, rate, robot.joints, variable.path, robot.id)
         if any(n.severity is Severity.ERROR for n in notes):
             return _rejected(file, notes, variable)
+        if workspace.confirm is not None:
+            workspace.confirm(variable.path)
         trajectory = Trajectory(
             id=trajectory_id,
             robot_model=robot.id,

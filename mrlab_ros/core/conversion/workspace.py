@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
 
@@ -62,12 +63,18 @@ class Variable:
 
 @dataclass(frozen=True, eq=False)
 class Workspace:
-    """The variables of a file in their order. omitted: how many more there are than listed."""
+    """The variables of a file in their order.
+
+    omitted: how many more there are than listed. confirm: reads the variable at a path a second
+    time, with another reader, and raises Refused unless both find the same bits; None where there
+    is no second reader.
+    """
 
     file_format: str
     variables: tuple[Variable, ...]
     omitted: int = 0
     sha256: str = ""
+    confirm: Callable[[str], None] | None = None
 
     def find(self, path: str) -> Variable | None:
         """Return the variable with this path, or None."""

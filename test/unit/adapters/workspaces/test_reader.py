@@ -1,5 +1,7 @@
 """The wall: whatever a file does, the reader says so and reads the next one."""
 
+import gc
+import gzip
 import io
 import os
 import signal
@@ -163,3 +165,36 @@ def test_closing_ends_the_worker():
     reader.close()
     assert not worker.is_running()
     reader.close()
+
+
+@pytest.mark.parametrize("name", ["traj.mat", "traj.mat.gz"])
+def test_a_matrix_is_read_again_by_a_second_reader(reader, name, monkeypatch):
+    data = saved(s={"q": Q}, q=Q + 1)
+    workspace = reader.read_bytes(gzip.compress(data) if name.endswith("gz") else data, name)
+    workspace.confirm("s.q")
+    workspace.confirm("q")
+    workspace.confirm("no such variable")
+    place = workspace.confirm._places["q"]
+    monkeypatch.setitem(workspace.confirm._places, "q", ["s.q", *place[1:]])
+    found = refusal(workspace.confirm, "q")
+    assert found.code == "readers_disagree"
+    assert "scipy finds 0.0 where 1.0 was read" in found.message
+
+
+def test_a_crash_of_the_second_reader_refuses_the_file(reader, monkeypatch):
+    workspace = reader.read_bytes(saved(q=Q), "traj.mat")
+    monkeypatch.setattr(reader, "_ask", lambda *_, **__: -signal.SIGSEGV)
+    found = refusal(workspace.confirm, "q")
+    assert found.code == "readers_disagree"
+    assert "crashed on it (signal 11" in found.message
+    monkeypatch.setattr(reader, "_ask", lambda *_, **__: None)
+    assert refusal(workspace.confirm, "q").code == "too_slow"
+
+
+def test_what_a_workspace_needs_to_be_read_again_goes_with_it(reader):
+    before = psutil.Process().num_fds()
+    workspaces = [reader.read_bytes(saved(q=Q), "traj.mat") for _ in range(10)]
+    assert psutil.Process().num_fds() > before
+    del workspaces
+    gc.collect()
+    assert psutil.Process().num_fds() == before

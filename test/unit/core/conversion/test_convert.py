@@ -1,5 +1,6 @@
 """The use case: which matrix is taken, what is refused and why, what the options do."""
 
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -345,6 +346,26 @@ def test_uneven_times_are_a_warning():
 
 def test_the_rate_asked_for_wins():
     assert accepted(var("q", motion()), var("fs", 250.0), frame_rate=10.0).frame_rate == 10.0
+
+
+def test_the_matrix_that_is_taken_is_confirmed_by_a_second_reader():
+    asked = []
+    workspace = Workspace("fake", (var("q", motion()), var("tau", motion())), confirm=asked.append)
+
+    def run():
+        return conversion_convert.convert(
+            "traj.mat", lambda: workspace, Options(), ARM, COEFFICIENTS, created_ns=1
+        )
+
+    assert run().outcome is Outcome.ACCEPTED
+    assert asked == ["q"]
+
+    def differs(path):
+        raise Refused(finding("readers_disagree", file="traj.mat", variable=path, problem="x"))
+
+    workspace = replace(workspace, confirm=differs)
+    assert run().diagnostics[0].code == "readers_disagree"
+    assert run().outcome is Outcome.REJECTED
 
 
 @pytest.mark.parametrize("rate", [-1.0, float("nan"), float("inf"), 1e9])
