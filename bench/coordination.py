@@ -40,7 +40,7 @@ def motion() -> Trajectory:
     t = np.arange(round(100 * SECONDS) + 1) / 100
     positions = model.home + 0.2 * np.sin(t)[:, None] * np.ones(len(model.joints))
     zeros = np.zeros_like(positions)
-    channels = Channels(zeros.copy(), zeros.copy(), zeros.copy())
+    channels = Channels(zeros.copy(), zeros.copy())
     source = Source("sine.mat", "q", "0" * 64)
     return Trajectory(
         "sine", MODEL, None, model.joint_names, 100.0, positions, None, channels, source

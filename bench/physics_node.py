@@ -46,7 +46,7 @@ def trajectory(name: str, model: RobotModel, positions: Any) -> Trajectory:
     zeros = np.zeros_like(positions)
     return Trajectory(
         name, model.id, None, model.joint_names, RATE, positions, None,
-        Channels(np.gradient(positions, 1 / RATE, axis=0), zeros, zeros.copy()),
+        Channels(np.gradient(positions, 1 / RATE, axis=0), zeros),
         Source("q.mat", "q", "0" * 64),
     )  # fmt: skip
 

@@ -41,7 +41,7 @@ def trajectory(model: Any, frame_rate: float, seconds: float) -> Trajectory:
     positions, zeros = model.home + wave, np.zeros_like(wave)
     return Trajectory(
         "sine", model.id, None, model.joint_names, frame_rate, positions, None,
-        Channels(np.gradient(positions, 1 / frame_rate, axis=0), zeros, zeros.copy()),
+        Channels(np.gradient(positions, 1 / frame_rate, axis=0), zeros),
         Source("sine.mat", "q", "0" * 64),
     )  # fmt: skip
 

@@ -70,6 +70,6 @@ def make_trajectory(
         frame_rate=frame_rate,
         positions=positions,
         gripper=None if gripper is None else np.array(gripper),
-        channels=Channels(zeros.copy(), zeros.copy(), zeros.copy()),
+        channels=Channels(zeros.copy(), zeros.copy()),
         source=Source("wave.mat", "q", "0" * 64),
     )

@@ -36,7 +36,7 @@ def make(
     return Trajectory(
         name, model_id, end_effector, model.joint_names, 100.0, positions,
         closed if gripper else None,
-        Channels(velocities, np.zeros_like(positions), np.ones_like(positions)),
+        Channels(velocities, np.ones_like(positions)),
         Source("wave.mat", "q", "0" * 64),
     )  # fmt: skip
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import array
 import math
+from collections.abc import Mapping
 from dataclasses import fields
 from typing import Any
 
@@ -16,7 +17,7 @@ from mrlab_ros.core.conversion.options import Options
 from mrlab_ros.core.conversion.preview import Preview
 from mrlab_ros.core.diagnostics import Diagnostic, Fix, Severity
 from mrlab_ros.core.geometry import Array
-from mrlab_ros.core.trajectory.document import warnings_of
+from mrlab_ros.core.trajectory.document import Frames, warnings_of
 from mrlab_ros.core.trajectory.trajectory import Channels, Source, Trajectory
 from mrlab_ros.messages.time import time_from_message, time_to_message
 
@@ -78,27 +79,45 @@ def info_to_message(trajectory: Trajectory) -> msg.TrajectoryInfo:
     )
 
 
-def _doubles(matrix: Array) -> array.array[float]:
-    return array.array("d", np.ascontiguousarray(matrix, dtype=np.float64).tobytes())
+def _array(kind: str, values: NDArray[Any] | None) -> array.array[Any]:
+    """Return the values, row by row, as rclpy takes them without a Python object for each."""
+    content = array.array(kind)
+    if values is not None:
+        rows = np.ascontiguousarray(values, dtype=np.dtype(kind))
+        content.frombytes(rows.reshape(-1).view(np.uint8).data)
+    return content
 
 
-def trajectory_to_message(trajectory: Trajectory) -> msg.Trajectory:
-    gripper = trajectory.gripper
+def trajectory_to_message(
+    trajectory: Trajectory, begin: int = 0, count: int = 0
+) -> msg.Trajectory:
+    """Return the message with `count` frames from `begin` on; count 0: all from there on."""
+    part = slice(begin, begin + count if count else None)
+    gripper, channels = trajectory.gripper, trajectory.channels
     return msg.Trajectory(
         info=info_to_message(trajectory),
         joint_names=list(trajectory.joint_names),
-        positions=_doubles(trajectory.positions),
-        velocities=_doubles(trajectory.channels.velocities),
-        effort_proxy=_doubles(trajectory.channels.effort_proxy),
-        gripper=array.array("B", b"" if gripper is None else gripper.astype(np.uint8).tobytes()),
+        positions=_array("d", trajectory.positions[part]),
+        velocities=_array("d", channels.velocities[part]),
+        effort_proxy=_array("d", channels.effort_proxy[part]),
+        gripper=_array("B", None if gripper is None else gripper[part]),
+    )
+
+
+def frames_to_message(frames: Frames) -> msg.Trajectory:
+    """Return the message with these frames of a stored trajectory."""
+    return msg.Trajectory(
+        info=info_from_head(frames.head),
+        joint_names=list(frames.head["joint_names"]),
+        positions=_array("d", frames.positions),
+        velocities=_array("d", frames.velocities),
+        effort_proxy=_array("d", frames.effort_proxy),
+        gripper=_array("B", frames.gripper),
     )
 
 
 def trajectory_from_message(message: msg.Trajectory) -> Trajectory:
-    """Return the trajectory that the message carries; raise BadInput where it is none.
-
-    Accelerations do not travel: they are zeros.
-    """
+    """Return the trajectory that the message carries; raise BadInput where it is none."""
     info, names = message.info, tuple(message.joint_names)
 
     def matrix(values: array.array[float]) -> Array:
@@ -114,9 +133,7 @@ def trajectory_from_message(message: msg.Trajectory) -> Trajectory:
         frame_rate=info.frame_rate,
         positions=positions,
         gripper=np.array(message.gripper, dtype=np.bool_) if info.has_gripper else None,
-        channels=Channels(
-            matrix(message.velocities), np.zeros_like(positions), matrix(message.effort_proxy)
-        ),
+        channels=Channels(matrix(message.velocities), matrix(message.effort_proxy)),
         source=Source(info.source_file, info.source_variable, info.source_sha256),
         created_ns=time_from_message(info.created),
         warnings=tuple(diagnostic_from_message(d) for d in info.warnings),
@@ -151,8 +168,8 @@ def options_from_request(request: Any) -> Options:
     return Options(**{field.name: getattr(request, field.name) for field in fields(Options)})
 
 
-def info_from_head(head: dict[str, Any]) -> msg.TrajectoryInfo:
-    """Return the catalogue's entry from the metadata of a trajectory file."""
+def info_from_head(head: Mapping[str, Any]) -> msg.TrajectoryInfo:
+    """Return the catalogue's entry from the metadata of a trajectory file or of the store."""
     return msg.TrajectoryInfo(
         id=head["id"],
         robot_model=head["robot_model"],

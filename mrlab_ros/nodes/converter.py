@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
+import threading
 import time
 from collections.abc import Callable
-from concurrent.futures import Future, ThreadPoolExecutor
+from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 from typing import Any
 
@@ -15,7 +16,7 @@ from rclpy.parameter import Parameter
 
 from mrlab_ros.adapters.robots.library import RobotLibrary
 from mrlab_ros.adapters.trajectories.coefficients import load_coefficients
-from mrlab_ros.adapters.trajectories.store import TrajectoryStore
+from mrlab_ros.adapters.trajectories.store import Damaged, TrajectoryStore
 from mrlab_ros.adapters.workspaces.reader import Limits, MiB, WorkspaceReader
 from mrlab_ros.core.conversion.convert import ConversionResult, convert
 from mrlab_ros.core.errors import BadInput, LabError
@@ -24,6 +25,7 @@ from mrlab_ros.messages.trajectories import candidate_to_message, info_from_head
 from mrlab_ros.nodes import parameters
 from mrlab_ros.nodes.parameters import ConverterParameters
 from mrlab_ros.ros import share
+from mrlab_ros.ros.answers import create_deferred_service
 from mrlab_ros.ros.parameters import ParameterNode
 
 
@@ -47,11 +49,13 @@ class ConverterNode(ParameterNode[ConverterParameters]):
         folder = Path(state) if state else Path.home() / ".local" / "share" / "mrlab"
         self._coefficients = load_coefficients(share.directory() / "config" / "torque_proxy.yaml")
         self._library = RobotLibrary(share.directory() / "robots")
-        self._store = TrajectoryStore(folder / "trajectories", self._coefficients)
+        self._store = TrajectoryStore(folder / "trajectories")
         self._reader = WorkspaceReader(self._limits())
-        # One thread: conversions and changes of the catalogue happen one after another.
+        # One thread: conversions happen one after another. Others read and delete meanwhile.
         self._work = ThreadPoolExecutor(max_workers=1, thread_name_prefix="converter")
+        self._reads = ThreadPoolExecutor(max_workers=2, thread_name_prefix="catalogue")
         self._infos: dict[str, msg.TrajectoryInfo] = {}
+        self._lock = threading.Lock()  # held while the catalogue is changed or announced
 
         self._catalogue = self.create_publisher(
             msg.TrajectoryCatalogue, "/trajectories", qos.LATCHED
@@ -60,12 +64,11 @@ class ConverterNode(ParameterNode[ConverterParameters]):
             msg.Trajectory, "/trajectories/converted", qos.EVENTS
         )
         self._group = ReentrantCallbackGroup()
-        self._serve(srv.ConvertTrajectory, "~/convert", self._convert)
-        self._serve(srv.GetTrajectory, "~/get", self._get)
-        self._serve(srv.ListTrajectories, "~/list", self._list)
-        self._serve(srv.Remove, "~/delete", self._delete)
+        self._serve(srv.ConvertTrajectory, "~/convert", self._convert, self._work)
+        self._serve(srv.GetTrajectory, "~/get", self._get, self._reads)
+        self._serve(srv.ListTrajectories, "~/list", self._list, self._reads)
+        self._serve(srv.Remove, "~/delete", self._delete, self._reads)
         self._read_catalogue()
-        self._announce()
         self._work.submit(self._reader.start)
 
     def parameters_changed(self) -> None:
@@ -83,33 +86,28 @@ class ConverterNode(ParameterNode[ConverterParameters]):
     def destroy_node(self) -> None:
         """Give up what is being read and end the reading process."""
         self._work.shutdown(wait=False, cancel_futures=True)
+        self._reads.shutdown(wait=False, cancel_futures=True)
         self._reader.close()
         self._work.shutdown()
+        self._reads.shutdown()
         self._reader.close()
         super().destroy_node()
 
-    def _serve(self, kind: Any, name: str, answer: Callable[[Any, Any], None]) -> None:
-        """Offer a service whose `answer(request, response)` runs on the node's own thread.
-
-        The callback returns at once with a future in place of the response, and the response is
-        sent when the future is done. A coroutine would be polled by the executor without pause,
-        and a callback that waits would hold up the other nodes of the process.
-        """
-
-        def callback(request: Any, response: Any) -> Future[Any]:
-            return self._work.submit(self._answered, answer, request, response)
-
-        service = self.create_service(kind, name, callback, callback_group=self._group)
-        send = service.send_response
-
-        def send_when_done(future: Future[Any], header: Any) -> None:
-            def forward(done: Future[Any]) -> None:
-                if not done.cancelled() and self.context.ok():
-                    send(done.result(), header)
-
-            future.add_done_callback(forward)
-
-        service.send_response = send_when_done  # type: ignore[method-assign, assignment]
+    def _serve(
+        self,
+        kind: Any,
+        name: str,
+        answer: Callable[[Any, Any], None],
+        threads: ThreadPoolExecutor,
+    ) -> None:
+        """Offer a service whose `answer(request, response)` runs on one of these threads."""
+        create_deferred_service(
+            self,
+            kind,
+            name,
+            lambda request, response: threads.submit(self._answered, answer, request, response),
+            callback_group=self._group,
+        )
 
     def _answered(self, answer: Callable[[Any, Any], None], request: Any, response: Any) -> Any:
         try:
@@ -156,8 +154,7 @@ class ConverterNode(ParameterNode[ConverterParameters]):
             return
         self._store.save(trajectory)
         response.trajectory = trajectories.info_to_message(trajectory)
-        self._infos[trajectory.id] = response.trajectory
-        self._announce()
+        self._change(trajectory.id, response.trajectory)
         self._converted.publish(trajectories.trajectory_to_message(trajectory))
         self.get_logger().info(result.message)
 
@@ -171,11 +168,22 @@ class ConverterNode(ParameterNode[ConverterParameters]):
         response.diagnostics = [trajectories.diagnostic_to_message(d) for d in result.diagnostics]
 
     def _get(self, request: Any, response: Any) -> None:
-        response.trajectory = trajectories.trajectory_to_message(self._store.load(request.id))
+        try:
+            if request.file_only:
+                info = info_from_head(self._store.head(request.id))
+                response.trajectory = msg.Trajectory(info=info)
+            else:
+                frames = self._store.frames(request.id, request.begin, request.count)
+                response.trajectory = trajectories.frames_to_message(frames)
+            response.file = str(self._store.file(request.id))
+        except Damaged as error:
+            self.get_logger().error(f"removed from the catalogue: {error}")
+            self._change(request.id, None)
+            raise
         response.success = True
 
     def _list(self, request: Any, response: Any) -> None:
-        infos = [self._infos[key] for key in sorted(self._infos)]
+        infos = self._sorted()
         if request.robot_model:
             infos = [
                 info
@@ -187,8 +195,7 @@ class ConverterNode(ParameterNode[ConverterParameters]):
 
     def _delete(self, request: Any, response: Any) -> None:
         self._store.delete(request.name)
-        self._infos.pop(request.name, None)
-        self._announce()
+        self._change(request.name, None)
         response.success, response.message = True, f"'{request.name}' was deleted"
 
     def _read_catalogue(self) -> None:
@@ -197,7 +204,17 @@ class ConverterNode(ParameterNode[ConverterParameters]):
                 self._infos[trajectory_id] = info_from_head(self._store.head(trajectory_id))
             except BadInput as error:
                 self.get_logger().error(f"left out of the catalogue: {error}")
+        self._catalogue.publish(msg.TrajectoryCatalogue(trajectories=self._sorted()))
 
-    def _announce(self) -> None:
-        infos = [self._infos[key] for key in sorted(self._infos)]
-        self._catalogue.publish(msg.TrajectoryCatalogue(trajectories=infos))
+    def _sorted(self) -> list[msg.TrajectoryInfo]:
+        infos = dict(self._infos)
+        return [infos[key] for key in sorted(infos)]
+
+    def _change(self, trajectory_id: str, info: msg.TrajectoryInfo | None) -> None:
+        """Put an entry into the catalogue, or take it out, and announce the catalogue."""
+        with self._lock:
+            if info is None:
+                self._infos.pop(trajectory_id, None)
+            else:
+                self._infos[trajectory_id] = info
+            self._catalogue.publish(msg.TrajectoryCatalogue(trajectories=self._sorted()))

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from concurrent.futures import Future
 from typing import Any
 
 from mrlab_msgs import msg, srv
@@ -22,19 +23,20 @@ from mrlab_ros.core.playback.states import State
 from mrlab_ros.core.playback.stream import Sample
 from mrlab_ros.core.robots.model import RobotModel
 from mrlab_ros.core.trajectory.trajectory import Trajectory
-from mrlab_ros.messages import qos, trajectories
+from mrlab_ros.messages import qos
 from mrlab_ros.messages.joint_states import JointStateEncoder
 from mrlab_ros.messages.playback import status_to_message
 from mrlab_ros.messages.poses import transform_to_pose_message
 from mrlab_ros.messages.time import make_header, time_from_message, time_to_message
 from mrlab_ros.nodes import parameters
+from mrlab_ros.nodes.catalogue import CatalogueClient
 from mrlab_ros.nodes.parameters import PlaybackParameters
 from mrlab_ros.ros import share
-from mrlab_ros.ros.answers import answered
-from mrlab_ros.ros.calls import call
+from mrlab_ros.ros.answers import answered, create_deferred_service
 from mrlab_ros.ros.deadlines import Player, Scheduler
 from mrlab_ros.ros.parameters import ParameterNode
 from mrlab_ros.ros.spinning import Caller
+from mrlab_ros.ros.worker import Worker
 
 Order = msg.DriveOrder
 
@@ -49,6 +51,7 @@ class PlaybackNode(Node):
         planner: MotionPlanner,
         scheduler: Scheduler,
         fetch: Callable[[str], Trajectory],
+        loads: Worker,
         standing_rate: float,
         *,
         host: str,
@@ -67,6 +70,7 @@ class PlaybackNode(Node):
         self.model = model
         self._scheduler = scheduler
         self._fetch = fetch
+        self._loads = loads
         self._host = host
         self.playback = Playback(model, planner, standing_rate)
         self._encoder = JointStateEncoder(robot, model.joint_names)
@@ -78,7 +82,6 @@ class PlaybackNode(Node):
         self._targets = self.create_publisher(msg.GraspTargets, "targets", qos.LATCHED)
         self.create_subscription(msg.Collision, "collision", self._on_collision, qos.LATCHED)
         for kind, name, callback in (
-            (srv.LoadTrajectory, "load", self._load),
             (Trigger, "play", self._play),
             (Trigger, "pause", self._pause),
             (Trigger, "stop", self._stop),
@@ -88,6 +91,7 @@ class PlaybackNode(Node):
             (Trigger, "clear_halt", self._clear_halt),
         ):
             self.create_service(kind, name, callback)
+        create_deferred_service(self, srv.LoadTrajectory, "load", self._begin_load)
         self.player = Player(self.playback, self._send, self._announce)
         scheduler.add(self.player)
 
@@ -142,17 +146,18 @@ class PlaybackNode(Node):
 
     def _announce_targets(self, now_ns: int, trajectory: Trajectory | None) -> None:
         targets = []
-        for frame, closed in trajectory.grasp_frames if trajectory else ():
-            assert trajectory is not None
-            tool0 = self.model.chain.tool0(trajectory.positions[frame])
-            targets.append(
+        if trajectory is not None and trajectory.grasp_frames:
+            frames = [frame for frame, _ in trajectory.grasp_frames]
+            poses = self.model.chain.tool0(trajectory.positions[frames])
+            targets = [
                 msg.GraspTarget(
                     frame=frame,
                     time=frame / trajectory.frame_rate,
                     close=closed,
                     tool0=transform_to_pose_message(tool0),
                 )
-            )
+                for (frame, closed), tool0 in zip(trajectory.grasp_frames, poses, strict=True)
+            ]
         self._targets.publish(
             msg.GraspTargets(
                 header=make_header(now_ns, f"{self.robot}/base_link"),
@@ -160,6 +165,10 @@ class PlaybackNode(Node):
                 targets=targets,
             )
         )
+
+    def _begin_load(self, request: Any, response: Any) -> Future[Any]:
+        """Load on the host's own thread for that: halts and pauses do not wait for files."""
+        return self._loads.later(lambda: self._load(request, response))
 
     @answered
     def _load(self, request: Any, response: Any) -> str:
@@ -285,7 +294,8 @@ class PlaybackHostNode(ParameterNode[PlaybackParameters]):
         self.nodes: dict[str, PlaybackNode] = {}
         self._executor: Executor | None = None
         self._caller = Caller(self)
-        self._get = self._caller.node.create_client(srv.GetTrajectory, "/converter/get")
+        self._trajectories = CatalogueClient(self._caller.node)
+        self._loads = Worker("loads")
         self.create_subscription(msg.Robots, "/robots", self._on_robots, qos.LATCHED)
         self.create_service(srv.CommandMembers, "~/command_members", self._command_members)
         self._telemetry_timer = self.create_timer(
@@ -315,6 +325,7 @@ class PlaybackHostNode(ParameterNode[PlaybackParameters]):
             executor.add_node(node)
 
     def destroy_node(self) -> None:
+        self._loads.close()
         self._caller.close()
         self.scheduler.stop()
         for robot in list(self.nodes):
@@ -338,7 +349,8 @@ class PlaybackHostNode(ParameterNode[PlaybackParameters]):
             self._library.model(model),
             self._planner,
             self.scheduler,
-            self._fetch,
+            self._trajectories.fetch,
+            self._loads,
             self.parameters.standing_rate,
             host=self.get_fully_qualified_name(),
             context=self.context,
@@ -353,12 +365,6 @@ class PlaybackHostNode(ParameterNode[PlaybackParameters]):
         if self._executor is not None:
             self._executor.remove_node(node)
         node.close()
-
-    def _fetch(self, trajectory_id: str) -> Trajectory:
-        answer = call(self._get, srv.GetTrajectory.Request(id=trajectory_id), timeout=5.0)
-        if not answer.success:
-            raise BadInput(answer.message)
-        return trajectories.trajectory_from_message(answer.trajectory)
 
     @answered
     def _command_members(self, request: Any, response: Any) -> str:

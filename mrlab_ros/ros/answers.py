@@ -1,10 +1,15 @@
-"""Turns what a service callback raises into the answer `success = false` with the reason."""
+"""Answers of services: failures as `success = false` with the reason, and deferred answers."""
 
 from __future__ import annotations
 
+import contextlib
 import functools
 from collections.abc import Callable
+from concurrent.futures import CancelledError, Future
 from typing import Any, TypeVar
+
+from rclpy.impl.implementation_singleton import rclpy_implementation
+from rclpy.node import Node
 
 from mrlab_ros.core.errors import LabError
 
@@ -34,3 +39,28 @@ def answered(callback: Callable[..., str | None]) -> Callable[..., Any]:
         return response
 
     return wrapped
+
+
+def create_deferred_service(
+    node: Node, kind: Any, name: str, begin: Callable[[Any, Any], Future[Any]], **options: Any
+) -> Any:
+    """Create a service whose `begin(request, response)` returns a future of the response.
+
+    The executor goes on at once; the response is sent by the thread that completes the future,
+    or not at all where the future is cancelled. A coroutine would be polled by the executor
+    without pause, and a callback that waits would block the other callbacks of its thread.
+    """
+    service = node.create_service(kind, name, begin, **options)
+    send = service.send_response
+
+    def send_when_done(future: Future[Any], header: Any) -> None:
+        def forward(done: Future[Any]) -> None:
+            # InvalidHandle: the service was destroyed meanwhile, nobody waits for the answer
+            with contextlib.suppress(CancelledError, rclpy_implementation.InvalidHandle):
+                if node.context.ok():
+                    send(done.result(), header)
+
+        future.add_done_callback(forward)
+
+    service.send_response = send_when_done  # type: ignore[method-assign, assignment]
+    return service

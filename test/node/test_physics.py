@@ -43,7 +43,7 @@ def make(name: str, waypoints: list[tuple[float, np.ndarray, bool]]) -> Trajecto
     zeros = np.zeros_like(positions)
     return Trajectory(
         name, "ur5e", None, MODEL.joint_names, RATE, positions, closed if closed.any() else None,
-        Channels(velocities, zeros, zeros.copy()), Source("q.mat", "q", "0" * 64),
+        Channels(velocities, zeros), Source("q.mat", "q", "0" * 64),
     )  # fmt: skip
 
 

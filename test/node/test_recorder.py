@@ -29,8 +29,7 @@ from std_srvs.srv import SetBool, Trigger
 from mrlab_ros.adapters.bags.reader import Bag
 from mrlab_ros.adapters.bags.repair import repair
 from mrlab_ros.adapters.bags.writer import BagWriter
-from mrlab_ros.adapters.trajectories.coefficients import load_coefficients
-from mrlab_ros.adapters.trajectories.store import chunks, parse
+from mrlab_ros.adapters.trajectories.json_file import chunks, parse
 from mrlab_ros.core.recording.metadata import QosProfile, Topic
 from mrlab_ros.messages import qos
 from mrlab_ros.messages.definitions import definition
@@ -145,9 +144,8 @@ def test_a_session_of_the_lab_is_complete_in_itself(graph, recorder):
         name = f"meshes/{mesh.split(chr(34))[0]}"
         original = directory() / name.split("/", 2)[2]
         assert bag.attachment(name).data == original.read_bytes()
-    coefficients = load_coefficients(directory() / "config" / "torque_proxy.yaml")
     data = bag.attachment("trajectories/wave.json").data
-    attached = parse(data, "wave", coefficients)
+    attached = parse(data, "wave")
     assert attached.positions == pytest.approx(small_lab.TRAJECTORIES["wave"].positions, abs=1e-12)
     with AnyReader([folder]) as reader:
         kinds = {c.topic: c.msgtype for c in reader.connections}

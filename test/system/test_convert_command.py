@@ -12,8 +12,7 @@ from builtin_interfaces.msg import Duration
 from trajectory_msgs.msg import JointTrajectory, JointTrajectoryPoint
 
 from mrlab_ros.adapters.robots.library import RobotLibrary
-from mrlab_ros.adapters.trajectories.coefficients import load_coefficients
-from mrlab_ros.adapters.trajectories.store import parse
+from mrlab_ros.adapters.trajectories.json_file import parse
 from mrlab_ros.messages import qos
 from mrlab_ros.ros.share import directory
 
@@ -64,9 +63,8 @@ def test_one_json_object_a_file_and_the_exit_code_of_the_worst(folder, tmp_path)
     assert good["shape"] == [200, 7]
     assert good["has_gripper"] is True
     assert good["frame_rate"] == 50.0
-    coefficients = load_coefficients(directory() / "config" / "torque_proxy.yaml")
     with open(good["trajectory"], "rb") as file:
-        trajectory = parse(file.read(), "good.json", coefficients)
+        trajectory = parse(file.read(), "good.json")
     np.testing.assert_allclose(trajectory.positions, motion(), rtol=0, atol=1e-12)
 
 

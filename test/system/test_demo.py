@@ -83,7 +83,7 @@ class TestFramesInOrder:
         100.0,
         np.arange(8.0).reshape(4, 2),
         None,
-        Channels(np.zeros((4, 2)), np.zeros((4, 2)), np.zeros((4, 2))),
+        Channels(np.zeros((4, 2)), np.zeros((4, 2))),
         Source("t.mat", "q", "0" * 64),
     )
 

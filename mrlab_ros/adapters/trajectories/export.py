@@ -9,14 +9,13 @@ from typing import Any
 import numpy as np
 import scipy.io
 
-from mrlab_ros.adapters.trajectories.store import TrajectoryStore
+from mrlab_ros.adapters.trajectories import json_file
 from mrlab_ros.adapters.workspaces import joint_trajectories
 from mrlab_ros.core.errors import BadInput
 from mrlab_ros.core.robots.model import RobotModel
-from mrlab_ros.core.trajectory.channels import ProxyCoefficients
 from mrlab_ros.core.trajectory.trajectory import Array, Trajectory
 
-Writer = Callable[[Trajectory, Path, ProxyCoefficients], Path]
+Writer = Callable[[Trajectory, Path], Path]
 DOWNSAMPLED = 4000  # points of a plotted line: more than a screen has
 
 
@@ -32,12 +31,14 @@ def times(trajectory: Trajectory) -> Array:
     return np.arange(trajectory.frame_count) / trajectory.frame_rate
 
 
-def write_json(trajectory: Trajectory, folder: Path, coefficients: ProxyCoefficients) -> Path:
+def write_json(trajectory: Trajectory, folder: Path) -> Path:
     """Write the trajectory file of trajectory.schema.json."""
-    return TrajectoryStore(folder, coefficients).save(trajectory)
+    path = folder / f"{trajectory.id}.json"
+    json_file.write(trajectory, path)
+    return path
 
 
-def write_csv(trajectory: Trajectory, folder: Path, _: ProxyCoefficients) -> Path:
+def write_csv(trajectory: Trajectory, folder: Path) -> Path:
     """Write a table: t in s, one column a joint in rad, gripper; with headings."""
     path = folder / f"{trajectory.id}.csv"
     headings = ["t", *trajectory.joint_names]
@@ -49,7 +50,7 @@ def write_csv(trajectory: Trajectory, folder: Path, _: ProxyCoefficients) -> Pat
     return path
 
 
-def write_mat(trajectory: Trajectory, folder: Path, _: ProxyCoefficients) -> Path:
+def write_mat(trajectory: Trajectory, folder: Path) -> Path:
     """Write a v7 workspace with q (rad), qd (rad/s), t (s) and fs (Hz)."""
     path = folder / f"{trajectory.id}.mat"
     content = {
@@ -62,7 +63,7 @@ def write_mat(trajectory: Trajectory, folder: Path, _: ProxyCoefficients) -> Pat
     return path
 
 
-def write_npz(trajectory: Trajectory, folder: Path, _: ProxyCoefficients) -> Path:
+def write_npz(trajectory: Trajectory, folder: Path) -> Path:
     """Write NumPy arrays with the names that write_mat has."""
     path = folder / f"{trajectory.id}.npz"
     np.savez_compressed(
@@ -75,7 +76,7 @@ def write_npz(trajectory: Trajectory, folder: Path, _: ProxyCoefficients) -> Pat
     return path
 
 
-def write_joint_trajectory(trajectory: Trajectory, folder: Path, _: ProxyCoefficients) -> Path:
+def write_joint_trajectory(trajectory: Trajectory, folder: Path) -> Path:
     """Write a rosbag2 bag with one trajectory_msgs/JointTrajectory."""
     path = folder / f"{trajectory.id}.mcap"
     joint_trajectories.write_bag(trajectory, path)

@@ -90,7 +90,7 @@ def run(request: Request) -> int:
             written = None
             if request.out is not None and result.trajectory is not None:
                 request.out.mkdir(parents=True, exist_ok=True)
-                written = writer(result.trajectory, request.out, coefficients)
+                written = writer(result.trajectory, request.out)
             if request.plot is not None and result.trajectory is not None:
                 picture = _plot_path(request.plot, trajectory_id)
                 export.plot(result.trajectory, model, picture)

@@ -1,4 +1,4 @@
-"""Signals derived from joint positions: velocity, acceleration, effort proxy."""
+"""Signals derived from joint positions: velocity and effort proxy."""
 
 from __future__ import annotations
 
@@ -74,25 +74,23 @@ def derivative(values: Array, rate: float) -> Array:
     return smooth
 
 
-def accelerations(velocities: Array, frame_rate: float, coefficients: ProxyCoefficients) -> Array:
-    """Return the accelerations, (N, J) rad/s^2, of smoothed velocities, clipped."""
-    raw = derivative(velocities, frame_rate)
-    limit = coefficients.max_acceleration
-    return np.clip(raw, -limit, limit, out=raw)
-
-
 def derive(positions: Array, frame_rate: float, coefficients: ProxyCoefficients) -> Channels:
     """Derive the channels of `positions`, (N, J) rad at `frame_rate` Hz, N >= 2.
 
     The effort proxy is inertia * qdd + damping * qd + mass * g * length * sin(q) of each joint
-    alone: nominal, for display, not a torque.
+    alone: nominal, for display, not a torque. qdd is the derivative of the velocities, clipped
+    to max_acceleration on both sides; nothing else uses it, so it is not kept.
     """
     velocities = derivative(positions, frame_rate)
-    accel = accelerations(velocities, frame_rate, coefficients)
+    acceleration = derivative(velocities, frame_rate)
+    limit = coefficients.max_acceleration
+    np.clip(acceleration, -limit, limit, out=acceleration)
     joints = positions.shape[1]
     inertia, damping, weight = np.array([coefficients.of_joint(j) for j in range(joints)]).T
     effort = np.sin(positions)
     effort *= weight
-    effort += accel * inertia
-    effort += velocities * damping
-    return Channels(velocities, accel, effort)
+    acceleration *= inertia
+    effort += acceleration
+    np.multiply(velocities, damping, out=acceleration)
+    effort += acceleration
+    return Channels(velocities, effort)

@@ -1,26 +1,21 @@
 """The trajectory file: a trajectory as the document of trajectory.schema.json, and back.
 
-Degrees live here and nowhere else. A document is plain data, but its matrices are numpy arrays,
+Degrees appear here and nowhere else. A document is plain data, but its matrices are numpy arrays,
 so that no adapter has to build a million Python numbers.
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from dataclasses import asdict
+from dataclasses import asdict, dataclass
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from mrlab_ros.core.diagnostics import Diagnostic, Fix, Severity
 from mrlab_ros.core.errors import BadInput
-from mrlab_ros.core.trajectory.channels import ProxyCoefficients, accelerations
-from mrlab_ros.core.trajectory.trajectory import (
-    Array,
-    Channels,
-    Source,
-    Trajectory,
-)
+from mrlab_ros.core.trajectory.trajectory import Array, Channels, Source, Trajectory
 
 SCHEMA_VERSION = "1.0"
 UNITS = {"q": "deg", "dq": "deg/s", "tau_proxy": "N*m nominal", "t": "s"}
@@ -108,12 +103,49 @@ def _matrix(columns: Mapping[str, Any], name: str, shape: tuple[int, ...]) -> Ar
     return values
 
 
-def trajectory(document: Mapping[str, Any], coefficients: ProxyCoefficients) -> Trajectory:
+def build(
+    head: Mapping[str, Any],
+    positions: Array,
+    gripper: NDArray[np.bool_] | None,
+    channels: Channels,
+) -> Trajectory:
+    """Build a trajectory from a document's metadata and its matrices, rad and rad/s."""
+    return Trajectory(
+        id=head["id"],
+        robot_model=head["robot_model"],
+        end_effector=head["end_effector"],
+        joint_names=tuple(head["joint_names"]),
+        frame_rate=float(head["frame_rate"]),
+        positions=positions,
+        gripper=gripper,
+        channels=channels,
+        source=Source(**head["source"]),
+        created_ns=head["created_ns"],
+        warnings=warnings_of(head),
+    )
+
+
+@dataclass(frozen=True, eq=False)
+class Frames:
+    """Some consecutive frames of a trajectory that is kept elsewhere.
+
+    head: the metadata of the whole trajectory; positions, velocities, effort_proxy: (n, J) in
+    rad, rad/s and N*m nominal; gripper: (n,) bool, or None for an arm without one.
+    """
+
+    head: Mapping[str, Any]
+    positions: Array
+    velocities: Array
+    effort_proxy: Array
+    gripper: NDArray[np.bool_] | None = None
+
+
+def trajectory(document: Mapping[str, Any]) -> Trajectory:
     """Build the trajectory of a document that agrees with the schema's types.
 
     Checks every number (finite, right shape, t_i = i / frame_rate within 1e-9 s relative); the
-    positions are the workspace's radians within 1e-12. Accelerations are not in the document:
-    they are derived from dq again. Raises BadInput where the document contradicts itself.
+    positions are the workspace's radians within 1e-12. Raises BadInput where the document
+    contradicts itself.
     """
     columns = document["frames"]
     names = tuple(document["joint_names"])
@@ -128,20 +160,6 @@ def trajectory(document: Mapping[str, Any], coefficients: ProxyCoefficients) -> 
     gripper = None
     if document["has_gripper"]:
         gripper = _matrix(columns, "gripper", (count,)) > 0.5
-    return Trajectory(
-        id=document["id"],
-        robot_model=document["robot_model"],
-        end_effector=document["end_effector"],
-        joint_names=names,
-        frame_rate=rate,
-        positions=np.radians(_matrix(columns, "q", shape)),
-        gripper=gripper,
-        channels=Channels(
-            velocities,
-            accelerations(velocities, rate, coefficients),
-            _matrix(columns, "tau_proxy", shape),
-        ),
-        source=Source(**document["source"]),
-        created_ns=document["created_ns"],
-        warnings=warnings_of(document),
-    )
+    positions = np.radians(_matrix(columns, "q", shape))
+    channels = Channels(velocities, _matrix(columns, "tau_proxy", shape))
+    return build(document, positions, gripper, channels)

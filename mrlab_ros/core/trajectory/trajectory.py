@@ -35,12 +35,11 @@ class Source:
 class Channels:
     """Derived signals of a trajectory.
 
-    velocities: (N, J) rad/s; accelerations: (N, J) rad/s^2; effort_proxy: (N, J) N*m nominal,
-    for display only and not a torque.
+    velocities: (N, J) rad/s; effort_proxy: (N, J) N*m nominal, for display only and not a
+    torque.
     """
 
     velocities: Array
-    accelerations: Array
     effort_proxy: Array
 
 

@@ -14,15 +14,17 @@ from xml.etree import ElementTree
 
 import yaml
 from ament_index_python.packages import PackageNotFoundError, get_package_share_directory
-from mrlab_msgs import msg, srv
+from mrlab_msgs import msg
 from rcl_interfaces.srv import GetParameters, ListParameters
 from rclpy.parameter import parameter_value_to_python
 from rclpy.serialization import deserialize_message
 from std_msgs.msg import String
 
-from mrlab_ros.adapters.trajectories.store import chunks
-from mrlab_ros.core.errors import BadInput, LabError
+from mrlab_ros.adapters.trajectories.json_file import chunks
+from mrlab_ros.core.errors import LabError
+from mrlab_ros.core.trajectory.trajectory import Trajectory
 from mrlab_ros.messages import trajectories
+from mrlab_ros.nodes.catalogue import CatalogueClient
 from mrlab_ros.ros import share
 from mrlab_ros.ros.calls import call
 from mrlab_ros.ros.raw_streams import Received
@@ -51,7 +53,7 @@ class SessionContent:
         # The last scene that was told, unless it is in the bag already.
         self._scene: bytes | None = None
         self._worker = Worker("recorder_content")
-        self._get = caller.node.create_client(srv.GetTrajectory, "/converter/get")
+        self._trajectories = CatalogueClient(caller.node)
         self._closed = False
         self._readers: dict[str, tuple[Any, Callable[[str, Any], None]]] = {
             "robot_description": (String, self._describe),
@@ -72,7 +74,7 @@ class SessionContent:
         self._closed = True
         self._worker.do(lambda: self._guarded(SCENE, self._attach_scene))
         self._worker.close()
-        self._caller.node.destroy_client(self._get)
+        self._trajectories.close()
 
     def _read(
         self, message: Received, kind: str, wanted: Any, take: Callable[[str, Any], None]
@@ -119,13 +121,12 @@ class SessionContent:
             return
         # Asked for once: the state comes every second, and the converter may be gone.
         self._there.add(trajectory_name(trajectory))
-        answer = call(self._get, srv.GetTrajectory.Request(id=trajectory))
-        if not answer.success:
-            raise BadInput(answer.message)
-        self._take_trajectory(topic, answer.trajectory)
+        self._attach_trajectory(self._trajectories.fetch(trajectory))
 
     def _take_trajectory(self, topic: str, message: Any) -> None:
-        trajectory = trajectories.trajectory_from_message(message)
+        self._attach_trajectory(trajectories.trajectory_from_message(message))
+
+    def _attach_trajectory(self, trajectory: Trajectory) -> None:
         name = trajectory_name(trajectory.id)
         self._there.add(name)
         self._attach(name, "application/json", b"".join(map(bytes, chunks(trajectory))))

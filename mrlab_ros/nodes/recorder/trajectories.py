@@ -8,11 +8,9 @@ from mrlab_msgs import srv
 from rclpy.node import Node
 
 from mrlab_ros.adapters.bags.reader import Bag
-from mrlab_ros.adapters.trajectories.coefficients import load_coefficients
-from mrlab_ros.adapters.trajectories.store import parse
+from mrlab_ros.adapters.trajectories.json_file import parse
 from mrlab_ros.messages import trajectories
 from mrlab_ros.nodes.recorder.attachments import trajectory_name
-from mrlab_ros.ros import share
 from mrlab_ros.ros.answers import answered
 
 
@@ -33,7 +31,8 @@ class ReplayedTrajectories:
     @answered
     def _get(self, request: Any, response: Any) -> str:
         name = trajectory_name(request.id)
-        coefficients = load_coefficients(share.directory() / "config" / "torque_proxy.yaml")
-        trajectory = parse(self._bag.attachment(name).data, name, coefficients)
-        response.trajectory = trajectories.trajectory_to_message(trajectory)
+        trajectory = parse(self._bag.attachment(name).data, name)
+        response.trajectory = trajectories.trajectory_to_message(
+            trajectory, request.begin, request.count
+        )
         return f"{request.id} of {self._bag.path.name}"

@@ -34,7 +34,7 @@ def make(
         frame_rate=frame_rate,
         positions=positions,
         gripper=None if gripper is None else np.array(gripper),
-        channels=channels or Channels(positions * 2, positions * 3, positions * 4),
+        channels=channels or Channels(positions * 2, positions * 3),
         source=Source("wave.mat", "q", "0" * 64),
     )
 
@@ -130,7 +130,7 @@ def test_columns_that_are_not_the_joints_are_refused() -> None:
             frame_rate=100.0,
             positions=np.zeros((4, 7)),
             gripper=None,
-            channels=Channels(*(np.zeros((4, 7)) for _ in range(3))),
+            channels=Channels(*(np.zeros((4, 7)) for _ in range(2))),
             source=Source("wave.mat", "q", "0" * 64),
         )
 
@@ -154,9 +154,9 @@ def test_a_gripper_of_another_length_is_refused() -> None:
         make(np.zeros((3, 2)), gripper=[True, False])
 
 
-@pytest.mark.parametrize("channel", range(3))
+@pytest.mark.parametrize("channel", range(2))
 def test_a_channel_of_another_shape_is_refused(channel: int) -> None:
-    channels = [np.zeros((3, 2)) for _ in range(3)]
+    channels = [np.zeros((3, 2)) for _ in range(2)]
     channels[channel] = np.zeros((2, 2))
     with pytest.raises(BadInput, match=r"\(2, 2\); expected \(3, 2\)"):
         make(np.zeros((3, 2)), channels=Channels(*channels))

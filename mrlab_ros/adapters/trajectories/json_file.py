@@ -1,0 +1,117 @@
+"""Writes and reads the trajectory file of trajectory.schema.json: the format for other tools."""
+
+from __future__ import annotations
+
+import os
+import tempfile
+from collections.abc import Iterator
+from functools import cache
+from pathlib import Path
+from typing import Any
+
+import jsonschema
+import orjson
+from ament_index_python.packages import PackageNotFoundError, get_package_share_directory
+
+from mrlab_ros.core.errors import BadInput
+from mrlab_ros.core.trajectory import document as trajectory_document
+from mrlab_ros.core.trajectory.trajectory import Trajectory
+
+SUFFIX = ".json"
+BLOCK = 8192  # frames turned into text at once
+# The end of the metadata in what `chunks` writes. Quotes inside a JSON string are escaped, so
+# these bytes occur nowhere before it.
+FRAMES_MARK = b',"frames":{'
+NUMPY = orjson.OPT_SERIALIZE_NUMPY
+
+
+@cache
+def schema() -> Any:
+    """Return the validator of trajectory.schema.json."""
+    try:
+        path = Path(get_package_share_directory("mrlab_msgs")) / "trajectory.schema.json"
+    except PackageNotFoundError:
+        path = Path(__file__).resolve().parents[3] / "msg_schemas" / "trajectory.schema.json"
+    return jsonschema.Draft202012Validator(orjson.loads(path.read_bytes()))
+
+
+def chunks(trajectory: Trajectory) -> Iterator[bytes | memoryview]:
+    """Yield the trajectory file piece by piece, so that no whole copy of it is in memory."""
+    yield orjson.dumps(trajectory_document.metadata(trajectory))[:-1] + FRAMES_MARK
+    columns = list(trajectory_document.frames(trajectory, 0, 2))
+    for number, name in enumerate(columns):
+        yield (b"," if number else b"") + b'"' + name.encode() + b'":'
+        for begin in range(0, trajectory.frame_count, BLOCK):
+            block = trajectory_document.frames(trajectory, begin, begin + BLOCK, (name,))[name]
+            text = memoryview(orjson.dumps(block, option=NUMPY))
+            yield b"," if begin else b"["
+            yield text[1:-1]
+        yield b"]"
+    yield b"}}"
+
+
+def check(document: Any, name: str) -> None:
+    """Pass where `document` agrees with the schema; raise BadInput otherwise.
+
+    The schema checks the metadata and the first two frames. `document.trajectory` checks all
+    frames with numpy: jsonschema would take minutes for a million of them.
+    """
+    sample = document
+    if isinstance(document, dict) and isinstance(document.get("frames"), dict):
+        head = {k: v[:2] if isinstance(v, list) else v for k, v in document["frames"].items()}
+        sample = {**document, "frames": head}
+    error = jsonschema.exceptions.best_match(schema().iter_errors(sample))
+    if error is not None:
+        place = "/".join(str(p) for p in error.absolute_path) or "the whole document"
+        raise BadInput(
+            f"'{name}' is no trajectory file: at {place}, {error.message[:200]}; convert the "
+            "workspace again"
+        )
+
+
+def parse(data: bytes, name: str) -> Trajectory:
+    """Return the trajectory in the bytes of a file called `name`; raise BadInput."""
+    try:
+        document = orjson.loads(data)
+    except orjson.JSONDecodeError as error:
+        raise BadInput(f"'{name}' is no JSON ({error}); convert the workspace again") from None
+    check(document, name)
+    return trajectory_document.trajectory(document)
+
+
+def write(trajectory: Trajectory, path: Path) -> None:
+    """Write the trajectory file `path`, replacing it as a whole; an error leaves the old one."""
+    descriptor, name = tempfile.mkstemp(dir=path.parent, prefix=".writing-")
+    try:
+        with os.fdopen(descriptor, "wb", buffering=1 << 20) as file:
+            for chunk in chunks(trajectory):
+                file.write(chunk)
+        os.chmod(name, 0o644)
+        os.replace(name, path)
+    except BaseException:
+        os.unlink(name)
+        raise
+
+
+def head(path: Path) -> dict[str, Any]:
+    """Return the metadata alone; the frames of a file written here are not read.
+
+    Raises BadInput where the file is none of trajectory.schema.json.
+    """
+    with path.open("rb") as file:
+        start = file.read(1 << 16)
+        end = start.find(FRAMES_MARK)
+        text = start[:end] + b"}" if end >= 0 else start + file.read()
+    try:
+        document = orjson.loads(text)
+    except orjson.JSONDecodeError as error:
+        raise BadInput(f"'{path.name}' is no JSON ({error}); convert it again") from None
+    if end >= 0:
+        stub: dict[str, Any] = {k: [[0.0]] * 2 for k in ("q", "dq", "tau_proxy")}
+        stub["t"] = [0.0, 0.0]
+        if document.get("has_gripper"):
+            stub["gripper"] = [0, 0]
+        document["frames"] = stub
+    check(document, path.name)
+    del document["frames"]
+    return dict(document)

@@ -1,0 +1,179 @@
+"""From a workspace file to joint states: the same bits, whole or in parts, however long."""
+
+from __future__ import annotations
+
+import threading
+from dataclasses import replace
+from types import SimpleNamespace
+
+import numpy as np
+import pytest
+import scipy.io
+from graph import Graph, wait_for
+from mrlab_msgs import srv
+from sensor_msgs.msg import JointState
+from small_lab import labels, listen_state, load, make, spawn
+from std_srvs.srv import Trigger
+
+from mrlab_ros.adapters.trajectories import store
+from mrlab_ros.adapters.trajectories.store import TrajectoryStore
+from mrlab_ros.core.trajectory.trajectory import Channels
+from mrlab_ros.messages import qos
+from mrlab_ros.nodes import catalogue
+from mrlab_ros.nodes.converter import ConverterNode
+from mrlab_ros.nodes.lab.node import LabNode
+from mrlab_ros.nodes.playback import PlaybackHostNode
+
+LONG = 60.0  # s; far above what any of this takes
+
+
+@pytest.fixture
+def lab(graph: Graph, tmp_path):
+    kept = TrajectoryStore(tmp_path / "trajectories")
+    return SimpleNamespace(
+        kept=kept,
+        converter=graph.add(ConverterNode, state_dir=str(tmp_path)),
+        lab=graph.add(LabNode),
+        host=graph.add(PlaybackHostNode),
+    )
+
+
+def loaded(lab, robot):
+    return lab.host.nodes[robot].playback.trajectory
+
+
+def elsewhere(path):
+    raise FileNotFoundError(path)
+
+
+@pytest.mark.parametrize("same_machine", [True, False])
+def test_the_numbers_of_a_workspace_are_played_bit_for_bit(
+    graph, lab, tmp_path, monkeypatch, same_machine
+):
+    if not same_machine:
+        monkeypatch.setattr(catalogue.store, "read", elsewhere)
+        monkeypatch.setattr(catalogue, "CHUNK", 17)
+    # degrees and back would change the last place of about half of these
+    u = np.linspace(0, 1, 80)[:, None]
+    q = (10 * u**3 - 15 * u**4 + 6 * u**5) * np.linspace(0.3, 0.9, 6) - 1 / 3
+    assert (np.radians(np.degrees(q)) != q).sum() > 20
+    path = tmp_path / "exact.mat"
+    scipy.io.savemat(path, {"q": q, "fs": 100.0}, do_compression=True)
+    answer = graph.call(
+        srv.ConvertTrajectory, "/converter/convert", path=str(path), robot_model="ur5e"
+    )
+    assert answer.success, answer.message
+    robot = spawn(graph)
+    states = listen_state(graph, robot)
+    joints = graph.listen(JointState, f"/{robot}/joint_states", qos.STREAM)
+    load(graph, robot, "exact")
+    np.testing.assert_array_equal(loaded(lab, robot).positions, q)
+    assert graph.call(Trigger, f"/{robot}/play").success
+    wait_for(lambda: "COMPLETE" in labels(states), "the end", LONG)
+    wait_for(lambda: joints and np.array_equal(joints[-1].position, q[-1]), "the last frame")
+    sent = {tuple(j.position) for j in joints}
+    assert all(tuple(row) in sent for row in q)
+
+
+def long_motion(frames):
+    one = make("ur5e", "hours", frames=2)
+    positions = np.zeros((frames, 6))
+    positions += 1e-3 * np.sin(np.arange(frames) / 1000)[:, None]
+    return replace(
+        one, positions=positions, gripper=np.arange(frames) % 1000 > 500,
+        channels=Channels(positions / 2, positions * 3),
+    )  # fmt: skip
+
+
+@pytest.mark.parametrize("same_machine", [True, False])
+def test_hours_of_motion_can_be_loaded(graph, lab, monkeypatch, same_machine):
+    if not same_machine:
+        monkeypatch.setattr(catalogue.store, "read", elsewhere)
+    trajectory = long_motion(1_000_000)
+    lab.kept.save(trajectory)
+    robot = spawn(graph)
+    answer = graph.call(srv.LoadTrajectory, f"/{robot}/load", timeout=LONG, id="hours")
+    assert answer.success, answer.message
+    assert answer.message == "loaded hours: 1000000 frames, 9999.99 s"
+    np.testing.assert_array_equal(loaded(lab, robot).positions, trajectory.positions)
+    np.testing.assert_array_equal(loaded(lab, robot).gripper, trajectory.gripper)
+    velocities = loaded(lab, robot).channels.velocities
+    np.testing.assert_array_equal(velocities, trajectory.channels.velocities)
+
+
+def test_robots_share_the_matrices_of_one_trajectory(graph, lab):
+    lab.kept.save(make("ur5e", "wave"))
+    robots = [spawn(graph), spawn(graph)]
+    for robot in robots:
+        load(graph, robot, "wave")
+    one, other = (loaded(lab, robot) for robot in robots)
+    assert one is other
+    lab.kept.save(replace(make("ur5e", "wave", frames=90), created_ns=1))
+    load(graph, robots[0], "wave")
+    assert loaded(lab, robots[0]).frame_count == 90
+    assert loaded(lab, robots[1]).frame_count == 60
+
+
+def test_another_robot_pauses_while_one_loads(graph, lab, monkeypatch):
+    lab.kept.save(make("ur5e", "wave", frames=3000))
+    lab.kept.save(make("ur5e", "other"))
+    first, second = spawn(graph), spawn(graph)
+    states = listen_state(graph, first)
+    load(graph, first, "wave")
+    assert graph.call(Trigger, f"/{first}/play").success
+    wait_for(lambda: states.last().label == "PLAYING", "the motion")
+    entered, go_on, read = threading.Event(), threading.Event(), store.read
+
+    def held(path):
+        entered.set()
+        assert go_on.wait(LONG)
+        return read(path)
+
+    monkeypatch.setattr(catalogue.store, "read", held)
+    client = graph.client.create_client(srv.LoadTrajectory, f"/{second}/load")
+    assert client.wait_for_service(LONG)
+    answer = client.call_async(srv.LoadTrajectory.Request(id="other"))
+    assert entered.wait(LONG)
+    assert graph.call(Trigger, f"/{first}/pause").success
+    wait_for(lambda: states.last().label == "PAUSED", "the pause")
+    assert graph.call(Trigger, f"/{second}/play").message.startswith("cannot play")
+    assert not answer.done()
+    go_on.set()
+    wait_for(answer.done, "the load")
+    assert answer.result().success
+
+
+def test_a_robot_that_is_removed_while_it_loads_hurts_nobody(graph, lab, monkeypatch):
+    lab.kept.save(make("ur5e", "wave"))
+    robot, stays = spawn(graph), spawn(graph)
+    entered, go_on, read = threading.Event(), threading.Event(), store.read
+
+    def held(path):
+        entered.set()
+        assert go_on.wait(LONG)
+        return read(path)
+
+    monkeypatch.setattr(catalogue.store, "read", held)
+    client = graph.client.create_client(srv.LoadTrajectory, f"/{robot}/load")
+    assert client.wait_for_service(LONG)
+    client.call_async(srv.LoadTrajectory.Request(id="wave"))
+    assert entered.wait(LONG)
+    assert graph.call(srv.Remove, "/lab/remove_robot", name=robot).success
+    wait_for(lambda: robot not in lab.host.nodes, "the removal")
+    go_on.set()
+    load(graph, stays, "wave")
+
+
+def test_a_damaged_file_is_named_and_what_is_loaded_stays(graph, lab):
+    lab.kept.save(make("ur5e", "wave"))
+    path = lab.kept.save(make("ur5e", "broken"))
+    content = bytearray(path.read_bytes())
+    content[3000] ^= 1
+    path.write_bytes(content)
+    robot = spawn(graph)
+    load(graph, robot, "wave")
+    answer = graph.call(srv.LoadTrajectory, f"/{robot}/load", id="broken")
+    assert not answer.success
+    assert "'broken.npz' is damaged" in answer.message
+    assert loaded(lab, robot).id == "wave"
+    assert lab.kept.ids() == ["wave"]
