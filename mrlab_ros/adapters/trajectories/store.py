@@ -56,20 +56,6 @@ HEAD_TYPES = {
     "warnings": list,
     "joint_names": list,
 }
-# What zipfile, numpy and orjson raise on bytes that are not what they should be.
-PARSE_ERRORS = (
-    zipfile.BadZipFile,
-    EOFError,
-    KeyError,
-    NotImplementedError,
-    OSError,
-    OverflowError,
-    RuntimeError,
-    TypeError,
-    ValueError,
-    struct.error,
-    zlib.error,
-)
 
 
 class Damaged(BadInput):
@@ -196,7 +182,9 @@ def _opened(path: Path) -> Iterator[tuple[_Archive, BinaryIO]]:
     with path.open("rb", buffering=0) as file:
         try:
             yield _Archive(file), file  # type: ignore[arg-type, misc]
-        except PARSE_ERRORS as error:
+        except (BadInput, MemoryError):
+            raise
+        except Exception as error:  # zipfile, numpy and orjson raise many kinds
             raise Damaged(
                 f"'{path.name}' is damaged ({error}); convert the workspace again"
             ) from error
