@@ -228,7 +228,7 @@ def test_what_is_written_comes_back_exactly(form, tmp_path_factory, rows, rate, 
     gripper = np.arange(rows) >= rows // 2 if gripped else None
     trajectory = made(positions, rate, gripper)
     folder = tmp_path_factory.mktemp("round")
-    path = export.writer(form)(trajectory, folder, COEFFICIENTS)
+    path = export.writer(form)(trajectory, folder)
     back = converted(
         path.read_bytes(),
         path.name,
@@ -243,8 +243,8 @@ def test_what_is_written_comes_back_exactly(form, tmp_path_factory, rows, rate, 
 
 def test_the_bag_that_is_written_is_one_that_others_read(tmp_path):
     trajectory = made(np.zeros((5, 3)), 100.0, None)
-    path = export.writer("jointtrajectory")(trajectory, tmp_path, COEFFICIENTS)
-    export.writer("jointtrajectory")(trajectory, tmp_path, COEFFICIENTS)
+    path = export.writer("jointtrajectory")(trajectory, tmp_path)
+    export.writer("jointtrajectory")(trajectory, tmp_path)
     assert list(tmp_path.iterdir()) == [path], "written again, it is replaced"
     with Reader(path) as opened:
         ((connection, _, data),) = opened.messages()
