@@ -11,10 +11,10 @@ from mrlab_ros.core.bridge.access import role_rules
 from mrlab_ros.core.bridge.rules import Role, Rules, parse
 
 HEAD = """\
-// What each role may do, as zenoh's access control says it, for the shipped allow-list without a
-// prefix. Generated from config/bridge.yaml by `make docs`. The bridge does
-// not read this file: it makes the rules from its own allow-list and prefix, and adds the people
-// (`mrlab keys config` prints all). To read, and to begin with for a router of your own.
+// The rights of each role as zenoh's access-control rules, for the shipped allow-list without a
+// prefix. Generated from config/bridge.yaml by `make docs`. The bridge does not read this file: it
+// makes the rules from its own allow-list and prefix and adds the people (`mrlab keys config`
+// prints all). Read it, or start from it for a router of your own.
 """
 
 
@@ -29,9 +29,9 @@ def page(rules: Rules) -> str:
     rules: [
       {body}
     ],
-    // Who is who: {{ id: "anna", cert_common_names: ["anna.1f2e3d4c"] }}
+    // People, such as {{ id: "anna", cert_common_names: ["anna.1f2e3d4c"] }}
     subjects: [],
-    // Who is what: {{ id: "viewer", rules: ["viewer_subscribes", ...], subjects: ["anna"] }}
+    // Roles, such as {{ id: "viewer", rules: ["viewer_subscribes", ...], subjects: ["anna"] }}
     policies: [],
   }},
 }}
