@@ -11,6 +11,7 @@ from rclpy.qos import DurabilityPolicy, QoSProfile, ReliabilityPolicy
 
 from mrlab_ros.core.clock import SECOND
 from mrlab_ros.messages import qos
+from mrlab_ros.messages.playback import unknown_state
 from mrlab_ros.messages.time import time_from_message
 from mrlab_ros.ros.graph import Graph, Watch
 
@@ -30,7 +31,7 @@ class Follower:
         self.watch: Watch[Any] = Watch(f"/{robot}/playback_state")
         self.states: list[Any] = []
         self.telemetry: Any = None
-        # How late each joint state was that telemetry told of, s.
+        # The deadline errors that telemetry reported, s.
         self.errors: list[float] = []
         self.error_max = math.nan
         # When frame 0 of the present run was due, ns on the lab's clock.
@@ -53,12 +54,12 @@ class Follower:
 
     @property
     def state(self) -> Any:
-        """The newest playback_state, or an empty one while none came."""
-        return self.watch.value or msg.PlaybackState(label="?")
+        """The newest playback_state, or an empty one before the first."""
+        return self.watch.value or unknown_state()
 
     @property
     def frame(self) -> int:
-        """The newest frame heard of; a state tells of it once a second, telemetry oftener."""
+        """The newest frame reported: a state does so once a second, telemetry more often."""
         state = self.state
         if state.state == msg.PlaybackState.PLAYING and self.telemetry is not None:
             return int(max(state.frame, self.telemetry.frame))
@@ -70,7 +71,7 @@ class Follower:
 
     @property
     def error_p50(self) -> float:
-        """The median of the deadline errors that telemetry told, s; NaN before the first."""
+        """The median of the deadline errors, s; NaN before the first."""
         return median(self.errors) if self.errors else math.nan
 
 

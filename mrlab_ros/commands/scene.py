@@ -122,19 +122,18 @@ def spawn(
     yaw: Annotated[float, typer.Option(help="Turn about the vertical, degrees.")] = 0.0,
 ) -> None:
     """Put an object into the scene."""
-    from geometry_msgs.msg import Point, Pose, Quaternion
     from mrlab_msgs import srv
 
-    x, y, z = _place(at) if at else (0.0, 0.0, 0.0)
+    from mrlab_ros.core.geometry import Pose
+    from mrlab_ros.messages.poses import pose_to_message
+
+    position = _place(at) if at else (0.0, 0.0, 0.0)
     half = math.radians(yaw) / 2
     request = srv.SpawnObject.Request(
         type=type_id,
         name=name,
         automatic=on or not at,
-        pose=Pose(
-            position=Point(x=x, y=y, z=z),
-            orientation=Quaternion(z=math.sin(half), w=math.cos(half)),
-        ),
+        pose=pose_to_message(Pose(position, (0.0, 0.0, math.sin(half), math.cos(half)))),
     )
     with _graph() as graph:
         print(graph.order(srv.SpawnObject, "/physics/spawn_object", request).message)

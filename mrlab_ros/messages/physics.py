@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from typing import Any
 
 import numpy as np
@@ -70,6 +71,22 @@ def contact_to_message(contact: Contact) -> msg.Contact:
         depth=touch.depth,
         impulse=touch.impulse,
         frame=contact.frame,
+    )
+
+
+def contacts_to_message(now_ns: int, contacts: Iterable[Contact]) -> msg.Contacts:
+    return msg.Contacts(
+        header=make_header(now_ns, WORLD), contacts=[contact_to_message(c) for c in contacts]
+    )
+
+
+def objects_to_message(now_ns: int, objects: list[msg.SceneObject]) -> msg.SceneObjects:
+    return msg.SceneObjects(header=make_header(now_ns, WORLD), objects=objects)
+
+
+def surfaces_to_message(now_ns: int, surfaces: Iterable[Surface]) -> msg.Surfaces:
+    return msg.Surfaces(
+        header=make_header(now_ns, WORLD), surfaces=[surface_to_message(s) for s in surfaces]
     )
 
 

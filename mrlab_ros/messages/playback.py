@@ -1,11 +1,17 @@
-"""The state of a playback and its clock as messages."""
+"""A playback's state, clock, telemetry and grasp targets as messages."""
 
 from __future__ import annotations
+
+from collections.abc import Callable
 
 from mrlab_msgs import msg
 
 from mrlab_ros.core.clock import PlaybackClock
+from mrlab_ros.core.geometry import Array
 from mrlab_ros.core.playback.playback import PlaybackStatus
+from mrlab_ros.core.playback.stream import Sample
+from mrlab_ros.core.trajectory.trajectory import Trajectory
+from mrlab_ros.messages.poses import transform_to_pose_message
 from mrlab_ros.messages.time import make_header, time_to_message
 
 
@@ -15,7 +21,10 @@ def clock_to_message(clock: PlaybackClock) -> msg.PlaybackClock:
     )
 
 
-def status_to_message(now_ns: int, robot: str, status: PlaybackStatus) -> msg.PlaybackState:
+def status_to_message(
+    now_ns: int, robot: str, status: PlaybackStatus, host: str = ""
+) -> msg.PlaybackState:
+    """host: the node that plays the robot."""
     trajectory = status.trajectory
     return msg.PlaybackState(
         header=make_header(now_ns, robot),
@@ -31,4 +40,72 @@ def status_to_message(now_ns: int, robot: str, status: PlaybackStatus) -> msg.Pl
         rate=status.rate,
         loop=status.loop,
         system=status.system,
+        host=host,
+    )
+
+
+def unknown_state() -> msg.PlaybackState:
+    """Return what stands for the state of a playback that has not published one."""
+    return msg.PlaybackState(label="?")
+
+
+def telemetry_to_message(
+    now_ns: int,
+    robot: str,
+    trajectory: Trajectory,
+    sample: Sample,
+    tool0: Array,
+    *,
+    sent: int,
+    lost: int,
+    error_ns: int,
+    error_max_ns: int,
+) -> msg.Telemetry:
+    """Return the display values of a joint state.
+
+    tool0: (4, 4) homogeneous transform T_base_tool0. sent, lost: frames of this run. error_ns,
+    error_max_ns: how late the last joint state was published, and the latest of the run.
+    """
+    closed = trajectory.gripper_at(sample.position)
+    return msg.Telemetry(
+        header=make_header(now_ns, robot),
+        joint_names=list(trajectory.joint_names),
+        velocities=sample.velocities,
+        effort_proxy=trajectory.channels.effort_proxy[sample.frame],
+        frame=sample.frame,
+        position=sample.position,
+        has_gripper=closed is not None,
+        gripper_closed=bool(closed),
+        tool0=transform_to_pose_message(tool0),
+        deadline_error=error_ns * 1e-9,
+        deadline_error_max=error_max_ns * 1e-9,
+        frames_sent=sent,
+        frames_lost=lost,
+    )
+
+
+def targets_to_message(
+    now_ns: int, robot: str, trajectory: Trajectory | None, tool0: Callable[[Array], Array]
+) -> msg.GraspTargets:
+    """Return where the gripper opens and closes along a trajectory; None: nowhere.
+
+    tool0: the forward kinematics, (N, J) rad -> (N, 4, 4) T_base_tool0.
+    """
+    header = make_header(now_ns, f"{robot}/base_link")
+    if trajectory is None or not trajectory.grasp_frames:
+        return msg.GraspTargets(header=header, trajectory_id=trajectory.id if trajectory else "")
+    frames = [frame for frame, _ in trajectory.grasp_frames]
+    poses = tool0(trajectory.positions[frames])
+    return msg.GraspTargets(
+        header=header,
+        trajectory_id=trajectory.id,
+        targets=[
+            msg.GraspTarget(
+                frame=frame,
+                time=frame / trajectory.frame_rate,
+                close=closed,
+                tool0=transform_to_pose_message(pose),
+            )
+            for (frame, closed), pose in zip(trajectory.grasp_frames, poses, strict=True)
+        ],
     )

@@ -79,6 +79,10 @@ def info_to_message(trajectory: Trajectory) -> msg.TrajectoryInfo:
     )
 
 
+def catalogue_to_message(infos: list[msg.TrajectoryInfo]) -> msg.TrajectoryCatalogue:
+    return msg.TrajectoryCatalogue(trajectories=infos)
+
+
 def _array(kind: str, values: NDArray[Any] | None) -> array.array[Any]:
     """Return the values, row by row, as rclpy takes them without a Python object for each."""
     content = array.array(kind)

@@ -21,7 +21,11 @@ from mrlab_ros.adapters.workspaces.reader import Limits, MiB, WorkspaceReader
 from mrlab_ros.core.conversion.convert import ConversionResult, convert
 from mrlab_ros.core.errors import BadInput, LabError
 from mrlab_ros.messages import qos, trajectories
-from mrlab_ros.messages.trajectories import candidate_to_message, info_from_head
+from mrlab_ros.messages.trajectories import (
+    candidate_to_message,
+    catalogue_to_message,
+    info_from_head,
+)
 from mrlab_ros.nodes import parameters
 from mrlab_ros.nodes.parameters import ConverterParameters
 from mrlab_ros.ros import share
@@ -204,7 +208,7 @@ class ConverterNode(ParameterNode[ConverterParameters]):
                 self._infos[trajectory_id] = info_from_head(self._store.head(trajectory_id))
             except BadInput as error:
                 self.get_logger().error(f"left out of the catalogue: {error}")
-        self._catalogue.publish(msg.TrajectoryCatalogue(trajectories=self._sorted()))
+        self._catalogue.publish(catalogue_to_message(self._sorted()))
 
     def _sorted(self) -> list[msg.TrajectoryInfo]:
         infos = dict(self._infos)
@@ -217,4 +221,4 @@ class ConverterNode(ParameterNode[ConverterParameters]):
                 self._infos.pop(trajectory_id, None)
             else:
                 self._infos[trajectory_id] = info
-            self._catalogue.publish(msg.TrajectoryCatalogue(trajectories=self._sorted()))
+            self._catalogue.publish(catalogue_to_message(self._sorted()))

@@ -17,15 +17,20 @@ from std_srvs.srv import SetBool, Trigger
 
 from mrlab_ros.core.errors import BadInput, LabError, Misuse
 from mrlab_ros.core.playback.states import State
-from mrlab_ros.core.systems.members import Loaded, Order, Reply
+from mrlab_ros.core.systems.members import Command, Loaded, Order, Reply
 from mrlab_ros.core.systems.registry import Systems
 from mrlab_ros.core.systems.robot_system import Policy, RobotSystem
-from mrlab_ros.core.systems.states import SystemState
-from mrlab_ros.core.systems.timeline import Member, Mode
-from mrlab_ros.core.systems.waits import parse
+from mrlab_ros.core.systems.timeline import Mode
 from mrlab_ros.messages import qos
-from mrlab_ros.messages.playback import clock_to_message
-from mrlab_ros.messages.time import make_header, time_from_message, time_to_message
+from mrlab_ros.messages.systems import (
+    loaded_from_message,
+    member_from_message,
+    order_to_message,
+    reply_from_message,
+    system_to_message,
+    systems_to_message,
+)
+from mrlab_ros.messages.time import time_from_message
 from mrlab_ros.nodes import parameters
 from mrlab_ros.nodes.parameters import CoordinatorParameters
 from mrlab_ros.ros.answers import answered
@@ -34,7 +39,6 @@ from mrlab_ros.ros.parameters import ParameterNode
 from mrlab_ros.ros.spinning import Caller
 from mrlab_ros.ros.worker import Worker
 
-Claim = msg.DriveOrder
 # Period at which an active system is polled, s.
 POLL_PERIOD_S = 0.02
 # A playback loads a trajectory within this time, and publishes its state within this time, s.
@@ -93,12 +97,12 @@ class RosFleet:
 
     def claim(self, robot: str) -> Loaded:
         """Make the robot a member of the system."""
-        [(reply, stamp_ns)] = self._send([msg.DriveOrder(robot=robot, command=Claim.CLAIM)])
-        return Loaded(reply.trajectory_id, reply.trajectory_duration, reply.frame_rate, stamp_ns)
+        [(reply, stamp_ns)] = self._send([Order(robot, Command.CLAIM)])
+        return loaded_from_message(reply, stamp_ns)
 
     def release(self, robot: str) -> None:
         """Let the robot leave the system."""
-        self._send([msg.DriveOrder(robot=robot, command=Claim.RELEASE)])
+        self._send([Order(robot, Command.RELEASE)])
 
     def load(self, robot: str, trajectory_id: str) -> None:
         """Load a trajectory on a robot that is no member; raise Misuse where it is refused."""
@@ -108,32 +112,18 @@ class RosFleet:
             raise Misuse(f"{robot}: {answer.message}")
 
     def drive(self, orders: Sequence[Order]) -> list[Reply]:
-        replies = self._send(
-            [
-                msg.DriveOrder(
-                    robot=order.robot,
-                    command=order.command.value,
-                    stamp=time_to_message(order.stamp_ns),
-                    position=order.position,
-                    rate=order.rate,
-                    until=order.until or 0.0,
-                )
-                for order in orders
-            ]
-        )
-        return [
-            Reply(State(reply.state), reply.position, reply.duration, stamp_ns)
-            for reply, stamp_ns in replies
-        ]
+        return [reply_from_message(reply, stamp_ns) for reply, stamp_ns in self._send(orders)]
 
-    def _send(self, orders: Sequence[msg.DriveOrder]) -> list[tuple[msg.DriveReply, int]]:
+    def _send(self, orders: Sequence[Order]) -> list[tuple[msg.DriveReply, int]]:
         """Send each host its members' orders, all hosts at once.
 
         Returns for each order its reply and when it was carried out, ns.
         """
         by_host: dict[str, list[msg.DriveOrder]] = {}
         for order in orders:
-            by_host.setdefault(self._members[order.robot].host(), []).append(order)
+            by_host.setdefault(self._members[order.robot].host(), []).append(
+                order_to_message(order)
+            )
         answers = call_all(
             [
                 (
@@ -220,10 +210,7 @@ class CoordinatorNode(ParameterNode[CoordinatorParameters]):
                 f"mode {request.mode} with policy {request.policy} is unknown; expected 0 "
                 "(parallel) or 1 (sequential), and 0 (halt all) or 1 (halt member)"
             ) from None
-        members = [
-            Member(m.robot, m.trajectory_id, float(m.dwell), tuple(map(parse, m.waits)))
-            for m in request.members
-        ]
+        members = [member_from_message(member) for member in request.members]
         robots = [member.robot for member in members]
         name = self._systems.check(request.name, robots, self._robots)
         fleet = self._fleets[name] = RosFleet(name, self._members, self._hosts)
@@ -250,7 +237,7 @@ class CoordinatorNode(ParameterNode[CoordinatorParameters]):
             )
         ]
         self._publish()
-        response.system = self._message(system)
+        response.system = system_to_message(system)
         return f"{name} drives {', '.join(robots)}: {system.duration:g} s, {mode.name.lower()}"
 
     def _callback(
@@ -376,39 +363,5 @@ class CoordinatorNode(ParameterNode[CoordinatorParameters]):
     def _now_ns(self) -> int:
         return int(self.get_clock().now().nanoseconds)
 
-    def _message(self, system: RobotSystem) -> msg.RobotSystem:
-        playing = system.state is SystemState.PLAYING
-        return msg.RobotSystem(
-            name=system.name,
-            members=[
-                msg.SystemMember(
-                    robot=m.robot,
-                    trajectory_id=m.trajectory_id,
-                    start=m.start,
-                    duration=m.duration,
-                    dwell=m.dwell,
-                    state=m.playback_state.value,
-                    position=m.position,
-                    waits=[wait.text for wait in m.waits],
-                    waiting_for=m.waiting_for.text if playing and m.waiting_for else "",
-                )
-                for m in system.members.values()
-            ],
-            mode=system.mode.value,
-            policy=system.policy.value,
-            state=system.state.value,
-            label=system.state.name,
-            message=system.message,
-            clock=clock_to_message(system.clock),
-            duration=system.duration,
-            rate=system.rate,
-            loop=system.loop,
-        )
-
     def _publish(self) -> None:
-        self._topic.publish(
-            msg.RobotSystems(
-                header=make_header(self._now_ns()),
-                systems=[self._message(system) for system in self._systems],
-            )
-        )
+        self._topic.publish(systems_to_message(self._now_ns(), self._systems))

@@ -16,18 +16,23 @@ from std_srvs.srv import SetBool, Trigger
 
 from mrlab_ros.adapters.robots.library import RobotLibrary
 from mrlab_ros.adapters.robots.ruckig_planner import RuckigPlanner, StagingLimits
-from mrlab_ros.core.errors import BadInput, LabError, Misuse
+from mrlab_ros.core.errors import LabError, Misuse
 from mrlab_ros.core.playback.planner import MotionPlanner
 from mrlab_ros.core.playback.playback import Playback, PlaybackStatus
 from mrlab_ros.core.playback.states import State
 from mrlab_ros.core.playback.stream import Sample
 from mrlab_ros.core.robots.model import RobotModel
+from mrlab_ros.core.systems.members import Command, Order
 from mrlab_ros.core.trajectory.trajectory import Trajectory
 from mrlab_ros.messages import qos
 from mrlab_ros.messages.joint_states import JointStateEncoder
-from mrlab_ros.messages.playback import status_to_message
-from mrlab_ros.messages.poses import transform_to_pose_message
-from mrlab_ros.messages.time import make_header, time_from_message, time_to_message
+from mrlab_ros.messages.playback import (
+    status_to_message,
+    targets_to_message,
+    telemetry_to_message,
+)
+from mrlab_ros.messages.systems import order_from_message, reply_to_message
+from mrlab_ros.messages.time import time_to_message
 from mrlab_ros.nodes import parameters
 from mrlab_ros.nodes.catalogue import CatalogueClient
 from mrlab_ros.nodes.parameters import PlaybackParameters
@@ -37,8 +42,6 @@ from mrlab_ros.ros.deadlines import Player, Scheduler
 from mrlab_ros.ros.parameters import ParameterNode
 from mrlab_ros.ros.spinning import Caller
 from mrlab_ros.ros.worker import Worker
-
-Order = msg.DriveOrder
 
 
 class PlaybackNode(Node):
@@ -109,22 +112,17 @@ class PlaybackNode(Node):
                 return
             sent, lost = playback.sent, playback.lost
             errors = self.player.error_ns, self.player.error_max_ns
-        closed = trajectory.gripper_at(sample.position)
         self._telemetry.publish(
-            msg.Telemetry(
-                header=make_header(now_ns, self.robot),
-                joint_names=list(trajectory.joint_names),
-                velocities=sample.velocities,
-                effort_proxy=trajectory.channels.effort_proxy[sample.frame],
-                frame=sample.frame,
-                position=sample.position,
-                has_gripper=closed is not None,
-                gripper_closed=bool(closed),
-                tool0=transform_to_pose_message(self.model.chain.tool0(sample.positions)),
-                deadline_error=errors[0] * 1e-9,
-                deadline_error_max=errors[1] * 1e-9,
-                frames_sent=sent,
-                frames_lost=lost,
+            telemetry_to_message(
+                now_ns,
+                self.robot,
+                trajectory,
+                sample,
+                self.model.chain.tool0(sample.positions),
+                sent=sent,
+                lost=lost,
+                error_ns=errors[0],
+                error_max_ns=errors[1],
             )
         )
 
@@ -140,31 +138,11 @@ class PlaybackNode(Node):
         )
 
     def _announce(self, now_ns: int, status: PlaybackStatus) -> None:
-        message = status_to_message(now_ns, self.robot, status)
-        message.host = self._host
-        self._state.publish(message)
+        self._state.publish(status_to_message(now_ns, self.robot, status, self._host))
 
     def _announce_targets(self, now_ns: int, trajectory: Trajectory | None) -> None:
-        targets = []
-        if trajectory is not None and trajectory.grasp_frames:
-            frames = [frame for frame, _ in trajectory.grasp_frames]
-            poses = self.model.chain.tool0(trajectory.positions[frames])
-            targets = [
-                msg.GraspTarget(
-                    frame=frame,
-                    time=frame / trajectory.frame_rate,
-                    close=closed,
-                    tool0=transform_to_pose_message(tool0),
-                )
-                for (frame, closed), tool0 in zip(trajectory.grasp_frames, poses, strict=True)
-            ]
-        self._targets.publish(
-            msg.GraspTargets(
-                header=make_header(now_ns, f"{self.robot}/base_link"),
-                trajectory_id=trajectory.id if trajectory else "",
-                targets=targets,
-            )
-        )
+        tool0 = self.model.chain.tool0
+        self._targets.publish(targets_to_message(now_ns, self.robot, trajectory, tool0))
 
     def _begin_load(self, request: Any, response: Any) -> Future[Any]:
         """Load on the host's own thread for that: halts and pauses do not wait for files."""
@@ -228,39 +206,31 @@ class PlaybackNode(Node):
             self.playback.clear_halt(now_ns)
         return "clear; play resumes in place"
 
-    def drive(self, now_ns: int, by: str, order: msg.DriveOrder) -> msg.DriveReply:
-        """Carry out an order of the system `by`; call it inside `scheduler.command()`."""
-        playback, start_ns, duration = self.playback, time_from_message(order.stamp) or None, 0.0
-        if order.command == Order.CLAIM:
+    def drive(self, now_ns: int, by: str, order: Order) -> float:
+        """Carry out an order of the system `by`; call it inside `scheduler.command()`.
+
+        Returns how long a staging takes, s.
+        """
+        playback, start_ns = self.playback, order.stamp_ns or None
+        if order.command is Command.CLAIM:
             playback.claim(by)
-        elif order.command == Order.RELEASE:
+        elif order.command is Command.RELEASE:
             playback.release(now_ns, by)
-        elif order.command == Order.STAGE:
-            duration = playback.stage(now_ns, order.position, by)
-        elif order.command == Order.PLAY:
-            playback.play(now_ns, start_ns, order.rate, order.until or None, by)
-        elif order.command == Order.PAUSE:
+        elif order.command is Command.STAGE:
+            return playback.stage(now_ns, order.position, by)
+        elif order.command is Command.PLAY:
+            playback.play(now_ns, start_ns, order.rate, order.until, by)
+        elif order.command is Command.PAUSE:
             playback.pause(now_ns, by)
-        elif order.command == Order.STOP:
+        elif order.command is Command.STOP:
             playback.stop(now_ns, by)
-        elif order.command == Order.SEEK:
+        elif order.command is Command.SEEK:
             playback.seek(now_ns, order.position, by)
-        elif order.command == Order.SET_RATE:
+        elif order.command is Command.SET_RATE:
             playback.set_rate(now_ns, order.rate, start_ns, by)
-        elif order.command == Order.HOLD:
-            playback.hold_at(order.until or None, by)
         else:
-            raise BadInput(f"command {order.command} is unknown; expected one of DriveOrder.msg")
-        trajectory = playback.trajectory
-        return msg.DriveReply(
-            robot=self.robot,
-            state=playback.state.value,
-            position=playback.clock.position,
-            duration=duration,
-            trajectory_id=trajectory.id if trajectory else "",
-            trajectory_duration=trajectory.duration if trajectory else 0.0,
-            frame_rate=trajectory.frame_rate if trajectory else 0.0,
-        )
+            playback.hold_at(order.until, by)
+        return 0.0
 
     def _on_collision(self, message: msg.Collision) -> None:
         with self._scheduler.command() as now_ns:
@@ -375,9 +345,11 @@ class PlaybackHostNode(ParameterNode[PlaybackParameters]):
                 if node is None:
                     raise Misuse(f"{order.robot}: has no playback here; is it still in the scene?")
                 try:
-                    response.replies.append(node.drive(now_ns, request.system, order))
+                    duration = node.drive(now_ns, request.system, order_from_message(order))
                 except LabError as error:
                     raise Misuse(f"{order.robot}: {error}") from error
+                reply = reply_to_message(order.robot, node.playback, duration)
+                response.replies.append(reply)
         return "done"
 
     def _telemetry(self) -> None:

@@ -96,6 +96,44 @@ def own_imports(path: Path) -> set[str]:
     return found
 
 
+def is_message_package(name: str) -> bool:
+    return name.endswith("_msgs") or name in ("builtin_interfaces", "rcl_interfaces")
+
+
+def built_messages(source: str) -> set[str]:
+    """Return what in `source` makes a message: calls of classes of a package's `msg` module.
+
+    Naming a class is allowed, as publishers and subscriptions need it; so are the requests of
+    services, which the caller of a service fills in.
+    """
+    tree = ast.parse(source)
+    classes, modules = set(), set()
+    for node in ast.walk(tree):
+        if not isinstance(node, ast.ImportFrom) or node.module is None:
+            continue
+        package, _, folder = node.module.partition(".")
+        if is_message_package(package):
+            names = {alias.name: alias.asname or alias.name for alias in node.names}
+            if folder == "msg":
+                classes.update(names.values())
+            elif "msg" in names:
+                modules.add(names["msg"])
+    # A second name for a class: State = msg.RecorderState
+    for node in ast.walk(tree):
+        if isinstance(node, ast.Assign) and _of_module(node.value, modules):
+            classes.update(ast.unparse(target) for target in node.targets)
+    return {
+        ast.unparse(node.func)
+        for node in ast.walk(tree)
+        if isinstance(node, ast.Call)
+        and (_of_module(node.func, modules) or ast.unparse(node.func) in classes)
+    }
+
+
+def _of_module(node: ast.expr, modules: set[str]) -> bool:
+    return isinstance(node, ast.Attribute) and ast.unparse(node.value) in modules
+
+
 def circle(graph: Mapping[str, Iterable[str]]) -> list[str]:
     """Return the nodes of one circle of a graph, or nothing."""
     try:
@@ -165,6 +203,15 @@ def test_only_ros_touches_the_insides_of_rclpy(path: Path) -> None:
         assert INSIDES.findall(path.read_text()) == []
 
 
+@pytest.mark.parametrize("path", SOURCES, ids=module_name)
+def test_only_messages_builds_messages(path: Path) -> None:
+    """ros/parameters.py fills in rclpy's own descriptors of parameters."""
+    module = module_name(path)
+    others = ("mrlab_ros.ros.parameters", "mrlab_ros.commands.system", "mrlab_ros.nodes.lab")
+    if not any(within(module, name) for name in ("mrlab_ros.messages", *others)):
+        assert built_messages(path.read_text()) == set()
+
+
 def test_unit_tests_lie_where_what_they_test_lies() -> None:
     for path in TESTS.rglob("test_*.py"):
         folder = PACKAGE / path.parent.relative_to(TESTS)
@@ -189,3 +236,13 @@ def test_imports_are_found_in_every_form() -> None:
 def test_circles_are_found() -> None:
     assert circle({"a": ["b"], "b": ["c"]}) == []
     assert set(circle({"a": ["b"], "b": ["c"], "c": ["a"]})) == {"a", "b", "c"}
+
+
+def test_built_messages_are_found_in_every_form() -> None:
+    source = (
+        "from mrlab_msgs import msg, srv\nfrom std_msgs.msg import String as Text\n"
+        "Kind = msg.Robot\nsrv.Seek.Request(position=1.0)\nnode.create_publisher(Text, 'a')\n"
+    )
+    assert built_messages(source) == set()
+    source += "Text(data='a')\nmsg.Robots()\nKind()\n"
+    assert built_messages(source) == {"Text", "msg.Robots", "Kind"}

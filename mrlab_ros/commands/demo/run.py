@@ -177,9 +177,11 @@ class Run:
         from mrlab_msgs import msg, srv
         from std_srvs.srv import Trigger
 
+        from mrlab_ros.messages.systems import member_to_message
+
         systems = graph.watch(msg.RobotSystems, "/systems")
         members = [
-            msg.SystemMember(robot=robot, trajectory_id=trajectory.info.id)
+            member_to_message(robot, trajectory.info.id)
             for robot, trajectory in zip(robots, trajectories, strict=True)
         ]
         create = srv.CreateSystem.Request(name=SYSTEM, members=members)
@@ -247,9 +249,8 @@ class SystemCourse:
         """Return whether the run is over; raise LabError where it ended too early."""
         from mrlab_msgs import msg
 
-        found = [
-            s for s in (self._systems.value or msg.RobotSystems()).systems if s.name == SYSTEM
-        ]
+        systems = self._systems.value.systems if self._systems.value else ()
+        found = [system for system in systems if system.name == SYSTEM]
         if not found:
             return False
         system, kind = found[0], msg.RobotSystem

@@ -13,6 +13,8 @@ from mrlab_ros.core.playback.states import State
 class Command(Enum):
     """The values are those of mrlab_msgs/DriveOrder."""
 
+    CLAIM = 0
+    RELEASE = 1
     STAGE = 2
     PLAY = 3
     PAUSE = 4

@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import Any
 
 import yaml
-from mrlab_msgs.msg import Latency, LatencyHop
+from mrlab_msgs.msg import Latency
 from rclpy.context import Context
 from rclpy.node import Node
 from rclpy.parameter import Parameter
@@ -29,6 +29,7 @@ from mrlab_ros.core.bridge.links import check_endpoints, check_router
 from mrlab_ros.core.bridge.rules import Direction, ServiceRule, TopicRule
 from mrlab_ros.core.errors import BadInput
 from mrlab_ros.messages import qos
+from mrlab_ros.messages.latency import latency_to_message
 from mrlab_ros.nodes import parameters
 from mrlab_ros.nodes.bridge.context import BridgeContext
 from mrlab_ros.nodes.bridge.inward import Inward
@@ -173,19 +174,8 @@ class BridgeNode(ParameterNode[BridgeParameters]):
         """Publish the delays from the graph to zenoh since the last report."""
         now = time.monotonic()
         window, self._reported = now - self._reported, now
-        report = Latency(observer="bridge", window=window)
-        report.header.stamp = self.get_clock().now().to_msg()
-        report.hops = [
-            LatencyHop(
-                hop=LatencyHop.PUBLISHED_TO_BRIDGED,
-                topic=delays.topic,
-                count=delays.count,
-                p50=delays.p50,
-                p95=delays.p95,
-                max=delays.max,
-            )
-            for delays in self._ledger.report()
-        ]
+        now_ns = self.get_clock().now().nanoseconds
+        report = latency_to_message(now_ns, "bridge", window, self._ledger.report())
         self._reports.publish(report)
 
     def statistics(self) -> dict[str, Any]:

@@ -16,7 +16,6 @@ from mrlab_ros.core.physics.surfaces import Surface
 from mrlab_ros.core.physics.world import World
 from mrlab_ros.messages import physics as messages
 from mrlab_ros.messages import qos
-from mrlab_ros.messages.time import make_header
 
 CONTACTS_NS = SECOND // 50
 OBJECTS_NS = SECOND // 30
@@ -75,12 +74,7 @@ class WorldPublishers:
             contacts = self._world.take_contacts()
             if contacts:
                 self._next_contacts_ns = now_ns + CONTACTS_NS
-                self._contacts.publish(
-                    msg.Contacts(
-                        header=make_header(now_ns, messages.WORLD),
-                        contacts=[messages.contact_to_message(c) for c in contacts],
-                    )
-                )
+                self._contacts.publish(messages.contacts_to_message(now_ns, contacts))
         if now_ns < self._next_objects_ns:
             return False
         self._next_objects_ns = now_ns + OBJECTS_NS
@@ -115,19 +109,10 @@ class WorldPublishers:
         self._told = told
         if changed or now_ns >= self._repeat_ns:
             self._repeat_ns = now_ns + REPEAT_NS
-            self._objects.publish(
-                msg.SceneObjects(
-                    header=make_header(now_ns, messages.WORLD),
-                    objects=[known.message for known in told.values()],
-                )
-            )
+            objects = [known.message for known in told.values()]
+            self._objects.publish(messages.objects_to_message(now_ns, objects))
         return changed
 
     def tell_surfaces(self, now_ns: int, surfaces: Sequence[Surface]) -> None:
         """Publish the room; a large one takes long, so the caller needs no lock."""
-        self._surfaces.publish(
-            msg.Surfaces(
-                header=make_header(now_ns, messages.WORLD),
-                surfaces=[messages.surface_to_message(s) for s in surfaces],
-            )
-        )
+        self._surfaces.publish(messages.surfaces_to_message(now_ns, surfaces))

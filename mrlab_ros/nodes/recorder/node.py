@@ -23,7 +23,7 @@ from mrlab_ros.core.recording.topics import Split, Topics
 from mrlab_ros.core.state_machine import Machine
 from mrlab_ros.messages import qos
 from mrlab_ros.messages.definitions import definition
-from mrlab_ros.messages.time import make_header
+from mrlab_ros.messages.recorder import recorder_state_to_message
 from mrlab_ros.nodes import parameters
 from mrlab_ros.nodes.parameters import RecorderParameters
 from mrlab_ros.nodes.recorder.attachments import SessionContent, versions
@@ -34,7 +34,6 @@ from mrlab_ros.ros.answers import answered
 from mrlab_ros.ros.parameters import ParameterNode
 from mrlab_ros.ros.spinning import Caller
 
-State = msg.RecorderState
 MEGABYTE = 1_000_000
 
 
@@ -73,7 +72,7 @@ class RecorderNode(ParameterNode[RecorderParameters]):
         # A bag that is to be replayed as soon as the lab has left; its state is told before.
         self._preparing: Bag | None = None
         self._trouble = ""
-        self._state = self.create_publisher(State, "~/state", qos.LATCHED)
+        self._state = self.create_publisher(msg.RecorderState, "~/state", qos.LATCHED)
         for kind, name, callback in (
             (srv.StartRecording, "start", self._start),
             (Trigger, "stop", self._stop),
@@ -312,26 +311,34 @@ class RecorderNode(ParameterNode[RecorderParameters]):
 
     def _tell(self) -> None:
         with self._lock:
-            state = State(message=self._trouble, rate=1.0)
-            state.header = make_header(time.time_ns())
-            state.state = self._machine.state.announced.value
-            recording, replaying = self._recording, self._replaying
-            if recording is not None:
-                state.bag = recording.folder
-                state.position = recording.position
-                state.messages, state.bytes = recording.messages, recording.size
-            elif replaying is not None:
-                state.position, state.rate = replaying.position, replaying.rate
-                state.messages = replaying.messages
-                self._tell_of_bag(state, replaying.bag)
-            elif self._preparing is not None:
-                self._tell_of_bag(state, self._preparing)
+            state = recorder_state_to_message(
+                time.time_ns(), self._machine.state.announced.value, self._trouble, **self._facts()
+            )
             try:
                 self._state.publish(state)
             except Exception:
-                # A replay that ends in the moment in which the lab does has nobody to tell.
+                # A replay may end while the lab is shutting down.
                 if self.context.ok():
                     raise
 
-    def _tell_of_bag(self, state: Any, bag: Bag) -> None:
-        state.bag, state.duration, state.bytes = str(bag.path), bag.duration, bag.size
+    def _facts(self) -> dict[str, Any]:
+        """Return what the state says of the bag at hand; the lock must be held."""
+        recording, replaying = self._recording, self._replaying
+        if recording is not None:
+            return {
+                "bag": recording.folder,
+                "position": recording.position,
+                "messages": recording.messages,
+                "size": recording.size,
+            }
+        bag = replaying.bag if replaying is not None else self._preparing
+        if bag is None:
+            return {}
+        facts = {"bag": str(bag.path), "duration": bag.duration, "size": bag.size}
+        if replaying is None:
+            return facts
+        return facts | {
+            "position": replaying.position,
+            "rate": replaying.rate,
+            "messages": replaying.messages,
+        }
