@@ -601,6 +601,12 @@ KINDS: dict[str, Kind] = {
         "Mesh {uri} is of a format that the lab does not draw.",
         "Convert it to one of {formats}.",
     ),
+    "robot_mesh_unreadable": Kind(
+        ERROR,
+        "A mesh of a robot cannot be read.",
+        "Mesh {uri} cannot be read: {why}.",
+        "Export it again from the program that made it.",
+    ),
     "robot_no_texture": Kind(
         WARNING,
         "A file that a mesh names, a texture or a material library, is missing.",

@@ -20,12 +20,13 @@ Resolve = Callable[[str], Path]
 
 
 def check(text: str, origin: str, resolve: Resolve) -> tuple[Diagnostic, ...]:
-    """Return what is wrong or remarkable; `resolve` turns a mesh URI into a path.
+    """Return the findings on a URDF; `resolve` returns the file of a mesh URI.
 
-    Raises BadInput where the text is no URDF at all.
+    Raises BadInput where the text is not a URDF, or a number or an attribute is not as expected.
     """
     root = urdf.parse(text, origin)
     joints = urdf.joints(root, origin)
+    _check_numbers(root, origin)
     return (
         *_check_tree(root, joints),
         *_check_joints(joints),
@@ -37,6 +38,51 @@ def check(text: str, origin: str, resolve: Resolve) -> tuple[Diagnostic, ...]:
 def errors(found: tuple[Diagnostic, ...]) -> tuple[Diagnostic, ...]:
     """Return the findings that keep a robot out of the lab."""
     return tuple(one for one in found if one.severity is Severity.ERROR)
+
+
+# The numbers in the elements of a link: tag, attribute, how many.
+NUMBERS = (
+    ("origin", "xyz", 3),
+    ("origin", "rpy", 3),
+    ("mass", "value", 1),
+    *(("inertia", name, 1) for name in ("ixx", "ixy", "ixz", "iyy", "iyz", "izz")),
+    ("mesh", "scale", 3),
+    ("box", "size", 3),
+    ("cylinder", "radius", 1),
+    ("cylinder", "length", 1),
+    ("sphere", "radius", 1),
+    ("color", "rgba", 4),
+)
+SHAPES: dict[str, tuple[str, ...]] = {
+    "mesh": ("filename",),
+    "box": ("size",),
+    "cylinder": ("radius", "length"),
+    "sphere": ("radius",),
+}
+
+
+def _check_numbers(root: ET.Element, origin: str) -> None:
+    """Raise BadInput where a link has a number or a shape that cannot be read."""
+    for link in root.iterfind("link"):
+        if not link.get("name"):
+            raise BadInput(f"{origin}: a <link> has no name; add one")
+        where = f"{origin}: link '{link.get('name')}'"
+        for tag, name, count in NUMBERS:
+            for element in link.iter(tag):
+                value = element.get(name)
+                if value is not None:
+                    urdf.numbers(value, count, f"{where}: {tag} {name}")
+        for geometry in link.iter("geometry"):
+            shape = next(iter(geometry), None)
+            if shape is None or shape.tag not in SHAPES:
+                found = "nothing" if shape is None else f"<{shape.tag}>"
+                raise BadInput(
+                    f"{where}: a <geometry> holds {found}; expected one of "
+                    f"{', '.join(f'<{tag}>' for tag in SHAPES)}"
+                )
+            missing = [name for name in SHAPES[shape.tag] if not shape.get(name)]
+            if missing:
+                raise BadInput(f"{where}: a <{shape.tag}> has no {', '.join(missing)}; add it")
 
 
 def _check_tree(root: ET.Element, joints: tuple[urdf.UrdfJoint, ...]) -> list[Diagnostic]:
@@ -142,24 +188,31 @@ def check_meshes(root: ET.Element, resolve: Resolve) -> list[Diagnostic]:
                 for file in mesh_files.companions(path).values()
                 if not file.is_file()
             ]
+    unusable = {one.where for one in found if one.severity is Severity.ERROR}
     scales = {
-        str(mesh.get("filename")): float(str(mesh.get("scale", "1")).split()[0])
+        str(mesh.get("filename")): urdf.numbers(mesh.get("scale", "1 1 1"), 3, "mesh scale")
         for mesh in meshes(root)
     }
     for uri, scale in scales.items():
-        size = _mesh_size(uri, resolve) * scale
+        if uri in unusable:
+            continue
+        try:
+            size = _mesh_size(resolve(uri)) * max(map(abs, scale))
+        except Exception as error:  # every mesh reader has errors of its own
+            why = str(error) or type(error).__name__
+            found.append(finding("robot_mesh_unreadable", where=uri, uri=uri, why=why))
+            continue
         if size > LARGEST_ARM:
             what = f"The size of mesh {uri}"
             found.append(finding("robot_millimetres", where=uri, what=what, size=size))
     return found
 
 
-def _mesh_size(uri: str, resolve: Resolve) -> float:
-    """Return the longest side of a mesh in its file's unit; 0 where it cannot be read."""
+def _mesh_size(path: Path) -> float:
+    """Return the longest side of a mesh in its file's unit; raise ValueError where it is empty."""
     import trimesh
 
-    try:
-        bounds = trimesh.load(resolve(uri)).bounds
-    except Exception:  # every mesh reader has errors of its own; a missing file is told above
-        return 0.0
-    return 0.0 if bounds is None else float(np.ptp(bounds, axis=0).max())
+    bounds = trimesh.load_scene(path).bounds
+    if bounds is None:
+        raise ValueError("it holds no triangles")
+    return float(np.ptp(bounds, axis=0).max())

@@ -92,6 +92,46 @@ def test_what_is_wrong_is_found(arm: Path, old: str, new: str, code: str) -> Non
     assert code in codes(ARM.replace(old, new), arm)
 
 
+@pytest.mark.parametrize(
+    ("old", "new", "says"),
+    [
+        ('ixx="0.01"', 'ixx="a lot"', "link 'base': inertia ixx is 'a lot'; expected 1 numb"),
+        ('mass value="1"', 'mass value="nan"', "link 'base': mass value is 'nan'"),
+        ('box.stl"', 'box.stl" scale=""', "mesh scale is ''; expected 3 numbers"),
+        ('<mesh filename="package://arm/box.stl"/>', "<capsule/>", "holds <capsule>; expected o"),
+        ('<mesh filename="package://arm/box.stl"/>', "", "holds nothing; expected one of <mesh>"),
+        ('<mesh filename="package://arm/box.stl"/>', "<mesh/>", "a <mesh> has no filename"),
+        ('<link name="upper"/>', "<link/>", "a <link> has no name"),
+        ("<link", "<!DOCTYPE robot><link", "declares a document type"),
+    ],
+)
+def test_numbers_and_shapes_are_checked(arm: Path, old: str, new: str, says: str) -> None:
+    assert old in ARM
+    with pytest.raises(BadInput, match=says):
+        codes(ARM.replace(old, new), arm)
+
+
+@pytest.mark.parametrize(
+    ("name", "content"),
+    [
+        ("box.stl", b""),
+        ("box.stl", b"not a mesh"),
+        ("box.dae", b"<COLLADA></COLLADA>"),
+        ("box.obj", b"v 1 2\nf 1 2 3\n"),
+        ("box.glb", b"glTF"),
+    ],
+)
+def test_a_mesh_that_cannot_be_read_is_refused(
+    arm: Path, library: RobotLibrary, name: str, content: bytes
+) -> None:
+    (arm.parent / "package" / name).write_bytes(content)
+    arm.write_text(ARM.replace("box.stl", name))
+    found = checks.errors(bring(arm, "mine", library, {"arm": arm.parent / "package"}))
+    assert [one.code for one in found] == ["robot_mesh_unreadable"]
+    assert f"package://arm/{name} cannot be read: " in found[0].message
+    assert "mine" not in library.ids()
+
+
 def test_a_sound_urdf_has_no_findings(arm: Path) -> None:
     assert codes(ARM, arm) == set()
 
@@ -124,8 +164,15 @@ def test_materials_and_textures_come_along(tmp_path: Path, library: RobotLibrary
         (folder / "paint.mtl").write_text("newmtl a\nmap_Kd -s 1 1 1 ../tex/" + name + " it.png\n")
         (package / "tex").mkdir(exist_ok=True)
         (package / "tex" / f"{name} it.png").write_bytes(colour)
+    trimesh.creation.box((0.1, 0.1, 0.1)).export(package / "arm.dae")
+    image = '<image id="a"><init_from>tex/one it.png</init_from></image>'
+    text = (package / "arm.dae").read_text()
+    assert "<library_geometries>" in text
     (package / "arm.dae").write_text(
-        "<COLLADA><image><init_from>tex/one it.png</init_from></image></COLLADA>"
+        text.replace(
+            "<library_geometries>",
+            f"<library_images>{image}</library_images><library_geometries>",
+        )
     )
     visual = '<visual><geometry><mesh filename="package://arm/{}"/></geometry></visual>'
     shapes = "".join(visual.format(name) for name in ("one/box.obj", "two/box.obj", "arm.dae"))
