@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from mrlab_ros.core.errors import BadInput, Misuse
+from mrlab_ros.core.naming import did_you_mean
 
 if TYPE_CHECKING:
     from mrlab_ros.core.systems.cell_file import MemberEntry
@@ -258,8 +259,11 @@ def _system(graph: Graph, name: str) -> Any:
     for system in systems:
         if system.name == name:
             return system
-    known = ", ".join(system.name for system in systems) or "none"
-    raise Misuse(f"there is no system '{name}'; there are: {known}")
+    known = [system.name for system in systems]
+    raise Misuse(
+        f"there is no system '{name}'; there are: {', '.join(known) or 'none'}"
+        f"{did_you_mean(name, known)}"
+    )
 
 
 def _mode(system: Any) -> str:

@@ -51,6 +51,13 @@ def checked_name(name: str, taken: frozenset[str], what: str) -> str:
 
 
 def did_you_mean(name: str, known: Iterable[str]) -> str:
-    """Return "; did you mean 'NAME'?" with the known name that is closest; empty: none is."""
-    close = difflib.get_close_matches(name.lower(), list(known), n=1)
+    """Return "; did you mean 'NAME'?" with the known name that is closest; empty: none is.
+
+    A name that contains `name`, as kuka_kr6_r900_sixx contains KR6, counts where none is similar.
+    """
+    names = list(known)
+    wanted = name.lower().replace("-", "_").replace(" ", "_")
+    close = difflib.get_close_matches(wanted, names, n=1, cutoff=0.5)
+    if not close and len(wanted) > 1:
+        close = [one for one in names if wanted in one]
     return f"; did you mean '{close[0]}'?" if close else ""

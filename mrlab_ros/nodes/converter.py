@@ -20,6 +20,7 @@ from mrlab_ros.adapters.trajectories.store import Damaged, TrajectoryStore
 from mrlab_ros.adapters.workspaces.reader import Limits, MiB, WorkspaceReader
 from mrlab_ros.core.conversion.convert import ConversionResult, convert
 from mrlab_ros.core.errors import BadInput, LabError
+from mrlab_ros.core.naming import did_you_mean
 from mrlab_ros.messages import qos, trajectories
 from mrlab_ros.messages.trajectories import (
     candidate_to_message,
@@ -132,6 +133,7 @@ class ConverterNode(ParameterNode[ConverterParameters]):
             raise BadInput(
                 f"there is no end effector '{request.end_effector}'; known are: "
                 f"{', '.join(known)}; leave it empty for a bare flange"
+                f"{did_you_mean(request.end_effector, known)}"
             )
         path = Path(request.path)
         if request.path:

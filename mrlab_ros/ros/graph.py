@@ -20,6 +20,7 @@ from rclpy.qos import QoSProfile
 from rclpy.signals import SignalHandlerOptions
 
 from mrlab_ros.core.errors import Misuse
+from mrlab_ros.core.naming import did_you_mean
 from mrlab_ros.messages import qos
 from mrlab_ros.ros.calls import NoAnswer, call
 from mrlab_ros.ros.domain import domain_id
@@ -159,10 +160,12 @@ class Graph:
         for robot in robots:
             if robot.name == name:
                 return robot
-        known = ", ".join(robot.name for robot in robots)
+        known = [robot.name for robot in robots]
+        listed = ", ".join(known)
         raise Misuse(
             f"no robot '{name}' is in the scene; there "
-            + (f"are: {known}" if known else "are none: mrlab up --robots ur5e begins with one")
+            + (f"are: {listed}" if known else "are none: mrlab up --robots ur5e begins with one")
+            + did_you_mean(name, known)
         )
 
     def catalogue(self) -> list[Any]:

@@ -14,6 +14,7 @@ import numpy as np
 from mrlab_ros.adapters.robots import urdf
 from mrlab_ros.adapters.yaml_files import read_yaml
 from mrlab_ros.core.errors import BadInput
+from mrlab_ros.core.naming import did_you_mean
 from mrlab_ros.core.robots.model import RobotModel
 
 END_EFFECTORS = "end_effectors"
@@ -130,7 +131,10 @@ class RobotLibrary:
     def _robot_folder(self, robot_id: str) -> Path:
         known = self.ids()
         if robot_id not in known:
-            raise BadInput(f"there is no robot '{robot_id}'; known are: {', '.join(known)}")
+            raise BadInput(
+                f"there is no robot '{robot_id}'; known are: {', '.join(known)}"
+                f"{did_you_mean(robot_id, known)}"
+            )
         own = self.folder / robot_id
         return own if own.is_dir() else self.imported / robot_id
 
@@ -139,7 +143,7 @@ class RobotLibrary:
         if end_effector not in known:
             raise BadInput(
                 f"there is no end effector '{end_effector}'; known are: {', '.join(known)}; "
-                "leave it empty for a bare flange"
+                f"leave it empty for a bare flange{did_you_mean(end_effector, known)}"
             )
         path = self.folder / END_EFFECTORS / end_effector / "end_effector.urdf"
         return urdf.parse(_read(path), str(path))

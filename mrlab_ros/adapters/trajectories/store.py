@@ -26,6 +26,7 @@ from numpy.typing import NDArray
 
 from mrlab_ros.adapters.trajectories import json_file
 from mrlab_ros.core.errors import BadInput
+from mrlab_ros.core.naming import did_you_mean
 from mrlab_ros.core.trajectory import document
 from mrlab_ros.core.trajectory.document import Frames
 from mrlab_ros.core.trajectory.trajectory import Channels, Trajectory
@@ -340,10 +341,11 @@ class TrajectoryStore:
             for path in (self.path(trajectory_id), self._json_path(trajectory_id)):
                 if path.is_file():
                     return path
-        known = ", ".join(self.ids()[:10]) or "none"
+        ids = self.ids()
         raise BadInput(
-            f"there is no trajectory '{trajectory_id}'; there are: {known}; convert a file or "
-            "take one of these"
+            f"there is no trajectory '{trajectory_id}'; there are: "
+            f"{', '.join(ids[:10]) or 'none'}; convert a file or take one of these"
+            f"{did_you_mean(trajectory_id, ids)}"
         )
 
     @contextlib.contextmanager

@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 
 from mrlab_ros.core.errors import Misuse
+from mrlab_ros.core.naming import did_you_mean
 from mrlab_ros.core.physics.catalogue import ObjectType
 from mrlab_ros.core.physics.engine import BodyState, Engine, Kind, Touch
 from mrlab_ros.core.physics.events import Event
@@ -47,7 +48,8 @@ class Stage:
             return self.robots[name]
         except KeyError:
             known = ", ".join(self.robots) or "none"
-            raise Misuse(f"no robot '{name}' is in the scene; there are: {known}") from None
+            close = did_you_mean(name, self.robots)
+            raise Misuse(f"no robot '{name}' is in the scene; there are: {known}{close}") from None
 
     def object(self, name: str) -> SceneObject:
         """Return an object; raise Misuse where there is none."""
@@ -55,7 +57,10 @@ class Stage:
             return self.objects[name]
         except KeyError:
             known = ", ".join(self.objects) or "none"
-            raise Misuse(f"no object '{name}' is in the scene; there are: {known}") from None
+            close = did_you_mean(name, self.objects)
+            raise Misuse(
+                f"no object '{name}' is in the scene; there are: {known}{close}"
+            ) from None
 
     def hand(self, robot: Robot) -> BodyState:
         """Return where the link is that a robot's objects are fixed to, and how it moves."""

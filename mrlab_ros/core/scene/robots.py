@@ -9,7 +9,7 @@ from functools import cache
 
 from mrlab_ros.core.errors import Misuse
 from mrlab_ros.core.geometry import Pose
-from mrlab_ros.core.naming import checked_name
+from mrlab_ros.core.naming import checked_name, did_you_mean
 
 # Robots placed automatically stand this share of their reaches apart, so that two arms can meet
 # but not stand in each other.
@@ -55,7 +55,8 @@ class Scene:
             return self._robots[name]
         except KeyError:
             known = ", ".join(self._robots) or "none"
-            raise Misuse(f"no robot '{name}' is in the scene; there are: {known}") from None
+            close = did_you_mean(name, self._robots)
+            raise Misuse(f"no robot '{name}' is in the scene; there are: {known}{close}") from None
 
     def free_name(self, model: str) -> str:
         """Return the model's id with the first free number: ur5e_1, ur5e_2, ..."""

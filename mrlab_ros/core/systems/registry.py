@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 
 from mrlab_ros.core.errors import BadInput, Misuse
-from mrlab_ros.core.naming import checked_name
+from mrlab_ros.core.naming import checked_name, did_you_mean
 from mrlab_ros.core.systems.robot_system import RobotSystem
 
 
@@ -24,7 +24,8 @@ class Systems:
             return self._systems[name]
         except KeyError:
             known = ", ".join(self._systems) or "none"
-            raise Misuse(f"there is no system '{name}'; there are: {known}") from None
+            close = did_you_mean(name, self._systems)
+            raise Misuse(f"there is no system '{name}'; there are: {known}{close}") from None
 
     def of(self, robot: str) -> RobotSystem | None:
         """Return the system that `robot` is a member of; None where it is independent."""
@@ -42,7 +43,7 @@ class Systems:
             if robot not in scene:
                 raise BadInput(
                     f"no robot '{robot}' is in the scene; there are: "
-                    f"{', '.join(sorted(scene)) or 'none'}"
+                    f"{', '.join(sorted(scene)) or 'none'}{did_you_mean(robot, sorted(scene))}"
                 )
             if robots.count(robot) > 1:
                 raise BadInput(f"'{robot}' is named {robots.count(robot)} times; name it once")

@@ -258,3 +258,8 @@ def test_all_mistakes_of_a_dataclass_are_named_at_once():
 def test_a_close_name_is_offered():
     assert did_you_mean("Ur5", ("ur5e", "kuka_kr3_r540")) == "; did you mean 'ur5e'?"
     assert did_you_mean("table", ("ur5e",)) == ""
+    assert did_you_mean("KR6", ("ur5e", "kuka_kr6_r900")) == "; did you mean 'kuka_kr6_r900'?"
+    assert did_you_mean("Pick-and-place", ("pick_and_place",)) == (
+        "; did you mean 'pick_and_place'?"
+    )
+    assert did_you_mean("", ("ur5e",)) == ""

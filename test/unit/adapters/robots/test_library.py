@@ -79,7 +79,9 @@ def test_empty_end_effector_is_the_bare_robot() -> None:
 
 
 def test_unknown_ids_are_answered_with_the_known_ones() -> None:
-    with pytest.raises(BadInput, match=r"no robot 'ur6'; known are: .*ur5e"):
+    with pytest.raises(BadInput, match=r"no robot 'ur6'; known are: .*mean 'ur5e'\?"):
         LIBRARY.model("ur6")
     with pytest.raises(BadInput, match=r"no end effector 'hook'; known are: .*parallel_gripper"):
         LIBRARY.description("ur5e", "hook")
+    with pytest.raises(BadInput, match=r"bare flange; did you mean 'vacuum_cup'\?"):
+        LIBRARY.description("ur5e", "vacuum-cups")
