@@ -518,6 +518,19 @@ KINDS: dict[str, Kind] = {
         "'{variable}' ({size}) may be the states of the gripper; it was not taken.",
         "Take it with the option gripper (--gripper {variable}), or save it as the last column.",
     ),
+    "kinematics_agree": Kind(
+        INFO,
+        "The robot that the file holds is the chosen one, up to its base and its tool.",
+        "The robot {found} in the file agrees with {robot} within {distance:.1f} mm.",
+    ),
+    "kinematics_differ": Kind(
+        WARNING,
+        "The robot that the file holds is not the chosen one.",
+        "The robot {found} in the file is not {robot}: {problem}. The motion may have been made "
+        "for another robot, or with other zero positions of the joints.",
+        "Choose the robot that the file was made for; or compare the zero positions and the "
+        "directions of the joints with those of {robot}.",
+    ),
     # a robot's URDF
     "robot_no_link": Kind(
         ERROR,

@@ -371,7 +371,9 @@ class Mat5Reader:
         elif kind in ("double", "single") or self.inside_objects:
             self.sink.add(path, kind, shape, data, self.order + dtype)
         else:
-            self.sink.add(path, kind, shape)
+            truth = data[0] if kind == "logical" and len(data) == 1 else None
+            said = "" if truth is None else "true" if truth else "false"
+            self.sink.add(path, kind, shape, text=said)
 
     def _element(
         self, cursor: Cursor, path: str, shape: tuple[int, ...] | None = None

@@ -11,6 +11,7 @@ from contextlib import contextmanager
 from typing import Any
 
 import h5py
+import numpy as np
 
 from mrlab_ros.adapters.workspaces.mat5 import (
     DEEPEST,
@@ -183,6 +184,10 @@ class _Reader:
         kind = kind or {"f": "double", "i": "int64", "u": "uint64"}.get(item.dtype.kind, "unknown")
         if kind == "char" and "MATLAB_empty" not in item.attrs:
             self.sink.add(path, kind, shape, text=self._text(item, shape))
+            return
+        if kind == "logical" and item.size == 1 and not self.inside_objects:
+            truth = bool(np.any(item[()])) and "MATLAB_empty" not in item.attrs
+            self.sink.add(path, kind, shape, text="true" if truth else "false")
             return
         wanted = kind in ("double", "single") or (self.inside_objects and kind != "char")
         if not wanted or item.dtype.kind not in "fiu":

@@ -164,6 +164,8 @@ class Opener:
         if value.dtype.kind == "c":
             self.sink.add(path, name, shape, note="complex")
         elif value.dtype.kind != "f" or value.ndim != 2:
+            if name == "logical" and value.size == 1:
+                facts["text"] = "true" if value.flat[0] else "false"
             self.sink.add(path, name, shape, **facts)
         elif value not in self.known:
             self.sink.add(path, name, shape, note="two readers find different numbers in it")

@@ -15,6 +15,7 @@ from mrlab_ros.core.conversion import (
     discovery,
     frame_rate,
     joining,
+    kinematics_match,
     limits,
     resampling,
 )
@@ -121,10 +122,12 @@ def convert(
         layout, rate = _at_a_rate(survey, chosen, layout, options, default_frame_rate, file, notes)
         arm = layout.arm
         notes += limits.against_robot(arm, rate, robot.joints, variable.path, robot.id)
+        notes += kinematics_match.findings(workspace, robot)
         if any(n.severity is Severity.ERROR for n in notes):
             return _rejected(file, notes, variable)
         if workspace.confirm is not None:
-            workspace.confirm(variable.path)
+            for path in joining.sources(variable.path, options.join):
+                workspace.confirm(path)
         trajectory = Trajectory(
             id=trajectory_id,
             robot_model=robot.id,

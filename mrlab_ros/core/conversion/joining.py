@@ -139,6 +139,17 @@ def series(workspace: Workspace, joints: int) -> list[Series]:
     return [s for _, _, s in ranked]
 
 
+def sources(path: str, join: str) -> list[str]:
+    """Return the paths in the file of what became the matrix `path`.
+
+    join: the option of that name. A part such as q(1:200, :) comes from q.
+    """
+    if join and path == join.strip():
+        return expanded(join)
+    part = PART.fullmatch(path)
+    return [part["path"]] if part else [path]
+
+
 def part_of(workspace: Workspace, text: str) -> Workspace | None:
     """Return the workspace with the part `text` of a matrix, such as q(1:200, :), or None.
 

@@ -28,7 +28,7 @@ class Variable:
     the variable, (N, 1) s, that holds the time of each row, where the file itself says so (a
     timeseries, a timetable); empty where it does not. label: the name that the signal carries in
     the file, such as that of a timeseries or of an element of a Dataset. text: of a char or a
-    string, where it is one line of at most 200 characters.
+    string, where it is one line of at most 200 characters; 'true' or 'false' of one logical.
 
     The samples of a timeseries are its rows, along whichever axis its time runs. Durations are in
     s; a datetime is in s since its first element.

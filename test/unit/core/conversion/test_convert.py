@@ -9,6 +9,7 @@ from fakes import make_model
 
 from mrlab_ros.adapters.trajectories.coefficients import load_coefficients
 from mrlab_ros.core.conversion import convert as conversion_convert
+from mrlab_ros.core.conversion import joining
 from mrlab_ros.core.conversion.convert import ConversionResult, Outcome, id_from
 from mrlab_ros.core.conversion.options import Options, parse_columns
 from mrlab_ros.core.conversion.workspace import Variable, Workspace
@@ -359,6 +360,8 @@ def test_the_matrix_that_is_taken_is_confirmed_by_a_second_reader():
 
     assert run().outcome is Outcome.ACCEPTED
     assert asked == ["q"]
+    assert joining.sources("q(1:9, :)", "") == ["q"]
+    assert joining.sources("q1..q3", "q1..q3") == ["q1", "q2", "q3"]
 
     def differs(path):
         raise Refused(finding("readers_disagree", file="traj.mat", variable=path, problem="x"))
