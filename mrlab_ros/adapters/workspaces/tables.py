@@ -36,20 +36,18 @@ def read_csv(data: memoryview, sink: Sink) -> None:
         raise Damaged(f"byte {error.start} is not UTF-8 text") from None
     text = text.replace("\r\n", "\n").replace("\r", "\n")
     first, _, rest = text.partition("\n")
-    separator = next((s for s in (",", ";", "\t") if s in first), None)
+    separator = next((s for s in (";", "\t", ",") if s in first), None)
     try:
         row = next(csv.reader([first], delimiter=separator)) if separator else first.split()
     except csv.Error as error:
         raise Damaged(f"its first row cannot be read ({error})") from None
     cells = [cell.strip() for cell in row]
-    headed = not all(_is_number(c) for c in cells)
+    decimal_commas = separator not in (",", None)
+    headed = not all(_is_number(c.replace(",", ".") if decimal_commas else c) for c in cells)
     body = rest if headed else text
     if not body.strip():
         raise Damaged("it holds no row of numbers")
-    try:
-        table = np.loadtxt(io.StringIO(body), delimiter=separator, ndmin=2, dtype=np.float64)
-    except ValueError as error:
-        raise Damaged(f"not every row is the same number of numbers ({error})") from None
+    table = _numbers(body, separator, 2 if headed else 1)
     headings = cells if headed else []
     time = [i for i, h in enumerate(headings) if h.lower() in ("t", "time", "time_from_start")]
     if len(headings) != table.shape[1]:
@@ -59,6 +57,32 @@ def read_csv(data: memoryview, sink: Sink) -> None:
         table = np.delete(table, time, axis=1)
         del headings[time[0]]
     _add(sink, "q", table, tuple(headings))
+
+
+def _numbers(body: str, separator: str | None, first_line: int) -> Any:
+    """Return the rows of a table; decimals may be commas where the separator is none.
+
+    first_line: the line of the file that `body` begins at. Raises Damaged with the first line
+    that does not fit.
+    """
+    if separator != "," and "," in body:
+        body = body.replace(",", ".")
+    try:
+        return np.loadtxt(io.StringIO(body), delimiter=separator, ndmin=2, dtype=np.float64)
+    except ValueError:
+        pass
+    width = None
+    for number, line in enumerate(body.split("\n"), first_line):
+        cells = [c.strip() for c in (line.split(separator) if separator else line.split())]
+        if not any(cells):
+            continue
+        width = width or len(cells)
+        wrong = next((c for c in cells if not _is_number(c)), None)
+        if wrong is not None:
+            raise Damaged(f"line {number} has '{wrong[:40]}' where a number is expected")
+        if len(cells) != width:
+            raise Damaged(f"line {number} has {len(cells)} values and the first {width}")
+    raise Damaged("it holds no table of numbers")
 
 
 def _is_number(text: str) -> bool:

@@ -586,7 +586,10 @@ def _relate_poses(
     for v in workspace.variables:
         if v.values is None or 1 in v.shape:
             continue
-        if v.path in found and not (found[v.path].poses.possible or found[v.path].poses.strong):
+        own = found.get(v.path)
+        if own is not None and not (
+            own.name.what == POSES or own.poses.possible or own.poses.strong
+        ):
             continue
         points = relations.tool_points(v.values)
         if points is not None and len(points) in lengths:
@@ -639,7 +642,7 @@ def _judged(a: Assessment, robot: RobotModel) -> Assessment:
     if a.tool_path:
         points += 0.3
         reasons.append(f"'{a.tool_path}' is the path of the tool at these positions")
-    if a.rates:
+    if a.rates and hint in (Hint.POSITIONS, Hint.NEUTRAL, Hint.TWO_FACED):
         points += 0.15
         reasons.append(f"'{a.rates[0][0]}' is its derivative")
     if a.rows == a.columns:

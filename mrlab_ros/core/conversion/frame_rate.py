@@ -466,9 +466,11 @@ def _of_duration(workspace: Workspace, path: str, rows: int) -> Scalar | None:
         number = workspace.scalar(v)
         if number is None or not np.isfinite(number) or number <= 0 or re.search(r"[({]", v.path):
             continue
-        if "".join(parts(leaf(v.path))) not in DURATION_NAMES or not _is_near(v.path, near):
+        said = "".join(parts(leaf(v.path)))
+        if said not in DURATION_NAMES or not _is_near(v.path, near):
             continue
-        for steps in (rows - 1, rows):
+        # T may be anything: it counts where it is the time of the last row, as in 0:dt:T
+        for steps in (rows - 1,) if said == "t" else (rows - 1, rows):
             rate = steps / number
             if (
                 LIKELY_OF_DURATION[0] <= rate <= LIKELY_OF_DURATION[1]

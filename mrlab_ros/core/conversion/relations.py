@@ -19,7 +19,7 @@ LEAST_RATE, MOST_RATE = 0.5, 20_000.0  # Hz; what a derivative's factor may be
 
 POSES = 48  # rows that poses are compared at
 AGREED, AGREED_M = 0.02, 2e-3  # of the path's extent, m: what poses may differ by
-DIFFERS, DIFFERS_M = 0.15, 0.02
+DIFFERS, DIFFERS_M = 0.06, 4e-3
 LONGEST_TOOL, FARTHEST_BASE = 0.8, 5.0  # m
 MILLIMETRES = 20.0  # coordinates beyond are not metres
 # turns of the base about the vertical that are in use: URDF and controllers differ by them

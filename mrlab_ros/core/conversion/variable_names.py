@@ -100,7 +100,7 @@ WHOLE_AGAINST = {
 # Where one of these words is in a name, whatever else is in it.
 AGAINST_PARTS = {
     VELOCITIES: words(
-        "vel velocity velocities speed speeds dot d1 qd dq qp qv rate rates geschw omega"
+        "vel velocity velocities speed speeds dot d1 qd dq qp qv rate rates geschw omega w rpm"
     ),
     ACCELERATIONS: words("acc accel accels acceleration accelerations ddot d2 qdd ddq qpp"),
     "third derivatives": words("jerk jerks d3 d4 ruck"),
@@ -208,6 +208,8 @@ def _said_by(bare: str, whole: str, said: list[str], numbered: list[str]) -> tup
         return Hint.DOUBTFUL, "joint velocities"
     if bare in POSITIONS:
         return Hint.POSITIONS, ""
+    if len(bare) == 1 and bare != whole and bare in WHOLE_AGAINST[PARAMETERS]:
+        return Hint.NEUTRAL, ""
     of_whole = next((what for what, names in WHOLE_AGAINST.items() if bare in names), "")
     if of_whole:
         return Hint.AGAINST, of_whole
@@ -222,7 +224,7 @@ def _said_by(bare: str, whole: str, said: list[str], numbered: list[str]) -> tup
         return Hint.AGAINST, VELOCITIES
     is_joint = bool(POSITION_PARTS.intersection(said))
     for what, names in AGAINST_PARTS.items():
-        if names.intersection(said) or names.intersection(numbered):
+        if names.intersection(said) or names.intersection(numbered[1:]):
             return Hint.AGAINST, what
     if said[-1:] == ["current"] and len(said) > 1 and said[0] not in ("q", "config"):
         # motor currents end in it, the present positions begin with it
