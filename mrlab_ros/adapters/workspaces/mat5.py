@@ -46,8 +46,12 @@ class Sink(Protocol):
         time: str = "",
         label: str = "",
         text: str = "",
+        within_object: bool = False,
     ) -> None:
-        """Take one variable; `data` is column by column, of numpy type `dtype`."""
+        """Take one variable; `data` is column by column, of numpy type `dtype`.
+
+        within_object: it lies in a MATLAB object, so two readers have been compared already.
+        """
 
 
 # data types of the elements: numpy code of the numbers they hold

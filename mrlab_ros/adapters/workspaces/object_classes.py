@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mrlab_ros.adapters.workspaces.mat5 import DEEPEST, LONGEST_TEXT, index
-from mrlab_ros.adapters.workspaces.object_sinks import Digests, ObjectSink, digest
+from mrlab_ros.adapters.workspaces.object_sinks import Digests, ObjectSink, WithinObjects, digest
 from mrlab_ros.adapters.workspaces.object_values import (
     as_rows,
     cells,
@@ -70,7 +70,7 @@ class Opener:
         from matio.utils.matclass import MatlabFunction, MatlabObject, MatlabOpaque
 
         self.closed = found.closed
-        self.sink = found.sink
+        self.sink = WithinObjects(found.sink)
         self.known = known
         self.opened: set[str] = set()
         self._function, self._old, self._opaque = MatlabFunction, MatlabObject, MatlabOpaque

@@ -36,6 +36,17 @@ class ObjectSink:
             self.sink.add(path, kind, shape, data, dtype, is_object=is_object, **facts)
 
 
+class WithinObjects:
+    """Passes variables on as such that lie in objects."""
+
+    def __init__(self, sink: Sink) -> None:
+        self.sink = sink
+
+    def add(self, path: str, kind: str, shape: tuple[int, ...], *data: Any, **facts: Any) -> None:
+        """Take one variable; see `Sink`."""
+        self.sink.add(path, kind, shape, *data, within_object=True, **facts)
+
+
 class Digests:
     """A sink that remembers which matrices it was given, without keeping them."""
 

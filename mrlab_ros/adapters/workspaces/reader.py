@@ -239,8 +239,8 @@ class _Confirmation:
         self._reader = reader
         self._name = name
         self._places: dict[str, list[Any]] = {}
-        for path, _, shape, offset, dtype, _ in index:
-            if offset >= 0:
+        for path, _, shape, offset, dtype, within_object, _ in index:
+            if offset >= 0 and not within_object:
                 self._places.setdefault(path, [path, shape, offset, dtype])
         self._descriptors = os.dup(source), os.dup(numbers)
         for descriptor in self._descriptors:
@@ -268,6 +268,7 @@ def _variable(
     shape: list[int],
     offset: int,
     dtype: str,
+    _within_object: bool,
     facts: dict[str, Any],
 ) -> Variable:
     values = None

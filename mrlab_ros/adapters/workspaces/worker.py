@@ -63,6 +63,7 @@ class OutputFile:
         time: str = "",
         label: str = "",
         text: str = "",
+        within_object: bool = False,
     ) -> None:
         if len(self.index) >= MOST_VARIABLES:
             self.omitted += 1
@@ -78,7 +79,7 @@ class OutputFile:
             self.at += len(data) + padding
         facts: dict[str, Any] = {"note": note, "columns": columns, "units": units, "time": time}
         facts |= {"is_object": is_object, "label": label, "text": text}
-        self.index.append([path, kind, shape, offset, dtype, facts])
+        self.index.append([path, kind, shape, offset, dtype, within_object, facts])
 
     def finish(self, **words: Any) -> None:
         words |= {"variables": self.index, "omitted": self.omitted}

@@ -5,6 +5,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterable
 from dataclasses import dataclass, field, replace
 from functools import cached_property
@@ -61,6 +62,7 @@ UNITS_AGAINST = {
 }
 # Mean step between samples over the range of a motion; unordered samples have about 1/3.
 ROUGH = 0.15
+KEYED = re.compile(r"\{:,.*\}$|\('[^']*'\)$")
 FEW_ROWS = 10
 ENOUGH_ROWS = 20
 SMOOTH_ROWS = 20_000
@@ -409,7 +411,11 @@ def name_of(variable: Variable, file_format: str, robot: RobotModel) -> Name:
     if of_units.hint is Hint.AGAINST:
         return of_units
     said = describe(variable.path)
-    if variable.label and said.hint in (Hint.NEUTRAL, Hint.TWO_FACED):
+    if KEYED.search(variable.path):
+        # the columns of a table or an entry of a map: what holds them has any name
+        of_columns = describe_table(variable) if variable.columns else None
+        said = of_columns or describe(variable.label)
+    elif variable.label and said.hint in (Hint.NEUTRAL, Hint.TWO_FACED):
         said = describe(variable.label)
     elif file_format in UNNAMED:
         of_headings = describe_table(variable)

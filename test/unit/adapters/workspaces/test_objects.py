@@ -1,15 +1,21 @@
 """MATLAB's objects are opened with their own time, labels and units."""
 
 import io
+from pathlib import Path
 
 import h5py
 import numpy as np
 import pytest
+from fakes import make_model
 
+from mrlab_ros.adapters.trajectories.coefficients import load_coefficients
 from mrlab_ros.adapters.workspaces import object_classes, objects, worker
 from mrlab_ros.adapters.workspaces.mat5 import Damaged, TooLarge
 from mrlab_ros.adapters.workspaces.object_sinks import Digests, ObjectSink
 from mrlab_ros.adapters.workspaces.object_values import decoded_strings
+from mrlab_ros.adapters.workspaces.reader import WorkspaceReader
+from mrlab_ros.core.conversion.convert import convert
+from mrlab_ros.core.conversion.options import Options
 
 pytest.importorskip("matio", reason="mat-io needs Python 3.11")
 
@@ -278,3 +284,38 @@ def test_strings_are_decoded():
     assert list(decoded_strings(stored[:, :3])) == []
     assert list(decoded_strings(np.full((1, 9), 1 << 60, np.uint64))) == []
     assert list(decoded_strings(None)) == []
+
+
+FOUND = {
+    "q.Data": {"q": matlab.timeseries(Q, TIMES)},
+    "log{1}.Values.Data": {"log": matlab.dataset(matlab.signal(matlab.timeseries(Q, TIMES), "q"))},
+    "out.q.Data": {"out": matlab.simulation_output(q=matlab.timeseries(Q, TIMES))},
+    "T{:,:}": {"T": matlab.table({f"q{i + 1}": Q[:, [i]] for i in range(6)}), "fs": 50.0},
+    "TT.q": {"TT": matlab.timetable({"q": Q}, matlab.datetime(TIMES))},
+    "m('q')": {"m": matlab.MatlabContainerMap({"q": Q, "tau": Q * 30}), "fs": 50.0},
+    "run.q": {"run": matlab.obj("Run", q=Q, fs=np.float64(50))},
+    "q": {"q": Q, "fs": 50.0, "tau": matlab.timeseries(Q * 30, TIMES)},
+}
+
+
+@pytest.fixture(scope="module")
+def reader():
+    with WorkspaceReader() as reader:
+        yield reader
+
+
+@pytest.mark.parametrize("version", VERSIONS)
+@pytest.mark.parametrize("path", FOUND)
+def test_a_motion_in_an_object_is_converted(reader, version, path):
+    data = matlab.saved(version, **FOUND[path])
+    result = convert(
+        "traj.mat",
+        lambda: reader.read_bytes(data, "traj.mat"),
+        Options(),
+        make_model(6),
+        load_coefficients(Path(__file__).parents[4] / "config" / "torque_proxy.yaml"),
+    )
+    assert result.trajectory is not None, result.message
+    assert result.trajectory.source.variable == path
+    assert result.trajectory.frame_rate == 50.0
+    np.testing.assert_array_equal(result.trajectory.positions, Q)

@@ -192,6 +192,7 @@ def test_a_crash_of_the_second_reader_refuses_the_file(reader, monkeypatch):
 
 
 def test_what_a_workspace_needs_to_be_read_again_goes_with_it(reader):
+    gc.collect()
     before = psutil.Process().num_fds()
     workspaces = [reader.read_bytes(saved(q=Q), "traj.mat") for _ in range(10)]
     assert psutil.Process().num_fds() > before
