@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -11,12 +11,15 @@ import scipy.io
 
 from mrlab_ros.adapters.trajectories import json_file
 from mrlab_ros.adapters.workspaces import joint_trajectories
+from mrlab_ros.core.conversion.preview import Preview
+from mrlab_ros.core.diagnostics import Diagnostic, Severity
 from mrlab_ros.core.errors import BadInput
 from mrlab_ros.core.robots.model import RobotModel
 from mrlab_ros.core.trajectory.trajectory import Array, Trajectory
 
 Writer = Callable[[Trajectory, Path], Path]
-DOWNSAMPLED = 4000  # points of a plotted line: more than a screen has
+DOWNSAMPLED = 2000  # points of a plotted line: more than a screen has
+MOST_MARKED = 12  # findings that are marked in a picture
 
 
 def positions_with_gripper(trajectory: Trajectory) -> Array:
@@ -101,9 +104,6 @@ def writer(name: str) -> Writer:
 
 def plot(trajectory: Trajectory, robot: RobotModel, path: Path) -> None:
     """Draw angles and velocities against the limits, and the proxies, as PNG or SVG."""
-    from matplotlib.backends.backend_agg import FigureCanvasAgg
-    from matplotlib.figure import Figure
-
     stride = max(1, trajectory.frame_count // DOWNSAMPLED)
     t = times(trajectory)[::stride]
     channels = trajectory.channels
@@ -120,8 +120,7 @@ def plot(trajectory: Trajectory, robot: RobotModel, path: Path) -> None:
         ),
         ("torque proxy, N*m nominal", channels.effort_proxy[::stride], []),
     ]
-    figure = Figure(figsize=(10, 9), layout="constrained")
-    FigureCanvasAgg(figure)
+    figure = _figure(9)
     axes: Any = figure.subplots(len(rows), 1, sharex=True)
     for axis, (label, values, limits) in zip(axes, rows, strict=True):
         for joint, name in enumerate(trajectory.joint_names):
@@ -136,5 +135,45 @@ def plot(trajectory: Trajectory, robot: RobotModel, path: Path) -> None:
     axes[-1].set_xlabel("time, s")
     axes[0].legend(loc="upper right", fontsize="small", ncols=3)
     figure.suptitle(f"{trajectory.source.variable} of {trajectory.source.file} on {robot.id}")
+    _save(figure, path)
+
+
+def plot_refused(
+    shown: Preview, findings: Sequence[Diagnostic], file: str, robot: RobotModel, path: Path
+) -> None:
+    """Draw the columns of a matrix that was not taken, and mark the rows that findings name."""
+    figure = _figure(5)
+    axis: Any = figure.subplots()
+    for column in range(shown.values.shape[1]):
+        axis.plot(shown.rows, shown.values[:, column], linewidth=1.2, label=f"column {column + 1}")
+    marked = [d for d in findings if d.first_row and d.severity is Severity.ERROR]
+    for found in marked[:MOST_MARKED]:
+        axis.axvspan(found.first_row - 0.5, found.last_row + 0.5, color="red", alpha=0.2)
+        axis.axvline(found.first_row, color="red", linestyle="--", linewidth=1.0)
+        place = f"row {found.first_row}: {found.code}"
+        axis.annotate(
+            place, (found.first_row, 0.98), xycoords=("data", "axes fraction"), color="red",
+            fontsize="small", rotation=90, ha="right", va="top",
+        )  # fmt: skip
+    axis.set_xlabel("row")
+    axis.set_ylabel("value as stored")
+    axis.grid(alpha=0.3)
+    axis.legend(loc="upper right", fontsize="small", ncols=3)
+    axis.set_title(f"{shown.variable} of {file}: not taken for {robot.id}", fontsize="medium")
+    _save(figure, path)
+
+
+def _figure(height: float) -> Any:
+    """Return a figure 10 inches wide; its margins are fixed, as a computed layout takes longer."""
+    from matplotlib.backends.backend_agg import FigureCanvasAgg
+    from matplotlib.figure import Figure
+
+    figure = Figure(figsize=(10, height))
+    FigureCanvasAgg(figure)
+    figure.subplots_adjust(0.08, 0.07 * 9 / height, 0.98, 1 - 0.06 * 9 / height, hspace=0.08)
+    return figure
+
+
+def _save(figure: Any, path: Path) -> None:
     path.parent.mkdir(parents=True, exist_ok=True)
     figure.savefig(path)

@@ -27,6 +27,7 @@ from mrlab_ros.core.conversion.convert import (
 from mrlab_ros.core.conversion.options import Options
 from mrlab_ros.core.conversion.workspace import Workspace
 from mrlab_ros.core.errors import BadInput, Misuse
+from mrlab_ros.core.robots.model import RobotModel
 from mrlab_ros.ros import share
 
 EXIT_CODES = {Outcome.ACCEPTED: 0, Outcome.REJECTED: 1, Outcome.AMBIGUOUS: 2}
@@ -91,9 +92,8 @@ def run(request: Request) -> int:
             if request.out is not None and result.trajectory is not None:
                 request.out.mkdir(parents=True, exist_ok=True)
                 written = writer(result.trajectory, request.out)
-            if request.plot is not None and result.trajectory is not None:
-                picture = _plot_path(request.plot, trajectory_id)
-                export.plot(result.trajectory, model, picture)
+            if request.plot is not None:
+                _plot(result, model, _plot_path(request.plot, trajectory_id))
             if request.as_json:
                 line = orjson.dumps(report.record(source.given, result, written))
                 print(line.decode(), flush=True)
@@ -157,6 +157,16 @@ def _unused(name: str, taken: set[str]) -> str:
         unused = f"{name[:120]}-{number}"
     taken.add(unused)
     return unused
+
+
+def _plot(result: ConversionResult, robot: RobotModel, path: Path) -> None:
+    """Draw what was converted, or the matrix that was refused, where one was found."""
+    if result.trajectory is not None:
+        export.plot(result.trajectory, robot, path)
+        return
+    shown = result.preview or next((c.preview for c in result.candidates), None)
+    if shown is not None:
+        export.plot_refused(shown, result.diagnostics, result.file, robot, path)
 
 
 def _plot_path(plot: Path, trajectory_id: str) -> Path:

@@ -114,9 +114,10 @@ def convert(
         workspace, wanted = _prepared(read(), options, robot, file)
         chosen, survey, offered = _find(workspace, wanted, options, robot, file, notes)
         if chosen is None:
-            outcome = Outcome.AMBIGUOUS if offered else Outcome.REJECTED
+            if not offered:
+                return _rejected(file, notes, survey.workspace.find(notes[-1].variable))
             candidates = tuple(a.candidate() for a in offered)
-            return ConversionResult(file, outcome, None, candidates, _worst_first(notes))
+            return ConversionResult(file, Outcome.AMBIGUOUS, None, candidates, _worst_first(notes))
         variable = chosen.variable
         layout = lay_out(chosen, survey, options, notes)
         layout, rate = _at_a_rate(survey, chosen, layout, options, default_frame_rate, file, notes)
@@ -150,7 +151,7 @@ def convert(
 def _rejected(file: str, notes: list[Diagnostic], variable: Variable | None) -> ConversionResult:
     found = _worst_first(notes)
     shown = None
-    if variable is not None and variable.values is not None and variable.values.size:
+    if variable is not None and variable.values is not None and min(variable.shape) > 0:
         shown = preview(variable, [row for d in found for row in (d.first_row, d.last_row) if row])
     return ConversionResult(file, Outcome.REJECTED, None, (), found, shown)
 

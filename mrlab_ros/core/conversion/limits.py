@@ -82,9 +82,11 @@ def against_robot(
     findings: list[Diagnostic] = []
     for column, joint in enumerate(joints):
         q = np.ascontiguousarray(positions[:, column])
-        findings += _range(q, column, joint, frame_rate, variable)
-        findings += _steps(q, column, joint, frame_rate, variable, robot)
-    return findings
+        steps = _steps(q, column, joint, frame_rate, variable, robot)
+        beyond = _range(q, column, joint, frame_rate, variable)
+        # a full turn, or a jump, is why the joint leaves its range
+        findings += [*steps, *beyond] if steps else beyond
+    return sorted(findings, key=lambda found: found.code != "jump_2pi")
 
 
 def _range(

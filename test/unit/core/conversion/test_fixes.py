@@ -1,0 +1,300 @@
+"""Every refusal carries what mends it: applied, the file is accepted or has another problem."""
+
+from collections.abc import Iterator
+from dataclasses import replace
+
+import converter_corpus as corpus
+import numpy as np
+import pytest
+from fakes import make_model
+
+from mrlab_ros.adapters.trajectories.coefficients import load_coefficients
+from mrlab_ros.adapters.workspaces.reader import WorkspaceReader
+from mrlab_ros.core.conversion import convert as conversion_convert
+from mrlab_ros.core.conversion.convert import Outcome
+from mrlab_ros.core.conversion.options import Options
+from mrlab_ros.core.conversion.workspace import Variable, Workspace
+from mrlab_ros.core.diagnostics import KINDS, Fix, Severity
+
+COEFFICIENTS = load_coefficients(corpus.ROOT / "config" / "torque_proxy.yaml")
+ARM = make_model(6)  # 6 joints, -3 to 3 rad, 2 rad/s
+MOST_STEPS = 6
+
+
+def var(path, values):
+    values = np.asarray(values, dtype=float)
+    values = values[:, None] if values.ndim == 1 else np.atleast_2d(values)
+    return Variable(path, "double", values.shape, values)
+
+
+def motion(rows=300, joints=6, reach=1.0):
+    return reach * corpus.law(rows)[:, None] * np.linspace(0.2, 1.0, joints) - 0.3
+
+
+def convert(*variables, robot=ARM, **options):
+    workspace = Workspace("fake", variables, 0, "0" * 64)
+    return conversion_convert.convert(
+        "traj.mat", lambda: workspace, Options(**options), robot, COEFFICIENTS, created_ns=1
+    )
+
+
+def codes(result):
+    return [d.code for d in result.diagnostics]
+
+
+def applied(options: Options, fix: Fix) -> Options:
+    """Return the options with a fix, as a button sets it from its text."""
+    now = getattr(options, fix.option)
+    value = fix.value == "true" if isinstance(now, bool) else type(now)(fix.value or 0)
+    return replace(options, **{fix.option: fix.value if isinstance(now, str) else value})
+
+
+@pytest.fixture(scope="module")
+def reader() -> Iterator[WorkspaceReader]:
+    with WorkspaceReader() as reader:
+        yield reader
+
+
+def test_each_fix_leads_to_an_accepted_file_or_the_next_problem(reader):
+    """A chain of first fixes ends accepted, or at what MATLAB alone mends, not in a circle."""
+    stuck, mended = {}, 0
+    for file in [*corpus.build(), *corpus.held_out()]:
+        name = file.name + file.suffix
+        workspace = None
+        options, seen = Options(), set()
+        for _ in range(MOST_STEPS):
+            if workspace is None:
+                workspace = reader.read_bytes(file.data, name)
+            result = conversion_convert.convert(
+                name, lambda w=workspace: w, options, corpus.model(file.robot), COEFFICIENTS
+            )
+            if result.outcome is Outcome.ACCEPTED:
+                mended += options != Options()
+                break
+            worst = result.diagnostics[0]
+            fix = next((f for f in worst.fixes if f.option), None)
+            if fix is None:
+                if not any(f.matlab for f in worst.fixes):
+                    stuck[file.name] = f"{worst.code} carries no fix"
+                break
+            if (worst.code, fix) in seen:
+                stuck[file.name] = f"{fix} does not mend {worst.code}"
+                break
+            seen.add((worst.code, fix))
+            options = applied(options, fix)
+        else:
+            stuck[file.name] = "more than six problems"
+    assert not stuck
+    assert mended > 150
+
+
+@pytest.mark.parametrize("code", [c for c, k in KINDS.items() if k.severity is Severity.ERROR])
+def test_every_error_names_a_remedy(code):
+    assert KINDS[code].remedy
+
+
+Q = motion()
+T = np.arange(300) / 50.0
+
+
+@pytest.mark.parametrize(
+    ("variables", "options", "fix"),
+    [
+        ([var("q", Q.T)], {}, ("transpose", "true")),
+        ([var("q", np.column_stack([T, Q]))], {}, ("columns", "2:7")),
+        ([var("q", np.column_stack([Q, T]))], {}, ("columns", "1:6")),
+        ([var("q", np.column_stack([Q[:, :2], T, Q[:, 2:]]))], {}, ("columns", "[1 2 4 5 6 7]")),
+        ([var("q", np.degrees(Q))], {}, ("units", "deg")),
+        ([var("q", np.round(np.degrees(Q) * 100))], {}, ("units", "counts:36000")),
+        ([var("q", np.vstack([Q, np.zeros((9, 6))]))], {}, ("variable", "q(1:300, :)")),
+        ([var("q", np.vstack([Q, np.full((9, 6), np.nan)]))], {}, ("variable", "q(1:300, :)")),
+        ([var(f"q{i + 1}", Q[:, i]) for i in range(6)], {}, ("join", "q1..q6")),
+        ([var(f"s(1).j{i + 1}", Q[:, i]) for i in range(6)], {}, ("join", "s(1).j1..s(1).j6")),
+        ([var("qd", Q)], {}, ("variable", "qd")),
+        ([var("q1", Q), var("q2", Q + 0.5)], {}, ("variable", "q1")),
+        ([var("q", Q)], {"frame_rate": 1e-9}, ("frame_rate", "0")),
+        ([var("q", Q)], {"columns": "2:7"}, ("columns", "")),
+        ([var("q", Q)], {"units": "gon"}, ("units", "")),
+        ([var("q", Q)], {"join": "q1..q6"}, None),
+        ([var("Q", Q)], {"variable": "q"}, ("variable", "Q")),
+    ],
+)
+def test_the_first_fix_is_data(variables, options, fix):
+    result = convert(*variables, **options)
+    assert result.trajectory is None
+    worst = result.diagnostics[0]
+    if fix is None:
+        assert worst.code == "unknown_variable"
+        return
+    assert (worst.fixes[0].option, worst.fixes[0].value) == fix
+    mended = convert(*variables, **vars(applied(Options(**options), worst.fixes[0])))
+    assert mended.outcome is Outcome.ACCEPTED, mended.message
+    np.testing.assert_allclose(mended.trajectory.positions, Q, atol=2e-4)
+
+
+def test_a_full_turn_is_named_before_the_limit_it_breaks():
+    q = motion(reach=1.5)
+    q[150:, 2] -= 2 * np.pi
+    result = convert(var("q", q))
+    assert codes(result)[:2] == ["jump_2pi", "joint_limit"]
+    worst = result.diagnostics[0]
+    assert (worst.first_row, worst.last_row, worst.joint) == (150, 151, "joint_3")
+    assert worst.fixes[0].option == "unwrap"
+
+
+def test_a_limit_is_data():
+    found = convert(var("q", motion(reach=3.5))).diagnostics[0]
+    assert (found.code, found.joint, found.limit, found.unit) == (
+        "joint_limit",
+        "joint_6",
+        3.0,
+        "rad",
+    )
+    assert found.value == pytest.approx(3.2)
+    assert 1 < found.first_row < found.last_row == 300
+
+
+def test_a_jump_offers_the_longer_part():
+    q = motion()
+    q[100:] += 0.9
+    worst = convert(var("q", q)).diagnostics[0]
+    assert worst.code == "discontinuity"
+    assert worst.fixes[0].value == "q(101:300, :)"
+    part = convert(var("q", q), variable="q(101:300, :)")
+    np.testing.assert_array_equal(part.trajectory.positions, q[100:])
+
+
+def test_a_jump_of_a_joint_that_stands_still_says_so():
+    q = np.zeros((200, 6)) + 0.1
+    q[100:, 1] += 0.9
+    worst = convert(var("q", q)).diagnostics[0]
+    assert worst.code == "discontinuity"
+    assert "hardly moves otherwise" in worst.message
+
+
+def test_uneven_times_are_made_even_on_request():
+    rng = np.random.default_rng(4)
+    t = np.cumsum(rng.uniform(0.01, 0.03, 300))
+    q = np.sin(t)[:, None] * np.linspace(0.2, 1, 6)
+    plain = convert(var("q", q), var("t", t))
+    found = next(d for d in plain.diagnostics if d.code == "time_uneven")
+    assert found.severity is Severity.WARNING
+    assert (found.variable, found.unit, found.fixes[0].option) == ("t", "s", "resample")
+    even = convert(var("q", q), var("t", t), resample=True).trajectory
+    at = t[0] + np.arange(even.frame_count - 1) / even.frame_rate
+    truth = np.sin(at)[:, None] * np.linspace(0.2, 1, 6)
+    assert np.abs(even.positions[:-1] - truth).max() < 2e-4
+    faster = convert(var("q", q), var("t", t), resample=True, frame_rate=200.0).trajectory
+    assert faster.frame_rate == 200.0
+    assert faster.duration == pytest.approx(t[-1] - t[0], abs=0.005)
+
+
+def test_times_that_repeat_or_go_back_are_named_with_their_row():
+    t = np.arange(300) / 50.0
+    twice = t.copy()
+    twice[99] = twice[98]
+    found = next(
+        d for d in convert(var("q", Q), var("t", twice)).diagnostics if d.code == "time_repeated"
+    )
+    assert (found.first_row, found.where) == (100, "row 100")
+    assert convert(var("q", Q), var("t", twice), resample=True).outcome is Outcome.ACCEPTED
+    back = t.copy()
+    back[200:] -= 1
+    found = next(
+        d for d in convert(var("q", Q), var("t", back)).diagnostics if d.code == "time_backward"
+    )
+    assert found.first_row == 201
+    refused = convert(var("q", Q), var("t", back), resample=True)
+    assert (refused.outcome, codes(refused)[0]) == (Outcome.REJECTED, "time_backward")
+
+
+def test_without_times_nothing_is_resampled():
+    assert codes(convert(var("q", Q), resample=True))[0] == "bad_option"
+
+
+CLOSED = (np.arange(300) > 100) & (np.arange(300) < 200)
+
+
+@pytest.mark.parametrize(
+    ("variables", "options"),
+    [
+        ([var("q", np.column_stack([Q, CLOSED]))], {}),
+        ([var("q", np.column_stack([CLOSED, Q]))], {"gripper": "1"}),
+        ([var("q", np.column_stack([Q, CLOSED]))], {"gripper": "end"}),
+        ([var("q", np.column_stack([T, Q, CLOSED]))], {"columns": "2:7", "gripper": "8"}),
+        ([var("q", Q), var("hand", CLOSED)], {"gripper": "hand"}),
+        ([var("q", np.column_stack([Q, 0.085 * ~CLOSED]))], {"invert": True}),
+        ([var("q", np.column_stack([Q, 255.0 * CLOSED]))], {}),
+    ],
+)
+def test_the_gripper_is_where_an_option_says(variables, options):
+    t = convert(*variables, **options).trajectory
+    np.testing.assert_array_equal(t.positions, Q)
+    np.testing.assert_array_equal(t.gripper, CLOSED)
+
+
+def test_a_gripper_can_be_left_out():
+    t = convert(var("q", np.column_stack([Q, CLOSED])), gripper="none").trajectory
+    assert t.gripper is None
+
+
+def test_an_opening_width_is_named_and_its_fix_inverts_it():
+    result = convert(var("q", np.column_stack([Q, 0.085 * ~CLOSED])))
+    found = next(d for d in result.diagnostics if d.code == "gripper_range")
+    assert "opening width in m" in found.message
+    assert (found.fixes[0].option, found.fixes[0].value) == ("invert", "true")
+
+
+def test_a_vector_of_the_gripper_beside_is_mentioned():
+    result = convert(var("q", Q), var("Greifer", CLOSED))
+    found = next(d for d in result.diagnostics if d.code == "gripper_beside")
+    assert (found.fixes[0].option, found.fixes[0].value) == ("gripper", "Greifer")
+
+
+@pytest.mark.parametrize("text", ["q1..q6", "q1..6", "q1,q2,q3,q4,q5,q6", "[q1 q2 q3 q4 q5 q6]"])
+def test_joints_are_joined_side_by_side(text):
+    pieces = [var(f"q{i + 1}", Q[:, i]) for i in range(6)]
+    result = convert(*pieces, var("t", T), join=text)
+    np.testing.assert_array_equal(result.trajectory.positions, Q)
+    assert result.trajectory.frame_rate == 50.0
+    assert result.trajectory.source.variable == text
+
+
+def test_segments_are_joined_below_one_another():
+    pieces = [var(f"c{{{i + 1}}}", Q[100 * i : 100 * (i + 1)]) for i in range(3)]
+    result = convert(*pieces)
+    join = [f for f in result.diagnostics[0].fixes if f.option == "join"]
+    assert [f.value for f in join] == ["c{1}..c{3}"]
+    np.testing.assert_array_equal(convert(*pieces, join="c{1}..c{3}").trajectory.positions, Q)
+
+
+@pytest.mark.parametrize("text", ["q1", "q6..q1", "q1..x", "q1..q9999999"])
+def test_what_cannot_be_joined_is_refused(text):
+    pieces = [var(f"q{i + 1}", Q[:, i]) for i in range(6)]
+    assert convert(*pieces, join=text).outcome is Outcome.REJECTED
+
+
+@pytest.mark.parametrize("units", ["deg", "counts:4096", "rad"])
+def test_units_are_taken_as_they_are_named(units):
+    scale = {"deg": 180 / np.pi, "counts:4096": 4096 / (2 * np.pi), "rad": 1.0}[units]
+    result = convert(var("q", Q * scale), units=units)
+    np.testing.assert_allclose(result.trajectory.positions, Q, atol=1e-12)
+
+
+@pytest.mark.parametrize("options", [{"units": "counts:"}, {"units": "counts:0"}, {"units": "mm"}])
+def test_units_that_cannot_be_are_refused(options):
+    assert codes(convert(var("q", Q), **options))[0] == "bad_option"
+
+
+def test_columns_that_are_not_there_are_the_reason_given():
+    found = convert(var("q", Q), columns="2:7").diagnostics[0]
+    assert found.code == "bad_columns"
+    assert "there are the columns 1 to 6" in found.message
+
+
+@pytest.mark.parametrize("name", ["run\n", "a\nb"])
+def test_a_name_with_a_newline_is_refused(name):
+    with pytest.raises(conversion_convert.BadInput, match="cannot be used"):
+        conversion_convert.convert(
+            "q.mat", lambda: None, Options(), ARM, COEFFICIENTS, trajectory_id=name
+        )
