@@ -154,10 +154,10 @@ def check(
             found += hulls.check(text, origin, library.mesh_path)
         shown = [one for one in found if one.severity is not Severity.INFO]
         print(f"{robot}: {'ok' if not shown else ''}".rstrip())
-        _tell(shown)
+        _print(shown)
         worst += len(checks.errors(found))
     if worst:
-        raise BadInput(f"{worst} errors were found; each line above says what to do")
+        raise BadInput(f"{worst} errors were found; see the remedies above")
 
 
 @app.command("import")
@@ -169,17 +169,17 @@ def import_robot(
         typer.Option("--package", help="NAME=FOLDER for package:// meshes; repeatable."),
     ] = None,
 ) -> None:
-    """Check a URDF of one's own and install it as a robot of the lab."""
+    """Check a URDF and install it as a robot of the lab."""
     from mrlab_ros.adapters.robots import checks, importing
 
     path = importing.find_urdf(source)
     library = _library()
     wanted = robot_id or path.stem.lower().replace("-", "_")
-    found = importing.bring(path, wanted, library, _folders(package))
-    _tell(found)
+    found = importing.import_robot(path, wanted, library, _folders(package))
+    _print(found)
     wrong = checks.errors(found)
     if wrong:
-        raise BadInput(f"{path.name} was not imported: {len(wrong)} errors, listed above")
+        raise BadInput(f"{path.name} was not imported: {len(wrong)} errors")
     print(f"{wanted} is a robot of the lab; its files: {library.imported / wanted}")
 
 
@@ -192,7 +192,7 @@ def meshes(
         typer.Option("--package", help="NAME=FOLDER for package:// meshes; repeatable."),
     ] = None,
     collision: Annotated[
-        bool, typer.Option("--collision", help="Take its collision meshes too.")
+        bool, typer.Option("--collision", help="Use its collision meshes too.")
     ] = False,
 ) -> None:
     """Show one of the lab's robots with the meshes of a vendor's description."""
@@ -201,22 +201,24 @@ def meshes(
     path = importing.find_urdf(source)
     library = _library()
     found = vendor_meshes.use_meshes(path, robot, library, _folders(package), collision=collision)
-    _tell(found)
+    _print(found)
     wrong = checks.errors(found)
     if wrong:
-        raise BadInput(f"the meshes of {path.name} were not taken: {len(wrong)} errors, see above")
+        raise BadInput(
+            f"the meshes of {path.name} were not installed: {len(wrong)} errors, listed above"
+        )
     print(f"{robot} has the meshes of {path.name}; undo it with: mrlab robots remove {robot}")
 
 
 @app.command()
 def remove(robot: Annotated[str, typer.Argument(help="Id of an imported robot.")]) -> None:
-    """Remove an imported robot, or the meshes that were put in place of the lab's own."""
+    """Remove an imported robot, or the vendor's meshes of a library robot."""
     from mrlab_ros.adapters.robots import vendor_meshes
 
     library = _library()
     vendor_meshes.remove(robot, library)
     own = robot in library.ids()
-    print(f"{robot} has the lab's own meshes again" if own else f"{robot} was removed")
+    print(f"{robot} has its own meshes again" if own else f"{robot} was removed")
 
 
 def _folders(pairs: list[str] | None) -> dict[str, Path]:
@@ -230,7 +232,7 @@ def _folders(pairs: list[str] | None) -> dict[str, Path]:
     return folders
 
 
-def _tell(found: list[Diagnostic] | tuple[Diagnostic, ...]) -> None:
+def _print(found: list[Diagnostic] | tuple[Diagnostic, ...]) -> None:
     for one in found:
         remedy = f"; {one.remedy}" if one.remedy else ""
         print(f"  {WORDS[one.severity]}: {one.message}{remedy}")

@@ -1,9 +1,10 @@
-"""Covers a body with few convex hulls: collision geometry that stays close to what is seen.
+"""Covers a body with few convex hulls that stay close to its surface, for collision geometry.
 
-Hulls may overlap. Each is grown: from the points of a region, half-spaces are cut away where their
-hull stands off the body, each time the one that loses least, until it stands off nowhere. The
-regions are the primitives that the body was modelled from, and balls around what is still bare.
-Of all that was grown, the hull that covers most is taken, until all is covered.
+Hulls may overlap. A candidate hull starts from the points of a region: one of the primitives that
+the body was modelled from, or a ball around a point that no hull covers yet. Where the hull stands
+off the body by more than the tolerance, a half-space is cut away, each time the one that loses the
+fewest points, until it keeps the tolerance everywhere. The candidate that covers the most
+uncovered points is chosen, until all points are covered.
 """
 
 from __future__ import annotations
@@ -20,15 +21,15 @@ from mrlab_ros.adapters.robots.hulls import samples
 
 Marks = NDArray[np.bool_]
 
-LARGEST_GAP = 0.0152  # m, how far a grown hull may stand off the body
-FINISHED_GAP = 0.0178  # m, the same for hulls that are lifted, extended and merged
+LARGEST_GAP = 0.0152  # m, by which a candidate hull may stand off the body
+FINISHED_GAP = 0.0178  # m, the same after a hull was lifted, extended and merged
 LIFT = 0.003  # m, outwards, which lets a hull do with fewer vertices
-HIDDEN = 0.003  # m, how far the body may stick out of a finished hull
+HIDDEN = 0.003  # m, by which the body may stick out of a finished hull
 MOST_VERTICES = 72  # of a hull that is extended or merged
-BARE = 0.004  # m, what sticks out further gets one more hull
-SEEN_BARE = 0.0047  # m, the same for what is drawn
-EXACT = 0.03  # m, up to here the distances of the grid are those to the surface itself
-POINT = 4000.0  # the weight of a point that counts fully
+BARE = 0.004  # m; a point that sticks out further gets one more hull
+SEEN_BARE = 0.0047  # m, the same for the thinned visual meshes
+EXACT = 0.03  # m; below, the grid's distances are computed from surface points
+POINT = 4000.0  # the weight of an uncovered surface point
 COVERED_COUNTS = 0.0005  # of a point that is not covered yet
 INSIDE_COUNTS = 0.5  # of a point of the surface
 BALLS = (0.12, 0.3, 1.0)  # radii of the regions around bare places, in sizes of the body

@@ -15,7 +15,7 @@ from mrlab_ros.core.geometry import Array
 # Seen from the front right, a little from above.
 VIEW = np.array([0.85, -1.0, 0.34])
 OPENING_DEG = 26.0
-# Of shapes without a material: the adapter plate is of bare aluminium.
+# Of shapes without a material, such as the adapter plate of bare aluminium.
 METALNESS, ROUGHNESS = 0.8, 0.4
 
 

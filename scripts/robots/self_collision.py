@@ -1,7 +1,7 @@
 """Counts self-collisions over random poses: `self_collision.py [--poses N] [ID ...]`.
 
-Prints one row a robot and pair of links: in how many poses their hulls touch, and in how many of
-a sample of these the bodies that are seen touch as well.
+Prints one row per robot and pair of links: in how many poses their hulls touch, and in how many of
+a sample of these poses the visual bodies touch as well.
 """
 
 from __future__ import annotations
@@ -22,8 +22,8 @@ from mrlab_ros.adapters.robots.hulls import inside, samples
 from mrlab_ros.adapters.robots.library import RobotLibrary
 
 ROOT = Path(__file__).resolve().parents[2]
-LOOKED_AT = 6  # poses of a pair whose bodies are compared
-MOST_POINTS = 150  # of a body that are looked for in another
+SAMPLED_POSES = 6  # of a pair, in which the bodies are compared
+MOST_POINTS = 150  # of a body that are tested against another
 Pair = tuple[str, str]
 Array = NDArray[np.float64]
 
@@ -31,7 +31,7 @@ Array = NDArray[np.float64]
 def touching_poses(
     library: RobotLibrary, robot: str, poses: Array
 ) -> Iterator[tuple[int, frozenset[Pair]]]:
-    """Yield the number of each pose in which links touch that are no neighbours, and the pairs.
+    """Yield the number of each pose in which links that are not neighbours touch, and the pairs.
 
     poses: (N, J) rad.
     """
@@ -80,7 +80,7 @@ def random_poses(library: RobotLibrary, robot: str, count: int) -> Array:
 
 
 class Bodies:
-    """The bodies of a robot as they are seen."""
+    """The visual bodies of a robot."""
 
     def __init__(self, library: RobotLibrary, robot: str) -> None:
         self.names = library.model(robot).joint_names
@@ -103,7 +103,7 @@ class Bodies:
         return [np.concatenate(faces[name]) for name in pair]
 
     def touch(self, pair: Pair, pose: Array) -> bool:
-        """Say whether the bodies of two links reach into each other at a pose, (J,) rad."""
+        """Return whether the bodies of two links overlap at a pose, (J,) rad."""
         one, other = self._placed(pair, pose)
         for a, b in ((one, other), (other, one)):
             points = a.mean(axis=1)
@@ -133,10 +133,10 @@ def main() -> None:
         print(f"{robot}: {bad} of {len(poses)} poses", flush=True)
         bodies = Bodies(library, robot)
         for pair, numbers in sorted(found.items(), key=lambda item: -len(item[1])):
-            looked = numbers[:: len(numbers) // LOOKED_AT + 1]
-            real = sum(bodies.touch(pair, poses[number]) for number in looked)
+            sampled = numbers[:: len(numbers) // SAMPLED_POSES + 1]
+            real = sum(bodies.touch(pair, poses[number]) for number in sampled)
             print(
-                f"  {pair[0]} {pair[1]}: {len(numbers)}; bodies in {real} of {len(looked)}",
+                f"  {pair[0]} {pair[1]}: {len(numbers)}; bodies in {real} of {len(sampled)}",
                 flush=True,
             )
 

@@ -247,7 +247,7 @@ def plate(
     """Return a polygon extruded along `axis` about the origin.
 
     corner: the radius of the outline's convex corners; edge: that of the rims. The polygon is
-    what stands there: rounding takes material away.
+    the outer contour: rounding removes material.
     """
     i, j, k = _planes(axis)
     points = np.array(outline, float)

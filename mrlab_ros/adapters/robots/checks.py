@@ -1,4 +1,4 @@
-"""Checks a URDF before it becomes a robot of the lab."""
+"""Checks a URDF before it is imported."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from mrlab_ros.core.diagnostics import Diagnostic, Severity, finding
 from mrlab_ros.core.errors import BadInput
 
 MOST_JOINTS = 16
-# No arm is larger than this, m; what seems to be is in millimetres.
+# No arm is larger than this, m; a larger one was probably exported in millimetres.
 LARGEST_ARM = 20.0
 MESH_FORMATS = (".stl", ".dae", ".obj", ".glb", ".gltf")
 Resolve = Callable[[str], Path]
@@ -36,7 +36,7 @@ def check(text: str, origin: str, resolve: Resolve) -> tuple[Diagnostic, ...]:
 
 
 def errors(found: tuple[Diagnostic, ...]) -> tuple[Diagnostic, ...]:
-    """Return the findings that keep a robot out of the lab."""
+    """Return the findings that prevent an import."""
     return tuple(one for one in found if one.severity is Severity.ERROR)
 
 
@@ -169,7 +169,7 @@ def meshes(root: ET.Element) -> list[ET.Element]:
 
 
 def check_meshes(root: ET.Element, resolve: Resolve) -> list[Diagnostic]:
-    """Return what is wrong with the mesh files that the links below `root` name."""
+    """Return the findings on the mesh files of the links below `root`."""
     found = []
     for uri in sorted({str(mesh.get("filename")) for mesh in meshes(root)}):
         try:

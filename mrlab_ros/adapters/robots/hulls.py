@@ -1,4 +1,4 @@
-"""Measures how closely collision geometry follows what is seen."""
+"""Measures how closely the collision geometry of a robot follows its visual geometry."""
 
 from __future__ import annotations
 
@@ -15,17 +15,21 @@ from mrlab_ros.adapters.robots.assembly import Assembly, Resolve
 from mrlab_ros.core.diagnostics import Diagnostic, finding
 from mrlab_ros.core.geometry import Array
 
-# A hull may be smaller than the body by so much, and larger by so much, m.
+# Tolerances, m: how far the body may stick out of the hulls, and the hulls out of the body.
 MOST_SMALLER = 0.005
 MOST_LARGER = 0.020
-# Points of a hull nearer to the surface than this need no closer look, m.
+# Points of a hull nearer to the surface than this count as inside the body, m.
 NEAR = 0.012
-SPACING = 0.008  # m, of the points that are looked at
+SPACING = 0.008  # m, between the sample points
 
 
 @dataclass(frozen=True)
 class Fit:
-    """How far the body of a link sticks out of its hulls, and how far they stand off it, m."""
+    """The fit of one link, m.
+
+    smaller: the largest distance by which the body sticks out of its hulls; larger: the largest
+    distance by which the hulls stick out of the body.
+    """
 
     link: str
     smaller: float
@@ -50,7 +54,10 @@ def check(text: str, origin: str, resolve: Resolve) -> tuple[Diagnostic, ...]:
 
 
 def fits(text: str, origin: str, resolve: Resolve, most: int = 40_000) -> Iterator[Fit]:
-    """Yield the fit of each link that has meshes for both, from at most `most` points a side."""
+    """Yield the fit of each link with visual and collision geometry.
+
+    resolve: returns the file of a mesh URI; most: the number of sample points per surface.
+    """
     root = urdf.parse(text, origin)
     seen = _faces(Assembly(root, origin, resolve))
     hulls = _faces(Assembly(root, origin, resolve, collision=True))
@@ -68,8 +75,8 @@ def _few(points: Array, most: int) -> Array:
 def sticks_out(body: Array, hulls: list[Array], most: int) -> float:
     """Return how far the furthest point of the body lies outside all hulls, m.
 
-    body: (F, 3, 3) m, its triangles; hulls: the same of each hull; most: points that are looked
-    at.
+    body: (F, 3, 3) m, its triangles; hulls: the same of each hull; most: the
+    number of sample points.
     """
     points = _few(samples(body, SPACING), most)
     outside = np.full(len(points), np.inf)
@@ -105,7 +112,7 @@ def stands_off(body: Array, hulls: list[Array], most: int) -> float:
 
 
 def inside(body: Array, points: Array) -> NDArray[np.bool_]:
-    """Say which points, (N, 3) m, the body's triangles, (F, 3, 3) m, wind around.
+    """Return which points, (N, 3) m, lie inside a closed body, (F, 3, 3) m.
 
     By the solid angles of the triangles (van Oosterom and Strackee 1983).
     """

@@ -1,4 +1,4 @@
-"""Brings a robot that somebody else described into the lab."""
+"""Imports a robot from a URDF of the user."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ ID = re.compile(r"[a-z][a-z0-9_]{0,47}")
 
 
 def find_urdf(source: str) -> Path:
-    """Return the URDF that a path or the name of an installed ROS package stands for."""
+    """Return the URDF for a path or for the name of an installed ROS package."""
     path = Path(source)
     if path.is_file():
         if path.suffix == ".xacro":
@@ -43,7 +43,7 @@ def find_urdf(source: str) -> Path:
 
 
 class MeshFinder:
-    """Finds the file of a mesh URI: given folders first, then installed packages."""
+    """Resolves mesh URIs: in the given package folders first, then in installed packages."""
 
     def __init__(self, base: Path, packages: Mapping[str, Path]) -> None:
         self.base = base
@@ -62,12 +62,13 @@ class MeshFinder:
         return self.base / uri.removeprefix("file://")
 
 
-def bring(
+def import_robot(
     source: Path, robot_id: str, library: RobotLibrary, packages: Mapping[str, Path]
 ) -> tuple[Diagnostic, ...]:
     """Check the URDF and install it under `robot_id`; return the findings.
 
-    Nothing is installed where one of them is an error. Raises BadInput for a bad or taken id.
+    With a finding that is an error nothing is installed. Raises BadInput for an id that is
+    malformed or already used.
     """
     if not ID.fullmatch(robot_id):
         raise BadInput(
@@ -101,7 +102,7 @@ def bring(
 
 
 def _tip(root: ET.Element, origin: str) -> str:
-    """Return tool0 where it is there, else the leaf below most moving joints."""
+    """Return tool0 if the robot has it, else the leaf link below the most moving joints."""
     joints = urdf.joints(root, origin)
     links = [str(element.get("name")) for element in root.iterfind("link")]
     if TIP in links:
@@ -115,7 +116,7 @@ def _tip(root: ET.Element, origin: str) -> str:
 
 
 def _facts(root: ET.Element, robot_id: str, tip: str, source: Path) -> str:
-    """Return robot.yaml: home is 0 where the limits allow it, else the middle of the limits."""
+    """Return the text of robot.yaml; home is 0 if the limits allow it, else their middle."""
     from math import degrees
 
     _, joints = urdf.chain(root, tip, source.name)

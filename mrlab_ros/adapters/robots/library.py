@@ -35,14 +35,13 @@ def imported_folder() -> Path:
 class RobotLibrary:
     """The models below a folder: <id>/robot.{yaml,urdf}, end_effectors/<id>/...
 
-    imported: a second folder of the same shape, with the robots that people brought; None: the
-    user's own.
+    imported: a second folder with the same layout, for imported robots; None: the user's own.
     """
 
     def __init__(self, folder: Path, imported: Path | None = None) -> None:
         self.folder = folder
         self.imported = imported_folder() if imported is None else imported
-        # Models never change while a lab runs; reading one costs milliseconds, not more than once.
+        # Models do not change while a lab runs, so each is read once.
         self._model = cache(self._read_model)
 
     def ids(self) -> tuple[str, ...]:
@@ -59,7 +58,7 @@ class RobotLibrary:
         return self._model(robot_id)
 
     def facts(self, robot_id: str) -> dict[str, Any]:
-        """Return what robot.yaml says."""
+        """Return the content of robot.yaml."""
         return read_yaml(self._robot_folder(robot_id) / "robot.yaml")
 
     def description(self, robot_id: str, end_effector: str | None = None) -> str:
@@ -76,7 +75,7 @@ class RobotLibrary:
         return _composed(robot, tool, facts, end_effector)
 
     def own_description(self, robot_id: str) -> str:
-        """Return the bare robot's URDF with the lab's own meshes, whatever replaces them."""
+        """Return the bare robot's URDF with the lab's own meshes, ignoring imported ones."""
         return _read(self._robot_folder(robot_id) / "robot.urdf")
 
     def mesh_path(self, uri: str) -> Path:
@@ -107,15 +106,20 @@ class RobotLibrary:
         return ET.tostring(root, encoding="unicode")
 
     def never_touch(self, robot_id: str) -> frozenset[frozenset[str]]:
-        """Return the pairs of links that the robot's own file says never touch, whatever their
-        hulls do; raise BadInput where the robot is unknown."""
+        """Return `never_touch` of robot.yaml: pairs of links whose hulls may overlap.
+
+        Raises BadInput for an unknown robot.
+        """
         return frozenset(frozenset(pair) for pair in self.facts(robot_id).get("never_touch", ()))
 
     def touching_links(
         self, robot_id: str, end_effector: str | None = None
     ) -> frozenset[frozenset[str]]:
-        """Return the pairs of links whose contact is none: each link with a body and the next one,
-        which always touch, and those that the robot's own file says never do."""
+        """Return the pairs of links whose contacts are ignored.
+
+        Each link with collision geometry and the next one in the chain, which always touch, and
+        the pairs of `never_touch`.
+        """
         root = urdf.parse(self.description(robot_id, end_effector), robot_id)
         solid = {e.get("name") for e in root.iterfind("link") if e.find("collision") is not None}
         above = {joint.child: joint.parent for joint in urdf.joints(root, robot_id)}
@@ -189,7 +193,7 @@ def _folders_with(folder: Path, file: str) -> tuple[str, ...]:
 def _composed(
     robot: ET.Element, tool: ET.Element, facts: dict[str, Any], end_effector: str
 ) -> str:
-    """Hang the tool's tree below the robot's tip, on an adapter plate as wide as the flange."""
+    """Attach the tool below the robot's tip link, on an adapter plate as wide as the flange."""
     taken = {element.get("name") for tag in ("link", "joint") for element in robot.iterfind(tag)}
     ours = {element.get("name") for tag in ("link", "joint") for element in tool.iterfind(tag)}
     both = sorted(str(name) for name in taken & ours)

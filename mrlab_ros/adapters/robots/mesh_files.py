@@ -11,7 +11,7 @@ from urllib.parse import unquote
 IMAGES = (".png", ".jpg", ".jpeg", ".bmp", ".tga", ".tif", ".tiff", ".gif", ".webp", ".dds")
 TAKEN = (*IMAGES, ".mtl", ".bin")
 
-# What a reference looks like in each text format; group 2 is the name of the file. In an .mtl,
+# Patterns of references in each text format; group 2 is the name of the file. In an .mtl,
 # options such as `-s 1 1 1` stand before the name.
 _OPTION = r"(?:-(?:[ost](?:\s+[-+.\deE]+){1,3}|mm(?:\s+[-+.\deE]+){2}|\w+\s+\S+)\s+)*"
 REFERENCES = {

@@ -1,6 +1,6 @@
 """Reads the kinematics and the limits out of a URDF.
 
-What a playing lab needs of a robot, without meshes. `assembly` reads whole robots, with yourdfpy.
+The nodes need no more of a robot, and no meshes; `assembly` reads whole robots with yourdfpy.
 """
 
 from __future__ import annotations
@@ -71,7 +71,7 @@ def numbers(text: str, count: int, where: str) -> list[float]:
 
 @dataclass(frozen=True)
 class UrdfJoint:
-    """A joint of a URDF as it stands there; limits are None where there is no <limit>."""
+    """A joint as the URDF has it; `limit` is None without a <limit> element."""
 
     name: str
     kind: str

@@ -1,4 +1,4 @@
-"""Puts the meshes of a vendor's description in place of the lab's own, for one of its robots."""
+"""Replaces the meshes of a library robot by those of its vendor's description."""
 
 from __future__ import annotations
 
@@ -29,12 +29,12 @@ def use_meshes(
     *,
     collision: bool = False,
 ) -> tuple[Diagnostic, ...]:
-    """Install the meshes of the URDF `source` for the links of `robot_id` of the same names.
+    """Install the meshes of the URDF `source` for the links of `robot_id` with the same names.
 
-    The lab's kinematics, limits and masses stay, and its convex hulls unless `collision` asks for
-    the other description's: physics takes the convex hull of each of those. Nothing is installed
-    where a finding is an error. Raises BadInput where no link has a counterpart, or where the
-    robot is no model of the lab's own.
+    Kinematics, limits and masses stay those of the library, and so do the convex hulls unless
+    `collision` is true; physics then takes the convex hull of each collision mesh. With a finding
+    that is an error nothing is installed. Raises BadInput if no link has a counterpart, or if
+    the robot is not one of the library.
     """
     if not (library.folder / robot_id / "robot.urdf").is_file():
         raise BadInput(f"'{robot_id}' is not one of the lab's own robots; import it again instead")
@@ -85,7 +85,7 @@ def use_meshes(
 
 
 def remove(robot_id: str, library: RobotLibrary) -> None:
-    """Remove an imported robot, or the meshes that were put in place of the lab's own."""
+    """Remove an imported robot, or the vendor's meshes of a library robot."""
     folder = library.imported / robot_id
     if not robot_id or not (folder / "robot.urdf").is_file():
         raise BadInput(f"nothing was imported as '{robot_id}'; there is nothing to remove")
@@ -118,7 +118,7 @@ def _frames(
     robot_id: str,
     origin: str,
 ) -> list[Diagnostic]:
-    """Compare where the frames of the links lie, from the first one on, at zero and elsewhere."""
+    """Compare the poses of the shared links, relative to the first one, in two configurations."""
     found: dict[str, Diagnostic] = {}
     joints = [joint.name for joint in urdf.joints(ours, robot_id) if joint.moves]
     first = next(iter(shared))
@@ -133,7 +133,7 @@ def _frames(
             distance = float(np.linalg.norm(between[:3, 3]))
             turn = between[:3, :3]
             angle_off = float(np.arccos(np.clip((np.trace(turn) - 1) / 2, -1, 1)))
-            # arccos is blind near 0; there the skew part tells the angle.
+            # arccos is inexact near 0; there the angle comes from the skew-symmetric part.
             skew = np.array([turn[2, 1] - turn[1, 2], turn[0, 2] - turn[2, 0]])
             angle_off = max(angle_off if angle_off > 0.01 else 0.0, float(np.abs(skew).max()) / 2)
             if distance > LARGEST_SHIFT or angle_off > LARGEST_TURN:

@@ -9,7 +9,7 @@ import pytest
 import trimesh
 
 from mrlab_ros.adapters.robots import checks, mesh_files, urdf
-from mrlab_ros.adapters.robots.importing import MeshFinder, bring, find_urdf
+from mrlab_ros.adapters.robots.importing import MeshFinder, find_urdf, import_robot
 from mrlab_ros.adapters.robots.library import RobotLibrary
 from mrlab_ros.adapters.robots.vendor_meshes import remove, use_meshes
 from mrlab_ros.core.errors import BadInput
@@ -53,7 +53,7 @@ def codes(text: str, arm: Path) -> set[str]:
 
 
 def test_imported_robot_is_a_robot_of_the_lab(arm: Path, library: RobotLibrary) -> None:
-    found = bring(arm, "mine", library, {"arm": arm.parent / "package"})
+    found = import_robot(arm, "mine", library, {"arm": arm.parent / "package"})
     assert checks.errors(found) == ()
     assert "mine" in library.ids()
     model = library.model("mine")
@@ -66,7 +66,7 @@ def test_imported_robot_is_a_robot_of_the_lab(arm: Path, library: RobotLibrary) 
 
 
 def test_missing_mesh_is_named(arm: Path, library: RobotLibrary) -> None:
-    found = bring(arm, "mine", library, {})
+    found = import_robot(arm, "mine", library, {})
     assert "package 'arm' of mesh package://arm/box.stl" in checks.errors(found)[0].message
     assert "mine" not in library.ids()
 
@@ -126,7 +126,7 @@ def test_a_mesh_that_cannot_be_read_is_refused(
 ) -> None:
     (arm.parent / "package" / name).write_bytes(content)
     arm.write_text(ARM.replace("box.stl", name))
-    found = checks.errors(bring(arm, "mine", library, {"arm": arm.parent / "package"}))
+    found = checks.errors(import_robot(arm, "mine", library, {"arm": arm.parent / "package"}))
     assert [one.code for one in found] == ["robot_mesh_unreadable"]
     assert f"package://arm/{name} cannot be read: " in found[0].message
     assert "mine" not in library.ids()
@@ -138,9 +138,9 @@ def test_a_sound_urdf_has_no_findings(arm: Path) -> None:
 
 def test_ids_are_checked(arm: Path, library: RobotLibrary) -> None:
     with pytest.raises(BadInput, match="expected small letters"):
-        bring(arm, "My Robot", library, {})
+        import_robot(arm, "My Robot", library, {})
     with pytest.raises(BadInput, match="a robot 'ur5e' already"):
-        bring(arm, "ur5e", library, {})
+        import_robot(arm, "ur5e", library, {})
 
 
 def test_sources_that_are_no_urdf_are_refused(tmp_path: Path) -> None:
@@ -178,7 +178,7 @@ def test_materials_and_textures_come_along(tmp_path: Path, library: RobotLibrary
     shapes = "".join(visual.format(name) for name in ("one/box.obj", "two/box.obj", "arm.dae"))
     source = tmp_path / "arm.urdf"
     source.write_text(ARM.replace(visual.format("box.stl"), shapes))
-    found = bring(source, "painted", library, {"arm": package})
+    found = import_robot(source, "painted", library, {"arm": package})
     assert [one for one in found if one.severity > 0] == []
     folder = library.imported / "painted" / "meshes"
     for number, colour in (("00", b"red"), ("01", b"blue")):
@@ -189,7 +189,7 @@ def test_materials_and_textures_come_along(tmp_path: Path, library: RobotLibrary
     assert texture.read_bytes() == b"red"
     (package / "tex" / "two it.png").unlink()
     assert "robot_no_texture" in {
-        one.code for one in bring(source, "b", library, {"arm": package})
+        one.code for one in import_robot(source, "b", library, {"arm": package})
     }
 
 
