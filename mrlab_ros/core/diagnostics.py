@@ -175,16 +175,15 @@ KINDS: dict[str, Kind] = {
     ),
     "unsupported_object": Kind(
         ERROR,
-        "The values sit in a MATLAB object, which only MATLAB can open.",
-        "{found} can be opened by MATLAB alone, and no plain matrix of '{file}' is the "
-        "trajectory.",
+        "The values sit in a MATLAB object that could not be opened.",
+        "{found} could not be opened: {why}. No other matrix of '{file}' is the trajectory.",
         "In MATLAB, save the numbers in it: {code}",
         (("", "", "{code}"),),
     ),
     "object_ignored": Kind(
         INFO,
-        "An object in the file was left out; the trajectory is a plain matrix beside it.",
-        "{found} can be opened by MATLAB alone and was left out.",
+        "An object in the file could not be opened; the trajectory is a matrix beside it.",
+        "{found} was left out, as it could not be opened: {why}.",
         "Nothing to do, unless the trajectory is in there: {code}",
     ),
     "inside_container": Kind(

@@ -46,8 +46,10 @@ def choose(
             notes.append(
                 finding(code, variable=best.path, found=names, fixes=_choices(others[:5]))
             )
-        if hidden or objects:
-            notes.append(object_finding("object_ignored", hidden or objects, file))
+        # functions hold no samples, so nothing is lost with them
+        ignored = hidden or [v for v in objects if v.kind != "function_handle"]
+        if ignored:
+            notes.append(object_finding("object_ignored", ignored, file))
         notes += doubts(best, asked=False)
         return best, [], notes
     if conceivable and not (hidden and not plausible):

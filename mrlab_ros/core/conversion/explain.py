@@ -34,7 +34,10 @@ OBJECT_CODE = {
     "Simulink.SimulationOutput": "q = {name}.get('q').Data; save('traj.mat', 'q')",
     "dlarray": "q = extractdata({name}); save('traj.mat', 'q')",
     "gpuArray": "q = gather({name}); save('traj.mat', 'q')",
+    "function_handle": "q = cell2mat(arrayfun(@(s) reshape({name}(s), 1, []), t(:), "
+    "'UniformOutput', false)); save('traj.mat', 'q', 't')",
 }
+WHY_CLOSED = {"function_handle": "a function holds no samples until it is called"}
 MOST_MISSES = 200
 MOST_SHOWN = 5
 
@@ -62,7 +65,8 @@ def object_finding(code: str, objects: list[Variable], file: str) -> Diagnostic:
         listed += f" and {len(ordered) - 6} more"
     first = ordered[0]
     line = OBJECT_CODE.get(first.kind, "q = ...; save('traj.mat', 'q')").format(name=first.path)
-    return finding(code, variable=first.path, file=file, found=listed, code=line)
+    why = first.note or WHY_CLOSED.get(first.kind, "only MATLAB knows this class")
+    return finding(code, variable=first.path, file=file, found=listed, code=line, why=why)
 
 
 def refusal(survey: Survey, file: str) -> Diagnostic:

@@ -80,7 +80,9 @@ def joined(workspace: Workspace, text: str, joints: int, contents: str, file: st
         sizes = ", ".join(f"{p.path} is {p.size}" for p in pieces[:8])
         problem = f"they differ in size: {sizes}"
         raise Refused(finding("bad_option", option="join", found=text, problem=problem))
-    return Variable(text.strip(), pieces[0].kind, whole.shape, whole)
+    units = pieces[0].units if len({p.units for p in pieces}) == 1 else ()
+    units = units if len(units) == 1 else ()
+    return Variable(text.strip(), pieces[0].kind, whole.shape, whole, units=units)
 
 
 def _put_together(arrays: list[NDArray[Any]], joints: int) -> NDArray[Any] | None:

@@ -349,6 +349,20 @@ def test_the_rate_asked_for_wins():
     assert accepted(var("q", motion()), var("fs", 250.0), frame_rate=10.0).frame_rate == 10.0
 
 
+def test_a_closed_object_says_why_it_is_closed():
+    closed = var("q", kind="timeseries", shape=(), is_object=True, note="mat-io is missing")
+    found = convert(closed).diagnostics[0]
+    assert found.code == "unsupported_object"
+    assert "'q' (timeseries) could not be opened: mat-io is missing." in found.message
+    assert "q = q.Data" in found.remedy
+    handle = var("q", kind="function_handle", shape=(1, 1), is_object=True)
+    found = convert(handle).diagnostics[0]
+    assert found.code == "unsupported_object"
+    assert "arrayfun(@(s) reshape(q(s), 1, []), t(:)" in found.remedy
+    beside = var("f", kind="function_handle", shape=(1, 1), is_object=True)
+    assert "object_ignored" not in codes(convert(var("q", motion()), beside))
+
+
 def test_the_matrix_that_is_taken_is_confirmed_by_a_second_reader():
     asked = []
     workspace = Workspace("fake", (var("q", motion()), var("tau", motion())), confirm=asked.append)
