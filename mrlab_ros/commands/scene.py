@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from mrlab_ros.core.errors import BadInput, Misuse
+from mrlab_ros.messages import qos
 
 if TYPE_CHECKING:
     from mrlab_ros.ros.graph import Graph
@@ -167,7 +168,9 @@ def _graph() -> Graph:
     graph = Graph()
     try:
         graph.robots()
-        client = graph.node.create_client(srv.ListCatalogue, "/physics/list_catalogue")
+        client = graph.node.create_client(
+            srv.ListCatalogue, "/physics/list_catalogue", qos_profile=qos.SERVICES
+        )
         if not client.wait_for_service(timeout_sec=FIND_TIMEOUT):
             raise Misuse("this lab runs without physics; start it with: mrlab up --physics")
     except BaseException:

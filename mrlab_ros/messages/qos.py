@@ -20,6 +20,9 @@ EVENTS = QoSProfile(depth=100, reliability=ReliabilityPolicy.RELIABLE)
 # Motion: every frame arrives, also at a reader that stalls for seconds; one that wants the newest
 # only asks for best effort.
 STREAM = QoSProfile(depth=1000, reliability=ReliabilityPolicy.RELIABLE)
+# Services, at both ends: rclpy's own depth of 10 loses requests, or answers, of a class that calls
+# at once.
+SERVICES = QoSProfile(depth=1000, reliability=ReliabilityPolicy.RELIABLE)
 # State whose every change counts: as latched, and changes in quick succession all arrive.
 LATCHED_EVENTS = QoSProfile(
     depth=10,

@@ -12,7 +12,7 @@ from rclpy.node import Node
 from mrlab_ros.adapters.trajectories import store
 from mrlab_ros.core.errors import BadInput
 from mrlab_ros.core.trajectory.trajectory import Trajectory
-from mrlab_ros.messages import trajectories
+from mrlab_ros.messages import qos, trajectories
 from mrlab_ros.ros.calls import call
 
 # Frames in one answer: 17 MB for seven joints, which takes about 0.2 s.
@@ -29,7 +29,9 @@ class CatalogueClient:
 
     def __init__(self, node: Node) -> None:
         self._node = node
-        self._client = node.create_client(srv.GetTrajectory, "/converter/get")
+        self._client = node.create_client(
+            srv.GetTrajectory, "/converter/get", qos_profile=qos.SERVICES
+        )
         # Robots that play the same trajectory share its matrices.
         self._loaded: weakref.WeakValueDictionary[str, Trajectory] = weakref.WeakValueDictionary()
 

@@ -5,7 +5,8 @@ from __future__ import annotations
 import threading
 import time
 from collections.abc import Callable
-from concurrent.futures import ThreadPoolExecutor
+from concurrent.futures import Future, ThreadPoolExecutor
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -17,8 +18,18 @@ from rclpy.parameter import Parameter
 from mrlab_ros.adapters.robots.library import RobotLibrary
 from mrlab_ros.adapters.trajectories.coefficients import load_coefficients
 from mrlab_ros.adapters.trajectories.store import Damaged, TrajectoryStore
-from mrlab_ros.adapters.workspaces.reader import Limits, MiB, WorkspaceReader
-from mrlab_ros.core.conversion.convert import ConversionResult, convert
+from mrlab_ros.adapters.workspaces.pool import ConversionPool
+from mrlab_ros.adapters.workspaces.reader import (
+    Limits,
+    MiB,
+    TooSlow,
+    WorkspaceReader,
+    in_memory,
+    opened,
+)
+from mrlab_ros.adapters.workspaces.results import Converted, Task, refused
+from mrlab_ros.core.conversion.convert import ID
+from mrlab_ros.core.diagnostics import Refused
 from mrlab_ros.core.errors import BadInput, LabError
 from mrlab_ros.core.naming import did_you_mean
 from mrlab_ros.messages import qos, trajectories
@@ -55,9 +66,7 @@ class ConverterNode(ParameterNode[ConverterParameters]):
         self._coefficients = load_coefficients(share.directory() / "config" / "torque_proxy.yaml")
         self._library = RobotLibrary(share.directory() / "robots")
         self._store = TrajectoryStore(folder / "trajectories")
-        self._reader = WorkspaceReader(self._limits())
-        # One thread: conversions happen one after another. Others read and delete meanwhile.
-        self._work = ThreadPoolExecutor(max_workers=1, thread_name_prefix="converter")
+        self._pool = ConversionPool(self._limits())
         self._reads = ThreadPoolExecutor(max_workers=2, thread_name_prefix="catalogue")
         self._infos: dict[str, msg.TrajectoryInfo] = {}
         self._lock = threading.Lock()  # held while the catalogue is changed or announced
@@ -69,15 +78,14 @@ class ConverterNode(ParameterNode[ConverterParameters]):
             msg.Trajectory, "/trajectories/converted", qos.EVENTS
         )
         self._group = ReentrantCallbackGroup()
-        self._serve(srv.ConvertTrajectory, "~/convert", self._convert, self._work)
-        self._serve(srv.GetTrajectory, "~/get", self._get, self._reads)
-        self._serve(srv.ListTrajectories, "~/list", self._list, self._reads)
-        self._serve(srv.Remove, "~/delete", self._delete, self._reads)
+        self._serve(srv.ConvertTrajectory, "~/convert", self._begin_conversion)
+        self._serve(srv.GetTrajectory, "~/get", self._on_threads(self._get))
+        self._serve(srv.ListTrajectories, "~/list", self._on_threads(self._list))
+        self._serve(srv.Remove, "~/delete", self._on_threads(self._delete))
         self._read_catalogue()
-        self._work.submit(self._reader.start)
 
     def parameters_changed(self) -> None:
-        self._reader.limits = self._limits()
+        self._pool.limits = self._limits()
 
     def _limits(self) -> Limits:
         values = self.parameters
@@ -89,45 +97,56 @@ class ConverterNode(ParameterNode[ConverterParameters]):
         )
 
     def destroy_node(self) -> None:
-        """Give up what is being read and end the reading process."""
-        self._work.shutdown(wait=False, cancel_futures=True)
+        """Give up what is being converted and end the processes that do it."""
         self._reads.shutdown(wait=False, cancel_futures=True)
-        self._reader.close()
-        self._work.shutdown()
+        self._pool.close()
         self._reads.shutdown()
-        self._reader.close()
         super().destroy_node()
 
-    def _serve(
-        self,
-        kind: Any,
-        name: str,
-        answer: Callable[[Any, Any], None],
-        threads: ThreadPoolExecutor,
-    ) -> None:
-        """Offer a service whose `answer(request, response)` runs on one of these threads."""
-        create_deferred_service(
-            self,
-            kind,
-            name,
-            lambda request, response: threads.submit(self._answered, answer, request, response),
-            callback_group=self._group,
+    def _serve(self, kind: Any, name: str, begin: Callable[[Any, Any], Future[Any]]) -> None:
+        create_deferred_service(self, kind, name, begin, callback_group=self._group)
+
+    def _on_threads(self, answer: Callable[[Any, Any], None]) -> Callable[[Any, Any], Future[Any]]:
+        """Return a callback that runs `answer` on one of the catalogue's threads."""
+        return lambda request, response: self._reads.submit(
+            self._answered, lambda: answer(request, response), response
         )
 
-    def _answered(self, answer: Callable[[Any, Any], None], request: Any, response: Any) -> Any:
+    def _answered(self, answer: Callable[[], None], response: Any) -> Any:
         try:
-            answer(request, response)
+            answer()
         except LabError as error:
             response.success, response.message = False, str(error)
         except Exception as error:
-            self.get_logger().error(f"{answer.__name__}: {error!r}")
+            self.get_logger().error(repr(error))
             if hasattr(response, "success"):
                 response.success = False
                 response.message = f"the converter failed ({error!r}); its log has the details"
         return response
 
-    def _convert(self, request: Any, response: Any) -> None:
-        robot = self._library.model(request.robot_model)
+    def _begin_conversion(self, request: Any, response: Any) -> Future[Any]:
+        """Queue a conversion; the future has its answer, whatever becomes of it."""
+        answered: Future[Any] = Future()
+
+        def finish(done: Future[Converted]) -> None:
+            if done.cancelled():
+                answered.cancel()
+            else:
+                answer = partial(self._answer, done, task, response)
+                answered.set_result(self._answered(answer, response))
+
+        try:
+            task = self._task(request)
+            data = None if request.path else memoryview(request.data)
+            size = _size(request.path) if data is None else data.nbytes
+            work = partial(self._convert, task, Path(request.path), data)
+            self._pool.submit(work, size, 0 if data is None else size).add_done_callback(finish)
+        except LabError as error:
+            response.success, response.message = False, str(error)
+            answered.set_result(response)
+        return answered
+
+    def _task(self, request: Any) -> Task:
         known = self._library.end_effectors()
         if request.end_effector and request.end_effector not in known:
             raise BadInput(
@@ -135,43 +154,64 @@ class ConverterNode(ParameterNode[ConverterParameters]):
                 f"{', '.join(known)}; leave it empty for a bare flange"
                 f"{did_you_mean(request.end_effector, known)}"
             )
-        path = Path(request.path)
-        if request.path:
-            file, read = path.name, lambda: self._reader.read_file(path)
-        else:
-            file = Path(request.file_name).name or "upload.mat"
-            data = memoryview(request.data)
-            read = lambda: self._reader.read_bytes(data, file)  # noqa: E731
-        result = convert(
-            file,
-            read,
-            trajectories.options_from_request(request),
-            robot,
-            self._coefficients,
+        if request.id and not ID.fullmatch(request.id):
+            raise BadInput(
+                f"the name '{request.id}' cannot be used; expected letters, digits, '.', '_' and "
+                "'-', at most 128, beginning with a letter or digit"
+            )
+        return Task(
+            file=Path(request.path or request.file_name).name or "upload.mat",
+            options=trajectories.options_from_request(request),
+            robot=self._library.model(request.robot_model),
+            coefficients=self._coefficients,
             end_effector=request.end_effector or None,
             trajectory_id=request.id,
             created_ns=time.time_ns(),
             default_frame_rate=self.parameters.default_frame_rate,
         )
-        self._answer(result, response)
-        trajectory = result.trajectory
-        if trajectory is None:
-            self.get_logger().info(f"refused: {result.message}")
-            return
-        self._store.save(trajectory)
-        response.trajectory = trajectories.info_to_message(trajectory)
-        self._change(trajectory.id, response.trajectory)
-        self._converted.publish(trajectories.trajectory_to_message(trajectory))
-        self.get_logger().info(result.message)
 
-    def _answer(self, result: ConversionResult, response: Any) -> None:
-        response.success = result.trajectory is not None
-        response.message = result.message
+    def _convert(
+        self, task: Task, path: Path, data: memoryview | None, reader: WorkspaceReader
+    ) -> Converted:
+        """Convert behind the wall; put an accepted trajectory into the catalogue's folder."""
+        try:
+            with (
+                opened(path) if data is None else in_memory(data) as source,
+                self._store.new_file() as (file, commit),
+            ):
+                converted = reader.convert(source, task, file)
+                if converted.head is not None:
+                    commit(converted.head["id"])
+                return converted
+        except TooSlow:
+            raise  # the pool decides whether it has more time
+        except Refused as error:
+            result = refused(task.file, error.finding)
+            return Converted(result, result.message)
+
+    def _answer(self, done: Future[Converted], task: Task, response: Any) -> None:
+        try:
+            converted = done.result()
+        except TooSlow as error:
+            result = refused(task.file, error.finding)
+            converted = Converted(result, result.message)
+        result, head = converted.result, converted.head
+        response.success = head is not None
+        response.message = converted.message
         response.outcome = result.outcome.value
         response.candidates = [candidate_to_message(c) for c in result.candidates]
         if result.preview is not None:
             response.preview = trajectories.preview_to_message(result.preview)
         response.diagnostics = [trajectories.diagnostic_to_message(d) for d in result.diagnostics]
+        if head is None:
+            self.get_logger().info(f"refused: {converted.message}")
+            return
+        response.trajectory = info_from_head(head)
+        self._update(head["id"])
+        if self._converted.get_subscription_count():
+            frames = self._store.frames(head["id"], 0, 0)
+            self._converted.publish(trajectories.frames_to_message(frames))
+        self.get_logger().info(converted.message)
 
     def _get(self, request: Any, response: Any) -> None:
         try:
@@ -184,7 +224,7 @@ class ConverterNode(ParameterNode[ConverterParameters]):
             response.file = str(self._store.file(request.id))
         except Damaged as error:
             self.get_logger().error(f"removed from the catalogue: {error}")
-            self._change(request.id, None)
+            self._update(request.id)
             raise
         response.success = True
 
@@ -201,7 +241,7 @@ class ConverterNode(ParameterNode[ConverterParameters]):
 
     def _delete(self, request: Any, response: Any) -> None:
         self._store.delete(request.name)
-        self._change(request.name, None)
+        self._update(request.name)
         response.success, response.message = True, f"'{request.name}' was deleted"
 
     def _read_catalogue(self) -> None:
@@ -216,11 +256,24 @@ class ConverterNode(ParameterNode[ConverterParameters]):
         infos = dict(self._infos)
         return [infos[key] for key in sorted(infos)]
 
-    def _change(self, trajectory_id: str, info: msg.TrajectoryInfo | None) -> None:
-        """Put an entry into the catalogue, or take it out, and announce the catalogue."""
+    def _update(self, trajectory_id: str) -> None:
+        """Let the catalogue say of a trajectory what its file says, and announce it.
+
+        The file is asked, as conversions of the same name end in any order.
+        """
         with self._lock:
-            if info is None:
+            try:
+                head = self._store.head(trajectory_id)
+            except BadInput:
                 self._infos.pop(trajectory_id, None)
             else:
-                self._infos[trajectory_id] = info
+                self._infos[trajectory_id] = info_from_head(head)
             self._catalogue.publish(catalogue_to_message(self._sorted()))
+
+
+def _size(path: str) -> int:
+    """Return the size of a file, bytes, for the order of work; 0 where it cannot be read."""
+    try:
+        return Path(path).stat().st_size
+    except (OSError, ValueError):
+        return 0

@@ -55,7 +55,9 @@ class MemberClient:
         self._known = threading.Event()
         self._coordinator = coordinator
         self._node = coordinator.caller.node
-        self.load = self._node.create_client(srv.LoadTrajectory, f"/{robot}/load")
+        self.load = self._node.create_client(
+            srv.LoadTrajectory, f"/{robot}/load", qos_profile=qos.SERVICES
+        )
         self._subscriptions = [
             self._node.create_subscription(kind, f"/{robot}/{topic}", callback, qos.LATCHED_EVENTS)
             for kind, topic, callback in (
@@ -152,7 +154,9 @@ class Hosts:
     def client(self, host: str) -> Client:
         if host not in self._clients:
             service = f"{host}/command_members"
-            self._clients[host] = self._node.create_client(srv.CommandMembers, service)
+            self._clients[host] = self._node.create_client(
+                srv.CommandMembers, service, qos_profile=qos.SERVICES
+            )
         return self._clients[host]
 
 
@@ -183,8 +187,12 @@ class CoordinatorNode(ParameterNode[CoordinatorParameters]):
         self.worker = Worker("coordinator", self._poll, self._poll_period)
         self._topic = self.create_publisher(msg.RobotSystems, "/systems", qos.LATCHED_EVENTS)
         self.create_subscription(msg.Robots, "/robots", self._on_robots, qos.LATCHED)
-        self.create_service(srv.CreateSystem, "~/create_system", self._create)
-        self.create_service(srv.Remove, "~/dissolve_system", self._dissolve)
+        self.create_service(
+            srv.CreateSystem, "~/create_system", self._create, qos_profile=qos.SERVICES
+        )
+        self.create_service(
+            srv.Remove, "~/dissolve_system", self._dissolve, qos_profile=qos.SERVICES
+        )
         self._publish()
 
     def destroy_node(self) -> None:
@@ -224,7 +232,9 @@ class CoordinatorNode(ParameterNode[CoordinatorParameters]):
             self._do_dissolve(name, "could not be created")
             raise
         self._offered[name] = [
-            self.create_service(kind, f"/{name}/{service}", self._callback(name, action))
+            self.create_service(
+                kind, f"/{name}/{service}", self._callback(name, action), qos_profile=qos.SERVICES
+            )
             for kind, service, action in (
                 (Trigger, "play", self._play),
                 (Trigger, "pause", self._pause),

@@ -93,7 +93,7 @@ class PlaybackNode(Node):
             (SetBool, "set_loop", self._set_loop),
             (Trigger, "clear_halt", self._clear_halt),
         ):
-            self.create_service(kind, name, callback)
+            self.create_service(kind, name, callback, qos_profile=qos.SERVICES)
         create_deferred_service(self, srv.LoadTrajectory, "load", self._begin_load)
         self.player = Player(self.playback, self._send, self._announce)
         scheduler.add(self.player)
@@ -267,7 +267,12 @@ class PlaybackHostNode(ParameterNode[PlaybackParameters]):
         self._trajectories = CatalogueClient(self._caller.node)
         self._loads = Worker("loads")
         self.create_subscription(msg.Robots, "/robots", self._on_robots, qos.LATCHED)
-        self.create_service(srv.CommandMembers, "~/command_members", self._command_members)
+        self.create_service(
+            srv.CommandMembers,
+            "~/command_members",
+            self._command_members,
+            qos_profile=qos.SERVICES,
+        )
         self._telemetry_timer = self.create_timer(
             1 / self.parameters.telemetry_rate, self._telemetry
         )

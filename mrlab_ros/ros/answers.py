@@ -12,6 +12,7 @@ from rclpy.impl.implementation_singleton import rclpy_implementation
 from rclpy.node import Node
 
 from mrlab_ros.core.errors import LabError
+from mrlab_ros.messages import qos
 
 Response = TypeVar("Response")
 
@@ -50,7 +51,7 @@ def create_deferred_service(
     or not at all where the future is cancelled. A coroutine would be polled by the executor
     without pause, and a callback that waits would block the other callbacks of its thread.
     """
-    service = node.create_service(kind, name, begin, **options)
+    service = node.create_service(kind, name, begin, **options, qos_profile=qos.SERVICES)
     send = service.send_response
 
     def send_when_done(future: Future[Any], header: Any) -> None:

@@ -129,7 +129,9 @@ class Graph:
         """Return the service's answer, whatever it says; raise NoAnswer where none comes."""
         client = self._clients.get(service)
         if client is None:
-            client = self._clients[service] = self.node.create_client(kind, service)
+            client = self._clients[service] = self.node.create_client(
+                kind, service, qos_profile=qos.SERVICES
+            )
         if not client.wait_for_service(timeout_sec=find_timeout):
             raise NoAnswer(
                 f"nobody offers {service} on ROS domain {self.domain}; {self._advice()}"

@@ -18,6 +18,7 @@ from rclpy.parameter import Parameter
 
 from mrlab_ros.adapters.trajectories import json_file
 from mrlab_ros.adapters.trajectories.store import TrajectoryStore
+from mrlab_ros.adapters.workspaces.reader import WorkspaceReader
 from mrlab_ros.messages import qos
 from mrlab_ros.nodes.converter import ConverterNode
 from mrlab_ros.ros.spinning import spin
@@ -193,16 +194,16 @@ def test_a_trajectory_is_replaced_and_deleted_and_survives_a_restart(tmp_path):
     graph.close()
 
 
-def test_the_executor_goes_on_while_a_file_is_converted(graph, tmp_path):
+def test_the_executor_goes_on_while_a_file_is_converted(graph, tmp_path, monkeypatch):
     entered, finish = [], []
-    read = graph.converter._reader.read_file
+    convert = WorkspaceReader.convert
 
-    def held(path):
-        entered.append(path)
+    def held(*arguments):
+        entered.append(arguments)
         wait_for(lambda: finish, "leave to go on", DEADLINE)
-        return read(path)
+        return convert(*arguments)
 
-    graph.converter._reader.read_file = held
+    monkeypatch.setattr(WorkspaceReader, "convert", held)
     ticks = []
     graph.client.create_timer(0.001, lambda: ticks.append(1))
     path = save(tmp_path, q=motion())

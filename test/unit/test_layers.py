@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 import re
 import sys
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from functools import cache
 from graphlib import CycleError, TopologicalSorter
 from pathlib import Path
@@ -246,3 +246,20 @@ def test_built_messages_are_found_in_every_form() -> None:
     assert built_messages(source) == set()
     source += "Text(data='a')\nmsg.Robots()\nKind()\n"
     assert built_messages(source) == {"Text", "msg.Robots", "Kind"}
+
+
+def calls_of_services(path: Path) -> Iterator[ast.Call]:
+    for node in ast.walk(ast.parse(path.read_text())):
+        if (
+            isinstance(node, ast.Call)
+            and isinstance(node.func, ast.Attribute)
+            and node.func.attr in ("create_service", "create_client")
+        ):
+            yield node
+
+
+@pytest.mark.parametrize("path", sorted(PACKAGE.rglob("*.py")), ids=lambda path: path.stem)
+def test_every_service_and_client_has_the_deep_queues(path: Path) -> None:
+    for call in calls_of_services(path):
+        profiles = [ast.unparse(k.value) for k in call.keywords if k.arg == "qos_profile"]
+        assert profiles == ["qos.SERVICES"], ast.unparse(call)

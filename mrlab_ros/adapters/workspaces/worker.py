@@ -1,14 +1,17 @@
-"""The walled-off process that reads files from outside; started by `matfile_reader`.
+"""The walled-off process that converts files from outside; started by `reader`.
 
-It waits with everything imported and forks once for each file. The fork alone touches the file's
-bytes, under limits that the kernel keeps (memory, processor time, wall time, output, no core
-dump), writes what it found into the memory file it was given, and ends. Whatever a file does to
-it, the waiting process and the lab never see more than an exit status.
+It waits with everything imported and forks once for each file. Only the fork touches the file's
+bytes. It works on a private copy, which nobody can shorten meanwhile, under limits that the
+kernel keeps (memory, processor time, wall time, output, no core dump): it hashes, reads, checks
+and derives, and writes the trajectory into the file that it was given. Whatever a file does to
+it, the waiting process and the lab see no more than an exit status.
 
-One request is a JSON message with two descriptors: the file to read, the memory file to fill
-with numbers, then the JSON index of them, then that index' length (8 bytes, little-endian). With
-a third descriptor, the memory file of an earlier reading, one matrix of it is compared with what
-a second reader finds in the file.
+A request is a JSON message with descriptors. Two of them: the file and a memory file, which gets
+the numbers of the variables, then their JSON index, then that index' length (8 bytes,
+little-endian). With a third, the memory file of an earlier reading, one matrix of it is compared
+with what a second reader finds in the file. Four: the file, a memory file for the result
+(`results`), the task (a pickle from the lab), and the empty file for the trajectory, as
+`adapters/trajectories/store.py` writes it.
 """
 
 from __future__ import annotations
@@ -18,19 +21,32 @@ import io
 import json
 import mmap
 import os
+import pickle
 import resource
 import signal
 import socket
 import sys
+import traceback
 import zlib
+from collections.abc import Callable
 from typing import Any
 
 import numpy as np
 
-from mrlab_ros.adapters.workspaces import joint_trajectories, mat5, objects, second_reader, tables
+from mrlab_ros.adapters.workspaces import (
+    content,
+    joint_trajectories,
+    mat5,
+    objects,
+    results,
+    second_reader,
+    tables,
+)
 from mrlab_ros.adapters.workspaces.mat73 import read_hdf5
 from mrlab_ros.adapters.workspaces.object_sinks import ObjectSink
 from mrlab_ros.adapters.workspaces.view import View
+from mrlab_ros.core.conversion.workspace import Workspace
+from mrlab_ros.core.diagnostics import Refused, finding
 
 MOST_VARIABLES = 20_000
 MESSAGE_SIZE = 65_536
@@ -148,27 +164,35 @@ def read_again(data: memoryview, numbers: int, place: list[Any]) -> str:
     return second_reader.disagreement(data, path, flat.reshape(tuple(shape), order="F"))
 
 
-def serve(source: int, target: int, numbers: int | None, request: dict[str, Any]) -> None:
-    """Do one request, in the forked process; ends with an index that says how it went.
-
-    numbers: the memory file of the first reading, where the request is to read a matrix again.
-    """
+def confine(request: dict[str, Any]) -> None:
+    """Put the kernel's limits on this process."""
     memory, seconds, output = request["memory"], request["time"], request["output"]
     resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
-    resource.setrlimit(resource.RLIMIT_FSIZE, (output + (1 << 26), output + (1 << 26)))
+    # the stored trajectory has three matrices for each one of the file
+    size = 4 * output + (1 << 26)
+    resource.setrlimit(resource.RLIMIT_FSIZE, (size, size))
     used = address_space()
-    resource.setrlimit(resource.RLIMIT_AS, (used + memory, used + memory))
+    # a second reader in a process of its own may raise the limit by as much again
+    resource.setrlimit(resource.RLIMIT_AS, (used + memory, used + 2 * memory))
     whole = int(seconds) + 2
     resource.setrlimit(resource.RLIMIT_CPU, (whole, whole))
-    signal.setitimer(signal.ITIMER_REAL, seconds)
-    sink = OutputFile(target, output)
+
+
+def serve(source: int, target: int, numbers: int | None, request: dict[str, Any]) -> None:
+    """Read a file into `target`, which ends with an index that says how it went.
+
+    numbers: the memory file of the first reading, where one matrix is to be read again.
+    """
+    memory = request["memory"]
+    sink = OutputFile(target, request["output"])
     # An inflated variable is held twice for a moment, while its blocks are joined.
     limit = int(memory / 2.5)
     try:
         size = os.fstat(source).st_size
         data = memoryview(mmap.mmap(source, size, prot=mmap.PROT_READ) if size else b"")
         if numbers is None:
-            sink.finish(format=read(data, request["name"], sink, limit))
+            form = read(data, request["name"], sink, limit)
+            sink.finish(format=form, sha256=content.sha256(source))
         else:
             sink.finish(problem=read_again(data, numbers, request["again"]))
     except mat5.NotAWorkspace as error:
@@ -183,6 +207,62 @@ def serve(source: int, target: int, numbers: int | None, request: dict[str, Any]
         )
     except Exception as error:
         sink.finish(code="unreadable", problem=f"the reader failed on it ({error!r})")
+
+
+def work(descriptors: list[int], request: dict[str, Any]) -> None:
+    """Do what one request asks, in the forked process."""
+    signal.setitimer(signal.ITIMER_REAL, request["time"])
+    source, target = descriptors[:2]
+    problem = ""
+    try:
+        copy = content.copied(source, request["file_size"])
+    except ValueError as error:
+        problem = str(error)
+    confine(request)
+    if len(descriptors) < 4:
+        if problem:
+            OutputFile(target, 0).finish(code="unreadable", problem=problem)
+        else:
+            serve(copy, target, next(iter(descriptors[2:]), None), request)
+        return
+    task, stored = descriptors[2:]
+    name = request["name"]
+
+    def found() -> Workspace:
+        if problem:
+            raise Refused(finding("unreadable", file=name, problem=problem))
+        numbers = os.memfd_create("variables", os.MFD_CLOEXEC)
+        serve(copy, os.dup(numbers), None, request)
+        return content.collect(numbers, name, lambda place: again(copy, numbers, place))
+
+    def again(source: int, numbers: int, place: content.Place) -> None:
+        answer = os.memfd_create("second", os.MFD_CLOEXEC)
+        status = forked(
+            lambda: serve(source, os.dup(answer), numbers, {**request, "again": place})
+        )
+        content.compare(status, answer, name, place, request["time"])
+
+    with os.fdopen(task, "rb") as file:
+        asked: results.Task = pickle.load(file)  # from the lab, not from the file
+    with os.fdopen(target, "wb") as reply, os.fdopen(stored, "wb") as trajectory:
+        reply.write(results.run(asked, found, request["memory"], trajectory))
+
+
+def forked(do: Callable[[], None]) -> int:
+    """Run `do` in a process of its own, which scipy may bring down; return its exit status."""
+    remaining = max(signal.getitimer(signal.ITIMER_REAL)[0], 0.001)
+    child = os.fork()
+    if child == 0:
+        try:
+            # a fork inherits the limits, but not the timer
+            signal.setitimer(signal.ITIMER_REAL, remaining)
+            _, most = resource.getrlimit(resource.RLIMIT_AS)
+            resource.setrlimit(resource.RLIMIT_AS, (most, most))
+            do()
+            os._exit(0)
+        finally:
+            os._exit(1)
+    return os.waitstatus_to_exitcode(os.waitpid(child, 0)[1])
 
 
 def address_space() -> int:
@@ -201,16 +281,17 @@ def main() -> None:
     connection = socket.socket(fileno=int(sys.argv[1]))
     connection.send(b"{}")
     while True:
-        message, descriptors, _, _ = socket.recv_fds(connection, MESSAGE_SIZE, 3)
+        message, descriptors, _, _ = socket.recv_fds(connection, MESSAGE_SIZE, 4)
         if not message:
             return
         child = os.fork()
         if child == 0:
             connection.close()
             try:
-                source, target, *numbers = descriptors
-                serve(source, target, next(iter(numbers), None), json.loads(message))
+                work(descriptors, json.loads(message))
                 os._exit(0)
+            except BaseException:
+                traceback.print_exc()
             finally:
                 os._exit(1)
         for descriptor in descriptors:

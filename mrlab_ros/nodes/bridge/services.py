@@ -21,6 +21,7 @@ from rclpy.task import Future
 from mrlab_ros.adapters.zenoh_session import Declared, Query
 from mrlab_ros.core.bridge import rules
 from mrlab_ros.core.bridge.rules import ServiceRule
+from mrlab_ros.messages import qos
 from mrlab_ros.nodes.bridge.context import BridgeContext, Count
 from mrlab_ros.nodes.bridge.sender import Sender
 
@@ -86,7 +87,7 @@ class Services:
             kind = bridge.kind(name, type_name)
             if kind is None:
                 return
-            client = bridge.streams.create_client(kind, name)
+            client = bridge.streams.create_client(kind, name, qos_profile=qos.SERVICES)
             count = bridge.count(key, type_name, "service")
             route = ServiceRoute(name, type_name, rule, count, client)
             self._routes[name] = route

@@ -104,7 +104,7 @@ class LabNode(ParameterNode[LabParameters]):
             (srv.SceneFile, "load_scene", self._on_load_scene),
             (srv.ListScenes, "list_scenes", self._on_list_scenes),
         ):
-            self.create_service(kind, f"~/{name}", callback)
+            self.create_service(kind, f"~/{name}", callback, qos_profile=qos.SERVICES)
         self.create_timer(SAVE_PERIOD_S, self._save)
         self._return.start()
 

@@ -88,7 +88,7 @@ class LabRestore:
 
     def order(self, kind: Any, service: str, request: Any) -> Any:
         """Call a service; return its answer, raise Misuse where it refuses."""
-        client: Client = self._caller.create_client(kind, service)
+        client: Client = self._caller.create_client(kind, service, qos_profile=qos.SERVICES)
         try:
             answer = call(client, request, LOAD_TIMEOUT_S)
         finally:

@@ -15,6 +15,7 @@ from mrlab_ros.core.scene import restore as core
 from mrlab_ros.core.scene.document import RobotEntry, SceneDocument
 from mrlab_ros.core.scene.restore import Present, counted
 from mrlab_ros.core.systems.members import Loaded
+from mrlab_ros.messages import qos
 from mrlab_ros.messages.physics import surface_from_message
 from mrlab_ros.messages.scenes import loaded_from_messages, placements_from_messages
 from mrlab_ros.nodes.lab.observer import Observer
@@ -51,9 +52,15 @@ class Scenes:
         self._restore = restore
         self._document = document
         self._caller = caller
-        self._list = caller.create_client(srv.ListTrajectories, "/converter/list")
-        self._create_system = caller.create_client(srv.CreateSystem, "/coordinator/create_system")
-        self._get_objects = caller.create_client(srv.GetObjects, "/physics/get_objects")
+        self._list = caller.create_client(
+            srv.ListTrajectories, "/converter/list", qos_profile=qos.SERVICES
+        )
+        self._create_system = caller.create_client(
+            srv.CreateSystem, "/coordinator/create_system", qos_profile=qos.SERVICES
+        )
+        self._get_objects = caller.create_client(
+            srv.GetObjects, "/physics/get_objects", qos_profile=qos.SERVICES
+        )
 
     def names(self) -> tuple[str, ...]:
         """Return the names of all scenes, sorted."""

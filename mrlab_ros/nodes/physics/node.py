@@ -26,6 +26,7 @@ from mrlab_ros.core.physics.settings import Settings
 from mrlab_ros.core.physics.world import World
 from mrlab_ros.core.scene.restore import counted
 from mrlab_ros.messages import physics as messages
+from mrlab_ros.messages import qos
 from mrlab_ros.messages.poses import pose_from_message
 from mrlab_ros.messages.scenes import placement_to_message, placements_from_messages
 from mrlab_ros.nodes import parameters
@@ -108,7 +109,7 @@ class PhysicsNode(ParameterNode[PhysicsParameters]):
             (srv.GetObjects, "get_objects", self._on_get),
             (srv.SetObjects, "set_objects", self._on_set),
         ):
-            self.create_service(kind, f"~/{name}", callback)
+            self.create_service(kind, f"~/{name}", callback, qos_profile=qos.SERVICES)
         self.create_timer(SAVE_PERIOD, self._contents.save)
         # Python's own 5 ms that one thread may keep the others waiting would delay a halt.
         sys.setswitchinterval(SWITCH_INTERVAL)

@@ -23,7 +23,7 @@ from std_msgs.msg import String
 from mrlab_ros.adapters.trajectories.json_file import chunks
 from mrlab_ros.core.errors import LabError
 from mrlab_ros.core.trajectory.trajectory import Trajectory
-from mrlab_ros.messages import trajectories
+from mrlab_ros.messages import qos, trajectories
 from mrlab_ros.nodes.catalogue import CatalogueClient
 from mrlab_ros.ros import share
 from mrlab_ros.ros.calls import call
@@ -169,8 +169,12 @@ class SessionContent:
 
     def _parameters_of(self, name: str) -> dict[str, Any]:
         node = self._caller.node
-        lists = node.create_client(ListParameters, f"{name}/list_parameters")
-        gets = node.create_client(GetParameters, f"{name}/get_parameters")
+        lists = node.create_client(
+            ListParameters, f"{name}/list_parameters", qos_profile=qos.SERVICES
+        )
+        gets = node.create_client(
+            GetParameters, f"{name}/get_parameters", qos_profile=qos.SERVICES
+        )
         try:
             names = call(lists, ListParameters.Request(), PARAMETERS_TIMEOUT).result.names
             request = GetParameters.Request(names=names)

@@ -84,7 +84,7 @@ class RecorderNode(ParameterNode[RecorderParameters]):
             (srv.SetRate, "set_rate", self._set_rate),
             (SetBool, "set_loop", self._set_loop),
         ):
-            self.create_service(kind, f"~/{name}", callback)
+            self.create_service(kind, f"~/{name}", callback, qos_profile=qos.SERVICES)
         self.create_timer(1.0, self._tell_while_working)
         self.create_timer(0.25, self._discover)
         self._tell()

@@ -120,7 +120,7 @@ def test_time_is_kept_by_the_kernel():
         assert reader.read_bytes(saved(q=Q), "traj.mat").find("q") is not None
 
 
-@pytest.mark.parametrize("number", [signal.SIGSEGV, signal.SIGKILL, signal.SIGABRT])
+@pytest.mark.parametrize("number", [signal.SIGSEGV, signal.SIGABRT])
 def test_a_file_that_kills_the_reading_process_is_reported(number):
     with WorkspaceReader() as reader, ThreadPoolExecutor(1) as pool:
         reader.start()
@@ -134,6 +134,22 @@ def test_a_file_that_kills_the_reading_process_is_reported(number):
         assert signal.strsignal(number) in found.message
         assert worker.is_running(), "the waiting process is not touched"
         assert reader.read_bytes(saved(q=Q), "traj.mat").find("q") is not None
+
+
+@pytest.mark.parametrize("kills", [1, 2])
+def test_a_file_whose_process_is_killed_is_read_once_more(kills):
+    with WorkspaceReader() as reader, ThreadPoolExecutor(1) as pool:
+        reader.start()
+        worker = psutil.Process(reader._process.pid)
+        pending = pool.submit(refusal, reader.read_bytes, bomb(400), "evil.mat")
+        seen = set()
+        for _ in range(kills):
+            (reading,) = wait_for(lambda: set(worker.children()) - seen, "the reading process")
+            seen.add(reading)
+            reading.kill()
+        found = pending.result(60)
+        # read at last, the bomb is too large
+        assert found.code == ("reader_died" if kills == 2 else "unreadable")
 
 
 def test_a_lost_worker_is_replaced():

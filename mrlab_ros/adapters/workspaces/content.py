@@ -1,0 +1,138 @@
+"""What the reading process leaves in a memory file, as a workspace."""
+
+from __future__ import annotations
+
+import hashlib
+import json
+import mmap
+import os
+import signal
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+
+from mrlab_ros.core.conversion.workspace import Variable, Workspace
+from mrlab_ros.core.diagnostics import Refused, finding
+
+BLOCK = 1 << 20
+# A matrix in the memory file of the first reading: path, shape, offset and numpy type.
+Place = list[Any]
+
+
+def index(target: int) -> dict[str, Any]:
+    """Return the index at the end of a memory file that the worker filled."""
+    length = os.fstat(target).st_size
+    with mmap.mmap(target, length, prot=mmap.PROT_READ) as tail:
+        end = int.from_bytes(tail[length - 8 :], "little")
+        words: dict[str, Any] = json.loads(tail[length - 8 - end : length - 8])
+    return words
+
+
+def collect(target: int, name: str, again: Callable[[Place], None]) -> Workspace:
+    """Return the workspace in the memory file `target`; raise Refused where it says why not.
+
+    The numbers stay in the memory file, which lives as long as they do. again: reads the matrix
+    at a place with the second reader and raises Refused unless it finds the same bits.
+    """
+    words = index(target)
+    if "code" in words:
+        found = words["problem"]
+        raise Refused(finding(words["code"], file=name, problem=found, found=found))
+    numbers = mmap.mmap(target, os.fstat(target).st_size, prot=mmap.PROT_READ)
+    variables = tuple(_variable(numbers, *entry) for entry in words["variables"])
+    confirm = _Confirmation(words["variables"], again)
+    return Workspace(words["format"], variables, words["omitted"], words["sha256"], confirm)
+
+
+class _Confirmation:
+    """Reads the matrix with a certain path again; one without numbers is passed over."""
+
+    def __init__(self, entries: list[Any], again: Callable[[Place], None]) -> None:
+        self._again = again
+        self._places: dict[str, Place] = {}
+        for path, _, shape, offset, dtype, within_object, _ in entries:
+            if offset >= 0 and not within_object:
+                self._places.setdefault(path, [path, shape, offset, dtype])
+
+    def __call__(self, path: str) -> None:
+        if path in self._places:
+            self._again(self._places[path])
+
+
+def compare(status: int | None, target: int, name: str, place: Place, limit: float) -> None:
+    """Pass where the second reader found the same bits; raise Refused otherwise.
+
+    status: how its process ended, None past the time limit of `limit` s. target: its answer.
+    """
+    if status is None or status == -signal.SIGALRM:
+        raise Refused(finding("too_slow", file=name, limit=limit))
+    if status:
+        problem = f"the second reader crashed on it ({death(status)})"
+    else:
+        answer = index(target)
+        if answer.get("code") == "too_large":
+            raise Refused(finding("too_large", file=name, problem=answer["problem"]))
+        problem = answer["problem"]
+    if problem:
+        raise Refused(finding("readers_disagree", variable=place[0], file=name, problem=problem))
+
+
+def death(status: int) -> str:
+    """Say how a process with this exit status ended."""
+    if status > 0:
+        return f"exit code {status}"
+    try:
+        return f"signal {-status}, {signal.strsignal(-status)}"
+    except ValueError:
+        return f"signal {-status}"
+
+
+def copied(source: int, most: int) -> int:
+    """Copy a file into a memory file and return its descriptor.
+
+    Nobody else can change or shorten the copy. Raises ValueError where the file has more than
+    `most` bytes or changes its length meanwhile.
+    """
+    size = os.fstat(source).st_size
+    copy = os.memfd_create("copy", os.MFD_CLOEXEC)
+    try:
+        at = 0
+        while at <= most:
+            count = os.sendfile(copy, source, at, min(BLOCK, most + 1 - at))
+            if not count:
+                break
+            at += count
+        if at != size or at > most:
+            raise ValueError("it was changed while it was read; save it completely, then retry")
+    except BaseException:
+        os.close(copy)
+        raise
+    return copy
+
+
+def sha256(source: int) -> str:
+    """Return the SHA-256 of a file, 64 hexadecimal digits."""
+    digest, at = hashlib.sha256(), 0
+    while block := os.pread(source, BLOCK, at):
+        digest.update(block)
+        at += len(block)
+    return digest.hexdigest()
+
+
+def _variable(
+    numbers: mmap.mmap,
+    path: str,
+    kind: str,
+    shape: list[int],
+    offset: int,
+    dtype: str,
+    _within_object: bool,
+    facts: dict[str, Any],
+) -> Variable:
+    values = None
+    if offset >= 0:
+        flat = np.frombuffer(numbers, np.dtype(dtype), shape[0] * shape[1], offset)
+        values = flat.reshape(tuple(shape), order="F")
+    facts |= {name: tuple(facts[name]) for name in ("columns", "units")}
+    return Variable(path, kind, tuple(shape), values, **facts)

@@ -1,0 +1,137 @@
+"""A conversion behind the wall: what is asked, and the small document that comes back.
+
+The document is JSON and not a pickle: it comes from a process that touched a file from outside.
+"""
+
+from __future__ import annotations
+
+import base64
+import json
+from collections.abc import Callable
+from dataclasses import dataclass, fields, is_dataclass, replace
+from enum import Enum
+from typing import Any, BinaryIO
+
+import numpy as np
+
+from mrlab_ros.adapters.trajectories import store
+from mrlab_ros.core.conversion.candidates import Candidate
+from mrlab_ros.core.conversion.convert import ConversionResult, Outcome, convert
+from mrlab_ros.core.conversion.options import Options
+from mrlab_ros.core.conversion.preview import Preview
+from mrlab_ros.core.conversion.workspace import Workspace
+from mrlab_ros.core.diagnostics import Diagnostic, Fix, Severity, finding
+from mrlab_ros.core.errors import BadInput
+from mrlab_ros.core.robots.model import RobotModel
+from mrlab_ros.core.trajectory.channels import ProxyCoefficients
+from mrlab_ros.core.trajectory.document import metadata
+
+# What a document may hold beside plain values.
+RECORDS: dict[str, type[Any]] = {
+    kind.__name__: kind for kind in (ConversionResult, Candidate, Preview, Diagnostic, Fix)
+}
+ENUMS: dict[str, type[Enum]] = {kind.__name__: kind for kind in (Outcome, Severity)}
+MEMORY = "converting it needs more than {:.0f} MiB"
+
+
+@dataclass(frozen=True)
+class Task:
+    """What `convert` is asked, beside the file. file: its name."""
+
+    file: str
+    options: Options
+    robot: RobotModel
+    coefficients: ProxyCoefficients
+    end_effector: str | None
+    trajectory_id: str
+    created_ns: int
+    default_frame_rate: float
+
+
+@dataclass(frozen=True)
+class Converted:
+    """What became of a file, without its frames.
+
+    result: as `convert` returns it, but its trajectory is None. message: one sentence for a
+    person. head: the metadata of the trajectory where the file was accepted, else None.
+    """
+
+    result: ConversionResult
+    message: str
+    head: dict[str, Any] | None = None
+
+
+def run(task: Task, read: Callable[[], Workspace], memory: int, trajectory: BinaryIO) -> bytes:
+    """Convert, write an accepted trajectory into its file, and return the document.
+
+    memory: bytes that this process may use, for the sentence where they are not enough.
+    """
+    try:
+        result = convert(
+            task.file,
+            read,
+            task.options,
+            task.robot,
+            task.coefficients,
+            end_effector=task.end_effector,
+            trajectory_id=task.trajectory_id,
+            created_ns=task.created_ns,
+            default_frame_rate=task.default_frame_rate,
+        )
+        if result.trajectory is not None:
+            store.write(result.trajectory, trajectory)
+    except BadInput as error:
+        return json.dumps({"bad_input": str(error)}).encode()
+    except OSError as error:
+        words = f"the trajectory cannot be stored ({error.strerror}); make room on the disk"
+        return json.dumps({"bad_input": words}).encode()
+    except MemoryError:
+        problem = MEMORY.format(memory / 2**20)
+        result = refused(task.file, finding("too_large", file=task.file, problem=problem))
+    head = metadata(result.trajectory) if result.trajectory is not None else None
+    small = replace(result, trajectory=None)
+    document = {"result": _plain(small), "message": result.message, "head": head}
+    return json.dumps(document).encode()
+
+
+def parse(data: bytes) -> Converted:
+    """Return what `run` wrote; raise BadInput where it says that the request was wrong."""
+    document = json.loads(data)
+    if "bad_input" in document:
+        raise BadInput(document["bad_input"])
+    return Converted(_record(document["result"]), document["message"], document["head"])
+
+
+def refused(file: str, why: Diagnostic) -> ConversionResult:
+    """Return the result of a file that could not be read."""
+    return ConversionResult(file, Outcome.REJECTED, None, (), (why,))
+
+
+def _plain(value: Any) -> Any:
+    if is_dataclass(value) and not isinstance(value, type):
+        content = {field.name: _plain(getattr(value, field.name)) for field in fields(value)}
+        return {"record": type(value).__name__, **content}
+    if isinstance(value, Enum):
+        return {"enum": type(value).__name__, "value": value.value}
+    if isinstance(value, np.ndarray):
+        data = base64.b64encode(np.ascontiguousarray(value).tobytes()).decode()
+        return {"array": data, "dtype": value.dtype.str, "shape": list(value.shape)}
+    if isinstance(value, np.generic):
+        return value.item()
+    if isinstance(value, tuple | list):
+        return [_plain(item) for item in value]
+    return value
+
+
+def _record(value: Any) -> Any:
+    if isinstance(value, list):
+        return tuple(_record(item) for item in value)
+    if not isinstance(value, dict):
+        return value
+    if "enum" in value:
+        return ENUMS[value["enum"]](value["value"])
+    if "array" in value:
+        flat = np.frombuffer(base64.b64decode(value["array"]), np.dtype(value["dtype"]))
+        return flat.reshape(value["shape"])
+    content = {name: _record(item) for name, item in value.items() if name != "record"}
+    return RECORDS[value["record"]](**content)
