@@ -216,8 +216,7 @@ class ConverterNode(ParameterNode[ConverterParameters]):
     def _get(self, request: Any, response: Any) -> None:
         try:
             if request.file_only:
-                info = info_from_head(self._store.head(request.id))
-                response.trajectory = msg.Trajectory(info=info)
+                response.trajectory.info = info_from_head(self._store.head(request.id))
             else:
                 frames = self._store.frames(request.id, request.begin, request.count)
                 response.trajectory = trajectories.frames_to_message(frames)
