@@ -1,4 +1,4 @@
-"""zenoh behind a small port: publish, subscribe, answer, announce."""
+"""zenoh behind a small port: publishers, subscribers, queryables, liveliness tokens."""
 
 from __future__ import annotations
 
@@ -20,14 +20,14 @@ from mrlab_ros.core.bridge.rules import Congestion, Reliability, TopicRule
 from mrlab_ros.core.errors import BadInput, Unavailable
 
 LOOPBACK = ("tcp/127.0.0.1:7447",)
-# A put waits so long, us, for a full link before its message is lost, and so long before the
-# link's dead client is cut off. zenoh's own are 1,000 and 5,000,000.
+# How long a put waits for a full link, us, before its message is dropped, and before the client of
+# that link is disconnected. zenoh's defaults are 1,000 and 5,000,000.
 WAIT_BEFORE_DROP = 0
 WAIT_BEFORE_CLOSE = 1_000_000
-# Bytes that a link's socket holds before it counts as full. Linux itself would let it grow to
-# megabytes, and who reads slowly would see motion of many seconds ago.
+# Size of a link's socket buffer, bytes. Linux alone would let it grow to megabytes, and a client
+# that reads slowly would receive motion that is many seconds old.
 SEND_BUFFER = 131_072
-# What config/zenoh/lab.json5 sets.
+# The settings in config/zenoh/lab.json5.
 LIMITS = (
     "scouting/multicast/enabled",
     "scouting/gossip/enabled",
@@ -38,7 +38,7 @@ LIMITS = (
     "transport/link/protocols",
     "transport/link/rx/max_message_size",
 )
-# Where zenoh tells of TLS and of people whom access control does not know, and of passwords.
+# zenoh's log targets for TLS and for subjects unknown to access control, and for passwords.
 LOGINS = "error,zenoh_link_tls=debug,zenoh::net::routing::interceptor::access_control=info"
 PASSWORDS = "zenoh_transport::unicast::establishment::accept=debug"
 CONGESTION = {
@@ -49,7 +49,7 @@ RELIABILITY = {
     Reliability.RELIABLE: zenoh.Reliability.RELIABLE,
     Reliability.BEST_EFFORT: zenoh.Reliability.BEST_EFFORT,
 }
-# In the order of their numbers, 1 to 7.
+# By number, 1 to 7.
 PRIORITY = (
     zenoh.Priority.REAL_TIME,
     zenoh.Priority.INTERACTIVE_HIGH,
@@ -72,15 +72,15 @@ class Publisher(Declared, Protocol):
 
     def put(self, payload: bytes, attachment: bytes) -> None: ...
 
-    def heard(self) -> bool:
-        """Return whether anybody subscribes to the key."""
+    def has_subscriber(self) -> bool:
+        """Return whether the key has a subscriber."""
         ...
 
 
 class Query(Protocol):
-    """A question that waits for its one answer. `payload` is None where it came without.
+    """A query that waits for its one reply; `payload` is None where it has none.
 
-    key: what was asked for, perhaps a pattern such as `*/play`.
+    key: the queried key expression, perhaps a pattern such as `*/play`.
     """
 
     @property
@@ -95,7 +95,7 @@ class Query(Protocol):
 
 
 class Session(Protocol):
-    """What the bridge needs of zenoh. Callbacks run in threads of the session's own."""
+    """What the bridge needs of zenoh. Callbacks run in the session's threads."""
 
     @property
     def zid(self) -> str: ...
@@ -105,7 +105,7 @@ class Session(Protocol):
         ...
 
     def subscriber(self, key: str, on_payload: Callable[[bytes], None], late: bool) -> Declared:
-        """Declare a subscriber to other sessions' messages; `late`: those before it, too."""
+        """Declare a subscriber to other sessions; `late`: it also gets their cached messages."""
         ...
 
     def queryable(self, key: str, on_query: Callable[[Query], None]) -> Declared: ...
@@ -130,8 +130,8 @@ def configuration(
     """Return zenoh's configuration: `file` (json5) where given, else from the other arguments.
 
     base: a json5 file that the others add to. security: path -> value, such as a keys folder's.
-    lease: s after which a silent link is given up; 0: as suits the endpoints. Without a file
-    nobody is looked for by multicast. Raises BadInput where zenoh refuses one.
+    lease: s after which a silent link counts as broken; 0: by the endpoints. Without a file
+    multicast discovery is off. Raises BadInput where zenoh refuses one.
     """
     try:
         if file is not None:
@@ -160,13 +160,13 @@ def configuration(
 
 
 def limits(file: Path) -> dict[str, object]:
-    """Return what config/zenoh/lab.json5 sets, path -> value."""
+    """Return the settings in config/zenoh/lab.json5, path -> value."""
     config = zenoh.Config.from_file(str(file))
     return {path: json.loads(config.get_json(path)) for path in LIMITS}
 
 
 def log_logins(*, passwords: bool) -> None:
-    """Have zenoh say on stdout who connects and who is refused; RUST_LOG, where set, decides."""
+    """Have zenoh log to stdout who connects and who is refused; RUST_LOG overrides that."""
     zenoh.init_log_from_env_or(f"{LOGINS},{PASSWORDS}" if passwords else LOGINS)
 
 
@@ -195,7 +195,7 @@ class ZenohSession:
             if sample.kind == zenoh.SampleKind.PUT:
                 on_payload(sample.payload.to_bytes())
 
-        # Other sessions' only: the bridge must not hear itself.
+        # Only from other sessions: the bridge must not receive its own messages.
         origin = zenoh.Locality.REMOTE
         if late:
             history = ext.HistoryConfig(detect_late_publishers=True, max_samples=1)
@@ -215,7 +215,7 @@ class ZenohSession:
 
 
 class _Publisher:
-    """Publishes a stream: nothing is kept."""
+    """Publishes a stream: no message is cached."""
 
     def __init__(self, session: zenoh.Session, key: str, rule: TopicRule) -> None:
         self._publisher = session.declare_publisher(
@@ -229,7 +229,7 @@ class _Publisher:
     def put(self, payload: bytes, attachment: bytes) -> None:
         self._publisher.put(payload, attachment=attachment)
 
-    def heard(self) -> bool:
+    def has_subscriber(self) -> bool:
         try:
             # Its annotation says bool, but it is an object that is always true.
             status: Any = self._publisher.matching_status
@@ -244,13 +244,13 @@ class _Publisher:
 class _LatchedPublisher:
     """Publishes a state: late joiners get the newest messages from an advanced publisher's cache.
 
-    A client that simply asks for the key, without an advanced subscriber, gets the newest one.
+    A plain `get` on the key, without an advanced subscriber, returns the newest message.
     """
 
     def __init__(self, session: zenoh.Session, key: str, rule: TopicRule, cache: int) -> None:
         self._key = key
         self._newest: tuple[bytes, bytes] | None = None
-        # An advanced publisher does not tell whether anybody listens; this one is there for it.
+        # An advanced publisher does not report whether it has subscribers; this plain one does.
         self._probe = _Publisher(session, key, rule)
         self._publisher = ext.declare_advanced_publisher(
             session,
@@ -268,8 +268,8 @@ class _LatchedPublisher:
         self._newest = (payload, attachment)
         self._publisher.put(payload, attachment=attachment)
 
-    def heard(self) -> bool:
-        return self._probe.heard()
+    def has_subscriber(self) -> bool:
+        return self._probe.has_subscriber()
 
     def _answer(self, query: zenoh.Query) -> None:
         if self._newest is not None:
@@ -298,7 +298,7 @@ class _Query:
 
     def reply(self, payload: bytes) -> None:
         self._query.reply(self._key, payload)
-        # zenoh ends the caller's wait only when the query is let go.
+        # zenoh ends the caller's wait only when the query is dropped.
         self._query.drop()
 
     def refuse(self, reason: str) -> None:

@@ -225,12 +225,12 @@ def test_a_message_for_a_topic_that_has_just_gone_is_dropped():
     assert count.messages == 0
 
 
-def test_a_publisher_that_has_just_gone_is_heard_by_nobody():
+def test_a_publisher_that_has_just_gone_has_no_subscriber():
     session = ZenohSession(configuration(listen=()))
     try:
         for cache in (0, 1):
             publisher = session.publisher("hello", TopicRule("/hello"), cache)
             publisher.undeclare()
-            assert publisher.heard() is False
+            assert publisher.has_subscriber() is False
     finally:
         session.close()

@@ -70,7 +70,7 @@ class Outward:
     def subscribed(self) -> dict[str, bool]:
         """Return for every key whether it has a zenoh subscriber."""
         bridge = self._bridge
-        return {bridge.key(n): r.publisher.heard() for n, r in list(self._routes.items())}
+        return {bridge.key(n): r.publisher.has_subscriber() for n, r in list(self._routes.items())}
 
     def _renew(self, name: str, rule: TopicRule, type_name: str, thorough: bool) -> None:
         bridge = self._bridge
