@@ -192,7 +192,24 @@ def describe(path: str) -> Name:
     bare = whole.rstrip("0123456789") or whole
     if series and bare in NUMBERED_JOINTS:
         return Name(Hint.POSITIONS, "", unit)
-    return Name(*_said_by(bare, whole, [p.rstrip("0123456789") or p for p in said], said), unit)
+    found = Name(*_said_by(bare, whole, [p.rstrip("0123456789") or p for p in said], said), unit)
+    if found.hint in (Hint.NEUTRAL, Hint.TWO_FACED):
+        of_struct = _said_by_struct(path)
+        return found if of_struct is None else Name(of_struct.hint, of_struct.what, unit)
+    return found
+
+
+def _said_by_struct(path: str) -> Name | None:
+    """Return what the struct says that a field such as pos or data lies in, or None.
+
+    joints.pos are joint positions and tcp.pos is none. A letter alone says nothing.
+    """
+    outer = CONTAINER_TAIL.sub("", path).rpartition(".")[0]
+    name = re.split(r"[.]", re.sub(r"[({][^.]*$", "", outer))[-1]
+    if len(name) < 2 or name == path:
+        return None
+    said = describe(name)
+    return said if said.hint in (Hint.POSITIONS, Hint.AGAINST) else None
 
 
 def hint(path: str) -> Hint:
