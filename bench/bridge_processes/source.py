@@ -56,7 +56,7 @@ def zenoh_alone(topics: list[str], endpoint: str) -> Iterator[list[Callable[[byt
     session = ZenohSession(configuration(listen=(endpoint,)))
     rule = TopicRule("/any", priority=2, congestion=Congestion.DROP)
     publishers = [session.publisher(topic[1:], rule, 0) for topic in topics]
-    until(lambda: all(p.heard() for p in publishers), "a subscriber a key")
+    until(lambda: all(p.has_subscriber() for p in publishers), "a subscriber a key")
 
     def putter(publisher) -> Callable[[bytes], None]:
         def put(payload: bytes) -> None:

@@ -266,7 +266,7 @@ class StuckSession:
             else:
                 self._session.moved.append(payload)
 
-        def heard(self):
+        def has_subscriber(self):
             return True
 
         def undeclare(self):
