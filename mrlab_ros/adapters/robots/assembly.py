@@ -78,7 +78,8 @@ class Assembly:
             pose, geometry = graph.get(node)
             mesh = self.scene.geometry[geometry]
             if isinstance(mesh, trimesh.primitives.Primitive):
-                mesh = mesh.to_mesh()
+                shape, mesh = mesh, mesh.to_mesh()
+                mesh.visual = shape.visual.copy()  # type: ignore[union-attr]
             if isinstance(mesh, trimesh.Trimesh) and len(mesh.faces):
                 yield graph.transforms.parents[node], mesh, np.asarray(pose)
 

@@ -93,7 +93,9 @@ def _picture(parts: list[trimesh.Trimesh], path: Path) -> None:
         vertices, faces, owner = trimesh.remesh.subdivide_to_size(
             part.vertices, part.faces, 2 * half / PIECES, max_iter=20, return_index=True
         )
-        normal = part.vertex_normals[part.faces].mean(axis=1)
+        normal = np.array(part.face_normals)
+        if hasattr(part.visual, "material"):  # other files have no normals of their own
+            normal = part.vertex_normals[part.faces].mean(axis=1)
         normal /= np.maximum(np.linalg.norm(normal, axis=1, keepdims=True), 1e-9)
         # Towards the viewer, whichever way round a mesh of somebody else's is.
         lit = np.clip((normal @ LIGHT) * np.where(normal @ VIEW < 0, -1, 1), 0, 1)

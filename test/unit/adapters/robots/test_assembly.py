@@ -70,6 +70,8 @@ def test_shapes_and_meshes_have_their_sizes_and_places(resolve) -> None:
         link: mesh.copy().apply_transform(pose).bounds for link, mesh, pose in robot.meshes()
     }
     assert set(bounds) == {"palm", "left"}
+    colours = {link: tuple(mesh.visual.main_color) for link, mesh, _ in robot.meshes()}
+    assert colours["palm"] == (255, 0, 0, 255)
     np.testing.assert_allclose(bounds["palm"], [[-0.05, -0.1, -0.05], [0.05, 0.1, 0.25]])
     np.testing.assert_allclose(bounds["left"], [[-0.02, 0.04, -0.01], [0.02, 0.06, 0.01]])
     ((link, ball, _),) = Assembly(root, "gripper.urdf", resolve, collision=True).meshes()

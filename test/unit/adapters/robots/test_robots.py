@@ -250,6 +250,7 @@ def without_hulls(path: Path) -> str:
     return ET.tostring(root, encoding="unicode")
 
 
+@pytest.mark.slow
 def test_the_generator_makes_what_is_shipped(tmp_path: Path) -> None:
     command = [
         sys.executable,
