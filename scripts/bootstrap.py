@@ -36,7 +36,7 @@ PROBE = (
 
 
 class SetupError(Exception):
-    """A prerequisite is missing or a step failed; the text says what to do."""
+    """A prerequisite is missing or a step failed; the text holds the remedy."""
 
 
 def say(text):

@@ -1,4 +1,4 @@
-"""What a body is made of: links, their parts, materials; and shapes that robots share.
+"""Descriptions of bodies: links, their parts and materials; and shapes that robots share.
 
 Every body is modelled in the base frame with all joints at zero, where the axes of an arm lie
 along the coordinate axes; the generator carries each link into its own frame.

@@ -1,4 +1,4 @@
-"""A person of 1.8 m, for the eye to measure by."""
+"""A person of 1.8 m, for scale in pictures."""
 
 from __future__ import annotations
 

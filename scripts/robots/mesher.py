@@ -91,7 +91,7 @@ def gradient(solid: Solid, points: Array, step: float) -> Array:
 def _feature_points(
     points: Array, normals: Array, owner: Faces, count: int, corner: Array, cell: float
 ) -> Array:
-    """Place one vertex a cell where the tangent planes of its crossings meet best."""
+    """Place one vertex per cell at the least-squares intersection of its tangent planes."""
     flat = owner.ravel()
     p, n = np.repeat(points, 4, axis=0), np.repeat(normals, 4, axis=0)
 
@@ -113,7 +113,7 @@ def _feature_points(
 
 
 def _split(quad: Faces, vertices: Array) -> Faces:
-    """Return two triangles a quad, along the diagonal that bends less."""
+    """Return two triangles per quad, split along the diagonal with the smaller dihedral angle."""
     a, b, c, d = (vertices[quad[:, i]] for i in range(4))
 
     def bend(n1: Array, n2: Array) -> Array:

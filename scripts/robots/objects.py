@@ -1,7 +1,7 @@
 """Bodies of the catalogue's objects, each in its own frame: origin at the centre of mass.
 
-What physics collides with is in config/objects.yaml; these are what a display draws, and the
-test compares the two.
+The collision shapes are in config/objects.yaml; these are the visual meshes, and a test compares
+the two.
 """
 
 from __future__ import annotations
@@ -172,7 +172,7 @@ OBJECTS: dict[str, tuple[Callable[[], Pieces], float, int]] = {
 
 
 def make(name: str) -> Path:
-    """Write one object's mesh; return where."""
+    """Write one object's mesh and return its path."""
     describe, cell, triangles = OBJECTS[name]
     pieces = describe()
     meshes = [contour(solid, cell) for _, solid in pieces]

@@ -1,4 +1,4 @@
-"""Draws meshes as a PNG by casting rays on the processor: no display and no GPU is needed."""
+"""Renders meshes as a PNG by ray casting on the CPU, without a display."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ CHUNK = 400_000
 
 @dataclass(frozen=True, eq=False)
 class Surface:
-    """A mesh in world coordinates and what it is made of.
+    """A mesh in world coordinates and its material.
 
     vertices, normals: (V, 3); faces: (F, 3); colour: sRGB 0 to 1; metalness, roughness: 0 to 1.
     """
@@ -39,7 +39,7 @@ class Surface:
 
 @dataclass(frozen=True)
 class Camera:
-    """Where the picture is taken from: eye and target in m, vertical opening in degrees."""
+    """The camera: eye and target in m, vertical field of view in degrees."""
 
     eye: tuple[float, float, float]
     target: tuple[float, float, float]
@@ -131,7 +131,7 @@ class _Tables:
         return answer
 
     def blocked(self, origins: Array, directions: Array, within: float) -> NDArray[np.bool_]:
-        """Say which rays meet something nearer than `within`, m."""
+        """Return which rays hit something nearer than `within`, m."""
         answer = self.hit(origins, directions)
         met: NDArray[np.bool_] = (answer["primID"] >= 0) & (answer["tfar"] < within)
         return met

@@ -14,7 +14,7 @@ from mrlab_ros.core.robots.model import RobotModel
 
 @dataclass(frozen=True)
 class StagingLimits:
-    """How gently an arm moves to its start.
+    """Limits of the motion to a trajectory's first frame.
 
     velocity_share: share of each joint's velocity limit, 0 to 1; acceleration: rad/s^2;
     jerk: rad/s^3. Vendors publish velocity limits but rarely the other two; the defaults are
@@ -27,7 +27,7 @@ class StagingLimits:
 
 
 class RuckigMotion:
-    """A motion planned by ruckig; `start` and `goal` come back exactly at its ends."""
+    """A motion planned by ruckig; its ends are exactly `start` and `goal`."""
 
     def __init__(self, trajectory: Trajectory, start: Array, goal: Array) -> None:
         self._trajectory = trajectory
@@ -48,7 +48,7 @@ class RuckigMotion:
 
 
 class RuckigPlanner:
-    """Time-optimal motions inside the limits, all joints arriving together."""
+    """Plans time-optimal motions within the limits; all joints arrive at the same time."""
 
     def __init__(self, limits: StagingLimits | None = None) -> None:
         self.limits = limits or StagingLimits()

@@ -12,7 +12,7 @@ from mrlab_ros.core.geometry import Array
 
 
 def _frame_with_z_along(axis: Array) -> Array:
-    """Return a rotation (4, 4) whose z column is `axis`; exact where axis is a coordinate axis."""
+    """Return a rotation (4, 4) whose z column is `axis`; exact for a coordinate axis."""
     helper = np.eye(3)[int(np.argmin(np.abs(axis)))]
     x = np.cross(helper, axis)
     x /= np.linalg.norm(x)

@@ -1,4 +1,4 @@
-"""What the lab knows of a robot model: joints, limits, home pose, kinematics."""
+"""A robot model: joints, limits, home pose, kinematics."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""How far an arm reaches, computed from its kinematics in the way its vendor measures it."""
+"""The reach of an arm from its kinematics, by its vendor's definition."""
 
 from __future__ import annotations
 
@@ -87,7 +87,8 @@ def _axis_1(chain: KinematicChain, joints: int) -> Array:
 
 
 def _largest(distance: Distance, low: Array, high: Array, free: range) -> float:
-    """Return the largest value over a box of the free joints, the others at the nearest to 0."""
+    """Return the largest value over the ranges of the free joints; the others are as near 0 as
+    their limits allow."""
     rng = np.random.default_rng(0)
     rest = np.clip(0.0, low, high)
     sample = np.tile(rest, (4096, 1))
