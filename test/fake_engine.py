@@ -116,12 +116,12 @@ class FakeEngine:
                 )
         return found
 
-    def distance(self, arm: str, kind: Kind, other: str, look: float) -> float:
+    def distance(self, arm: str, kind: Kind, other: str, limit: float) -> float:
         if kind is Kind.SURFACE and other in self.surfaces:
-            return min(self.surfaces[other] - self.link(arm, "tip").pose.position[0], look)
+            return min(self.surfaces[other] - self.link(arm, "tip").pose.position[0], limit)
         if kind is Kind.OBJECT and other in self.motions:
-            return min(self._gap(arm, other), look)
-        return look
+            return min(self._gap(arm, other), limit)
+        return limit
 
     def add_object(self, name: str, body: Body, motion: BodyState) -> None:
         self.motions[name] = motion

@@ -1,7 +1,7 @@
-"""The arms of a Bullet world: multibodies that joint states lead, with fingers that forces move.
+"""The arms of a Bullet world: multibodies posed by joint states, with force-driven fingers.
 
-The prescribed links weigh so much that no contact moves them; their joints are put in place
-before every step, with their velocities, so that what an arm hits gets the right impulse.
+The prescribed links have such a large mass that no contact moves them. Their joints are set before
+every step, with their velocities, so that an object that is hit gets the right impulse.
 """
 
 from __future__ import annotations
@@ -27,10 +27,10 @@ from mrlab_ros.core.physics.engine import Arm, BodyState, FingerState, LinkPairs
 FINGER_FRICTION = 1.5
 ALL_GROUPS = 0xFFFF
 STATIC_GROUP = 2  # Bullet's own collision group of what never moves
-# Fingers press no harder, N or N*m: what they hold is fixed to the hand, and a light thing
-# between hard fingers would jitter.
+# Limit of the finger force, N or N*m: what they hold is fixed to the gripper, and a light object
+# between strong fingers would jitter.
 PRESS = 15.0
-# Poses of all joints, rad, far apart, in which links that always overlap are looked for.
+# Joint positions, rad, far apart: links that overlap in all of them always overlap.
 SAMPLES = (0.0, 0.35, -0.5, 0.8)
 
 
@@ -102,7 +102,7 @@ class Arms:
         )
         self._free(arm)
         for link in sorted(description.fixed_links):
-            # As Bullet does with everything static: the base stands on the floor for good.
+            # As for Bullet's static bodies: the base may overlap the floor.
             others = ALL_GROUPS & ~STATIC_GROUP
             self._call(
                 pybullet.setCollisionFilterGroupMask, body, arm.index[link], STATIC_GROUP, others
@@ -131,7 +131,7 @@ class Arms:
         return body
 
     def _free(self, arm: LoadedArm) -> None:
-        """Take Bullet's motors and damping from an arm."""
+        """Switch off Bullet's motors and damping of an arm."""
         driven = arm.joints + arm.fingers
         self._call(
             pybullet.setJointMotorControlArray,
@@ -160,8 +160,8 @@ class Arms:
     def _ignore_permanent(self, arm: LoadedArm) -> None:
         """Ignore pairs of links whose hulls overlap however the wrist and elbow are turned.
 
-        Hulls are fatter than what they cover; a pair that overlaps in each of several poses far
-        apart says nothing of a collision.
+        Hulls are larger than what they cover; a pair that overlaps in each of several distant
+        poses is no sign of a collision.
         """
         always: set[tuple[int, int]] | None = None
         for angle in SAMPLES:
@@ -182,11 +182,11 @@ class Arms:
         self._call(
             pybullet.resetBasePositionAndOrientation, arm.body, pose.position, pose.orientation
         )
-        # Bullet moves the links' shapes with the joints only.
+        # Bullet updates the links' shapes only when joints are set.
         self._pose(arm, arm.positions)
 
     def remove(self, name: str) -> int:
-        """Take an arm away; return the number it had."""
+        """Remove an arm; return its body number."""
         body = self[name].body
         del self._arms[name]
         self._call(pybullet.removeBody, body)
@@ -261,13 +261,13 @@ class Arms:
         return BodyState(Pose(state[0], state[1]), state[6], state[7])
 
     def let_touch(self, name: str, other: int, touch: bool) -> None:
-        """Let the links of an arm and an object touch, or not."""
+        """Switch contacts between the links of an arm and an object on or off."""
         arm = self[name]
         for link in arm.links:
             self._call(pybullet.setCollisionFilterPair, arm.body, other, link, -1, int(touch))
 
     def stepped(self) -> None:
-        """Keep fingers that one drive moves equally far closed; call it after every step."""
+        """Keep coupled fingers equally far closed; call it after every step."""
         for arm in self._arms.values():
             if arm.coupled and arm.driven:
                 states = self._call(pybullet.getJointStates, arm.body, arm.fingers)
@@ -284,7 +284,7 @@ def _mean(values: Iterable[float]) -> float:
 
 @contextlib.contextmanager
 def _silent() -> Iterator[None]:
-    """Keep what Bullet prints while it loads out of the lab's output."""
+    """Suppress what Bullet prints on stdout while it loads."""
     sys.stdout.flush()
     saved, nowhere = os.dup(1), os.open(os.devnull, os.O_WRONLY)
     try:

@@ -1,4 +1,4 @@
-"""A robot's description made ready for Bullet: what is led, what is driven, what never moves."""
+"""A robot description prepared for Bullet: prescribed, force-driven and fixed links."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from mrlab_ros.adapters.robots import urdf
 from mrlab_ros.core.errors import BadInput
 from mrlab_ros.core.physics.engine import Arm, Finger
 
-PRESCRIBED_MASS = 1e6  # kg, and kg*m^2, of every link that joint states lead
+PRESCRIBED_MASS = 1e6  # kg, and kg*m^2, of every link that joint states prescribe
 LINK_SIZE = 0.15  # m, what a link reaches beyond its frame
 LEAST_MASS = 0.05  # kg, of a finger without an <inertial>
 MESH_FORMATS = (".obj", ".stl")
@@ -88,7 +88,7 @@ class Description:
                     yield a, b
 
     def _below(self, link: str) -> float:
-        """Return the longest way down from `link`, m; a link itself counts a little."""
+        """Return the longest way from `link` to an end of the chain, m; LINK_SIZE at the end."""
         ways = [
             math.hypot(*joint.xyz) + self._below(joint.child)
             for joint in self._parent.values()
@@ -114,7 +114,7 @@ class Description:
             for mimic in joint.findall("mimic"):
                 joint.remove(mimic)
             if joint.get("name") in self._prescribed and joint.get("type") == "revolute":
-                # Joint states are not bounded here, and a limit costs a constraint in each step.
+                # Joint states are not limited here, and a limit costs a constraint in each step.
                 joint.set("type", "continuous")
         for link in self._root.iterfind("link"):
             for element in link.findall("visual"):
@@ -146,7 +146,7 @@ def _finger(joint: urdf.UrdfJoint) -> Finger:
 
 
 def _weigh(link: ET.Element, prescribed: bool) -> None:
-    """Give a prescribed link a mass that nothing moves, a finger without a mass a small one."""
+    """Set the mass: PRESCRIBED_MASS, or LEAST_MASS of a finger without <inertial>."""
     inertial = link.find("inertial")
     if inertial is not None:
         if not prescribed:

@@ -1,7 +1,7 @@
 """The physics engine port on pybullet.
 
-Bullet ends the process on bad input, so everything is checked before it is called. What a hand
-holds is led with it as the arm is: put in place before every step, moving as the hand does.
+Bullet ends the process on bad input, so everything is checked before it is called. Held
+objects are kinematic: posed with the gripper's velocity before every step.
 """
 
 from __future__ import annotations
@@ -38,9 +38,9 @@ from mrlab_ros.core.physics.engine import (
 )
 
 GRAVITY = 9.80665  # m/s^2, the standard value
-RAY = 100.0  # m, how far down support is looked for
+RAY = 100.0  # m, length of the ray that searches the support below a point
 SOLVER_ITERATIONS = 30
-# (m/s)^2: an iteration that changes no velocity by more than 1 mm/s is the last one.
+# (m/s)^2: the solver stops when no velocity changes by more than 1 mm/s.
 SOLVER_RESIDUAL = 1e-6
 
 
@@ -107,7 +107,7 @@ class BulletEngine:
     ) -> None:
         self._arms.move(name, positions, velocities)
         if jumped:
-            # What stood on the arm must not sleep on in the air.
+            # Objects that rested on the arm must wake up.
             self._objects.wake_touching(self._arms[name].body)
 
     def speed(self, name: str) -> float:
@@ -128,9 +128,9 @@ class BulletEngine:
     def touches(self, name: str) -> list[Touch]:
         arm = self._arms[name]
         found: list[Touch] = []
-        # Bullet turns every contact so that the body asked for comes first.
+        # Bullet orders every contact so that the body in the query comes first.
         for p in pybullet.getContactPoints(arm.body, physicsClientId=self._client):
-            # Bodies that press on each other may be a hair apart.
+            # Bodies that press on each other may be a little apart.
             if p[8] > 0.0 and p[9] <= 0.0:
                 continue
             kind, other = self._names[p[2]]
@@ -144,13 +144,13 @@ class BulletEngine:
             )
         return found
 
-    def distance(self, arm: str, kind: Kind, other: str, look: float) -> float:
+    def distance(self, arm: str, kind: Kind, other: str, limit: float) -> float:
         robot = self._arms[arm]
         body = self._body(kind, other)
         if body is None:
-            return look
-        nearest = look
-        close = pybullet.getClosestPoints(robot.body, body, look, physicsClientId=self._client)
+            return limit
+        nearest = limit
+        close = pybullet.getClosestPoints(robot.body, body, limit, physicsClientId=self._client)
         for p in close:
             own = kind is Kind.SELF
             if own and (p[3] == p[4] or (p[3], p[4]) in robot.ignored):
@@ -186,7 +186,7 @@ class BulletEngine:
         if name in self._surfaces:
             raise Misuse(f"surface '{name}' is in the world already; remove it first")
         if len(body.parts) == 1:
-            # A shape that is not centred is a compound, which costs at every step.
+            # A shape that is not centred is a compound, which is slower in every step.
             (part,) = body.parts
             pose = compose(pose, part.pose)
             body = replace(body, parts=(replace(part, pose=IDENTITY),))
@@ -218,13 +218,13 @@ class BulletEngine:
         self._arms.let_touch(arm, self._objects.body(name), True)
 
     def _carry(self, duration: float) -> None:
-        """Put what is held where its hand is, moving with it: a constraint without any give."""
+        """Pose what is held with its gripper and set its velocity: a rigid constraint."""
         for name, (arm, link, offset) in self._held.items():
             hand = self.link(arm, link)
             pose = compose(hand.pose, offset)
             way = subtract(pose.position, hand.pose.position)
             linear = add(hand.linear, cross(hand.angular, way))
-            self._objects.lead(name, BodyState(pose, linear, hand.angular), duration)
+            self._objects.move_held(name, BodyState(pose, linear, hand.angular), duration)
 
     # space and time -------------------------------------------------------------------------
 

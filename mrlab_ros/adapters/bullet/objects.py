@@ -1,8 +1,8 @@
-"""The objects of a Bullet world: gravity that acts on them alone, and rest that costs nothing.
+"""The objects of a Bullet world: gravity acts on them alone, and objects at rest sleep.
 
-Bullet lets what lies still fall asleep, with all it touches, and wakes it where something that is
-awake touches it. What it does not see is a support that goes away or something put elsewhere at
-once: then what is near is woken here.
+Bullet puts objects at rest to sleep, with all they touch, and wakes them when something awake
+touches them. It does not notice a support that is removed or placed elsewhere: then the objects
+near it are woken here.
 """
 
 from __future__ import annotations
@@ -14,11 +14,11 @@ from mrlab_ros.core.errors import BadInput, Misuse
 from mrlab_ros.core.geometry import Pose
 from mrlab_ros.core.physics.engine import Body, BodyState
 
-# What is slower than this, m/s and rad/s, for Bullet's two seconds falls asleep.
+# An object slower than this, m/s and rad/s, for two seconds (fixed in Bullet) falls asleep.
 REST = 0.01
-# What a hand holds gives way to nothing, kg.
+# Mass of a held object, kg: no contact moves it.
 HELD_MASS = 1e6
-# Moved less far than this, m, nothing lost its support.
+# A support that moved less than this, m, still supports.
 NUDGE = 1e-5
 MAX_SPEED = 1000.0  # m/s and rad/s
 
@@ -30,7 +30,7 @@ class Objects:
         self._client = client
         self._gravity = gravity
         self._bodies: dict[str, int] = {}
-        # One for each of the catalogue's bodies: they come and go as objects again and again.
+        # One for each body of the catalogue, reused by all objects of that type.
         self._shapes: dict[Body, int] = {}
         self._masses: dict[int, float] = {}
         self._held: set[int] = set()
@@ -60,7 +60,7 @@ class Objects:
         return made
 
     def _make_weighted(self, body: Body, pose: Pose) -> int:
-        """Make a body that keeps the gravity of this moment.
+        """Make a body to which gravity applies.
 
         The arms must know none, so the world has none: it would turn their velocities off
         between two steps. Bullet hands a change of the world's gravity on to bodies that are
@@ -129,7 +129,7 @@ class Objects:
             self._set_velocity(body, motion)
             self._wake(body)
 
-    def lead(self, name: str, motion: BodyState, duration: float) -> None:
+    def move_held(self, name: str, motion: BodyState, duration: float) -> None:
         """Put a held object where its hand is, moving with it for a step of `duration` s."""
         body = self._bodies[name]
         pybullet.resetBasePositionAndOrientation(
@@ -147,7 +147,7 @@ class Objects:
     # held in a hand -------------------------------------------------------------------------
 
     def grip(self, name: str) -> None:
-        """Let nothing but lead() move an object."""
+        """Make an object kinematic: only move_held() moves it."""
         body = self.body(name)
         self._held.add(body)
         self._change(body, pybullet.ACTIVATION_STATE_DISABLE_SLEEPING)

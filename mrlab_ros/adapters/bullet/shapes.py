@@ -1,4 +1,4 @@
-"""Bodies of the physics made into Bullet's; what would end Bullet is refused before."""
+"""Bodies of the core as Bullet shapes; input that would crash Bullet is refused before."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from mrlab_ros.core.physics.engine import Body, Part, Shape
 
 # Bullet multiplies the coefficients of both bodies, so 1 leaves it to the object.
 NEUTRAL = 1.0
-# m, by which the normal force on something round is off its middle.
+# Coefficient of rolling friction, m: the offset of the normal force of a round body.
 ROLLING = 0.0008
 ROUND = (Shape.SPHERE, Shape.CYLINDER, Shape.HULL)
 NUMBERS = {Shape.BOX: 3, Shape.CYLINDER: 2, Shape.SPHERE: 1}
@@ -44,7 +44,7 @@ def make_shape(client: int, body: Body) -> int:
 def make_body(client: int, body: Body, shape: int, pose: Pose) -> int:
     """Put a body of a shape from make_shape() into the world; return Bullet's number of it."""
     static = body.mass == 0
-    # What has edges does not roll, and each such friction is a constraint of every contact.
+    # Bodies with edges do not roll, and rolling friction is a constraint of every contact.
     rolls = not static and any(part.shape in ROUND for part in body.parts)
     rolling = ROLLING if rolls else 0.0
     made: int = pybullet.createMultiBody(
@@ -66,7 +66,7 @@ def make_body(client: int, body: Body, shape: int, pose: Pose) -> int:
         physicsClientId=client,
     )
     if static:
-        # Or contacts of all that lies on it would be found anew in each step.
+        # Otherwise the contacts of all that lies on it would be computed in every step.
         pybullet.changeDynamics(
             made, -1, activationState=pybullet.ACTIVATION_STATE_SLEEP, physicsClientId=client
         )

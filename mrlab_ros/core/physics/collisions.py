@@ -1,4 +1,4 @@
-"""What the arms touch: contacts, collisions, and when they are over."""
+"""Contacts and collisions of the arms, and when a collision is over."""
 
 from __future__ import annotations
 
@@ -13,15 +13,15 @@ from mrlab_ros.core.physics.engine import Kind
 from mrlab_ros.core.physics.events import CollisionChanged, Contact
 from mrlab_ros.core.physics.simulated_robot import Robot
 from mrlab_ros.core.physics.surfaces import Surface
-from mrlab_ros.core.physics.world_state import Stage
+from mrlab_ros.core.physics.world_state import WorldState
 
 
 class Collisions:
-    """Watches the arms on the stage, among each other and in the room."""
+    """Observes contacts of all arms with objects, surfaces, each other and themselves."""
 
-    def __init__(self, stage: Stage) -> None:
-        self._stage = stage
-        self._engine = stage.engine
+    def __init__(self, state: WorldState) -> None:
+        self._state = state
+        self._engine = state.engine
         self._contacts: dict[tuple[str, str, Kind, str, str], Contact] = {}
 
     def take(self) -> list[Contact]:
@@ -29,8 +29,8 @@ class Collisions:
         taken, self._contacts = list(self._contacts.values()), {}
         return taken
 
-    def look(self, robot: Robot, now_ns: int) -> None:
-        """Note what an arm touches, and whether a collision begins with it."""
+    def observe(self, robot: Robot, now_ns: int) -> None:
+        """Record an arm's contacts; announce a collision that begins."""
         robot.touches = self._engine.touches(robot.name)
         if not robot.touches:
             return
@@ -44,54 +44,54 @@ class Collisions:
             known = self._contacts.get(key)
             if known is None or touch.impulse > known.touch.impulse:
                 self._contacts[key] = contact
-            if self._stage.counts(robot, touch):
+            if self._state.counts(robot, touch):
                 robot.partners.add((touch.kind, touch.other))
                 if first is None or touch.depth > first.touch.depth:
                     first = contact
         if first is not None:
             begins = robot.clearance.touched()
             if begins or robot.raise_again:
-                self._stage.events.append(
+                self._state.events.append(
                     CollisionChanged(now_ns, robot.name, True, first, -first.touch.depth)
                 )
             robot.raise_again = False
 
-    def look_around(self, robot: Robot, now_ns: int) -> None:
-        """See whether a collision is over, and which surfaces the arm has left."""
-        far = 2 * self._stage.settings.clear_margin
+    def check_clearance(self, robot: Robot, now_ns: int) -> None:
+        """Announce a collision that is over; stop tolerating surfaces that the arm has left."""
+        far = 2 * self._state.settings.clear_margin
         for name in list(robot.tolerated):
             if self._engine.distance(robot.name, Kind.SURFACE, name, far) >= far / 2:
                 robot.tolerated.discard(name)
         if robot.clearance.state is Halt.CLEAR:
             return
-        if any(self._stage.counts(robot, touch) for touch in robot.touches):
+        if any(self._state.counts(robot, touch) for touch in robot.touches):
             return
         nearest = far
         for kind, other in robot.partners:
-            # Links of one arm are always close to each other: not touching is all they can do.
+            # Links of one arm are always close to each other; it is enough that they do not touch.
             if kind is Kind.SELF or (kind is Kind.OBJECT and other == robot.held):
                 continue
             nearest = min(nearest, self._engine.distance(robot.name, kind, other, far))
         if robot.clearance.apart(now_ns, nearest):
             robot.partners.clear()
-            self._stage.events.append(CollisionChanged(now_ns, robot.name, False, None, nearest))
+            self._state.events.append(CollisionChanged(now_ns, robot.name, False, None, nearest))
 
     # the room -------------------------------------------------------------------------------
 
     def set_surfaces(self, new: Sequence[Surface]) -> tuple[str, ...]:
         """Replace the room's surfaces; without one labelled floor there is an endless floor.
 
-        Returns the names of those that stand in a robot: it may move out of them, and from then
-        on they count.
+        Returns the names of those that overlap a robot. They are tolerated until the robot has
+        moved out of them.
         """
         wanted = {surface.name: surface for surface in new}
         if len(wanted) != len(new):
             raise BadInput("two surfaces have the same name; give each its own")
         if not any(surface.label == rooms.FLOOR for surface in new):
             wanted.setdefault(rooms.FLOOR, rooms.floor())
-        most = self._stage.settings.max_triangles
-        before = self._stage.surfaces
-        # A headset sends the whole room again and again: what is as it was stays.
+        most = self._state.settings.max_triangles
+        before = self._state.surfaces
+        # A headset sends the whole room repeatedly: unchanged surfaces stay.
         kept = {n for n, s in wanted.items() if n in before and _alike(s, before[n])}
         bodies = {n: rooms.body(s, most) for n, s in wanted.items() if n not in kept}
         for name in before:
@@ -99,26 +99,26 @@ class Collisions:
                 self._engine.remove_surface(name)
         for name, body in bodies.items():
             self._engine.add_surface(name, body, wanted[name].pose)
-        self._stage.surfaces = wanted
+        self._state.surfaces = wanted
         found: set[str] = set()
-        for robot in self._stage.robots.values():
+        for robot in self._state.robots.values():
             robot.tolerated.clear()
             found |= self.tolerate(robot)
         return tuple(sorted(found))
 
     def tolerate(self, robot: Robot) -> set[str]:
-        """Note the surfaces that stand in the robot already; return their names."""
+        """Tolerate the surfaces that overlap the robot now; return their names."""
         if robot.placed is not None:
-            # What it collided with before stays a collision until it is clear of it.
+            # Surfaces it already collides with are not tolerated.
             hit = {name for kind, name in robot.partners if kind is Kind.SURFACE}
-            for name in self._stage.surfaces.keys() - hit:
+            for name in self._state.surfaces.keys() - hit:
                 if self._engine.distance(robot.name, Kind.SURFACE, name, 0.001) <= 0:
                     robot.tolerated.add(name)
         return robot.tolerated
 
 
 def _alike(a: Surface, b: Surface) -> bool:
-    """Return whether two surfaces are one and the same body."""
+    """Return whether two surfaces have the same body."""
     return (
         a.pose == b.pose
         and np.array_equal(a.vertices, b.vertices)

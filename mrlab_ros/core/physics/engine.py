@@ -1,4 +1,4 @@
-"""The port to a physics engine: what the world asks of it, and nothing more.
+"""The port to a physics engine.
 
 Everything has a name: arms, objects and surfaces each have names of their own. SI units; poses
 are in the frame world; an object's frame is its centre of mass.
@@ -129,7 +129,7 @@ class Engine(Protocol):
     ) -> Arm:
         """Load an arm whose `joints` are prescribed; raise BadInput where the URDF has none.
 
-        apart: pairs of its links that never touch, though their shapes may.
+        apart: pairs of its links that never touch, though their collision shapes may.
         """
         ...
 
@@ -147,7 +147,7 @@ class Engine(Protocol):
     ) -> None:
         """Put the arm's joints at `positions`, rad, moving with `velocities`, rad/s.
 
-        jumped: it did not move there from where it was, it was put there.
+        jumped: it was placed there, not moved.
         """
         ...
 
@@ -156,25 +156,25 @@ class Engine(Protocol):
         ...
 
     def drive_fingers(self, name: str, velocities: Sequence[float]) -> None:
-        """Let the fingers move at `velocities` as far as their force allows."""
+        """Drive the fingers at `velocities` with their limited force."""
         ...
 
     def set_fingers(self, name: str, positions: Sequence[float]) -> None:
-        """Put the fingers at `positions` at once, at rest."""
+        """Place the fingers at `positions`, at rest."""
         ...
 
     def fingers(self, name: str) -> tuple[FingerState, ...]: ...
 
     def link(self, arm: str, link: str) -> BodyState:
-        """Return a link's centre of mass: its pose and how it moves."""
+        """Return pose and velocity of a link's centre of mass."""
         ...
 
     def touches(self, name: str) -> list[Touch]:
         """Return the arm's contact points of the last step."""
         ...
 
-    def distance(self, arm: str, kind: Kind, other: str, look: float) -> float:
-        """Return the distance from the arm's moving links to something, m, at most `look`."""
+    def distance(self, arm: str, kind: Kind, other: str, limit: float) -> float:
+        """Return the distance from the arm's moving links to something, m, at most `limit`."""
         ...
 
     def add_object(self, name: str, body: Body, motion: BodyState) -> None: ...
@@ -190,7 +190,7 @@ class Engine(Protocol):
     def remove_surface(self, name: str) -> None: ...
 
     def hold(self, arm: str, link: str, name: str) -> None:
-        """Fix an object to an arm's link where it is now; the two no longer touch."""
+        """Fix an object to an arm's link where it is now; contacts between the two are off."""
         ...
 
     def release(self, name: str) -> None:
@@ -206,7 +206,7 @@ class Engine(Protocol):
         ...
 
     def step(self, duration: float) -> None:
-        """Find the contacts of the present poses, then let `duration` s pass."""
+        """Compute the contacts of the present poses, then advance by `duration`, s."""
         ...
 
     def close(self) -> None: ...

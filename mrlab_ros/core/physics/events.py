@@ -1,4 +1,4 @@
-"""What happens in the world, as it is told."""
+"""Events of the world."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from mrlab_ros.core.physics.grasp import Grasp
 
 @dataclass(frozen=True)
 class Contact:
-    """A touch with when and in which source frame of the robot's trajectory it was."""
+    """A touch with its stamp and the source frame of the robot's trajectory."""
 
     stamp_ns: int
     robot: str
@@ -31,7 +31,7 @@ class CollisionChanged:
 
 @dataclass(frozen=True)
 class GraspChanged:
-    """What a gripper does now. positions, forces: of the fingers, in the arm's order."""
+    """State of a gripper. positions, forces: of the fingers, in the arm's order."""
 
     stamp_ns: int
     robot: str
@@ -43,7 +43,7 @@ class GraspChanged:
 
 @dataclass(frozen=True)
 class ObjectRemoved:
-    """An object that the world itself took away, and why."""
+    """An object that the world itself removed, and why."""
 
     stamp_ns: int
     name: str

@@ -69,7 +69,7 @@ del G, E
 
 
 class StallWatch:
-    """Tells which fingers make no progress, and what they touched meanwhile.
+    """Detects fingers that make no progress, and records what they touched.
 
     A finger is stalled when it closed by less than `share` of what it would have covered freely
     in `span_ns`. Contacts count for the same span: a finger pressed against something hard loses
@@ -89,7 +89,7 @@ class StallWatch:
         self._all_since_ns: int | None = None
         self._touched: dict[tuple[str, str], tuple[int, Vector]] = {}
 
-    def look(
+    def update(
         self, now_ns: int, states: Sequence[FingerState], touches: Sequence[Touch]
     ) -> frozenset[str]:
         """Return the links of the fingers that are stalled at `now_ns`."""

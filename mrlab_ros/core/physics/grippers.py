@@ -1,4 +1,4 @@
-"""What the grippers do: take hold, hand over, let go, and carry."""
+"""The grippers: grasp, hand over, release and carry objects."""
 
 from __future__ import annotations
 
@@ -16,21 +16,21 @@ from mrlab_ros.core.physics.engine import BodyState, Kind
 from mrlab_ros.core.physics.events import GraspChanged
 from mrlab_ros.core.physics.grasp import Grasp, GraspEvent, Gripper
 from mrlab_ros.core.physics.simulated_robot import COMMANDING, Robot
-from mrlab_ros.core.physics.world_state import SceneObject, Stage
+from mrlab_ros.core.physics.world_state import SceneObject, WorldState
 
 
-class Hands:
-    """The grippers of all robots on the stage."""
+class Grippers:
+    """The grippers of all robots in the world."""
 
-    def __init__(self, stage: Stage) -> None:
-        self._stage = stage
-        self._engine = stage.engine
+    def __init__(self, state: WorldState) -> None:
+        self._state = state
+        self._engine = state.engine
 
-    # by hand --------------------------------------------------------------------------------
+    # by service -----------------------------------------------------------------------------
 
     def attach(self, name: str, object_name: str) -> None:
-        """Fix an object to a robot's hand where it is, by hand."""
-        robot, thing = self._stage.robot(name), self._stage.object(object_name)
+        """Fix an object to a robot's gripper where it is; raise Misuse where it cannot be."""
+        robot, thing = self._state.robot(name), self._state.object(object_name)
         if not thing.graspable:
             raise Misuse(f"'{object_name}' is fixed to the room; choose an object that moves")
         if robot.held:
@@ -40,8 +40,8 @@ class Hands:
         self._seize(robot, thing)
 
     def detach(self, name: str) -> str:
-        """Let a robot lose what it holds, by hand; return the object's name."""
-        robot = self._stage.robot(name)
+        """Detach what a robot holds; return the object's name."""
+        robot = self._state.robot(name)
         if not robot.held:
             raise Misuse(f"'{name}' holds nothing; there is nothing to detach")
         held = robot.held
@@ -52,23 +52,23 @@ class Hands:
 
     def _seize(self, robot: Robot, thing: SceneObject) -> None:
         self.take_away(thing)
-        hand = self._stage.hand(robot).pose
+        hand = self._state.hand(robot).pose
         robot.in_hand = relative(hand, self._engine.object(thing.name).pose)
         self._engine.hold(robot.name, robot.arm.hand, thing.name)
         robot.held, thing.held_by, thing.hand = thing.name, robot.name, None
-        robot.held_since_ns = self._stage.now_ns
+        robot.held_since_ns = self._state.now_ns
         robot.lost = ""
         robot.fire(GraspEvent.SEIZED)
         self._engine.drive_fingers(robot.name, robot.finger_velocities())
-        self.tell(robot)
+        self.announce(robot)
 
     def let_go(self, robot: Robot) -> None:
-        """Undo the hold; the object flies on with the hand's velocity."""
+        """Release what is held; the object keeps the gripper's velocity."""
         if not robot.held:
             return
-        thing = self._stage.objects[robot.held]
+        thing = self._state.objects[robot.held]
         self._engine.release(thing.name)
-        hand = self._stage.hand(robot)
+        hand = self._state.hand(robot)
         pose = self._engine.object(thing.name).pose
         arm = subtract(pose.position, hand.pose.position)
         linear = add(hand.linear, cross(hand.angular, arm))
@@ -76,37 +76,37 @@ class Hands:
         thing.held_by, robot.held, robot.in_hand = "", "", None
 
     def lose(self, robot: Robot) -> None:
-        """Let a robot lose what it holds, without its gripper opening."""
+        """Release what a robot holds while its gripper stays closed."""
         robot.lost = robot.held
         self.let_go(robot)
         robot.fire(GraspEvent.LOST)
-        self.tell(robot)
+        self.announce(robot)
 
     def take_away(self, thing: SceneObject) -> None:
-        """Take an object from whoever holds it."""
-        if thing.held_by in self._stage.robots:
-            self.lose(self._stage.robots[thing.held_by])
+        """Take an object from the robot or person that holds it."""
+        if thing.held_by in self._state.robots:
+            self.lose(self._state.robots[thing.held_by])
         thing.held_by, thing.hand = "", None
 
     def carry(self, robot: Robot) -> None:
-        """Put what the hand holds where the hand was put."""
+        """Place what the gripper holds after the arm was placed."""
         if robot.held and robot.in_hand is not None:
-            hand = self._stage.hand(robot).pose
+            hand = self._state.hand(robot).pose
             self._engine.set_object(robot.held, BodyState(compose(hand, robot.in_hand)))
 
     def put_in_hand(self, robot: Robot, thing: SceneObject, in_hand: Pose) -> None:
-        """Let a robot hold an object at `in_hand`, the object's pose in the hand's frame."""
-        hand = self._stage.hand(robot).pose
+        """Let a robot hold an object at `in_hand`: T_hand_object."""
+        hand = self._state.hand(robot).pose
         self._engine.set_object(thing.name, BodyState(compose(hand, in_hand)))
         if robot.held != thing.name:
             self._seize(robot, thing)
 
-    def tell(self, robot: Robot) -> None:
-        """Tell what a gripper does now."""
+    def announce(self, robot: Robot) -> None:
+        """Add an event with the state of a gripper."""
         states = self._engine.fingers(robot.name)
-        self._stage.events.append(
+        self._state.events.append(
             GraspChanged(
-                self._stage.now_ns,
+                self._state.now_ns,
                 robot.name,
                 robot.grasp,
                 robot.held,
@@ -118,7 +118,7 @@ class Hands:
     # along the trajectory -------------------------------------------------------------------
 
     def follow(self, robot: Robot, now_ns: int) -> None:
-        """Open or close the gripper as the trajectory says, and see what it reached."""
+        """Open or close the gripper as the trajectory commands; grasp what it reached."""
         if robot.program.times and robot.playing.state in COMMANDING and robot.pending is None:
             position = robot.playing.position(robot.stream.shown_ns(now_ns))
             closed = robot.program.closed_at(position)
@@ -137,7 +137,7 @@ class Hands:
         changed = robot.fire(GraspEvent.CLOSE if closed else GraspEvent.OPEN)
         self._engine.drive_fingers(robot.name, robot.finger_velocities())
         if changed:
-            self.tell(robot)
+            self.announce(robot)
 
     def _watch(self, robot: Robot, now_ns: int) -> None:
         reached: str | None = None
@@ -145,33 +145,33 @@ class Hands:
         if robot.gripper is Gripper.VACUUM:
             reached = self._sucked(robot)
             waited = (now_ns - robot.closing_since_ns) / SECOND
-            shut = waited > self._stage.settings.grasp_timeout
+            shut = waited > self._state.settings.grasp_timeout
         elif robot.gripper is Gripper.FINGERS and robot.grasp is Grasp.CLOSING:
             states = self._engine.fingers(robot.name)
-            stalled = robot.watch.look(now_ns, states, robot.touches)
+            stalled = robot.watch.update(now_ns, states, robot.touches)
             if stalled:
                 reached = robot.watch.pinched(now_ns)
-            timeout = robot.watch.all_stalled_for(now_ns) > self._stage.settings.grasp_timeout
+            timeout = robot.watch.all_stalled_for(now_ns) > self._state.settings.grasp_timeout
             shut = timeout or (bool(stalled) and robot.watch.shut(states))
-        thing = self._stage.objects.get(reached) if reached is not None else None
+        thing = self._state.objects.get(reached) if reached is not None else None
         if thing is not None and thing.graspable and self._may_take(robot, thing):
             self._seize(robot, thing)
         elif shut and robot.fire(GraspEvent.SHUT):
-            self.tell(robot)
+            self.announce(robot)
 
     def _may_take(self, robot: Robot, thing: SceneObject) -> bool:
-        """Return whether a closed gripper may have an object: of two that close on it together
-        the first keeps it, and who takes it over closes later."""
-        holder = self._stage.robots.get(thing.held_by)
+        """Return whether a closed gripper may take an object: of two that close on it at the same
+        time the first one keeps it; a gripper that closes later takes it over."""
+        holder = self._state.robots.get(thing.held_by)
         return holder is None or robot.closing_since_ns >= holder.held_since_ns
 
     def _sucked(self, robot: Robot) -> str | None:
         """Return the first object, by name, that the cup touches.
 
-        What was taken from it is not sucked on again before the trajectory says so, or two cups
+        What was taken from it is not grasped again before the next gripper command, or two cups
         on one object would take it from each other at every step.
         """
-        objects = self._stage.objects
+        objects = self._state.objects
         reached = (
             touch.other
             for touch in robot.touches

@@ -1,4 +1,4 @@
-"""An arm's published joint states, turned into a motion that goes through every one of them."""
+"""Joint states of an arm, interpolated to a motion that passes through every one of them."""
 
 from __future__ import annotations
 
@@ -13,31 +13,30 @@ from mrlab_ros.core.errors import BadInput
 # rad, or rad/s, in order of the joints. Tuples: numpy takes longer for so few numbers.
 Joints = tuple[float, ...]
 
-# No arm turns faster, rad/s, not even at rate 4: what does was put elsewhere (a seek).
+# A faster motion, rad/s, is a jump (a seek): no arm is as fast, not even at rate 4.
 JUMP_SPEED = 50.0
-# An arm whose positions ran so much faster than the velocities it reported was put elsewhere
-# too, rad/s.
+# A difference of positions that exceeds the reported velocities by more, rad/s, is a jump too.
 JUMP_EXCESS = 5.0
-# A stamp that lies so far before the last one is another clock's, not a late message's, ns.
+# A stamp this much older than the last one, ns, is of another clock, not of a late message.
 RESTART_NS = SECOND
-# A stream with a longer period, ns, is shown one period late, for the world must not halt between
-# its states.
+# Streams slower than this, ns, are delayed by one period, so stepping never waits for the next
+# state.
 SLOW_NS = SECOND // 20
-# Shorter than this, ns, no period says how fast something moved.
+# Periods shorter than this, ns, give no speed.
 LEAST_NS = SECOND // 1000
 # Two seconds of backlog at 500 Hz.
 KEPT = 1024
-# No joint is turned this far, rad, or turns so fast, rad/s.
+# Largest position, rad, and velocity, rad/s, that is accepted.
 LIMIT = 1e5
 
 
 def between(start: Joints, end: Joints, share: float) -> Joints:
-    """Return what lies `share` of the straight way from `start` to `end`."""
+    """Interpolate linearly: `share` 0 is `start`, 1 is `end`."""
     return tuple([a + share * (b - a) for a, b in zip(start, end, strict=True)])
 
 
 class Placed(NamedTuple):
-    """Where the arm is at one instant. jumped: it did not move there, it was put there."""
+    """The arm at one instant. jumped: it was placed there, not moved."""
 
     positions: Joints
     velocities: Joints
@@ -46,7 +45,7 @@ class Placed(NamedTuple):
 
 @dataclass(frozen=True, eq=False, slots=True)
 class _Piece:
-    """A straight motion in joint space; of a jump only its end counts."""
+    """A straight motion in joint space; a jump has an end alone."""
 
     start_ns: int
     end_ns: int
@@ -57,13 +56,13 @@ class _Piece:
 
 
 class JointStream:
-    """Joint states in, poses at any instant out; linear between two states.
+    """Interpolates joint states linearly to poses at any instant.
 
-    The pose of an arm that moves or plays is known up to its last state: `known_until` says so,
-    and whoever steps time waits for it. A slow stream is shown one of its own periods late.
+    The pose of an arm that moves or plays is known up to its last state (`known_until`); the
+    world does not step past it. A slow stream is delayed by one of its own periods.
 
-    max_silence_ns: how long an arm may send nothing until it counts as standing. max_late_ns: a
-    stream whose newest state is older than this is not waited for.
+    max_silence_ns: an arm that sends nothing for longer counts as standing. max_late_ns: the
+    world does not wait for a stream whose newest state is older.
     """
 
     def __init__(self, joints: int, max_silence_ns: int, max_late_ns: int) -> None:
@@ -77,22 +76,22 @@ class JointStream:
         self._pieces: deque[_Piece] = deque(maxlen=KEPT)
         self._last: tuple[int, Joints] | None = None
         self._moves = False
-        # Whether the next state is to follow the last one without a pause.
+        # Whether the next state is expected without a pause.
         self._streams = False
         self._fresh = True
         self.delay_ns = 0
 
     def plays(self, since_ns: int | None, until_ns: int | None) -> None:
-        """Note that the arm plays, and so sends its states even while it stands.
+        """Set that the arm plays, and so sends states even while it does not move.
 
-        since_ns: it may lie ahead; None: it does not play. until_ns: None where no end is known.
+        since_ns: may lie in the future; None: it does not play. until_ns: None: no known end.
         """
         self._plays_since_ns, self._plays_until_ns = since_ns, until_ns
 
     def add(
         self, stamp_ns: int, positions: Sequence[float], velocities: Sequence[float], now_ns: int
     ) -> bool:
-        """Take a joint state; return False for one that is not newer than the last.
+        """Add a joint state; return False for one that is not newer than the last.
 
         now_ns: the world's time. Raises BadInput where the numbers are no joint state.
         """
@@ -106,7 +105,7 @@ class JointStream:
             return False
         period_ns = stamp_ns - before_ns
         waits = period_ns <= self._max_silence_ns
-        # A stream slower than that is not waited for at all.
+        # The world does not wait for a slower stream.
         self._silent_ns = 0 if waits else self._max_silence_ns + 1
         moved = q != before
         plays = self._plays_after(stamp_ns)
@@ -118,7 +117,7 @@ class JointStream:
             self.delay_ns = period_ns if waits and period_ns > SLOW_NS else 0
         start_ns = max(before_ns, min(now_ns - self.delay_ns, stamp_ns))
         if not self._streams:
-            # A standing arm's last state is old; the motion began in this period, not back then.
+            # The last state of a standing arm is old; the motion began in this period.
             start_ns = max(start_ns, stamp_ns - SECOND // 50)
             period_ns = stamp_ns - start_ns
         slope = v
@@ -136,7 +135,7 @@ class JointStream:
         else:
             self._pieces.append(_Piece(start_ns, stamp_ns, before, q, slope, False))
             self._last = (stamp_ns, q)
-        # What reports a velocity of zero has arrived.
+        # A reported velocity of zero ends the motion.
         self._moves = any(v) or (moved and not jump and not len(velocities))
         self._streams = self._moves or plays
         if not self._streams:
@@ -153,7 +152,7 @@ class JointStream:
                 f"a joint state has {len(q)} positions and {len(v)} velocities; expected "
                 f"{self._joints} of each"
             )
-        # Written so that NaN is refused too.
+        # NaN fails this comparison too.
         if not all(-LIMIT <= x <= LIMIT for x in q + v):
             raise BadInput(
                 f"a joint state holds NaN, Inf or more than {LIMIT:g} rad; the arm stays where "
@@ -162,14 +161,14 @@ class JointStream:
         return q, v
 
     def _put(self, stamp_ns: int, q: Joints) -> None:
-        """Note that the arm was put somewhere, without a way there."""
+        """Place the arm without a motion."""
         self._pieces.append(_Piece(stamp_ns, stamp_ns, q, q, self._rest, True))
         self._last = (stamp_ns, q)
 
     def known_until(self, now_ns: int, waited_ns: int) -> int | None:
-        """Return the time, ns, up to which the motion is known; None: for ever, the arm stands.
+        """Return the time, ns, up to which the motion is known; None: the arm stands.
 
-        waited_ns: for how long since the last call a state could have been taken.
+        waited_ns: how long the caller was ready for a state since the last call.
         """
         known_ns = self._known_ns
         if known_ns is None:
@@ -180,9 +179,9 @@ class JointStream:
         return known_ns
 
     def _plays_after(self, stamp_ns: int) -> bool:
-        """Return whether a state is to be expected after one with this stamp."""
+        """Return whether another state is expected after one with this stamp."""
         until_ns = self._plays_until_ns
-        # The end is told a moment after the last state left.
+        # The end is announced shortly after the last state.
         ends = until_ns is not None and stamp_ns >= until_ns - SLOW_NS
         return self._plays_since_ns is not None and not ends
 
@@ -196,21 +195,22 @@ class JointStream:
         return last_ns + self.delay_ns if self._moves else None
 
     def shown_ns(self, now_ns: int) -> int:
-        """Return the stamp of the motion that is shown at the world's time `now_ns`.
+        """Return the stamp of the motion at the world's time `now_ns`.
 
-        It stays behind where a moving arm's next joint state is late.
+        It lags where the next joint state of a moving arm is late.
         """
         known_ns = self._known_ns
         return (now_ns if known_ns is None else min(now_ns, known_ns)) - self.delay_ns
 
     def at(self, now_ns: int) -> Placed | None:
-        """Return where the arm is at the world's time `now_ns`; None before the first state."""
+        """Return the arm at the world's time `now_ns`; None before the first state."""
         pieces = self._pieces
         if not pieces:
             return None
         now_ns -= self.delay_ns
         jumped, self._fresh = self._fresh, False
-        # Where two pieces meet the one before counts: whether the next is known changes nothing.
+        # At a common end the earlier piece applies, so the result does not depend on whether the
+        # next one is known yet.
         while len(pieces) > 1 and pieces[1].start_ns + (not pieces[1].jump) <= now_ns:
             pieces.popleft()
             jumped |= pieces[0].jump
@@ -229,6 +229,6 @@ def _too_far(start: Joints, end: Joints, period_ns: int) -> bool:
 
 
 def _too_fast(slope: Joints, reported: Joints) -> bool:
-    """Return whether positions ran away from the velocities that came with them."""
+    """Return whether the positions changed much faster than the reported velocities."""
     excess = max([abs(s - r) for s, r in zip(slope, reported, strict=True)])
     return excess - max(map(abs, reported)) > JUMP_EXCESS

@@ -1,4 +1,4 @@
-"""The objects of the scene: how they come, where they are put, and when they go."""
+"""The objects of the scene: adding, placing, moving and removing them."""
 
 from __future__ import annotations
 
@@ -11,36 +11,36 @@ from mrlab_ros.core.naming import checked_name
 from mrlab_ros.core.physics.catalogue import Catalogue, ObjectType
 from mrlab_ros.core.physics.engine import BodyState
 from mrlab_ros.core.physics.events import ObjectRemoved
-from mrlab_ros.core.physics.grippers import Hands
-from mrlab_ros.core.physics.world_state import HAND, SceneObject, Stage
+from mrlab_ros.core.physics.grippers import Grippers
+from mrlab_ros.core.physics.world_state import HAND, SceneObject, WorldState
 
-# An object so far away, m, or so far below the floor is lost.
+# An object this far away, m, or this far below the floor, m, is removed.
 WORLD_SIZE = 100.0
 WORLD_DEPTH = 10.0
-# Thrown faster than this, m/s, nothing was thrown by hand.
+# Largest velocity with which a person can throw, m/s.
 MAX_THROW = 30.0
 MAX_SPIN = 100.0  # rad/s
 SPAWN_GAP = 0.0005
-# How far from the wanted place a free one is looked for, rings.
+# Rings around the wanted position in which a free one is searched.
 SPAWN_RINGS = 12
 
 
 class Inventory:
-    """Puts objects on the stage and takes them from it."""
+    """Adds and removes the objects of the world."""
 
-    def __init__(self, stage: Stage, catalogue: Catalogue, hands: Hands) -> None:
-        self._stage = stage
-        self._engine = stage.engine
-        self._objects = stage.objects
+    def __init__(self, state: WorldState, catalogue: Catalogue, grippers: Grippers) -> None:
+        self._state = state
+        self._engine = state.engine
+        self._objects = state.objects
         self._catalogue = catalogue
-        self._hands = hands
+        self._grippers = grippers
 
     def spawn(self, type_id: str, name: str, pose: Pose | None, *, automatic: bool) -> SceneObject:
-        """Put an object at `pose`, or with `automatic` on the nearest surface below it."""
+        """Add an object at `pose`, or with `automatic` on the nearest surface below it."""
         kind = self._catalogue.get(type_id)
         pose = Pose() if pose is None else pose
         checked_vector(pose.position, "the position", WORLD_SIZE)
-        taken = frozenset(self._objects) | frozenset(self._stage.robots)
+        taken = frozenset(self._objects) | frozenset(self._state.robots)
         if not name:
             name = next(n for i in itertools.count(1) if (n := f"{type_id}_{i}") not in taken)
         checked_name(name, taken, "object")
@@ -52,7 +52,7 @@ class Inventory:
         return self._objects[name]
 
     def _make_room(self) -> None:
-        most = self._stage.settings.max_objects
+        most = self._state.settings.max_objects
         if len(self._objects) < most:
             return
         oldest = next((o for o in self._objects.values() if not o.held_by), None)
@@ -81,7 +81,7 @@ class Inventory:
                 if found is None or abs(found - height) > 0.005:
                     continue
                 low, high = add(place, kind.low), add(place, kind.high)
-                # The engine's boxes are a little larger than what they hold.
+                # The engine's bounding boxes have a margin.
                 low = (low[0], low[1], low[2] + min(0.03, kind.size[2] / 2))
                 if not self._engine.overlapping(low, high):
                     return Pose(place, wanted.orientation)
@@ -91,26 +91,26 @@ class Inventory:
         )
 
     def move(self, name: str, pose: Pose, linear: Vector, angular: Vector, *, held: bool) -> None:
-        """Move an object by hand: kinematic while `held`, else let go there with its velocity."""
-        thing = self._stage.object(name)
+        """Move an object: kinematic while `held`, else released there with the velocity given."""
+        thing = self._state.object(name)
         checked_vector(pose.position, "the position", WORLD_SIZE)
         checked_vector(linear, "the velocity", MAX_THROW)
         checked_vector(angular, "the angular velocity", MAX_SPIN)
-        self._hands.take_away(thing)
+        self._grippers.take_away(thing)
         motion = BodyState(pose, linear, angular)
         self._engine.set_object(name, BodyState(pose) if held or not thing.type.mass else motion)
         thing.held_by = HAND if held else ""
         thing.hand = BodyState(pose) if held else None
 
     def keep_in_hand(self) -> None:
-        """Put what a person holds back where it is held."""
+        """Reset the pose of what a person holds."""
         for thing in self._objects.values():
             if thing.hand is not None:
                 self._engine.set_object(thing.name, thing.hand)
 
     def remove(self, name: str) -> None:
-        thing = self._stage.object(name)
-        self._hands.take_away(thing)
+        thing = self._state.object(name)
+        self._grippers.take_away(thing)
         self._engine.remove_object(name)
         del self._objects[name]
 
@@ -122,7 +122,7 @@ class Inventory:
         return count
 
     def motions(self) -> dict[str, BodyState]:
-        """Return by name where every object is that can move; remove what left the room."""
+        """Return the state of every movable object by name; remove what left the room."""
         motions = {}
         for name, thing in list(self._objects.items()):
             if not thing.type.mass:
@@ -137,5 +137,5 @@ class Inventory:
         return motions
 
     def _announce(self, thing: SceneObject, why: str) -> None:
-        stage = self._stage
+        stage = self._state
         stage.events.append(ObjectRemoved(stage.now_ns, thing.name, thing.type.id, why))

@@ -1,4 +1,4 @@
-"""One robot as the world keeps it: its motion, its gripper, its collision, its run."""
+"""State of one simulated robot: motion, gripper, collision and playback."""
 
 from __future__ import annotations
 
@@ -18,17 +18,17 @@ from mrlab_ros.core.physics.snapshots import Snapshot, Snapshots
 from mrlab_ros.core.playback.states import MOVING, State
 from mrlab_ros.core.state_machine import Machine
 
-# In these states the gripper is where the trajectory says; in the others it stays as it is.
+# In these states the trajectory commands the gripper; in the others the gripper keeps its state.
 COMMANDING = (State.PLAYING, State.PAUSED, State.COLLISION_HALT)
-# The clock of a playback that goes on normally is off by less than this, s.
+# Deviation of the clock of a playback that was not sought, s.
 SEEK_TOLERANCE = 0.03
 
 
 @dataclass(frozen=True)
 class Playing:
-    """What the world knows of a robot's playback; see mrlab_msgs/PlaybackState.
+    """A playback state of a robot; see mrlab_msgs/PlaybackState.
 
-    stamp_ns: since when it holds.
+    stamp_ns: it applies from then on.
     """
 
     state: State = State.IDLE
@@ -52,7 +52,7 @@ class Playing:
         return min(frame, max(self.frame_count - 1, 0))
 
     def sought(self, new: Playing) -> bool:
-        """Return whether `new` stands elsewhere than playing on would have led."""
+        """Return whether `new` has another position than undisturbed playback would have."""
         if new.trajectory_id != self.trajectory_id or new.state not in COMMANDING:
             return False
         expected = self.position(new.clock.stamp_ns)
@@ -90,24 +90,24 @@ class Robot:
     watch: StallWatch = field(init=False)
     snapshots: Snapshots = field(init=False)
     playing: Playing = field(default_factory=Playing)
-    # What was heard of its playback and holds from a later time of its motion on.
-    coming: deque[Playing] = field(default_factory=deque)
+    # Playback states received but not yet due.
+    queued: deque[Playing] = field(default_factory=deque)
     program: GripperProgram = field(default_factory=GripperProgram)
-    # Where the arm was put last; None before its first joint state: it is not there yet.
+    # Joint positions of the arm; None before its first joint state.
     placed: Joints | None = None
     partners: set[tuple[Kind, str]] = field(default_factory=set)
     tolerated: set[str] = field(default_factory=set)
     touches: list[Touch] = field(default_factory=list)
     raise_again: bool = False
-    # How fast the arm's fastest point is, as a share of what it would be at full stretch, and of
-    # which velocities that is the share.
+    # Speed of the arm's fastest point as a share of its speed at full stretch, and the joint
+    # velocities for which it was computed.
     share: float = 1.0
     share_of: Joints | None = None
     closed: bool = False
     closing_since_ns: int = 0
     held: str = ""
     held_since_ns: int = 0
-    # What was taken from the closed gripper; empty once it is commanded anew.
+    # The object that was taken from the closed gripper; empty after the next gripper command.
     lost: str = ""
     in_hand: Pose | None = None
     pending: tuple[int, Snapshot] | None = None
@@ -123,32 +123,33 @@ class Robot:
         self.snapshots = Snapshots(s.snapshot_rate, s.snapshot_count)
         self.finger_links = frozenset(f.link for f in self.arm.fingers)
 
-    def hear(self, playing: Playing) -> None:
-        """Note what the playback does from a stamp on; take_up() makes it hold."""
-        self.coming.append(playing)
-        self._tell_stream()
+    def queue(self, playing: Playing) -> None:
+        """Queue a playback state; apply_due() applies it from its stamp on."""
+        self.queued.append(playing)
+        self._update_stream()
 
-    def take_up(self, shown_ns: int | None) -> Iterator[Playing]:
-        """Let hold what holds at the stamp `shown_ns`, or all (None); yield what held before."""
-        while self.coming and (shown_ns is None or self.coming[0].stamp_ns <= shown_ns):
-            before, self.playing = self.playing, self.coming.popleft()
-            self._tell_stream()
+    def apply_due(self, shown_ns: int | None) -> Iterator[Playing]:
+        """Apply queued states up to `shown_ns` (None: all); yield each state that was replaced."""
+        while self.queued and (shown_ns is None or self.queued[0].stamp_ns <= shown_ns):
+            before, self.playing = self.playing, self.queued.popleft()
+            self._update_stream()
             if self.playing.state in MOVING and before.state not in MOVING:
                 self.raise_again = True
             if self.playing.state is State.COLLISION_HALT and self.clearance.touched():
-                # The halt began before this arm was built; its end is still to be told.
+                # Physics restarted during a halt: announce the collision again so that its end
+                # is announced too.
                 self.raise_again = True
             yield before
 
-    def _tell_stream(self) -> None:
-        newest = self.coming[-1] if self.coming else self.playing
+    def _update_stream(self) -> None:
+        newest = self.queued[-1] if self.queued else self.playing
         self.stream.plays(
             self.playing.clock.stamp_ns if self.playing.state in MOVING else None,
             None if newest.state in MOVING else newest.stamp_ns,
         )
 
     def reach(self, end: Joints, start: Joints | None = None) -> float:
-        """Return how far the arm's end moves at most from `start` (all 0 if None) to `end`, m."""
+        """Return an upper bound of the arm's travel, m, from `start` (None: zeros) to `end`."""
         if start is None:
             return sum([abs(q) * lever for q, lever in zip(end, self.arm.levers, strict=True)])
         ways = zip(start, end, self.arm.levers, strict=True)
@@ -179,7 +180,7 @@ class Robot:
         return not (touch.kind is Kind.SURFACE and touch.other in self.tolerated)
 
     def finger_velocities(self) -> list[float]:
-        """Return how the fingers are driven: closing, opening, or locked about an object."""
+        """Return the commanded finger velocities: closing, opening, or 0 around a held object."""
         if self.grasp is Grasp.HOLDING:
             return [0.0] * len(self.arm.fingers)
         way = 1.0 if self.closed else -1.0

@@ -1,4 +1,4 @@
-"""What the objects looked like along a run, so that a timeline can be scrubbed."""
+"""Snapshots of the objects along a run, so that its timeline can be scrubbed."""
 
 from __future__ import annotations
 
@@ -36,8 +36,8 @@ class Snapshot:
 class Snapshots:
     """The snapshots of one run, by position on the timeline (s), bounded in number.
 
-    When they are full every second one goes and the spacing doubles: a long run keeps its whole
-    length, more coarsely.
+    When they are full, every second one is removed and the spacing doubles: a long run is covered
+    whole, more coarsely.
     """
 
     def __init__(self, rate: float, count: int) -> None:
@@ -58,7 +58,7 @@ class Snapshots:
         return i == 0 or position - self._taken[i - 1].position >= self._spacing * (1 - 1e-6)
 
     def add(self, snapshot: Snapshot) -> None:
-        """Keep a snapshot; what an earlier run left behind it is no longer the future."""
+        """Add a snapshot; remove those of an earlier run at later positions."""
         i = bisect.bisect_left(self._taken, snapshot.position, key=lambda s: s.position)
         self._taken[i:] = [snapshot]
         if len(self._taken) > self._count:
@@ -66,12 +66,12 @@ class Snapshots:
             self._spacing *= 2
 
     def cut(self, position: float) -> None:
-        """Forget everything after `position`: the run goes on from there, differently."""
+        """Remove everything after `position`: the run continues from there, differently."""
         i = bisect.bisect_right(self._taken, position, key=lambda s: s.position)
         del self._taken[i:]
 
     def at(self, position: float) -> Snapshot | None:
-        """Return the last snapshot not after `position`, where the run has passed there."""
+        """Return the last snapshot not after `position`; None where the run has not passed it."""
         i = bisect.bisect_right(self._taken, position + 1e-6, key=lambda s: s.position)
         passed = self._taken and position <= self._taken[-1].position + self._spacing
         return self._taken[i - 1] if i and passed else None

@@ -35,7 +35,7 @@ class Surface:
 
 
 def floor() -> Surface:
-    """Return the floor of a lab that no headset has looked at yet."""
+    """Return the endless floor of a lab without detected surfaces."""
     return Surface(FLOOR, FLOOR, Pose(), np.zeros((0, 3)), np.zeros((0, 3), np.int32))
 
 
@@ -58,7 +58,7 @@ def body(surface: Surface, max_triangles: int) -> Body:
                 f"surface '{name}' names vertex {triangles.max()} of {len(vertices)}; expected "
                 "indices of its own vertices"
             )
-        # Vertices that no triangle names would only be in the way.
+        # Unused vertices would enlarge the bounding box.
         named, places = np.unique(triangles, return_inverse=True)
         part = Part(
             Shape.MESH,

@@ -1,8 +1,8 @@
-"""The simulated world: arms that are led, objects that are free, and what happens between them.
+"""The simulated world: prescribed arms, free objects, and the contacts and grasps between them.
 
-Time is the caller's: joint states, clocks and commands come with stamps, `advance(now_ns)` steps
-on a fixed grid, and what happened comes out of `take_events()` and `take_contacts()`. The same
-inputs give the same events.
+The caller owns time: joint states, clocks and commands carry stamps, and `advance(now_ns)` steps
+on a fixed grid. `take_events()` and `take_contacts()` return what happened. The same inputs give
+the same events.
 """
 
 from __future__ import annotations
@@ -18,21 +18,22 @@ from mrlab_ros.core.physics.collisions import Collisions
 from mrlab_ros.core.physics.engine import BodyState, Engine, LinkPairs
 from mrlab_ros.core.physics.events import Contact, Event
 from mrlab_ros.core.physics.grasp import Gripper
-from mrlab_ros.core.physics.grippers import Hands
+from mrlab_ros.core.physics.grippers import Grippers
 from mrlab_ros.core.physics.joint_stream import Joints, between
 from mrlab_ros.core.physics.objects import Inventory
 from mrlab_ros.core.physics.scrubbing import Rewind
 from mrlab_ros.core.physics.settings import Settings
 from mrlab_ros.core.physics.simulated_robot import GripperProgram, Playing, Robot
 from mrlab_ros.core.physics.surfaces import Surface
-from mrlab_ros.core.physics.world_state import SceneObject, Stage
+from mrlab_ros.core.physics.world_state import SceneObject, WorldState
 
-# What needs no look at every step is looked at this often, steps.
-LOOK = 12
-# A turn that comes so much later than the one before, ns, was not waited for: the machine stalled.
-WAIT_NS = SECOND // 50
-# A robot that moved in a step: from where, to where, and with which velocities.
-Led = tuple[Robot, Joints, Joints, Joints]
+# Clearance and snapshots run every SLOW_STEPS steps.
+SLOW_STEPS = 12
+# A gap longer than this between two calls of advance(), ns, counts as a stall, not as silence of
+# an arm.
+STALL_NS = SECOND // 50
+# A robot that moved in a step: start and end positions, and velocities.
+Moved = tuple[Robot, Joints, Joints, Joints]
 
 
 class World:
@@ -41,15 +42,15 @@ class World:
     def __init__(self, engine: Engine, catalogue: Catalogue, settings: Settings) -> None:
         self._engine = engine
         self._settings = settings
-        self._stage = Stage(engine, settings)
-        self._robots = self._stage.robots
-        self._hands = Hands(self._stage)
-        self._inventory = Inventory(self._stage, catalogue, self._hands)
-        self._collisions = Collisions(self._stage)
-        self._rewind = Rewind(self._stage, self._hands)
+        self._state = WorldState(engine, settings)
+        self._robots = self._state.robots
+        self._grippers = Grippers(self._state)
+        self._inventory = Inventory(self._state, catalogue, self._grippers)
+        self._collisions = Collisions(self._state)
+        self._rewind = Rewind(self._state, self._grippers)
         self._epoch_ns: int | None = None
-        # The caller's time at its last turn.
-        self._heard_ns = 0
+        # now_ns of the last call of advance().
+        self._called_ns = 0
         self._count = 0
         self.steps = 0
         self.skipped_ns = 0
@@ -60,15 +61,15 @@ class World:
     @property
     def now_ns(self) -> int:
         """The world's time: that of its last step."""
-        return self._stage.now_ns
+        return self._state.now_ns
 
     @property
     def objects(self) -> tuple[SceneObject, ...]:
-        return tuple(self._stage.objects.values())
+        return tuple(self._state.objects.values())
 
     @property
     def surfaces(self) -> tuple[Surface, ...]:
-        return tuple(self._stage.surfaces.values())
+        return tuple(self._state.surfaces.values())
 
     @property
     def robots(self) -> tuple[str, ...]:
@@ -76,23 +77,23 @@ class World:
 
     def robot(self, name: str) -> Robot:
         """Return a robot; raise Misuse where there is none."""
-        return self._stage.robot(name)
+        return self._state.robot(name)
 
     def object(self, name: str) -> SceneObject:
         """Return an object; raise Misuse where there is none."""
-        return self._stage.object(name)
+        return self._state.object(name)
 
     def motion(self, name: str) -> BodyState:
-        """Return where an object is and how it moves."""
+        """Return an object's pose and velocity."""
         return self._engine.object(self.object(name).name)
 
     def hand(self, name: str) -> BodyState:
-        """Return where the link is that a robot's objects are fixed to, and how it moves."""
-        return self._stage.hand(self.robot(name))
+        """Return pose and velocity of the link that a robot's objects are fixed to."""
+        return self._state.hand(self.robot(name))
 
     def take_events(self) -> list[Event]:
-        """Return what happened since the last call, oldest first."""
-        taken, self._stage.events = self._stage.events, []
+        """Return the events since the last call, oldest first."""
+        taken, self._state.events = self._state.events, []
         return taken
 
     def take_contacts(self) -> list[Contact]:
@@ -110,9 +111,9 @@ class World:
         gripper: Gripper,
         apart: LinkPairs = frozenset(),
     ) -> None:
-        """Add a robot; it takes part from its first joint state on.
+        """Add a robot; its arm is in the world from its first joint state on.
 
-        apart: pairs of its links that never touch, though their shapes may.
+        apart: pairs of its links that never touch, though their collision shapes may.
         """
         if name in self._robots:
             raise Misuse(f"robot '{name}' is in the world already; remove it first")
@@ -121,29 +122,29 @@ class World:
             gripper = Gripper.NONE
         self._robots[name] = Robot(name, joints, pose, arm, gripper, self._settings)
         self._engine.set_fingers(name, [finger.lower for finger in arm.fingers])
-        # Braked: free fingers would slide as the arm swings.
+        # Braked: free fingers would slide when the arm swings.
         self._engine.drive_fingers(name, [0.0] * len(arm.fingers))
-        self._hands.tell(self._robots[name])
+        self._grippers.announce(self._robots[name])
 
     def place_robot(self, name: str, pose: Pose) -> None:
-        """Put the base elsewhere at once, with what the hand holds."""
+        """Move the base at once, together with what the gripper holds."""
         robot = self.robot(name)
         robot.pose = pose
         self._engine.place_arm(name, pose)
-        self._hands.carry(robot)
+        self._grippers.carry(robot)
         self._collisions.tolerate(robot)
 
     def remove_robot(self, name: str) -> None:
-        """Take a robot away; what it held stays behind and falls."""
+        """Remove a robot; what it held is released and falls."""
         robot = self.robot(name)
-        self._hands.let_go(robot)
+        self._grippers.let_go(robot)
         self._engine.remove_arm(name)
         del self._robots[name]
 
     def joint_state(
         self, name: str, stamp_ns: int, positions: Sequence[float], velocities: Sequence[float]
     ) -> bool:
-        """Take a published joint state; return False where it came out of order."""
+        """Add a published joint state; return False where it is out of order."""
         return self.robot(name).stream.add(stamp_ns, positions, velocities, self.now_ns)
 
     def set_program(self, name: str, program: GripperProgram) -> None:
@@ -151,38 +152,38 @@ class World:
         self.robot(name).program = program
 
     def playback(self, name: str, playing: Playing) -> None:
-        """Follow the robot's playback: its clock, its seeks, its runs, each from its stamp on."""
+        """Follow the robot's playback; a state applies from its stamp on."""
         robot = self.robot(name)
-        robot.hear(playing)
-        ahead_ns = playing.stamp_ns - self._heard_ns
-        # A stamp too far ahead is another clock's, and holds at once.
+        robot.queue(playing)
+        ahead_ns = playing.stamp_ns - self._called_ns
+        # A stamp too far ahead is of another clock and applies at once.
         foreign = ahead_ns > self._settings.max_catch_up * SECOND
-        self._take_up(robot, None if foreign else self.now_ns)
+        self._apply_due(robot, None if foreign else self.now_ns)
 
-    def _take_up(self, robot: Robot, now_ns: int | None) -> None:
-        """Let hold what was heard of a playback until the world's time `now_ns`; None: all."""
+    def _apply_due(self, robot: Robot, now_ns: int | None) -> None:
+        """Apply queued playback states whose stamp is at or before `now_ns` (None: all)."""
         shown_ns = None if now_ns is None else now_ns - robot.stream.delay_ns
-        for before in robot.take_up(shown_ns):
+        for before in robot.apply_due(shown_ns):
             self._rewind.follow(robot, before)
 
     def attach(self, name: str, object_name: str) -> None:
-        """Fix an object to a robot's hand where it is, by hand."""
-        self._hands.attach(name, object_name)
+        """Fix an object to a robot's gripper where it is, by service."""
+        self._grippers.attach(name, object_name)
 
     def detach(self, name: str) -> str:
-        """Let a robot lose what it holds, by hand; return the object's name."""
-        return self._hands.detach(name)
+        """Detach what a robot holds, by service; return the object's name."""
+        return self._grippers.detach(name)
 
     # objects and the room -------------------------------------------------------------------
 
     def spawn(
         self, type_id: str, name: str = "", pose: Pose | None = None, *, automatic: bool = False
     ) -> SceneObject:
-        """Put an object at `pose`, or with `automatic` on the nearest surface below it."""
+        """Add an object at `pose`, or with `automatic` on the nearest surface below it."""
         return self._inventory.spawn(type_id, name, pose, automatic=automatic)
 
     def move(self, name: str, pose: Pose, linear: Vector, angular: Vector, *, held: bool) -> None:
-        """Move an object by hand: kinematic while `held`, else let go there with its velocity."""
+        """Move an object: kinematic while `held`, else released there with the velocity given."""
         self._inventory.move(name, pose, linear, angular, held=held)
 
     def remove(self, name: str) -> None:
@@ -196,8 +197,8 @@ class World:
     def set_surfaces(self, new: Sequence[Surface]) -> tuple[str, ...]:
         """Replace the room's surfaces; without one labelled floor there is an endless floor.
 
-        Returns the names of those that stand in a robot: it may move out of them, and from then
-        on they count.
+        Returns the names of those that overlap a robot. They are tolerated until the robot has
+        moved out of them.
         """
         return self._collisions.set_surfaces(new)
 
@@ -208,80 +209,80 @@ class World:
         return self._epoch_ns + round(count * SECOND / self._settings.step_rate)
 
     def advance(self, now_ns: int, most: int | None = None) -> int:
-        """Step until `now_ns`, or as far as the moving arms are known; return the steps made.
+        """Step until `now_ns`, or as far as the arms' motion is known; return the steps made.
 
-        most: steps, of which more are left to the next call.
+        most: steps in one call; the rest is left to the next one.
         """
         if self._epoch_ns is None:
-            self._epoch_ns = self._stage.now_ns = self._heard_ns = now_ns
-        waited_ns = min(max(now_ns - self._heard_ns, 0), WAIT_NS)
-        self._heard_ns = now_ns
-        if now_ns < self._stage.now_ns - SECOND:
-            # The clock was set back: go on from there.
-            self._shift(now_ns - self._stage.now_ns)
+            self._epoch_ns = self._state.now_ns = self._called_ns = now_ns
+        waited_ns = min(max(now_ns - self._called_ns, 0), STALL_NS)
+        self._called_ns = now_ns
+        if now_ns < self._state.now_ns - SECOND:
+            # The clock was set back: continue from there.
+            self._shift(now_ns - self._state.now_ns)
             for robot in self._robots.values():
-                self._take_up(robot, None)
+                self._apply_due(robot, None)
         target_ns = now_ns
         for robot in self._robots.values():
             until = robot.stream.known_until(now_ns, waited_ns)
             if until is not None and until < target_ns:
                 target_ns = until
-        behind_ns = target_ns - self._stage.now_ns
+        behind_ns = target_ns - self._state.now_ns
         if behind_ns > self._settings.max_catch_up * SECOND:
             self.skipped_ns += behind_ns
             self._shift(behind_ns)
         made = 0
         while made != most and (stamp_ns := self._stamp(self._count + 1)) <= target_ns:
             self._count += 1
-            self._stage.now_ns = stamp_ns
+            self._state.now_ns = stamp_ns
             self._step(stamp_ns)
             made += 1
         self.steps += made
         return made
 
     def _shift(self, by_ns: int) -> None:
-        """Let the world's clock go on from elsewhere."""
+        """Shift the world's clock."""
         assert self._epoch_ns is not None
         self._epoch_ns += by_ns
-        self._stage.now_ns += by_ns
+        self._state.now_ns += by_ns
 
     def _step(self, now_ns: int) -> None:
         for robot in self._robots.values():
-            if robot.coming:
-                self._take_up(robot, now_ns)
-        led = self._lead(now_ns)
-        divisions = self._divisions(led)
+            if robot.queued:
+                self._apply_due(robot, now_ns)
+        moved = self._move_arms(now_ns)
+        divisions = self._divisions(moved)
         duration = 1.0 / self._settings.step_rate / divisions
         self._inventory.keep_in_hand()
         present = [robot for robot in self._robots.values() if robot.placed is not None]
         for k in range(1, divisions + 1):
             if divisions > 1:
-                for robot, start, end, velocities in led:
+                for robot, start, end, velocities in moved:
                     at = between(start, end, k / divisions)
                     self._engine.move_arm(robot.name, at, velocities)
             self._engine.step(duration)
             for robot in present:
-                self._collisions.look(robot, now_ns)
+                self._collisions.observe(robot, now_ns)
         for robot in present:
-            self._hands.follow(robot, now_ns)
+            self._grippers.follow(robot, now_ns)
             if robot.pending is not None:
                 self._rewind.restore(robot, now_ns)
-        if self._count % LOOK == 0:
+        if self._count % SLOW_STEPS == 0:
             self._rewind.record(now_ns, self._inventory.motions())
             for robot in present:
-                self._collisions.look_around(robot, now_ns)
+                self._collisions.check_clearance(robot, now_ns)
 
-    def _lead(self, now_ns: int) -> list[Led]:
-        """Put every arm where its joint states say; return those that moved, from where."""
-        led: list[Led] = []
-        look = self._count % LOOK == 0
+    def _move_arms(self, now_ns: int) -> list[Moved]:
+        """Pose every arm by its joint states; return those that moved."""
+        moved: list[Moved] = []
+        look = self._count % SLOW_STEPS == 0
         for robot in self._robots.values():
             placed = robot.stream.at(now_ns)
             if placed is None:
                 continue
             before = robot.placed
             same = before == placed.positions
-            # Nothing pulls a standing arm away, but what touches it nudges it a little.
+            # Contacts can drift a standing arm; re-place it only while something touches it.
             idle = same and not (look or robot.touches or robot.held)
             if idle and not any(placed.velocities):
                 continue
@@ -289,24 +290,24 @@ class World:
             self._engine.move_arm(robot.name, placed.positions, placed.velocities, jumped=jumped)
             robot.placed = placed.positions
             if jumped:
-                self._hands.carry(robot)
+                self._grippers.carry(robot)
                 if robot.pending is not None:
                     robot.pending = (now_ns, robot.pending[1])
                 if before is None:
                     self._collisions.tolerate(robot)
             elif before is not None and not same:
-                led.append((robot, before, placed.positions, placed.velocities))
-        return led
+                moved.append((robot, before, placed.positions, placed.velocities))
+        return moved
 
-    def _divisions(self, led: list[Led]) -> int:
-        """Return into how many parts a step is divided so that no arm passes through a plate."""
+    def _divisions(self, moved: list[Moved]) -> int:
+        """Return into how many parts to divide a step so that no arm passes through a plate."""
         most = 0.0
-        for robot, start, end, velocities in led:
-            # No point of an arm moves further than all its joints at full stretch would move it.
+        for robot, start, end, velocities in moved:
+            # Upper bound: the way of the arm's end if it were fully stretched.
             bound = robot.reach(end, start)
             if bound > self._settings.max_travel:
                 if velocities is not robot.share_of:
-                    # Of a motion straight in joint space the share stays the same.
+                    # The share is constant along a straight motion in joint space.
                     stretched = robot.reach(velocities)
                     speed = self._engine.speed(robot.name)
                     robot.share = min(speed / stretched, 1.0) if stretched else 1.0

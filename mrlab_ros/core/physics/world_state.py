@@ -1,4 +1,4 @@
-"""What all parts of the world share: the engine, the robots, the objects, the room, the time."""
+"""State that all parts of the world share: engine, robots, objects, surfaces and time."""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ class SceneObject:
 
 
 @dataclass(eq=False)
-class Stage:
+class WorldState:
     """now_ns: the time of the last step."""
 
     engine: Engine
@@ -63,7 +63,7 @@ class Stage:
             ) from None
 
     def hand(self, robot: Robot) -> BodyState:
-        """Return where the link is that a robot's objects are fixed to, and how it moves."""
+        """Return pose and velocity of the link that a robot's objects are fixed to."""
         return self.engine.link(robot.name, robot.arm.hand)
 
     def counts(self, robot: Robot, touch: Touch) -> bool:

@@ -1,4 +1,4 @@
-"""How the physics node follows the graph: robots, their motion, their playback, the systems."""
+"""How the physics node follows the graph: robots, their motion and their playback."""
 
 from __future__ import annotations
 
@@ -32,7 +32,7 @@ from mrlab_ros.ros.raw_streams import WaitSetThread
 
 @dataclass(eq=False)
 class Followed:
-    """What is known of a robot of /robots."""
+    """A robot of /robots and what was received of it."""
 
     robot: msg.Robot
     subscriptions: list[Subscription] = field(default_factory=list)
@@ -43,55 +43,55 @@ class Followed:
 
 
 class GraphListener:
-    """Keeps a world as the graph says, in a thread of its own that also calls `turn`.
+    """Feeds the world from the graph's topics on its own thread, which also steps it.
 
-    Joint states come a thousand times a second: they bypass the executor. turn: advances the
-    world and returns how long to wait at most, ns. never_touch: tells of a model which links
-    never touch.
+    Joint states arrive a thousand times a second, so they bypass the executor. turn: advances
+    the world and returns how long to wait at most, ns. never_touch: returns the pairs of links
+    of a model that never touch.
     """
 
     def __init__(
         self,
         node: Node,
         world: World,
-        news: WorldPublishers,
+        publishers: WorldPublishers,
         lock: threading.Lock,
         turn: Callable[[], int],
         never_touch: Callable[[str], LinkPairs],
     ) -> None:
         self._world = world
         self._never_touch = never_touch
-        self._news = news
+        self._publishers = publishers
         self._lock = lock
         self._log = node.get_logger()
         self.robots: dict[str, Followed] = {}
         # The names in the newest /robots; None before the first one.
         self.known_robots: frozenset[str] | None = None
         self._node = Node(
-            "physics_ear",
+            "physics_listener",
             context=node.context,
             start_parameter_services=False,
             enable_rosout=False,
         )
         self._thread = WaitSetThread(node.context, "physics", turn, self._on_error)
-        self._hear(msg.Robots, "/robots", self._on_robots, qos.LATCHED)
+        self._subscribe(msg.Robots, "/robots", self._on_robots, qos.LATCHED)
 
     def start(self) -> None:
         self._thread.start()
 
     def stop(self) -> None:
-        """End the thread; the world stands from here on."""
+        """End the thread; the world no longer steps."""
         self._thread.stop()
         self._node.destroy_node()
 
-    def _hear(
+    def _subscribe(
         self, kind: Any, topic: str, callback: Callable[[Any], None], quality: Any
     ) -> Subscription:
         subscription = self._node.create_subscription(kind, topic, _unused, quality, raw=True)
         self._thread.add(subscription, lambda data: callback(deserialize_message(data, kind)))
         return subscription
 
-    def _hear_joints(self, name: str, joints: tuple[str, ...]) -> Subscription:
+    def _subscribe_joints(self, name: str, joints: tuple[str, ...]) -> Subscription:
         subscription = self._node.create_subscription(
             JointState, f"/{name}/joint_states", _unused, qos.STREAM, raw=True
         )
@@ -124,18 +124,22 @@ class GraphListener:
     def _follow(self, robot: msg.Robot) -> None:
         name = robot.name
 
-        def hear(kind: Any, topic: str, callback: Callable[[str, Any], None], quality: Any) -> Any:
-            return self._hear(kind, f"/{name}/{topic}", functools.partial(callback, name), quality)
+        def subscribe(
+            kind: Any, topic: str, callback: Callable[[str, Any], None], quality: Any
+        ) -> Any:
+            return self._subscribe(
+                kind, f"/{name}/{topic}", functools.partial(callback, name), quality
+            )
 
         with self._lock:
-            self._news.add_robot(name)
+            self._publishers.add_robot(name)
         known = Followed(robot)
         self.robots = {**self.robots, name: known}
         known.subscriptions += [
-            self._hear_joints(name, tuple(robot.joint_names)),
-            hear(String, "robot_description", self._on_description, qos.LATCHED),
-            hear(msg.PlaybackState, "playback_state", self._on_playback, qos.LATCHED),
-            hear(msg.GraspTargets, "targets", self._on_targets, qos.LATCHED),
+            self._subscribe_joints(name, tuple(robot.joint_names)),
+            subscribe(String, "robot_description", self._on_description, qos.LATCHED),
+            subscribe(msg.PlaybackState, "playback_state", self._on_playback, qos.LATCHED),
+            subscribe(msg.GraspTargets, "targets", self._on_targets, qos.LATCHED),
         ]
 
     def _forget(self, name: str) -> None:
@@ -147,16 +151,16 @@ class GraphListener:
         with self._lock:
             if name in self._world.robots:
                 self._world.remove_robot(name)
-            self._news.remove_robot(name)
+            self._publishers.remove_robot(name)
 
     def _on_description(self, name: str, message: String) -> None:
-        # What was on its way when the robot was removed comes after that.
+        # A message may arrive after its robot was removed.
         if name in self.robots:
             self.robots[name].description = message.data
             self._build(name)
 
     def _build(self, name: str) -> None:
-        """Put the robot into the world, anew where its description or end effector changed."""
+        """Add the robot to the world; rebuild it where description or end effector changed."""
         known = self.robots[name]
         wanted = (known.description, known.robot.end_effector)
         if not known.description or known.built == wanted:
@@ -205,7 +209,7 @@ class GraphListener:
 
 
 def _unused(message: Any) -> None:
-    """The wait set takes the messages; rclpy wants a callback all the same."""
+    """Required by rclpy; the messages are taken by the thread instead."""
 
 
 def _gripper(end_effector: str) -> Gripper:

@@ -1,4 +1,4 @@
-"""The physics node: the world beside the graph, fed by joint states and telling what happens."""
+"""The physics node: steps the world by joint states and publishes its events."""
 
 from __future__ import annotations
 
@@ -46,9 +46,9 @@ except ModuleNotFoundError as error:
         raise
     raise BadInput(support.missing()) from None
 
-# The world is looked after at least this often, ns: its own step.
+# The world is advanced at least this often, ns: its own step.
 TURN_NS = SECOND // 240
-# After so many steps the other threads have their turn, and what happened is told.
+# After this many steps the lock is released and events are published.
 MOST_STEPS = 24
 SAVE_PERIOD = 2.0  # s
 FILE = "physics.json"
@@ -83,7 +83,7 @@ class PhysicsNode(ParameterNode[PhysicsParameters]):
         self._lab_clock = LabClock()
         self._engine = BulletEngine(self._resolve)
         self._world = World(self._engine, self._types, self._settings)
-        self._news = WorldPublishers(self, self._world)
+        self._world_publishers = WorldPublishers(self, self._world)
         self._contents = Contents(
             self._world,
             self._lock,
@@ -93,9 +93,9 @@ class PhysicsNode(ParameterNode[PhysicsParameters]):
             log.warning,
         )
         self._contents.restore()
-        self._news.tell_surfaces(self._lab_clock.now_ns(), self._world.surfaces)
-        self._ear = GraphListener(
-            self, self._world, self._news, self._lock, self._turn, library.never_touch
+        self._world_publishers.publish_surfaces(self._lab_clock.now_ns(), self._world.surfaces)
+        self._listener = GraphListener(
+            self, self._world, self._world_publishers, self._lock, self._turn, library.never_touch
         )
         for kind, name, callback in (
             (srv.SpawnObject, "spawn_object", self._on_spawn),
@@ -111,12 +111,12 @@ class PhysicsNode(ParameterNode[PhysicsParameters]):
         ):
             self.create_service(kind, f"~/{name}", callback, qos_profile=qos.SERVICES)
         self.create_timer(SAVE_PERIOD, self._contents.save)
-        # Python's own 5 ms that one thread may keep the others waiting would delay a halt.
+        # With Python's default of 5 ms another thread could delay a halt.
         sys.setswitchinterval(SWITCH_INTERVAL)
-        self._ear.start()
+        self._listener.start()
 
     def destroy_node(self) -> None:
-        self._ear.stop()
+        self._listener.stop()
         self._contents.changed = True
         self._contents.save()
         with self._lock:
@@ -134,17 +134,17 @@ class PhysicsNode(ParameterNode[PhysicsParameters]):
     # time -----------------------------------------------------------------------------------
 
     def _turn(self) -> int:
-        """Advance the world and tell what happened; return how long to wait at most, ns.
+        """Advance the world and publish its events; return how long to wait at most, ns.
 
-        What goes wrong in one turn must not end the thread.
+        An error in one call must not end the thread.
         """
         try:
             with self._lock:
                 now_ns = self._lab_clock.now_ns()
                 made = self._world.advance(now_ns, MOST_STEPS)
                 if self._contents.waiting:
-                    self._contents.regrip(now_ns, self._ear.known_robots)
-                self._contents.changed |= self._news.tell(now_ns)
+                    self._contents.regrip(now_ns, self._listener.known_robots)
+                self._contents.changed |= self._world_publishers.publish_due(now_ns)
                 if made == MOST_STEPS:
                     return 0
                 return int(max(self._world.now_ns + TURN_NS - now_ns, TURN_NS // 4))
@@ -176,7 +176,7 @@ class PhysicsNode(ParameterNode[PhysicsParameters]):
                 messages.velocity_from_message(request.twist.angular),
                 held=request.held,
             )
-        return f"{request.name} is {'held' if request.held else 'let go'}"
+        return f"{request.name} is {'held' if request.held else 'released'}"
 
     @answered
     def _on_remove(self, request: Any, response: Any) -> str:
@@ -239,9 +239,9 @@ class PhysicsNode(ParameterNode[PhysicsParameters]):
         return f"{counted(placed, 'object')} and {counted(surfaces, 'surface')} {done}"
 
     def _publish_surfaces(self) -> int:
-        """Tell the room as it is, and have it kept; return how many surfaces it has."""
+        """Publish the surfaces and mark them for saving; return how many there are."""
         with self._lock:
             self._contents.changed = True
             surfaces = self._world.surfaces
-        self._news.tell_surfaces(self._lab_clock.now_ns(), surfaces)
+        self._world_publishers.publish_surfaces(self._lab_clock.now_ns(), surfaces)
         return len(surfaces)

@@ -1,4 +1,4 @@
-"""What the physics node tells the graph: contacts, collisions, grasps, objects, surfaces."""
+"""What the physics node publishes: contacts, collisions, grasps, objects, surfaces."""
 
 from __future__ import annotations
 
@@ -20,12 +20,12 @@ from mrlab_ros.messages import qos
 CONTACTS_NS = SECOND // 50
 OBJECTS_NS = SECOND // 30
 REPEAT_NS = SECOND
-# An object that moved less than this since it was last told stands still, m.
+# An object that moved less than this since it was last published is at rest, m.
 STILL = 1e-4
 
 
 @dataclass(frozen=True, eq=False)
-class _Told:
+class PublishedObject:
     """An object as it was last published."""
 
     message: msg.SceneObject
@@ -42,14 +42,17 @@ class _Told:
 
 
 class WorldPublishers:
-    """Publishes what happens in a world; the caller holds the world's lock, if not told else."""
+    """Publishes the events and the state of a world.
+
+    The caller must hold the world's lock unless a method says otherwise.
+    """
 
     def __init__(self, node: Node, world: World) -> None:
         self._node = node
         self._world = world
         self._collisions: dict[str, Publisher] = {}
         self._grasps: dict[str, Publisher] = {}
-        self._told: dict[str, _Told] | None = None
+        self._published: dict[str, PublishedObject] | None = None
         self._next_contacts_ns = self._next_objects_ns = self._repeat_ns = 0
         self._contacts = node.create_publisher(msg.Contacts, "/contacts", qos.EVENTS)
         self._objects = node.create_publisher(msg.SceneObjects, "/objects", qos.LATCHED)
@@ -66,10 +69,10 @@ class WorldPublishers:
         self._node.destroy_publisher(self._collisions.pop(name))
         self._node.destroy_publisher(self._grasps.pop(name))
 
-    def tell(self, now_ns: int) -> bool:
-        """Publish what is due; return whether an object came, went or moved."""
+    def publish_due(self, now_ns: int) -> bool:
+        """Publish what is due; return whether an object was added, removed or moved."""
         for event in self._world.take_events():
-            self._tell(event)
+            self._publish_event(event)
         if now_ns >= self._next_contacts_ns:
             contacts = self._world.take_contacts()
             if contacts:
@@ -78,9 +81,9 @@ class WorldPublishers:
         if now_ns < self._next_objects_ns:
             return False
         self._next_objects_ns = now_ns + OBJECTS_NS
-        return self._tell_objects(now_ns)
+        return self._publish_objects(now_ns)
 
-    def _tell(self, event: Event) -> None:
+    def _publish_event(self, event: Event) -> None:
         if isinstance(event, ObjectRemoved):
             self._node.get_logger().info(f"{event.name} is removed: {event.why}")
             self._removed.publish(messages.removed_to_message(event))
@@ -91,28 +94,30 @@ class WorldPublishers:
             fingers = [finger.joint for finger in self._world.robot(event.robot).arm.fingers]
             self._grasps[event.robot].publish(messages.grasp_to_message(event, fingers))
 
-    def _tell_objects(self, now_ns: int) -> bool:
-        """Publish all objects where one came, went or moved; else once a second."""
-        before = self._told or {}
-        told: dict[str, _Told] = {}
+    def _publish_objects(self, now_ns: int) -> bool:
+        """Publish all objects where one was added, removed or moved; else once a second."""
+        before = self._published or {}
+        published: dict[str, PublishedObject] = {}
         for thing in self._world.objects:
             motion = self._world.motion(thing.name)
             known = before.get(thing.name)
             if known is None or not known.holds(motion, thing.held_by):
-                known = _Told(messages.object_to_message(thing, motion), motion, thing.held_by)
-            told[thing.name] = known
+                known = PublishedObject(
+                    messages.object_to_message(thing, motion), motion, thing.held_by
+                )
+            published[thing.name] = known
         changed = (
-            self._told is None
-            or told.keys() != before.keys()
-            or any(told[name] is not before[name] for name in told)
+            self._published is None
+            or published.keys() != before.keys()
+            or any(published[name] is not before[name] for name in published)
         )
-        self._told = told
+        self._published = published
         if changed or now_ns >= self._repeat_ns:
             self._repeat_ns = now_ns + REPEAT_NS
-            objects = [known.message for known in told.values()]
+            objects = [known.message for known in published.values()]
             self._objects.publish(messages.objects_to_message(now_ns, objects))
         return changed
 
-    def tell_surfaces(self, now_ns: int, surfaces: Sequence[Surface]) -> None:
-        """Publish the room; a large one takes long, so the caller needs no lock."""
+    def publish_surfaces(self, now_ns: int, surfaces: Sequence[Surface]) -> None:
+        """Publish the surfaces. The caller need not hold the lock: a large room takes long."""
         self._surfaces.publish(messages.surfaces_to_message(now_ns, surfaces))
