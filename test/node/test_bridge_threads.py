@@ -70,7 +70,7 @@ class Graph:
     def __init__(self, client):
         self._client = client
 
-    def create_client(self, kind, name):
+    def create_client(self, kind, name, qos_profile):
         return self._client
 
     def destroy_client(self, client):
