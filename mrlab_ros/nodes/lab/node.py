@@ -23,9 +23,9 @@ from mrlab_ros.core.scene.document import RobotEntry, SceneDocument
 from mrlab_ros.core.scene.restore import counted, self_contained, with_pending
 from mrlab_ros.core.scene.robots import PlacedRobot, Scene
 from mrlab_ros.messages import qos
-from mrlab_ros.messages.poses import pose_from_message, pose_to_message, transforms_to_message
+from mrlab_ros.messages.poses import pose_from_message, transforms_to_message
+from mrlab_ros.messages.robots import robot_to_message, robots_to_message, text_to_message
 from mrlab_ros.messages.scenes import robot_entry, system_entry
-from mrlab_ros.messages.time import make_header
 from mrlab_ros.nodes import parameters
 from mrlab_ros.nodes.lab.observer import Observer
 from mrlab_ros.nodes.lab.restore import LabRestore, Return
@@ -139,24 +139,15 @@ class LabNode(ParameterNode[LabParameters]):
             self._descriptions[name] = self.create_publisher(
                 String, f"/{name}/robot_description", qos.LATCHED
             )
-        self._descriptions[name].publish(String(data=description))
-
-    def _message(self, robot: PlacedRobot) -> msg.Robot:
-        return msg.Robot(
-            name=robot.name,
-            model=robot.model,
-            end_effector=robot.end_effector or "",
-            pose=pose_to_message(robot.pose),
-            joint_names=list(robot.joint_names),
-        )
+        self._descriptions[name].publish(text_to_message(description))
 
     def _announce(self) -> None:
         now_ns = self.get_clock().now().nanoseconds
-        robots = [self._message(robot) for robot in self._scene.robots]
-        self._robots.publish(msg.Robots(header=make_header(now_ns, "world"), robots=robots))
+        message = robots_to_message(now_ns, self._scene.robots)
+        self._robots.publish(message)
         if self._transforms is not None:
-            self._transforms.publish(transforms_to_message(now_ns, TFMessage, robots))
-        self._observer.follow([robot.name for robot in robots])
+            self._transforms.publish(transforms_to_message(now_ns, TFMessage, message.robots))
+        self._observer.follow([robot.name for robot in self._scene.robots])
         self._save()
 
     def spawn(self, robots: Sequence[RobotEntry]) -> None:
@@ -228,7 +219,7 @@ class LabNode(ParameterNode[LabParameters]):
         pose = None if request.automatic else pose_from_message(request.pose)
         robot = self._spawn(request.model, request.end_effector or None, request.name, pose)
         self._announce()
-        response.robot = self._message(robot)
+        response.robot = robot_to_message(robot)
         x, y, _ = robot.pose.position
         return f"{robot.name} stands at x {x:g} m, y {y:g} m"
 
