@@ -23,6 +23,8 @@ from mrlab_ros.core.conversion.preview import Preview, preview
 from mrlab_ros.core.conversion.relations import PoseMatch
 from mrlab_ros.core.conversion.time_vectors import (
     counts_rows,
+    is_even,
+    is_irregular,
     is_regular,
     is_time_name,
 )
@@ -119,13 +121,18 @@ class Candidate:
 
 @dataclass(frozen=True, eq=False)
 class ClockColumn:
-    """A column, from 0, that counts time. certain: no joint could have these values."""
+    """A column, from 0, that counts time.
+
+    certain: no joint could have these values. likely: few joints move so; where it is neither, a
+    joint at constant speed looks the same, and the column is a doubt alone.
+    """
 
     index: int
     certain: bool
     first: float
     last: float
     why: str
+    likely: bool = True
 
 
 @dataclass(frozen=True, eq=False)
@@ -283,14 +290,15 @@ def blocking_clocks(assessment: Assessment, robot: RobotModel) -> tuple[ClockCol
     joints = len(robot.joints)
     if assessment.by_name or assessment.variable.is_message:
         return ()
+    clocks = tuple(c for c in assessment.clocks if c.likely)
     certain = tuple(c for c in assessment.clocks if c.certain)
     if certain or assessment.columns == joints:
         return certain
     if assessment.columns == joints + 1:
         last = assessment.values[:, joints]
         grips = has_states(last) and float(last.min()) < float(last.max())
-        return () if grips else assessment.clocks
-    return assessment.clocks
+        return () if grips else clocks
+    return clocks
 
 
 def time_column_names(variable: Variable, index: int) -> bool:
@@ -315,7 +323,11 @@ def clocks_among(
     chosen = np.linspace(0, rows - 1, min(rows, 33)).astype(int)
     coarse = np.diff(values[chosen], axis=0)
     one_way = (coarse > 0).all(axis=0) | (coarse < 0).all(axis=0)
-    steady = [int(c) for c in np.flatnonzero(one_way) if is_regular(values[:, c], falling=True)]
+    steady = [
+        int(c)
+        for c in np.flatnonzero(one_way)
+        if is_regular(values[:, c], falling=True) or is_irregular(values[:, c])
+    ]
     farthest = max((max(abs(j.lower), abs(j.upper)) for j in robot.joints), default=np.pi)
     found = []
     for c in steady:
@@ -345,6 +357,12 @@ def clocks_among(
             found.append(ClockColumn(c, True, first, last, why))
         elif _begins_like_a_clock(column) and _is_round(column):
             found.append(ClockColumn(c, False, first, last, "it rises steadily in round steps"))
+        elif is_irregular(column):
+            why = "it rises in irregular steps, as recorded times do"
+            found.append(ClockColumn(c, False, first, last, why))
+        elif is_even(column) and len(others) >= 2:
+            why = "it rises in equal steps throughout"
+            found.append(ClockColumn(c, False, first, last, why, likely=False))
     return tuple(found)
 
 
@@ -660,7 +678,7 @@ def _judged(a: Assessment, robot: RobotModel) -> Assessment:
     may_be_poses = a.poses.possible and hint in (Hint.TWO_FACED, Hint.DOUBTFUL)
     if may_be_poses and a.poses.hints and not a.tool_path:
         points -= 0.25
-    if a.clocks and not a.by_name and a.columns == len(robot.joints):
+    if any(c.likely for c in a.clocks) and not a.by_name and a.columns == len(robot.joints):
         points -= 0.3
     if objections:
         points = min(points, 0.2)

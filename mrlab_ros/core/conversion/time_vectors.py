@@ -47,6 +47,8 @@ MANY, FEW = 0.8, 0.05  # shares of the steps
 EPOCH = {"s": (1e9, 3e9), "ms": (1e12, 3e12), "us": (1e15, 3e15), "ns": (1e18, 3e18)}
 DATENUM = (6.5e5, 8.0e5)  # days since the year 0: 1780 to 2190
 COARSEST = 0.2  # of a step; the last digit of times that are rounded
+# change from step to step over the spread of the steps: 1.4 where they are independent
+IRREGULAR = 1.1
 REGULAR = 0.9  # share of the steps of a clock that are near its usual one
 SAMPLE = 257
 
@@ -137,6 +139,22 @@ def is_even(column: NDArray[Any]) -> bool:
     steps = np.diff(column.astype(np.float64))
     mean = float(steps.mean())
     return mean > 0 and bool(np.abs(steps - mean).max() <= max(1e-3 * mean, 1e-9))
+
+
+def is_irregular(column: NDArray[Any]) -> bool:
+    """Say whether a column rises from row to row in steps that have nothing to do with another.
+
+    Times that are stamped whenever a message comes do so; the steps of a joint resemble the steps
+    before them.
+    """
+    if len(column) < 20:
+        return False
+    steps = np.diff(column.astype(np.float64))
+    if not (steps > 0).all():
+        return False
+    spread = float(steps.std())
+    changes = float(np.diff(steps).std())
+    return spread > 1e-6 * float(steps.mean()) and changes > IRREGULAR * spread
 
 
 def counts_rows(column: NDArray[Any]) -> bool:
