@@ -37,6 +37,7 @@ OBJECT_CODE = {
     "function_handle": "q = cell2mat(arrayfun(@(s) reshape({name}(s), 1, []), t(:), "
     "'UniformOutput', false)); save('traj.mat', 'q', 't')",
 }
+OPENED = {*OBJECT_CODE, "containers.Map", "dictionary"} - {"function_handle"}
 WHY_CLOSED = {"function_handle": "a function holds no samples until it is called"}
 MOST_MISSES = 200
 MOST_SHOWN = 5
@@ -138,7 +139,23 @@ def contents(workspace: Workspace) -> str:
         return "It holds no variable at all."
     listed = ", ".join(f"{v.path} ({' '.join(filter(None, (v.size, v.kind)))})" for v in top[:12])
     more = f" and {len(top) - 12} more" if len(top) > 12 else ""
-    return f"It holds: {listed}{more}."
+    return f"It holds: {listed}{more}.{_within_objects(workspace, top[:12])}"
+
+
+def _within_objects(workspace: Workspace, top: list[Variable]) -> str:
+    """Return a sentence that names matrices inside the objects among `top`, or nothing."""
+    opened = tuple(
+        v.path for v in top if v.values is None and not v.is_object and v.kind in OPENED
+    )
+    inside = [
+        v
+        for v in workspace.variables
+        if v.values is not None and v.values.size > 1 and v.path.startswith(opened)
+    ]
+    if not opened or not inside:
+        return ""
+    listed = ", ".join(f"{v.path} ({v.size})" for v in inside[:6])
+    return f" Inside: {listed}{' and more' if len(inside) > 6 else ''}."
 
 
 def bad_message(variable: Variable, problem: str) -> Diagnostic:

@@ -215,3 +215,12 @@ def test_what_a_workspace_needs_to_be_read_again_goes_with_it(reader):
     del workspaces
     gc.collect()
     assert psutil.Process().num_fds() == before
+
+
+def test_a_file_that_is_cut_after_it_was_read_is_refused(reader, tmp_path):
+    path = tmp_path / "traj.mat"
+    path.write_bytes(saved(q=np.random.default_rng(0).normal(size=(20_000, 6))))
+    workspace = reader.read_file(path)
+    os.truncate(path, 200)
+    assert refusal(workspace.confirm, "q").code == "readers_disagree"
+    assert refusal(reader.read_file, path).code == "unreadable"

@@ -363,6 +363,12 @@ def test_a_closed_object_says_why_it_is_closed():
     assert "object_ignored" not in codes(convert(var("q", motion()), beside))
 
 
+def test_matrices_inside_objects_are_named():
+    log = var("log", kind="Simulink.SimulationData.Dataset", shape=(1, 1))
+    result = convert(log, var("log{1}.Data", np.ones((50, 2))))
+    assert "Inside: log{1}.Data (50x2)." in result.diagnostics[0].message
+
+
 def test_the_matrix_that_is_taken_is_confirmed_by_a_second_reader():
     asked = []
     workspace = Workspace("fake", (var("q", motion()), var("tau", motion())), confirm=asked.append)
