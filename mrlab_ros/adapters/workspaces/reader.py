@@ -138,7 +138,7 @@ class WorkspaceReader:
                 pickle.dump(task, asked)
                 asked.seek(0)
                 descriptors = [source, target, asked.fileno(), stored.fileno()]
-                self._check_status(self._ask(descriptors, task.file), task.file)
+                self._check_status(self._ask(descriptors, task.read_as or task.file), task.file)
                 answer.seek(0)
                 try:
                     return results.parse(answer.read())

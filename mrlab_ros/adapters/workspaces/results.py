@@ -36,7 +36,10 @@ MEMORY = "converting it needs more than {:.0f} MiB"
 
 @dataclass(frozen=True)
 class Task:
-    """What `convert` is asked, beside the file. file: its name."""
+    """What `convert` is asked, beside the file.
+
+    file: its name. read_as: the name whose ending says what it is, where that is another one.
+    """
 
     file: str
     options: Options
@@ -46,6 +49,7 @@ class Task:
     trajectory_id: str
     created_ns: int
     default_frame_rate: float
+    read_as: str = ""
 
 
 @dataclass(frozen=True)

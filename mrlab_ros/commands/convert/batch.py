@@ -2,10 +2,17 @@
 
 from __future__ import annotations
 
+import contextlib
+import multiprocessing
+import os
 import sys
+import tempfile
 import time
+from collections import deque
 from collections.abc import Callable, Iterable, Iterator
-from dataclasses import dataclass
+from concurrent.futures import Future, ProcessPoolExecutor
+from contextlib import AbstractContextManager
+from dataclasses import dataclass, replace
 from functools import partial
 from pathlib import Path
 
@@ -14,18 +21,27 @@ from rich.console import Console
 from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn
 
 from mrlab_ros.adapters.robots.library import RobotLibrary
-from mrlab_ros.adapters.trajectories import export
+from mrlab_ros.adapters.trajectories import export, store
 from mrlab_ros.adapters.trajectories.coefficients import load_coefficients
-from mrlab_ros.adapters.workspaces.reader import Limits, MiB, WorkspaceReader
+from mrlab_ros.adapters.workspaces.pool import ConversionPool
+from mrlab_ros.adapters.workspaces.reader import (
+    Limits,
+    MiB,
+    TooSlow,
+    WorkspaceReader,
+    in_memory,
+    opened,
+)
+from mrlab_ros.adapters.workspaces.results import Task, refused
 from mrlab_ros.commands.convert import report
 from mrlab_ros.core.conversion.convert import (
+    DEFAULT_FRAME_RATE,
     ConversionResult,
     Outcome,
-    convert,
     id_from,
 )
 from mrlab_ros.core.conversion.options import Options
-from mrlab_ros.core.conversion.workspace import Workspace
+from mrlab_ros.core.diagnostics import Refused
 from mrlab_ros.core.errors import BadInput, Misuse
 from mrlab_ros.core.robots.model import RobotModel
 from mrlab_ros.ros import share
@@ -33,6 +49,8 @@ from mrlab_ros.ros import share
 EXIT_CODES = {Outcome.ACCEPTED: 0, Outcome.REJECTED: 1, Outcome.AMBIGUOUS: 2}
 # the worst of a batch: a refusal, then a choice that is open
 BADNESS = (0, 2, 1)
+AHEAD = 64  # files that may be converted before the first of them is reported
+MANY_PLOTS = 8  # from so many on, processes that draw are worth their start
 SUFFIXES = (".mat", ".mat.gz", ".csv", ".npz", ".mcap", ".db3")
 
 
@@ -56,11 +74,15 @@ class Request:
 
 @dataclass(frozen=True)
 class Input:
-    """Something to convert. given: what the person wrote; name: without folder."""
+    """Something to convert. given: what the person wrote; name: of the file, without folder.
+
+    read_as: the name whose ending says what it is; open: yields a descriptor of the file.
+    """
 
     given: str
     name: str
-    read: Callable[[], Workspace]
+    read_as: str
+    open: Callable[[], AbstractContextManager[int]]
 
 
 def run(request: Request) -> int:
@@ -74,26 +96,31 @@ def run(request: Request) -> int:
     results: list[ConversionResult] = []
     taken: set[str] = set()
     limits = Limits(memory=request.memory * MiB, time=request.time_limit)
-    with WorkspaceReader(limits) as reader:
-        for source in _with_progress(_inputs(request, reader), request):
-            trajectory_id = _unused(id_from(source.name), taken)
-            result = convert(
-                source.name,
-                source.read,
-                request.options,
-                model,
-                coefficients,
-                end_effector=request.end_effector or None,
-                trajectory_id=trajectory_id,
-                created_ns=time.time_ns(),
-            )
+    inputs = _inputs(request)
+    tasks = [
+        Task(
+            file=source.name,
+            options=request.options,
+            robot=model,
+            coefficients=coefficients,
+            end_effector=request.end_effector or None,
+            trajectory_id=_unused(id_from(source.name), taken),
+            created_ns=time.time_ns(),
+            default_frame_rate=DEFAULT_FRAME_RATE,
+            read_as=source.read_as,
+        )
+        for source in inputs
+    ]
+    with _plotter(len(inputs) if request.plot else 0) as plot:
+        converted = _converted(inputs, tasks, limits)
+        for source, task, result in _with_progress(converted, len(inputs), request):
             results.append(result)
             written = None
             if request.out is not None and result.trajectory is not None:
                 request.out.mkdir(parents=True, exist_ok=True)
                 written = writer(result.trajectory, request.out)
             if request.plot is not None:
-                _plot(result, model, _plot_path(request.plot, trajectory_id))
+                plot(result, model, _plot_path(request.plot, task.trajectory_id))
             if request.as_json:
                 line = orjson.dumps(report.record(source.given, result, written))
                 print(line.decode(), flush=True)
@@ -104,34 +131,98 @@ def run(request: Request) -> int:
     return max((EXIT_CODES[r.outcome] for r in results), key=BADNESS.index)
 
 
-def _with_progress(inputs: list[Input], request: Request) -> Iterator[Input]:
-    """Yield the inputs, with a bar where there are several and a person looks on."""
+def _converted(
+    inputs: list[Input], tasks: list[Task], limits: Limits
+) -> Iterator[tuple[Input, Task, ConversionResult]]:
+    """Convert in several walled-off processes; yield the results in the order of the inputs."""
+    waiting: deque[tuple[Input, Task, Future[ConversionResult]]] = deque()
+    workers = 1 if len(inputs) == 1 else 0
+    with tempfile.TemporaryDirectory() as folder, ConversionPool(limits, workers) as pool:
+        for number, (source, task) in enumerate(zip(inputs, tasks, strict=True)):
+            work = partial(_convert, source, task, Path(folder) / f"{number}.npz")
+            waiting.append((source, task, pool.submit(work, 0)))
+            if len(waiting) > AHEAD:
+                yield _awaited(*waiting.popleft())
+        while waiting:
+            yield _awaited(*waiting.popleft())
+
+
+def _convert(source: Input, task: Task, path: Path, reader: WorkspaceReader) -> ConversionResult:
+    """Convert behind the wall; path: of a file for the trajectory in between."""
+    try:
+        with source.open() as file, path.open("w+b") as stored:
+            converted = reader.convert(file, task, stored)
+        if converted.head is None:
+            return converted.result
+        return replace(converted.result, trajectory=store.read(path))
+    except TooSlow:
+        raise  # the pool decides whether it has more time
+    except Refused as error:
+        return refused(task.file, error.finding)
+    finally:
+        path.unlink(missing_ok=True)
+
+
+def _awaited(
+    source: Input, task: Task, future: Future[ConversionResult]
+) -> tuple[Input, Task, ConversionResult]:
+    try:
+        return source, task, future.result()
+    except TooSlow as error:
+        return source, task, refused(task.file, error.finding)
+
+
+Plotter = Callable[[ConversionResult, RobotModel, Path], None]
+
+
+@contextlib.contextmanager
+def _plotter(count: int) -> Iterator[Plotter]:
+    """Yield what draws a result: at once where there are few, else in processes beside this."""
+    if count < MANY_PLOTS:
+        yield _plot
+        return
+    workers = max(2, os.cpu_count() or 1)
+    with ProcessPoolExecutor(workers, multiprocessing.get_context("spawn")) as pool:
+        drawn: list[Future[None]] = []
+
+        def plot(result: ConversionResult, robot: RobotModel, path: Path) -> None:
+            drawn.append(pool.submit(_plot, result, robot, path))
+
+        yield plot
+        for future in drawn:
+            future.result()
+
+
+def _with_progress(
+    converted: Iterator[tuple[Input, Task, ConversionResult]], count: int, request: Request
+) -> Iterator[tuple[Input, Task, ConversionResult]]:
+    """Yield the results, with a bar where there are several and a person looks on."""
     bar = Progress(
         TextColumn("{task.description}"),
         BarColumn(),
         MofNCompleteColumn(),
         console=Console(stderr=True),
         transient=True,
-        disable=len(inputs) < 2 or request.as_json or not sys.stderr.isatty(),
+        disable=count < 2 or request.as_json or not sys.stderr.isatty(),
     )
     with bar:
-        yield from bar.track(inputs, description="Converting")
+        yield from bar.track(converted, total=count, description="Converting")
 
 
-def _inputs(request: Request, reader: WorkspaceReader) -> list[Input]:
+def _inputs(request: Request) -> list[Input]:
     """Return what is to be converted: the files, or the message that a topic brings."""
     if bool(request.files) is bool(request.topic):
         raise Misuse("expected files or --topic, one of them: mrlab convert run.mat --robot ur5e")
     if not request.topic:
         return [
-            Input(str(path), path.name, partial(reader.read_file, path))
+            Input(str(path), path.name, path.name, partial(opened, path))
             for path in _expand(request.files)
         ]
     from mrlab_ros.commands.convert import topic as convert_topic  # rclpy, which files do not need
 
     message = convert_topic.receive(request.topic, request.timeout)
-    read = partial(reader.read_bytes, message, f"{request.topic}.cdr")
-    return [Input(request.topic, request.topic, read)]
+    read_as = f"{request.topic}.cdr"
+    return [Input(request.topic, request.topic, read_as, partial(in_memory, message))]
 
 
 def _expand(files: Iterable[Path]) -> Iterable[Path]:
