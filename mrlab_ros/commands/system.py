@@ -162,7 +162,7 @@ def _simple(verb: str, words: str) -> None:
             print(graph.order(Trigger, f"/{name}/{verb}", Trigger.Request()).message)
 
 
-_simple("pause", "Let all members stand; play goes on from there.")
+_simple("pause", "Pause all members; play continues from there.")
 _simple("stop", "End the run; the next play begins at the start.")
 
 
@@ -237,7 +237,7 @@ def _order(name: str, service: str, kind: Any, request: Any) -> None:
 
 
 def _systems(graph: Graph, name: str = "") -> list[Any]:
-    """Return the systems as last told, or as soon as one called `name` is among them.
+    """Return the systems as last published, or as soon as one called `name` is among them.
 
     The latched messages come oldest first, one soon after the other.
     """

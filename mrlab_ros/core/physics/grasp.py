@@ -60,7 +60,7 @@ TABLE: Table[Grasp, GraspEvent] = Table(
         (G.EMPTY, E.OPEN): G.OPEN,
         (G.EMPTY, E.SEIZED): G.HOLDING,
     },
-    # A vacuum cup that seized nothing in time goes on sucking.
+    # A vacuum cup that grasped nothing in time stays switched on.
     ignored={E.SHUT: (G.EMPTY,)},
     commands=tuple(GraspEvent),
     refusal="the gripper cannot {event} while {state}; possible now: {possible}",

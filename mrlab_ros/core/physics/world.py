@@ -275,7 +275,7 @@ class World:
     def _move_arms(self, now_ns: int) -> list[Moved]:
         """Pose every arm by its joint states; return those that moved."""
         moved: list[Moved] = []
-        look = self._count % SLOW_STEPS == 0
+        check = self._count % SLOW_STEPS == 0
         for robot in self._robots.values():
             placed = robot.stream.at(now_ns)
             if placed is None:
@@ -283,7 +283,7 @@ class World:
             before = robot.placed
             same = before == placed.positions
             # Contacts can drift a standing arm; re-place it only while something touches it.
-            idle = same and not (look or robot.touches or robot.held)
+            idle = same and not (check or robot.touches or robot.held)
             if idle and not any(placed.velocities):
                 continue
             jumped = placed.jumped or before is None

@@ -1,4 +1,4 @@
-"""Which steps lead from what the lab holds to what a document says: the one restore.
+"""Plans the steps from what the lab holds to what a document describes: the one restore.
 
 A saved scene replaces all that is there. After a restart or a replay only what is missing comes
 back. Nothing here acts: the lab node checks a plan's document, then runs its steps.

@@ -118,7 +118,7 @@ class LabRestore:
 
     def _remove(self, names: Sequence[str]) -> None:
         self._robots.remove(names)
-        # A robot of the same name must begin anew, in its playback and in physics.
+        # A robot of the same name must get a new playback and a new arm in physics.
         topics = [
             f"/{name}/{topic}" for name in names for topic in ("playback_state", "collision")
         ]
