@@ -27,8 +27,8 @@ from mrlab_ros.adapters.robots.library import RobotLibrary
 from mrlab_ros.core.robots.model import RobotModel
 from mrlab_ros.core.trajectory.trajectory import Channels, Source, Trajectory
 from mrlab_ros.messages import qos
-from mrlab_ros.messages import trajectories as messages_trajectories
 from mrlab_ros.messages.time import time_from_message
+from mrlab_ros.messages.trajectories import trajectory_to_message
 from mrlab_ros.nodes.lab.node import LabNode
 from mrlab_ros.nodes.playback import PlaybackHostNode
 from mrlab_ros.ros import share
@@ -61,7 +61,7 @@ class Converter(Node):
 
     def _get(self, request: Any, response: Any) -> Any:
         response.success = True
-        response.trajectory = messages_trajectories.trajectory_to_message(self._known[request.id])
+        response.trajectory = trajectory_to_message(self._known[request.id])
         return response
 
 

@@ -240,12 +240,12 @@ def rules_of(allow_list: Path | None) -> Rules:
     """Read an allow-list, the shipped one if none is named; raise BadInput where it is none."""
     import yaml
 
-    from mrlab_ros.core.bridge import rules as bridge_rules
+    from mrlab_ros.core.bridge.rules import parse
     from mrlab_ros.ros import share
 
     path = allow_list or share.directory() / "config" / "bridge.yaml"
     try:
-        return bridge_rules.parse(yaml.safe_load(path.read_text()))
+        return parse(yaml.safe_load(path.read_text()))
     except (OSError, yaml.YAMLError) as error:
         raise BadInput(f"the allow-list {path} cannot be read: {error}") from error
 

@@ -15,7 +15,7 @@ if TYPE_CHECKING:
     from mrlab_ros.ros.graph import Graph
 
 # What follows play at once: the robot moves, or says why not.
-MOVE_TIMEOUT = 5.0
+MOVE_TIMEOUT_S = 5.0
 
 
 def play(
@@ -45,7 +45,7 @@ def play(
     with Graph() as graph:
         found = graph.robot(robot)
         follower = Follower(graph, robot)
-        state = follower.watch.wait(lambda _: True, MOVE_TIMEOUT, f"the state of {robot}")
+        state = follower.watch.wait(lambda _: True, MOVE_TIMEOUT_S, f"the state of {robot}")
         wanted = in_catalogue(graph, found, trajectory)
         begin(graph, robot, state, wanted, rate, loop)
         since = len(follower.states)
@@ -126,7 +126,7 @@ def _follow(console: Any, follower: Follower, since: int) -> None:
     from mrlab_ros.commands.follow import milliseconds
 
     course = Course(follower.robot)
-    deadline = time.monotonic() + MOVE_TIMEOUT
+    deadline = time.monotonic() + MOVE_TIMEOUT_S
     label = ""
     columns = (TextColumn("{task.description}"), BarColumn(), TextColumn("{task.fields[words]}"))
     with Progress(*columns, console=console, disable=not console.is_terminal) as bar:
@@ -140,8 +140,8 @@ def _follow(console: Any, follower: Follower, since: int) -> None:
                 label = state.label
             if not course.moving and time.monotonic() > deadline:
                 raise LabError(
-                    f"{follower.robot} accepted play but does not move after {MOVE_TIMEOUT:g} s; "
-                    "mrlab status shows what runs"
+                    f"{follower.robot} accepted play but does not move after {MOVE_TIMEOUT_S:g} "
+                    "s; mrlab status shows what runs"
                 )
             state = follower.state
             words = f"{state.label}  frame {follower.frame} of {state.frame_count}"

@@ -32,9 +32,9 @@ STEP = 5.0
 RATES = (0.1, 0.2, 0.5, 1.0, 2.0, 4.0, 10.0)
 KEYS = "space pauses, left and right seek 5 s, + and - set the rate, q ends"
 # The lab's own nodes leave first.
-BEGIN_TIMEOUT = 40.0
-BEGUN_TIMEOUT = 3.0
-STOP_TIMEOUT = 15.0
+BEGIN_TIMEOUT_S = 40.0
+BEGUN_TIMEOUT_S = 3.0
+STOP_TIMEOUT_S = 15.0
 
 
 def replay(
@@ -62,7 +62,7 @@ def replay(
     with Graph() as graph:
         watch = graph.watch(msg.RecorderState, "/recorder/state")
         try:
-            answer = graph.order(srv.Replay, "/recorder/replay", request, BEGIN_TIMEOUT)
+            answer = graph.order(srv.Replay, "/recorder/replay", request, BEGIN_TIMEOUT_S)
             console.print(answer.message, soft_wrap=True)
             keyboard = Keyboard(graph, watch) if sys.stdin.isatty() else None
             if keyboard is not None:
@@ -74,7 +74,7 @@ def replay(
                 _follow(watch, keyboard, lambda line: live.update(line, refresh=True))
         except KeyboardInterrupt:
             # The recorder answers a stop once the replay has begun.
-            _end(graph, BEGIN_TIMEOUT)
+            _end(graph, BEGIN_TIMEOUT_S)
             raise typer.Exit(130) from None
     console.print("the replay is over")
 
@@ -87,7 +87,7 @@ def _follow(watch: Watch[Any], keyboard: Keyboard | None, show: Callable[[str], 
     working = (msg.RecorderState.REPLAYING, msg.RecorderState.PAUSED)
     # A short one may be over already; what is latched from before says nothing of it.
     with suppress(NoAnswer):
-        watch.wait(lambda s: s.state in working, BEGUN_TIMEOUT, "the replay")
+        watch.wait(lambda s: s.state in working, BEGUN_TIMEOUT_S, "the replay")
     last, heard = None, time.monotonic()
     while (state := watch.value) is not None and state.state in working:
         if state is not last:
@@ -179,7 +179,7 @@ def next_rate(rate: float, faster: bool) -> float:
     return next((r for r in reversed(RATES) if r < rate), RATES[0])
 
 
-def _end(graph: Graph, timeout: float = STOP_TIMEOUT) -> None:
+def _end(graph: Graph, timeout: float = STOP_TIMEOUT_S) -> None:
     from std_srvs.srv import Trigger
 
     graph.call(Trigger, "/recorder/stop", Trigger.Request(), timeout)

@@ -163,7 +163,7 @@ def _graph() -> Graph:
     """Return a client of a lab that has physics; raise Misuse where it has none."""
     from mrlab_msgs import srv
 
-    from mrlab_ros.ros.graph import FIND_TIMEOUT, Graph
+    from mrlab_ros.ros.graph import FIND_TIMEOUT_S, Graph
 
     graph = Graph()
     try:
@@ -171,7 +171,7 @@ def _graph() -> Graph:
         client = graph.node.create_client(
             srv.ListCatalogue, "/physics/list_catalogue", qos_profile=qos.SERVICES
         )
-        if not client.wait_for_service(timeout_sec=FIND_TIMEOUT):
+        if not client.wait_for_service(timeout_sec=FIND_TIMEOUT_S):
             raise Misuse("this lab runs without physics; start it with: mrlab up --physics")
     except BaseException:
         graph.close()

@@ -20,11 +20,11 @@ if TYPE_CHECKING:
     from mrlab_ros.commands.follow import Follower
     from mrlab_ros.ros.graph import Graph, Watch
 
-REFRESH_RATE = 4.0
+REFRESH_RATE_HZ = 4.0
 # What a robot that was just found has to say is there by then, s.
-SETTLE_TIMEOUT = 6.0
+SETTLE_TIMEOUT_S = 6.0
 # Who measures reports once a second; one that has been silent for longer has gone, s.
-LATENCY_AGE = 5.0
+LATENCY_AGE_S = 5.0
 # From where to where, in the order of LatencyHop's constants.
 HOPS = (("published", "bridged"), ("bridged", "received"), ("published", "received"))
 
@@ -57,7 +57,7 @@ def status(
             with Live(view.table(), console=console, auto_refresh=False) as live:
                 try:
                     while True:
-                        time.sleep(1 / REFRESH_RATE)
+                        time.sleep(1 / REFRESH_RATE_HZ)
                         live.update(view.table(), refresh=True)
                 except KeyboardInterrupt:
                     return
@@ -84,14 +84,14 @@ class View:
         graph.subscribe(msg.Latency, "/latency/clients", self._hear_of_client, qos.LATCHED_EVENTS)
 
     def settle(self) -> None:
-        """Wait until all that is announced has been heard, or SETTLE_TIMEOUT is over.
+        """Wait until all that is announced has been heard, or SETTLE_TIMEOUT_S is over.
 
         Latched messages come oldest first, one soon after the other: the newest is there once no
         more come.
         """
-        from mrlab_ros.ros.graph import LATCHED_BURST
+        from mrlab_ros.ros.graph import LATCHED_BURST_S
 
-        deadline = time.monotonic() + SETTLE_TIMEOUT
+        deadline = time.monotonic() + SETTLE_TIMEOUT_S
         watches = (self._robots, self._catalogue, self._systems)
         heard: list[Any] = []
         since = time.monotonic()
@@ -102,7 +102,7 @@ class View:
             measured = self._latencies or "bridge" not in self._graph.node.get_node_names()
             if not same or any(value is None for value in heard) or not measured:
                 since = now
-            elif now - since > LATCHED_BURST:
+            elif now - since > LATCHED_BURST_S:
                 return
             time.sleep(0.02)
 
@@ -119,7 +119,7 @@ class View:
         """Return whose reports there are and the reports, the bridge's own first; no old ones."""
         for name, report in list(self._latencies.items()):
             stamp = report.header.stamp
-            if abs(time.time() - stamp.sec - 1e-9 * stamp.nanosec) > LATENCY_AGE:
+            if abs(time.time() - stamp.sec - 1e-9 * stamp.nanosec) > LATENCY_AGE_S:
                 self._latencies.pop(name, None)
         return sorted(self._latencies.items(), key=lambda entry: entry[0])
 

@@ -244,12 +244,12 @@ def _systems(graph: Graph, name: str = "") -> list[Any]:
     from mrlab_msgs import msg
 
     from mrlab_ros.ros.calls import NoAnswer
-    from mrlab_ros.ros.graph import LATCHED_BURST
+    from mrlab_ros.ros.graph import LATCHED_BURST_S
 
     watch = graph.watch(msg.RobotSystems, "/systems")
     watch.wait(lambda _: True, 5.0, "the systems")
     with suppress(NoAnswer):
-        watch.wait(lambda m: any(s.name == name for s in m.systems), LATCHED_BURST, name)
+        watch.wait(lambda m: any(s.name == name for s in m.systems), LATCHED_BURST_S, name)
     assert watch.value is not None
     return list(watch.value.systems)
 

@@ -1,4 +1,4 @@
-"""The file in which a supervisor says what it keeps."""
+"""The file in which a supervisor publishes the state of its processes."""
 
 from __future__ import annotations
 
@@ -14,8 +14,8 @@ from typing import IO, Any
 from mrlab_ros.core.errors import Misuse
 from mrlab_ros.processes.supervisor import ProcessState
 
-# Who only looks whether a lab runs holds its lock for an instant, s.
-CLAIM_PATIENCE = 0.2
+# `mrlab status` holds the lock for a moment; a claim retries for this long, s.
+CLAIM_TIMEOUT_S = 0.2
 
 
 def _folder() -> Path:
@@ -24,9 +24,9 @@ def _folder() -> Path:
 
 
 class RunFile:
-    """Where a supervisor says what it keeps: one file a user and ROS domain.
+    """The state of a supervisor's processes: one file for each user and ROS domain.
 
-    A lock beside the file proves that its writer lives; the kernel lets it go with the process.
+    A lock beside the file proves that its writer lives; the kernel releases it with the process.
     """
 
     def __init__(self, domain: int) -> None:
@@ -39,7 +39,7 @@ class RunFile:
         """Take the domain for this process; raise Misuse where another supervisor has it."""
         self._path.parent.mkdir(mode=0o700, parents=True, exist_ok=True)
         lock = open(self._path.with_suffix(".lock"), "ab")  # noqa: SIM115
-        deadline = time.monotonic() + CLAIM_PATIENCE
+        deadline = time.monotonic() + CLAIM_TIMEOUT_S
         while not _locked(lock, fcntl.LOCK_EX):
             if time.monotonic() > deadline:
                 lock.close()
@@ -49,13 +49,13 @@ class RunFile:
                     f"{owner.get('pid', 'unknown')}); use that one, stop it, or set "
                     "ROS_DOMAIN_ID to another number"
                 )
-            time.sleep(CLAIM_PATIENCE / 10)
+            time.sleep(CLAIM_TIMEOUT_S / 10)
         self._lock = lock
         self._facts = {"domain": self._domain, "pid": os.getpid(), **facts}
         self.write([])
 
     def write(self, states: list[ProcessState]) -> None:
-        """Say the present state of all processes; a reader sees all of it or the last one."""
+        """Write the state of all processes; a reader sees the whole new file or the old one."""
         if self._lock is None:
             return
         new = self._path.with_suffix(".new")
@@ -63,14 +63,14 @@ class RunFile:
         new.replace(self._path)
 
     def release(self) -> None:
-        """Give the domain back."""
+        """Release the domain."""
         if self._lock is not None:
             self._path.unlink(missing_ok=True)
             self._lock.close()
             self._lock = None
 
     def read(self) -> dict[str, Any] | None:
-        """Return what the living supervisor of the domain says; None where there is none."""
+        """Return the file of the running supervisor of the domain; None where there is none."""
         try:
             with open(self._path.with_suffix(".lock"), "rb") as lock:
                 if _locked(lock, fcntl.LOCK_SH):

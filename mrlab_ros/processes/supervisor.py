@@ -21,14 +21,14 @@ from enum import Enum
 from types import TracebackType
 from typing import IO
 
-FIRST_DELAY = 0.5
-LONGEST_DELAY = 10.0
-STABLE_AFTER = 30.0
-# From SIGINT to SIGKILL, s; a clean stop of a process takes well under one.
-GRACE = 1.5
+FIRST_DELAY_S = 0.5
+LONGEST_DELAY_S = 10.0
+STABLE_AFTER_S = 30.0
+# From SIGINT to SIGKILL, s; a clean stop of a process takes well under 1 s.
+STOP_TIMEOUT_S = 1.5
 # The last lines of an ended process are read in this time, s.
-READ_PATIENCE = 1.0
-# The name under which the supervisor itself speaks.
+READ_TIMEOUT_S = 1.0
+# The name of the supervisor's own lines.
 SELF = "mrlab"
 
 # Runs as: python -I -S -c GUARDED <pid of the supervisor> program argument...
@@ -60,14 +60,14 @@ WRONG_CONFIGURATION = 78
 class RestartPolicy:
     """Decides how long to wait before a process that ended is started again.
 
-    Delays double from `first` to `longest` (s) and begin anew after a life of `stable` (s).
+    Delays double from `first` to `longest` (s); a process that ran for `stable` (s) resets them.
     """
 
     def __init__(
         self,
-        first: float = FIRST_DELAY,
-        longest: float = LONGEST_DELAY,
-        stable: float = STABLE_AFTER,
+        first: float = FIRST_DELAY_S,
+        longest: float = LONGEST_DELAY_S,
+        stable: float = STABLE_AFTER_S,
     ) -> None:
         self._first, self._longest, self._stable = first, longest, stable
         self._next = first
@@ -87,7 +87,7 @@ class RestartPolicy:
 
 
 class Phase(Enum):
-    """What a supervised process does."""
+    """The phase of a supervised process."""
 
     STARTING = "starting"
     RUNNING = "running"
@@ -109,7 +109,7 @@ class ProcessState:
 
 
 def describe_exit(code: int) -> str:
-    """Say in words how a process ended; negative codes are signals."""
+    """Describe how a process ended; negative codes are signals."""
     if code == WRONG_CONFIGURATION:
         return "wrong configuration"
     if code >= 0:
@@ -134,7 +134,7 @@ class Child:
         self._phase, self._since = Phase.STARTING, time.time()
         self._restarts, self._last_exit = 0, ""
         self._process: subprocess.Popen[bytes] | None = None
-        # Guards _process: while it is set, its process group exists and is ours.
+        # Guards _process: while it is set, its process group exists and belongs to this child.
         self._lock = threading.Lock()
         self._stop = threading.Event()
         # Set while there is no process: end the wait for the next start.
@@ -235,8 +235,8 @@ class Child:
             _signal_group(process.pid, signal.SIGKILL)
             self._process = None
             code = process.wait()
-        # Somebody who left the group may still hold the pipe; its reader then goes on alone.
-        reader.join(READ_PATIENCE)
+        # A process outside the group may still hold the pipe; its reader then runs on alone.
+        reader.join(READ_TIMEOUT_S)
         return code, describe_exit(code)
 
     def _read(self, stream: IO[bytes]) -> None:
@@ -278,12 +278,12 @@ class Supervisor:
             child.start()
 
     def restart(self, name: str) -> None:
-        """Have one process end and start again."""
+        """End one process and start it again."""
         for child in self.children:
             if child.spec.name == name:
                 child.restart()
 
-    def stop(self, grace: float = GRACE) -> None:
+    def stop(self, grace: float = STOP_TIMEOUT_S) -> None:
         """Stop everything: SIGINT at once to all, SIGKILL to what is left after `grace` s."""
         deadline = time.monotonic() + grace
         for child in self.children:

@@ -1,7 +1,7 @@
-"""One thread that lets every playback's joint states leave at their deadlines.
+"""One thread that publishes every playback's joint states at their deadlines.
 
 Timers of an executor share a wait set with every service and topic of the process; here a
-deadline depends on nothing but this loop.
+deadline depends on this loop alone.
 """
 
 from __future__ import annotations
@@ -19,20 +19,20 @@ from mrlab_ros.core.playback.stream import Sample
 
 PR_SET_TIMERSLACK = 29
 # The longest the thread sleeps without a deadline, s.
-IDLE_SLEEP = 1.0
-# A sleep ends about this much late, and preparing a joint state takes about this long, ns: the
-# thread wakes so much early and lets them leave when they are due.
+IDLE_SLEEP_S = 1.0
+# A sleep ends about WAKE_NS late, and preparing a joint state takes about PREPARE_NS: the thread
+# wakes earlier by their sum and publishes when they are due.
 WAKE_NS = 150_000
 PREPARE_NS = 15_000
-# A thread that runs Python may keep the deadline thread waiting this long, s. Python's own
+# Another thread that runs Python delays the deadline thread by at most this time, s. Python's own
 # 5 ms would be half a period at 100 Hz.
-SWITCH_INTERVAL = 0.0005
+SWITCH_INTERVAL_S = 0.0005
 
 
 class LabClock:
-    """The lab's clock: ROS system time that never jumps while something plays.
+    """The lab's clock: ROS system time that never jumps during playback.
 
-    It runs with the monotonic clock from the wall time at which it was last set.
+    It advances with the monotonic clock from the wall time at which it was last set.
     """
 
     def __init__(self) -> None:
@@ -40,7 +40,7 @@ class LabClock:
         self.set()
 
     def set(self) -> None:
-        """Take the wall time anew."""
+        """Set the clock to the wall time."""
         self._offset_ns = time.time_ns() - time.monotonic_ns()
 
     def now_ns(self) -> int:
@@ -48,7 +48,7 @@ class LabClock:
 
 
 class Player:
-    """A playback with where its output goes, and how punctual it was."""
+    """A playback, the callbacks for its output, and its deadline errors."""
 
     def __init__(
         self,
@@ -64,12 +64,12 @@ class Player:
         self.error_max_ns = 0
 
     def prepare(self, now_ns: int) -> Sample | None:
-        """Take the joint state that is due, or that will be within moments."""
+        """Return the joint state that is due, or will be within moments; None without one."""
         due_ns = self.playback.due_ns()
         return None if due_ns is None else self.playback.tick(max(now_ns, due_ns))
 
     def send(self, sample: Sample, now_ns: Callable[[], int]) -> None:
-        """Send a joint state that was prepared; note how punctual that was."""
+        """Publish a prepared joint state; keep its deadline error."""
         self._send(sample)
         self.last = sample
         if sample.streamed:
@@ -86,7 +86,7 @@ class Scheduler:
     """Serves players at their deadlines; commands run between two of them.
 
     Use `with scheduler.command() as now_ns:` around every use of a playback. What a player
-    raises is printed while `connected()`: what fails because the graph was left is no trouble.
+    raises is printed while `connected()`: a failure after the shutdown of the context is expected.
     """
 
     def __init__(self, connected: Callable[[], bool] = lambda: True) -> None:
@@ -98,7 +98,7 @@ class Scheduler:
         self._thread = threading.Thread(target=self._run, name="deadlines", daemon=True)
 
     def start(self) -> None:
-        sys.setswitchinterval(SWITCH_INTERVAL)
+        sys.setswitchinterval(SWITCH_INTERVAL_S)
         self._thread.start()
 
     def stop(self) -> None:
@@ -129,7 +129,7 @@ class Scheduler:
             while self._running:
                 early_ns = WAKE_NS + PREPARE_NS * len(self._players)
                 horizon_ns = now_ns() + early_ns
-                wait_ns = IDLE_SLEEP * SECOND
+                wait_ns = IDLE_SLEEP_S * SECOND
                 batch = []
                 for player in self._players:
                     due_ns = player.playback.due_ns()
@@ -145,7 +145,7 @@ class Scheduler:
                     self._changed.wait(wait_ns / SECOND)
 
     def _serve(self, batch: list[tuple[int, Player]]) -> None:
-        """Prepare what is due together, then let it leave together, each at its deadline."""
+        """Prepare all joint states that are due, then publish each at its deadline."""
         now_ns = self.clock.now_ns
         begin_ns = now_ns()
         ready = []
@@ -171,13 +171,13 @@ class Scheduler:
                 self._print_trouble()
 
     def _print_trouble(self) -> None:
-        """Print what a player just raised; one robot's trouble must not stop the others."""
+        """Print the current exception: one robot's failure must not stop the others."""
         if self._connected():
             traceback.print_exc()
 
 
 class Command:
-    """Holds the deadline thread off while a command runs; wakes it afterwards."""
+    """Locks the deadline thread out while a command runs; wakes it afterwards."""
 
     def __init__(self, scheduler: Scheduler) -> None:
         self._scheduler = scheduler

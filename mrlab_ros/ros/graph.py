@@ -1,4 +1,4 @@
-"""The graph as a command sees it: call, wait, watch; every wait has a deadline.
+"""A client of the graph for commands: call services, watch topics, each with a time-out.
 
 A node of rclpy spins in a thread of its own, so that a command reads from top to bottom.
 """
@@ -27,15 +27,15 @@ from mrlab_ros.ros.domain import domain_id
 
 T = TypeVar("T")
 # How long a command waits for the lab to be found, s: discovery takes up to 3 s.
-FIND_TIMEOUT = 6.0
-CALL_TIMEOUT = 15.0
-# What a latched topic has kept for late joiners comes oldest first, with pauses shorter than
-# this, s.
-LATCHED_BURST = 0.5
+FIND_TIMEOUT_S = 6.0
+CALL_TIMEOUT_S = 15.0
+# The messages that a latched topic keeps for late joiners arrive oldest first, with pauses shorter
+# than this, s.
+LATCHED_BURST_S = 0.5
 
 
 class Watch(Generic[T]):
-    """The newest message of one topic, and a way to wait for the one that is wanted."""
+    """The newest message of one topic, and a way to wait for one with a property."""
 
     def __init__(self, topic: str) -> None:
         self.topic = topic
@@ -48,7 +48,7 @@ class Watch(Generic[T]):
             self._changed.notify_all()
 
     def wait(self, wanted: Callable[[T], bool], timeout: float, what: str) -> T:
-        """Return the first value, present or to come, that is `wanted`.
+        """Return the present value or the first later one for which `wanted` is true.
 
         Raises NoAnswer, which says `what` was waited for, after `timeout` s.
         """
@@ -109,7 +109,7 @@ class Graph:
     def subscribe(
         self, kind: Any, topic: str, callback: Callable[[Any], None], quality: QoSProfile
     ) -> None:
-        """Let `callback` have every message of `topic`, in the graph's own thread."""
+        """Call `callback` with every message of `topic`, in the graph's own thread."""
         self.node.create_subscription(kind, topic, callback, quality)
 
     def watch(self, kind: Any, topic: str, quality: QoSProfile = qos.LATCHED) -> Watch[Any]:
@@ -123,8 +123,8 @@ class Graph:
         kind: Any,
         service: str,
         request: Any,
-        timeout: float = CALL_TIMEOUT,
-        find_timeout: float = FIND_TIMEOUT,
+        timeout: float = CALL_TIMEOUT_S,
+        find_timeout: float = FIND_TIMEOUT_S,
     ) -> Any:
         """Return the service's answer, whatever it says; raise NoAnswer where none comes."""
         client = self._clients.get(service)
@@ -138,15 +138,15 @@ class Graph:
             )
         return call(client, request, timeout)
 
-    def order(self, kind: Any, service: str, request: Any, timeout: float = CALL_TIMEOUT) -> Any:
-        """Call a service and return its answer; raise Misuse with its words where it refuses."""
+    def order(self, kind: Any, service: str, request: Any, timeout: float = CALL_TIMEOUT_S) -> Any:
+        """Call a service and return its answer; raise Misuse with its message where it refuses."""
         answer = self.call(kind, service, request, timeout)
         if not answer.success:
             raise Misuse(answer.message)
         return answer
 
-    def robots(self, timeout: float = FIND_TIMEOUT) -> list[Any]:
-        """Return the robots of the scene; raise NoAnswer where no lab says any."""
+    def robots(self, timeout: float = FIND_TIMEOUT_S) -> list[Any]:
+        """Return the robots of the scene; raise NoAnswer where no lab publishes any."""
         watch = self.watch(msg.Robots, "/robots")
         try:
             robots: list[Any] = watch.wait(lambda _: True, timeout, "the robots").robots

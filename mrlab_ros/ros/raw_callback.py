@@ -1,4 +1,4 @@
-"""A subscription's callback that has a message undecoded, and when it was published."""
+"""A callback for raw subscriptions: the message as CDR, and when it was published."""
 
 from __future__ import annotations
 
@@ -6,16 +6,16 @@ import inspect
 from collections.abc import Callable
 from typing import Any
 
-# Has a message's CDR and when it was published, ns since 1970.
+# Gets a message's CDR and when it was published, ns since 1970.
 OnMessage = Callable[[bytes, int], None]
 
 
 class Stamped:
     """Makes an OnMessage the callback of a subscription with raw=True.
 
-    Needed for the events executor: it hands on message and info as one tuple, which a callback of
-    two parameters does not take; rclpy's other executors hand on two. `__signature__` is what
-    makes rclpy give the info at all.
+    The events executor passes message and info as one tuple, which a callback of two parameters
+    does not accept; rclpy's other executors pass two arguments. rclpy passes the info only where
+    `__signature__` has two parameters.
     """
 
     __signature__ = inspect.Signature(

@@ -1,4 +1,4 @@
-"""Where the lab's own data files are."""
+"""Finds the lab's own data files."""
 
 from __future__ import annotations
 

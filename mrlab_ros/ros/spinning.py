@@ -1,10 +1,10 @@
-"""How the lab's nodes are spun: each in a thread of its own, by rclpy's events executor.
+"""Spins each node of the lab in a thread of its own, with rclpy's events executor.
 
-The events executor hands on what arrives without building a wait set of everything that could:
-with fifty robots that is 0.03 ms an event instead of several. Two of its ways shape this module:
-waiting without a time-out it never wakes, so it is asked to wait for a moment at a time; and a
-callback that waits for an answer must not be spun by the thread that brings it, so a node that
-calls others does that through a `Caller`.
+The events executor dispatches an event without building a wait set of every entity: with fifty
+robots that takes 0.03 ms an event instead of several. Two of its properties shape this module. It
+does not wake from a wait without a time-out, so each wait has one. And a callback that waits for
+a response must not run in the thread that receives it, so a node that calls services does that
+through a `Caller`.
 """
 
 from __future__ import annotations
@@ -25,7 +25,7 @@ from rclpy.task import Future
 from mrlab_ros.core.errors import BadInput
 
 # The longest the executor waits at a time, s; what arrives is handed on at once all the same.
-MOMENT = 0.2
+WAIT_S = 0.2
 
 
 def make_executor(context: Context) -> Executor:
@@ -42,7 +42,7 @@ def spin(executor: Executor, context: Context, stop: threading.Event | None = No
     never = Future()
     while context.ok() and not (stop is not None and stop.is_set()):
         try:
-            executor.spin_until_future_complete(never, timeout_sec=MOMENT)
+            executor.spin_until_future_complete(never, timeout_sec=WAIT_S)
         except (KeyboardInterrupt, ExternalShutdownException):
             return
         except rclpy_implementation.InvalidHandle:
@@ -105,7 +105,7 @@ class SpunNode:
 
 
 class Caller(SpunNode):
-    """A hidden node beside `owner` through which it calls and hears other nodes."""
+    """A hidden node beside `owner` through which it calls services and subscribes to topics."""
 
     def __init__(self, owner: Node) -> None:
         super().__init__(

@@ -44,7 +44,7 @@ START_NS = 1_700_000_000_000_000_000
 @pytest.fixture
 def recorder(graph: Graph, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> RecorderNode:
     # No bridge here that first has to find the topics.
-    monkeypatch.setattr(replaying, "SETTLE", 0.0)
+    monkeypatch.setattr(replaying, "SETTLE_TIME_S", 0.0)
     return graph.add(RecorderNode, bag_dir=str(tmp_path))
 
 
@@ -444,7 +444,7 @@ def test_a_replay_ends_when_asked_and_refuses_to_run_beside_another(graph, recor
 
 
 def test_who_still_publishes_is_named(graph, recorder, session, states, monkeypatch):
-    monkeypatch.setattr(replaying, "LEAVE_TIMEOUT", 0.3)
+    monkeypatch.setattr(replaying, "LEAVE_TIMEOUT_S", 0.3)
     publisher(graph, "/ur5e_1/telemetry")
     answer = graph.call(srv.Replay, "/recorder/replay", bag="class", rate=1.0)
     assert not answer.success

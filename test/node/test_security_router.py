@@ -19,9 +19,8 @@ from zenoh_side import JOINTS, free_port, tokens
 
 from mrlab_ros.adapters.keys.folder import Keys, now
 from mrlab_ros.adapters.zenoh_session import limits
-from mrlab_ros.core.bridge import rules as bridge_rules
 from mrlab_ros.core.bridge.access import Login
-from mrlab_ros.core.bridge.rules import Role
+from mrlab_ros.core.bridge.rules import Role, parse
 from mrlab_ros.core.errors import BadInput, Misuse
 from mrlab_ros.messages import qos
 from mrlab_ros.nodes.bridge.node import BridgeNode
@@ -37,7 +36,7 @@ CALLS = {
 
 
 def write_router(keys):
-    rules = bridge_rules.parse(yaml.safe_load((CONFIG / "bridge.yaml").read_text()))
+    rules = parse(yaml.safe_load((CONFIG / "bridge.yaml").read_text()))
     return keys.router(rules, PREFIX[:-1], limits(CONFIG / "zenoh" / "lab.json5"), now())
 
 

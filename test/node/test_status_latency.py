@@ -9,7 +9,7 @@ import pytest
 from mrlab_msgs.msg import Latency, LatencyHop
 from rich.console import Console
 
-from mrlab_ros.commands.status import LATENCY_AGE, View
+from mrlab_ros.commands.status import LATENCY_AGE_S, View
 
 
 class Graph:
@@ -58,7 +58,7 @@ def test_a_client_does_not_pass_for_the_bridge(graph, view):
     assert found[0]["hops"][0]["p50"] == 0.001
 
 
-@pytest.mark.parametrize("age", [LATENCY_AGE + 1, -LATENCY_AGE - 1])
+@pytest.mark.parametrize("age", [LATENCY_AGE_S + 1, -LATENCY_AGE_S - 1])
 def test_who_is_silent_or_ahead_of_time_is_forgotten(graph, view, age):
     for i in range(100):
         graph.heard["/latency/clients"](report(f"client_{i}", age))

@@ -127,7 +127,9 @@ def open_file(path: Path) -> BagFile:
             found = _by_index(path, file)
             return found if found is not None else _by_records(path, file)
     except OSError as error:
-        raise BadInput(f"{path} cannot be read ({error.strerror}); look at its rights") from None
+        raise BadInput(
+            f"{path} cannot be read ({error.strerror}); check its permissions"
+        ) from None
 
 
 def _by_index(path: Path, file: Any) -> BagFile | None:

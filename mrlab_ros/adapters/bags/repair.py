@@ -1,4 +1,4 @@
-"""Writes index, summary and metadata.yaml of a bag anew, from what can be read of it."""
+"""Rewrites index, summary and metadata.yaml of a bag from its readable messages."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ NEW = ".repairing"
 
 @dataclass
 class Repaired:
-    """What a repair did: the files written anew, and what had been wrong with them."""
+    """What a repair did: the rewritten files, and what was wrong with them."""
 
     files: list[str]
     troubles: list[str]
@@ -28,7 +28,7 @@ class Repaired:
 
 
 def repair(folder: Path) -> Repaired:
-    """Write anew what is damaged or lacks an index, and metadata.yaml; keep the originals.
+    """Rewrite damaged files, files without an index, and metadata.yaml; keep the originals.
 
     Raises BadInput where nothing can be read, where an earlier original is in the way, or where
     the folder cannot be written; the bag is as it was then.
@@ -60,7 +60,7 @@ def repair(folder: Path) -> Repaired:
     except OSError as error:
         raise BadInput(
             f"the bag {folder} cannot be mended ({error.strerror}); make room on that disk, or "
-            "look at that folder"
+            "check that folder"
         ) from None
     finally:
         for path in damages:
@@ -82,13 +82,13 @@ def _damage(file: BagFile) -> str:
 
 
 def _agrees(metadata: Path, bag: Bag) -> bool:
-    """Return whether metadata.yaml tells of these files and as many messages."""
+    """Return whether metadata.yaml names these files and as many messages."""
     try:
         facts = yaml.safe_load(metadata.read_text())[ROOT]
-        told = (facts["relative_file_paths"], facts["message_count"])
+        recorded = (facts["relative_file_paths"], facts["message_count"])
     except (OSError, yaml.YAMLError, UnicodeDecodeError, TypeError, KeyError):
         return False
-    return bool(told == ([file.path.name for file in bag.files], bag.message_count))
+    return bool(recorded == ([file.path.name for file in bag.files], bag.message_count))
 
 
 def _kept(path: Path) -> Path:

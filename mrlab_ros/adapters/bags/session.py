@@ -113,8 +113,8 @@ class _Reader:
 
     def _state(self, time: float, robot: RobotReport, state: Any) -> None:
         clock = PlaybackClock(_ns(state.clock.stamp), state.clock.position, state.clock.rate)
-        robot.tell(ReportedState(_ns(state.header.stamp), state.label, state.trajectory_id, clock))
-        robot.states.tell(time, state.label, state.trajectory_id)
+        robot.add(ReportedState(_ns(state.header.stamp), state.label, state.trajectory_id, clock))
+        robot.states.add(time, state.label, state.trajectory_id)
 
     def _telemetry(self, time: float, robot: RobotReport, telemetry: Any) -> None:
         if telemetry.frames_sent:
@@ -130,7 +130,7 @@ class _Reader:
     def _grasp(self, time: float, robot: RobotReport, grasp: Any) -> None:
         known = grasp.state < len(GRASP_STATES)
         label = GRASP_STATES[grasp.state] if known else str(grasp.state)
-        robot.grasps.tell(time, label, grasp.object)
+        robot.grasps.add(time, label, grasp.object)
 
     def _robots(self, time: float, robots: Any) -> None:
         for entry in robots.robots:
@@ -141,7 +141,7 @@ class _Reader:
             changes = self.report.systems
             if system.name not in changes:
                 changes[system.name] = Changes()
-            changes[system.name].tell(time, system.label, system.message)
+            changes[system.name].add(time, system.label, system.message)
 
     def _contacts(self, time: float, contacts: Any) -> None:
         for contact in contacts.contacts:

@@ -151,7 +151,7 @@ class BagWriter:
         return self._file.tell()
 
     def add_topic(self, topic: Topic) -> None:
-        """Let messages of `topic` come; one that is known keeps its count and is told anew.
+        """Accept messages of `topic`; a known topic keeps its count, and its record is updated.
 
         Raises BadInput where the text of its type is not to be had.
         """
@@ -276,7 +276,7 @@ class BagWriter:
         return channel
 
     def _trouble(self, error: OSError) -> DiskTrouble:
-        do = "make room on that disk" if error.errno in FULL else "look at that folder"
+        do = "make room on that disk" if error.errno in FULL else "check that folder"
         return DiskTrouble(
             f"the bag {self.folder} cannot be written ({error.strerror}); what was recorded stays "
             f"readable; {do}, then start a new recording"

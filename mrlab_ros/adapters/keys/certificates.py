@@ -67,7 +67,7 @@ def server(
 
 
 def client(issuer: Signed, common_name: str, now: datetime, lifetime: timedelta) -> Signed:
-    """Make a certificate for a program that connects; `common_name` tells whose it is."""
+    """Make a certificate for a program that connects; `common_name` says whose it is."""
     return _leaf(issuer, common_name, ExtendedKeyUsageOID.CLIENT_AUTH, None, now, lifetime)
 
 

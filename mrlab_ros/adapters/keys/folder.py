@@ -41,7 +41,7 @@ AUTHORITY_LIFETIME = timedelta(days=5 * 365)
 SERVER_LIFETIME = timedelta(days=2 * 365)
 CLIENT_LIFETIME = timedelta(days=365)
 NAME = re.compile(r"[A-Za-z0-9][A-Za-z0-9_.-]{0,40}")
-# Has a password that nobody is told: zenoh asks for passwords only where its file names somebody.
+# A user whose password nobody knows: zenoh demands passwords only where its file has a user.
 NOBODY = "nobody"
 
 
@@ -144,7 +144,7 @@ class Keys:
 
     def _add(self, name: str, role: Role, now: datetime, lifetime: timedelta) -> Entry:
         authority = self._authority(now)
-        # With a mark of its own: who gets a name anew does not bring the old certificate back.
+        # With a random mark: a new person of the same name does not revive the old certificate.
         person = Person(name, role, f"{name}.{secrets.token_hex(4)}")
         signed = certificates.client(authority, person.common_name, now, lifetime)
         entry = Entry(person, certificates.validity(signed.certificate)[1])
@@ -178,7 +178,7 @@ class Keys:
             raise BadInput(f"{name} has no key in {self.folder}; who has one: {known}")
 
     def renew(self, hosts: list[str], now: datetime) -> datetime:
-        """Make the lab's certificate anew, for `hosts` too; return when it expires."""
+        """Make a new certificate of the lab, for `hosts` too; return when it expires."""
         with self._alone():
             all_hosts = list(dict.fromkeys([*hosts, *self.hosts]))
             authority = self._authority(now)
@@ -341,7 +341,7 @@ class Keys:
 
     @contextmanager
     def _alone(self) -> Iterator[None]:
-        """Keep other commands out, and know what those before have changed."""
+        """Lock the folder against other commands, and read what earlier ones changed."""
         handle = os.open(self.folder, os.O_RDONLY)
         try:
             fcntl.flock(handle, fcntl.LOCK_EX)
@@ -397,7 +397,7 @@ class Keys:
         )
 
     def _reached(self) -> list[str]:
-        """Return where clients look for the lab, one after the other; at home last."""
+        """Return the hosts at which clients try to reach the lab, in order; localhost last."""
         return [*(host for host in self.hosts if host not in LOCAL), LOCAL[0]]
 
 

@@ -218,9 +218,9 @@ def _inputs(request: Request) -> list[Input]:
             Input(str(path), path.name, path.name, partial(opened, path))
             for path in _expand(request.files)
         ]
-    from mrlab_ros.commands.convert import topic as convert_topic  # rclpy, which files do not need
+    from mrlab_ros.commands.convert.topic import receive  # rclpy, which files do not need
 
-    message = convert_topic.receive(request.topic, request.timeout)
+    message = receive(request.topic, request.timeout)
     read_as = f"{request.topic}.cdr"
     return [Input(request.topic, request.topic, read_as, partial(in_memory, message))]
 

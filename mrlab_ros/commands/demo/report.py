@@ -20,7 +20,7 @@ if TYPE_CHECKING:
     from mrlab_ros.commands.demo.lab import Stage
     from mrlab_ros.commands.follow import Follower
 
-PROGRESS_PERIOD = 1.0
+PROGRESS_PERIOD_S = 1.0
 
 
 @dataclass
@@ -86,7 +86,7 @@ class Display:
             self._live.update(task, completed=follower.frame, total=total, words=words)
             lines.append(f"{follower.robot}: {words}")
         if not self._console.is_terminal and time.monotonic() >= self._next:
-            self._next = time.monotonic() + PROGRESS_PERIOD
+            self._next = time.monotonic() + PROGRESS_PERIOD_S
             for line in lines:
                 self._console.print(f"{system.lower():<8} {line}", markup=False, soft_wrap=True)
 

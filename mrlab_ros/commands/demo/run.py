@@ -26,11 +26,11 @@ if TYPE_CHECKING:
     from mrlab_ros.ros.graph import Graph, Watch
 
 SYSTEM = "demo"
-START_TIMEOUT = 30.0
+START_TIMEOUT_S = 30.0
 # How long the robots may take beyond their own motion, s, on a machine that is busy.
-PATIENCE = 30.0
+RUN_TIMEOUT_S = 30.0
 # The way from a joint state's leaving to zenoh's subscriber takes milliseconds; s.
-LAST_FRAME_TIMEOUT = 5.0
+LAST_FRAME_TIMEOUT_S = 5.0
 
 
 @dataclass(frozen=True)
@@ -108,7 +108,7 @@ class Run:
 
     def _wait_for_lab(self, graph: Graph) -> None:
         missing = missing_parts(graph, lab_nodes(self._stage.options), robots=0)
-        self._until(lambda: not missing(), START_TIMEOUT, "all parts of the lab")
+        self._until(lambda: not missing(), START_TIMEOUT_S, "all parts of the lab")
         self._say("start", f"the lab is ready after {time.monotonic() - self._stage.begin:.1f} s")
 
     @contextmanager
@@ -159,10 +159,10 @@ class Run:
             robot = follower.robot
             self._until(
                 lambda f=follower: f.watch.value is not None,
-                START_TIMEOUT,
+                START_TIMEOUT_S,
                 f"the playback of {robot}",
             )
-            self._until(lambda a=arrived: a.payloads, START_TIMEOUT, f"{arrived.key} over zenoh")
+            self._until(lambda a=arrived: a.payloads, START_TIMEOUT_S, f"{arrived.key} over zenoh")
             self._say("zenoh", f"{arrived.key} arrives, {len(arrived.payloads[0])} bytes a frame")
         return followers
 
@@ -186,13 +186,13 @@ class Run:
         ]
         create = srv.CreateSystem.Request(name=SYSTEM, members=members)
         answer = graph.order(
-            srv.CreateSystem, "/coordinator/create_system", create, timeout=PATIENCE
+            srv.CreateSystem, "/coordinator/create_system", create, timeout=RUN_TIMEOUT_S
         )
         self._say("load", answer.message)
-        answer = graph.order(Trigger, f"/{SYSTEM}/play", Trigger.Request(), timeout=PATIENCE)
+        answer = graph.order(Trigger, f"/{SYSTEM}/play", Trigger.Request(), timeout=RUN_TIMEOUT_S)
         self._say("play", answer.message)
         longest = max(trajectory.info.duration for trajectory in trajectories)
-        deadline = time.monotonic() + longest + PATIENCE
+        deadline = time.monotonic() + longest + RUN_TIMEOUT_S
         course = SystemCourse(systems)
         with Display(self._console, followers, arrivals) as display:
             while not course.complete():
@@ -217,7 +217,7 @@ class Run:
             found, wrong = frames_in_order(arrived.payloads, trajectory, start_ns)
             return bool(found >= count)
 
-        end = time.monotonic() + LAST_FRAME_TIMEOUT
+        end = time.monotonic() + LAST_FRAME_TIMEOUT_S
         while not complete() and time.monotonic() < end:
             self._pause(0.2)
         if found < count:

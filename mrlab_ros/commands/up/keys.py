@@ -11,7 +11,7 @@ from mrlab_ros.processes.supervisor import SELF
 
 LISTEN = "tcp/127.0.0.1:7447"
 # How often a lab looks whether its keys have changed, s.
-KEYS_PERIOD = 1.0
+KEYS_PERIOD_S = 1.0
 # A lab whose certificate expires earlier says so when it starts, days.
 EXPIRES_SOON = 30
 
@@ -84,7 +84,7 @@ def follow_keys(
     from mrlab_ros.adapters.keys.folder import Keys, now
 
     reported = ""
-    while not stop.wait(KEYS_PERIOD):
+    while not stop.wait(KEYS_PERIOD_S):
         try:
             with Keys.while_unchanged(folder) as keys:
                 # A command that changes the keys right now has not written all files yet.

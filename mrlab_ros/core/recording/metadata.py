@@ -189,7 +189,7 @@ def paths_in(document: object, name: str) -> list[str]:
         )
     if storage != "mcap" or facts.get("compression_format"):
         raise BadInput(
-            f"{name} tells of storage {storage} with compression "
+            f"{name} names storage {storage} with compression "
             f"'{facts.get('compression_format') or 'none'}'; expected plain mcap: convert it with "
             "ros2 bag convert"
         )

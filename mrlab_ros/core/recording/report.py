@@ -42,20 +42,20 @@ class Span:
 
 @dataclass
 class Changes:
-    """A value with its changes; the same value told again is no change."""
+    """A value's history; repeated equal values are ignored."""
 
-    told: list[tuple[float, str, str]] = field(default_factory=list)
+    values: list[tuple[float, str, str]] = field(default_factory=list)
 
-    def tell(self, time: float, label: str, detail: str = "") -> None:
-        if not self.told or self.told[-1][1:] != (label, detail):
-            self.told.append((time, label, detail))
+    def add(self, time: float, label: str, detail: str = "") -> None:
+        if not self.values or self.values[-1][1:] != (label, detail):
+            self.values.append((time, label, detail))
 
     def spans(self, end: float) -> list[Span]:
         """Return how long each value lasted; the last one until `end`."""
-        ends = [*(time for time, _, _ in self.told[1:]), end][: len(self.told)]
+        ends = [*(time for time, _, _ in self.values[1:]), end][: len(self.values)]
         return [
             Span(time, max(until, time), label, detail)
-            for (time, label, detail), until in zip(self.told, ends, strict=True)
+            for (time, label, detail), until in zip(self.values, ends, strict=True)
         ]
 
 
@@ -91,7 +91,7 @@ class ReportedState:
 
     @property
     def holds_from_ns(self) -> int:
-        """When it begins to hold: playing begins at the clock's stamp, told a moment later."""
+        """When it begins to hold, ns: playing begins at its clock's stamp."""
         return self.clock.stamp_ns if self.label == PLAYING else self.stamp_ns
 
 
@@ -140,7 +140,7 @@ class RobotReport:
     collisions: list[Contact] = field(default_factory=list)
     # When the arm or the tool touched something, halting or not.
     contacts: list[float] = field(default_factory=list)
-    told: list[ReportedState] = field(default_factory=list)
+    reported: list[ReportedState] = field(default_factory=list)
     joint_states: int = 0
     frames_lost: int = 0
     tracking: Series = field(default_factory=Series)
@@ -148,10 +148,10 @@ class RobotReport:
     latency: dict[str, Series] = field(default_factory=dict)
     _holds: list[int] = field(default_factory=list)
 
-    def tell(self, told: ReportedState) -> None:
+    def add(self, reported: ReportedState) -> None:
         """Take note of a playback_state, in the order in which they came."""
-        self.told.append(told)
-        self._holds.append(told.holds_from_ns)
+        self.reported.append(reported)
+        self._holds.append(reported.holds_from_ns)
 
     def compare(
         self, time: float, stamp_ns: int, positions: Array, courses: dict[str, ReferenceTrajectory]
@@ -165,11 +165,11 @@ class RobotReport:
         number = bisect_right(self._holds, stamp_ns) - 1
         if number < 0:
             return None
-        told = self.told[number]
-        course = courses.get(told.trajectory)
-        if told.label != PLAYING or told.clock.rate == 0 or course is None:
+        reported = self.reported[number]
+        course = courses.get(reported.trajectory)
+        if reported.label != PLAYING or reported.clock.rate == 0 or course is None:
             return None
-        return course.at(told.clock.at(stamp_ns))
+        return course.at(reported.clock.at(stamp_ns))
 
     def facts(self, end: float) -> dict[str, Any]:
         """Return everything, ready for JSON."""

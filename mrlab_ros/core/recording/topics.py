@@ -1,4 +1,4 @@
-"""Which topics a recording and a replay take, and when a recording goes on in a new file."""
+"""Which topics a recording and a replay take, and when a recording continues in a new file."""
 
 from __future__ import annotations
 
@@ -34,7 +34,7 @@ LAB_TOPICS = (
     "/*/grasp",
     "/*/robot_description",
 )
-# Told of the process that says it, not of the session: replayed, it would be untrue.
+# About the live processes, not the session; never replayed.
 OF_THE_PRESENT = ("/rosout", "/parameter_events", "/latency", "/latency/clients", "/recorder/**")
 
 
@@ -60,7 +60,7 @@ class Topics:
 
 @dataclass(frozen=True)
 class Split:
-    """When a recording goes on in a new file: after `duration` s or `size` bytes; 0 is never."""
+    """When a recording continues in a new file: after `duration` s or `size` bytes; 0 is never."""
 
     duration: float = 0.0
     size: int = 0

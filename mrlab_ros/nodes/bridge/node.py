@@ -42,11 +42,11 @@ from mrlab_ros.ros.spinning import SpunNode
 
 STATISTICS = "/@mrlab/bridge/statistics"
 CLOCK = "/@mrlab/bridge/clock"
-REPORT_PERIOD = 1.0
+REPORT_PERIOD_S = 1.0
 # At every nth check of the graph the QoS of each publisher is read too.
 THOROUGH = 10
 # How long the forwarding thread may wait for another Python thread, s; Python's own is 5 ms.
-SWITCH_INTERVAL = 5e-4
+SWITCH_INTERVAL_S = 5e-4
 
 
 class BridgeNode(ParameterNode[BridgeParameters]):
@@ -87,7 +87,7 @@ class BridgeNode(ParameterNode[BridgeParameters]):
         self._inward = Inward(self._bridge)
         self._service_routes = Services(self._bridge)
         self._streams = SpunNode(streams)
-        sys.setswitchinterval(SWITCH_INTERVAL)
+        sys.setswitchinterval(SWITCH_INTERVAL_S)
         zid = self._session.zid
         self._declared = [
             self._session.token(rules.bridge_token(zid)),
@@ -98,7 +98,7 @@ class BridgeNode(ParameterNode[BridgeParameters]):
         # Keeps the newest reports of clients in the graph for late joiners.
         self.create_subscription(Latency, "latency/clients", lambda _: None, qos.LATCHED_EVENTS)
         self._reported = time.monotonic()
-        self.create_timer(REPORT_PERIOD, self._report)
+        self.create_timer(REPORT_PERIOD_S, self._report)
         self._discovery = self.create_timer(self.parameters.discovery_period, self.discover)
         self.get_logger().info(
             f"carries what {len(self._rules.topics)} rules for topics and "

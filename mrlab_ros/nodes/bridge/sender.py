@@ -8,7 +8,7 @@ from mrlab_ros.ros.worker import Worker
 
 # The most bytes that wait; beyond it the oldest are dropped, so that the newest state arrives.
 ROOM = 64 * 1024 * 1024
-# How long a sender that is stopped goes on with what waits, s.
+# How long a stopped sender may take to send what waits, s.
 STOP_TIMEOUT_S = 2.0
 
 

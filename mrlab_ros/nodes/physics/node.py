@@ -36,7 +36,7 @@ from mrlab_ros.nodes.physics.listener import GraphListener
 from mrlab_ros.nodes.physics.publishers import WorldPublishers
 from mrlab_ros.ros import share
 from mrlab_ros.ros.answers import answered
-from mrlab_ros.ros.deadlines import SWITCH_INTERVAL, LabClock
+from mrlab_ros.ros.deadlines import SWITCH_INTERVAL_S, LabClock
 from mrlab_ros.ros.parameters import ParameterNode
 
 try:
@@ -112,7 +112,7 @@ class PhysicsNode(ParameterNode[PhysicsParameters]):
             self.create_service(kind, f"~/{name}", callback, qos_profile=qos.SERVICES)
         self.create_timer(SAVE_PERIOD, self._contents.save)
         # With Python's default of 5 ms another thread could delay a halt.
-        sys.setswitchinterval(SWITCH_INTERVAL)
+        sys.setswitchinterval(SWITCH_INTERVAL_S)
         self._listener.start()
 
     def destroy_node(self) -> None:

@@ -1,4 +1,4 @@
-"""What a recording needs beside messages to be understood alone, gathered from the graph."""
+"""Collects the attachments that make a bag self-contained: URDFs, meshes, trajectories, ..."""
 
 from __future__ import annotations
 
@@ -35,14 +35,14 @@ Attach = Callable[[str, str, bytes], None]
 MESH_TYPES = {".glb": "model/gltf-binary", ".stl": "model/stl", ".dae": "model/vnd.collada+xml"}
 PACKAGE = re.compile(r"package://([^/]+)/(.+)")
 SCENE = "scene.json"
-PARAMETERS_TIMEOUT = 2.0
+PARAMETERS_TIMEOUT_S = 2.0
 
 
 class SessionContent:
-    """Sees to it that URDFs, meshes, trajectories, scene and parameters are in the bag.
+    """Attaches URDFs, meshes, trajectories, scene and parameters to the bag.
 
-    It learns from the messages themselves what belongs to the session; a thread of its own
-    fetches it, so that the recording goes on.
+    The recorded messages say what belongs to the session; a thread of its own fetches it, so
+    that the recording does not wait.
     """
 
     def __init__(self, caller: Caller, attach: Attach, warn_once: Callable[[str], None]) -> None:
@@ -50,7 +50,7 @@ class SessionContent:
         self._attach = attach
         self._complain = warn_once
         self._there: set[str] = set()
-        # The last scene that was told, unless it is in the bag already.
+        # The last published scene, unless it is in the bag already.
         self._scene: bytes | None = None
         self._worker = Worker("recorder_content")
         self._trajectories = CatalogueClient(caller.node)
@@ -70,7 +70,7 @@ class SessionContent:
             self._later(message.topic, lambda: self._read(message, kind, *reader))
 
     def close(self) -> None:
-        """Fetch what was asked for, then end."""
+        """Fetch what is queued, then end."""
         self._closed = True
         self._worker.do(lambda: self._guarded(SCENE, self._attach_scene))
         self._worker.close()
@@ -87,7 +87,7 @@ class SessionContent:
         self._worker.later(lambda: self._guarded(what, work))
 
     def _guarded(self, what: str, work: Callable[[], None]) -> None:
-        """Do `work`; what fails leaves a gap in the bag, and the recording goes on."""
+        """Do `work`; a failure leaves an attachment out and does not end the recording."""
         try:
             work()
         except Exception as error:
@@ -143,8 +143,8 @@ class SessionContent:
             for robot in message.robots
         ]
         self._scene = json.dumps(scene, indent=1).encode()
-        # A robot that is dragged tells a new scene many times a second: the first goes into the
-        # bag, and the last one at the end.
+        # A robot that is dragged changes the scene many times a second: the first scene is
+        # attached at once, the last one at the end.
         if SCENE not in self._there:
             self._attach_scene()
 
@@ -155,7 +155,7 @@ class SessionContent:
             self._scene = None
 
     def _take_parameters(self) -> None:
-        """Attach the parameters of every node that tells them, as a ROS parameter file."""
+        """Attach the parameters of every node with parameter services, as a ROS parameter file."""
         node = self._caller.node
         services = {name for name, _ in node.get_service_names_and_types()}
         found: dict[str, Any] = {}
@@ -176,9 +176,9 @@ class SessionContent:
             GetParameters, f"{name}/get_parameters", qos_profile=qos.SERVICES
         )
         try:
-            names = call(lists, ListParameters.Request(), PARAMETERS_TIMEOUT).result.names
+            names = call(lists, ListParameters.Request(), PARAMETERS_TIMEOUT_S).result.names
             request = GetParameters.Request(names=names)
-            values = call(gets, request, PARAMETERS_TIMEOUT).values
+            values = call(gets, request, PARAMETERS_TIMEOUT_S).values
         finally:
             node.destroy_client(lists)
             node.destroy_client(gets)

@@ -38,7 +38,7 @@ MEGABYTE = 1_000_000
 
 
 class RecorderNode(ParameterNode[RecorderParameters]):
-    """Records or replays, one at a time, and tells what it does on ~/state."""
+    """Records or replays, one at a time, and publishes its state on ~/state."""
 
     def __init__(
         self,
@@ -69,7 +69,7 @@ class RecorderNode(ParameterNode[RecorderParameters]):
         self._content: SessionContent | None = None
         self._replaying: Replaying | None = None
         self._trajectories: ReplayedTrajectories | None = None
-        # A bag that is to be replayed as soon as the lab has left; its state is told before.
+        # A bag that is replayed once the live nodes have left; its state is published before.
         self._preparing: Bag | None = None
         self._trouble = ""
         self._state = self.create_publisher(msg.RecorderState, "~/state", qos.LATCHED)
@@ -85,9 +85,9 @@ class RecorderNode(ParameterNode[RecorderParameters]):
             (SetBool, "set_loop", self._set_loop),
         ):
             self.create_service(kind, f"~/{name}", callback, qos_profile=qos.SERVICES)
-        self.create_timer(1.0, self._tell_while_working)
+        self.create_timer(1.0, self._publish_while_working)
         self.create_timer(0.25, self._discover)
-        self._tell()
+        self._publish_state()
 
     @property
     def _folder(self) -> Path:
@@ -129,7 +129,7 @@ class RecorderNode(ParameterNode[RecorderParameters]):
             self._trouble = ""
             self._recording, self._content = recording, content
         recording.start()
-        self._tell()
+        self._publish_state()
         response.bag = str(writer.folder)
         self.get_logger().info(f"records into {writer.folder}")
         return f"records into {writer.folder}"
@@ -166,7 +166,7 @@ class RecorderNode(ParameterNode[RecorderParameters]):
             self._trouble = str(error)
             self._recording = None
             content, self._content = self._content, None
-        self._tell()
+        self._publish_state()
         if content is not None:
             content.close()
 
@@ -183,7 +183,7 @@ class RecorderNode(ParameterNode[RecorderParameters]):
             self._machine.fire(RecorderEvent.REPLAY)
             self._preparing, self._trouble = bag, ""
         # The lab's own nodes leave the graph as soon as they receive this.
-        self._tell()
+        self._publish_state()
         try:
             replaying.wait_until_alone()
             self._trajectories = ReplayedTrajectories(self, bag)
@@ -199,7 +199,7 @@ class RecorderNode(ParameterNode[RecorderParameters]):
             self._close(replaying)
             raise
         finally:
-            self._tell()
+            self._publish_state()
         self.get_logger().info(f"replays {bag.path}")
         return f"replays {bag.duration:.1f} s with {bag.message_count} messages"
 
@@ -217,10 +217,10 @@ class RecorderNode(ParameterNode[RecorderParameters]):
             self._machine.fire(RecorderEvent.FAIL if trouble else RecorderEvent.END)
             self._replaying, self._trouble = None, trouble
         self.get_logger().info(f"the replay of {replaying.bag.path} is over")
-        self._tell()
+        self._publish_state()
 
     def _close(self, replaying: Replaying) -> None:
-        """Take the bag out of the graph, before the lab hears that it may come back."""
+        """Remove the bag's topics from the graph before the live nodes return."""
         trajectories, self._trajectories = self._trajectories, None
         if trajectories is not None:
             trajectories.close()
@@ -261,7 +261,7 @@ class RecorderNode(ParameterNode[RecorderParameters]):
         with self._lock:
             # Raises where the replay has ended meanwhile.
             self._machine.fire(event)
-        self._tell()
+        self._publish_state()
         return replaying
 
     # both -----------------------------------------------------------------------------------
@@ -297,7 +297,7 @@ class RecorderNode(ParameterNode[RecorderParameters]):
                 self._close(replaying)
         finally:
             if self.context.ok():
-                self._tell()
+                self._publish_state()
         if recording is not None:
             said = f"{recording.folder} holds {recording.messages} messages"
             if self.context.ok():
@@ -305,11 +305,11 @@ class RecorderNode(ParameterNode[RecorderParameters]):
             return said
         return "the replay is over" if replaying is not None else ""
 
-    def _tell_while_working(self) -> None:
+    def _publish_while_working(self) -> None:
         if self._recording is not None or self._replaying is not None:
-            self._tell()
+            self._publish_state()
 
-    def _tell(self) -> None:
+    def _publish_state(self) -> None:
         with self._lock:
             state = recorder_state_to_message(
                 time.time_ns(), self._machine.state.announced.value, self._trouble, **self._facts()

@@ -1,4 +1,4 @@
-"""A running recording: it follows the graph's topics and writes what they bring into a bag."""
+"""A running recording: subscribes to the graph's topics and writes their messages to a bag."""
 
 from __future__ import annotations
 
@@ -17,11 +17,11 @@ from mrlab_ros.core.recording.topics import Split, Topics
 from mrlab_ros.messages.qos import message_class, profile, topic_of
 from mrlab_ros.ros.raw_streams import Received, TopicPoll
 
-# How often subscriptions are looked at, s.
-PERIOD = 0.04
-# Every how many looks at the graph the publishers of known topics are looked at, too.
-LOOKS = 8
-# A killed recorder loses what came in the last so many ns.
+# Period at which subscriptions are polled, s.
+POLL_PERIOD_S = 0.04
+# Every so many discoveries the publishers of known topics are checked, too.
+PUBLISHER_CHECK_EVERY = 8
+# A killed recorder loses the messages of this time at most, ns.
 FLUSH_NS = 400_000_000
 # How often metadata.yaml is brought up to date while recording, ns.
 METADATA_NS = 10 * SECOND
@@ -42,8 +42,8 @@ class Recording:
     """Writes the topics of the graph that `topics` names into `writer`.
 
     `streams` is a node that no executor spins. `observe` gets every message that was written,
-    and must be quick. `on_trouble` is told, from another thread, why the recording ended by
-    itself; the bag is closed by then.
+    and must be quick. `on_trouble` gets, in another thread, the error that ended the recording;
+    the bag is closed by then.
     """
 
     def __init__(
@@ -68,7 +68,7 @@ class Recording:
         self._kinds: dict[str, str] = {}
         # Topics that are not wanted, or cannot be recorded.
         self._refused: set[str] = set()
-        self._looks = 0
+        self._discoveries = 0
         self._lock = threading.Lock()
         # Of the clock that never goes back: the other one may be set while a recording runs.
         self._began_ns = self._part_ns = self._flushed_ns = self._noted_ns = time.monotonic_ns()
@@ -76,7 +76,7 @@ class Recording:
         # Why the recording ended by itself.
         self._trouble: LabError | None = None
         self.messages = 0
-        self._poll = TopicPoll("recorder", PERIOD, self._take)
+        self._poll = TopicPoll("recorder", POLL_PERIOD_S, self._take)
 
     def start(self) -> None:
         """Follow the topics that there are; raise DiskTrouble where the disk refuses."""
@@ -100,12 +100,12 @@ class Recording:
         return self._writer.size
 
     def discover(self) -> None:
-        """Follow the topics that are new in the graph; now and then look for new publishers."""
+        """Subscribe to new topics of the graph; from time to time check for new publishers."""
         if self._closed:
             return
         changed = False
-        self._looks += 1
-        again = self._looks % LOOKS == 0
+        self._discoveries += 1
+        again = self._discoveries % PUBLISHER_CHECK_EVERY == 0
         for name, _ in self._streams.get_topic_names_and_types():
             if name in self._refused or (name in self._followed and not again):
                 continue
@@ -134,7 +134,7 @@ class Recording:
                 self._writer.attach(name, media_type, data, time.time_ns())
 
     def close(self) -> None:
-        """Write what came, then index and metadata; raise DiskTrouble where that fails."""
+        """Write what was received, then index and metadata; raise DiskTrouble where that fails."""
         self._poll.stop()
         with self._lock:
             if self._closed:
@@ -206,13 +206,13 @@ class Recording:
         self._written(self._writer.split)
 
     def _written(self, write: Callable[[], None]) -> None:
-        """Do what several threads may ask of the writer, unless the bag is closed."""
+        """Use the writer under the lock, unless the bag is closed."""
         with self._lock:
             if not self._closed:
                 write()
 
     def _guarded(self, work: Callable[[], None]) -> bool:
-        """Do `work`; where the disk refuses, end the recording and return False."""
+        """Do `work`; on a disk error end the recording and return False."""
         try:
             work()
         except LabError as error:

@@ -1,4 +1,4 @@
-"""A running replay: it publishes a bag's messages again, as they were, at their times."""
+"""A running replay: publishes a bag's messages unchanged, at their times."""
 
 from __future__ import annotations
 
@@ -26,11 +26,11 @@ AHEAD = 4
 # Messages that are published before a command has its turn.
 BURST = 200
 # How long a replay waits for the lab's own nodes to leave and for subscribers to be found, s.
-LEAVE_TIMEOUT = 12.0
-MATCH_TIMEOUT = 2.0
-LOOK = 0.02
-# Who subscribes once a topic is there, as the bridge does, has done so after this time, s.
-SETTLE = 0.5
+LEAVE_TIMEOUT_S = 12.0
+MATCH_TIMEOUT_S = 2.0
+POLL_PERIOD_S = 0.02
+# Subscribers that wait for a topic, such as the bridge, have matched after this time, s.
+SETTLE_TIME_S = 0.5
 
 
 class Feed:
@@ -57,8 +57,8 @@ class Feed:
 class Replaying:
     """Publishes `bag` through `streams`, a node that no executor spins, in a thread of its own.
 
-    It begins with start(). `on_end` is told, from that thread, when the end was reached, with
-    the trouble that ended it, or an empty text.
+    It begins with start(). `on_end` is called in that thread at the end, with the error that
+    ended the replay, or an empty text.
     """
 
     def __init__(
@@ -108,14 +108,14 @@ class Replaying:
 
     def wait_until_alone(self) -> None:
         """Wait until nobody else publishes the bag's topics; raise Misuse that names who does."""
-        deadline = time.monotonic() + LEAVE_TIMEOUT
+        deadline = time.monotonic() + LEAVE_TIMEOUT_S
         while others := self._others():
             if time.monotonic() > deadline:
                 raise Misuse(
                     f"the replay does not begin: {', '.join(others)}; stop what publishes there, "
                     "or replay on another ROS domain"
                 )
-            time.sleep(LOOK)
+            time.sleep(POLL_PERIOD_S)
 
     def start(self) -> None:
         """Offer the topics, then begin; subscribers that are there miss nothing."""
@@ -124,17 +124,17 @@ class Replaying:
             self._publishers[topic.name] = self._streams.create_publisher(
                 self._kinds[topic.name], topic.name, profile(topic, depth)
             )
-        time.sleep(SETTLE)
-        deadline = time.monotonic() + MATCH_TIMEOUT
+        time.sleep(SETTLE_TIME_S)
+        deadline = time.monotonic() + MATCH_TIMEOUT_S
         while not self._matched() and time.monotonic() < deadline:
-            time.sleep(LOOK)
+            time.sleep(POLL_PERIOD_S)
         with self._changed:
             self._jump(self._timeline.position(self._now_ns()))
             self._timeline.play(self._now_ns())
         self._thread.start()
 
     def pause(self) -> None:
-        """Stand still: nothing is published any more when this returns."""
+        """Pause: nothing is published any more when this returns."""
         with self._changed:
             self._timeline.pause(self._now_ns())
             self._changed.notify()
@@ -148,7 +148,7 @@ class Replaying:
         """Go to `position`, s; raise BadInput where it is outside."""
         with self._changed:
             self._jump(checked_position(position, self._timeline.duration))
-            # After that, for finding the place takes a moment which is no part of the session.
+            # After the jump: the time that it takes is no part of the session.
             self._timeline.seek(self._now_ns(), position)
             self._changed.notify()
 
@@ -194,9 +194,9 @@ class Replaying:
         )
 
     def _jump(self, position: float) -> None:
-        """Publish how things are at `position`, s, and read on from there."""
+        """Publish the latched state at `position`, s, and continue from there."""
         place_ns = self._bag.start_ns + round(position * SECOND)
-        # First what a damaged bag may refuse: the replay goes on where it is then.
+        # Read first: where a damaged bag cannot be read, the replay continues where it is.
         present = self._bag.newest_before(place_ns, self._state_names)
         if self._feed is not None:
             self._feed.stop()
@@ -242,12 +242,12 @@ class Replaying:
             if self._due_ns(self._ready[0]) > now_ns:
                 break
             self._publish(self._ready.popleft())
-        # A command that waits has its turn.
+        # Lets a waiting command run.
         self._changed.wait(0)
         return True
 
     def _reach_end(self) -> bool:
-        # A bag of one moment would begin anew without end in that moment.
+        # A bag without duration would loop without end in one moment.
         if not self._timeline.loop or self._timeline.duration == 0:
             return False
         self._jump(0.0)

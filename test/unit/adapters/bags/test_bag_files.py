@@ -15,10 +15,9 @@ from hypothesis import strategies as st
 from mcap.writer import Writer
 from rosbags.highlevel import AnyReader
 
-from mrlab_ros.adapters.bags import writer as bags_writer
 from mrlab_ros.adapters.bags.reader import Bag
 from mrlab_ros.adapters.bags.repair import repair
-from mrlab_ros.adapters.bags.writer import BagWriter, DiskTrouble, WholeFile
+from mrlab_ros.adapters.bags.writer import RESERVE_SIZE, BagWriter, DiskTrouble, WholeFile
 from mrlab_ros.core.errors import BadInput
 from mrlab_ros.core.recording.metadata import QosProfile, Topic
 
@@ -392,8 +391,8 @@ def test_the_reserve_lets_a_bag_end_well_on_a_full_disk(tmp_path):
     writer = begin(folder, open_file=lambda path: WholeFile(path, disk))
     flushed, unflushed = fill_disk(writer)
     messages = flushed + unflushed
-    assert (folder / ".reserve").stat().st_size == bags_writer.RESERVE_SIZE
-    disk.room += bags_writer.RESERVE_SIZE
+    assert (folder / ".reserve").stat().st_size == RESERVE_SIZE
+    disk.room += RESERVE_SIZE
     writer.close()
     assert Bag(folder).troubles == []
     assert read(folder) == read_by_rosbags(folder) == messages
@@ -408,7 +407,7 @@ def test_a_disk_that_is_full_at_a_split_costs_nothing_either(tmp_path, room):
     messages = fill(writer, 100)
     with pytest.raises(DiskTrouble):
         writer.split()
-    disk.room += bags_writer.RESERVE_SIZE
+    disk.room += RESERVE_SIZE
     writer.close()
     assert Bag(folder).troubles == []
     assert read(folder) == read_by_rosbags(folder) == messages

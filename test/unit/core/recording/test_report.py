@@ -24,7 +24,7 @@ COURSE = ReferenceTrajectory(10.0, np.column_stack([np.arange(11.0), -np.arange(
 def test_the_same_told_again_is_no_change():
     changes = Changes()
     for time, label in ((0.0, "READY"), (1.0, "PLAYING"), (2.0, "PLAYING"), (4.0, "READY")):
-        changes.tell(time, label)
+        changes.add(time, label)
     spans = [(span.start, span.end, span.label) for span in changes.spans(9.0)]
     assert spans == [(0.0, 1.0, "READY"), (1.0, 4.0, "PLAYING"), (4.0, 9.0, "READY")]
     assert Changes().spans(9.0) == []
@@ -58,18 +58,18 @@ def compared(robot, stamp, positions):
 def test_a_joint_state_is_compared_with_the_trajectory_at_its_stamp():
     robot = RobotReport("ur5e_1")
     assert compared(robot, 0.0, [0.0, 0.0]) == []
-    robot.tell(told(1.0, "READY"))
+    robot.add(told(1.0, "READY"))
     assert compared(robot, 1.5, [0.0, 0.0]) == []
     # ReportedState a moment after the first frame was due.
-    robot.tell(told(2.01, "PLAYING", clock_stamp=2.0))
+    robot.add(told(2.01, "PLAYING", clock_stamp=2.0))
     assert compared(robot, 2.0, [0.0, 0.0]) == [0.0]
     assert compared(robot, 2.5, [5.0, -5.25]) == [0.25]
-    robot.tell(told(2.6, "PAUSED", 0.6, 0.0))
+    robot.add(told(2.6, "PAUSED", 0.6, 0.0))
     assert compared(robot, 2.7, [7.0, -7.0]) == []
-    robot.tell(told(3.0, "PLAYING", 0.6, 2.0))
+    robot.add(told(3.0, "PLAYING", 0.6, 2.0))
     assert compared(robot, 3.1, [8.0, -8.0]) == pytest.approx([0.0])
     assert compared(robot, 3.1, [8.0]) == []
-    robot.tell(told(4.0, "PLAYING", trajectory="unknown"))
+    robot.add(told(4.0, "PLAYING", trajectory="unknown"))
     assert compared(robot, 4.1, [1.0, 1.0]) == []
 
 
@@ -86,11 +86,11 @@ def test_the_text_tells_what_happened_in_order():
     robot = report.robot("ur5e_1")
     assert report.robot("ur5e_1") is robot
     robot.model = "ur5e"
-    robot.states.tell(0.0, "PLAYING", "wave")
-    robot.states.tell(10.0, "COLLISION_HALT")
+    robot.states.add(0.0, "PLAYING", "wave")
+    robot.states.add(10.0, "COLLISION_HALT")
     robot.collisions.append(Contact(10.0, "wrist_3_link", "table", 412))
-    robot.grasps.tell(2.0, "HOLDING", "cube_1")
-    robot.grasps.tell(5.0, "OPEN")
+    robot.grasps.add(2.0, "HOLDING", "cube_1")
+    robot.grasps.add(5.0, "OPEN")
     robot.tracking.add(1.0, 0.5)
     lines = report_lines(report)
     assert lines[:2] == ["20.0 s, 1 robot", "x_0.mcap has no index"]
