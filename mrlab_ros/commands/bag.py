@@ -15,7 +15,7 @@ from mrlab_ros.core.errors import BadInput
 if TYPE_CHECKING:
     from mrlab_ros.adapters.bags.reader import Bag
 
-app = typer.Typer(help="Look into bags, report what happened, mend them.", no_args_is_help=True)
+app = typer.Typer(help="Inspect, report and repair bags.", no_args_is_help=True)
 BagArgument = Annotated[
     str, typer.Argument(help="Folder of a bag, an MCAP file, or its name among the recorder's.")
 ]
@@ -45,7 +45,7 @@ def info(bag: BagArgument, as_json: AsJson = False) -> None:
 
 @app.command()
 def repair(bag: BagArgument) -> None:
-    """Write damaged files and metadata.yaml anew; the originals are kept beside them."""
+    """Rewrite damaged files and metadata.yaml; the originals are kept beside them."""
     from mrlab_ros.adapters.bags.repair import KEPT
     from mrlab_ros.adapters.bags.repair import repair as mend
 
@@ -89,7 +89,7 @@ def report(
     ] = None,
     as_json: AsJson = False,
 ) -> None:
-    """Tell what happened: states, collisions, grasps, tracking error, latency, per robot."""
+    """Report what happened: states, collisions, grasps, tracking error, latency, per robot."""
     from mrlab_ros.adapters.bags.reader import Bag
     from mrlab_ros.adapters.bags.session import read_session
     from mrlab_ros.core.recording.report import report_lines

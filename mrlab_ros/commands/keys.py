@@ -172,7 +172,7 @@ def revoke(
 
 @app.command()
 def renew(folder: Folder = Path("keys"), host: Hosts = None, as_json: AsJson = False) -> None:
-    """Make the lab's certificate anew: for further --host names, or for another two years.
+    """Make a new certificate of the lab: for further --host names, or for another two years.
 
     Everybody's keys stay valid.
     """
@@ -191,7 +191,7 @@ def renew(folder: Folder = Path("keys"), host: Hosts = None, as_json: AsJson = F
 def config(
     folder: Folder = Path("keys"), prefix: Prefix = "", allow_list: AllowList = None
 ) -> None:
-    """Print what the lab tells zenoh, as JSON: to read, or for zenoh's own bridge."""
+    """Print the zenoh settings of the lab as JSON: to read, or for zenoh's own bridge."""
     from mrlab_ros.adapters.keys.folder import EVERYWHERE, Keys, now
     from mrlab_ros.core.bridge.links import nested
     from mrlab_ros.core.bridge.rules import checked_prefix

@@ -14,7 +14,7 @@ if TYPE_CHECKING:
     from mrlab_ros.commands.follow import Follower
     from mrlab_ros.ros.graph import Graph
 
-# What follows play at once: the robot moves, or says why not.
+# After play the robot moves within this time, or its state gives the reason.
 MOVE_TIMEOUT_S = 5.0
 
 

@@ -14,7 +14,7 @@ if TYPE_CHECKING:
     from mrlab_ros.ros.graph import Graph, Watch
 
 REFRESH = 0.25
-# The recorder tells its state once a second while it works; silent for so long, it is gone, s.
+# A working recorder publishes its state once a second; without one for this long it has gone, s.
 SILENCE = 5.0
 
 
@@ -69,11 +69,11 @@ def _follow(watch: Watch[Any], show: Any, bag: str) -> None:
     """Show the progress until the recording ends; raise LabError where it ended by itself."""
     from mrlab_msgs import msg
 
-    last, heard, began = None, time.monotonic(), False
+    last, received_at, began = None, time.monotonic(), False
     while True:
         state = watch.value
         if state is not last:
-            before, last, heard = last, state, time.monotonic()
+            before, last, received_at = last, state, time.monotonic()
             # What is latched from before this recording says nothing of it.
             if state.state == msg.RecorderState.RECORDING and state.bag == bag:
                 show(_line(state, before if began else None))
@@ -82,9 +82,9 @@ def _follow(watch: Watch[Any], show: Any, bag: str) -> None:
                 raise LabError(
                     state.message
                     or f"the recording into {bag} has ended: another client stopped it, or the "
-                    "recorder was started anew; mrlab bag info shows what it holds"
+                    "recorder was restarted; mrlab bag info shows what it holds"
                 )
-        if time.monotonic() - heard > SILENCE:
+        if time.monotonic() - received_at > SILENCE:
             said = state.message if state is not None else ""
             raise LabError(
                 said

@@ -88,11 +88,11 @@ def _follow(watch: Watch[Any], keyboard: Keyboard | None, show: Callable[[str], 
     # A short one may be over already; what is latched from before says nothing of it.
     with suppress(NoAnswer):
         watch.wait(lambda s: s.state in working, BEGUN_TIMEOUT_S, "the replay")
-    last, heard = None, time.monotonic()
+    last, received_at = None, time.monotonic()
     while (state := watch.value) is not None and state.state in working:
         if state is not last:
-            last, heard = state, time.monotonic()
-        elif time.monotonic() - heard > SILENCE:
+            last, received_at = state, time.monotonic()
+        elif time.monotonic() - received_at > SILENCE:
             raise LabError(
                 f"the recorder has been silent for {SILENCE:g} s; mrlab status shows what runs"
             )

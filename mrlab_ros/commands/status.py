@@ -80,11 +80,11 @@ class View:
         self._followers: dict[str, Follower] = {}
         # The newest report of each observer, by what it is called here.
         self._latencies: dict[str, Any] = {}
-        graph.subscribe(msg.Latency, "/latency", self._hear_of_latency, qos.LATCHED)
-        graph.subscribe(msg.Latency, "/latency/clients", self._hear_of_client, qos.LATCHED_EVENTS)
+        graph.subscribe(msg.Latency, "/latency", self._on_latency, qos.LATCHED)
+        graph.subscribe(msg.Latency, "/latency/clients", self._on_client, qos.LATCHED_EVENTS)
 
     def settle(self) -> None:
-        """Wait until all that is announced has been heard, or SETTLE_TIMEOUT_S is over.
+        """Wait until every latched message has arrived, or SETTLE_TIMEOUT_S is over.
 
         Latched messages come oldest first, one soon after the other: the newest is there once no
         more come.
@@ -93,25 +93,26 @@ class View:
 
         deadline = time.monotonic() + SETTLE_TIMEOUT_S
         watches = (self._robots, self._catalogue, self._systems)
-        heard: list[Any] = []
+        received: list[Any] = []
         since = time.monotonic()
         while (now := time.monotonic()) < deadline:
             followers = [follower for _, follower in self.robots()]
-            before, heard = heard, [w.value for w in (*watches, *(f.watch for f in followers))]
-            same = len(heard) == len(before) and all(map(operator.is_, heard, before))
+            before = received
+            received = [w.value for w in (*watches, *(f.watch for f in followers))]
+            same = len(received) == len(before) and all(map(operator.is_, received, before))
             measured = self._latencies or "bridge" not in self._graph.node.get_node_names()
-            if not same or any(value is None for value in heard) or not measured:
+            if not same or any(value is None for value in received) or not measured:
                 since = now
             elif now - since > LATCHED_BURST_S:
                 return
             time.sleep(0.02)
 
-    def _hear_of_latency(self, report: Any) -> None:
+    def _on_latency(self, report: Any) -> None:
         self._latencies[report.observer] = report
 
-    def _hear_of_client(self, report: Any) -> None:
-        # Whoever may connect sends these: a name must neither pass for the bridge's nor tell the
-        # terminal what to do.
+    def _on_client(self, report: Any) -> None:
+        # Any client may publish these: a name must neither pass for the bridge's nor contain
+        # control characters of the terminal.
         name = "".join(c if c.isprintable() else "?" for c in report.observer)
         self._latencies[f"client {name}"] = report
 

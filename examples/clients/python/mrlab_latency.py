@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Measures how long the lab's messages take to this machine, and tells the lab.
+"""Measures how long the lab's messages take to this machine, and reports it to the lab.
 
     python mrlab_latency.py --definitions msg_schemas --name my_laptop
     python mrlab_latency.py --definitions msg_schemas '*/joint_states' contacts
@@ -174,7 +174,10 @@ def main() -> int:
             window, began = now - began, now
             clock.ask()
             if not clock.known:
-                print("the bridge does not tell the time: is it the stock one?", file=sys.stderr)
+                print(
+                    "the bridge has no clock service: is it the stock one?",
+                    file=sys.stderr,
+                )
                 continue
             moved, lost = arrivals.take(clock.offset_ns)
             measured = hops(store, moved, prefix)

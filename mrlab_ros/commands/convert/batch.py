@@ -196,7 +196,7 @@ def _plotter(count: int) -> Iterator[Plotter]:
 def _with_progress(
     converted: Iterator[tuple[Input, Task, ConversionResult]], count: int, request: Request
 ) -> Iterator[tuple[Input, Task, ConversionResult]]:
-    """Yield the results, with a bar where there are several and a person looks on."""
+    """Yield the results, with a bar where there are several and stdout is a terminal."""
     bar = Progress(
         TextColumn("{task.description}"),
         BarColumn(),

@@ -1,4 +1,4 @@
-"""How `mrlab convert` tells what became of a file: as text with colours, or as JSON."""
+"""How `mrlab convert` reports the result for a file: as text with colours, or as JSON."""
 
 from __future__ import annotations
 

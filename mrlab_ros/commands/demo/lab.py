@@ -43,12 +43,12 @@ class Stage:
 
 
 class Log:
-    """Has every line of the nodes: shows trouble at once, and all of it when told to speak."""
+    """Gets every line of the nodes; prints warnings and errors at once, all lines with `speak`."""
 
     def __init__(self, console: Console) -> None:
         self._say = Speaker(console)
         self.speak = False
-        # What processes say of their own end is no trouble.
+        # Messages of processes about their own end are expected.
         self.stopping = False
         self.trouble: list[str] = []
 

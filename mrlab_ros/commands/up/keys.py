@@ -10,7 +10,7 @@ from mrlab_ros.core.errors import BadInput
 from mrlab_ros.processes.supervisor import SELF
 
 LISTEN = "tcp/127.0.0.1:7447"
-# How often a lab looks whether its keys have changed, s.
+# Period at which a lab checks whether its keys have changed, s.
 KEYS_PERIOD_S = 1.0
 # A lab whose certificate expires earlier says so when it starts, days.
 EXPIRES_SOON = 30
@@ -64,7 +64,7 @@ def tell_when_keys_expire(
 
 
 def keys_changed_at(folder: Path) -> tuple[int, ...]:
-    """Return a mark that is another one whenever the keys have changed."""
+    """Return a fingerprint of the key files: when each was changed last, ns."""
     from mrlab_ros.adapters.keys.folder import Keys
 
     return Keys(folder).changed_at()
@@ -79,7 +79,7 @@ def follow_keys(
 ) -> None:
     """Restart the bridge whenever the keys change, until `stop`: it reads them at its start.
 
-    seen: the mark of the keys that the bridge has.
+    seen: the fingerprint of the keys that the bridge has.
     """
     from mrlab_ros.adapters.keys.folder import Keys, now
 
