@@ -7,6 +7,7 @@ import math
 import operator
 import sys
 import time
+from collections.abc import Mapping
 from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
@@ -50,17 +51,27 @@ def status(
         view = View(graph)
         view.settle()
         if as_json:
-            sys.stdout.write(json.dumps(view.facts(), indent=2) + "\n")
+            sys.stdout.write(
+                json.dumps({**view.facts(), "nodes": lab_nodes_present(graph)}, indent=2) + "\n"
+            )
         elif once or not console.is_terminal:
-            console.print(view.table())
+            console.print(view.table(lab_nodes_present(graph)))
         else:
-            with Live(view.table(), console=console, auto_refresh=False) as live:
+            with Live(
+                view.table(lab_nodes_present(graph)), console=console, auto_refresh=False
+            ) as live:
                 try:
                     while True:
                         time.sleep(1 / REFRESH_RATE_HZ)
-                        live.update(view.table(), refresh=True)
+                        live.update(view.table(lab_nodes_present(graph)), refresh=True)
                 except KeyboardInterrupt:
                     return
+
+
+def lab_nodes_present(graph: Graph) -> dict[str, bool]:
+    """Return for each node of a lab, by its name, whether it is in the graph."""
+    present = set(graph.node.get_node_names())
+    return {entry.graph_name: entry.graph_name in present for entry in NODES.values()}
 
 
 class View:
@@ -139,7 +150,6 @@ class View:
         return {
             "domain": self._graph.domain,
             "supervisor": self._run_file.read(),
-            "nodes": self._nodes(),
             "robots": [_robot_facts(robot, follower) for robot, follower in self.robots()],
             "trajectories": [
                 {
@@ -166,13 +176,8 @@ class View:
             "recorder": _recorder_facts(self._recorder.value),
         }
 
-    def _nodes(self) -> dict[str, bool]:
-        """Return whether each node of a lab is in the graph."""
-        present = set(self._graph.node.get_node_names())
-        return {entry.graph_name: entry.graph_name in present for entry in NODES.values()}
-
-    def table(self) -> RenderableType:
-        """Return the facts as tables."""
+    def table(self, nodes: Mapping[str, bool] | None = None) -> RenderableType:
+        """Return the facts as tables. nodes: name -> whether that node is in the graph."""
         from rich.console import Group
         from rich.text import Text
 
@@ -180,7 +185,7 @@ class View:
         supervisor = facts["supervisor"]
         kept = f"kept by process {supervisor['pid']}" if supervisor else "not kept by mrlab"
         parts: list[RenderableType] = [Text(f"Lab on ROS domain {facts['domain']}, {kept}")]
-        if absent := [name for name, present in facts["nodes"].items() if not present]:
+        if absent := [name for name, present in (nodes or {}).items() if not present]:
             parts.append(Text(f"Not in the graph: {', '.join(absent)}"))
         if recorder := _recorder_line(facts["recorder"]):
             parts.append(Text(recorder))
