@@ -19,12 +19,15 @@ from mrlab_ros.core.conversion import (
     limits,
     resampling,
 )
-from mrlab_ros.core.conversion.candidates import Assessment, Candidate, Survey, fits, survey
+from mrlab_ros.core.conversion.assessment import Assessment
+from mrlab_ros.core.conversion.candidates import Candidate
 from mrlab_ros.core.conversion.explain import bad_message, contents
 from mrlab_ros.core.conversion.headings import split_tables
 from mrlab_ros.core.conversion.layout import Chosen, Layout, lay_out, pick, reshaped
+from mrlab_ros.core.conversion.measuring import fits
 from mrlab_ros.core.conversion.options import Options
 from mrlab_ros.core.conversion.preview import Preview, preview
+from mrlab_ros.core.conversion.survey import Survey, survey
 from mrlab_ros.core.conversion.workspace import Variable, Workspace
 from mrlab_ros.core.diagnostics import Diagnostic, Refused, Severity, finding
 from mrlab_ros.core.errors import BadInput

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from mrlab_ros.core.conversion import joining
-from mrlab_ros.core.conversion.candidates import FEW_ROWS, Assessment, Survey
+from mrlab_ros.core.conversion.assessment import Assessment
 from mrlab_ros.core.conversion.explain import (
     contents,
     holds_samples,
@@ -11,6 +11,8 @@ from mrlab_ros.core.conversion.explain import (
     object_finding,
     refusal,
 )
+from mrlab_ros.core.conversion.scoring import FEW_ROWS
+from mrlab_ros.core.conversion.survey import Survey
 from mrlab_ros.core.conversion.variable_names import Hint
 from mrlab_ros.core.conversion.workspace import Variable, Workspace
 from mrlab_ros.core.diagnostics import Diagnostic, Fix, Refused, finding

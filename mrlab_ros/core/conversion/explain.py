@@ -8,18 +8,14 @@ from typing import Any
 import numpy as np
 
 from mrlab_ros.core.conversion import relations
-from mrlab_ros.core.conversion.candidates import (
-    FEW_ROWS,
-    Assessment,
-    ClockColumn,
-    Survey,
-    blocking_clocks,
-    clocks_among,
-)
+from mrlab_ros.core.conversion.assessment import Assessment, blocking_clocks
+from mrlab_ros.core.conversion.clock_columns import ClockColumn, clocks_among
 from mrlab_ros.core.conversion.gripper import has_states
 from mrlab_ros.core.conversion.joining import Series, series
 from mrlab_ros.core.conversion.named_columns import misnamed
 from mrlab_ros.core.conversion.options import columns_text
+from mrlab_ros.core.conversion.scoring import FEW_ROWS
+from mrlab_ros.core.conversion.survey import Survey
 from mrlab_ros.core.conversion.variable_names import Hint
 from mrlab_ros.core.conversion.workspace import Variable, Workspace
 from mrlab_ros.core.diagnostics import Diagnostic, Fix, finding

@@ -13,8 +13,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from mrlab_ros.core.conversion.candidates import Assessment, Survey
+from mrlab_ros.core.conversion.assessment import Assessment
 from mrlab_ros.core.conversion.joining import first_path
+from mrlab_ros.core.conversion.survey import Survey
 from mrlab_ros.core.conversion.time_vectors import (
     LEAST_RATE,
     MOST_RATE,

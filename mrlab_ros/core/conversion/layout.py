@@ -11,24 +11,21 @@ from numpy.typing import NDArray
 from mrlab_ros.core.conversion import gripper as grippers
 from mrlab_ros.core.conversion import limits as conversion_limits
 from mrlab_ros.core.conversion import units
-from mrlab_ros.core.conversion.candidates import (
-    Assessment,
-    Survey,
-    blocking_clocks,
-    fits,
-)
+from mrlab_ros.core.conversion.assessment import Assessment, blocking_clocks
 from mrlab_ros.core.conversion.explain import (
     clocks_of,
     matlab_name,
     near_miss,
     time_finding,
 )
+from mrlab_ros.core.conversion.measuring import fits
 from mrlab_ros.core.conversion.named_columns import names_joints, order
 from mrlab_ros.core.conversion.options import (
     NO_GRIPPER,
     Options,
     parse_columns,
 )
+from mrlab_ros.core.conversion.survey import Survey
 from mrlab_ros.core.conversion.variable_names import parts, words
 from mrlab_ros.core.conversion.workspace import Variable, Workspace
 from mrlab_ros.core.diagnostics import Diagnostic, Fix, Refused, finding

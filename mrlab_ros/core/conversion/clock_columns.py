@@ -1,0 +1,156 @@
+"""Columns of a matrix that count time, found by how they rise and by the file's time vectors."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mrlab_ros.core.conversion.time_vectors import (
+    counts_rows,
+    is_even,
+    is_irregular,
+    is_regular,
+    is_time_name,
+)
+from mrlab_ros.core.conversion.workspace import Variable, Workspace
+from mrlab_ros.core.robots.model import RobotModel
+from mrlab_ros.core.trajectory.trajectory import Array
+
+# A column that counts time and leaves the joint limits by this factor is no joint.
+BEYOND = 1.2
+
+
+@dataclass(frozen=True, eq=False)
+class ClockColumn:
+    """A column, from 0, that counts time.
+
+    certain: no joint could have these values. likely: few joints move so; where it is neither, a
+    joint at constant speed looks the same, and the column is a doubt alone.
+    """
+
+    index: int
+    certain: bool
+    first: float
+    last: float
+    why: str
+    likely: bool = True
+
+
+def time_column_names(variable: Variable, index: int) -> bool:
+    """Say whether the heading of a column, from 0, says time."""
+    return index < len(variable.columns) and is_time_name(variable.columns[index])
+
+
+def clocks_among(
+    variable: Variable,
+    robot: RobotModel,
+    vectors: dict[int, list[Variable]],
+    low: Array,
+    high: Array,
+) -> tuple[ClockColumn, ...]:
+    """Return the columns of a finite matrix that count time."""
+    values = variable.values
+    assert values is not None
+    rows, columns = values.shape
+    if rows < 3 or columns > 200:
+        return ()
+    moves = high > low
+    chosen = np.linspace(0, rows - 1, min(rows, 33)).astype(int)
+    coarse = np.diff(values[chosen], axis=0)
+    one_way = (coarse > 0).all(axis=0) | (coarse < 0).all(axis=0)
+    steady = [
+        int(c)
+        for c in np.flatnonzero(one_way)
+        if is_regular(values[:, c], falling=True) or is_irregular(values[:, c])
+    ]
+    farthest = max((max(abs(j.lower), abs(j.upper)) for j in robot.joints), default=np.pi)
+    found = []
+    for c in steady:
+        column = values[:, c]
+        if column[-1] <= column[0]:
+            continue
+        headed = time_column_names(variable, c)
+        first, last = float(column[0]), float(column[-1])
+        others = [i for i in range(columns) if i != c and moves[i]]
+        why = ""
+        if headed:
+            why = f"its heading '{variable.columns[c]}' says time"
+        else:
+            # where most columns are ramps, each may be the time and none need be
+            if not others or 2 * sum(i in steady for i in others) >= len(others):
+                continue
+            twin = next((v for v in vectors.get(rows, ()) if _same_course(column, v)), None)
+            if twin is not None:
+                why = f"it runs as '{twin.path}' does"
+        if why:
+            found.append(ClockColumn(c, True, first, last, why))
+            continue
+        largest = max(abs(first), abs(last))
+        within = sum(max(abs(low[i]), abs(high[i])) <= BEYOND * farthest for i in others)
+        if largest > BEYOND * farthest and within >= 0.7 * len(others):
+            why = "it rises steadily, farther than a joint turns"
+            found.append(ClockColumn(c, True, first, last, why))
+        elif _begins_like_a_clock(column) and _is_round(column):
+            found.append(ClockColumn(c, False, first, last, "it rises steadily in round steps"))
+        elif is_irregular(column):
+            why = "it rises in irregular steps, as recorded times do"
+            found.append(ClockColumn(c, False, first, last, why))
+        elif is_even(column) and len(others) >= 2:
+            why = "it rises in equal steps throughout"
+            found.append(ClockColumn(c, False, first, last, why, likely=False))
+    return tuple(found)
+
+
+def _begins_like_a_clock(column: NDArray[Any]) -> bool:
+    step = (float(column[-1]) - float(column[0])) / (len(column) - 1)
+    return abs(float(column[0])) <= 1.5 * step or counts_rows(column)
+
+
+def _is_round(column: NDArray[Any]) -> bool:
+    """Say whether the steps of a column, or its end, are round decimals or rates."""
+    step = (float(column[-1]) - float(column[0])) / (len(column) - 1)
+
+    def is_short(number: float) -> bool:
+        digits = float(f"{number:.3g}")
+        return abs(number - digits) <= 1e-6 * abs(number)
+
+    jitters = float(np.abs(np.diff(column.astype(np.float64)) - step).max()) > 1e-3 * step
+    rate = 1 / step
+    return (
+        is_short(step)
+        or is_short(float(column[-1]))
+        or (rate >= 1 and abs(rate - round(rate)) <= 1e-4 * rate)
+        or jitters
+    )
+
+
+def _same_course(column: NDArray[Any], vector: Variable) -> bool:
+    """Say whether a column rises as a vector does, in any unit and from any start."""
+    assert vector.values is not None
+    other = vector.values.reshape(-1)
+    chosen = np.linspace(0, len(column) - 1, min(len(column), 64)).astype(int)
+    a, b = column[chosen].astype(np.float64), other[chosen].astype(np.float64)
+    if not np.isfinite(b).all() or b[-1] <= b[0]:
+        return False
+    a, b = (a - a[0]) / (a[-1] - a[0]), (b - b[0]) / (b[-1] - b[0])
+    scale = float(column[-1] - column[0]) / float(other[-1] - other[0])
+    known = [1.0, 1e-3, 1e3, 1e-6, 1e6, 1e9, 1e-9, 86_400.0, 1 / 86_400]
+    return bool(np.abs(a - b).max() <= 1e-6 and any(abs(scale / k - 1) <= 1e-3 for k in known))
+
+
+def time_vectors(workspace: Workspace) -> dict[int, list[Variable]]:
+    """Return the vectors whose names say time, by the number of their elements."""
+    found: dict[int, list[Variable]] = {}
+    for v in workspace.variables:
+        if (
+            v.values is not None
+            and len(v.shape) == 2
+            and min(v.shape) == 1
+            and v.values.size >= 3
+            and is_time_name(v.path)
+        ):
+            found.setdefault(v.values.size, []).append(v)
+    return found

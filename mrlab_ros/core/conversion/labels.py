@@ -1,0 +1,72 @@
+"""What the file itself calls a matrix: its path, label, headings and units together."""
+
+from __future__ import annotations
+
+import re
+from dataclasses import replace
+
+from mrlab_ros.core.conversion.headings import describe_table
+from mrlab_ros.core.conversion.named_columns import names_joints
+from mrlab_ros.core.conversion.variable_names import (
+    ACCELERATIONS,
+    CURRENTS,
+    POSES,
+    TEMPERATURES,
+    TORQUES,
+    VELOCITIES,
+    Hint,
+    Name,
+    describe,
+)
+from mrlab_ros.core.conversion.workspace import Variable
+from mrlab_ros.core.robots.model import RobotModel
+
+UNNAMED = ("CSV",)  # formats whose matrix is called q by the reader
+UNITS_AGAINST = {
+    VELOCITIES: frozenset(("rad/s", "deg/s", "°/s", "m/s", "mm/s", "rpm", "1/s")),
+    ACCELERATIONS: frozenset(("rad/s^2", "rad/s2", "deg/s^2", "deg/s2", "m/s^2", "m/s2")),
+    TORQUES: frozenset(("nm", "n*m", "n m", "n")),
+    CURRENTS: frozenset(("a", "ma")),
+    POSES: frozenset(("m", "mm", "cm")),
+    TEMPERATURES: frozenset(("°c", "degc", "k")),
+}
+KEYED = re.compile(r"\{:,.*\}$|\('[^']*'\)$")
+
+
+def name_of(variable: Variable, file_format: str, robot: RobotModel) -> Name:
+    """Return what path, label, headings and units of a variable say.
+
+    The path of a table without headings was given by the reader and says nothing.
+    """
+    if names_joints(variable, robot):
+        return Name(Hint.POSITIONS)
+    of_units = _said_by_units(variable.units)
+    if of_units.hint is Hint.AGAINST:
+        return of_units
+    said = describe(variable.path)
+    if KEYED.search(variable.path):
+        # the columns of a table or an entry of a map: what holds them has any name
+        of_columns = describe_table(variable) if variable.columns else None
+        said = of_columns or describe(variable.label)
+    elif variable.label and said.hint in (Hint.NEUTRAL, Hint.TWO_FACED):
+        said = describe(variable.label)
+    elif file_format in UNNAMED:
+        of_headings = describe_table(variable)
+        if of_headings is not None:
+            said = of_headings
+        elif not variable.columns and variable.path == "q":
+            said = Name(Hint.NEUTRAL)
+    elif variable.columns and said.hint is not Hint.AGAINST:
+        said = describe_table(variable) or said
+    return replace(said, unit=of_units.unit) if of_units.unit else said
+
+
+def _said_by_units(given: tuple[str, ...]) -> Name:
+    plain = {u.strip().lower().strip("[]()") for u in given if u.strip()}
+    if len(plain) != 1:
+        return Name(Hint.NEUTRAL)
+    unit = plain.pop()
+    for what, names in UNITS_AGAINST.items():
+        if unit in names:
+            return Name(Hint.AGAINST, what)
+    return Name(Hint.NEUTRAL, "", "deg" if unit in ("deg", "degree", "degrees", "°") else "")
