@@ -124,6 +124,14 @@ KINDS: dict[str, Kind] = {
         "Save only the trajectory: save('traj.mat', 'q').",
         SAVE_AGAIN,
     ),
+    "too_many_rows": Kind(
+        ERROR,
+        "The matrix has more samples than the limit on rows.",
+        "'{variable}' has {rows} samples; the limit is {most}.",
+        "Save a part of it or every tenth sample, or raise the limit: the parameter row_limit of "
+        "the converter, --row-limit of mrlab convert.",
+        (("", "", "q = q(1:10:end, :); save('traj.mat', 'q')"),),
+    ),
     "too_slow": Kind(
         ERROR,
         "Reading the file passed the time limit and was stopped.",

@@ -44,6 +44,9 @@ from mrlab_ros.ros import share
 from mrlab_ros.ros.answers import create_deferred_service
 from mrlab_ros.ros.parameters import ParameterNode
 
+# A longer trajectory is announced without its frames, which `get` gives in parts.
+MOST_ANNOUNCED = 20_000
+
 
 class ConverterNode(ParameterNode[ConverterParameters]):
     """Converts, keeps and announces trajectories; no callback ever holds up the executor."""
@@ -94,6 +97,7 @@ class ConverterNode(ParameterNode[ConverterParameters]):
             time=values.time_limit,
             output=values.output_limit * MiB,
             file_size=values.file_size_limit * MiB,
+            rows=values.row_limit,
         )
 
     def destroy_node(self) -> None:
@@ -209,9 +213,18 @@ class ConverterNode(ParameterNode[ConverterParameters]):
         response.trajectory = info_from_head(head)
         self._update(head["id"])
         if self._converted.get_subscription_count():
-            frames = self._store.frames(head["id"], 0, 0)
-            self._converted.publish(trajectories.frames_to_message(frames))
+            self._converted.publish(self._event(head))
         self.get_logger().info(converted.message)
+
+    def _event(self, head: dict[str, Any]) -> msg.Trajectory:
+        """Return what `/trajectories/converted` says: all frames, of a long one the info alone.
+
+        rclpy holds the interpreter while it copies a message, so a long one would hold up every
+        node of the process.
+        """
+        if head["frame_count"] <= MOST_ANNOUNCED:
+            return trajectories.frames_to_message(self._store.frames(head["id"], 0, 0))
+        return msg.Trajectory(info=info_from_head(head), joint_names=list(head["joint_names"]))
 
     def _get(self, request: Any, response: Any) -> None:
         try:

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from mrlab_ros.core.bridge.rules import FULL_NAME, PREFIX
-from mrlab_ros.core.conversion.convert import DEFAULT_FRAME_RATE
+from mrlab_ros.core.conversion.convert import DEFAULT_FRAME_RATE, MOST_ROWS
 from mrlab_ros.core.naming import NAME
 from mrlab_ros.core.recording.topics import LAB_TOPICS
 from mrlab_ros.core.records import (
@@ -61,6 +61,12 @@ class ConverterParameters:
     )
     output_limit: int = field(SIZE, "Size of the content of one file.", 1024, changeable=True)
     file_size_limit: int = field(SIZE, "Size of one file.", 1024, changeable=True)
+    row_limit: int = field(
+        Integer(between(2, 1_000_000_000), "rows"),
+        "Samples of one trajectory.",
+        MOST_ROWS,
+        changeable=True,
+    )
 
 
 @dataclass(frozen=True)

@@ -20,7 +20,7 @@ from mrlab_ros.adapters.trajectories import json_file
 from mrlab_ros.adapters.trajectories.store import TrajectoryStore
 from mrlab_ros.adapters.workspaces.reader import WorkspaceReader
 from mrlab_ros.messages import qos
-from mrlab_ros.nodes.converter import ConverterNode
+from mrlab_ros.nodes.converter import MOST_ANNOUNCED, ConverterNode
 from mrlab_ros.ros.spinning import spin
 
 DEADLINE = 60.0  # s; far above what any of this takes
@@ -117,6 +117,38 @@ def test_a_file_is_converted_announced_and_fetched(graph, tmp_path):
     assert fetched.success
     stored = np.array(fetched.trajectory.positions).reshape(-1, 6)
     np.testing.assert_array_equal(stored, q)
+
+
+def test_a_long_trajectory_is_announced_without_its_frames(graph, tmp_path):
+    converted = []
+    graph.client.create_subscription(
+        Trajectory, "/trajectories/converted", converted.append, qos.EVENTS
+    )
+    wait_for(
+        lambda: graph.converter.count_subscribers("/trajectories/converted"),
+        "the topic to be connected",
+    )
+    rows = MOST_ANNOUNCED + 1
+    q = motion(rows)
+    path = save(tmp_path, q=q, fs=100.0)
+
+    answer = graph.call(ConvertTrajectory, "convert", path=str(path), robot_model="ur5e")
+
+    assert answer.success, answer.message
+    wait_for(lambda: converted, "the announcement")
+    assert converted[0].info.frame_count == rows
+    assert len(converted[0].joint_names) == 6
+    assert not converted[0].positions
+    part = graph.call(GetTrajectory, "get", id="pick", begin=rows - 2, count=2)
+    np.testing.assert_array_equal(np.array(part.trajectory.positions).reshape(-1, 6), q[-2:])
+
+
+def test_the_limit_on_rows_is_a_parameter(graph, tmp_path):
+    graph.converter.set_parameters([Parameter("row_limit", value=100)])
+    path = save(tmp_path, q=motion(101), fs=100.0)
+    answer = graph.call(ConvertTrajectory, "convert", path=str(path), robot_model="ur5e")
+    assert not answer.success
+    assert "101 samples; the limit is 100" in answer.message
 
 
 def test_bytes_with_a_gripper_are_converted_under_the_name_asked_for(graph, tmp_path):

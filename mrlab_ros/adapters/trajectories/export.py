@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from functools import cache
 from pathlib import Path
 from typing import Any
 
@@ -18,7 +19,9 @@ from mrlab_ros.core.robots.model import RobotModel
 from mrlab_ros.core.trajectory.trajectory import Array, Trajectory
 
 Writer = Callable[[Trajectory, Path], Path]
-DOWNSAMPLED = 2000  # points of a plotted line: more than a screen has
+DOWNSAMPLED = 1000  # blocks of a long line, a little more than its pixels
+PNG_LEVEL = 1  # of compression: lines compress well at any, and 6 takes three times as long
+ROUND_STEPS = (1, 2, 2.5, 5, 10)  # between the labels of an axis
 MOST_MARKED = 12  # findings that are marked in a picture
 
 
@@ -103,35 +106,38 @@ def writer(name: str) -> Writer:
 
 
 def plot(trajectory: Trajectory, robot: RobotModel, path: Path) -> None:
-    """Draw angles and velocities against the limits, and the proxies, as PNG or SVG."""
-    stride = max(1, trajectory.frame_count // DOWNSAMPLED)
-    t = times(trajectory)[::stride]
+    """Draw angles and velocities against the limits, and the proxies, as PNG or SVG.
+
+    A process reuses its figure for all plots, so this must run in one thread at a time.
+    """
+    t = times(trajectory)
     channels = trajectory.channels
     rows: list[tuple[str, Array, list[tuple[float, float]]]] = [
         (
             "angle, deg",
-            np.degrees(trajectory.positions[::stride]),
+            np.degrees(_envelope(trajectory.positions)),
             [(np.degrees(j.lower), np.degrees(j.upper)) for j in robot.joints],
         ),
         (
             "velocity, deg/s",
-            np.degrees(channels.velocities[::stride]),
+            np.degrees(_envelope(channels.velocities)),
             [(-np.degrees(j.max_velocity), np.degrees(j.max_velocity)) for j in robot.joints],
         ),
-        ("torque proxy, N*m nominal", channels.effort_proxy[::stride], []),
+        ("torque proxy, N*m nominal", _envelope(channels.effort_proxy), []),
     ]
-    figure = _figure(9)
-    axes: Any = figure.subplots(len(rows), 1, sharex=True)
+    t = _envelope_places(t)
+    figure, axes = _emptied(9, len(rows))
     for axis, (label, values, limits) in zip(axes, rows, strict=True):
+        low, high = float(values.min()), float(values.max())
+        near = 0.3 * (high - low + 1)
         for joint, name in enumerate(trajectory.joint_names):
-            (line,) = axis.plot(t, values[:, joint], linewidth=1.2, label=name)
-            low, high = float(values.min()), float(values.max())
+            colour = f"C{joint}"
+            axis.plot(t, values[:, joint], linewidth=1.2, label=name, color=colour)
             for limit in limits[joint] if limits else ():
                 # a limit far from the motion would only squeeze the lines
-                if low - 0.3 * (high - low + 1) <= limit <= high + 0.3 * (high - low + 1):
-                    axis.axhline(limit, color=line.get_color(), linestyle=":", linewidth=0.8)
+                if low - near <= limit <= high + near:
+                    axis.axhline(limit, color=colour, linestyle=":", linewidth=0.8)
         axis.set_ylabel(label)
-        axis.grid(alpha=0.3)
     axes[-1].set_xlabel("time, s")
     axes[0].legend(loc="upper right", fontsize="small", ncols=3)
     figure.suptitle(f"{trajectory.source.variable} of {trajectory.source.file} on {robot.id}")
@@ -141,11 +147,16 @@ def plot(trajectory: Trajectory, robot: RobotModel, path: Path) -> None:
 def plot_refused(
     shown: Preview, findings: Sequence[Diagnostic], file: str, robot: RobotModel, path: Path
 ) -> None:
-    """Draw the columns of a matrix that was not taken, and mark the rows that findings name."""
-    figure = _figure(5)
-    axis: Any = figure.subplots()
+    """Draw the columns of a matrix that was not taken, and mark the rows that findings name.
+
+    A process reuses its figure for all plots, so this must run in one thread at a time.
+    """
+    figure, (axis,) = _emptied(5, 1)
     for column in range(shown.values.shape[1]):
-        axis.plot(shown.rows, shown.values[:, column], linewidth=1.2, label=f"column {column + 1}")
+        axis.plot(
+            shown.rows, shown.values[:, column], linewidth=1.2, label=f"column {column + 1}",
+            color=f"C{column}",
+        )  # fmt: skip
     marked = [d for d in findings if d.first_row and d.severity is Severity.ERROR]
     for found in marked[:MOST_MARKED]:
         axis.axvspan(found.first_row - 0.5, found.last_row + 0.5, color="red", alpha=0.2)
@@ -157,23 +168,68 @@ def plot_refused(
         )  # fmt: skip
     axis.set_xlabel("row")
     axis.set_ylabel("value as stored")
-    axis.grid(alpha=0.3)
     axis.legend(loc="upper right", fontsize="small", ncols=3)
     axis.set_title(f"{shown.variable} of {file}: not taken for {robot.id}", fontsize="medium")
     _save(figure, path)
 
 
-def _figure(height: float) -> Any:
-    """Return a figure 10 inches wide; its margins are fixed, as a computed layout takes longer."""
+def _envelope(values: Array) -> Array:
+    """Return what a plot needs of columns: all rows, or least and greatest of each block.
+
+    values: (N, J). A long series becomes (2 * blocks, J), so a peak of one frame stays visible.
+    """
+    if len(values) <= 2 * DOWNSAMPLED:
+        return values
+    starts = np.linspace(0, len(values), DOWNSAMPLED, endpoint=False, dtype=np.intp)
+    least = np.minimum.reduceat(values, starts, axis=0)
+    greatest = np.maximum.reduceat(values, starts, axis=0)
+    return np.stack([least, greatest], axis=1).reshape(-1, values.shape[1])
+
+
+def _envelope_places(t: Array) -> Array:
+    """Return the times of the rows that `_envelope` returns; t: (N,)."""
+    if len(t) <= 2 * DOWNSAMPLED:
+        return t
+    starts = np.linspace(0, len(t), DOWNSAMPLED, endpoint=False, dtype=np.intp)
+    return np.repeat(t[starts], 2)
+
+
+@cache
+def _figure(height: float, rows: int) -> tuple[Any, tuple[Any, ...]]:
+    """Return a figure 10 inches wide and its axes, one below the other.
+
+    Making axes and ticks takes longer than drawing the lines, and computing a layout longer still:
+    the figure is kept, and its margins are fixed.
+    """
     from matplotlib.backends.backend_agg import FigureCanvasAgg
     from matplotlib.figure import Figure
+    from matplotlib.ticker import MaxNLocator
 
     figure = Figure(figsize=(10, height))
     FigureCanvasAgg(figure)
     figure.subplots_adjust(0.08, 0.07 * 9 / height, 0.98, 1 - 0.06 * 9 / height, hspace=0.08)
-    return figure
+    axes = tuple(figure.subplots(rows, 1, sharex=True, squeeze=False)[:, 0])
+    for axis in axes:
+        axis.grid(alpha=0.3)
+        # the grid says where the labels belong; marks would double what is to be drawn
+        axis.tick_params(length=0, bottom=False, left=False)
+        axis.xaxis.set_major_locator(MaxNLocator(9, steps=ROUND_STEPS))
+        axis.yaxis.set_major_locator(MaxNLocator(6, steps=ROUND_STEPS))
+    return figure, axes
+
+
+def _emptied(height: float, rows: int) -> tuple[Any, tuple[Any, ...]]:
+    """Return the kept figure of this size with axes that fit what is drawn next."""
+    figure, axes = _figure(height, rows)
+    for axis in axes:
+        for artist in [*axis.lines, *axis.patches, *axis.texts]:
+            artist.remove()
+        axis.relim()
+        axis.autoscale(True)
+    return figure, axes
 
 
 def _save(figure: Any, path: Path) -> None:
     path.parent.mkdir(parents=True, exist_ok=True)
-    figure.savefig(path)
+    options = {"pil_kwargs": {"compress_level": PNG_LEVEL}} if path.suffix == ".png" else {}
+    figure.savefig(path, **options)

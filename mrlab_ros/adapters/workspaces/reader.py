@@ -21,6 +21,7 @@ from typing import Any, BinaryIO, TypeVar
 
 import mrlab_ros
 from mrlab_ros.adapters.workspaces import content, results
+from mrlab_ros.core.conversion.convert import MOST_ROWS
 from mrlab_ros.core.conversion.workspace import Workspace
 from mrlab_ros.core.diagnostics import Refused, finding
 
@@ -31,12 +32,13 @@ START_LIMIT = 30.0  # s for the worker to import what it needs, on a busy machin
 
 @dataclass(frozen=True)
 class Limits:
-    """Bounds on one file. memory, output, file_size: bytes; time: s."""
+    """Bounds on one file. memory, output, file_size: bytes; time: s; rows: of a matrix."""
 
     memory: int = 1024 * MiB
     time: float = 20.0
     output: int = 1024 * MiB
     file_size: int = 1024 * MiB
+    rows: int = MOST_ROWS
 
 
 class TooSlow(Refused):

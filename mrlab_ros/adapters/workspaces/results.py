@@ -16,7 +16,7 @@ import numpy as np
 
 from mrlab_ros.adapters.trajectories import store
 from mrlab_ros.core.conversion.candidates import Candidate
-from mrlab_ros.core.conversion.convert import ConversionResult, Outcome, convert
+from mrlab_ros.core.conversion.convert import MOST_ROWS, ConversionResult, Outcome, convert
 from mrlab_ros.core.conversion.options import Options
 from mrlab_ros.core.conversion.preview import Preview
 from mrlab_ros.core.conversion.workspace import Workspace
@@ -65,10 +65,17 @@ class Converted:
     head: dict[str, Any] | None = None
 
 
-def run(task: Task, read: Callable[[], Workspace], memory: int, trajectory: BinaryIO) -> bytes:
+def run(
+    task: Task,
+    read: Callable[[], Workspace],
+    memory: int,
+    trajectory: BinaryIO,
+    most_rows: int = MOST_ROWS,
+) -> bytes:
     """Convert, write an accepted trajectory into its file, and return the document.
 
     memory: bytes that this process may use, for the sentence where they are not enough.
+    most_rows: a matrix with more samples is refused.
     """
     try:
         result = convert(
@@ -81,6 +88,7 @@ def run(task: Task, read: Callable[[], Workspace], memory: int, trajectory: Bina
             trajectory_id=task.trajectory_id,
             created_ns=task.created_ns,
             default_frame_rate=task.default_frame_rate,
+            most_rows=most_rows,
         )
         if result.trajectory is not None:
             store.write(result.trajectory, trajectory)

@@ -245,7 +245,7 @@ def work(descriptors: list[int], request: dict[str, Any]) -> None:
     with os.fdopen(task, "rb") as file:
         asked: results.Task = pickle.load(file)  # from the lab, not from the file
     with os.fdopen(target, "wb") as reply, os.fdopen(stored, "wb") as trajectory:
-        reply.write(results.run(asked, found, request["memory"], trajectory))
+        reply.write(results.run(asked, found, request["memory"], trajectory, request["rows"]))
 
 
 def forked(do: Callable[[], None]) -> int:

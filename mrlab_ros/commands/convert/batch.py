@@ -70,6 +70,7 @@ class Request:
     as_json: bool
     memory: int
     time_limit: float
+    row_limit: int
 
 
 @dataclass(frozen=True)
@@ -95,7 +96,7 @@ def run(request: Request) -> int:
     writer = export.writer(request.to)
     results: list[ConversionResult] = []
     taken: set[str] = set()
-    limits = Limits(memory=request.memory * MiB, time=request.time_limit)
+    limits = Limits(memory=request.memory * MiB, time=request.time_limit, rows=request.row_limit)
     inputs = _inputs(request)
     tasks = [
         Task(

@@ -47,6 +47,9 @@ def convert(
     as_json: Annotated[bool, typer.Option("--json", help="One JSON object a file.")] = False,
     memory: Annotated[int, typer.Option(help="Memory limit for reading a file, MiB.")] = 1024,
     time_limit: Annotated[float, typer.Option(help="Time limit for reading a file, s.")] = 20.0,
+    row_limit: Annotated[
+        int, typer.Option(min=2, help="Limit on the samples of a trajectory.")
+    ] = 5_000_000,
 ) -> None:
     """Find the trajectory in a workspace, table or bag, check it against a robot, write it out.
 
@@ -79,6 +82,7 @@ def convert(
         as_json=as_json,
         memory=memory,
         time_limit=time_limit,
+        row_limit=row_limit,
     )
     raise typer.Exit(batch.run(request))
 

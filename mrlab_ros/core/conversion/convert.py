@@ -38,6 +38,7 @@ from mrlab_ros.core.trajectory.trajectory import Source, Trajectory
 
 DEFAULT_FRAME_RATE = 100.0  # Hz
 MOST_FRAMES = 2_000_000  # of a message that is sampled: five hours and a half at 100 Hz
+MOST_ROWS = 5_000_000  # of a matrix, if not said otherwise: almost 14 hours at 100 Hz
 MOST_OWN_RATE = 10_000.0  # Hz; points that come more often are sampled at the default
 ID = re.compile(r"[A-Za-z0-9][A-Za-z0-9._-]{0,127}")
 
@@ -96,12 +97,14 @@ def convert(
     trajectory_id: str = "",
     created_ns: int = 0,
     default_frame_rate: float = DEFAULT_FRAME_RATE,
+    most_rows: int = MOST_ROWS,
 ) -> ConversionResult:
     """Convert what `read` returns, a file called `file`; a refusal is a result, not an exception.
 
     read: returns the file's variables or raises Refused, as WorkspaceReader.read_file does.
     trajectory_id: name in the catalogue, empty: from the file's name; raises BadInput where it
     cannot be a name. default_frame_rate: Hz, where neither the options nor the file have one.
+    most_rows: a matrix with more samples is refused.
     """
     trajectory_id = trajectory_id or id_from(file)
     if not ID.fullmatch(trajectory_id):
@@ -122,6 +125,10 @@ def convert(
             candidates = tuple(a.candidate() for a in offered)
             return ConversionResult(file, Outcome.AMBIGUOUS, None, candidates, _worst_first(notes))
         variable = chosen.variable
+        rows = variable.shape[0]
+        if rows > most_rows:
+            words: dict[str, Any] = {"rows": rows, "most": most_rows}
+            raise Refused(finding("too_many_rows", variable=variable.path, **words))
         layout = lay_out(chosen, survey, options, notes)
         layout, rate = _at_a_rate(survey, chosen, layout, options, default_frame_rate, file, notes)
         arm = layout.arm

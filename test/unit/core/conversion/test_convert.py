@@ -453,3 +453,15 @@ def test_the_course_of_a_candidate_is_drawn():
     rising, falling = (c.sparkline() for c in result.candidates)
     assert (rising[0], rising[-1]) == ("▁", "█")
     assert (falling[0], falling[-1]) == ("█", "▁")
+
+
+@pytest.mark.parametrize(("most", "code"), [(300, None), (299, "too_many_rows")])
+def test_more_rows_than_the_limit_are_refused(most, code):
+    workspace = Workspace("fake", (var("q", motion(300)), var("fs", 100.0)), 0, "0" * 64)
+    result = conversion_convert.convert(
+        "traj.mat", lambda: workspace, Options(), ARM, COEFFICIENTS, most_rows=most
+    )
+    assert (result.outcome is Outcome.ACCEPTED) is (code is None), result.message
+    if code:
+        assert result.diagnostics[0].code == code
+        assert "300 samples; the limit is 299" in result.message
