@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from typing import Any
 
@@ -16,6 +16,7 @@ from mrlab_ros.core.trajectory.trajectory import Channels
 Array = NDArray[np.float64]
 
 GRAVITY = 9.80665  # m/s^2, the standard value
+BLOCK_ROWS = 16_384
 PLACE = "config/torque_proxy.yaml"
 
 
@@ -61,6 +62,22 @@ def derivative(values: Array, rate: float) -> Array:
     lines stay exact; a sine of angular frequency w loses (w / rate)^2 * (1/6 + 1/4) of its
     derivative, relative.
     """
+    found = np.empty_like(values)
+    for begin, end in _blocks(len(values)):
+        found[begin:end] = _rows_of_derivative(values, rate, begin, end)
+    return found
+
+
+def _blocks(rows: int) -> Iterator[tuple[int, int]]:
+    """Yield begin and end of blocks whose temporary arrays stay in the processor's cache."""
+    for begin in range(0, rows, BLOCK_ROWS):
+        yield begin, min(begin + BLOCK_ROWS, rows)
+
+
+def _rows_of_derivative(values: Array, rate: float, begin: int, end: int) -> Array:
+    """Return the rows `begin` to `end` of derivative(values, rate), from two rows on each side."""
+    first = max(begin - 2, 0)
+    values = values[first : end + 2]
     raw = np.empty_like(values)
     np.subtract(values[2:], values[:-2], out=raw[1:-1])
     raw[1:-1] *= rate / 2
@@ -71,7 +88,7 @@ def derivative(values: Array, rate: float) -> Array:
     raw *= 0.25
     smooth[1:-1] += raw[:-2]
     smooth[1:-1] += raw[2:]
-    return smooth
+    return smooth[begin - first : end - first]
 
 
 def derive(positions: Array, frame_rate: float, coefficients: ProxyCoefficients) -> Channels:
@@ -82,15 +99,18 @@ def derive(positions: Array, frame_rate: float, coefficients: ProxyCoefficients)
     to max_acceleration on both sides; nothing else uses it, so it is not kept.
     """
     velocities = derivative(positions, frame_rate)
-    acceleration = derivative(velocities, frame_rate)
+    effort = np.empty_like(velocities)
     limit = coefficients.max_acceleration
-    np.clip(acceleration, -limit, limit, out=acceleration)
     joints = positions.shape[1]
     inertia, damping, weight = np.array([coefficients.of_joint(j) for j in range(joints)]).T
-    effort = np.sin(positions)
-    effort *= weight
-    acceleration *= inertia
-    effort += acceleration
-    np.multiply(velocities, damping, out=acceleration)
-    effort += acceleration
+    for begin, end in _blocks(len(positions)):
+        acceleration = _rows_of_derivative(velocities, frame_rate, begin, end)
+        np.clip(acceleration, -limit, limit, out=acceleration)
+        part = effort[begin:end]
+        np.sin(positions[begin:end], out=part)
+        part *= weight
+        acceleration *= inertia
+        part += acceleration
+        np.multiply(velocities[begin:end], damping, out=acceleration)
+        part += acceleration
     return Channels(velocities, effort)

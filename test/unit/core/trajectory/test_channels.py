@@ -6,6 +6,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from mrlab_ros.core.errors import BadInput
+from mrlab_ros.core.trajectory import channels
 from mrlab_ros.core.trajectory.channels import (
     GRAVITY,
     ProxyCoefficients,
@@ -70,6 +71,17 @@ def test_a_step_is_clipped():
     c = derive(q, 100.0, ProxyCoefficients((2.0,), (0.0,), (0.0,), (0.0,), 50.0))
     assert c.effort_proxy.max() == 2 * 50.0
     assert c.effort_proxy.min() == -2 * 50.0
+
+
+@pytest.mark.parametrize("rows", [2, 3, 6, 7, 8, 9, 14, 15, 50])
+def test_blocks_give_the_same_bits_as_the_whole(rows, monkeypatch):
+    positions = np.random.default_rng(1).normal(size=(rows, 3))
+    coefficients = ProxyCoefficients((1.0,), (0.5,), (2.0,), (0.3,), 100.0)
+    whole = derive(positions, 100.0, coefficients)
+    monkeypatch.setattr(channels, "BLOCK_ROWS", 7)
+    parts = derive(positions, 100.0, coefficients)
+    np.testing.assert_array_equal(parts.velocities, whole.velocities)
+    np.testing.assert_array_equal(parts.effort_proxy, whole.effort_proxy)
 
 
 def test_two_rows_have_the_difference_between_them():
