@@ -455,7 +455,34 @@ def simulink() -> Iterator[File]:
     for i in range(6):
         scope[i] = (column(q[:, i]), f"q{i}")
     yield File("scope", "ur5e", mat(ScopeData={"time": t, "signals": scope}), ".mat", REFUSE)
-    yield File("six_by_one", "ur5e", mat(q=q.T.reshape(6, 1, 501)), ".mat", REFUSE)
+
+
+def more_dimensions() -> Iterator[File]:
+    q = wave(rows=501)
+    t = column(clock(501))
+    stacked = q.T.reshape(6, 1, 501)
+    yield File("six_by_one", "ur5e", mat(q=stacked, t=t), ".mat", ACCEPT, 100.0, q)
+    yield File("one_by_six", "ur5e", mat(q=q.T[None], t=t), ".mat", ACCEPT, 100.0, q)
+    yield File("rows_first", "ur5e", mat(q=q[:, None, :], t=t), ".mat", ACCEPT, 100.0, q)
+    yield File("x_six_by_one", "ur5e", mat(tau=stacked, t=t), ".mat", REFUSE)
+    logged = {"time": t, "signals": {"values": stacked, "dimensions": [6.0, 1.0], "label": "q"}}
+    yield File("structure_3d", "ur5e", mat(q=logged), ".mat", ACCEPT, 100.0, q)
+    held = np.column_stack([q, gripper(501)])
+    yield File("seven_by_one", "ur5e", mat(q=held.T[:, None], t=t), ".mat", ACCEPT, 100.0, q)
+    timed = np.column_stack([t, q]).T[:, None]
+    yield File("time_3d", "ur5e", mat(q=timed), ".mat", REFUSE)
+    for robot in ("ur5e", KUKA):
+        own = wave(rows=300, robot=robot)
+        pages = np.moveaxis(poses(own, robot), 0, 2)
+        yield File(f"transforms_{robot}", robot, mat(T=pages), ".mat", REFUSE)
+        beside = mat(T=pages, q=own, fs=100.0)
+        yield File(f"q_and_transforms_{robot}", robot, beside, ".mat", ACCEPT, 100.0, own)
+        foreign = mat(T=pages[..., ::-1], q=own, fs=100.0)
+        yield File(f"q_and_other_transforms_{robot}", robot, foreign, ".mat", WARN, None, own)
+    trials = np.stack([q, q + 0.01, q - 0.01], axis=2)
+    yield File("trials_rows", "ur5e", mat(q=trials), ".mat", REFUSE)
+    yield File("trials_columns", "ur5e", mat(q=trials.transpose(1, 0, 2)), ".mat", REFUSE)
+    yield File("picture", "ur5e", mat(q=q, t=t, img=np.ones((9, 8, 3))), ".mat", ACCEPT, 100.0, q)
 
 
 def rtde() -> Iterator[File]:
@@ -653,7 +680,7 @@ def grippers() -> Iterator[File]:
 
 MAKERS: tuple[Maker, ...] = (
     good_names, every_robot, neutral_names, foreign_names, time_columns, wide, companies,
-    cartesian, units, rates, simulink, rtde, tables, pieces, flaws, grippers,
+    cartesian, units, rates, simulink, more_dimensions, rtde, tables, pieces, flaws, grippers,
 )  # fmt: skip
 
 

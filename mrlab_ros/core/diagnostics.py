@@ -208,6 +208,15 @@ KINDS: dict[str, Kind] = {
         "Save one row a sample and one column a joint, or pick columns: --columns 1:{joints}.",
         (("", "", "size({name})"),),
     ),
+    "transforms": Kind(
+        ERROR,
+        "An array holds 4 x 4 transforms: poses of a tool or a body, no joint positions.",
+        "'{variable}' ({size}) holds homogeneous transforms, one a page: poses, no joint "
+        "positions.",
+        "Save the joint positions, one row a sample; MATLAB computes them from poses with "
+        "inverseKinematics, Corke's toolbox with ikine.",
+        (("", "", "save('traj.mat', 'q')"),),
+    ),
     "empty": Kind(
         ERROR,
         "The matrix holds no samples.",
@@ -648,6 +657,16 @@ KINDS: dict[str, Kind] = {
         "Make the hulls anew, in more pieces (CoACD and V-HACD do that).",
     ),
     # what an option did
+    "squeezed": Kind(
+        INFO,
+        "An array of more than two dimensions was taken as one row a sample.",
+        "'{variable}' is {size}; it was taken as {taken}, as {line} gives it.",
+    ),
+    "converted_unit": Kind(
+        INFO,
+        "The file says that the numbers are degrees; they were converted to radians.",
+        "The file gives the unit of '{variable}' as degrees; it was converted to radians.",
+    ),
     "option_applied": Kind(
         INFO,
         "A change that was asked for was made.",

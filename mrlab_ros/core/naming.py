@@ -39,9 +39,10 @@ PARAMETERS_OF_RCLPY = ("use_sim_time", "start_type_description_service", "qos_ov
 def checked_name(name: str, taken: frozenset[str], what: str) -> str:
     """Return `name` where it can be a namespace and is free; raise BadInput otherwise."""
     if not NAME.fullmatch(name) or name.endswith("_") or "__" in name:
+        article = "an" if what[:1] in "aeiou" else "a"
         raise BadInput(
-            f"'{name}' cannot name a {what}; expected lower-case letters, digits and single "
-            "underscores, beginning with a letter, such as ur5e_1"
+            f"'{name}' cannot name {article} {what}; expected lower-case letters, digits and "
+            "single underscores, beginning with a letter, such as ur5e_1"
         )
     if name in RESERVED:
         raise BadInput(f"'{name}' is a name of the lab's own; choose another, such as {name}_1")

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import hashlib
 import json
+import math
 import mmap
 import os
 import signal
@@ -132,7 +133,7 @@ def _variable(
 ) -> Variable:
     values = None
     if offset >= 0:
-        flat = np.frombuffer(numbers, np.dtype(dtype), shape[0] * shape[1], offset)
+        flat = np.frombuffer(numbers, np.dtype(dtype), math.prod(shape), offset)
         values = flat.reshape(tuple(shape), order="F")
     facts |= {name: tuple(facts[name]) for name in ("columns", "units")}
     return Variable(path, kind, tuple(shape), values, **facts)

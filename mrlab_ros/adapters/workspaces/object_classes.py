@@ -163,7 +163,7 @@ class Opener:
         name = kind.get(value.dtype.str[1:], value.dtype.name)
         if value.dtype.kind == "c":
             self.sink.add(path, name, shape, note="complex")
-        elif value.dtype.kind != "f" or value.ndim != 2:
+        elif value.dtype.kind != "f" or value.ndim < 2:
             if name == "logical" and value.size == 1:
                 facts["text"] = "true" if value.flat[0] else "false"
             self.sink.add(path, name, shape, **facts)
@@ -232,8 +232,9 @@ class Opener:
         unit = unit_of(inner(properties.get("DataInfo")).get("Units"))
         rows = as_rows(data, len(times) if times is not None else 0)
         facts = {"label": name, "units": (unit,) if unit else ()}
-        if rows.dtype.kind == "f" and rows.ndim == 2:
-            time = time if times is not None and len(times) == len(rows) else ""
+        if rows.dtype.kind == "f" and rows.ndim >= 2:
+            counts = (rows.shape[0],) if rows.ndim == 2 else (rows.shape[0], rows.shape[-1])
+            time = time if times is not None and len(times) in counts else ""
             self._numbers(f"{path}.Data", kind_of(rows), rows, time=time, **facts)
         else:
             self._plain(f"{path}.Data", data, **facts)

@@ -123,15 +123,13 @@ def key_of(value: Any) -> str:
 
 
 def as_rows(data: NDArray[Any], count: int) -> NDArray[Any]:
-    """Return the samples of a timeseries as rows, where one axis has `count` samples.
+    """Return the samples of a timeseries as rows, where the second axis alone has `count`.
 
-    Simulink logs a 6 x 1 signal as 6 x 1 x N, and a timeseries may run along its last axis.
+    More than two dimensions, such as 6 x 1 x N, stay as they are: `dimensions` takes them.
     """
-    if data.ndim == 2 and (not count or data.shape[0] == count or data.shape[1] != count):
+    if data.ndim != 2 or not count or data.shape[0] == count or data.shape[1] != count:
         return data
-    if data.shape[-1] != count or np.prod(data.shape[:-1]) != max(data.shape[:-1]):
-        return data
-    return np.ascontiguousarray(data.reshape(-1, count).T)
+    return np.ascontiguousarray(data.T)
 
 
 def shape_of(value: Any) -> tuple[int, ...]:

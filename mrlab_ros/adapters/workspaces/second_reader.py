@@ -43,9 +43,9 @@ def disagreement(data: memoryview, path: str, values: NDArray[Any]) -> str:
     """Read the matrix at `path` again; say what differs, or nothing.
 
     data: the whole file, not compressed with gzip. path: as the own reader gave it, such as
-    `out.q.signals.values`. values: (N, d) what the own reader found, of any byte order and of the
-    type that is stored. Formats with one reader only (CSV, npz, bags) pass. Raises MemoryError
-    where the memory does not suffice.
+    `out.q.signals.values`. values: what the own reader found, of two dimensions or more, of
+    any byte order and of the type that is stored. Formats with one reader only (CSV, npz, bags)
+    pass. Raises MemoryError where the memory does not suffice.
     """
     form = recognise(data)
     if form not in ("mat4", "mat5", "hdf5"):
@@ -77,10 +77,12 @@ def difference(first: NDArray[Any], second: NDArray[Any]) -> str:
     wrong = np.argwhere(~same)
     if not len(wrong):
         return ""
-    row, column = wrong[0]
+    place = tuple(int(n) for n in wrong[0])
+    names = ("row", "column", *("page" for _ in place[2:]))
+    where = ", ".join(f"{name} {n + 1}" for name, n in zip(names, place, strict=True))
     return (
-        f"finds {float(second[row, column])!r} where {float(first[row, column])!r} was read "
-        f"(row {row + 1}, column {column + 1}; {len(wrong)} of {first.size} values differ)"
+        f"finds {float(second[place])!r} where {float(first[place])!r} was read "
+        f"({where}; {len(wrong)} of {first.size} values differ)"
     )
 
 

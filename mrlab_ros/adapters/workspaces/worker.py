@@ -20,6 +20,7 @@ import gc
 import gzip
 import io
 import json
+import math
 import mmap
 import os
 import pickle
@@ -47,6 +48,7 @@ from mrlab_ros.adapters.workspaces import (
 from mrlab_ros.adapters.workspaces.mat73 import read_hdf5
 from mrlab_ros.adapters.workspaces.object_sinks import ObjectSink
 from mrlab_ros.adapters.workspaces.view import View
+from mrlab_ros.core.conversion.dimensions import is_motion
 from mrlab_ros.core.conversion.options import Options
 from mrlab_ros.core.conversion.workspace import Workspace
 from mrlab_ros.core.diagnostics import Refused, finding
@@ -91,7 +93,7 @@ class OutputFile:
             self.omitted += 1
             return
         offset = -1
-        if data is not None and len(shape) == 2 and len(data):
+        if data is not None and _is_kept(tuple(shape)) and len(data):
             if self.at + len(data) > self.limit:
                 raise mat5.TooLarge(f"its matrices hold more than {self.limit / 2**20:.0f} MiB")
             offset = self.at
@@ -108,6 +110,11 @@ class OutputFile:
         tail = json.dumps(words).encode()
         self.file.write(tail + len(tail).to_bytes(8, "little"))
         self.file.flush()
+
+
+def _is_kept(shape: tuple[int, ...]) -> bool:
+    """Say whether the numbers of an array are of use: those of a matrix or of transforms."""
+    return len(shape) >= 2 and (is_motion(shape) or (len(shape) == 3 and shape[:2] == (4, 4)))
 
 
 def inflate(data: memoryview, limit: int) -> bytes:
@@ -166,7 +173,7 @@ def read_again(data: memoryview, numbers: int, place: list[Any]) -> str:
         data = memoryview(inflate(data, len(data) * 1100 + (1 << 20)))
     size = os.fstat(numbers).st_size
     with_numbers = mmap.mmap(numbers, size, prot=mmap.PROT_READ)
-    flat = np.frombuffer(with_numbers, np.dtype(dtype), shape[0] * shape[1], offset)
+    flat = np.frombuffer(with_numbers, np.dtype(dtype), math.prod(shape), offset)
     return second_reader.disagreement(data, path, flat.reshape(tuple(shape), order="F"))
 
 

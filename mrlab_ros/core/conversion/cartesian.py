@@ -20,6 +20,20 @@ POINTING_DOWN = 0.03  # rad
 STILL = 1e-6
 
 
+def is_transforms(values: NDArray[Any] | None) -> bool:
+    """Say whether an array, (4, 4, N), holds homogeneous transforms, one a page."""
+    if values is None or values.ndim != 3 or values.shape[:2] != (4, 4) or not values.shape[2]:
+        return False
+    pages = np.linspace(0, values.shape[2] - 1, min(values.shape[2], ROWS)).astype(int)
+    sample = np.moveaxis(values[:, :, pages].astype(np.float64), 2, 0)
+    if not np.isfinite(sample).all():
+        return False
+    turns = sample[:, :3, :3]
+    left = np.abs(turns @ turns.transpose(0, 2, 1) - np.eye(3)).max()
+    last = np.abs(sample[:, 3] - [0, 0, 0, 1]).max()
+    return bool(left <= UNIT_LENGTH and last <= 1e-9)
+
+
 @dataclass(frozen=True)
 class PoseEvidence:
     """strong: these are poses. hints: what makes poses likely, in words. possible: in reach."""

@@ -8,10 +8,10 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from mrlab_ros.core.conversion import relations
+from mrlab_ros.core.conversion import cartesian, relations
 from mrlab_ros.core.conversion.assessment import Assessment
 from mrlab_ros.core.conversion.scoring import FEW_ROWS, NAME_SCORES
-from mrlab_ros.core.conversion.variable_names import POSES, Hint, describe, parts, words
+from mrlab_ros.core.conversion.variable_names import POSES, Hint, describe, leaf, parts, words
 from mrlab_ros.core.conversion.workspace import Variable, Workspace
 from mrlab_ros.core.robots.model import RobotModel
 
@@ -21,6 +21,8 @@ MEASURED_OR_COMMANDED = words(
     "actual act measured meas ist target desired des ref reference soll cmd command commanded "
     "current present set setpoint demand goal feedback fb"
 )
+# What 4 x 4 x N transforms of the tool are called, beside the names of poses.
+TRANSFORM_NAMES = words("t ts tt te tee th tform tforms transform transforms htm fk fkine")
 # How many matrices are compared with one another.
 MOST_COMPARED, MOST_POSES = 8, 4
 
@@ -104,6 +106,16 @@ def _are_twins(one: str, other: str) -> bool:
     return bool(a != b and (a ^ b) <= MEASURED_OR_COMMANDED)
 
 
+def _claims_poses(variable: Variable) -> bool:
+    """Say whether a matrix is named as the path of the tool, or holds transforms named so."""
+    if describe(variable.path).what == POSES:
+        return True
+    return variable.values is not None and (
+        cartesian.is_transforms(variable.values)
+        and "".join(parts(leaf(variable.path))).rstrip("0123456789") in TRANSFORM_NAMES
+    )
+
+
 def _relate_poses(
     found: dict[str, Assessment],
     compared: list[Assessment],
@@ -124,7 +136,7 @@ def _relate_poses(
         points = relations.tool_points(v.values)
         if points is not None and len(points) in lengths:
             posed.append((v, points))
-    posed.sort(key=lambda pair: describe(pair[0].path).what != POSES)
+    posed.sort(key=lambda pair: not _claims_poses(pair[0]))
     for a in compared[:MOST_POSES]:
         own = found[a.path]
         if own.velocity_of or own.unit.unit not in ("rad", "deg") or own.name.hint is Hint.AGAINST:
@@ -142,5 +154,5 @@ def _relate_poses(
                 found[a.path] = own = replace(own, tool_path=v.path, other_tool_path=None)
                 if v.path in found:
                     found[v.path] = replace(found[v.path], tool_of=a.path)
-            elif match.differs and describe(v.path).what == POSES and not own.tool_path:
+            elif match.differs and _claims_poses(v) and not own.tool_path:
                 found[a.path] = own = replace(own, other_tool_path=(v.path, match))

@@ -12,6 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mrlab_ros.core.conversion import (
+    dimensions,
     discovery,
     frame_rate,
     joining,
@@ -114,26 +115,35 @@ def convert(
         )
     notes: list[Diagnostic] = []
     variable: Variable | None = None
+    squeezed: dict[str, dimensions.Squeezed] = {}
     try:
         options.checked_rate()
         options.factor()
-        workspace, wanted = _prepared(read(), options, robot, file)
+        stored, squeezed = dimensions.flattened(read(), robot)
+        workspace, wanted = _prepared(stored, options, robot, file)
         chosen, survey, offered = _find(workspace, wanted, options, robot, file, notes)
         if chosen is None:
             if not offered:
-                return _rejected(file, notes, survey.workspace.find(notes[-1].variable))
+                found = survey.workspace.find(notes[-1].variable)
+                return _rejected(file, dimensions.with_lines(notes, squeezed), found)
+            notes = dimensions.with_lines(notes, squeezed)
             candidates = tuple(a.candidate() for a in offered)
             return ConversionResult(file, Outcome.AMBIGUOUS, None, candidates, _worst_first(notes))
         variable = chosen.variable
-        rows = variable.shape[0]
+        rows = variable.shape[0] if variable.shape else 0
         if rows > most_rows:
             words: dict[str, Any] = {"rows": rows, "most": most_rows}
             raise Refused(finding("too_many_rows", variable=variable.path, **words))
+        for path in joining.sources(variable.path, options.join):
+            matrix = stored.find(path)
+            if path in squeezed and matrix is not None:
+                notes.append(dimensions.squeezed_finding(path, squeezed[path], matrix))
         layout = lay_out(chosen, survey, options, notes)
         layout, rate = _at_a_rate(survey, chosen, layout, options, default_frame_rate, file, notes)
         arm = layout.arm
         notes += limits.against_robot(arm, rate, robot.joints, variable.path, robot.id)
         notes += kinematics_match.findings(workspace, robot)
+        notes = dimensions.with_lines(notes, squeezed)
         if any(n.severity is Severity.ERROR for n in notes):
             return _rejected(file, notes, variable)
         if workspace.confirm is not None:
@@ -154,14 +164,15 @@ def convert(
         )
     except Refused as refused:
         notes.append(refused.finding)
-        return _rejected(file, notes, variable)
+        return _rejected(file, dimensions.with_lines(notes, squeezed), variable)
     return ConversionResult(file, Outcome.ACCEPTED, trajectory, (), _worst_first(notes))
 
 
 def _rejected(file: str, notes: list[Diagnostic], variable: Variable | None) -> ConversionResult:
     found = _worst_first(notes)
     shown = None
-    if variable is not None and variable.values is not None and min(variable.shape) > 0:
+    values = None if variable is None else variable.values
+    if variable is not None and values is not None and values.ndim == 2 and values.size:
         shown = preview(variable, [row for d in found for row in (d.first_row, d.last_row) if row])
     return ConversionResult(file, Outcome.REJECTED, None, (), found, shown)
 

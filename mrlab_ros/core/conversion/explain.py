@@ -9,7 +9,9 @@ import numpy as np
 
 from mrlab_ros.core.conversion import relations
 from mrlab_ros.core.conversion.assessment import Assessment, blocking_clocks
+from mrlab_ros.core.conversion.cartesian import is_transforms
 from mrlab_ros.core.conversion.clock_columns import ClockColumn, clocks_among
+from mrlab_ros.core.conversion.dimensions import page_line
 from mrlab_ros.core.conversion.gripper import has_states
 from mrlab_ros.core.conversion.joining import Series, series
 from mrlab_ros.core.conversion.named_columns import misnamed
@@ -98,6 +100,9 @@ def refusal(survey: Survey, file: str) -> Diagnostic:
         return object_finding("unsupported_object", opaque, file)
     if misses:
         return misses[0][1]
+    poses = next((v for v in workspace.variables if is_transforms(v.values)), None)
+    if poses is not None and not survey.fitting:
+        return _transforms(poses)
     return no_trajectory(survey, file)
 
 
@@ -278,18 +283,19 @@ def _looks_like(a: Assessment) -> Diagnostic:
 
 def _many_dimensions(variable: Variable, words: dict[str, Any], joints: int) -> Diagnostic | None:
     shape, name = variable.shape, words["name"]
+    if is_transforms(variable.values):
+        return _transforms(variable)
     long = [n for n in shape if n > 1]
+    flip = ".'" if long and long[0] in (joints, joints + 1) else ""
     if joints not in shape and joints + 1 not in shape:
         return None
-    line = f"q = squeeze({name});"
-    if len(long) == 2:
-        if long[0] in (joints, joints + 1):
-            line = f"q = squeeze({name}).';"
-    else:
-        axis = shape.index(joints) if joints in shape else shape.index(joints + 1)
-        line = f"q = squeeze({name}(:, :, 1));" if axis < 2 else f"q = squeeze({name}(:, 1, :));"
+    line = page_line(shape, name, joints) if len(long) > 2 else f"q = squeeze({name}){flip};"
     hint = f" It has {len(shape)} dimensions: in MATLAB {line}"
     return finding("wrong_shape", **words, hint=hint, fixes=(Fix(matlab=line),))
+
+
+def _transforms(variable: Variable) -> Diagnostic:
+    return finding("transforms", variable=variable.path, size=variable.size)
 
 
 def _too_narrow(words: dict[str, Any]) -> Diagnostic:

@@ -57,6 +57,8 @@ LIKELY_OF_DURATION = (5.0, 1000.0)  # Hz
 AGREES = 0.01  # relative; rates that differ by less are the same
 AGREES_WITH_MOTION = 0.05  # the same for a rate from a velocity
 MOST_NAMED = 5
+# an entry of a containers.Map or of a dictionary
+KEY = re.compile(r"""\('([^']+)'\)$|\{"([^"]+)"\}$""")
 
 
 @dataclass(frozen=True)
@@ -422,16 +424,26 @@ def _of_other_length(workspace: Workspace, path: str, rows: int) -> Diagnostic |
     return None
 
 
+def _scalar_name(path: str) -> str:
+    """Return the name of a number, such as fs of `m('fs')`; empty for an element of a list."""
+    key = KEY.search(path)
+    outer = path[: key.start()] if key else path
+    if re.search(r"[({]", outer):
+        return ""
+    return key[1] or key[2] if key else leaf(path)
+
+
 def _scalars(workspace: Workspace, path: str) -> list[Scalar]:
     """Return the numbers that are named like a rate or a step, those beside the matrix first."""
     near = first_path(path).rpartition(".")[0]
     found: list[tuple[bool, bool, Scalar]] = []
     for v in workspace.variables:
         number = workspace.scalar(v)
-        if number is None or not np.isfinite(number) or number <= 0 or re.search(r"[({]", v.path):
+        name = _scalar_name(v.path)
+        if number is None or not np.isfinite(number) or number <= 0 or not name:
             continue
-        said = parts(leaf(v.path))
-        unit = unit_named(leaf(v.path))
+        said = parts(name)
+        unit = unit_named(name)
         whole = re.sub(r"[^a-z]", "", "".join(said))
         stepped = whole[: -len(said[-1])] if unit and len(said) > 1 else whole
         step = number * {"ms": 1e-3, "us": 1e-6, "ns": 1e-9}.get(unit, 1.0)
@@ -465,9 +477,10 @@ def _of_duration(workspace: Workspace, path: str, rows: int) -> Scalar | None:
     near = first_path(path).rpartition(".")[0]
     for v in workspace.variables:
         number = workspace.scalar(v)
-        if number is None or not np.isfinite(number) or number <= 0 or re.search(r"[({]", v.path):
+        name = _scalar_name(v.path)
+        if number is None or not np.isfinite(number) or number <= 0 or not name:
             continue
-        said = "".join(parts(leaf(v.path)))
+        said = "".join(parts(name))
         if said not in DURATION_NAMES or not _is_near(v.path, near):
             continue
         # T may be anything: it counts where it is the time of the last row, as in 0:dt:T

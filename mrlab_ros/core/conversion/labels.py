@@ -10,6 +10,9 @@ from mrlab_ros.core.conversion.named_columns import names_joints
 from mrlab_ros.core.conversion.variable_names import (
     ACCELERATIONS,
     CURRENTS,
+    ERRORS,
+    OBSTACLES,
+    PARAMETERS,
     POSES,
     TEMPERATURES,
     TORQUES,
@@ -30,6 +33,10 @@ UNITS_AGAINST = {
     POSES: frozenset(("m", "mm", "cm")),
     TEMPERATURES: frozenset(("°c", "degc", "k")),
 }
+DEGREES = frozenset(("deg", "degree", "degrees", "°"))
+ANGLES = DEGREES | {"rad", "radian", "radians"}
+# Quantities that are angles as joint positions are: an angle as unit does not tell them apart.
+STAYS_DOUBTFUL = frozenset((ERRORS, OBSTACLES, PARAMETERS))
 KEYED = re.compile(r"\{:,.*\}$|\('[^']*'\)$")
 
 
@@ -40,7 +47,7 @@ def name_of(variable: Variable, file_format: str, robot: RobotModel) -> Name:
     """
     if names_joints(variable, robot):
         return Name(Hint.POSITIONS)
-    of_units = _said_by_units(variable.units)
+    of_units = said_by_units(variable.units)
     if of_units.hint is Hint.AGAINST:
         return of_units
     said = describe(variable.path)
@@ -50,6 +57,8 @@ def name_of(variable: Variable, file_format: str, robot: RobotModel) -> Name:
         said = of_columns or describe(variable.label)
     elif variable.label and said.hint in (Hint.NEUTRAL, Hint.TWO_FACED):
         said = describe(variable.label)
+    elif said.hint is Hint.DOUBTFUL and said.what not in STAYS_DOUBTFUL:
+        said = _overruled(said, variable)
     elif file_format in UNNAMED:
         of_headings = describe_table(variable)
         if of_headings is not None:
@@ -61,7 +70,19 @@ def name_of(variable: Variable, file_format: str, robot: RobotModel) -> Name:
     return replace(said, unit=of_units.unit) if of_units.unit else said
 
 
-def _said_by_units(given: tuple[str, ...]) -> Name:
+def _overruled(said: Name, variable: Variable) -> Name:
+    """Return what label and unit in the file make of a doubtful name such as x.
+
+    A label says what the numbers are; an angle as unit leaves a path of the tool alone possible.
+    """
+    of_label = describe(variable.label) if variable.label else said
+    if of_label.hint in (Hint.POSITIONS, Hint.AGAINST):
+        return of_label
+    units = {u.strip().lower().strip("[]()") for u in variable.units if u.strip()}
+    return Name(Hint.TWO_FACED) if units and units <= ANGLES else said
+
+
+def said_by_units(given: tuple[str, ...]) -> Name:
     plain = {u.strip().lower().strip("[]()") for u in given if u.strip()}
     if len(plain) != 1:
         return Name(Hint.NEUTRAL)
@@ -69,4 +90,4 @@ def _said_by_units(given: tuple[str, ...]) -> Name:
     for what, names in UNITS_AGAINST.items():
         if unit in names:
             return Name(Hint.AGAINST, what)
-    return Name(Hint.NEUTRAL, "", "deg" if unit in ("deg", "degree", "degrees", "°") else "")
+    return Name(Hint.NEUTRAL, "", "deg" if unit in DEGREES else "")

@@ -18,6 +18,7 @@ from mrlab_ros.core.conversion.explain import (
     near_miss,
     time_finding,
 )
+from mrlab_ros.core.conversion.labels import said_by_units
 from mrlab_ros.core.conversion.measuring import fits
 from mrlab_ros.core.conversion.named_columns import names_joints, order
 from mrlab_ros.core.conversion.options import (
@@ -402,6 +403,9 @@ def _in_radians(
         words = {"deg": "degrees", "rad": "radians", "counts": f"{options.units} a turn"}[unit]
         what = f"'{path}' was taken as {words}"
         notes.append(finding("option_applied", variable=path, what=what))
+    elif said_by_units(assessment.variable.units).unit == "deg":
+        arm, factor = np.radians(arm), float(np.radians(1))
+        notes.append(_converted(arm, path))
     elif assessment.unit.option and not assessment.by_name:
         raise Refused(_unit_finding(arm, assessment, name, robot))
     elif assessment.by_name or assessment.variable.is_message:
@@ -425,6 +429,15 @@ def _in_radians(
         what = f"jumps of 2*pi in '{path}' were removed"
         notes.append(finding("option_applied", variable=path, what=what))
     return arm, factor
+
+
+def _converted(arm: Array, path: str) -> Diagnostic:
+    """Return what to say of degrees, now in rad, that the file itself names so."""
+    largest = float(np.degrees(np.abs(arm).max()))
+    if largest > units.LEAST_DEGREES:
+        return finding("converted_unit", variable=path)
+    why = f"its unit in the file is degrees, and it reaches {largest:.3g}, as radians do too"
+    return finding("doubtful_values", variable=path, why=why)
 
 
 def _unit_finding(arm: Array, assessment: Assessment, name: str, robot: RobotModel) -> Diagnostic:

@@ -6,6 +6,7 @@ from collections.abc import Iterable
 from dataclasses import replace
 
 from mrlab_ros.core.conversion.assessment import Assessment, blocking_clocks
+from mrlab_ros.core.conversion.labels import said_by_units
 from mrlab_ros.core.conversion.variable_names import Hint
 from mrlab_ros.core.robots.model import RobotModel
 
@@ -71,7 +72,8 @@ def judged(a: Assessment, robot: RobotModel) -> Assessment:
 
 
 def _judge_range(a: Assessment, reasons: list[str]) -> float:
-    if a.by_name or a.unit.unit == "rad":
+    in_degrees = a.unit.unit == "deg" and said_by_units(a.variable.units).unit == "deg"
+    if a.by_name or a.unit.unit == "rad" or in_degrees:
         return 0.1
     reasons.append("it leaves the joint limits" if a.unit.unit == "" else a.unit.why)
     return -0.2

@@ -19,7 +19,8 @@ class Variable:
     path: as MATLAB writes it, such as `out.q.signals.values`, `log{1}.Values.Data` or
     `map('q')`. kind: MATLAB's class, such as double; of an object its class name. shape: as
     MATLAB's size() gives it, empty if unknown. values: the numbers of a real double or single
-    matrix in MATLAB's orientation, else None. is_object: an object that could not be opened.
+    matrix in MATLAB's orientation, or of an array of more dimensions that is a matrix once those
+    of one are left out, or 4 x 4 x N; else None. is_object: an object that could not be opened.
     note: why there are no values, such as complex or sparse.
 
     columns: their names, where the file names them: the headings of a table, the joints of a

@@ -166,3 +166,26 @@ def test_a_view_is_a_file():
     assert file.seek(100) == 100
     assert file.read() == b""
     assert second_reader.recognise(memoryview(b"")) == "an empty file"
+
+
+@pytest.mark.parametrize("form", ["v7", "v7.3"])
+def test_arrays_of_three_dimensions_are_compared_too(form):
+    values = Q.T[:, None, :]
+    buffer = io.BytesIO()
+    if form == "v7":
+        scipy.io.savemat(buffer, {"q": values})
+    else:
+        with h5py.File(buffer, "w", userblock_size=512) as file:
+            item = file.create_dataset("q", data=values.T)
+            item.attrs["MATLAB_class"] = np.bytes_("double")
+        buffer.seek(0)
+        buffer.write(b"MATLAB 7.3 MAT-file".ljust(124) + b"\x00\x02IM")
+    data = memoryview(buffer.getvalue())
+    found = Collected()
+    worker.read(data, "traj.mat", found, LIMIT)
+    np.testing.assert_array_equal(found["q"], values)
+    verify(data, "traj.mat", "q", found["q"])
+    other = values.copy()
+    other[3, 0, 4] += 1
+    with pytest.raises(Refused, match="row 4, column 1, page 5; 1 of 60"):
+        verify(data, "traj.mat", "q", other)

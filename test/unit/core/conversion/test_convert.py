@@ -207,6 +207,49 @@ def test_refusals_name_their_reason(variable, code):
     assert convert(variable, variable=variable.path).outcome is Outcome.REJECTED
 
 
+def test_an_array_of_three_dimensions_is_taken_and_said():
+    q = motion()
+    result = convert(Variable("q", "double", (6, 1, 300), q.T[:, None]))
+    assert result.trajectory is not None, result.message
+    np.testing.assert_array_equal(result.trajectory.positions, q)
+    said = next(d for d in result.diagnostics if d.code == "squeezed")
+    assert said.severity is Severity.INFO
+    assert "'q' is 6x1x300; it was taken as 300x6, as q = squeeze(q).'; gives it" in said.message
+
+
+def test_lines_of_matlab_for_an_array_begin_with_the_one_that_makes_the_matrix():
+    wide = np.column_stack([motion(), motion()])
+    result = convert(Variable("s.q", "double", (12, 1, 300), wide.T[:, None]))
+    worst = result.diagnostics[0]
+    assert worst.code == "wrong_shape"
+    assert worst.fixes[0].matlab.startswith("q = squeeze(s.q).'; q = q(:, ")
+
+
+def test_an_object_without_a_size_is_refused_by_its_name():
+    closed = Variable("ts", "timeseries", (), is_object=True)
+    assert refused(closed, variable="ts")
+
+
+def test_transforms_alone_are_named():
+    pages = np.tile(np.eye(4)[:, :, None], (1, 1, 50))
+    result = convert(Variable("T", "double", pages.shape, pages))
+    assert [d.code for d in result.diagnostics] == ["transforms"]
+
+
+@pytest.mark.parametrize("label", ["joint angles", ""])
+def test_degrees_that_the_file_names_are_converted(label):
+    q = motion(reach=1.5)
+    facts = {"label": label, "units": ("deg",)}
+    result = convert(var("x.Data", np.degrees(q), **facts))
+    assert result.trajectory is not None, result.message
+    np.testing.assert_allclose(result.trajectory.positions, q, atol=1e-12)
+    assert "converted_unit" in codes(result)
+    assert bool(result.trajectory.warnings) is (not label)
+    # what radians may reach as well is converted with a warning
+    small = convert(var("q", motion(reach=1.5), units=("deg",)))
+    assert "doubtful_values" in codes(small)
+
+
 def test_samples_kept_one_by_one_come_with_the_line_that_joins_them():
     result = convert(*(var(f"path({i}).pos", motion()[i : i + 1]) for i in range(1, 9)))
     assert result.diagnostics[0].code == "inside_container"
@@ -310,6 +353,9 @@ def test_a_constant_gripper_is_open(value):
         ([], 100.0, "rate_default"),
         ([var("fs", 250.0)], 250.0, "rate_found"),
         ([var("frame_rate", 30)], 30.0, "rate_found"),
+        ([var("m('fs')", 250.0, label="fs")], 250.0, "rate_found"),
+        ([var('d{"dt"}', 0.02, label="dt")], 50.0, "rate_found"),
+        ([var("c{2}", 250.0)], 100.0, "rate_default"),
         ([var("dt", 0.008)], 125.0, "rate_found"),
         ([var("Ts", 1 / 30)], 30.0, "rate_found"),
         ([var("t", np.linspace(0, 299 / 60, 300)[:, None])], 60.0, "rate_found"),
