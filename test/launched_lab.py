@@ -11,6 +11,7 @@ from contextlib import contextmanager
 from pathlib import Path
 
 import pytest
+from child_process import start_child
 
 from mrlab_ros.commands.demo.lab import claim_free_domain
 
@@ -49,8 +50,8 @@ def launched_lab(
     monkeypatch.setenv("ROS_DOMAIN_ID", str(domain))
     log = folder / "up.log"
     with log.open("wb") as output:
-        process = subprocess.Popen(
-            (*MRLAB, "up", *map(str, options)), stdout=output, stderr=subprocess.STDOUT
+        process = start_child(
+            *MRLAB, "up", *map(str, options), stdout=output, stderr=subprocess.STDOUT
         )
     try:
         end = time.monotonic() + DEADLINE

@@ -10,6 +10,7 @@ import sys
 from pathlib import Path
 
 import zenoh
+from child_process import start_child
 from sensor_msgs.msg import JointState
 
 CLIENTS = Path(__file__).parents[1] / "examples" / "clients" / "python"
@@ -41,8 +42,8 @@ def connect(*endpoints, **settings):
 def start_client(script, *arguments):
     """Start a client's script, which sees nothing of the lab's packages."""
     ours = ("PYTHONPATH", "AMENT_PREFIX_PATH", "LD_LIBRARY_PATH")
-    return subprocess.Popen(
-        [sys.executable, CLIENTS / script, *arguments],
+    return start_child(
+        *(sys.executable, str(CLIENTS / script), *arguments),
         env={k: v for k, v in os.environ.items() if k not in ours},
         stdout=subprocess.PIPE,
         stderr=subprocess.PIPE,

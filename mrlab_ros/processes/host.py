@@ -1,42 +1,27 @@
-"""Runs one or several of the lab's nodes in this process until it is asked to stop."""
+"""Start a process of the lab: `python -m mrlab_ros.processes.host NODE... --ros-args ...`.
+
+This module imports little, so that its first statements decide what SIGINT does. By default
+Python raises KeyboardInterrupt, and in the middle of an import that prints a traceback.
+"""
 
 from __future__ import annotations
 
-import importlib
-import os
 import signal
 import sys
-import time
-from collections.abc import Callable
 from pathlib import Path
-
-import rclpy
-import rclpy.utilities
-from rclpy.node import Node
-
-from mrlab_ros.core.errors import BadInput, LabError, Unavailable
-from mrlab_ros.processes.lab import NODES
-from mrlab_ros.processes.stand_aside import StandAside
-from mrlab_ros.processes.supervisor import RESTARTS, WRONG_CONFIGURATION
-from mrlab_ros.ros.parameters import WrongParameters
-from mrlab_ros.ros.spinning import SpunNode, shut_down, start_up
-
-# How often a process checks whether it was asked to stop, s.
-POLL_PERIOD_S = 0.1
-# A restarted process must not join the graph during a replay: it waits up to this long for the
-# recorder to be discovered, s. Discovery takes up to 3 s.
-FIND_TIMEOUT_S = 3.0
-
-
-def maker(name: str) -> Callable[[], Node]:
-    """Import the node called `name`; what is returned builds it in the default context."""
-    entry = NODES[name]
-    made: Callable[[], Node] = getattr(importlib.import_module(entry.module), entry.kind)
-    return made
 
 
 def main(names: list[str] | None = None) -> None:
-    """Run the nodes named in `names`, or on the command line before --ros-args."""
+    """Run the nodes named in `names`, or on the command line before --ros-args.
+
+    Until rclpy is initialised, SIGINT and SIGTERM end the process at once: there is nothing to
+    close yet. From then on rclpy handles both. A supervisor may start the process with SIGINT
+    blocked, see supervisor.ProcessSpec; a SIGINT that arrived before this call then ends it here.
+    """
+    signal.signal(signal.SIGINT, signal.SIG_DFL)
+    signal.pthread_sigmask(signal.SIG_UNBLOCK, {signal.SIGINT})
+    from mrlab_ros.processes.lab import NODES
+
     arguments = sys.argv[1:]
     if names is None:
         end = arguments.index("--ros-args") if "--ros-args" in arguments else len(arguments)
@@ -47,75 +32,14 @@ def main(names: list[str] | None = None) -> None:
             f"host: found {'no node' if not names else ', '.join(unknown)}; expected one or more "
             f"of {', '.join(NODES)}, as in: host converter lab coordinator"
         )
+    from mrlab_ros.processes.node_runner import run
+
     sys.exit(run(names))
 
 
 def run_named_node() -> None:
     """Run the node that the executable is named after, as `ros2 run mrlab_ros converter` does."""
     main([Path(sys.argv[0]).name])
-
-
-def run(names: list[str]) -> int:
-    """Spin the nodes until SIGINT or SIGTERM; return the process's exit code.
-
-    That is 0 after a signal, WRONG_CONFIGURATION where a node refuses its parameters or files,
-    1 after any other error. While a bag is replayed, the nodes that would publish the same topics
-    are closed; afterwards they are made again and recover as after a restart.
-    """
-    try:
-        start_up()
-    except BadInput as error:
-        print(error, file=sys.stderr, flush=True)
-        return WRONG_CONFIGURATION
-    # rclpy's own handler of SIGTERM shuts the context down and calls nobody.
-    running = rclpy.utilities.get_default_context().ok
-    aside: StandAside | None = None
-    spun: dict[str, SpunNode] = {}
-    name = ""
-    try:
-        if not all(NODES[name].in_replay for name in names):
-            aside = StandAside()
-        makers = {name: maker(name) for name in names}
-        if aside is not None:
-            aside.wait_for_recorder(
-                FIND_TIMEOUT_S if os.environ.get(RESTARTS, "0") != "0" else 0.0
-            )
-        while running():
-            replay = aside is not None and aside.wanted
-            wanted = [name for name in names if NODES[name].in_replay or not replay]
-            for name in [name for name in reversed(spun) if name not in wanted]:
-                spun.pop(name).close()
-            # The mistakes of all nodes are named at once.
-            mistakes = []
-            for name in wanted:
-                if name not in spun:
-                    try:
-                        spun[name] = SpunNode(makers[name]())
-                    except WrongParameters as error:
-                        mistakes.append(str(error))
-            if mistakes:
-                raise WrongParameters("\n".join(mistakes))
-            time.sleep(POLL_PERIOD_S)
-        return 0
-    except WrongParameters as error:
-        print(error, file=sys.stderr, flush=True)
-        return WRONG_CONFIGURATION
-    except LabError as error:
-        print(f"{name}: {error}", file=sys.stderr, flush=True)
-        lasting = isinstance(error, BadInput) and not isinstance(error, Unavailable)
-        return WRONG_CONFIGURATION if lasting else 1
-    except KeyboardInterrupt:
-        return 0
-    finally:
-        # A second Ctrl-C must not interrupt the clean-up: the supervisor sets its deadline.
-        signal.signal(signal.SIGINT, signal.SIG_IGN)
-        shut_down()
-        for node in reversed(spun.values()):
-            node.close()
-        if aside is not None:
-            aside.close()
-        sys.stdout.flush()
-        sys.stderr.flush()
 
 
 if __name__ == "__main__":

@@ -134,7 +134,7 @@ class LabProcess:
             ),
         }
         argv = (sys.executable, "-m", HOST_MODULE, *self.arguments(options))
-        return ProcessSpec(self.name, argv, env)
+        return ProcessSpec(self.name, argv, env, unblocks_sigint=True)
 
 
 PROCESSES = (

@@ -34,9 +34,12 @@ class StandAside:
         self._spun = SpunNode(node)
 
     def wait_for_recorder(self, find_timeout: float) -> None:
-        """Wait for a recorder's state, or until none was discovered within `find_timeout` s."""
+        """Wait for a recorder's state, or until none was discovered within `find_timeout` s.
+
+        It ends early where the context is shut down.
+        """
         began = time.monotonic()
-        while not self._received:
+        while not self._received and self._spun.node.context.ok():
             there = self._spun.node.count_publishers(TOPIC) > 0
             if time.monotonic() - began >= find_timeout + STATE_TIMEOUT_S * there:
                 return

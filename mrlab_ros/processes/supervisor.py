@@ -31,24 +31,38 @@ READ_TIMEOUT_S = 1.0
 # The name of the supervisor's own lines.
 SELF = "mrlab"
 
-# Runs as: python -I -S -c GUARDED <pid of the supervisor> program argument...
-# The signal is tied to the thread that forked: Child's own thread, which lives as long.
+# Runs as: python -I -S -c GUARDED <pid of the supervisor> <1: unblock SIGINT> program argument...
+# It starts with SIGINT blocked: a stop at this moment must not print a traceback. The death signal
+# is tied to the thread that forked: Child's own thread, which lives as long.
 GUARDED = """
 import ctypes, os, signal, sys
 ctypes.CDLL(None).prctl(1, signal.SIGKILL)
 signal.signal(signal.SIGINT, signal.SIG_DFL)
+if sys.argv[2] == "1":
+    signal.pthread_sigmask(signal.SIG_UNBLOCK, {signal.SIGINT})
 if os.getppid() == int(sys.argv[1]):
-    os.execvp(sys.argv[2], sys.argv[2:])
+    os.execvp(sys.argv[3], sys.argv[3:])
 """
+
+
+def guarded(argv: tuple[str, ...], *, unblock_sigint: bool = True) -> tuple[str, ...]:
+    """Return the command that runs `argv` until its end or that of the thread that starts it."""
+    unblock = "1" if unblock_sigint else "0"
+    return (sys.executable, "-I", "-S", "-c", GUARDED, str(os.getpid()), unblock, *argv)
 
 
 @dataclass(frozen=True)
 class ProcessSpec:
-    """A process to keep: a short name, its command, and what it adds to the environment."""
+    """A process to keep: a short name, its command, and what it adds to the environment.
+
+    unblocks_sigint: the program is started with SIGINT blocked and unblocks it once it has decided
+    what SIGINT does. Python would otherwise answer a SIGINT during its start with a traceback.
+    """
 
     name: str
     argv: tuple[str, ...]
     env: Mapping[str, str] = field(default_factory=dict)
+    unblocks_sigint: bool = False
 
 
 # The environment variable with the number of restarts of a process so far.
@@ -182,6 +196,8 @@ class Child:
         self._changed()
 
     def _keep(self) -> None:
+        # The child inherits this thread's mask, so it starts with SIGINT blocked.
+        signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
         while not self._stop.is_set():
             code, self._last_exit = self._run_once()
             if self._stop.is_set():
@@ -207,13 +223,13 @@ class Child:
 
     def _run_once(self) -> tuple[int | None, str]:
         """Run the process to its end; return its exit code, and in words how it ended."""
-        guard = (sys.executable, "-I", "-S", "-c", GUARDED, str(os.getpid()))
+        command = guarded(self.spec.argv, unblock_sigint=not self.spec.unblocks_sigint)
         with self._lock:
             if self._stop.is_set():
                 return None, "not started"
             try:
                 process = subprocess.Popen(
-                    guard + self.spec.argv,
+                    command,
                     env={**os.environ, **self.spec.env, RESTARTS: str(self._restarts)},
                     stdin=subprocess.DEVNULL,
                     stdout=subprocess.PIPE,

@@ -5,11 +5,11 @@ from __future__ import annotations
 import re
 import signal
 import subprocess
-import sys
 import threading
 from pathlib import Path
 
 import pytest
+from child_process import HOST, start_child
 from graph import wait_for
 from mrlab_msgs.msg import Robot, Robots
 from rclpy.serialization import deserialize_message, serialize_message
@@ -321,11 +321,8 @@ def _parameter(name, value):
 @pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
 def test_the_process_ends_when_asked_and_tells_what_it_carried(graph, endpoint, number):
     graph.client.create_publisher(JointState, JOINTS, qos.STREAM)
-    process = subprocess.Popen(
-        [
-            *(sys.executable, "-m", "mrlab_ros.processes.host", "bridge"),
-            *("--ros-args", "-p", f"listen:=['{endpoint}']"),
-        ],
+    process = start_child(
+        *(*HOST, "bridge", "--ros-args", "-p", f"listen:=['{endpoint}']"),
         stdout=subprocess.PIPE,
         stderr=subprocess.STDOUT,
         text=True,

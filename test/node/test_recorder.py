@@ -7,7 +7,6 @@ import os
 import resource
 import signal
 import subprocess
-import sys
 import threading
 import time
 from collections.abc import Callable, Iterator
@@ -17,6 +16,7 @@ from typing import Any
 
 import pytest
 import small_lab
+from child_process import HOST, start_child
 from graph import Graph, Inbox, wait_for
 from mcap.reader import NonSeekingReader
 from mrlab_msgs import msg, srv
@@ -219,10 +219,8 @@ def launch(tmp_path: Path) -> Iterator[Callable[..., subprocess.Popen[bytes]]]:
     running = []
 
     def start_process() -> subprocess.Popen[bytes]:
-        argv = (sys.executable, "-m", "mrlab_ros.processes.host", "recorder", "--ros-args")
-        process = subprocess.Popen(
-            (*argv, "-p", f"bag_dir:={tmp_path}", "-p", "topics:=['/counted']")
-        )
+        argv = (*HOST, "recorder", "--ros-args")
+        process = start_child(*argv, "-p", f"bag_dir:={tmp_path}", "-p", "topics:=['/counted']")
         running.append(process)
         return process
 

@@ -15,6 +15,7 @@ from pathlib import Path
 
 import pytest
 import zenoh
+from child_process import HOST, start_child
 from graph import wait_for
 from mrlab_msgs.msg import Latency, Robot, Robots
 from mrlab_msgs.srv import ListTrajectories, Remove, Step
@@ -487,11 +488,8 @@ def test_the_lab_s_log_says_who_came_and_who_was_refused(graph, folders, endpoin
         f"bridge --ros-args -p listen:=['{endpoint}'] -p keys:={folders[Login.BOTH].folder}"
     )
     with open(log, "wb") as output:
-        process = subprocess.Popen(
-            [sys.executable, "-m", "mrlab_ros.processes.host", *arguments.split()],
-            stdout=output,
-            stderr=subprocess.STDOUT,
-            cwd=ROOT,
+        process = start_child(
+            *HOST, *arguments.split(), stdout=output, stderr=subprocess.STDOUT, cwd=ROOT
         )
     try:
         wait_for(lambda: "carries" in log.read_text(), "the bridge")

@@ -12,6 +12,7 @@ from typing import Any
 
 import pytest
 import zenoh
+from child_process import start_child
 from launched_lab import DEADLINE, MRLAB, done, launched_lab
 from mrlab_msgs import msg
 from sensor_msgs.msg import JointState
@@ -60,8 +61,8 @@ class Watcher:
 
 
 def record_a_play(bag: Path) -> None:
-    recorder = subprocess.Popen(
-        (*MRLAB, "record", str(bag)), stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True
+    recorder = start_child(
+        *MRLAB, "record", str(bag), stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True
     )
     assert recorder.stdout is not None
     try:
@@ -102,8 +103,8 @@ def test_what_a_student_did_comes_back(endpoint: str, tmp_path: Path) -> None:
 
         wait_for(lambda: publishers() == {"playback"}, "the lab's own playback")
         state = graph.watch(msg.RecorderState, "/recorder/state")
-        replay = subprocess.Popen(
-            (*MRLAB, "replay", str(bag), "--rate", "10"), stdout=subprocess.PIPE, text=True
+        replay = start_child(
+            *MRLAB, "replay", str(bag), "--rate", "10", stdout=subprocess.PIPE, text=True
         )
         try:
             wait_for(lambda: publishers() == {"recorder_streams"}, "the playback aside")

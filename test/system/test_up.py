@@ -14,6 +14,7 @@ from typing import Any
 
 import psutil
 import pytest
+from child_process import start_child
 
 from mrlab_ros.commands.demo.lab import claim_free_domain, free_port
 
@@ -41,8 +42,8 @@ class Lab:
         self._output = folder / "up.log"
         self.endpoint = f"tcp/127.0.0.1:{free_port(0)}"
         with open(self._output, "wb") as output:
-            self.process = subprocess.Popen(
-                (*MRLAB, "up", "--robots", "ur5e", "--zenoh-listen", self.endpoint),
+            self.process = start_child(
+                *(*MRLAB, "up", "--robots", "ur5e", "--zenoh-listen", self.endpoint),
                 stdout=output,
                 stderr=subprocess.STDOUT,
             )

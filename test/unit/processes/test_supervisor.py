@@ -253,6 +253,21 @@ class TestSupervisor:
             wait_for(lambda: lines.of("a"), "up")
         assert phases == ["running", "stopped"]
 
+    @pytest.mark.parametrize("unblocks_sigint", [True, False])
+    def test_a_program_that_unblocks_sigint_is_started_with_it_blocked(
+        self, lines: Lines, unblocks_sigint: bool
+    ) -> None:
+        code = """
+            import signal, sys, time
+            print(signal.SIGINT in signal.pthread_sigmask(signal.SIG_BLOCK, ()), flush=True)
+            time.sleep(600)
+        """
+        argv = (sys.executable, "-S", "-c", textwrap.dedent(code))
+        what = ProcessSpec("a", argv, unblocks_sigint=unblocks_sigint)
+        with Supervisor([what], lines):
+            wait_for(lambda: lines.of("a"), "its mask")
+        assert lines.of("a")[0] == str(unblocks_sigint)
+
     def test_no_orphan_when_the_supervisor_is_killed(self, tmp_path: Path) -> None:
         code = f"""
             import sys, time

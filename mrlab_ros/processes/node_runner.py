@@ -1,0 +1,101 @@
+"""Runs one or several of the lab's nodes in this process until it is asked to stop."""
+
+from __future__ import annotations
+
+import importlib
+import os
+import signal
+import sys
+import time
+from collections.abc import Callable
+
+import rclpy
+import rclpy.utilities
+from rclpy.node import Node
+
+from mrlab_ros.core.errors import BadInput, LabError, Unavailable
+from mrlab_ros.processes.lab import NODES
+from mrlab_ros.processes.stand_aside import StandAside
+from mrlab_ros.processes.supervisor import RESTARTS, WRONG_CONFIGURATION
+from mrlab_ros.ros.parameters import WrongParameters
+from mrlab_ros.ros.spinning import SpunNode, shut_down, start_up
+
+# How often a process checks whether it was asked to stop, s.
+POLL_PERIOD_S = 0.1
+# A restarted process must not join the graph during a replay: it waits up to this long for the
+# recorder to be discovered, s. Discovery takes up to 3 s.
+FIND_TIMEOUT_S = 3.0
+
+
+def maker(name: str) -> Callable[[], Node]:
+    """Import the node called `name`; what is returned builds it in the default context."""
+    entry = NODES[name]
+    made: Callable[[], Node] = getattr(importlib.import_module(entry.module), entry.kind)
+    return made
+
+
+def run(names: list[str]) -> int:
+    """Spin the nodes until SIGINT or SIGTERM; return the process's exit code.
+
+    That is 0 after a signal, WRONG_CONFIGURATION where a node refuses its parameters or files,
+    1 after any other error. SIGINT must have its default action when this is called: rclpy's
+    handlers then treat both signals alike, shut the context down and raise nothing. While a bag
+    is replayed, the nodes that would publish the same topics are closed; afterwards they are made
+    again and recover as after a restart.
+    """
+    try:
+        start_up()
+    except BadInput as error:
+        print(error, file=sys.stderr, flush=True)
+        return WRONG_CONFIGURATION
+    running = rclpy.utilities.get_default_context().ok
+    aside: StandAside | None = None
+    spun: dict[str, SpunNode] = {}
+    name = ""
+    try:
+        if not all(NODES[name].in_replay for name in names):
+            aside = StandAside()
+        makers = {name: maker(name) for name in names}
+        if aside is not None:
+            aside.wait_for_recorder(
+                FIND_TIMEOUT_S if os.environ.get(RESTARTS, "0") != "0" else 0.0
+            )
+        while running():
+            replay = aside is not None and aside.wanted
+            wanted = [name for name in names if NODES[name].in_replay or not replay]
+            for name in [name for name in reversed(spun) if name not in wanted]:
+                spun.pop(name).close()
+            # The mistakes of all nodes are named at once.
+            mistakes = []
+            for name in wanted:
+                if name not in spun:
+                    try:
+                        spun[name] = SpunNode(makers[name]())
+                    except WrongParameters as error:
+                        mistakes.append(str(error))
+            if mistakes:
+                raise WrongParameters("\n".join(mistakes))
+            time.sleep(POLL_PERIOD_S)
+        return 0
+    except WrongParameters as error:
+        print(error, file=sys.stderr, flush=True)
+        return WRONG_CONFIGURATION
+    except Exception as error:
+        if not running():
+            # A signal shut the context down while a node was made, which then failed.
+            return 0
+        if not isinstance(error, LabError):
+            raise
+        print(f"{name}: {error}", file=sys.stderr, flush=True)
+        lasting = isinstance(error, BadInput) and not isinstance(error, Unavailable)
+        return WRONG_CONFIGURATION if lasting else 1
+    finally:
+        # A second Ctrl-C must not interrupt the clean-up: the supervisor sets its deadline.
+        signal.signal(signal.SIGINT, signal.SIG_IGN)
+        shut_down()
+        for node in reversed(spun.values()):
+            node.close()
+        if aside is not None:
+            aside.close()
+        sys.stdout.flush()
+        sys.stderr.flush()
