@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 import scipy.io
 from graph import Graph, wait_for
-from mrlab_msgs import srv
+from mrlab_msgs import msg, srv
 from sensor_msgs.msg import JointState
 from small_lab import labels, listen_state, load, make, spawn
 from std_srvs.srv import Trigger
@@ -114,14 +114,8 @@ def test_robots_share_the_matrices_of_one_trajectory(graph, lab):
     assert loaded(lab, robots[1]).frame_count == 60
 
 
-def test_another_robot_pauses_while_one_loads(graph, lab, monkeypatch):
-    lab.kept.save(make("ur5e", "wave", frames=3000))
-    lab.kept.save(make("ur5e", "other"))
-    first, second = spawn(graph), spawn(graph)
-    states = listen_state(graph, first)
-    load(graph, first, "wave")
-    assert graph.call(Trigger, f"/{first}/play").success
-    wait_for(lambda: states.last().label == "PLAYING", "the motion")
+def hold_reads(monkeypatch):
+    """Stop every read of a trajectory file; return the events that one began and may go on."""
     entered, go_on, read = threading.Event(), threading.Event(), store.read
 
     def held(path):
@@ -130,6 +124,18 @@ def test_another_robot_pauses_while_one_loads(graph, lab, monkeypatch):
         return read(path)
 
     monkeypatch.setattr(catalogue.store, "read", held)
+    return entered, go_on
+
+
+def test_another_robot_pauses_while_one_loads(graph, lab, monkeypatch):
+    lab.kept.save(make("ur5e", "wave", frames=3000))
+    lab.kept.save(make("ur5e", "other"))
+    first, second = spawn(graph), spawn(graph)
+    states = listen_state(graph, first)
+    load(graph, first, "wave")
+    assert graph.call(Trigger, f"/{first}/play").success
+    wait_for(lambda: states.last().label == "PLAYING", "the motion")
+    entered, go_on = hold_reads(monkeypatch)
     client = graph.client.create_client(srv.LoadTrajectory, f"/{second}/load")
     assert client.wait_for_service(LONG)
     answer = client.call_async(srv.LoadTrajectory.Request(id="other"))
@@ -143,17 +149,56 @@ def test_another_robot_pauses_while_one_loads(graph, lab, monkeypatch):
     assert answer.result().success
 
 
+@pytest.mark.parametrize(("command", "label"), [("pause", "PAUSED"), ("stop", "READY")])
+def test_a_robot_pauses_and_stops_while_it_loads_itself(graph, lab, monkeypatch, command, label):
+    lab.kept.save(make("ur5e", "wave", frames=3000))
+    lab.kept.save(make("ur5e", "other"))
+    robot = spawn(graph)
+    states = listen_state(graph, robot)
+    load(graph, robot, "wave")
+    assert graph.call(Trigger, f"/{robot}/play").success
+    wait_for(lambda: states.last().label == "PLAYING", "the motion")
+    entered, go_on = hold_reads(monkeypatch)
+    client = graph.client.create_client(srv.LoadTrajectory, f"/{robot}/load")
+    assert client.wait_for_service(LONG)
+    answer = client.call_async(srv.LoadTrajectory.Request(id="other"))
+    assert entered.wait(LONG)
+    assert graph.call(Trigger, f"/{robot}/{command}").success
+    wait_for(lambda: states.last().label == label, "the end of the motion")
+    assert not answer.done()
+    assert loaded(lab, robot).id == "wave"
+    go_on.set()
+    wait_for(answer.done, "the load")
+    assert answer.result().success, answer.result().message
+    assert loaded(lab, robot).id == "other"
+
+
+def test_a_collision_halts_a_robot_while_it_loads_itself(graph, lab, monkeypatch):
+    lab.kept.save(make("ur5e", "wave", frames=3000))
+    lab.kept.save(make("ur5e", "other"))
+    robot = spawn(graph)
+    states = listen_state(graph, robot)
+    load(graph, robot, "wave")
+    assert graph.call(Trigger, f"/{robot}/play").success
+    wait_for(lambda: states.last().label == "PLAYING", "the motion")
+    entered, go_on = hold_reads(monkeypatch)
+    collision = graph.client.create_publisher(msg.Collision, f"/{robot}/collision", qos.LATCHED)
+    client = graph.client.create_client(srv.LoadTrajectory, f"/{robot}/load")
+    assert client.wait_for_service(LONG)
+    answer = client.call_async(srv.LoadTrajectory.Request(id="other"))
+    assert entered.wait(LONG)
+    contact = msg.Contact(link="forearm_link", other="cube_1")
+    collision.publish(msg.Collision(colliding=True, contact=contact))
+    wait_for(lambda: states.last().label == "COLLISION_HALT", "the halt")
+    assert not answer.done()
+    go_on.set()
+    wait_for(answer.done, "the answer")
+
+
 def test_a_robot_that_is_removed_while_it_loads_hurts_nobody(graph, lab, monkeypatch):
     lab.kept.save(make("ur5e", "wave"))
     robot, stays = spawn(graph), spawn(graph)
-    entered, go_on, read = threading.Event(), threading.Event(), store.read
-
-    def held(path):
-        entered.set()
-        assert go_on.wait(LONG)
-        return read(path)
-
-    monkeypatch.setattr(catalogue.store, "read", held)
+    entered, go_on = hold_reads(monkeypatch)
     client = graph.client.create_client(srv.LoadTrajectory, f"/{robot}/load")
     assert client.wait_for_service(LONG)
     client.call_async(srv.LoadTrajectory.Request(id="wave"))
