@@ -16,7 +16,8 @@ from mrlab_ros.core.bridge.rules import Role
 from mrlab_ros.core.errors import BadInput
 
 if TYPE_CHECKING:
-    from mrlab_ros.adapters.keys.folder import Entry, Keys
+    from mrlab_ros.adapters.keys.folder import Keys
+    from mrlab_ros.adapters.keys.people import Entry
     from mrlab_ros.core.bridge.rules import Rules
 
 app = typer.Typer(
@@ -192,7 +193,8 @@ def config(
     folder: Folder = Path("keys"), prefix: Prefix = "", allow_list: AllowList = None
 ) -> None:
     """Print the zenoh settings of the lab as JSON: to read, or for zenoh's own bridge."""
-    from mrlab_ros.adapters.keys.folder import EVERYWHERE, Keys, now
+    from mrlab_ros.adapters.keys.folder import Keys, now
+    from mrlab_ros.adapters.keys.zenoh_settings import EVERYWHERE
     from mrlab_ros.core.bridge.links import nested
     from mrlab_ros.core.bridge.rules import checked_prefix
 

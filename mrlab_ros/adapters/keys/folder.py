@@ -8,57 +8,39 @@
     passwords.txt           name:password, where people log in with passwords
     clients/NAME.json5      all that NAME's zenoh needs to connect: to be handed over
 
-Files are for their owner only. zenoh keeps passwords as they are, so they are random ones.
+Files are for their owner only.
 """
 
 from __future__ import annotations
 
-import base64
 import fcntl
-import json
 import os
-import re
 import secrets
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
-from dataclasses import dataclass
 from datetime import datetime, timedelta, timezone
 from pathlib import Path
 from typing import Any
 
-from mrlab_ros.adapters.keys import certificates, private_files
+from mrlab_ros.adapters.keys import certificates, private_files, zenoh_settings
 from mrlab_ros.adapters.keys.certificates import Signed
-from mrlab_ros.core.bridge.access import Login, Person, access_control
-from mrlab_ros.core.bridge.links import LEASE_BEYOND, healing, nested
+from mrlab_ros.adapters.keys.people import (
+    NOBODY,
+    Entry,
+    People,
+    new_password,
+    read_passwords,
+    write_passwords,
+)
+from mrlab_ros.adapters.keys.zenoh_settings import LOCAL
+from mrlab_ros.core.bridge.access import Login, Person
 from mrlab_ros.core.bridge.rules import Role, Rules
 from mrlab_ros.core.errors import BadInput, Misuse
 
-PORT = 7447
-EVERYWHERE = (f"tls/0.0.0.0:{PORT}",)
-LOCAL = ("localhost", "127.0.0.1")
 AUTHORITY_LIFETIME = timedelta(days=5 * 365)
 # Two school years; Apple's systems accept no certificate of a server for more than 825 days.
 SERVER_LIFETIME = timedelta(days=2 * 365)
 CLIENT_LIFETIME = timedelta(days=365)
-NAME = re.compile(r"[A-Za-z0-9][A-Za-z0-9_.-]{0,40}")
-# A user whose password nobody knows: zenoh demands passwords only where its file has a user.
-NOBODY = "nobody"
-
-
-@dataclass(frozen=True)
-class Entry:
-    """A person, and when the person's certificate expires (UTC)."""
-
-    person: Person
-    expires: datetime
-
-    def record(self) -> dict[str, str]:
-        return {
-            "name": self.person.name,
-            "role": self.person.role.value,
-            "common_name": self.person.common_name,
-            "expires": self.expires.isoformat(timespec="seconds"),
-        }
 
 
 class Keys:
@@ -66,26 +48,17 @@ class Keys:
 
     def __init__(self, folder: Path) -> None:
         self.folder = folder.expanduser().resolve()
-        self._read()
+        self._people = People.read(self._people_file)
 
-    def _read(self) -> None:
-        path = self._people_file
-        try:
-            document = json.loads(path.read_text())
-            self.login = Login(document["login"])
-            self.hosts: list[str] = [str(host) for host in document["hosts"]]
-            self._entries = {record["name"]: _entry(record) for record in document["people"]}
-        except FileNotFoundError as error:
-            raise BadInput(
-                f"{self.folder} has no keys; make them with: mrlab keys init --dir {self.folder}"
-            ) from error
-        except OSError as error:
-            raise BadInput(f"{path} cannot be read: {os.strerror(error.errno or 0)}") from error
-        except (ValueError, KeyError, TypeError) as error:
-            raise BadInput(
-                f"{path} is damaged ({type(error).__name__}: {error}); put back a copy, or make "
-                "new keys with mrlab keys init"
-            ) from error
+    @property
+    def login(self) -> Login:
+        """How people log in."""
+        return self._people.login
+
+    @property
+    def hosts(self) -> list[str]:
+        """The names and addresses that the lab's certificate is for."""
+        return self._people.hosts
 
     @classmethod
     def create(cls, folder: Path, hosts: list[str], login: Login, now: datetime) -> Keys:
@@ -107,15 +80,14 @@ class Keys:
         for name, signed in (("ca", authority), ("server", server)):
             private_files.write(folder / f"{name}.pem", signed.certificate_pem)
             private_files.write(folder / f"{name}.key", signed.key_pem)
-        private_files.write(folder / "passwords.txt", f"{NOBODY}:{_password()}\n".encode())
-        document = {"login": login.value, "hosts": all_hosts, "people": []}
-        private_files.write(folder / "people.json", json.dumps(document, indent=2).encode())
+        write_passwords(folder / "passwords.txt", {NOBODY: new_password()})
+        People(login, all_hosts).write(folder / "people.json")
         return cls(folder)
 
     @property
     def entries(self) -> list[Entry]:
         """Who may connect, by name."""
-        return sorted(self._entries.values(), key=lambda entry: entry.person.name)
+        return self._people.entries
 
     def client_file(self, name: str) -> Path:
         """Return the file that lets `name` connect."""
@@ -131,16 +103,7 @@ class Keys:
 
     def check_new(self, name: str) -> None:
         """Raise BadInput where `name` cannot be one, Misuse where it has a key already."""
-        if not NAME.fullmatch(name) or name == NOBODY:
-            raise BadInput(
-                f"{name!r} is no name for a key; expected up to 41 letters, digits, '_', '-' and "
-                f"'.', beginning with a letter or digit, and not {NOBODY!r}"
-            )
-        if name in self._entries:
-            raise Misuse(
-                f"{name} has a key already, as {self._entries[name].person.role.value}; take it "
-                f"back first with: mrlab keys revoke {name}"
-            )
+        self._people.check_new(name)
 
     def _add(self, name: str, role: Role, now: datetime, lifetime: timedelta) -> Entry:
         authority = self._authority(now)
@@ -148,33 +111,36 @@ class Keys:
         person = Person(name, role, f"{name}.{secrets.token_hex(4)}")
         signed = certificates.client(authority, person.common_name, now, lifetime)
         entry = Entry(person, certificates.validity(signed.certificate)[1])
-        password = _password() if self.login.by_password else ""
+        password = new_password() if self.login.by_password else ""
         self.client_file(name).parent.mkdir(mode=0o700, exist_ok=True)
         private_files.write(
-            self.client_file(name), self._client_document(entry, signed, password).encode()
+            self.client_file(name),
+            zenoh_settings.client_document(
+                self.folder, self._people, entry, signed, password
+            ).encode(),
         )
         if password:
-            self._set_passwords({**self._passwords(), name: password})
-        self._entries[name] = entry
-        self._save()
+            write_passwords(self._passwords, {**read_passwords(self._passwords), name: password})
+        self._people.by_name[name] = entry
+        self._people.write(self._people_file)
         return entry
 
     def revoke(self, name: str) -> Entry:
         """Take back what lets `name` connect; it counts once the bridge is started again."""
         with self._alone():
             self.check_known(name)
-            entry = self._entries.pop(name)
-            self._save()
-            passwords = self._passwords()
+            entry = self._people.by_name.pop(name)
+            self._people.write(self._people_file)
+            passwords = read_passwords(self._passwords)
             if passwords.pop(name, None) is not None:
-                self._set_passwords(passwords)
+                write_passwords(self._passwords, passwords)
             self.client_file(name).unlink(missing_ok=True)
         return entry
 
     def check_known(self, name: str) -> None:
         """Raise BadInput where `name` has no key."""
-        if name not in self._entries:
-            known = ", ".join(sorted(self._entries)) or "nobody yet"
+        if name not in self._people.by_name:
+            known = ", ".join(sorted(self._people.by_name)) or "nobody yet"
             raise BadInput(f"{name} has no key in {self.folder}; who has one: {known}")
 
     def renew(self, hosts: list[str], now: datetime) -> datetime:
@@ -185,8 +151,8 @@ class Keys:
             server = certificates.server(authority, "MR-Lab", all_hosts, now, SERVER_LIFETIME)
             private_files.write(self.folder / "server.pem", server.certificate_pem)
             private_files.write(self.folder / "server.key", server.key_pem)
-            self.hosts = all_hosts
-            self._save()
+            self._people.hosts = all_hosts
+            self._people.write(self._people_file)
         return certificates.validity(server.certificate)[1]
 
     def server_expires(self, *, router: bool = False) -> datetime:
@@ -221,22 +187,7 @@ class Keys:
 
     def settings(self, rules: Rules, prefix: str, now: datetime) -> dict[str, Any]:
         """Return zenoh's settings, path -> value, of a lab that lets these people in."""
-        tls = {
-            "root_ca_certificate": str(self.folder / "ca.pem"),
-            "listen_certificate": str(self.folder / "server.pem"),
-            "listen_private_key": str(self.folder / "server.key"),
-            "enable_mtls": self.login.by_certificate,
-            # Without clients' certificates there is nothing to expire.
-            "close_link_on_expiration": self.login.by_certificate,
-        }
-        found: dict[str, Any] = {f"transport/link/tls/{name}": v for name, v in tls.items()}
-        if self.login.by_password:
-            file = self.folder / "passwords.txt"
-            found["transport/auth/usrpwd/dictionary_file"] = str(file)
-        # A password does not expire by itself.
-        people = [entry.person for entry in self.entries if entry.expires > now]
-        found["access_control"] = access_control(rules, people, self.login, prefix)
-        return found
+        return zenoh_settings.listening_settings(self.folder, self._people, rules, prefix, now)
 
     def router(
         self, rules: Rules, prefix: str, limits: Mapping[str, object], now: datetime
@@ -263,26 +214,10 @@ class Keys:
             made = certificates.client(self._authority(now), lab, now, SERVER_LIFETIME)
             private_files.write(self.folder / "lab.pem", made.certificate_pem)
             private_files.write(self.folder / "lab.key", made.key_pem)
-            tls = {
-                "root_ca_certificate_base64": "ca.pem",
-                "listen_certificate_base64": "server.pem",
-                "listen_private_key_base64": "server.key",
-            }
-            people = [entry.person for entry in self.entries if entry.expires > now]
-            settings: dict[str, Any] = {
-                "mode": "router",
-                "listen/endpoints": list(EVERYWHERE),
-                "transport/link/tls": {
-                    **{k: _base64((self.folder / v).read_bytes()) for k, v in tls.items()},
-                    "enable_mtls": True,
-                    "close_link_on_expiration": True,
-                },
-                "access_control": access_control(rules, people, self.login, prefix, lab),
-            }
-            document = nested({**settings, **limits, **healing(LEASE_BEYOND)})
-            private_files.write(
-                self.folder / "router.json5", json.dumps(document, indent=2).encode()
+            document = zenoh_settings.router_document(
+                self.folder, self._people, rules, prefix, limits, lab, now
             )
+            private_files.write(self.folder / "router.json5", document.encode())
         return self.folder / "router.json5"
 
     def lab_settings(self, now: datetime) -> dict[str, Any]:
@@ -298,18 +233,15 @@ class Keys:
                 f"{self.folder}"
             ) from error
         private_files.check(ours["lab.key"])
-        tls = {
-            "root_ca_certificate": str(ours["ca.pem"]),
-            "connect_certificate": str(ours["lab.pem"]),
-            "connect_private_key": str(ours["lab.key"]),
-            "enable_mtls": True,
-            "verify_name_on_connect": True,
-        }
-        return {f"transport/link/tls/{name}": value for name, value in tls.items()}
+        return zenoh_settings.connecting_settings(self.folder)
 
     @property
     def _people_file(self) -> Path:
         return self.folder / "people.json"
+
+    @property
+    def _passwords(self) -> Path:
+        return self.folder / "passwords.txt"
 
     def _authority(self, now: datetime) -> Signed:
         found = certificates.read(self.folder / "ca.pem", self.folder / "ca.key")
@@ -345,79 +277,12 @@ class Keys:
         handle = os.open(self.folder, os.O_RDONLY)
         try:
             fcntl.flock(handle, fcntl.LOCK_EX)
-            self._read()
+            self._people = People.read(self._people_file)
             yield
         finally:
             os.close(handle)
-
-    def _save(self) -> None:
-        document = {
-            "login": self.login.value,
-            "hosts": self.hosts,
-            "people": [entry.record() for entry in self.entries],
-        }
-        private_files.write(self._people_file, json.dumps(document, indent=2).encode())
-
-    def _passwords(self) -> dict[str, str]:
-        path = self.folder / "passwords.txt"
-        try:
-            pairs = (line.partition(":") for line in path.read_text().splitlines() if line.strip())
-            return {name: password for name, _, password in pairs}
-        except OSError as error:
-            raise BadInput(f"{path} cannot be read: {os.strerror(error.errno or 0)}") from error
-
-    def _set_passwords(self, passwords: dict[str, str]) -> None:
-        lines = [f"{name}:{password}\n" for name, password in passwords.items()]
-        private_files.write(self.folder / "passwords.txt", "".join(lines).encode())
-
-    def _client_document(self, entry: Entry, signed: Signed, password: str) -> str:
-        """Return a zenoh configuration that needs no other file."""
-        tls: dict[str, Any] = {
-            "root_ca_certificate_base64": _base64((self.folder / "ca.pem").read_bytes()),
-            "verify_name_on_connect": True,
-        }
-        if self.login.by_certificate:
-            tls["enable_mtls"] = True
-            tls["connect_certificate_base64"] = _base64(signed.certificate_pem)
-            tls["connect_private_key_base64"] = _base64(signed.key_pem)
-        settings: dict[str, Any] = {
-            "mode": "client",
-            "connect/endpoints": [_endpoint(host) for host in self._reached()],
-            "scouting/multicast/enabled": False,
-            "transport/link/tls": tls,
-        }
-        if password:
-            login = {"user": entry.person.name, "password": password}
-            settings["transport/auth/usrpwd"] = login
-        document = nested(settings | healing(LEASE_BEYOND))
-        return (
-            f"// {entry.person.name} ({entry.person.role.value}), until "
-            f"{entry.expires:%d %B %Y}. Whoever has this file is {entry.person.name}.\n"
-            f"{json.dumps(document, indent=2)}\n"
-        )
-
-    def _reached(self) -> list[str]:
-        """Return the hosts at which clients try to reach the lab, in order; localhost last."""
-        return [*(host for host in self.hosts if host not in LOCAL), LOCAL[0]]
 
 
 def now() -> datetime:
     """Return the time of this machine's clock, in UTC."""
     return datetime.now(timezone.utc)
-
-
-def _entry(record: dict[str, str]) -> Entry:
-    person = Person(record["name"], Role(record["role"]), record["common_name"])
-    return Entry(person, datetime.fromisoformat(record["expires"]))
-
-
-def _endpoint(host: str) -> str:
-    return f"tls/[{host}]:{PORT}" if ":" in host else f"tls/{host}:{PORT}"
-
-
-def _password() -> str:
-    return secrets.token_urlsafe(16)
-
-
-def _base64(data: bytes) -> str:
-    return base64.b64encode(data).decode()

@@ -14,7 +14,8 @@ from rclpy.context import Context
 from rclpy.node import Node
 from rclpy.parameter import Parameter
 
-from mrlab_ros.adapters.keys.folder import EVERYWHERE, Keys, now
+from mrlab_ros.adapters.keys.folder import Keys, now
+from mrlab_ros.adapters.keys.zenoh_settings import EVERYWHERE
 from mrlab_ros.adapters.zenoh_session import (
     LOOPBACK,
     Query,

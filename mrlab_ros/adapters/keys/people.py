@@ -1,0 +1,128 @@
+"""Who may connect to a lab, and how: the files people.json and passwords.txt of a keys folder.
+
+zenoh keeps passwords as they are, so they are random ones.
+"""
+
+from __future__ import annotations
+
+import json
+import os
+import re
+import secrets
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from datetime import datetime
+from pathlib import Path
+
+from mrlab_ros.adapters.keys import private_files
+from mrlab_ros.core.bridge.access import Login, Person
+from mrlab_ros.core.bridge.rules import Role
+from mrlab_ros.core.errors import BadInput, Misuse
+
+NAME = re.compile(r"[A-Za-z0-9][A-Za-z0-9_.-]{0,40}")
+# A user whose password nobody knows: zenoh demands passwords only where its file has a user.
+NOBODY = "nobody"
+
+
+@dataclass(frozen=True)
+class Entry:
+    """A person, and when the person's certificate expires (UTC)."""
+
+    person: Person
+    expires: datetime
+
+    @classmethod
+    def from_record(cls, record: Mapping[str, str]) -> Entry:
+        """Return the entry that record() wrote; ValueError or KeyError where it is none."""
+        person = Person(record["name"], Role(record["role"]), record["common_name"])
+        return cls(person, datetime.fromisoformat(record["expires"]))
+
+    def record(self) -> dict[str, str]:
+        return {
+            "name": self.person.name,
+            "role": self.person.role.value,
+            "common_name": self.person.common_name,
+            "expires": self.expires.isoformat(timespec="seconds"),
+        }
+
+
+@dataclass
+class People:
+    """How people log in, at which hosts they reach the lab, and each person by name."""
+
+    login: Login
+    hosts: list[str]
+    by_name: dict[str, Entry] = field(default_factory=dict)
+
+    @classmethod
+    def read(cls, path: Path) -> People:
+        """Read people.json; raise BadInput where it is missing, unreadable or damaged."""
+        try:
+            document = json.loads(path.read_text())
+            return cls(
+                Login(document["login"]),
+                [str(host) for host in document["hosts"]],
+                {record["name"]: Entry.from_record(record) for record in document["people"]},
+            )
+        except FileNotFoundError as error:
+            raise BadInput(
+                f"{path.parent} has no keys; make them with: mrlab keys init --dir {path.parent}"
+            ) from error
+        except OSError as error:
+            raise BadInput(f"{path} cannot be read: {os.strerror(error.errno or 0)}") from error
+        except (ValueError, KeyError, TypeError) as error:
+            raise BadInput(
+                f"{path} is damaged ({type(error).__name__}: {error}); put back a copy, or make "
+                "new keys with mrlab keys init"
+            ) from error
+
+    def write(self, path: Path) -> None:
+        """Write people.json, for its owner only."""
+        document = {
+            "login": self.login.value,
+            "hosts": self.hosts,
+            "people": [entry.record() for entry in self.entries],
+        }
+        private_files.write(path, json.dumps(document, indent=2).encode())
+
+    @property
+    def entries(self) -> list[Entry]:
+        """All entries, by name."""
+        return sorted(self.by_name.values(), key=lambda entry: entry.person.name)
+
+    def at(self, now: datetime) -> list[Person]:
+        """Return the people whose certificates have not expired: a password never expires."""
+        return [entry.person for entry in self.entries if entry.expires > now]
+
+    def check_new(self, name: str) -> None:
+        """Raise BadInput where `name` cannot be one, Misuse where it has a key already."""
+        if not NAME.fullmatch(name) or name == NOBODY:
+            raise BadInput(
+                f"{name!r} is no name for a key; expected up to 41 letters, digits, '_', '-' and "
+                f"'.', beginning with a letter or digit, and not {NOBODY!r}"
+            )
+        if name in self.by_name:
+            raise Misuse(
+                f"{name} has a key already, as {self.by_name[name].person.role.value}; take it "
+                f"back first with: mrlab keys revoke {name}"
+            )
+
+
+def new_password() -> str:
+    """Return a random password with 128 bits of entropy."""
+    return secrets.token_urlsafe(16)
+
+
+def read_passwords(path: Path) -> dict[str, str]:
+    """Return name -> password; raise BadInput where the file cannot be read."""
+    try:
+        pairs = (line.partition(":") for line in path.read_text().splitlines() if line.strip())
+        return {name: password for name, _, password in pairs}
+    except OSError as error:
+        raise BadInput(f"{path} cannot be read: {os.strerror(error.errno or 0)}") from error
+
+
+def write_passwords(path: Path, passwords: Mapping[str, str]) -> None:
+    """Write name -> password as zenoh reads it, for the file's owner only."""
+    lines = [f"{name}:{password}\n" for name, password in passwords.items()]
+    private_files.write(path, "".join(lines).encode())
