@@ -188,3 +188,8 @@ def info_from_head(head: Mapping[str, Any]) -> msg.TrajectoryInfo:
         has_gripper=head["has_gripper"],
         warnings=[diagnostic_to_message(d) for d in warnings_of(head)],
     )
+
+
+def trajectory_without_frames(head: Mapping[str, Any]) -> msg.Trajectory:
+    """Return the message of a trajectory's head alone: info and joint names, no frames."""
+    return msg.Trajectory(info=info_from_head(head), joint_names=list(head["joint_names"]))

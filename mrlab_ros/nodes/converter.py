@@ -37,6 +37,7 @@ from mrlab_ros.messages.trajectories import (
     candidate_to_message,
     catalogue_to_message,
     info_from_head,
+    trajectory_without_frames,
 )
 from mrlab_ros.nodes import parameters
 from mrlab_ros.nodes.parameters import ConverterParameters
@@ -224,7 +225,7 @@ class ConverterNode(ParameterNode[ConverterParameters]):
         """
         if head["frame_count"] <= MOST_ANNOUNCED:
             return trajectories.frames_to_message(self._store.frames(head["id"], 0, 0))
-        return msg.Trajectory(info=info_from_head(head), joint_names=list(head["joint_names"]))
+        return trajectory_without_frames(head)
 
     def _get(self, request: Any, response: Any) -> None:
         try:
