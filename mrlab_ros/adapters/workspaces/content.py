@@ -8,7 +8,7 @@ import math
 import mmap
 import os
 import signal
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from typing import Any
 
 import numpy as np
@@ -19,6 +19,8 @@ from mrlab_ros.core.diagnostics import Refused, finding
 BLOCK = 1 << 20
 # A matrix in the memory file of the first reading: path, shape, offset and numpy type.
 Place = list[Any]
+# characters of places in one request to the second reader, whose message is at most 64 KiB
+MOST_ASKED = 32_000
 
 
 def index(target: int) -> dict[str, Any]:
@@ -30,11 +32,12 @@ def index(target: int) -> dict[str, Any]:
     return words
 
 
-def collect(target: int, name: str, again: Callable[[Place], None]) -> Workspace:
+def collect(target: int, name: str, again: Callable[[list[Place]], None]) -> Workspace:
     """Return the workspace in the memory file `target`; raise Refused where it says why not.
 
-    The numbers stay in the memory file, which lives as long as they do. again: reads the matrix
-    at a place with the second reader and raises Refused unless it finds the same bits.
+    The numbers stay in the memory file, which lives as long as they do. again: reads the
+    matrices at some places with the second reader and raises Refused unless it finds the same
+    bits.
     """
     words = index(target)
     if "code" in words:
@@ -47,25 +50,36 @@ def collect(target: int, name: str, again: Callable[[Place], None]) -> Workspace
 
 
 class _Confirmation:
-    """Reads the matrix with a certain path again; one without numbers is passed over."""
+    """Reads matrices with certain paths again; those without numbers are passed over."""
 
-    def __init__(self, entries: list[Any], again: Callable[[Place], None]) -> None:
+    def __init__(self, entries: list[Any], again: Callable[[list[Place]], None]) -> None:
         self._again = again
         self._places: dict[str, Place] = {}
         for path, _, shape, offset, dtype, within_object, _ in entries:
             if offset >= 0 and not within_object:
                 self._places.setdefault(path, [path, shape, offset, dtype])
 
-    def __call__(self, path: str) -> None:
-        if path in self._places:
-            self._again(self._places[path])
+    def __call__(self, paths: Sequence[str]) -> None:
+        places = [self._places[p] for p in dict.fromkeys(paths) if p in self._places]
+        batch: list[Place] = []
+        size = 0
+        for place in places:
+            length = len(json.dumps(place))
+            if batch and size + length > MOST_ASKED:
+                self._again(batch)
+                batch, size = [], 0
+            batch.append(place)
+            size += length
+        if batch:
+            self._again(batch)
 
 
-def compare(status: int | None, target: int, name: str, place: Place, limit: float) -> None:
+def compare(status: int | None, target: int, name: str, places: list[Place], limit: float) -> None:
     """Pass where the second reader found the same bits; raise Refused otherwise.
 
     status: how its process ended, None past the time limit of `limit` s. target: its answer.
     """
+    variable = places[0][0]
     if status is None or status == -signal.SIGALRM:
         raise Refused(finding("too_slow", file=name, limit=limit))
     if status:
@@ -74,9 +88,9 @@ def compare(status: int | None, target: int, name: str, place: Place, limit: flo
         answer = index(target)
         if answer.get("code") == "too_large":
             raise Refused(finding("too_large", file=name, problem=answer["problem"]))
-        problem = answer["problem"]
+        problem, variable = answer["problem"], answer.get("variable") or variable
     if problem:
-        raise Refused(finding("readers_disagree", variable=place[0], file=name, problem=problem))
+        raise Refused(finding("readers_disagree", variable=variable, file=name, problem=problem))
 
 
 def death(status: int) -> str:

@@ -107,15 +107,17 @@ class WorkspaceReader:
 
         return self._retried(attempt)
 
-    def _second(self, source: int, numbers: int, name: str) -> Callable[[content.Place], None]:
-        """Return what reads a matrix of the file with a second reader."""
+    def _second(
+        self, source: int, numbers: int, name: str
+    ) -> Callable[[list[content.Place]], None]:
+        """Return what reads matrices of the file with a second reader."""
         source, numbers = os.dup(source), os.dup(numbers)
 
-        def again(place: content.Place) -> None:
+        def again(places: list[content.Place]) -> None:
             target = os.memfd_create("second", os.MFD_CLOEXEC)
             try:
-                status = self._ask([source, target, numbers], name, again=place)
-                content.compare(status, target, name, place, self.limits.time)
+                status = self._ask([source, target, numbers], name, again=places)
+                content.compare(status, target, name, places, self.limits.time)
             finally:
                 os.close(target)
 

@@ -39,12 +39,18 @@ def verify(data: memoryview, file: str, path: str, values: NDArray[Any]) -> None
         raise Refused(finding("readers_disagree", file=file, variable=path, problem=problem))
 
 
-def disagreement(data: memoryview, path: str, values: NDArray[Any]) -> str:
+def disagreement(
+    data: memoryview,
+    path: str,
+    values: NDArray[Any],
+    loaded: dict[str, Any] | None = None,
+) -> str:
     """Read the matrix at `path` again; say what differs, or nothing.
 
     data: the whole file, not compressed with gzip. path: as the own reader gave it, such as
     `out.q.signals.values`. values: what the own reader found, of two dimensions or more, of
-    any byte order and of the type that is stored. Formats with one reader only (CSV, npz, bags)
+    any byte order and of the type that is stored. loaded: variables of v4 to v7 by their names,
+    which calls for one file share. Formats with one reader only (CSV, npz, bags)
     pass. Raises MemoryError where the memory does not suffice.
     """
     form = recognise(data)
@@ -52,7 +58,7 @@ def disagreement(data: memoryview, path: str, values: NDArray[Any]) -> str:
         return ""
     second = "h5py" if form == "hdf5" else "scipy"
     try:
-        found = _with_h5py(data, path) if form == "hdf5" else _with_scipy(data, path)
+        found = _with_h5py(data, path) if form == "hdf5" else _with_scipy(data, path, loaded)
     except _Opaque:
         return ""
     except MemoryError:
@@ -111,11 +117,12 @@ def _subscripts(text: str) -> tuple[int, ...]:
     return tuple(int(number) - 1 for number in text.split(","))
 
 
-def _with_scipy(data: memoryview, path: str) -> NDArray[Any]:
+def _with_scipy(data: memoryview, path: str, loaded: dict[str, Any] | None = None) -> NDArray[Any]:
     import scipy.io
     from scipy.io.matlab import MatlabFunction, MatlabObject, MatlabOpaque
 
     value: Any = None
+    known = {} if loaded is None else loaded
     followed = steps(path)
     while True:
         if isinstance(value, (MatlabOpaque, MatlabFunction, MatlabObject)):
@@ -125,11 +132,13 @@ def _with_scipy(data: memoryview, path: str) -> NDArray[Any]:
             break
         kind, where = step
         if kind == "variable":
-            with warnings.catch_warnings():
-                warnings.simplefilter("ignore")
-                file = io.BufferedReader(View(data))
-                loaded = scipy.io.loadmat(file, variable_names=[where], chars_as_strings=False)
-            value = loaded[where]
+            if where not in known:
+                with warnings.catch_warnings():
+                    warnings.simplefilter("ignore")
+                    file = io.BufferedReader(View(data))
+                    found = scipy.io.loadmat(file, variable_names=[where], chars_as_strings=False)
+                known[where] = found[where]
+            value = known[where]
         elif kind == "field":
             value = value[where]
             if isinstance(value, np.ndarray) and value.dtype == object and value.size == 1:

@@ -162,19 +162,24 @@ def read(data: memoryview, name: str, sink: mat5.Sink, limit: int) -> str:
     raise mat5.NotAWorkspace(form)
 
 
-def read_again(data: memoryview, numbers: int, place: list[Any]) -> str:
-    """Compare a matrix that was read before with what the second reader finds in its file.
+def read_again(data: memoryview, numbers: int, places: list[list[Any]]) -> tuple[str, str]:
+    """Compare matrices that were read before with what the second reader finds in their file.
 
-    numbers: the memory file that `read` filled. place: path, shape, offset and numpy type of the
-    matrix. Returns what differs, or nothing.
+    numbers: the memory file that `read` filled. places: path, shape, offset and numpy type of
+    each matrix. Returns the path of the first that differs and what differs, or nothing twice.
     """
-    path, shape, offset, dtype = place
     if mat5.recognise(data) == "gzip":
         data = memoryview(inflate(data, len(data) * 1100 + (1 << 20)))
     size = os.fstat(numbers).st_size
     with_numbers = mmap.mmap(numbers, size, prot=mmap.PROT_READ)
-    flat = np.frombuffer(with_numbers, np.dtype(dtype), math.prod(shape), offset)
-    return second_reader.disagreement(data, path, flat.reshape(tuple(shape), order="F"))
+    loaded: dict[str, Any] = {}
+    for path, shape, offset, dtype in places:
+        flat = np.frombuffer(with_numbers, np.dtype(dtype), math.prod(shape), offset)
+        values = flat.reshape(tuple(shape), order="F")
+        problem = second_reader.disagreement(data, path, values, loaded)
+        if problem:
+            return path, problem
+    return "", ""
 
 
 def confine(request: dict[str, Any]) -> None:
@@ -207,7 +212,8 @@ def serve(source: int, target: int, numbers: int | None, request: dict[str, Any]
             form = read(data, request["name"], sink, limit)
             sink.finish(format=form, sha256=content.sha256(source))
         else:
-            sink.finish(problem=read_again(data, numbers, request["again"]))
+            path, problem = read_again(data, numbers, request["again"])
+            sink.finish(problem=problem, variable=path)
     except mat5.NotAWorkspace as error:
         sink.finish(code="unsupported_format", problem=str(error))
     except mat5.Damaged as error:
@@ -246,14 +252,14 @@ def work(descriptors: list[int], request: dict[str, Any]) -> None:
             raise Refused(finding("unreadable", file=name, problem=problem))
         numbers = os.memfd_create("variables", os.MFD_CLOEXEC)
         serve(copy, os.dup(numbers), None, request)
-        return content.collect(numbers, name, lambda place: again(copy, numbers, place))
+        return content.collect(numbers, name, lambda places: again(copy, numbers, places))
 
-    def again(source: int, numbers: int, place: content.Place) -> None:
+    def again(source: int, numbers: int, places: list[content.Place]) -> None:
         answer = os.memfd_create("second", os.MFD_CLOEXEC)
         status = forked(
-            lambda: serve(source, os.dup(answer), numbers, {**request, "again": place})
+            lambda: serve(source, os.dup(answer), numbers, {**request, "again": places})
         )
-        content.compare(status, answer, name, place, request["time"])
+        content.compare(status, answer, name, places, request["time"])
 
     with os.fdopen(task, "rb") as file:
         asked: results.Task = pickle.load(file)  # from the lab, not from the file
@@ -317,9 +323,9 @@ def warm_up() -> None:
         source.write(saved.getvalue())
         source.flush()
 
-        def again(place: content.Place) -> None:
-            serve(source.fileno(), os.dup(answer), numbers, {**request, "again": place})
-            content.compare(0, answer, "q.mat", place, 0.0)
+        def again(places: list[content.Place]) -> None:
+            serve(source.fileno(), os.dup(answer), numbers, {**request, "again": places})
+            content.compare(0, answer, "q.mat", places, 0.0)
 
         def found() -> Workspace:
             serve(source.fileno(), os.dup(numbers), None, request)

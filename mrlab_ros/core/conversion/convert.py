@@ -147,8 +147,7 @@ def convert(
         if any(n.severity is Severity.ERROR for n in notes):
             return _rejected(file, notes, variable)
         if workspace.confirm is not None:
-            for path in joining.sources(variable.path, options.join):
-                workspace.confirm(path)
+            workspace.confirm(joining.sources(variable.path, options.join))
         trajectory = Trajectory(
             id=trajectory_id,
             robot_model=robot.id,

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from functools import cached_property
 from typing import Any
 
 import numpy as np
@@ -66,20 +67,25 @@ class Variable:
 class Workspace:
     """The variables of a file in their order.
 
-    omitted: how many more there are than listed. confirm: reads the variable at a path a second
-    time, with another reader, and raises Refused unless both find the same bits; None where there
-    is no second reader.
+    omitted: how many more there are than listed. confirm: reads the variables at some paths a
+    second time, with another reader, and raises Refused unless both find the same bits; None
+    where there is no second reader.
     """
 
     file_format: str
     variables: tuple[Variable, ...]
     omitted: int = 0
     sha256: str = ""
-    confirm: Callable[[str], None] | None = None
+    confirm: Callable[[Sequence[str]], None] | None = None
 
     def find(self, path: str) -> Variable | None:
         """Return the variable with this path, or None."""
-        return next((v for v in self.variables if v.path == path), None)
+        return self._by_path.get(path)
+
+    @cached_property
+    def _by_path(self) -> dict[str, Variable]:
+        # the first of equal paths counts
+        return {v.path: v for v in reversed(self.variables)}
 
     def scalar(self, variable: Variable) -> float | None:
         """Return the number that `variable` holds where it holds exactly one, else None."""

@@ -187,24 +187,41 @@ def test_closing_ends_the_worker():
 def test_a_matrix_is_read_again_by_a_second_reader(reader, name, monkeypatch):
     data = saved(s={"q": Q}, q=Q + 1)
     workspace = reader.read_bytes(gzip.compress(data) if name.endswith("gz") else data, name)
-    workspace.confirm("s.q")
-    workspace.confirm("q")
-    workspace.confirm("no such variable")
+    workspace.confirm(["s.q", "q"])
+    workspace.confirm(["no such variable"])
     place = workspace.confirm._places["q"]
     monkeypatch.setitem(workspace.confirm._places, "q", ["s.q", *place[1:]])
-    found = refusal(workspace.confirm, "q")
+    found = refusal(workspace.confirm, ["q"])
     assert found.code == "readers_disagree"
     assert "scipy finds 0.0 where 1.0 was read" in found.message
+
+
+def test_thousands_of_pieces_are_read_again_in_a_few_requests(reader, monkeypatch):
+    pieces = np.empty((1, 1500), object)
+    for i in range(1500):
+        pieces[0, i] = np.full((1, 6), i, dtype=float)
+    workspace = reader.read_bytes(saved(c=pieces), "traj.mat")
+    asked = []
+    ask = reader._ask
+    monkeypatch.setattr(reader, "_ask", lambda *a, **m: asked.append(a) or ask(*a, **m))
+    paths = [f"c{{{i}}}" for i in range(1, 1501)]
+    workspace.confirm(paths)
+    assert 1 < len(asked) < 10
+    place = workspace.confirm._places["c{1400}"]
+    monkeypatch.setitem(workspace.confirm._places, "c{1400}", ["c{1399}", *place[1:]])
+    found = refusal(workspace.confirm, paths)
+    assert found.code == "readers_disagree"
+    assert found.variable == "c{1399}"
 
 
 def test_a_crash_of_the_second_reader_refuses_the_file(reader, monkeypatch):
     workspace = reader.read_bytes(saved(q=Q), "traj.mat")
     monkeypatch.setattr(reader, "_ask", lambda *_, **__: -signal.SIGSEGV)
-    found = refusal(workspace.confirm, "q")
+    found = refusal(workspace.confirm, ["q"])
     assert found.code == "readers_disagree"
     assert "crashed on it (signal 11" in found.message
     monkeypatch.setattr(reader, "_ask", lambda *_, **__: None)
-    assert refusal(workspace.confirm, "q").code == "too_slow"
+    assert refusal(workspace.confirm, ["q"]).code == "too_slow"
 
 
 def test_what_a_workspace_needs_to_be_read_again_goes_with_it(reader):
@@ -222,5 +239,5 @@ def test_a_file_that_is_cut_after_it_was_read_is_refused(reader, tmp_path):
     path.write_bytes(saved(q=np.random.default_rng(0).normal(size=(20_000, 6))))
     workspace = reader.read_file(path)
     os.truncate(path, 200)
-    assert refusal(workspace.confirm, "q").code == "readers_disagree"
+    assert refusal(workspace.confirm, ["q"]).code == "readers_disagree"
     assert refusal(reader.read_file, path).code == "unreadable"

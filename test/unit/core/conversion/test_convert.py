@@ -425,12 +425,12 @@ def test_the_matrix_that_is_taken_is_confirmed_by_a_second_reader():
         )
 
     assert run().outcome is Outcome.ACCEPTED
-    assert asked == ["q"]
+    assert asked == [["q"]]
     assert joining.sources("q(1:9, :)", "") == ["q"]
     assert joining.sources("q1..q3", "q1..q3") == ["q1", "q2", "q3"]
 
-    def differs(path):
-        raise Refused(finding("readers_disagree", file="traj.mat", variable=path, problem="x"))
+    def differs(paths):
+        raise Refused(finding("readers_disagree", file="traj.mat", variable=paths[0], problem="x"))
 
     workspace = replace(workspace, confirm=differs)
     assert run().diagnostics[0].code == "readers_disagree"
