@@ -20,7 +20,7 @@ class Collisions:
     """Observes contacts of all arms with objects, surfaces, each other and themselves."""
 
     def __init__(self, state: WorldState) -> None:
-        self._state = state
+        self._world_state = state
         self._engine = state.engine
         self._contacts: dict[tuple[str, str, Kind, str, str], Contact] = {}
 
@@ -44,27 +44,27 @@ class Collisions:
             known = self._contacts.get(key)
             if known is None or touch.impulse > known.touch.impulse:
                 self._contacts[key] = contact
-            if self._state.counts(robot, touch):
+            if self._world_state.counts(robot, touch):
                 robot.partners.add((touch.kind, touch.other))
                 if first is None or touch.depth > first.touch.depth:
                     first = contact
         if first is not None:
             begins = robot.clearance.touched()
             if begins or robot.raise_again:
-                self._state.events.append(
+                self._world_state.events.append(
                     CollisionChanged(now_ns, robot.name, True, first, -first.touch.depth)
                 )
             robot.raise_again = False
 
     def check_clearance(self, robot: Robot, now_ns: int) -> None:
         """Announce a collision that is over; stop tolerating surfaces that the arm has left."""
-        far = 2 * self._state.settings.clear_margin
+        far = 2 * self._world_state.settings.clear_margin
         for name in list(robot.tolerated):
             if self._engine.distance(robot.name, Kind.SURFACE, name, far) >= far / 2:
                 robot.tolerated.discard(name)
         if robot.clearance.state is Halt.CLEAR:
             return
-        if any(self._state.counts(robot, touch) for touch in robot.touches):
+        if any(self._world_state.counts(robot, touch) for touch in robot.touches):
             return
         nearest = far
         for kind, other in robot.partners:
@@ -74,7 +74,9 @@ class Collisions:
             nearest = min(nearest, self._engine.distance(robot.name, kind, other, far))
         if robot.clearance.apart(now_ns, nearest):
             robot.partners.clear()
-            self._state.events.append(CollisionChanged(now_ns, robot.name, False, None, nearest))
+            self._world_state.events.append(
+                CollisionChanged(now_ns, robot.name, False, None, nearest)
+            )
 
     # the room -------------------------------------------------------------------------------
 
@@ -89,8 +91,8 @@ class Collisions:
             raise BadInput("two surfaces have the same name; give each its own")
         if not any(surface.label == rooms.FLOOR for surface in new):
             wanted.setdefault(rooms.FLOOR, rooms.floor())
-        most = self._state.settings.max_triangles
-        before = self._state.surfaces
+        most = self._world_state.settings.max_triangles
+        before = self._world_state.surfaces
         # A headset sends the whole room repeatedly: unchanged surfaces stay.
         kept = {n for n, s in wanted.items() if n in before and _alike(s, before[n])}
         bodies = {n: rooms.body(s, most) for n, s in wanted.items() if n not in kept}
@@ -99,9 +101,9 @@ class Collisions:
                 self._engine.remove_surface(name)
         for name, body in bodies.items():
             self._engine.add_surface(name, body, wanted[name].pose)
-        self._state.surfaces = wanted
+        self._world_state.surfaces = wanted
         found: set[str] = set()
-        for robot in self._state.robots.values():
+        for robot in self._world_state.robots.values():
             robot.tolerated.clear()
             found |= self.tolerate(robot)
         return tuple(sorted(found))
@@ -111,7 +113,7 @@ class Collisions:
         if robot.placed is not None:
             # Surfaces it already collides with are not tolerated.
             hit = {name for kind, name in robot.partners if kind is Kind.SURFACE}
-            for name in self._state.surfaces.keys() - hit:
+            for name in self._world_state.surfaces.keys() - hit:
                 if self._engine.distance(robot.name, Kind.SURFACE, name, 0.001) <= 0:
                     robot.tolerated.add(name)
         return robot.tolerated

@@ -23,14 +23,14 @@ class Grippers:
     """The grippers of all robots in the world."""
 
     def __init__(self, state: WorldState) -> None:
-        self._state = state
+        self._world_state = state
         self._engine = state.engine
 
     # by service -----------------------------------------------------------------------------
 
     def attach(self, name: str, object_name: str) -> None:
         """Fix an object to a robot's gripper where it is; raise Misuse where it cannot be."""
-        robot, thing = self._state.robot(name), self._state.object(object_name)
+        robot, thing = self._world_state.robot(name), self._world_state.object(object_name)
         if not thing.graspable:
             raise Misuse(f"'{object_name}' is fixed to the room; choose an object that moves")
         if robot.held:
@@ -41,7 +41,7 @@ class Grippers:
 
     def detach(self, name: str) -> str:
         """Detach what a robot holds; return the object's name."""
-        robot = self._state.robot(name)
+        robot = self._world_state.robot(name)
         if not robot.held:
             raise Misuse(f"'{name}' holds nothing; there is nothing to detach")
         held = robot.held
@@ -52,11 +52,11 @@ class Grippers:
 
     def _seize(self, robot: Robot, thing: SceneObject) -> None:
         self.take_away(thing)
-        hand = self._state.hand(robot).pose
+        hand = self._world_state.hand(robot).pose
         robot.in_hand = relative(hand, self._engine.object(thing.name).pose)
         self._engine.hold(robot.name, robot.arm.hand, thing.name)
         robot.held, thing.held_by, thing.hand = thing.name, robot.name, None
-        robot.held_since_ns = self._state.now_ns
+        robot.held_since_ns = self._world_state.now_ns
         robot.lost = ""
         robot.fire(GraspEvent.SEIZED)
         self._engine.drive_fingers(robot.name, robot.finger_velocities())
@@ -66,9 +66,9 @@ class Grippers:
         """Release what is held; the object keeps the gripper's velocity."""
         if not robot.held:
             return
-        thing = self._state.objects[robot.held]
+        thing = self._world_state.objects[robot.held]
         self._engine.release(thing.name)
-        hand = self._state.hand(robot)
+        hand = self._world_state.hand(robot)
         pose = self._engine.object(thing.name).pose
         arm = subtract(pose.position, hand.pose.position)
         linear = add(hand.linear, cross(hand.angular, arm))
@@ -84,19 +84,19 @@ class Grippers:
 
     def take_away(self, thing: SceneObject) -> None:
         """Take an object from the robot or person that holds it."""
-        if thing.held_by in self._state.robots:
-            self.lose(self._state.robots[thing.held_by])
+        if thing.held_by in self._world_state.robots:
+            self.lose(self._world_state.robots[thing.held_by])
         thing.held_by, thing.hand = "", None
 
     def carry(self, robot: Robot) -> None:
         """Place what the gripper holds after the arm was placed."""
         if robot.held and robot.in_hand is not None:
-            hand = self._state.hand(robot).pose
+            hand = self._world_state.hand(robot).pose
             self._engine.set_object(robot.held, BodyState(compose(hand, robot.in_hand)))
 
     def put_in_hand(self, robot: Robot, thing: SceneObject, in_hand: Pose) -> None:
         """Let a robot hold an object at `in_hand`: T_hand_object."""
-        hand = self._state.hand(robot).pose
+        hand = self._world_state.hand(robot).pose
         self._engine.set_object(thing.name, BodyState(compose(hand, in_hand)))
         if robot.held != thing.name:
             self._seize(robot, thing)
@@ -104,9 +104,9 @@ class Grippers:
     def announce(self, robot: Robot) -> None:
         """Add an event with the state of a gripper."""
         states = self._engine.fingers(robot.name)
-        self._state.events.append(
+        self._world_state.events.append(
             GraspChanged(
-                self._state.now_ns,
+                self._world_state.now_ns,
                 robot.name,
                 robot.grasp,
                 robot.held,
@@ -145,15 +145,17 @@ class Grippers:
         if robot.gripper is Gripper.VACUUM:
             reached = self._sucked(robot)
             waited = (now_ns - robot.closing_since_ns) / SECOND
-            shut = waited > self._state.settings.grasp_timeout
+            shut = waited > self._world_state.settings.grasp_timeout
         elif robot.gripper is Gripper.FINGERS and robot.grasp is Grasp.CLOSING:
             states = self._engine.fingers(robot.name)
             stalled = robot.watch.update(now_ns, states, robot.touches)
             if stalled:
                 reached = robot.watch.pinched(now_ns)
-            timeout = robot.watch.all_stalled_for(now_ns) > self._state.settings.grasp_timeout
+            timeout = (
+                robot.watch.all_stalled_for(now_ns) > self._world_state.settings.grasp_timeout
+            )
             shut = timeout or (bool(stalled) and robot.watch.shut(states))
-        thing = self._state.objects.get(reached) if reached is not None else None
+        thing = self._world_state.objects.get(reached) if reached is not None else None
         if thing is not None and thing.graspable and self._may_take(robot, thing):
             self._seize(robot, thing)
         elif shut and robot.fire(GraspEvent.SHUT):
@@ -162,7 +164,7 @@ class Grippers:
     def _may_take(self, robot: Robot, thing: SceneObject) -> bool:
         """Return whether a closed gripper may take an object: of two that close on it at the same
         time the first one keeps it; a gripper that closes later takes it over."""
-        holder = self._state.robots.get(thing.held_by)
+        holder = self._world_state.robots.get(thing.held_by)
         return holder is None or robot.closing_since_ns >= holder.held_since_ns
 
     def _sucked(self, robot: Robot) -> str | None:
@@ -171,7 +173,7 @@ class Grippers:
         What was taken from it is not grasped again before the next gripper command, or two cups
         on one object would take it from each other at every step.
         """
-        objects = self._state.objects
+        objects = self._world_state.objects
         reached = (
             touch.other
             for touch in robot.touches

@@ -29,7 +29,7 @@ class Inventory:
     """Adds and removes the objects of the world."""
 
     def __init__(self, state: WorldState, catalogue: Catalogue, grippers: Grippers) -> None:
-        self._state = state
+        self._world_state = state
         self._engine = state.engine
         self._objects = state.objects
         self._catalogue = catalogue
@@ -40,7 +40,7 @@ class Inventory:
         kind = self._catalogue.get(type_id)
         pose = Pose() if pose is None else pose
         checked_vector(pose.position, "the position", WORLD_SIZE)
-        taken = frozenset(self._objects) | frozenset(self._state.robots)
+        taken = frozenset(self._objects) | frozenset(self._world_state.robots)
         if not name:
             name = next(n for i in itertools.count(1) if (n := f"{type_id}_{i}") not in taken)
         checked_name(name, taken, "object")
@@ -52,7 +52,7 @@ class Inventory:
         return self._objects[name]
 
     def _make_room(self) -> None:
-        most = self._state.settings.max_objects
+        most = self._world_state.settings.max_objects
         if len(self._objects) < most:
             return
         oldest = next((o for o in self._objects.values() if not o.held_by), None)
@@ -92,7 +92,7 @@ class Inventory:
 
     def move(self, name: str, pose: Pose, linear: Vector, angular: Vector, *, held: bool) -> None:
         """Move an object: kinematic while `held`, else released there with the velocity given."""
-        thing = self._state.object(name)
+        thing = self._world_state.object(name)
         checked_vector(pose.position, "the position", WORLD_SIZE)
         checked_vector(linear, "the velocity", MAX_THROW)
         checked_vector(angular, "the angular velocity", MAX_SPIN)
@@ -109,7 +109,7 @@ class Inventory:
                 self._engine.set_object(thing.name, thing.hand)
 
     def remove(self, name: str) -> None:
-        thing = self._state.object(name)
+        thing = self._world_state.object(name)
         self._grippers.take_away(thing)
         self._engine.remove_object(name)
         del self._objects[name]
@@ -137,5 +137,5 @@ class Inventory:
         return motions
 
     def _announce(self, thing: SceneObject, why: str) -> None:
-        stage = self._state
+        stage = self._world_state
         stage.events.append(ObjectRemoved(stage.now_ns, thing.name, thing.type.id, why))

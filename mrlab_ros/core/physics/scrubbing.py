@@ -21,7 +21,7 @@ class Rewind:
     """Records and restores the objects along the runs of all robots."""
 
     def __init__(self, state: WorldState, grippers: Grippers) -> None:
-        self._state = state
+        self._world_state = state
         self._engine = state.engine
         self._grippers = grippers
 
@@ -35,7 +35,7 @@ class Rewind:
         if sought:
             snapshot = robot.snapshots.at(playing.clock.position)
             if snapshot is not None:
-                robot.pending = (self._state.now_ns + RESTORE_WAIT_NS, snapshot)
+                robot.pending = (self._world_state.now_ns + RESTORE_WAIT_NS, snapshot)
         if playing.state is State.PLAYING and (sought or before.state is not State.PLAYING):
             robot.snapshots.cut(playing.clock.position)
 
@@ -45,7 +45,7 @@ class Rewind:
         motions: of all movable objects. The robots share the snapshot.
         """
         kept: dict[str, ObjectSnapshot] = {}
-        for robot in self._state.robots.values():
+        for robot in self._world_state.robots.values():
             if robot.playing.state is not State.PLAYING or robot.pending is not None:
                 continue
             position = robot.playing.position(robot.stream.shown_ns(now_ns))
@@ -56,8 +56,8 @@ class Rewind:
     def _kept(self, motions: Mapping[str, BodyState]) -> dict[str, ObjectSnapshot]:
         kept = {}
         for name, motion in motions.items():
-            held_by = self._state.objects[name].held_by
-            holder = self._state.robots.get(held_by)
+            held_by = self._world_state.objects[name].held_by
+            holder = self._world_state.robots.get(held_by)
             kept[name] = ObjectSnapshot(motion, held_by, holder.in_hand if holder else None)
         return kept
 
@@ -70,10 +70,10 @@ class Rewind:
             self._grippers.let_go(robot)
             robot.fire(GraspEvent.LOST)
         for name, kept in snapshot.objects.items():
-            thing = self._state.objects.get(name)
+            thing = self._world_state.objects.get(name)
             if thing is None or thing.held_by not in ("", robot.name):
                 continue
-            holder = self._state.robots.get(kept.held_by)
+            holder = self._world_state.robots.get(kept.held_by)
             if holder is None or kept.in_hand is None:
                 if not kept.held_by and not thing.held_by:
                     self._engine.set_object(name, kept.motion)

@@ -42,12 +42,12 @@ class World:
     def __init__(self, engine: Engine, catalogue: Catalogue, settings: Settings) -> None:
         self._engine = engine
         self._settings = settings
-        self._state = WorldState(engine, settings)
-        self._robots = self._state.robots
-        self._grippers = Grippers(self._state)
-        self._inventory = Inventory(self._state, catalogue, self._grippers)
-        self._collisions = Collisions(self._state)
-        self._rewind = Rewind(self._state, self._grippers)
+        self._world_state = WorldState(engine, settings)
+        self._robots = self._world_state.robots
+        self._grippers = Grippers(self._world_state)
+        self._inventory = Inventory(self._world_state, catalogue, self._grippers)
+        self._collisions = Collisions(self._world_state)
+        self._rewind = Rewind(self._world_state, self._grippers)
         self._epoch_ns: int | None = None
         # now_ns of the last call of advance().
         self._called_ns = 0
@@ -61,15 +61,15 @@ class World:
     @property
     def now_ns(self) -> int:
         """The world's time: that of its last step."""
-        return self._state.now_ns
+        return self._world_state.now_ns
 
     @property
     def objects(self) -> tuple[SceneObject, ...]:
-        return tuple(self._state.objects.values())
+        return tuple(self._world_state.objects.values())
 
     @property
     def surfaces(self) -> tuple[Surface, ...]:
-        return tuple(self._state.surfaces.values())
+        return tuple(self._world_state.surfaces.values())
 
     @property
     def robots(self) -> tuple[str, ...]:
@@ -77,11 +77,11 @@ class World:
 
     def robot(self, name: str) -> Robot:
         """Return a robot; raise Misuse where there is none."""
-        return self._state.robot(name)
+        return self._world_state.robot(name)
 
     def object(self, name: str) -> SceneObject:
         """Return an object; raise Misuse where there is none."""
-        return self._state.object(name)
+        return self._world_state.object(name)
 
     def motion(self, name: str) -> BodyState:
         """Return an object's pose and velocity."""
@@ -89,11 +89,11 @@ class World:
 
     def hand(self, name: str) -> BodyState:
         """Return pose and velocity of the link that a robot's objects are fixed to."""
-        return self._state.hand(self.robot(name))
+        return self._world_state.hand(self.robot(name))
 
     def take_events(self) -> list[Event]:
         """Return the events since the last call, oldest first."""
-        taken, self._state.events = self._state.events, []
+        taken, self._world_state.events = self._world_state.events, []
         return taken
 
     def take_contacts(self) -> list[Contact]:
@@ -214,12 +214,12 @@ class World:
         most: steps in one call; the rest is left to the next one.
         """
         if self._epoch_ns is None:
-            self._epoch_ns = self._state.now_ns = self._called_ns = now_ns
+            self._epoch_ns = self._world_state.now_ns = self._called_ns = now_ns
         waited_ns = min(max(now_ns - self._called_ns, 0), STALL_NS)
         self._called_ns = now_ns
-        if now_ns < self._state.now_ns - SECOND:
+        if now_ns < self._world_state.now_ns - SECOND:
             # The clock was set back: continue from there.
-            self._shift(now_ns - self._state.now_ns)
+            self._shift(now_ns - self._world_state.now_ns)
             for robot in self._robots.values():
                 self._apply_due(robot, None)
         target_ns = now_ns
@@ -227,14 +227,14 @@ class World:
             until = robot.stream.known_until(now_ns, waited_ns)
             if until is not None and until < target_ns:
                 target_ns = until
-        behind_ns = target_ns - self._state.now_ns
+        behind_ns = target_ns - self._world_state.now_ns
         if behind_ns > self._settings.max_catch_up * SECOND:
             self.skipped_ns += behind_ns
             self._shift(behind_ns)
         made = 0
         while made != most and (stamp_ns := self._stamp(self._count + 1)) <= target_ns:
             self._count += 1
-            self._state.now_ns = stamp_ns
+            self._world_state.now_ns = stamp_ns
             self._step(stamp_ns)
             made += 1
         self.steps += made
@@ -244,7 +244,7 @@ class World:
         """Shift the world's clock."""
         assert self._epoch_ns is not None
         self._epoch_ns += by_ns
-        self._state.now_ns += by_ns
+        self._world_state.now_ns += by_ns
 
     def _step(self, now_ns: int) -> None:
         for robot in self._robots.values():

@@ -159,7 +159,9 @@ class RobotSystem:
                 now_ns,
                 [Order(m.robot, Command.SET_RATE, stamp_ns=since_ns, rate=rate) for m in running],
             )
-            self.clock = PlaybackClock(since_ns, self.clock.at(since_ns), rate)
+            # Until the tick that notices the end, the clock shows more than the duration.
+            position = min(self.clock.at(since_ns), self.duration)
+            self.clock = PlaybackClock(since_ns, position, rate)
         self.rate = rate
         self._order_due(now_ns)
 

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 import numpy as np
 import pytest
 from fakes import SECOND, StraightPlanner, make_model, make_trajectory
-from hypothesis import given, settings
+from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
 from mrlab_ros.core.errors import BadInput, IllegalEvent, LabError, Misuse
@@ -447,6 +447,18 @@ step = st.tuples(
 
 @settings(max_examples=150, deadline=None)
 @given(st.sampled_from(list(Mode)), st.sampled_from(list(Policy)), st.lists(step, max_size=25))
+@example(
+    Mode.PARALLEL,
+    Policy.HALT_ALL,
+    [
+        ("rate", "a", 0.65625),
+        ("play", "a", 0.59375),
+        ("play", "a", 0.765625),
+        ("play", "a", 0.671875),
+        ("play", "a", 0.34375),
+        ("rate", "a", 0.0),
+    ],
+)
 def test_whatever_happens_no_member_moves_while_the_system_stands_and_play_recovers(
     mode, policy, steps
 ):
