@@ -19,6 +19,9 @@ Array = NDArray[np.float64]
 Vector = tuple[float, float, float]
 Quaternion = tuple[float, float, float, float]
 
+# Objects and robots are at most this far from the origin along each axis, m.
+WORLD_SIZE = 100.0
+
 
 @dataclass(frozen=True)
 class Pose:

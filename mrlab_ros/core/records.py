@@ -119,7 +119,9 @@ def _number(value: object, limits: Range) -> float:
         number = float(value)  # type: ignore[arg-type]
     except OverflowError:
         raise ValueError from None
-    if not math.isfinite(number) or number not in limits:
+    if not math.isfinite(number):
+        raise ValueError("every number must be finite")
+    if number not in limits:
         raise ValueError
     return number
 

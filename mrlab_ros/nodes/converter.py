@@ -69,7 +69,7 @@ class ConverterNode(ParameterNode[ConverterParameters]):
         folder = Path(state) if state else Path.home() / ".local" / "share" / "mrlab"
         self._coefficients = load_coefficients(share.directory() / "config" / "torque_proxy.yaml")
         self._library = RobotLibrary(share.directory() / "robots")
-        self._store = TrajectoryStore(folder / "trajectories")
+        self._store = TrajectoryStore(folder / "trajectories", self.get_logger().error)
         self._pool = ConversionPool(self._limits())
         self._reads = ThreadPoolExecutor(max_workers=2, thread_name_prefix="catalogue")
         self._infos: dict[str, msg.TrajectoryInfo] = {}

@@ -229,7 +229,7 @@ class CoordinatorNode(ParameterNode[CoordinatorParameters]):
                 self._members[robot] = MemberClient(self, robot)
             system.prepare()
         except Exception:
-            self._do_dissolve(name, "could not be created")
+            self._do_dissolve(name, "")  # the answer says why
             raise
         self._offered[name] = [
             self.create_service(
@@ -282,7 +282,8 @@ class CoordinatorNode(ParameterNode[CoordinatorParameters]):
         for service in self._offered.pop(name, []):
             self.destroy_service(service)
         self._publish()
-        self.get_logger().info(f"system {name}: {why}")
+        if why:
+            self.get_logger().info(f"system {name}: {why}")
         return f"{name} is dissolved"
 
     def _play(self, system: RobotSystem, request: Any) -> str:

@@ -267,6 +267,31 @@ def test_systems_come_back_where_only_the_coordinator_s_process_died(graph, lab,
     done(graph.call(Trigger, "/cell/play", timeout=30))
 
 
+def test_what_refers_to_a_missing_trajectory_is_named_once_and_a_copy_is_kept(
+    graph, lab, tmp_path, capfd
+):
+    robots = furnish(graph, lab)
+    for node in (lab.lab, lab.coordinator, lab.host):
+        graph.drop(node)
+    before = lab.file.read_text().replace('"kuka"', '"gone"')
+    lab.file.write_text(before)
+    capfd.readouterr()
+    graph.add(LabNode, state_dir=str(tmp_path))
+    graph.add(PlaybackHostNode)
+    graph.add(CoordinatorNode)
+    wait_for(lambda: list(tmp_path.glob("scene.json.damaged-*")), "the copy", 30)
+    (aside,) = tmp_path.glob("scene.json.damaged-*")
+    kept = json.loads(aside.read_text())
+    assert [entry["name"] for entry in kept["systems"]] == ["cell"]
+    assert kept["systems"][0]["members"][1]["trajectory"] == "gone"
+    wait_for(lambda: not json.loads(lab.file.read_text())["systems"], "the file without it")
+    said = capfd.readouterr().err
+    assert said.count("cell") == 1, said
+    assert "cannot create the system cell" in said
+    assert aside.name in said
+    assert names(lab) == [robots.alone, *robots.members]
+
+
 def damaged(path: Path, text: str | bytes) -> None:
     path.write_bytes(text if isinstance(text, bytes) else text.encode())
 

@@ -12,6 +12,7 @@ from pathlib import Path
 
 import yaml
 
+from mrlab_ros.adapters.yaml_files import Loader
 from mrlab_ros.core.errors import BadInput
 from mrlab_ros.core.naming import NAME, did_you_mean
 from mrlab_ros.core.scene import document as scene_document
@@ -65,7 +66,6 @@ def read(path: Path) -> SceneDocument:
 
 def content(path: Path) -> object:
     """Return what a YAML or JSON file holds; raise BadInput where it is not one."""
-    loader = getattr(yaml, "CSafeLoader", yaml.SafeLoader)
     if not path.is_file():
         # Reading a pipe would wait for ever.
         what = "a folder" if path.is_dir() else "no file" if path.exists() else "missing"
@@ -73,7 +73,7 @@ def content(path: Path) -> object:
     try:
         data = path.read_bytes()
         as_json = path.suffix == ".json"
-        return json.loads(data) if as_json else yaml.load(data, Loader=loader)
+        return json.loads(data) if as_json else yaml.load(data, Loader=Loader)
     except OSError as error:
         raise BadInput(f"{path.name} cannot be read: {error.strerror}") from None
     except (ValueError, yaml.YAMLError, RecursionError) as error:

@@ -3,12 +3,11 @@
 from __future__ import annotations
 
 import os
-import shutil
-import time
 from collections.abc import Callable
 from pathlib import Path
 
 from mrlab_ros.adapters.scenes import files
+from mrlab_ros.adapters.set_aside import set_aside
 from mrlab_ros.core.errors import BadInput
 from mrlab_ros.core.scene import document
 from mrlab_ros.core.scene.document import SceneDocument
@@ -41,7 +40,7 @@ class StateFile:
                 files.content(path), path.name, whole=self._whole
             )
         except BadInput as error:
-            self._log(f"{error}. {_set_aside(path)}; the lab starts without it")
+            self._log(f"{error}. {set_aside(path)}; the lab starts without it")
             return None
         if mistakes:
             self.keep_copy(f"left out of {path}: {'; '.join(mistakes)}")
@@ -50,7 +49,7 @@ class StateFile:
     def keep_copy(self, why: str) -> None:
         """Log why a part of the file is left out; copy it, as the next save() replaces it."""
         if self._path is not None:
-            self._log(f"{why}. {_set_aside(self._path, copy=True)}")
+            self._log(f"{why}. {set_aside(self._path, copy=True)}")
 
     def save(self, scene: SceneDocument) -> bool:
         """Write the document where it differs from the last one; return whether it is kept.
@@ -69,21 +68,3 @@ class StateFile:
             return False
         self._saved, self._failed = scene, ""
         return True
-
-
-def _set_aside(path: Path, *, copy: bool = False) -> str:
-    """Rename or copy a damaged file to NAME.damaged-TIME; return a sentence that says so."""
-    stamp = time.strftime("%Y-%m-%dT%H-%M-%S")
-    number = 1
-    aside = path.with_name(f"{path.name}.damaged-{stamp}")
-    while os.path.lexists(aside):
-        number += 1
-        aside = path.with_name(f"{path.name}.damaged-{stamp}-{number}")
-    try:
-        if copy:
-            shutil.copy2(path, aside)
-        else:
-            path.rename(aside)
-    except OSError as error:
-        return f"It cannot be set aside: {error.strerror}"
-    return f"The file is {'kept as' if copy else 'now'} {aside.name}"

@@ -24,6 +24,7 @@ import numpy as np
 import orjson
 from numpy.typing import NDArray
 
+from mrlab_ros.adapters.set_aside import set_aside
 from mrlab_ros.adapters.trajectories import json_file
 from mrlab_ros.core.errors import BadInput
 from mrlab_ros.core.naming import did_you_mean
@@ -219,13 +220,25 @@ class TrajectoryStore:
     too: it becomes an npz when it is first read, and the JSON is moved to the folder `imported`.
     """
 
-    def __init__(self, folder: Path) -> None:
+    def __init__(self, folder: Path, log: Callable[[str], None] = lambda text: None) -> None:
+        """Make the folder; what is there in its place is renamed, and `log` takes a sentence.
+
+        Raises BadInput where the folder cannot be made.
+        """
         self.folder = folder
         self._lock = threading.Lock()
         # What was verified as a whole, by path: identity of the file, so that parts of it can be
         # read without reading all of it each time.
         self._verified: dict[Path, tuple[int, int, int]] = {}
-        folder.mkdir(parents=True, exist_ok=True)
+        if os.path.lexists(folder) and not folder.is_dir():
+            log(f"{folder} is no folder; expected the folder of the trajectories. "
+                f"{set_aside(folder)}; the catalogue starts empty")  # fmt: skip
+        try:
+            folder.mkdir(parents=True, exist_ok=True)
+        except OSError as error:
+            raise BadInput(
+                f"the folder {folder} cannot be made: {error.strerror}; choose another state_dir"
+            ) from None
         for path in folder.glob(f"{TEMPORARY}*"):
             with contextlib.suppress(OSError):
                 if path.stat().st_mtime < time.time() - STALE_AFTER_S:
@@ -258,6 +271,8 @@ class TrajectoryStore:
 
         def commit(trajectory_id: str) -> None:
             file.flush()
+            if self.path(trajectory_id).is_dir():
+                self._move_away(self.path(trajectory_id))
             os.replace(name, self.path(trajectory_id))
             self._json_path(trajectory_id).unlink(missing_ok=True)
 
@@ -341,6 +356,12 @@ class TrajectoryStore:
             for path in (self.path(trajectory_id), self._json_path(trajectory_id)):
                 if path.is_file():
                     return path
+                if os.path.lexists(path):
+                    aside = self._move_away(path)
+                    what = "a folder" if aside.is_dir() else "no file"
+                    raise Damaged(
+                        f"'{path.name}' is {what}, not a trajectory; it was moved to {aside}"
+                    )
         ids = self.ids()
         raise BadInput(
             f"there is no trajectory '{trajectory_id}'; there are: "
@@ -358,12 +379,16 @@ class TrajectoryStore:
         except BadInput as error:
             if not isinstance(error, Damaged) and path.suffix != JSON_SUFFIX:
                 raise
-            folder = self.folder / DAMAGED
-            folder.mkdir(exist_ok=True)
-            aside = _unused(folder / path.name)
-            with contextlib.suppress(FileNotFoundError):
-                os.replace(path, aside)
-            raise Damaged(f"{error}; it was moved to {aside}") from error
+            raise Damaged(f"{error}; it was moved to {self._move_away(path)}") from error
+
+    def _move_away(self, path: Path) -> Path:
+        """Move a path into the folder of damaged files; return where it is then."""
+        folder = self.folder / DAMAGED
+        folder.mkdir(exist_ok=True)
+        aside = _unused(folder / path.name)
+        with contextlib.suppress(FileNotFoundError):
+            os.replace(path, aside)
+        return aside
 
 
 def _unused(path: Path) -> Path:

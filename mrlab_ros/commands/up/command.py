@@ -216,7 +216,13 @@ def stay_on_this_machine() -> None:
 def folder_for_state(chosen: Path | None) -> Iterator[Path]:
     """Make the folder for scene and trajectories; a temporary one goes with the lab."""
     if chosen is not None:
-        chosen.mkdir(parents=True, exist_ok=True)
+        try:
+            chosen.mkdir(parents=True, exist_ok=True)
+        except OSError as error:
+            raise BadInput(
+                f"--state-dir {chosen} cannot be used: {error.strerror}; expected a folder, or a "
+                "path where one can be made"
+            ) from None
         yield chosen.resolve()
         return
     with tempfile.TemporaryDirectory(prefix="mrlab-", ignore_cleanup_errors=True) as made:

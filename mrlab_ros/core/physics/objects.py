@@ -6,7 +6,7 @@ import itertools
 import math
 
 from mrlab_ros.core.errors import Misuse
-from mrlab_ros.core.geometry import Pose, Vector, add, checked_vector
+from mrlab_ros.core.geometry import WORLD_SIZE, Pose, Vector, add, checked_vector
 from mrlab_ros.core.naming import checked_name
 from mrlab_ros.core.physics.catalogue import Catalogue, ObjectType
 from mrlab_ros.core.physics.engine import BodyState
@@ -14,8 +14,7 @@ from mrlab_ros.core.physics.events import ObjectRemoved
 from mrlab_ros.core.physics.grippers import Grippers
 from mrlab_ros.core.physics.world_state import HAND, SceneObject, WorldState
 
-# An object this far away, m, or this far below the floor, m, is removed.
-WORLD_SIZE = 100.0
+# An object beyond WORLD_SIZE, or this far below the floor, m, is removed.
 WORLD_DEPTH = 10.0
 # Largest velocity with which a person can throw, m/s.
 MAX_THROW = 30.0

@@ -14,7 +14,7 @@ from typing import Any, TypeVar
 import numpy as np
 
 from mrlab_ros.core.errors import BadInput
-from mrlab_ros.core.geometry import Pose
+from mrlab_ros.core.geometry import WORLD_SIZE, Pose
 from mrlab_ros.core.naming import checked_name
 from mrlab_ros.core.physics.surfaces import Surface
 from mrlab_ros.core.records import (
@@ -25,6 +25,7 @@ from mrlab_ros.core.records import (
     Matrix,
     Numbers,
     Record,
+    between,
     raise_all,
     shown,
     unknown_field,
@@ -50,6 +51,7 @@ ROBOT_FIELDS = (
 OBJECT_FIELDS = ("name", "type", "automatic", *POSE_FIELDS, "held_by", "in_hand")
 SURFACE_FIELDS = ("name", "label", *POSE_FIELDS, "vertices", "triangles")
 VECTOR, QUATERNION = Numbers(3), Numbers(4)
+PLACE = Numbers(3, between(-WORLD_SIZE, WORLD_SIZE), "m")
 VERTICES, TRIANGLES = Matrix(3), Matrix(3, whole=True)
 
 
@@ -180,11 +182,11 @@ def _plain_pose(pose: Pose) -> dict[str, list[float]]:
 
 def _read(document: object, origin: str, whole: bool) -> tuple[SceneDocument, list[str]]:
     """Return what is intact of a document, and a sentence for each mistake."""
-    if isinstance(document, list):
+    if isinstance(document, list) and any(map(_names_model, document)):
         # The lab's state file, before it knew more than robots.
         document = {"robots": document}
-    if document is None and whole:
-        document = {}
+    if document is None or document == []:
+        raise BadInput(f"{origin} is empty; expected a mapping with the fields {', '.join(PARTS)}")
     if not isinstance(document, Mapping) or (document and {*PARTS}.isdisjoint(document)):
         if not whole:
             return SceneDocument(systems=(read_system(document, origin),)), []
@@ -225,6 +227,10 @@ def _read(document: object, origin: str, whole: bool) -> tuple[SceneDocument, li
         about,
     )
     return _consistent(scene, origin, whole, mistakes), mistakes
+
+
+def _names_model(entry: object) -> bool:
+    return isinstance(entry, Mapping) and "name" in entry and "model" in entry
 
 
 def _consistent(
@@ -305,8 +311,8 @@ def _unique(origin: str) -> Callable[[Surface], None]:
     return check
 
 
-def _pose(entry: Record) -> Pose:
-    x, y, z = entry.value("position", VECTOR, (0.0, 0.0, 0.0))
+def _pose(entry: Record, position: Numbers = VECTOR) -> Pose:
+    x, y, z = entry.value("position", position, (0.0, 0.0, 0.0))
     a, b, c, d = entry.value("orientation", QUATERNION, (0.0, 0.0, 0.0, 1.0))
     try:
         return Pose((x, y, z), (a, b, c, d))
@@ -320,7 +326,7 @@ def _robot(value: object, place: str) -> RobotEntry:
         entry.required("name", NAME),
         entry.required("model", NAME),
         entry.value("end_effector", TEXT, ""),
-        _pose(entry),
+        _pose(entry, PLACE),
         entry.value("trajectory", TEXT, ""),
         entry.value("at", POSITION, 0.0),
         entry.value("rate", RATE, 1.0),

@@ -6,6 +6,7 @@ back. Nothing here acts: the lab node checks a plan's document, then runs its st
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 
@@ -242,7 +243,8 @@ def check_trajectories(
             if robot.at > loaded.duration:
                 raise BadInput(
                     f"the scene wants {robot.name} at {robot.at:g} s of '{robot.trajectory}', "
-                    f"which lasts {loaded.duration:g} s; convert that trajectory's file again"
+                    f"which lasts {loaded.duration:g} s; set at to "
+                    f"{math.floor(loaded.duration * 1000) / 1000} at most"
                 )
     for system in wanted.systems:
         members = []

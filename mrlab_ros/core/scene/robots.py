@@ -8,7 +8,7 @@ from dataclasses import dataclass, replace
 from functools import cache
 
 from mrlab_ros.core.errors import Misuse
-from mrlab_ros.core.geometry import Pose
+from mrlab_ros.core.geometry import WORLD_SIZE, Pose, checked_vector
 from mrlab_ros.core.naming import checked_name, did_you_mean
 
 # Robots placed automatically stand this share of their reaches apart, so that two arms can meet
@@ -81,12 +81,15 @@ class Scene:
         )
 
     def spawn(self, robot: PlacedRobot) -> PlacedRobot:
-        """Add `robot`; raise BadInput where its name cannot be used."""
+        """Add `robot`; raise BadInput where its name or its position cannot be used."""
+        checked_vector(robot.pose.position, "the position", WORLD_SIZE)
         checked_name(robot.name, frozenset(self._robots), "robot")
         self._robots[robot.name] = robot
         return robot
 
     def place(self, name: str, pose: Pose) -> PlacedRobot:
+        """Set the pose of a robot; raise BadInput where it is outside the room."""
+        checked_vector(pose.position, "the position", WORLD_SIZE)
         self._robots[name] = replace(self.robot(name), pose=pose)
         return self._robots[name]
 

@@ -92,7 +92,11 @@ class LabNode(ParameterNode[LabParameters]):
                 self._spawn(model, None, "", None)
             last = SceneDocument()
         self._return = Return(
-            self._restore_robots(last), self._restore, self._observer, log.warning
+            self._restore_robots(last),
+            self._restore,
+            self._observer,
+            log.warning,
+            self._file.keep_copy,
         )
         self._announce()
         for kind, name, callback in (
@@ -201,11 +205,17 @@ class LabNode(ParameterNode[LabParameters]):
                 mistakes.append(f"{robot.name}: {error}")
             else:
                 restored.append(robot)
+        intact = self_contained(replace(last, robots=tuple(restored)))
+        mistakes += [
+            f"{system.name}: its robots are not all there"
+            for system in last.systems
+            if system not in intact.systems
+        ]
         if mistakes:
             self._file.keep_copy(f"left out of the last run: {'; '.join(mistakes)}")
         if restored:
             self.get_logger().info(f"the scene is back: {counted(restored, 'robot')}")
-        return self_contained(replace(last, robots=tuple(restored)))
+        return intact
 
     # services ---------------------------------------------------------------------------------
 

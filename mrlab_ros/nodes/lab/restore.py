@@ -188,7 +188,8 @@ class Return:
     """Brings back, in a thread of its own, what robots had loaded and the systems there were.
 
     The lab's robots are there already; their playbacks and the coordinator may still be starting.
-    log: takes what cannot be brought back.
+    log: takes what may come back at the next start. lose: takes, once, what cannot be brought
+    back, before it is left out of the state file.
     """
 
     def __init__(
@@ -197,6 +198,7 @@ class Return:
         restore: LabRestore,
         observer: Observer,
         log: Callable[[str], None],
+        lose: Callable[[str], None],
     ) -> None:
         loaded = tuple(r for r in wanted.robots if r.trajectory and r.name not in wanted.driven)
         # What is not back yet; a state file that is written meanwhile must still hold it.
@@ -205,6 +207,7 @@ class Return:
         self._restore = restore
         self._observer = observer
         self._log = log
+        self._lose = lose
         self._cancelled = threading.Event()
         self._thread = threading.Thread(target=self._run, name="return", daemon=True)
 
@@ -249,6 +252,7 @@ class Return:
             robots=tuple(step.robot for step in steps if isinstance(step, LoadTrajectory)),
             systems=tuple(step.system for step in steps if isinstance(step, CreateSystem)),
         )
+        lost: list[tuple[Step, LabError]] = []
         for step in steps:
             if self._cancelled.is_set():
                 return
@@ -258,12 +262,17 @@ class Return:
                 # It stays pending: the next start tries again.
                 self._warn(f"cannot {step}: {error}")
             except LabError as error:
-                self._warn(f"cannot {step}: {error}")
-                self._done(step)
+                lost.append((step, error))
             except Exception as error:
                 # The graph was left beneath it.
                 self._warn(f"cannot {step}: {error!r}")
             else:
+                self._done(step)
+        if lost and not self._cancelled.is_set():
+            # The state file still has what is lost: a copy is kept before it is written without.
+            reasons = "; ".join(f"cannot {step}: {error}" for step, error in lost)
+            self._lose(f"the lab is not as it was: {reasons}")
+            for step, _ in lost:
                 self._done(step)
 
     def _done(self, step: Step) -> None:

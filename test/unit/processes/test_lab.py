@@ -14,7 +14,7 @@ from typing import Any
 import mrlab_msgs.msg
 import pytest
 
-from mrlab_ros.commands.up.command import COLOURS
+from mrlab_ros.commands.up.command import COLOURS, folder_for_state
 from mrlab_ros.core.errors import BadInput
 from mrlab_ros.processes import physics_support
 from mrlab_ros.processes.lab import (
@@ -222,3 +222,10 @@ def test_the_launch_file_leaves_out_and_refuses_what_it_is_told_to(
     monkeypatch.setattr(physics_support, "missing", lambda: "pybullet is not installed")
     with pytest.raises(BadInput, match="there is no physics"):
         launched(physics="true")
+
+
+def test_a_file_given_as_the_state_folder_is_refused(tmp_path):
+    (tmp_path / "f").write_text("")
+    refused = pytest.raises(BadInput, match="cannot be used: .*expected a folder")
+    with refused, folder_for_state(tmp_path / "f"):
+        pass

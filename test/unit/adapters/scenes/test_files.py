@@ -65,7 +65,9 @@ def test_a_saved_scene_hides_the_shipped_one_and_leaves_no_other_file(tmp_path):
         ("systems: [{name: s, mode: 7}]", "members is empty"),
         ("systems: [{name: s, mode: 7, members: [{robot: a}]}]", "mode is 7; expected parallel"),
         ("robots: [5]\nobjects: 7", "has 2 mistakes"),
-        ("- 5", "robot 1 is 5; expected a mapping"),
+        ("- 5", "expected a mapping with the fields"),
+        ("", "bad.yaml is empty; expected a mapping"),
+        ("[]", "bad.yaml is empty; expected a mapping"),
         ("5", "is 5; expected a mapping"),
         ("[", "is not YAML"),
         ("\x00\x01", "is not YAML"),
@@ -90,3 +92,9 @@ def test_a_folder_in_place_of_a_scene_and_a_folder_that_cannot_be_written(tmp_pa
     (tmp_path / "file").write_text("")
     with pytest.raises(BadInput, match="cannot be written: "):
         SceneFiles(SHIPPED, tmp_path / "file").save("mine", SceneDocument())
+
+
+def test_a_number_with_an_exponent_is_a_number(tmp_path):
+    path = tmp_path / "scene.yaml"
+    path.write_text("robots: [{name: a, model: ur5e, position: [1e0, -2e-1, 0]}]")
+    assert parse(content(path), path.name).robots[0].pose.position == (1.0, -0.2, 0.0)

@@ -101,6 +101,9 @@ def pipe(path: Path) -> None:
 WHOLE = {
     "truncated": cut,
     "empty": lambda path: path.write_text(""),
+    "an empty list": lambda path: path.write_text("[]"),
+    "null alone": lambda path: path.write_text("null"),
+    "a list of others": lambda path: path.write_text("[7, {}]"),
     "no JSON": lambda path: path.write_text("robots: []"),
     "binary": lambda path: path.write_bytes(bytes(range(256)) * 8),
     "a number": lambda path: path.write_text("7"),

@@ -293,3 +293,30 @@ def test_readers_see_the_old_or_the_new_file_while_it_is_replaced(kept):
     reader.join()
     assert not failures
     assert seen <= {0.0, 1.0}
+
+
+def test_a_file_in_place_of_the_folder_is_renamed_and_named(tmp_path):
+    (tmp_path / "store").write_text("notes")
+    log: list[str] = []
+    kept = TrajectoryStore(tmp_path / "store", log.append)
+    assert kept.ids() == []
+    (aside,) = tmp_path.glob("store.damaged-*")
+    assert aside.read_text() == "notes"
+    (said,) = log
+    assert "store is no folder" in said
+    assert aside.name in said
+
+
+def test_a_folder_that_cannot_be_made_is_named(tmp_path):
+    (tmp_path / "state").write_text("")
+    with pytest.raises(BadInput, match="state_dir"):
+        TrajectoryStore(tmp_path / "state" / "store")
+
+
+def test_a_folder_named_like_a_trajectory_is_moved_away(tmp_path):
+    kept = TrajectoryStore(tmp_path)
+    (tmp_path / "foo.npz").mkdir()
+    with pytest.raises(Damaged, match=r"'foo.npz' is a folder, not a trajectory; it was moved"):
+        kept.head("foo")
+    assert kept.ids() == []
+    assert (tmp_path / "damaged" / "foo.npz").is_dir()

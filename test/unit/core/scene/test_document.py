@@ -54,6 +54,14 @@ ROBOT = {"name": "a", "model": "ur5e"}
     ("document", "says"),
     [
         ({"robots": [{**ROBOT, "at": -1}]}, "robot 1: at is -1; expected a number from 0"),
+        (
+            {"robots": [{**ROBOT, "position": [0, 1e6, 0]}]},
+            r"robot 1: position is .*; expected 3 numbers from -100 to 100 \(m\)",
+        ),
+        ({"robots": [{**ROBOT, "position": [float("nan"), 0, 0]}]}, "must be finite"),
+        (None, "scene is empty; expected a mapping with the fields"),
+        ([], "scene is empty; expected a mapping with the fields"),
+        ([{"cow": 1}], "expected a mapping with the fields"),
         ({"robots": [{**ROBOT, "speed": 1}]}, "robot 1: 'speed' is unknown; expected name, model"),
         ({"robots": [{**ROBOT, "name": "lab"}]}, "'lab' is a name of the lab's own"),
         ({"robots": [ROBOT], "objects": [{"name": "a", "type": "cube"}]}, "object a twice"),
@@ -109,6 +117,10 @@ def test_a_scene_that_contradicts_itself_is_refused(document, says):
         parse(document, "scene")
 
 
+def test_an_empty_mapping_is_an_empty_scene():
+    assert parse({}, "scene") == parse({"robots": []}, "scene") == SceneDocument()
+
+
 def test_all_mistakes_are_named_at_once_and_what_is_intact_can_be_had():
     document = {
         "robots": [ROBOT, {**ROBOT, "name": "b", "rate": 0}, 5],
@@ -128,4 +140,4 @@ def test_a_part_of_a_document_may_name_robots_of_elsewhere():
     held = {"name": "c", "type": "cube", "held_by": "a", "in_hand": {}}
     scene = parse({"objects": [held]}, "physics", whole=False)
     assert scene.objects[0].held_by == "a"
-    assert parse({}, "physics", whole=False) == parse(None, "empty") == SceneDocument()
+    assert parse({}, "physics", whole=False) == SceneDocument()

@@ -176,7 +176,10 @@ def system(*members: MemberEntry) -> SceneDocument:
             SceneDocument((replace(A, trajectory="x"),)),
             "wants a to play 'x', which the catalogue does not have for it; there are: wave, kick",
         ),
-        (SceneDocument((replace(A, at=1.5),)), "a at 1.5 s of 'wave', which lasts 1 s"),
+        (
+            SceneDocument((replace(A, at=1.5),)),
+            "of 'wave', which lasts 1 s; set at to 1.0 at most",
+        ),
         (system(MemberEntry("c")), "the system cell names no trajectory for c"),
         (system(MemberEntry("c", "x")), "wants c to play 'x'"),
         (

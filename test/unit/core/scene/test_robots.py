@@ -82,3 +82,14 @@ def test_an_unknown_robot_is_named_with_those_that_are_there(change):
 def test_a_pose_that_is_none_is_refused(position, orientation, says):
     with pytest.raises(BadInput, match=says):
         Pose(position, orientation)
+
+
+@pytest.mark.parametrize("position", [(1e6, 0, 0), (0, -100.5, 0), (0, 0, 1e300)])
+def test_a_robot_outside_the_room_is_refused(position):
+    scene = Scene()
+    arm = scene.spawn(robot(scene, name="arm"))
+    with pytest.raises(BadInput, match=r"the position is .*within \+-100"):
+        scene.place("arm", Pose(position))
+    with pytest.raises(BadInput, match=r"the position is .*within \+-100"):
+        scene.spawn(robot(scene, name="leg", pose=Pose(position)))
+    assert scene.robots == (arm,)
