@@ -178,7 +178,7 @@ def system(*members: MemberEntry) -> SceneDocument:
         ),
         (
             SceneDocument((replace(A, at=1.5),)),
-            "of 'wave', which lasts 1 s; set at to 1.0 at most",
+            "'wave', which lasts 1 s; set at to 1.0 at most",
         ),
         (system(MemberEntry("c")), "the system cell names no trajectory for c"),
         (system(MemberEntry("c", "x")), "wants c to play 'x'"),
