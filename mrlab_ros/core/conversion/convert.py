@@ -28,6 +28,7 @@ from mrlab_ros.core.conversion.layout import Chosen, Layout, lay_out, pick, resh
 from mrlab_ros.core.conversion.measuring import fits
 from mrlab_ros.core.conversion.options import Options
 from mrlab_ros.core.conversion.preview import Preview, preview
+from mrlab_ros.core.conversion.stated import with_headings, with_statements
 from mrlab_ros.core.conversion.survey import Survey, survey
 from mrlab_ros.core.conversion.workspace import Variable, Workspace
 from mrlab_ros.core.diagnostics import Diagnostic, Refused, Severity, finding
@@ -187,7 +188,7 @@ def _prepared(
 
     The second is the path of the matrix that the options name, or empty.
     """
-    workspace = split_tables(workspace, robot)
+    workspace = split_tables(with_headings(workspace, robot), robot)
     wanted = options.variable
     if options.join:
         joints = len(robot.joints)
@@ -196,7 +197,7 @@ def _prepared(
         wanted = wanted or whole.path
     if wanted and workspace.find(wanted) is None:
         workspace = joining.part_of(workspace, wanted) or workspace
-    return workspace, wanted
+    return with_statements(workspace, robot, options.join), wanted
 
 
 def _find(

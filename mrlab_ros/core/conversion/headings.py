@@ -8,12 +8,12 @@ from dataclasses import dataclass, replace
 
 from mrlab_ros.core.conversion.named_columns import names_joints
 from mrlab_ros.core.conversion.time_vectors import is_time_name
+from mrlab_ros.core.conversion.unit_names import DEGREES, against
 from mrlab_ros.core.conversion.variable_names import POSES, Hint, Name, describe
 from mrlab_ros.core.conversion.workspace import Variable, Workspace
 from mrlab_ros.core.robots.model import RobotModel
 
 BRACKETS = re.compile(r"\s*[\[({]\s*([^\])}]*?)\s*[\])}]\s*$")
-DEGREES = frozenset(("deg", "degree", "degrees", "grad", "°"))
 POINT = (("x", "y", "z"), ("px", "py", "pz"), ("posx", "posy", "posz"), ("tcpx", "tcpy", "tcpz"))
 MOST_HEADINGS = 2000
 
@@ -69,6 +69,9 @@ def describe_table(variable: Variable) -> Name | None:
     bare = [re.sub(r"[^a-z]", "", n) for n in names]
     if any(tuple(bare[i : i + 3]) in POINT for i in range(len(bare) - 2)):
         return Name(Hint.AGAINST, POSES)
+    foreign = foreign_quantity(variable.columns)
+    if foreign:
+        return Name(Hint.AGAINST, foreign)
     unit = "deg" if any(plain(h)[1] for h in variable.columns) else ""
     runs = groups(variable.columns)
     if is_whole(variable, runs):
@@ -80,9 +83,18 @@ def describe_table(variable: Variable) -> Name | None:
     return Name(Hint.NEUTRAL, "", unit)
 
 
+def foreign_quantity(headings: Sequence[str]) -> str:
+    """Return the quantity whose units most headings give, where joints have others; or empty."""
+    given = [h for h in headings if not is_time_name(plain(h)[0])]
+    matches = [BRACKETS.search(h) for h in given]
+    found = [what for what in (against(m[1]) for m in matches if m and m.start()) if what]
+    return found[0] if 2 * len(found) > len(given) else ""
+
+
 def plain_path(group: Group) -> str:
     """Return the path of a group without units, for its name."""
-    return f"{plain(group.headings[0])[0]}..{plain(group.headings[-1])[0]}"
+    first, last = (plain(h)[0].replace(".", "_") for h in (group.headings[0], group.headings[-1]))
+    return f"{first}..{last}"
 
 
 def is_whole(table: Variable, runs: list[Group]) -> bool:

@@ -7,16 +7,11 @@ from dataclasses import replace
 
 from mrlab_ros.core.conversion.headings import describe_table
 from mrlab_ros.core.conversion.named_columns import names_joints
+from mrlab_ros.core.conversion.unit_names import DEGREES, said_by_units
 from mrlab_ros.core.conversion.variable_names import (
-    ACCELERATIONS,
-    CURRENTS,
     ERRORS,
     OBSTACLES,
     PARAMETERS,
-    POSES,
-    TEMPERATURES,
-    TORQUES,
-    VELOCITIES,
     Hint,
     Name,
     describe,
@@ -25,15 +20,6 @@ from mrlab_ros.core.conversion.workspace import Variable
 from mrlab_ros.core.robots.model import RobotModel
 
 UNNAMED = ("CSV",)  # formats whose matrix is called q by the reader
-UNITS_AGAINST = {
-    VELOCITIES: frozenset(("rad/s", "deg/s", "°/s", "m/s", "mm/s", "rpm", "1/s")),
-    ACCELERATIONS: frozenset(("rad/s^2", "rad/s2", "deg/s^2", "deg/s2", "m/s^2", "m/s2")),
-    TORQUES: frozenset(("nm", "n*m", "n m", "n")),
-    CURRENTS: frozenset(("a", "ma")),
-    POSES: frozenset(("m", "mm", "cm")),
-    TEMPERATURES: frozenset(("°c", "degc", "k")),
-}
-DEGREES = frozenset(("deg", "degree", "degrees", "°"))
 ANGLES = DEGREES | {"rad", "radian", "radians"}
 # Quantities that are angles as joint positions are: an angle as unit does not tell them apart.
 STAYS_DOUBTFUL = frozenset((ERRORS, OBSTACLES, PARAMETERS))
@@ -80,14 +66,3 @@ def _overruled(said: Name, variable: Variable) -> Name:
         return of_label
     units = {u.strip().lower().strip("[]()") for u in variable.units if u.strip()}
     return Name(Hint.TWO_FACED) if units and units <= ANGLES else said
-
-
-def said_by_units(given: tuple[str, ...]) -> Name:
-    plain = {u.strip().lower().strip("[]()") for u in given if u.strip()}
-    if len(plain) != 1:
-        return Name(Hint.NEUTRAL)
-    unit = plain.pop()
-    for what, names in UNITS_AGAINST.items():
-        if unit in names:
-            return Name(Hint.AGAINST, what)
-    return Name(Hint.NEUTRAL, "", "deg" if unit in DEGREES else "")

@@ -18,7 +18,6 @@ from mrlab_ros.core.conversion.explain import (
     near_miss,
     time_finding,
 )
-from mrlab_ros.core.conversion.labels import said_by_units
 from mrlab_ros.core.conversion.measuring import fits
 from mrlab_ros.core.conversion.named_columns import names_joints, order
 from mrlab_ros.core.conversion.options import (
@@ -27,6 +26,7 @@ from mrlab_ros.core.conversion.options import (
     parse_columns,
 )
 from mrlab_ros.core.conversion.survey import Survey
+from mrlab_ros.core.conversion.unit_names import said_by_units
 from mrlab_ros.core.conversion.variable_names import parts, words
 from mrlab_ros.core.conversion.workspace import Variable, Workspace
 from mrlab_ros.core.diagnostics import Diagnostic, Fix, Refused, finding

@@ -6,7 +6,7 @@ from collections.abc import Iterable
 from dataclasses import replace
 
 from mrlab_ros.core.conversion.assessment import Assessment, blocking_clocks
-from mrlab_ros.core.conversion.labels import said_by_units
+from mrlab_ros.core.conversion.unit_names import said_by_units
 from mrlab_ros.core.conversion.variable_names import Hint
 from mrlab_ros.core.robots.model import RobotModel
 

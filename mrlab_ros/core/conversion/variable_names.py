@@ -117,7 +117,7 @@ AGAINST_PARTS = {
 }
 # German writes such words together: they count anywhere in a name.
 AGAINST_STEMS = {
-    VELOCITIES: ("geschwindigkeit", "drehzahl", "velocit", "speeds"),
+    VELOCITIES: ("geschwindigkeit", "drehzahl", "velocit", "speeds", "winkelgeschw"),
     ACCELERATIONS: ("beschleunigung", "accelerat"),
     TORQUES: ("drehmoment", "gelenkmoment", "achsmoment", "kraefte", "torque"),
     CURRENTS: ("motorstrom", "motorstroeme", "gelenkstrom", "achsstrom"),
@@ -131,6 +131,10 @@ AGAINST_PREFIXES = (
     ("ddq", ACCELERATIONS),
     ("ddtheta", ACCELERATIONS),
     ("dq", VELOCITIES),
+    ("ddphi", ACCELERATIONS),
+    ("dphi", VELOCITIES),
+    ("ddth", ACCELERATIONS),
+    ("dth", VELOCITIES),
     ("dtheta", VELOCITIES),
     ("thetadd", ACCELERATIONS),
     ("thetad", VELOCITIES),
@@ -152,6 +156,16 @@ DEGREE_PARTS = words("deg degs degree degrees grad")
 DEGREE_ENDINGS = ("deg", "degrees", "indeg", "ingrad", "grad")
 # what joints are called where each has a variable or a column of its own: A1 to A6, q1 to q6
 NUMBERED_JOINTS = words("q th theta j joint a axis achse gelenk winkel phi angle")
+# the symbols that a letter before or behind turns into another quantity
+SYMBOLS = words("q th theta phi joint joints gelenk achse winkel angle angles")
+BEFORE_SYMBOL = {
+    "v": (Hint.AGAINST, VELOCITIES),
+    "e": (Hint.AGAINST, ERRORS),
+    "a": (Hint.DOUBTFUL, ACCELERATIONS),
+    "t": (Hint.DOUBTFUL, TORQUES),
+}
+# q_punkt and q_p are how German lectures write a derivative; q_2p is the second one
+DOTTED = re.compile(r"(q|th|theta|phi|gelenk|winkel)(?P<two>2|zwei|doppel)?(punkt|p|pkt)$")
 UMLAUTS = str.maketrans({"ä": "ae", "ö": "oe", "ü": "ue", "ß": "ss"})
 # fields that only say "the values are in here"
 CONTAINER_TAIL = re.compile(
@@ -239,6 +253,9 @@ def _said_by(bare: str, whole: str, said: list[str], numbered: list[str]) -> tup
             return Hint.AGAINST, what
     if whole.endswith("dot"):
         return Hint.AGAINST, VELOCITIES
+    of_letter = _said_by_letter(bare, said)
+    if of_letter is not None:
+        return of_letter
     is_joint = bool(POSITION_PARTS.intersection(said))
     for what, names in AGAINST_PARTS.items():
         if names.intersection(said) or names.intersection(numbered[1:]):
@@ -254,3 +271,21 @@ def _said_by(bare: str, whole: str, said: list[str], numbered: list[str]) -> tup
     if bare in TWO_FACED or TWO_FACED_PARTS.intersection(said):
         return Hint.TWO_FACED, ""
     return Hint.NEUTRAL, ""
+
+
+def _said_by_letter(bare: str, said: list[str]) -> tuple[Hint, str] | None:
+    """Return what a letter or a dot beside a joint's symbol says: v_q, e_theta, thetaPunkt."""
+    dotted = DOTTED.match(bare)
+    if dotted is not None:
+        return Hint.AGAINST, ACCELERATIONS if dotted["two"] else VELOCITIES
+    said = [p for p in said if not p.isdigit()]
+    if len(said) != 2:
+        return None
+    first, last = said
+    if last == "tilde" or first == "tilde":
+        return Hint.AGAINST, ERRORS
+    if last in SYMBOLS and first in BEFORE_SYMBOL:
+        return BEFORE_SYMBOL[first]
+    if first in SYMBOLS and last == "v":
+        return Hint.AGAINST, VELOCITIES
+    return None

@@ -27,6 +27,8 @@ jointVelocities qVel qd_target.signals.values tool_vector.signals.values robot.q
 joint_torques target_speed phi_d1
 X qp qv omega thetad joint_speeds currents errors xyzrpy Gelenkgeschwindigkeit Drehmoment
 Motorstrom Regelabweichung actual_current actual_TCP_pose
+thetaPunkt phi_punkt qPunkt Winkelgeschw dTh dphi v_q v_q1 joint_v a_q q_2p e_q e_theta eTheta
+q_tilde qTilde qTilde1 T_joint
 """
 
 
