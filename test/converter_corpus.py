@@ -678,9 +678,55 @@ def grippers() -> Iterator[File]:
     yield File("seven_axes", "ur5e", mat(q=seven), ".mat", REFUSE)
 
 
+def clocks_and_rates_of_many_kinds() -> Iterator[File]:
+    q, n = wave(rate=500.0), 400
+    t = clock(n, 500.0)
+    right = {
+        "fs_int32": {"fs": np.int32(500)},
+        "fs_uint16": {"fs": np.uint16(500)},
+        "info_fs_uint16": {"info": {"fs": np.uint16(500)}},
+        "dt_ms_int32": {"dt_ms": np.int32(2)},
+        "time_us_uint64": {"time_us": np.rint(t * 1e6).astype(np.uint64)[:, None]},
+        "stamp_uint64": {
+            "stamp": np.rint(t * 1e9).astype(np.uint64)[:, None] + 1700000000 * 10**9
+        },
+    }
+    for name, more in right.items():
+        yield File(f"kind_{name}", "ur5e", mat(q=q, **more), ".mat", ACCEPT, 500.0, q)
+    flawed = t.copy()
+    flawed[100] = np.nan
+    doubtful = {
+        "t_nan": {"t": column(flawed)},
+        "t_descending": {"t": column(t[::-1])},
+        "t_constant": {"t": column(0 * t)},
+        "t_denormal": {"t": column(np.linspace(0, 1e-320, n))},
+        "t_pairs": {"t": np.column_stack([t, t])},
+        "dt_steps": {"dt": column(np.diff(t))},
+        "tspan": {"tspan": np.array([[0, t[-1]]])},
+        "fs_text": {"fs": "500 Hz"},
+        "fs_nan": {"fs": np.nan},
+        "fs_zero": {"fs": 0.0},
+        "fs_negative": {"fs": -500.0},
+        "fs_complex": {"fs": 500 + 1j},
+        "fs_kHz": {"fs_kHz": 0.5},
+        "fs_logical": {"fs": True},
+        "emg": {"emg": {"fs": 2000.0, "data": np.zeros((6000, 2))}},
+        "controller": {"controller": {"Ts": 1e-4, "Kp": 3.0}},
+        "cam": {"cam": {"t": column(np.linspace(0, 10, n))}},
+    }
+    for name, more in doubtful.items():
+        yield File(f"flaw_{name}", "ur5e", mat(q=q, **more), ".mat", NOT_SILENT, None, q)
+    ends = model("ur5e").home + np.array([[0], [0.6], [0.2], [0.6], [0]])
+    way = mat(q=ends, t=column([0, 2, 4, 6, 8]))
+    yield File("waypoints", "ur5e", way, ".mat", NOT_SILENT, None, ends)
+    held = np.column_stack([q, np.ones(n)])
+    yield File("gripper_one", "ur5e", mat(q=held, fs=500.0), ".mat", NOT_SILENT, None, q)
+
+
 MAKERS: tuple[Maker, ...] = (
     good_names, every_robot, neutral_names, foreign_names, time_columns, wide, companies,
     cartesian, units, rates, simulink, more_dimensions, rtde, tables, pieces, flaws, grippers,
+    clocks_and_rates_of_many_kinds,
 )  # fmt: skip
 
 

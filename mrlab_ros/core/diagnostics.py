@@ -103,6 +103,13 @@ KINDS: dict[str, Kind] = {
         "Copy the file again, or save it again in MATLAB: save('traj.mat', 'q').",
         SAVE_AGAIN,
     ),
+    "converter_failed": Kind(
+        ERROR,
+        "The converter itself failed on the file; nothing of it is taken, and the next file is.",
+        "The converter failed on '{file}' ({problem}); this is a fault of the converter.",
+        "Save only the trajectory: save('traj.mat', 'q'), and report the fault with the file.",
+        SAVE_AGAIN,
+    ),
     "reader_died": Kind(
         ERROR,
         "The process that reads files ended while reading this one; the lab goes on.",
@@ -362,6 +369,24 @@ KINDS: dict[str, Kind] = {
         "Save it with the trajectory: fs = 100; save('traj.mat', 'q', 'fs'), or use --rate.",
         (("frame_rate", "{rate:g}", "fs = {rate:g}; save('traj.mat', 'q', 'fs')"),),
     ),
+    "rate_unused": Kind(
+        WARNING,
+        "Times, a step or a rate of the file could not be used; the lab's default was taken.",
+        "'{variable}' is named as times or a rate of the rows, but was not used: {problem}; "
+        "{rate:g} rows a second were taken.",
+        "Save one rising time in seconds for each row, or the rate as a number: fs = 100; "
+        "save('traj.mat', 'q', 'fs'), or use --rate.",
+        (("frame_rate", "{rate:g}", "fs = {rate:g}; save('traj.mat', 'q', 'fs')"),),
+    ),
+    "waypoints": Kind(
+        WARNING,
+        "The rows are far apart, in time and in angle, as waypoints are; the robot would jump.",
+        "The rows of '{variable}' come at {rate:g} Hz and are up to {step:.3g} rad apart, the "
+        "most before row {row}: they are waypoints, between which the robot jumps.",
+        "Join them by straight lines with --resample --rate 100 (this needs their times), or "
+        "in MATLAB: q = interp1(t, q, (t(1):0.01:t(end))').",
+        (("resample", "true", "q = interp1(t, q, (t(1):0.01:t(end))'); fs = 100;"),),
+    ),
     "rate_found": Kind(
         INFO,
         "The frame rate was taken from a variable of the file.",
@@ -437,7 +462,7 @@ KINDS: dict[str, Kind] = {
         "The time '{variable}' goes back in {count}, the first is row {row}; the rows are played "
         "in their order at {rate:g} a second.",
         "Check whether two recordings were joined; sort the rows in MATLAB, or take one of them "
-        "(--variable 'q(1:{row}, :)').",
+        "(--variable 'q(1:{last}, :)').",
     ),
     # messages and tables that name their joints
     "joint_names": Kind(
@@ -472,8 +497,9 @@ KINDS: dict[str, Kind] = {
         ERROR,
         "A trajectory lasts too long for the rate.",
         "'{variable}' lasts {duration:g} s, which is more than {most} frames at {rate:g} Hz.",
-        "Check the time of its last point, or take a lower rate: --rate 10.",
-        (("frame_rate", "10", ""),),
+        "Check its times for a gap and the time of its last point; {lower:.3g} Hz at most would "
+        "fit.",
+        (("frame_rate", "{lower:.3g}", ""),),
     ),
     # against the robot
     "joint_limit": Kind(
@@ -527,6 +553,14 @@ KINDS: dict[str, Kind] = {
         INFO,
         "The gripper column never changes; the gripper stays open.",
         "The gripper column is {first:g} throughout; the gripper stays open.",
+    ),
+    "gripper_unmoved": Kind(
+        WARNING,
+        "The gripper column never changes and is not 0; it may be closed, or be a joint.",
+        "The gripper column is {first:g} throughout, which does not say open or closed; the "
+        "gripper stays open.",
+        "Save 0 for open and 1 for closed. If the column is a joint, choose a robot that has it, "
+        "or take the joints alone (--columns).",
     ),
     "gripper_beside": Kind(
         WARNING,

@@ -13,6 +13,7 @@ from typing import Any
 
 import numpy as np
 
+from mrlab_ros.adapters.workspaces.mat5 import INTEGERS
 from mrlab_ros.core.conversion.workspace import Variable, Workspace
 from mrlab_ros.core.diagnostics import Refused, finding
 
@@ -148,6 +149,9 @@ def _variable(
     values = None
     if offset >= 0:
         flat = np.frombuffer(numbers, np.dtype(dtype), math.prod(shape), offset)
+        if kind in INTEGERS:
+            # times and rates: their differences must not wrap
+            flat = flat.astype(np.float64)
         values = flat.reshape(tuple(shape), order="F")
     facts |= {name: tuple(facts[name]) for name in ("columns", "units")}
     return Variable(path, kind, tuple(shape), values, **facts)

@@ -87,10 +87,16 @@ CLASSES = {
     15: "uint64",
     FUNCTION: "function_handle",
 }
+INTEGERS = tuple(f"{sign}int{bits}" for bits in (8, 16, 32, 64) for sign in ("", "u"))
 UNREAD = (OBJECT, SPARSE, FUNCTION)  # classes whose contents are not read to the end
 COMPLEX_FLAG, LOGICAL_FLAG = 0x08, 0x02
 DEEPEST = 32
 LONGEST_TEXT = 200  # characters of a line of text that is kept
+
+
+def is_vector(shape: tuple[int, ...]) -> bool:
+    """Say whether an array is a scalar or a vector; of integers, such are rates and times."""
+    return len(shape) == 2 and 1 in shape and 0 not in shape
 
 
 def index(shape: tuple[int, ...], number: int) -> str:
@@ -372,7 +378,11 @@ class Mat5Reader:
             if self.inside_objects:
                 self.sink.add(path, kind, shape, data, self.order + dtype)
                 self.sink.add(path, kind, shape, more, self.order + imaginary)
-        elif kind in ("double", "single") or self.inside_objects:
+        elif (
+            kind in ("double", "single")
+            or self.inside_objects
+            or (kind in INTEGERS and is_vector(shape))
+        ):
             self.sink.add(path, kind, shape, data, self.order + dtype)
         else:
             truth = data[0] if kind == "logical" and len(data) == 1 else None

@@ -15,12 +15,14 @@ import numpy as np
 
 from mrlab_ros.adapters.workspaces.mat5 import (
     DEEPEST,
+    INTEGERS,
     LONGEST_TEXT,
     Damaged,
     NotAWorkspace,
     Sink,
     TooLarge,
     index,
+    is_vector,
 )
 
 
@@ -190,6 +192,7 @@ class _Reader:
             self.sink.add(path, kind, shape, text="true" if truth else "false")
             return
         wanted = kind in ("double", "single") or (self.inside_objects and kind != "char")
+        wanted = wanted or (kind in INTEGERS and is_vector(shape))
         if not wanted or item.dtype.kind not in "fiu":
             self.sink.add(path, kind, shape)
             return

@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import base64
 import json
+import traceback
 from collections.abc import Callable
 from dataclasses import dataclass, fields, is_dataclass, replace
 from enum import Enum
@@ -100,6 +101,10 @@ def run(
     except MemoryError:
         problem = MEMORY.format(memory / 2**20)
         result = refused(task.file, finding("too_large", file=task.file, problem=problem))
+    except Exception as error:
+        # one file may end neither a batch nor the converter
+        traceback.print_exc()
+        result = refused(task.file, unexpected(task.file, error))
     head = metadata(result.trajectory) if result.trajectory is not None else None
     small = replace(result, trajectory=None)
     document = {"result": _plain(small), "message": result.message, "head": head}
@@ -112,6 +117,12 @@ def parse(data: bytes) -> Converted:
     if "bad_input" in document:
         raise BadInput(document["bad_input"])
     return Converted(_record(document["result"]), document["message"], document["head"])
+
+
+def unexpected(file: str, error: Exception) -> Diagnostic:
+    """Return what is said of a file on which the converter itself fails."""
+    said = f"{type(error).__name__}: {error}" if str(error) else type(error).__name__
+    return finding("converter_failed", file=file, problem=said)
 
 
 def refused(file: str, why: Diagnostic) -> ConversionResult:

@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy as np
 
-from mrlab_ros.adapters.workspaces.mat5 import Damaged, Sink, TooLarge
+from mrlab_ros.adapters.workspaces.mat5 import INTEGERS, Damaged, Sink, TooLarge, is_vector
 from mrlab_ros.adapters.workspaces.view import View
 
 
@@ -20,7 +20,8 @@ def _add(sink: Sink, name: str, values: Any, columns: tuple[str, ...] = ()) -> N
         sink.add(name, "double", values.shape, note="complex")
         return
     shape = values.shape if values.ndim >= 2 else (values.size, 1)
-    data = np.asfortranarray(values).tobytes(order="F") if kind in ("double", "single") else None
+    kept = kind in ("double", "single") or (kind in INTEGERS and is_vector(shape))
+    data = np.asfortranarray(values).tobytes(order="F") if kept else None
     sink.add(name, kind, shape, data, values.dtype.str, columns=columns)
 
 

@@ -32,7 +32,7 @@ from mrlab_ros.adapters.workspaces.reader import (
     in_memory,
     opened,
 )
-from mrlab_ros.adapters.workspaces.results import Task, refused
+from mrlab_ros.adapters.workspaces.results import Task, refused, unexpected
 from mrlab_ros.commands.convert import report
 from mrlab_ros.core.conversion.convert import (
     DEFAULT_FRAME_RATE,
@@ -171,6 +171,10 @@ def _awaited(
         return source, task, future.result()
     except TooSlow as error:
         return source, task, refused(task.file, error.finding)
+    except (BadInput, Misuse):
+        raise
+    except Exception as error:
+        return source, task, refused(task.file, unexpected(task.file, error))
 
 
 Plotter = Callable[[ConversionResult, RobotModel, Path], None]

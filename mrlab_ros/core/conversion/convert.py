@@ -42,6 +42,8 @@ DEFAULT_FRAME_RATE = 100.0  # Hz
 MOST_FRAMES = 2_000_000  # of a message that is sampled: five hours and a half at 100 Hz
 MOST_ROWS = 5_000_000  # of a matrix, if not said otherwise: almost 14 hours at 100 Hz
 MOST_OWN_RATE = 10_000.0  # Hz; points that come more often are sampled at the default
+# Hz and rad (m): rows that come more slowly and are farther apart are waypoints
+WAYPOINT_RATE, WAYPOINT_STEP = 10.0, 0.1
 ID = re.compile(r"[A-Za-z0-9][A-Za-z0-9._-]{0,127}")
 
 
@@ -258,8 +260,32 @@ def _at_a_rate(
     found = frame_rate.find(survey, assessment, variable.path, rows, layout.times, default, file)
     if not options.resample:
         notes += found.notes
+        notes += _waypoints(variable.path, layout.arm, found.rate)
         return layout, found.rate
     return _made_even(variable.path, found, layout, options, notes)
+
+
+def _too_long(path: str, *, duration: float, rate: float) -> Diagnostic:
+    """Return what is said of rows that last too long for a rate: s, Hz."""
+    lower = 0.99 * (MOST_FRAMES - 1) / duration
+    words: dict[str, Any] = {"duration": duration, "rate": rate, "lower": lower}
+    found = finding("too_long", variable=path, most=MOST_FRAMES, **words)
+    # below that a gap is the fault, and no rate mends it
+    return found if lower >= 1 else replace(found, fixes=())
+
+
+def _waypoints(path: str, arm: NDArray[Any], rate: float) -> list[Diagnostic]:
+    """Return a warning where rows are so far apart that they are waypoints rather than samples."""
+    if rate > WAYPOINT_RATE:
+        return []
+    steps = np.abs(np.diff(arm, axis=0)).max(axis=1)
+    worst = int(steps.argmax())
+    if steps[worst] <= WAYPOINT_STEP:
+        return []
+    place: dict[str, Any] = {"first_row": worst + 2, "last_row": worst + 2, "row": worst + 2}
+    numbers: dict[str, Any] = {"value": float(steps[worst]), "unit": "rad", "limit": WAYPOINT_STEP}
+    step = numbers["value"]
+    return [finding("waypoints", variable=path, rate=rate, step=step, **place, **numbers)]
 
 
 def _made_even(
@@ -285,7 +311,7 @@ def _made_even(
     frames = resampling.frame_count(times_ns, rate)
     words: dict[str, Any] = {"duration": float(times_ns[-1]) * 1e-9, "rate": rate}
     if frames > MOST_FRAMES:
-        raise Refused(finding("too_long", variable=path, most=MOST_FRAMES, **words))
+        raise Refused(_too_long(path, **words))
     words |= {"points": len(times_ns), "frames": frames, "how": "straight lines"}
     notes.append(finding("resampled", variable=path, **words))
     arm = resampling.resample(times_ns, layout.arm[kept], None, rate)
@@ -330,8 +356,7 @@ def _resampled(
     duration = float(times_ns[-1] - times_ns[0]) * 1e-9
     words: dict[str, Any] = {"duration": duration, "rate": rate}
     if frames > MOST_FRAMES:
-        words |= {"most": MOST_FRAMES}
-        raise Refused(finding("too_long", variable=variable.path, **words))
+        raise Refused(_too_long(variable.path, **words))
     how = "straight lines" if velocities is None else "cubic splines through their velocities"
     words |= {"points": len(times_ns), "frames": frames, "how": how}
     notes.append(finding("resampled", variable=variable.path, **words))

@@ -54,6 +54,16 @@ DURATION_NAMES = words(
     "stoptime tstop tges motiontime t"
 )
 LIKELY_OF_DURATION = (5.0, 1000.0)  # Hz
+# structures whose steps and rates are not those of a trajectory
+FOREIGN = words("controller regler filter emg cam camera kamera force kraft ft imu audio plot")
+FOREIGN_ROWS = 20  # of data beside a rate that have their own number of rows
+# structures that hold what belongs to the matrix beside them
+RELATED = words(
+    "info meta metadata param params parameter parameters parameter settings setup config cfg "
+    "log logs data daten sim simulation out output header options experiment versuch traj "
+    "trajectory trajektorie robot roboter record recording rec result results messung joint "
+    "joints arm ref reference state states"
+)
 AGREES = 0.01  # relative; rates that differ by less are the same
 AGREES_WITH_MOTION = 0.05  # the same for a rate from a velocity
 MOST_NAMED = 5
@@ -115,13 +125,14 @@ def find(
     workspace = survey.workspace
     coarse = chosen is not None and chosen.coarse
     motion = chosen.rates if chosen is not None else ()
-    scalars = _scalars(workspace, path)
+    scalars = _scalars(workspace, path, rows)
     likely = tuple(s.rate for s in scalars if s.sure) + tuple(r for _, r in motion)
     clocks = _clocks(workspace, path, rows, column, coarse, likely)
     usable = [c for c in clocks if c.rate]
     notes: list[Diagnostic] = []
     if usable:
-        return _by_clock(usable, scalars, motion, notes)
+        near = first_path(path).rpartition(".")[0]
+        return _by_clock(usable, scalars, motion, notes, near)
     unusable = next((c for c in clocks if not c.rate and c.named), None)
     known = [s for s in scalars if s.sure]
     if unusable is not None and not (known or motion):
@@ -160,6 +171,8 @@ def find(
                 fixes=(_rate_fix(default),),
             )
         )
+    elif (unused := _unused(workspace, path, rows, clocks, default)) is not None:
+        notes.append(unused)
     notes.append(finding("rate_default", file=file, rate=default, value=default, unit="Hz"))
     return Rate(default, None, notes)
 
@@ -169,6 +182,7 @@ def _by_clock(
     scalars: list[Scalar],
     motion: tuple[tuple[str, float], ...],
     notes: list[Diagnostic],
+    near: str,
 ) -> Rate:
     best = clocks[0]
     rate = best.rate
@@ -188,7 +202,8 @@ def _by_clock(
                 fixes=(_rate_fix(rate),),
             )
         )
-    if not (best.named or confirmed or by_motion):
+    elsewhere = _is_elsewhere(best.source, near)
+    if not ((best.named and not elsewhere) or confirmed or by_motion):
         notes.append(_assumed(best.source, rate, None))
     rivals = [(c.source, c.rate) for c in clocks[1:]]
     rivals += [(s.path, s.rate) for s in scalars if s.sure]
@@ -234,6 +249,7 @@ def flaws(clock: Clock) -> list[Diagnostic]:
                 unit="s",
                 count=_counted(len(clock.backward), "row"),
                 row=row,
+                last=row - 1,
                 rate=clock.rate,
                 fixes=(Fix(matlab=f"[t, order] = sort({clock.source}); q = q(order, :);"),),
             )
@@ -383,6 +399,7 @@ def _clocks(
             named.append(clock_of(v.values, v.path, named=True, unit=unit, **words))
         elif (
             rows >= 3
+            and "int" not in v.kind
             and said not in PATH_PARAMETERS
             and hint(v.path) in (Hint.NEUTRAL, Hint.DOUBTFUL)
             and is_regular(v.values.reshape(-1))
@@ -433,7 +450,83 @@ def _scalar_name(path: str) -> str:
     return key[1] or key[2] if key else leaf(path)
 
 
-def _scalars(workspace: Workspace, path: str) -> list[Scalar]:
+def _unused(
+    workspace: Workspace, path: str, rows: int, clocks: list[Clock], default: float
+) -> Diagnostic | None:
+    """Return what to say of times, steps or a rate of the file that could not be used."""
+    said = {c.source for c in clocks}
+    for v in workspace.variables:
+        name = _scalar_name(v.path)
+        if not name or v.path in (path, *said) or not v.shape:
+            continue
+        words_of = parts(name)
+        whole = re.sub(r"[^a-z]", "", "".join(words_of))
+        of_rate = whole in RATE_NAMES | STEP_NAMES or words_of[0] in RATE_NAMES | STEP_NAMES
+        count = int(np.prod([float(n) for n in v.shape]))
+        problem = ""
+        if v.values is None:
+            single = count == 1 or v.kind in ("char", "string", "cell")
+            if of_rate and single and not v.is_object and v.kind != "struct":
+                what = v.note or ("text" if v.text and v.kind != "logical" else v.kind)
+                problem = f"it is {what} where a real number is expected"
+            elif is_time_name(v.path) and rows in v.shape and v.kind != "struct":
+                problem = f"its class is {v.note or v.kind}"
+        elif count == 1:
+            if of_rate:
+                problem = f"{float(v.values.reshape(-1)[0]):g} is no rate or step of the rows"
+        elif of_rate or is_time_name(v.path):
+            problem = _why_unused(v, rows)
+        if problem:
+            return finding("rate_unused", variable=v.path, problem=problem, rate=default)
+    return None
+
+
+def _why_unused(v: Variable, rows: int) -> str:
+    """Return why the vector or matrix `v`, named as times or steps, gives no rate, or nothing."""
+    assert v.values is not None
+    if v.values.ndim != 2:
+        return ""
+    if min(v.shape) > 1:
+        return f"it is {v.size} where one column is expected" if rows in v.shape else ""
+    column = v.values.reshape(-1).astype(np.float64)
+    bad = np.flatnonzero(~np.isfinite(column))
+    if len(column) == rows and len(bad):
+        return f"its row {bad[0] + 1} is {column[bad[0]]:g}"
+    if len(column) == rows:
+        return "its values are no times of the rows that rise at a rate of joints"
+    if len(column) == 2 or len(column) == rows - 1:
+        return f"it has {len(column)} elements, and the trajectory {rows} rows"
+    return ""
+
+
+def _is_foreign(workspace: Workspace, path: str, near: str, rows: int) -> bool:
+    """Say whether the number at `path` belongs to other data: those beside it, or a controller.
+
+    near: the structure that holds the matrix. The data beside it have another number of rows.
+    """
+    container = path.rpartition(".")[0]
+    if not container or f"{near}.".startswith(f"{container}."):
+        return False
+    if set(parts(leaf(container))) & FOREIGN:
+        return True
+    sizes = [
+        max(v.shape)
+        for v in workspace.variables
+        if v.shape and v.path.startswith(f"{container}.") and max(v.shape) >= FOREIGN_ROWS
+    ]
+    return bool(sizes) and rows not in sizes
+
+
+def _is_elsewhere(path: str, near: str) -> bool:
+    """Say whether the times at `path` lie in a structure that has no relation to the matrix."""
+    theirs = path.split(".")[:-1]
+    ours = near.split(".") if near else []
+    while theirs and ours and theirs[0] == ours[0]:
+        theirs, ours = theirs[1:], ours[1:]
+    return any(not (RELATED & set(parts(name)) or is_time_name(name)) for name in theirs)
+
+
+def _scalars(workspace: Workspace, path: str, rows: int) -> list[Scalar]:
     """Return the numbers that are named like a rate or a step, those beside the matrix first."""
     near = first_path(path).rpartition(".")[0]
     found: list[tuple[bool, bool, Scalar]] = []
@@ -466,6 +559,7 @@ def _scalars(workspace: Workspace, path: str) -> list[Scalar]:
             rate, sure = 0.0, False
         if rate and not LEAST_RATE <= rate <= MOST_RATE:
             rate = 0.0
+        sure = sure and not _is_foreign(workspace, v.path, near, rows)
         scalar = Scalar(v.path, snapped(rate) if rate else 0.0, sure)
         found.append((not sure, v.path.rpartition(".")[0] != near, scalar))
     found.sort(key=lambda item: item[:2])

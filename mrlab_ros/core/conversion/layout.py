@@ -332,7 +332,8 @@ def _gripper(
             finding("option_applied", variable=path, what="larger values of the gripper are open")
         )
     if low == high:
-        notes.append(finding("gripper_constant", first=low, value=low, **place))
+        code = "gripper_unmoved" if low else "gripper_constant"
+        notes.append(finding(code, first=low, value=low, **place))
         return np.zeros(len(column), dtype=np.bool_)
     threshold = (low + high) / 2
     above = np.asarray(column > threshold)

@@ -41,6 +41,7 @@ PATH_PARAMETERS = words("s u lambda sigma tau param parameter progress fraction 
 
 # Hz; a rate outside is not one that joints are sampled with
 LEAST_RATE, MOST_RATE = 0.1, 10_000.0
+LEAST_STEP = 1e-15  # s; smaller ones, down to denormal numbers, are no time
 EVEN_STEPS = 0.01  # of a step; what even steps may differ by
 SAME_STEP = 0.05  # of the usual step; a step that is the usual one
 MANY, FEW = 0.8, 0.05  # shares of the steps
@@ -203,7 +204,7 @@ def clock_of(
     resolution = _resolution(t, steps / scale) * scale
     mean = span / len(steps) if not len(back) else usual
     step = usual if usually and abs(mean - usual) > EVEN_STEPS * usual else mean
-    if step <= 0:
+    if step < LEAST_STEP:
         return None
     rate = snapped(1 / step, max(1e-6, resolution / max(span, step)))
     deviations = np.abs(times - np.arange(len(times)) / rate)

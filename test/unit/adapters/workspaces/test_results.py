@@ -70,3 +70,15 @@ def test_a_document_of_something_else_is_an_error(change):
     document["result"] = change
     with pytest.raises((LookupError, TypeError, ValueError)):
         results.parse(json.dumps(document).encode())
+
+
+def test_a_fault_of_the_converter_refuses_the_one_file(monkeypatch):
+    def fails(*_, **__):
+        raise OverflowError("cannot convert float infinity to integer")
+
+    monkeypatch.setattr(results, "convert", fails)
+    data, stored = run(q=Q)
+    assert stored == b""
+    found = results.parse(data).result.diagnostics[0]
+    assert found.code == "converter_failed"
+    assert "OverflowError" in found.message

@@ -344,7 +344,7 @@ def test_a_constant_gripper_is_open(value):
     result = convert(gripper_motion(np.full(300, value)))
     assert result.outcome is Outcome.ACCEPTED
     assert not result.trajectory.gripper.any()
-    assert "gripper_constant" in codes(result)
+    assert ("gripper_unmoved" if value else "gripper_constant") in codes(result)
 
 
 @pytest.mark.parametrize(
@@ -511,3 +511,37 @@ def test_more_rows_than_the_limit_are_refused(most, code):
     if code:
         assert result.diagnostics[0].code == code
         assert "300 samples; the limit is 299" in result.message
+
+
+def test_a_time_that_goes_back_is_cut_before_it_does():
+    t = np.arange(300) / 100
+    t[200:] -= 0.5
+    result = convert(var("q", motion()), var("t", t[:, None]))
+    (found,) = [d for d in result.diagnostics if d.code == "time_backward"]
+    assert found.first_row == 201
+    assert "'q(1:200, :)'" in found.remedy
+
+
+def test_a_time_that_was_not_used_is_named_with_its_row():
+    t = np.arange(300) / 500
+    t[99] = np.nan
+    result = convert(var("q", motion()), var("t", t[:, None]))
+    (found,) = [d for d in result.diagnostics if d.code == "rate_unused"]
+    assert (found.variable, found.severity) == ("t", Severity.WARNING)
+    assert "row 100 is nan" in found.message
+
+
+def test_waypoints_are_mended_with_resample():
+    ends, t = motion(5, reach=2.0), np.arange(5.0)[:, None] * 2
+    assert "waypoints" in codes(convert(var("q", ends), var("t", t)))
+    mended = convert(var("q", ends), var("t", t), resample=True, frame_rate=100.0)
+    assert mended.trajectory.frame_count == 801
+    assert "waypoints" not in codes(mended)
+
+
+def test_a_gap_of_a_month_is_not_to_be_mended_with_a_rate():
+    t = np.arange(300) / 100
+    t[150:] += 3e6
+    result = convert(var("q", motion()), var("t", t[:, None]), resample=True)
+    assert result.diagnostics[0].code == "too_long"
+    assert not any(f.option == "frame_rate" for f in result.diagnostics[0].fixes)
