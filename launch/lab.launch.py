@@ -74,9 +74,6 @@ def generate_launch_description():
                 description="simulate contacts and grasps",
             ),
             DeclareLaunchArgument(
-                "web", default_value="false", choices=flags, description="start the web gateway"
-            ),
-            DeclareLaunchArgument(
                 "state_dir",
                 default_value="",
                 description="folder for scene and trajectories; empty: a temporary one",
@@ -95,8 +92,6 @@ def processes(context):
     def path(name):
         return Path(value(name)).expanduser().absolute() if value(name) else None
 
-    if value("web") == "true":
-        raise RuntimeError("this version of the lab has no web gateway; leave web:=false")
     physics, _ = physics_support.wanted(value("physics") == "true")
     options = LabOptions(
         config=parameter_file(path("config")),

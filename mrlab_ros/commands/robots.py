@@ -6,6 +6,7 @@ import json
 import math
 import os
 import sys
+import tempfile
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
@@ -107,18 +108,49 @@ def show(
         bool, typer.Option("--open/--no-open", help="Open the picture where there is a desktop.")
     ] = True,
 ) -> None:
-    """Draw a robot with its sizes in metres, and open the picture where there is a desktop."""
+    """Print a robot's data; with --out, or where there is a desktop, draw it with sizes in metres.
+
+    Without --out the picture that the desktop opens is in a temporary folder.
+    """
     from mrlab_ros.adapters.robots import drawing
 
     library = _library()
     positions = _positions(library, robot, joints) if joints else None
-    path = (output or Path(f"{robot}.png")).resolve()
+    desktop = os.environ.get("DISPLAY") or os.environ.get("WAYLAND_DISPLAY")
+    opened = bool(opened and desktop and sys.stdout.isatty())
+    if output is None:
+        _print_sheet(library, robot)
+        if not opened:
+            print(f"a picture: mrlab robots show {robot} --out {robot}.png")
+            return
+        output = Path(tempfile.mkdtemp(prefix="mrlab-")) / f"{robot}.png"
+    path = output.resolve()
     drawn = drawing.bodies(library, robot, end_effector or None, positions, collision=collision)
     drawing.write(drawn, path)
     print(path)
-    desktop = os.environ.get("DISPLAY") or os.environ.get("WAYLAND_DISPLAY")
-    if opened and desktop and sys.stdout.isatty():
+    if opened:
         typer.launch(str(path))
+
+
+def _print_sheet(library: RobotLibrary, robot: str) -> None:
+    """Print what the library knows of a robot; limits in degrees, or in metres for a slide."""
+    from rich.console import Console
+    from rich.table import Table
+
+    from mrlab_ros.core.robots.reach import reach
+
+    model, facts = library.model(robot), library.facts(robot)
+    reach_mm = reach(model, facts["reach_definition"]) * 1e3
+    print(f"{model.id}: {model.manufacturer} {model.product}, {model.robot_class}")
+    print(f"payload {model.payload:g} kg, reach {reach_mm:.1f} mm")
+    table = Table("joint", "from", "to", "speed", "unit")
+    moving = [segment for segment in model.chain.segments if segment.axis is not None]
+    for joint, segment in zip(model.joints, moving, strict=True):
+        limits = (joint.lower, joint.upper, joint.max_velocity)
+        sliding = segment.prismatic
+        shown = limits if sliding else map(math.degrees, limits)
+        table.add_row(joint.name, *(f"{v:g}" for v in shown), "m" if sliding else "deg")
+    Console().print(table)
 
 
 def _positions(library: RobotLibrary, robot: str, text: str) -> dict[str, float]:

@@ -7,12 +7,12 @@ import math
 import operator
 import sys
 import time
-from collections.abc import Mapping
+from collections.abc import Callable, Iterable, Mapping
 from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from mrlab_ros.processes.lab import NODES
+from mrlab_ros.processes.lab import NODES, PROCESSES
 from mrlab_ros.processes.run_file import RunFile
 
 if TYPE_CHECKING:
@@ -24,6 +24,10 @@ if TYPE_CHECKING:
 REFRESH_RATE_HZ = 4.0
 # What a robot that was just found has to say is there by then, s.
 SETTLE_TIMEOUT_S = 6.0
+# A node that nobody has seen for this long is missing, s: discovery takes up to 3.5 s. With --once
+# that is the longest wait.
+ONCE_TIMEOUT_S = 4.0
+MISSING_AFTER_S = 5.0
 # Who measures reports once a second; one that has been silent for longer has gone, s.
 LATENCY_AGE_S = 5.0
 # From where to where, in the order of LatencyHop's constants.
@@ -47,31 +51,75 @@ def status(
 
     console = Console()
     with Graph() as graph:
+        presence = Presence(graph.node.get_node_names)
         graph.robots()
         view = View(graph)
         view.settle()
         if as_json:
-            sys.stdout.write(
-                json.dumps({**view.facts(), "nodes": lab_nodes_present(graph)}, indent=2) + "\n"
-            )
+            nodes = presence.wait(view.expected_nodes)
+            sys.stdout.write(json.dumps({**view.facts(), "nodes": nodes}, indent=2) + "\n")
         elif once or not console.is_terminal:
-            console.print(view.table(lab_nodes_present(graph)))
+            console.print(view.table(presence.wait(view.expected_nodes)))
         else:
-            with Live(
-                view.table(lab_nodes_present(graph)), console=console, auto_refresh=False
-            ) as live:
+
+            def table() -> RenderableType:
+                return view.table(presence.present(view.expected_nodes(), MISSING_AFTER_S))
+
+            with Live(table(), console=console, auto_refresh=False) as live:
                 try:
                     while True:
                         time.sleep(1 / REFRESH_RATE_HZ)
-                        live.update(view.table(lab_nodes_present(graph)), refresh=True)
+                        live.update(table(), refresh=True)
                 except KeyboardInterrupt:
                     return
 
 
-def lab_nodes_present(graph: Graph) -> dict[str, bool]:
-    """Return for each node of a lab, by its name, whether it is in the graph."""
-    present = set(graph.node.get_node_names())
-    return {entry.graph_name: entry.graph_name in present for entry in NODES.values()}
+def expected_nodes(supervisor: Mapping[str, Any] | None, *, in_replay: bool) -> tuple[str, ...]:
+    """Return the names of the nodes that this lab is made of.
+
+    supervisor: the run file of `mrlab up`, which lists the processes it started; without one all
+    nodes are expected. in_replay: a bag is replayed, and most nodes have left the graph for it.
+    """
+    kept = None if supervisor is None else {p["name"] for p in supervisor["processes"]}
+    entries = [
+        NODES[node]
+        for process in PROCESSES
+        if not kept or process.name in kept
+        for node in process.nodes
+    ]
+    return tuple(entry.graph_name for entry in entries if entry.in_replay or not in_replay)
+
+
+class Presence:
+    """Which nodes are in the graph; one that was just started or discovered is not missing yet.
+
+    names: returns the names of the nodes that the graph knows now.
+    """
+
+    def __init__(
+        self, names: Callable[[], Iterable[str]], clock: Callable[[], float] = time.monotonic
+    ) -> None:
+        self._names = names
+        self._clock = clock
+        self._begun = clock()
+        self._seen: dict[str, float] = {}
+
+    def present(self, expected: Iterable[str], patience: float) -> dict[str, bool]:
+        """Return for each node whether it was in the graph within the last `patience` s."""
+        now = self._clock()
+        self._seen |= dict.fromkeys(self._names(), now)
+        return {name: now - self._seen.get(name, self._begun) <= patience for name in expected}
+
+    def wait(
+        self, expected: Callable[[], Iterable[str]], timeout: float = ONCE_TIMEOUT_S
+    ) -> dict[str, bool]:
+        """Return which nodes are there as soon as all are, or `timeout` s after the start."""
+        while True:
+            names = set(self._names())
+            found = {name: name in names for name in expected()}
+            if all(found.values()) or self._clock() - self._begun > timeout:
+                return found
+            time.sleep(0.05)
 
 
 class View:
@@ -126,6 +174,12 @@ class View:
         # control characters of the terminal.
         name = "".join(c if c.isprintable() else "?" for c in report.observer)
         self._latencies[f"client {name}"] = report
+
+    def expected_nodes(self) -> tuple[str, ...]:
+        """Return the names of the nodes that this lab is made of now."""
+        recorder = _recorder_facts(self._recorder.value)
+        in_replay = recorder is not None and recorder["state"] in ("REPLAYING", "PAUSED")
+        return expected_nodes(self._run_file.read(), in_replay=in_replay)
 
     def latencies(self) -> list[tuple[str, Any]]:
         """Return whose reports there are and the reports, the bridge's own first; no old ones."""

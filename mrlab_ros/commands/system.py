@@ -10,10 +10,10 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from mrlab_ros.core.errors import BadInput, Misuse
-from mrlab_ros.core.naming import did_you_mean
+from mrlab_ros.core.naming import checked_name, did_you_mean
 
 if TYPE_CHECKING:
-    from mrlab_ros.core.systems.cell_file import MemberEntry
+    from mrlab_ros.core.systems.cell_file import MemberEntry, SystemEntry
     from mrlab_ros.ros.graph import Graph
 
 app = typer.Typer(
@@ -80,6 +80,9 @@ def create(
 
     systems = parse_cell(content(file), file.name)
     with Graph() as graph:
+        # All robots and names, before the first conversion adds to the catalogue.
+        for system in systems:
+            _check_entry(graph, system)
         for system in systems:
             members = tuple(
                 replace(member, trajectory=_trajectory(graph, file.parent, member))
@@ -96,6 +99,22 @@ def create(
                 graph.order(srv.Seek, f"/{name}/seek", at)
             print(answer.message)
             print(f"next: mrlab system play {name}")
+
+
+def _check_entry(graph: Graph, system: SystemEntry) -> None:
+    """Raise where the coordinator would refuse the system for its robots or its name."""
+    others = _systems(graph, system.name) if system.name else _systems(graph)
+    for member in system.members:
+        graph.robot(member.robot)
+        for other in others:
+            if any(each.robot == member.robot for each in other.members):
+                raise Misuse(
+                    f"'{member.robot}' is a member of system '{other.name}' already; dissolve "
+                    f"that first: mrlab system dissolve {other.name}"
+                )
+    if system.name:
+        taken = {robot.name for robot in graph.robots()} | {other.name for other in others}
+        checked_name(system.name, frozenset(taken), "system")
 
 
 def _trajectory(graph: Graph, folder: Path, member: MemberEntry) -> str:

@@ -58,7 +58,9 @@ def did_you_mean(name: str, known: Iterable[str]) -> str:
     """
     names = list(known)
     wanted = name.lower().replace("-", "_").replace(" ", "_")
-    close = difflib.get_close_matches(wanted, names, n=1, cutoff=0.5)
+    # One letter of a short name weighs more: ur6 is similar to ur5e, nothere is not to three.
+    cutoff = 0.55 if len(wanted) <= 4 else 0.68
+    close = difflib.get_close_matches(wanted, names, n=1, cutoff=cutoff)
     if not close and len(wanted) > 1:
         close = [one for one in names if wanted in one]
     return f"; did you mean '{close[0]}'?" if close else ""

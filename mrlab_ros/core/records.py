@@ -105,14 +105,16 @@ def _phrase(noun: str, limits: Range, unit: str) -> str:
     return f"{words} ({unit})" if unit else words
 
 
-def _number(value: object, limits: Range) -> float:
+def _number(value: object, limits: Range, *, whole: bool = False) -> float:
     if isinstance(value, str):
         try:
             number = float(value)
         except ValueError:
             raise ValueError from None
+        if not math.isfinite(number) or (whole and not number.is_integer()):
+            raise ValueError
         # YAML takes 1e3 for a text: its numbers need a point and a sign, as in 1.0e+3.
-        raise ValueError(f"write {number!r}, without quotes" if math.isfinite(number) else "")
+        raise ValueError(f"write {int(number) if whole else number!r}, without quotes")
     if type(value) not in (int, float):
         raise ValueError
     try:
@@ -153,7 +155,7 @@ class Integer:
         return _phrase("a whole number", self.limits, self.unit)
 
     def read(self, value: object) -> int:
-        number = _number(value, self.limits)
+        number = _number(value, self.limits, whole=True)
         if not number.is_integer():
             raise ValueError
         return value if isinstance(value, int) else int(number)

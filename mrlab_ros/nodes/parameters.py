@@ -127,8 +127,8 @@ class PlaybackParameters:
 @dataclass(frozen=True)
 class PhysicsParameters:
     state_dir: str = _state_dir(
-        "Folder for objects, surfaces and saved scenes; empty: saved scenes are in "
-        "~/.local/share/mrlab, the rest is lost when the node ends."
+        "Folder for objects and surfaces; empty: they are lost when the node ends. Saved scenes "
+        "belong to the node lab."
     )
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from pathlib import Path
 
-from mrlab_ros.adapters.yaml_files import read_yaml
+from mrlab_ros.adapters.yaml_files import RosLoader, read_yaml
 from mrlab_ros.core import records
 from mrlab_ros.core.errors import BadInput
 from mrlab_ros.core.naming import PARAMETERS_OF_RCLPY, did_you_mean
@@ -21,7 +21,7 @@ def check_parameter_file(path: Path) -> None:
 
     A section for all nodes may hold the parameters of any node of the lab.
     """
-    content = read_yaml(path, empty=True)
+    content = read_yaml(path, empty=True, loader=RosLoader)
     records.every(lambda section: _check_section(*section), content.items(), str(path))
 
 

@@ -9,7 +9,7 @@ import pytest
 from mrlab_msgs.msg import Latency, LatencyHop
 from rich.console import Console
 
-from mrlab_ros.commands.status import LATENCY_AGE_S, View
+from mrlab_ros.commands.status import LATENCY_AGE_S, Presence, View, expected_nodes
 
 
 class Graph:
@@ -73,3 +73,39 @@ def test_a_client_s_name_does_nothing_to_the_terminal(graph, view):
         console.print(view.table())
     assert "\x1b[2J" not in capture.get()
     assert observers(view) == ["client quest?[2J??rest"]
+
+
+def test_a_node_that_is_discovered_late_is_not_missing():
+    known, now = {"lab"}, [0.0]
+
+    def clock():
+        now[0] += 0.5
+        if now[0] > 2.0:
+            known.add("bridge")
+        return now[0]
+
+    presence = Presence(lambda: known, clock)
+    assert presence.wait(lambda: ("lab", "bridge")) == {"lab": True, "bridge": True}
+    assert presence.wait(lambda: ("lab", "playback_host")) == {
+        "lab": True,
+        "playback_host": False,
+    }
+
+
+def test_a_node_is_missing_in_the_live_view_after_a_while():
+    known, now = {"lab"}, [0.0]
+    presence = Presence(lambda: known, lambda: now[0])
+    for now[0], lab, bridge in ((4.0, True, True), (6.0, True, False)):
+        assert presence.present(("lab", "bridge"), 5.0) == {"lab": lab, "bridge": bridge}
+    known.clear()
+    for now[0], lab in ((10.0, True), (12.0, False)):
+        assert presence.present(("lab",), 5.0) == {"lab": lab}
+
+
+def test_only_the_nodes_of_this_lab_are_expected():
+    everything = expected_nodes(None, in_replay=False)
+    assert {"bridge", "physics", "lab", "playback_host"} <= set(everything)
+    kept = {"processes": [{"name": name} for name in ("lab", "playback", "recorder")]}
+    without = set(expected_nodes(kept, in_replay=False))
+    assert set(everything) - without == {"bridge", "physics"}
+    assert set(expected_nodes(None, in_replay=True)) == {"bridge", "recorder"}

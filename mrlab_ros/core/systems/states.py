@@ -31,7 +31,7 @@ class SystemEvent(Enum):
     STOP = "stop"
     SEEK = "seek"
     STEP = "step"
-    SET_MODE = "change the mode"
+    SET_MODE = "set the mode"
     COLLIDE = "collide"
     COLLIDE_ALONE = "halt one member alone"
     CLEAR = "be clear again"

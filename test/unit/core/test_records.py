@@ -135,6 +135,11 @@ def test_a_value_has_the_type_of_its_check(check, value, result):
         (Number(), math.inf, "x is inf; expected a number"),
         (Number(), 10**400, "expected a number"),
         (Number(), "1e3", "x is '1e3'; expected a number; write 1000.0, without quotes"),
+        (
+            Integer(),
+            "1024",
+            "x is '1024'; expected a whole number; write 1024, without quotes",
+        ),
         (Number(), "nan", "x is 'nan'; expected a number"),
         (Integer(between(1, 7)), 2.5, "x is 2.5; expected a whole number from 1 to 7"),
         (FLAG, "yes", "x is 'yes'; expected true or false"),
@@ -263,3 +268,22 @@ def test_a_close_name_is_offered():
         "; did you mean 'pick_and_place'?"
     )
     assert did_you_mean("", ("ur5e",)) == ""
+
+
+@pytest.mark.parametrize(
+    ("name", "meant"),
+    [
+        ("ur5", "ur5e"),
+        ("ur5f", "ur5e"),
+        ("ur6", "ur5e"),
+        ("kr6", "kuka_kr6_r900_sixx"),
+        ("paralel_gripper", "parallel_gripper"),
+        ("quintik", "quintic"),
+        ("tabel", "table"),
+        ("lightsaber", ""),
+        ("nothere", ""),
+    ],
+)
+def test_only_a_similar_name_is_suggested(name: str, meant: str) -> None:
+    known = ("ur5e", "kuka_kr6_r900_sixx", "parallel_gripper", "quintic", "table", "three")
+    assert did_you_mean(name, known) == (f"; did you mean '{meant}'?" if meant else "")

@@ -217,8 +217,6 @@ def test_the_launch_file_leaves_out_and_refuses_what_it_is_told_to(
         launched(robots="ur6")
     with pytest.raises(BadInput, match="no parameter file"):
         launched(config="/nowhere.yaml")
-    with pytest.raises(RuntimeError, match="no web gateway"):
-        launched(web="true")
     monkeypatch.setattr(physics_support, "missing", lambda: "pybullet is not installed")
     with pytest.raises(BadInput, match="there is no physics"):
         launched(physics="true")

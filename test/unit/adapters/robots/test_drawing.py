@@ -80,3 +80,15 @@ def test_show_writes_what_its_options_say(tmp_path: Path) -> None:
     assert trimesh.load_scene(file).bounds[1, 1] > 0.9
     done = CliRunner().invoke(app, ["show", "ur5e", "--joints", "0,1", "--out", str(file)])
     assert "expected 6 angles in degrees" in str(done.exception)
+
+
+def test_show_without_out_prints_the_robot_and_writes_nothing(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    done = CliRunner().invoke(app, ["show", "ur5e"], env=dict(os.environ))
+    assert done.exit_code == 0, done.output
+    assert "Universal Robots UR5e" in done.output
+    assert "shoulder_pan_joint" in done.output
+    assert "payload 5 kg" in done.output
+    assert not list(tmp_path.iterdir())

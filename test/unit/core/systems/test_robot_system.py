@@ -424,7 +424,7 @@ def test_the_mode_changes_only_while_nothing_is_under_way():
     world.system.set_mode(Mode.SEQUENTIAL)
     assert world.system.duration == 1.5
     world.system.play(world.now)
-    with pytest.raises(Misuse, match="cannot change the mode in STAGING; stop first"):
+    with pytest.raises(Misuse, match="cannot set the mode in STAGING; stop first"):
         world.system.set_mode(Mode.PARALLEL)
 
 
