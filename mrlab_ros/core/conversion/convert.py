@@ -124,6 +124,10 @@ def convert(
         options.factor()
         stored, squeezed = dimensions.flattened(read(), robot)
         workspace, wanted = _prepared(stored, options, robot, file)
+        pieces = joining.expanded(options.join) if options.join else []
+        if len(set(pieces)) < len(pieces):
+            why = f"{options.join} names a variable more than once"
+            notes.append(finding("doubtful_values", variable=options.join, why=why))
         chosen, survey, offered = _find(workspace, wanted, options, robot, file, notes)
         if chosen is None:
             if not offered:
@@ -192,6 +196,8 @@ def _prepared(
     """
     workspace = split_tables(with_headings(workspace, robot), robot)
     wanted = options.variable
+    if workspace.find(wanted) is None:
+        wanted = wanted.strip()
     if options.join:
         joints = len(robot.joints)
         whole = joining.joined(workspace, options.join, joints, contents(workspace), file)

@@ -23,6 +23,7 @@ from mrlab_ros.core.conversion.named_columns import names_joints, order
 from mrlab_ros.core.conversion.options import (
     NO_GRIPPER,
     Options,
+    columns_text,
     parse_columns,
 )
 from mrlab_ros.core.conversion.survey import Survey
@@ -114,6 +115,10 @@ def pick(variable: Variable, options: Options, workspace: Workspace, robot: Robo
     values, names, given = variable.values, variable.columns, variable.units
     assert values is not None
     if options.transpose:
+        joints = (len(robot.joints), len(robot.joints) + 1)
+        if values.shape[1] in joints and values.shape[0] not in joints and not options.columns:
+            problem = f"'{variable.path}' is {variable.size}: its samples are rows already"
+            raise Refused(finding("bad_option", option="transpose", found="true", problem=problem))
         values, names, given = values.T, (), given[:1] if len(set(given)) == 1 else ()
     stored = values
     width, size = values.shape[1], "x".join(str(n) for n in values.shape)
@@ -188,6 +193,9 @@ def lay_out(chosen: Chosen, survey: Survey, options: Options, notes: list[Diagno
         times = _left_out_time(chosen, options, survey)
         what = f"columns {options.columns} of '{path}' were taken"
         notes.append(finding("option_applied", variable=path, what=what))
+        if len(set(chosen.picked)) < len(chosen.picked):
+            why = f"columns {options.columns} name a column more than once"
+            notes.append(finding("doubtful_values", variable=path, why=why))
     if chosen.gripper is not None:
         what = f"the gripper was taken from '{options.gripper}'"
         notes.append(finding("option_applied", variable=path, what=what))
@@ -399,6 +407,19 @@ def _in_radians(
         arm = _in_metres(arm, robot, options)
         notes.append(finding("option_applied", variable=path, what=f"'{path}' was taken as mm"))
     elif unit:
+        if unit == "deg":
+            few = _spanning_little(arm)
+            if few:
+                why = f"in degrees, columns {columns_text(few)} move by less than 2 degrees each"
+                why += ", and they may be radians already, while others are degrees"
+                notes.append(finding("doubtful_values", variable=path, why=why))
+            elif _in_percent(arm):
+                why = "it runs from 0 to 100 in several columns, as percent do"
+                notes.append(finding("doubtful_values", variable=path, why=why))
+        if assessment.poses.strong and unit != "rad":
+            why = f"it looks like poses of the tool: {assessment.poses.strong}"
+            if not any(why in n.message for n in notes):
+                notes.append(finding("doubtful_values", variable=path, why=why))
         if factor != 1.0:
             arm *= factor
         words = {"deg": "degrees", "rad": "radians", "counts": f"{options.units} a turn"}[unit]
@@ -408,6 +429,11 @@ def _in_radians(
         arm, factor = np.radians(arm), float(np.radians(1))
         notes.append(_converted(arm, path))
     elif assessment.unit.option and not assessment.by_name:
+        if assessment.poses.strong and assessment.unit.unit == "counts":
+            why = f"it looks like poses of the tool: {assessment.poses.strong}"
+            fix = Fix(matlab="save('traj.mat', 'q')")
+            size = assessment.variable.size
+            raise Refused(finding("looks_like", variable=path, size=size, why=why, fixes=(fix,)))
         raise Refused(_unit_finding(arm, assessment, name, robot))
     elif assessment.by_name or assessment.variable.is_message:
         ends = (arm.min(axis=0), arm.max(axis=0))
@@ -430,6 +456,21 @@ def _in_radians(
         what = f"jumps of 2*pi in '{path}' were removed"
         notes.append(finding("option_applied", variable=path, what=what))
     return arm, factor
+
+
+def _spanning_little(arm: Array) -> list[int]:
+    """Return columns, from 0, that move as radians do, where others move as degrees only."""
+    span = np.ptp(arm, axis=0)
+    largest = np.abs(arm).max(axis=0)
+    if not (largest > units.LEAST_DEGREES).any():
+        return []
+    return [int(i) for i in np.flatnonzero((span > 0.02) & (span < 2) & (largest < 2 * np.pi))]
+
+
+def _in_percent(arm: Array) -> bool:
+    """Say whether several columns run from 0 to 100 and none beyond."""
+    ends = (np.abs(arm.min(axis=0)) < 0.5) & (np.abs(arm.max(axis=0) - 100) < 0.5)
+    return bool(ends.sum() >= 2 and arm.min() > -0.5 and arm.max() < 100.5)
 
 
 def _converted(arm: Array, path: str) -> Diagnostic:
@@ -455,6 +496,21 @@ def _unit_finding(arm: Array, assessment: Assessment, name: str, robot: RobotMod
         "robot": robot.id,
         "why": evidence.why,
     }
+    few = _spanning_little(arm)
+    if evidence.unit == "deg" and few:
+        many = [i for i in range(arm.shape[1]) if np.abs(arm[:, i]).max() > units.LEAST_DEGREES]
+        text = columns_text(many)
+        words["why"] = f"columns {text} reach up to {words['value']:g}, as degrees do"
+        words["why"] += f", but columns {columns_text(few)} move as radians do"
+        line = f"{name}(:, {text}) = deg2rad({name}(:, {text}));"
+        found = finding("degrees", unit="deg", fixes=(Fix(matlab=line),), **words)
+        return replace(
+            found,
+            remedy=f"Convert the columns that are degrees, in MATLAB {line} Only if all of them "
+            "are degrees: --units deg.",
+        )
+    if evidence.unit == "deg" and _in_percent(arm):
+        words["why"] += " (or in percent, as several columns run from 0 to 100)"
     if evidence.unit == "deg":
         return finding("degrees", unit="deg", **words)
     per_turn = evidence.option.removeprefix("counts:")

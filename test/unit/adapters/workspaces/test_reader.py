@@ -241,3 +241,33 @@ def test_a_file_that_is_cut_after_it_was_read_is_refused(reader, tmp_path):
     os.truncate(path, 200)
     assert refusal(workspace.confirm, ["q"]).code == "readers_disagree"
     assert refusal(reader.read_file, path).code == "unreadable"
+
+
+ROWS = "0,0.1,0.2\n0.01,0.3,0.4\n"
+
+
+@pytest.mark.parametrize(
+    "data",
+    [
+        ("t;q1;q2\n" + ROWS.replace(",", ";").replace(".", ",")).encode("utf-16"),
+        ("sep=;\nt;q1;q2\n" + ROWS.replace(",", ";")).encode(),
+        b"# made by a logger\n% twice\nt,q1,q2\n" + ROWS.encode(),
+        b"t,q1,q2,\n" + ROWS.replace("\n", ",\n").encode(),
+    ],
+)
+def test_tables_as_other_programs_write_them_are_read(reader, data):
+    workspace = reader.read_bytes(data, "traj.csv")
+    q = workspace.find("q")
+    assert q.columns == ("q1", "q2")
+    np.testing.assert_array_equal(q.values, [[0.1, 0.2], [0.3, 0.4]])
+    np.testing.assert_array_equal(workspace.find("t").values, [[0.0], [0.01]])
+
+
+def test_a_table_of_windows_1252_and_one_with_a_row_of_units_are_read(reader):
+    workspace = reader.read_bytes("A1 [°],für A2\n1,2\n3,4\n".encode("cp1252"), "traj.csv")
+    assert workspace.find("q").columns == ("A1 [°]", "für A2")
+    workspace = reader.read_bytes(b"t,q1\ns,deg\n0,1\n1,2\n", "traj.csv")
+    assert workspace.find("q").columns == ("q1 [deg]",)
+    assert workspace.find("t") is not None
+    found = refusal(reader.read_bytes, b"t,q1\ns,rad/s\n0,1\n1,2\n", "traj.csv")
+    assert "its row of units has 'rad/s'" in found.message

@@ -545,3 +545,27 @@ def test_a_gap_of_a_month_is_not_to_be_mended_with_a_rate():
     result = convert(var("q", motion()), var("t", t[:, None]), resample=True)
     assert result.diagnostics[0].code == "too_long"
     assert not any(f.option == "frame_rate" for f in result.diagnostics[0].fixes)
+
+
+def test_degrees_in_some_columns_are_not_converted_in_silence():
+    q = motion(reach=1.5)
+    q[:, 5] = np.degrees(q[:, 5]) * 1.5
+    result = convert(var("q", q))
+    assert result.diagnostics[0].code == "degrees"
+    assert "columns 6 reach" in result.message
+    assert [f.option for f in result.diagnostics[0].fixes] == [""]
+    warnings = accepted(var("q", q), units="deg").warnings
+    assert any("may be radians already" in w.message for w in warnings)
+    assert not accepted(var("q", np.degrees(motion(reach=2.0))), units="deg").warnings
+
+
+def test_options_that_name_things_twice_or_needlessly_are_answered():
+    q = motion()
+    for taken in (
+        accepted(var("q", q), columns="1 1 1 1 1 1"),
+        accepted(var("q1", q[:, :1]), var("q2", q[:, 1:2]), join="q1,q1,q1,q1,q1,q2"),
+    ):
+        assert any("more than once" in w.message for w in taken.warnings)
+    assert accepted(var("q", q), variable="q ").frame_count == 300
+    result = convert(var("q", q), transpose=True)
+    assert "its samples are rows already" in result.message
