@@ -117,7 +117,7 @@ def test_all_mistakes_are_named_at_once(context: Context) -> None:
         "sample: count is 2.5; expected a whole number from 1 to 7",
         'sample: folder is 5; expected a text; write "5", in quotes',
         "sample: mode is 'c'; expected a or b",
-        "sample: staging.jerk is nan; expected a number above 0",
+        "sample: staging.jerk is nan; expected a number above 0; every number must be finite",
     ]
     assert "docs/parameters.md" in last
 
