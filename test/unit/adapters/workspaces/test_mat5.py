@@ -429,8 +429,10 @@ def test_a_table_with_headings():
         read(b"'a'," + b"x" * 200_000 + b"\n1,2\n", "run.csv")
     with pytest.raises(Damaged):
         read(b"a,b\n1,2\n3\n", "run.csv")
-    with pytest.raises(Damaged):
-        read("ä,b\n1,2\n".encode("latin-1"), "run.csv")
+    _, sink = read("ä,b\n1,2\n".encode("latin-1"), "run.csv")
+    np.testing.assert_array_equal(sink.values("q"), [[1.0, 2.0]])
+    with pytest.raises(Damaged, match="is not UTF-8 text"):
+        read(b"\xe4,b\n1,2\n\x01", "run.csv")
 
 
 def test_npz_never_unpickles():
