@@ -17,6 +17,7 @@ from mrlab_ros.core.conversion import (
     frame_rate,
     joining,
     kinematics_match,
+    left_out_columns,
     limits,
     resampling,
 )
@@ -145,6 +146,8 @@ def convert(
             matrix = stored.find(path)
             if path in squeezed and matrix is not None:
                 notes.append(dimensions.squeezed_finding(path, squeezed[path], matrix))
+        if options.columns and not options.transpose and not variable.is_message:
+            notes += left_out_columns.doubts(chosen, robot)
         layout = lay_out(chosen, survey, options, notes)
         layout, rate = _at_a_rate(survey, chosen, layout, options, default_frame_rate, file, notes)
         arm = layout.arm

@@ -174,3 +174,18 @@ def test_names_in_a_struct_beside_the_positions_put_them_in_order():
     names = [text(f"js.name{{{i + 1}}}", f"joint_{n}") for i, n in enumerate((3, 1, 2, 4, 5, 6))]
     trajectory = accepted(var("js.position", Q), *names)
     np.testing.assert_array_equal(trajectory.positions, Q[:, [1, 2, 0, 3, 4, 5]])
+
+
+def test_columns_that_are_the_velocities_of_others_are_doubted():
+    stack = np.hstack([Q, np.gradient(Q, 0.01, axis=0)])
+    taken = accepted(var("q", stack), variable="q", columns="7:12")
+    assert "doubtful_values" in {w.code for w in taken.warnings}
+    taken = accepted(var("q", stack), variable="q", columns="1:6")
+    assert "doubtful_values" not in {w.code for w in taken.warnings}
+
+
+def test_columns_of_poses_are_doubted():
+    turns = np.hstack([np.cos(U), np.sin(U), 0 * U, 0 * U])
+    stack = np.hstack([Q[:, :3], turns])
+    taken = accepted(var("traj", stack), variable="traj", columns="1:6")
+    assert "doubtful_values" in {w.code for w in taken.warnings}
