@@ -33,6 +33,7 @@ from mrlab_ros.core.records import (
 from mrlab_ros.core.systems.cell_file import (
     POSITION,
     RATE,
+    SYSTEM_FIELDS,
     MemberEntry,
     SystemEntry,
     plain_system,
@@ -186,7 +187,10 @@ def _read(document: object, origin: str, whole: bool) -> tuple[SceneDocument, li
         # The lab's state file, before it knew more than robots.
         document = {"robots": document}
     if document is None or document == []:
-        raise BadInput(f"{origin} is empty; expected a mapping with the fields {', '.join(PARTS)}")
+        fields = PARTS if whole else SYSTEM_FIELDS
+        raise BadInput(
+            f"{origin} is empty; expected a mapping with the fields {', '.join(fields)}"
+        )
     if not isinstance(document, Mapping) or (document and {*PARTS}.isdisjoint(document)):
         if not whole:
             return SceneDocument(systems=(read_system(document, origin),)), []

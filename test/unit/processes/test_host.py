@@ -18,7 +18,7 @@ import mrlab_ros.processes.host as host
 class Finder:
     def find_spec(self, name, path=None, target=None):
         {within}
-        print("imports", name)
+        print("imports", name, flush=True)
         os._exit(3)
 
 {before}
