@@ -27,7 +27,7 @@ test:
 
 lint:
 	@python3 scripts/bootstrap.py --dev
-	@$(ENV) ruff check . && ruff format --check . && mypy
+	@$(ENV) ruff check . && ruff format --check . && mypy && scripts/npm run check
 
 bench:
 	@python3 scripts/bootstrap.py --dev
@@ -55,4 +55,4 @@ lock:
 	@$(ENV) uv pip compile -q --universal --python-version 3.10 --generate-hashes requirements-dev.in -o requirements-dev.lock
 
 clean:
-	rm -rf .venv build install log
+	rm -rf .venv build install log web/node_modules web/dist

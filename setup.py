@@ -20,7 +20,7 @@ setup(
     data_files=[
         ("share/ament_index/resource_index/packages", [f"resource/{package_name}"]),
         (f"share/{package_name}", ["package.xml"]),
-        *data_tree("config", "robots", "launch", "examples"),
+        *data_tree("config", "robots", "launch", "examples", "web/dist"),
     ],
     install_requires=["setuptools"],
     zip_safe=False,

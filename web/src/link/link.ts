@@ -1,0 +1,63 @@
+/** What the pages need of the lab, wherever it comes from: the gateway's socket, or a fake in tests. */
+export interface Link {
+  readonly status: LinkStatus
+  onStatus(listener: (status: LinkStatus) => void): Unsubscribe
+  /** Receive the messages of a key, such as `ur5e_1/joint_states`; `*` stands for one part.
+   * A latched key delivers its newest message first. The message may be reused by the next one:
+   * copy what is kept. */
+  subscribe<T>(
+    key: string,
+    type: MessageType<T>,
+    listener: (message: T, sample: Sample) => void,
+  ): Unsubscribe
+  /** Call a service, such as `ur5e_1/play`. Rejects with a LinkError. */
+  call<Request, Response>(
+    service: string,
+    type: ServiceType<Request, Response>,
+    request: Request,
+    timeoutS?: number,
+  ): Promise<Response>
+  /** The lab's time now, s since the epoch, by the clock offset that the socket measures. */
+  labTime(): number
+  close(): void
+}
+
+export type Unsubscribe = () => void
+
+export interface LinkStatus {
+  readonly phase: 'connecting' | 'open' | 'lost' | 'refused'
+  /** Why, for a person; empty while open. */
+  readonly reason: string
+  /** Round trip, s; NaN until measured. */
+  readonly roundTrip: number
+}
+
+export interface Sample {
+  readonly key: string
+  /** Lab time at which it was published, s; NaN: unknown. */
+  readonly stamp: number
+}
+
+/** A generated codec of a message type (src/protocol/). */
+export interface MessageType<T> {
+  readonly name: string
+  decode(payload: Uint8Array, into?: T): T
+  encode(message: T): Uint8Array
+}
+
+/** A generated pair of codecs of a service type (src/protocol/). */
+export interface ServiceType<Request, Response> {
+  readonly name: string
+  readonly request: MessageType<Request>
+  readonly response: MessageType<Response>
+}
+
+export class LinkError extends Error {
+  override readonly name = 'LinkError'
+  constructor(
+    readonly kind: 'timeout' | 'no_service' | 'not_allowed' | 'lost' | 'refused',
+    message: string,
+  ) {
+    super(message)
+  }
+}

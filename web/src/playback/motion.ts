@@ -1,0 +1,73 @@
+/** A motion to look at: an accepted trajectory, or the rows of a refused one.
+ * The gateway serves it as JSON, `mrlab show` puts it into a page; `mrlab_ros/core/show/` writes it. */
+export interface MotionDocument {
+  readonly schema: 'mrlab.motion.1'
+  readonly title: string
+  readonly verdict: 'accepted' | 'refused' | 'ambiguous'
+  /** One sentence: what was found. */
+  readonly message: string
+  readonly robot: MotionRobot
+  /** Hz */
+  readonly frame_rate: number
+  /** s from the first frame, one a frame; null: frame i is at i / frame_rate. */
+  readonly times: PackedArray | null
+  /** Rows of the workspace's matrix, from 1, where only some are shown; null: frame i is row i + 1. */
+  readonly rows: PackedArray | null
+  /** (frames, joints) rad or m, in the order of robot.joints. */
+  readonly positions: PackedArray
+  /** (frames) 0 open, 1 closed; null: no gripper. */
+  readonly gripper: PackedArray | null
+  /** (frames, joints) rad/s or m/s; null: not derived. */
+  readonly velocities: PackedArray | null
+  /** (frames, joints) nominal, a proxy and no torque; null: not derived. */
+  readonly effort_proxies: PackedArray | null
+  readonly findings: readonly MotionFinding[]
+  readonly source: { readonly file: string; readonly variable: string; readonly sha256: string }
+}
+
+export interface MotionRobot {
+  readonly model: string
+  readonly end_effector: string
+  /** URDF with package:// URIs, end effector included. */
+  readonly urdf: string
+  readonly joints: readonly MotionJoint[]
+}
+
+export interface MotionJoint {
+  readonly name: string
+  readonly kind: 'revolute' | 'continuous' | 'prismatic'
+  /** rad or m; null: no limit */
+  readonly lower: number | null
+  readonly upper: number | null
+  /** rad/s or m/s; null: no limit */
+  readonly velocity: number | null
+}
+
+/** A finding of the converter, `mrlab_msgs/msg/Diagnostic`; its number is its place in the list, from 1. */
+export interface MotionFinding {
+  readonly severity: 'info' | 'warning' | 'error'
+  readonly code: string
+  readonly message: string
+  readonly remedy: string
+  readonly variable: string
+  /** Rows of the workspace's matrix, from 1; 0: none. */
+  readonly first_row: number
+  readonly last_row: number
+  /** Joint's name; empty: none. */
+  readonly joint: string
+  readonly value: number | null
+  readonly limit: number | null
+  readonly unit: string
+  readonly fixes: readonly {
+    readonly option: string
+    readonly value: string
+    readonly matlab: string
+  }[]
+}
+
+/** A numeric array as base64 of its little-endian bytes. */
+export interface PackedArray {
+  readonly dtype: 'float32' | 'float64' | 'uint32' | 'uint8'
+  readonly shape: readonly number[]
+  readonly data: string
+}
