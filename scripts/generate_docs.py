@@ -9,6 +9,7 @@ import sys
 from collections.abc import Callable
 from pathlib import Path
 
+import design_tokens
 import parameters_page
 import protocol_page
 import roles_page
@@ -42,6 +43,9 @@ FILES: dict[str, Callable[[], str]] = {
     "docs/diagnostics.md": diagnostics.document,
     "docs/parameters.md": parameters_page.current,
     "docs/protocol.md": lambda: protocol_page.current(ROOT),
+    "mrlab_ros/core/design.py": lambda: design_tokens.python(ROOT),
+    "web/src/design/tokens.css": lambda: design_tokens.css(ROOT),
+    "web/src/design/tokens.ts": lambda: design_tokens.typescript(ROOT),
     "config/zenoh/roles.json5": lambda: roles_page.current(ROOT),
 }
 

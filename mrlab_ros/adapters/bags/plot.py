@@ -10,20 +10,10 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 
+from mrlab_ros.core.design import COLOURS, JOINTS, STATES
 from mrlab_ros.core.recording.report import HOLDING, RobotReport, Series, SessionReport, Span
 
-# A colour for each state of a playback: grey at rest, blue moving, red halted.
-STATES = {
-    "IDLE": "#e9ecef",
-    "READY": "#c9d1d9",
-    "ADJUSTING": "#f2c14e",
-    "PLAYING": "#3a7ca5",
-    "PAUSED": "#9fc2d6",
-    "COLLISION_HALT": "#d1495b",
-    "COMPLETE": "#5aa469",
-}
-HELD = "#2f6b3c"
-OTHER = "#888888"
+HELD = JOINTS[6]
 WIDTH, ROW_HEIGHT, PANEL_HEIGHT, MARGIN = 11.0, 0.42, 1.7, 1.3
 # A state that lasts less than this share of the session is not seen.
 VISIBLE = 1 / 800
@@ -71,7 +61,7 @@ def _draw_states(axis: Any, report: SessionReport, robots: list[RobotReport]) ->
             axis.broken_barh(
                 [(span.start, span.end - span.start)],
                 (row - 0.38, 0.56),
-                facecolors=STATES.get(span.label, OTHER),
+                facecolors=STATES.get(span.label, COLOURS["border"]),
             )
             if span.label == "PLAYING" and _fits(span, report.duration):
                 axis.text(
@@ -119,6 +109,7 @@ def _draw_lines(
 ) -> None:
     """Draw values as points; the axis reaches to `least` at least: less than that is flat."""
     most = least
+    axis.set_prop_cycle(color=JOINTS)
     for label, (series, scale) in lines.items():
         values = [value * scale for value in series.values]
         most = max(most, *values)
@@ -126,7 +117,7 @@ def _draw_lines(
     axis.set_ylabel(name, fontsize=8)
     axis.tick_params(labelsize=8)
     axis.set_ylim(0, most * 1.08)
-    axis.grid(axis="y", color="#eeeeee")
+    axis.grid(axis="y", color=COLOURS["hairline"])
     axis.set_axisbelow(True)
     _plain(axis)
     if len(lines) <= NAMED:

@@ -13,6 +13,7 @@ import scipy.io
 from mrlab_ros.adapters.trajectories import json_file
 from mrlab_ros.adapters.workspaces import joint_trajectories
 from mrlab_ros.core.conversion.preview import Preview
+from mrlab_ros.core.design import JOINTS, SEVERITIES
 from mrlab_ros.core.diagnostics import Diagnostic, Severity
 from mrlab_ros.core.errors import BadInput
 from mrlab_ros.core.robots.model import RobotModel
@@ -131,7 +132,7 @@ def plot(trajectory: Trajectory, robot: RobotModel, path: Path) -> None:
         low, high = float(values.min()), float(values.max())
         near = 0.3 * (high - low + 1)
         for joint, name in enumerate(trajectory.joint_names):
-            colour = f"C{joint}"
+            colour = JOINTS[joint % len(JOINTS)]
             axis.plot(t, values[:, joint], linewidth=1.2, label=name, color=colour)
             for limit in limits[joint] if limits else ():
                 # a limit far from the motion would only squeeze the lines
@@ -155,16 +156,18 @@ def plot_refused(
     for column in range(shown.values.shape[1]):
         axis.plot(
             shown.rows, shown.values[:, column], linewidth=1.2, label=f"column {column + 1}",
-            color=f"C{column}",
+            color=JOINTS[column % len(JOINTS)],
         )  # fmt: skip
     marked = [d for d in findings if d.first_row and d.severity is Severity.ERROR]
     for found in marked[:MOST_MARKED]:
-        axis.axvspan(found.first_row - 0.5, found.last_row + 0.5, color="red", alpha=0.2)
-        axis.axvline(found.first_row, color="red", linestyle="--", linewidth=1.0)
+        axis.axvspan(
+            found.first_row - 0.5, found.last_row + 0.5, color=SEVERITIES["error"], alpha=0.2
+        )
+        axis.axvline(found.first_row, color=SEVERITIES["error"], linestyle="--", linewidth=1.0)
         place = f"row {found.first_row}: {found.code}"
         axis.annotate(
-            place, (found.first_row, 0.98), xycoords=("data", "axes fraction"), color="red",
-            fontsize="small", rotation=90, ha="right", va="top",
+            place, (found.first_row, 0.98), xycoords=("data", "axes fraction"),
+            color=SEVERITIES["error"], fontsize="small", rotation=90, ha="right", va="top",
         )  # fmt: skip
     axis.set_xlabel("row")
     axis.set_ylabel("value as stored")

@@ -10,11 +10,8 @@ from rich.console import Console
 from rich.table import Table
 
 from mrlab_ros.core.conversion.candidates import SPARK_WIDTH
-from mrlab_ros.core.conversion.convert import ConversionResult, Outcome
-from mrlab_ros.core.diagnostics import Severity
-
-COLOURS = {Severity.INFO: "dim", Severity.WARNING: "yellow", Severity.ERROR: "bold red"}
-OUTCOME_COLOURS = {Outcome.ACCEPTED: "green", Outcome.REJECTED: "red", Outcome.AMBIGUOUS: "yellow"}
+from mrlab_ros.core.conversion.convert import ConversionResult
+from mrlab_ros.core.design import OUTCOME_STYLES, SEVERITY_STYLES
 
 
 def record(given: str, result: ConversionResult, written: Path | None) -> dict[str, Any]:
@@ -51,13 +48,15 @@ def record(given: str, result: ConversionResult, written: Path | None) -> dict[s
 def show(result: ConversionResult, written: Path | None) -> None:
     """Print what became of a file, every finding, and what there is to choose from."""
     console = Console()
-    console.print(result.outcome.name.lower(), style=OUTCOME_COLOURS[result.outcome], end="  ")
+    outcome = result.outcome.name.lower()
+    console.print(outcome, style=OUTCOME_STYLES[outcome], end="  ")
     console.print(
         result.message if result.trajectory else result.file, markup=False, highlight=False
     )
     for d in result.diagnostics:
-        label = f"  {d.severity.name.lower()} {d.code}: "
-        console.print(label + d.message, style=COLOURS[d.severity], markup=False, highlight=False)
+        severity = d.severity.name.lower()
+        label, style = f"  {severity} {d.code}: ", SEVERITY_STYLES[severity]
+        console.print(label + d.message, style=style, markup=False, highlight=False)
         if d.remedy:
             console.print(f"      {d.remedy}", markup=False, highlight=False)
     if result.candidates:
