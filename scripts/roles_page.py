@@ -31,7 +31,7 @@ def page(rules: Rules) -> str:
     ],
     // People, such as {{ id: "anna", cert_common_names: ["anna.1f2e3d4c"] }}
     subjects: [],
-    // Roles, such as {{ id: "viewer", rules: ["viewer_subscribes", ...], subjects: ["anna"] }}
+    // Roles, such as {{ id: "display", rules: ["display_subscribes", ...], subjects: ["anna"] }}
     policies: [],
   }},
 }}

@@ -93,7 +93,10 @@ def add(
     names: Annotated[list[str], typer.Argument(help="Who may connect; one or several names.")],
     role: Annotated[
         Role,
-        typer.Option(help="viewer: watch; operator: play robots too; instructor: everything."),
+        typer.Option(
+            help="display: watch; student: the same, and own uploads in the browser; operator: "
+            "play robots too; instructor: everything."
+        ),
     ],
     folder: Folder = Path("keys"),
     days: Annotated[int, typer.Option(min=1, max=1825, help="How long, in days.")] = 365,

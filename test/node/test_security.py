@@ -58,7 +58,7 @@ TRICKS = (
     "@/*/session/**",
 )
 CALLS = {
-    "converter/list": (ListTrajectories, Role.VIEWER),
+    "converter/list": (ListTrajectories, Role.DISPLAY),
     "ur5e_1/play": (Trigger, Role.OPERATOR),
     "cell/step": (Step, Role.OPERATOR),
     "recorder/stop": (Trigger, Role.INSTRUCTOR),
@@ -177,14 +177,14 @@ def test_quic_takes_the_same_keys_and_rules(graph, keys, start, endpoint):
     start(keys, listen=[quic])
     graph.client.create_publisher(Robots, "robots", qos.LATCHED).publish(Robots())
     called = serve(graph, ["ur5e_1/play"])
-    with zenoh.open(configuration(keys.client_file("viewer"), quic)) as viewer:
+    with zenoh.open(configuration(keys.client_file("display"), quic)) as viewer:
         wait_for(lambda: ask(viewer, "robots")[0], "the state")
         wait_for(lambda: offered(viewer, "ur5e_1/play"), "the service")
         assert ask(viewer, "ur5e_1/play") == ([], [])
         with zenoh.open(configuration(keys.client_file("operator"), quic)) as operator:
             assert ask(operator, "ur5e_1/play")[0]
     assert called == ["ur5e_1/play"]
-    stranger = configuration(keys.client_file("viewer"), quic)
+    stranger = configuration(keys.client_file("display"), quic)
     stranger.insert_json5("transport/link/tls/enable_mtls", "false")
     with pytest.raises(zenoh.ZError, match="Unable to connect"):
         zenoh.open(stranger).close()
@@ -193,7 +193,7 @@ def test_quic_takes_the_same_keys_and_rules(graph, keys, start, endpoint):
 def test_whoever_may_connect_receives_streams_states_and_who_is_there(graph, people):
     joints = graph.client.create_publisher(JointState, JOINTS, qos.STREAM)
     graph.client.create_publisher(Robots, "robots", qos.LATCHED).publish(Robots())
-    wait_for(lambda: ask(people[Role.VIEWER], "robots")[0], "the newest state")
+    wait_for(lambda: ask(people[Role.DISPLAY], "robots")[0], "the newest state")
     streamed, states = {role: [] for role in Role}, {role: [] for role in Role}
     history = ext.HistoryConfig(detect_late_publishers=True)
     late = []
@@ -222,7 +222,7 @@ def test_each_role_calls_what_it_may_and_nothing_else(graph, keys, start, connec
     people = {role: connect(keys.client_file(role.value)) for role in Role}
     called = serve(graph, CALLS)
     for name in CALLS:
-        wait_for(lambda key=prefix + name: offered(people[Role.VIEWER], key), name)
+        wait_for(lambda key=prefix + name: offered(people[Role.DISPLAY], key), name)
     for role, session in people.items():
         for name, (_, needed) in CALLS.items():
             called.clear()
@@ -254,9 +254,9 @@ def test_a_client_that_heeds_nothing_is_refused_by_the_bridge(
     graph.client.create_publisher(Robots, "robots", qos.LATCHED).publish(Robots())
     called = serve(graph, ["ur5e_1/play", "recorder/stop"])
     for name in ("ur5e_1/play", "recorder/stop"):
-        wait_for(lambda name=name: offered(people[Role.VIEWER], name), name)
-    wait_for(lambda: ask(people[Role.VIEWER], "robots")[0], "the newest state")
-    viewer, operator = people[Role.VIEWER], people[Role.OPERATOR]
+        wait_for(lambda name=name: offered(people[Role.DISPLAY], name), name)
+    wait_for(lambda: ask(people[Role.DISPLAY], "robots")[0], "the newest state")
+    viewer, operator = people[Role.DISPLAY], people[Role.OPERATOR]
     unanswered = [
         *(viewer.get(key, timeout=60.0) for key in ("ur5e_1/play", *TRICKS)),
         *(operator.get(key, timeout=60.0) for key in ("recorder/stop", *TRICKS)),
@@ -290,7 +290,7 @@ def test_nobody_sends_for_the_lab(graph, keys, people, connect):
     def note(sample):
         received.setdefault(str(sample.key_expr), []).append(sample.payload.to_bytes())
 
-    watcher = connect(keys.client_file("viewer"))
+    watcher = connect(keys.client_file("display"))
     watcher.declare_subscriber("**", note)
     reports = graph.listen(Latency, "latency/clients", qos.LATCHED_EVENTS)
     fake = bytes(serialize_message(JointState(name=["fake"])))
@@ -311,7 +311,7 @@ def test_nobody_sends_for_the_lab(graph, keys, people, connect):
 
 
 def test_nobody_pretends_to_be_the_lab(people):
-    viewer = people[Role.VIEWER]
+    viewer = people[Role.DISPLAY]
     got = []
     viewer.declare_subscriber("latency/clients", lambda s: got.append(s.payload.to_bytes()))
     report = bytes(serialize_message(Latency()))
@@ -385,7 +385,7 @@ def spoil(name, folders, tmp_path, endpoint):
         return configuration(other.client_file("instructor"), endpoint)
     if name == "an expired certificate":
         begin = now() - timedelta(minutes=30)
-        keys.add("late", Role.VIEWER, begin, timedelta(minutes=20))
+        keys.add("late", Role.DISPLAY, begin, timedelta(minutes=20))
         late = configuration(keys.client_file("late"), endpoint)
         keys.revoke("late")
         return late
@@ -430,7 +430,7 @@ def test_who_is_nobody_cannot_connect(graph, folders, start, connect, tmp_path, 
         config = spoil(name, folders, tmp_path / str(i), endpoint)
         with pytest.raises(zenoh.ZError, match="Unable to connect"):
             zenoh.open(config).close()
-        good = connect(folders[login].client_file("viewer"))
+        good = connect(folders[login].client_file("display"))
         wait_for(lambda good=good: ask(good, "robots")[0], f"the state, after {name}")
 
 
@@ -440,10 +440,10 @@ def test_a_certificate_with_somebody_else_s_password_has_no_rights(
     keys = folders[Login.BOTH]
     start(keys)
     graph.client.create_publisher(Robots, "robots", qos.LATCHED).publish(Robots())
-    viewer = connect(keys.client_file("viewer"))
+    viewer = connect(keys.client_file("display"))
     wait_for(lambda: ask(viewer, "robots")[0], "the state")
     mixed = configuration(keys.client_file("instructor"), endpoint)
-    theirs = configuration(keys.client_file("viewer"), endpoint)
+    theirs = configuration(keys.client_file("display"), endpoint)
     for part in ("user", "password"):
         path = f"transport/auth/usrpwd/{part}"
         mixed.insert_json5(path, theirs.get_json(path))
@@ -473,7 +473,7 @@ def test_the_example_client_connects_with_its_file_and_says_why_not(
     publisher.publish(Robots(robots=[Robot(name="ur5e_1")]))
     watch = ("watch", "robots", "mrlab_msgs/msg/Robots", "--latched", "--count", "1")
     known = (*watch, "--definitions", ROOT / "msg_schemas", "--connect", endpoint)
-    done = stock_client(*known, "--config", keys.client_file("viewer"))
+    done = stock_client(*known, "--config", keys.client_file("display"))
     assert done.returncode == 0, done.stderr
     assert "ur5e_1" in done.stdout
     refused = stock_client(*known)
@@ -493,17 +493,17 @@ def test_the_lab_s_log_says_who_came_and_who_was_refused(graph, folders, endpoin
         )
     try:
         wait_for(lambda: "carries" in log.read_text(), "the bridge")
-        good = configuration(folders[Login.BOTH].client_file("viewer"), endpoint)
-        wrong = configuration(folders[Login.BOTH].client_file("viewer"), endpoint)
+        good = configuration(folders[Login.BOTH].client_file("display"), endpoint)
+        wrong = configuration(folders[Login.BOTH].client_file("display"), endpoint)
         wrong.insert_json5("transport/auth/usrpwd/password", '"guess"')
-        stranger = configuration(folders[Login.CERTIFICATE].client_file("viewer"), endpoint)
+        stranger = configuration(folders[Login.CERTIFICATE].client_file("display"), endpoint)
         authority = "transport/link/tls/root_ca_certificate_base64"
         stranger.insert_json5(authority, good.get_json(authority))
         zenoh.open(good).close()
         for config in (wrong, stranger):
             with pytest.raises(zenoh.ZError):
                 zenoh.open(config).close()
-        for words in ("Common Name: viewer.", "Invalid password", "invalid peer certificate"):
+        for words in ("Common Name: display.", "Invalid password", "invalid peer certificate"):
             wait_for(lambda words=words: words in log.read_text(), words)
     finally:
         process.kill()

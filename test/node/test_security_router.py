@@ -141,7 +141,7 @@ def test_the_router_lets_each_role_do_what_it_may(graph, bridge, connect):
 
 def test_nobody_passes_for_the_lab_at_the_router(graph, bridge, connect):
     received = []
-    watcher, instructor = connect("viewer"), connect("instructor")
+    watcher, instructor = connect("display"), connect("instructor")
     watcher.declare_subscriber(f"{PREFIX}**", lambda s: received.append(str(s.key_expr)))
     reports = graph.listen(Latency, "latency/clients", qos.LATCHED_EVENTS)
     held = [
@@ -163,7 +163,7 @@ def test_nobody_passes_for_the_lab_at_the_router(graph, bridge, connect):
 
 def test_whom_the_router_s_file_does_not_name_sees_nothing(graph, bridge, connect):
     graph.client.create_publisher(Robots, "robots", qos.LATCHED).publish(Robots())
-    named, late = connect("viewer"), connect("late")
+    named, late = connect("display"), connect("late")
     wait_for(lambda: ask(named, f"{PREFIX}robots"), "the state")
     assert ask(late, f"{PREFIX}robots") == []
     assert tokens(late) == set()

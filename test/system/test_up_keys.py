@@ -19,7 +19,7 @@ from mrlab_ros.commands.demo.lab import free_port
 def keys(tmp_path: Path) -> Path:
     folder = tmp_path / "keys"
     assert mrlab("keys", "init", "--dir", folder).returncode == 0
-    assert mrlab("keys", "add", "anna", "--role", "viewer", "--dir", folder).returncode == 0
+    assert mrlab("keys", "add", "anna", "--role", "display", "--dir", folder).returncode == 0
     return folder
 
 
@@ -63,7 +63,7 @@ def test_keys_are_given_and_taken_back_while_the_lab_runs(keys: Path, endpoint: 
     with zenoh.open(kept) as anna:
         # In this order: where ben may see the robots, anna may no longer.
         assert mrlab("keys", "revoke", "anna", "--dir", keys).returncode == 0
-        assert mrlab("keys", "add", "ben", "--role", "viewer", "--dir", keys).returncode == 0
+        assert mrlab("keys", "add", "ben", "--role", "display", "--dir", keys).returncode == 0
         ben = zenoh.Config.from_file(str(keys / "clients" / "ben.json5"))
         assert patiently(lambda: robots(ben, endpoint))
         assert patiently(lambda: list(anna.info.peers_zid()), "anna's client to come back")

@@ -16,6 +16,7 @@ PACKAGE = Path(__file__).parents[2] / "mrlab_ros"
 TESTS = Path(__file__).parent
 CORE = sorted((PACKAGE / "core").rglob("*.py"))
 ADAPTERS = sorted((PACKAGE / "adapters").rglob("*.py"))
+GATEWAY = sorted((PACKAGE / "gateway").rglob("*.py"))
 SOURCES = sorted(PACKAGE.rglob("*.py"))
 # From the bottom to the top; below each stands what it may import. docs/architecture.md has the
 # same table.
@@ -26,7 +27,8 @@ LAYERS = {
     "ros": ("core", "messages"),
     "nodes": ("core", "adapters", "messages", "ros"),
     "processes": ("core", "adapters", "messages", "ros", "nodes"),
-    "commands": ("core", "adapters", "messages", "ros", "processes"),
+    "gateway": ("core", "adapters"),
+    "commands": ("core", "adapters", "messages", "ros", "processes", "gateway"),
     "cli": ("core", "commands"),
 }
 # Parts of rclpy that may change with any release.
@@ -177,6 +179,11 @@ def test_adapters_know_no_node_and_nothing_above_them(path: Path) -> None:
     }
 
 
+@pytest.mark.parametrize("path", GATEWAY, ids=module_name)
+def test_the_gateway_is_no_node(path: Path) -> None:
+    assert not {name for name in imports_of(path) if name.split(".")[0] in GRAPH}
+
+
 @pytest.mark.parametrize("path", SOURCES, ids=module_name)
 def test_a_layer_imports_only_the_layers_below_it(path: Path) -> None:
     module = module_name(path)
@@ -221,6 +228,7 @@ def test_unit_tests_lie_where_what_they_test_lies() -> None:
 def test_every_layer_has_sources() -> None:
     assert len(CORE) > 5
     assert len(ADAPTERS) > 1
+    assert len(GATEWAY) > 1
 
 
 def test_imports_are_found_in_every_form() -> None:

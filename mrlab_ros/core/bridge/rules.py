@@ -75,9 +75,10 @@ class Reliability(Enum):
 class Role(Enum):
     """What a person may do in a lab with keys; a later role includes the earlier ones."""
 
-    VIEWER = "viewer"  # watch
+    DISPLAY = "display"  # watch
+    STUDENT = "student"  # upload and publish what is one's own
     OPERATOR = "operator"  # play robots
-    INSTRUCTOR = "instructor"  # change the scene
+    INSTRUCTOR = "instructor"  # change the scene, and everybody's things
 
     def may(self, needed: Role) -> bool:
         """Return whether this role includes `needed`."""

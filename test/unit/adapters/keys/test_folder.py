@@ -115,7 +115,7 @@ def shakes_hands(keys, name):
 
 
 def test_only_the_owner_can_read_the_files(keys):
-    keys.add("anna", Role.VIEWER, NOW)
+    keys.add("anna", Role.DISPLAY, NOW)
     modes = {p: stat.S_IMODE(p.stat().st_mode) for p in keys.folder.rglob("*")}
     assert stat.S_IMODE(keys.folder.stat().st_mode) == 0o700
     assert all(mode == (0o700 if p.is_dir() else 0o600) for p, mode in modes.items()), modes
@@ -134,11 +134,11 @@ def test_only_the_owner_can_read_the_files(keys):
 
 
 def test_nothing_that_exists_is_overwritten(keys):
-    keys.add("anna", Role.VIEWER, NOW)
+    keys.add("anna", Role.DISPLAY, NOW)
     before = {p: p.read_bytes() for p in keys.folder.rglob("*") if p.is_file()}
     with pytest.raises(Misuse, match="not empty"):
         Keys.create(keys.folder, [], Login.BOTH, NOW)
-    with pytest.raises(Misuse, match="has a key already, as viewer"):
+    with pytest.raises(Misuse, match="has a key already, as display"):
         keys.add("anna", Role.INSTRUCTOR, NOW)
     assert {p: p.read_bytes() for p in keys.folder.rglob("*") if p.is_file()} == before
 
@@ -149,7 +149,7 @@ def test_who_gets_a_name_anew_does_not_bring_the_old_certificate_back(keys):
     keys.revoke("anna")
     assert not keys.client_file("anna").exists()
     assert "anna" not in read_passwords(keys.folder / "passwords.txt")
-    second = keys.add("anna", Role.VIEWER, NOW).person.common_name
+    second = keys.add("anna", Role.DISPLAY, NOW).person.common_name
     subjects = keys.settings(RULES, "", NOW)["access_control"]["subjects"]
     assert [subject["cert_common_names"] for subject in subjects] == [[second]]
     assert first != second
@@ -158,7 +158,7 @@ def test_who_gets_a_name_anew_does_not_bring_the_old_certificate_back(keys):
 
 def test_a_folder_is_read_back_as_it_was_written(keys):
     keys.add("anna", Role.OPERATOR, NOW)
-    keys.add("ben", Role.VIEWER, NOW, 7 * DAY)
+    keys.add("ben", Role.DISPLAY, NOW, 7 * DAY)
     again = Keys(keys.folder)
     assert again.entries == keys.entries
     assert again.login is Login.BOTH
@@ -168,11 +168,11 @@ def test_a_folder_is_read_back_as_it_was_written(keys):
 
 def test_nothing_outlives_the_authority(keys):
     late = NOW + AUTHORITY_LIFETIME - 3 * DAY
-    assert keys.add("anna", Role.VIEWER, late).expires == NOW + AUTHORITY_LIFETIME
+    assert keys.add("anna", Role.DISPLAY, late).expires == NOW + AUTHORITY_LIFETIME
 
 
 def test_a_renewed_lab_has_more_names_and_everybody_s_keys_still(keys):
-    keys.add("anna", Role.VIEWER, NOW)
+    keys.add("anna", Role.DISPLAY, NOW)
     later = NOW + SERVER_LIFETIME + DAY
     with pytest.raises(BadInput, match="expired on .*mrlab keys renew"):
         keys.check(later)
@@ -258,7 +258,7 @@ def test_the_command_makes_lists_and_takes_back_keys(tmp_path):
     )
     assert [Path(entry["file"]).is_file() for entry in added] == [True, True]
     assert "ben" in run("revoke", "ben", "--dir", folder).stdout
-    gone = json.loads(run("add", "eve", "--role", "viewer", "--dir", folder, "--json").stdout)
+    gone = json.loads(run("add", "eve", "--role", "display", "--dir", folder, "--json").stdout)
     taken = json.loads(run("revoke", "eve", "--dir", folder, "--json").stdout)
     assert taken[0]["common_name"] == gone[0]["common_name"]
     found = json.loads(run("list", "--dir", folder, "--json").stdout)
@@ -320,7 +320,7 @@ def test_the_router_s_file_is_for_its_owner_and_the_lab_keeps_its_name(tmp_path)
     keys = Keys.create(tmp_path / "keys", [], Login.CERTIFICATE, datetime.now(timezone.utc))
     run("router", "--dir", keys.folder)
     name = certificates.common_name(certificate(keys, "lab.pem"))
-    added = run("add", "anna", "--role", "viewer", "--dir", keys.folder)
+    added = run("add", "anna", "--role", "display", "--dir", keys.folder)
     assert "A router needs a new file" in added.stdout
     run("router", "--dir", keys.folder, "--prefix", "lab_1")
     for file in ("lab.pem", "lab.key", "router.json5"):
@@ -352,7 +352,7 @@ def test_commands_at_the_same_time_lose_nobody(tmp_path):
     folder = Keys.create(tmp_path / "keys", [], Login.BOTH, NOW).folder
     others = [Keys(folder) for _ in range(4)]
     threads = [
-        threading.Thread(target=keys.add, args=(f"person_{i}", Role.VIEWER, NOW))
+        threading.Thread(target=keys.add, args=(f"person_{i}", Role.DISPLAY, NOW))
         for i, keys in enumerate(others)
     ]
     for thread in threads:
@@ -365,10 +365,10 @@ def test_commands_at_the_same_time_lose_nobody(tmp_path):
 
 
 def test_several_names_are_added_and_taken_back_all_or_none(keys):
-    bad = run("add", "anna", "ben!", "--role", "viewer", "--dir", keys.folder)
+    bad = run("add", "anna", "ben!", "--role", "display", "--dir", keys.folder)
     assert isinstance(bad.exception, BadInput)
     assert Keys(keys.folder).entries == []
-    assert run("add", "anna", "anna", "--role", "viewer", "--dir", keys.folder).exit_code == 0
+    assert run("add", "anna", "anna", "--role", "display", "--dir", keys.folder).exit_code == 0
     assert isinstance(run("revoke", "anna", "eve", "--dir", keys.folder).exception, BadInput)
     assert [entry.person.name for entry in Keys(keys.folder).entries] == ["anna"]
     assert run("revoke", "anna", "anna", "--dir", keys.folder).exit_code == 0
@@ -405,7 +405,7 @@ def test_a_running_lab_follows_its_keys_and_never_into_a_broken_folder(tmp_path)
         yield
         assert said == []
         (keys.folder / "server.pem").unlink()
-        keys.add("anna", Role.VIEWER, datetime.now(timezone.utc))
+        keys.add("anna", Role.DISPLAY, datetime.now(timezone.utc))
         yield
         yield
         (complaint,) = said
@@ -424,7 +424,7 @@ def test_a_running_lab_follows_its_keys_and_never_into_a_broken_folder(tmp_path)
         aside.rename(keys.folder)
         yield
         assert len(restarts) == 1
-        keys.add("ben", Role.VIEWER, datetime.now(timezone.utc))
+        keys.add("ben", Role.DISPLAY, datetime.now(timezone.utc))
         yield
         assert len(restarts) == 2
         assert "starts again" in said[-1]

@@ -27,7 +27,7 @@ DAY = timedelta(days=1)
 def people():
     entries = [
         Entry(Person("ben", Role.OPERATOR, "ben.2"), NOW + 2 * DAY),
-        Entry(Person("anna", Role.VIEWER, "anna.1"), NOW + DAY),
+        Entry(Person("anna", Role.DISPLAY, "anna.1"), NOW + DAY),
     ]
     return People(Login.BOTH, ["lab"], {entry.person.name: entry for entry in entries})
 
@@ -51,7 +51,7 @@ def test_a_missing_list_names_the_command_that_makes_one(tmp_path):
 
 
 def test_a_name_is_given_once():
-    with pytest.raises(Misuse, match="anna has a key already, as viewer; .* revoke anna"):
+    with pytest.raises(Misuse, match="anna has a key already, as display; .* revoke anna"):
         people().check_new("anna")
     people().check_new("carl")
 
@@ -75,10 +75,10 @@ def test_a_damaged_list_of_people_is_said(keys, text):
 @pytest.mark.parametrize("name", ["", "a b", "-a", "a:b", "ä", "a" * 42, "../a", NOBODY])
 def test_a_name_that_cannot_be_one_is_refused(keys, name):
     with pytest.raises(BadInput, match="is no name for a key"):
-        keys.add(name, Role.VIEWER, NOW)
+        keys.add(name, Role.DISPLAY, NOW)
 
 
 def test_passwords_are_asked_for_even_where_nobody_has_one(keys):
-    keys.add("anna", Role.VIEWER, NOW)
+    keys.add("anna", Role.DISPLAY, NOW)
     keys.revoke("anna")
     assert list(read_passwords(keys.folder / "passwords.txt")) == [NOBODY]

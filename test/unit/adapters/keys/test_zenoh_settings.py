@@ -22,14 +22,14 @@ RULES = rules.parse(yaml.safe_load((ROOT / "config" / "bridge.yaml").read_text()
 
 
 def test_an_expired_person_has_no_rights_by_password_either(keys):
-    keys.add("anna", Role.VIEWER, NOW, DAY)
+    keys.add("anna", Role.DISPLAY, NOW, DAY)
     assert keys.settings(RULES, "", NOW)["access_control"]["subjects"]
     assert not keys.settings(RULES, "", NOW + 2 * DAY)["access_control"]["subjects"]
 
 
 def test_an_ipv6_address_is_written_as_zenoh_reads_it(tmp_path):
     keys = Keys.create(tmp_path / "keys", ["fd00::20"], Login.CERTIFICATE, NOW)
-    keys.add("anna", Role.VIEWER, NOW)
+    keys.add("anna", Role.DISPLAY, NOW)
     config = zenoh.Config.from_file(str(keys.client_file("anna")))
     assert json.loads(config.get_json("connect/endpoints")) == [
         "tls/[fd00::20]:7447",
@@ -39,7 +39,7 @@ def test_an_ipv6_address_is_written_as_zenoh_reads_it(tmp_path):
 
 def test_a_client_s_file_lets_links_heal_soon_even_where_the_folder_of_files_was_removed(keys):
     (keys.folder / "clients").rmdir()
-    keys.add("anna", Role.VIEWER, NOW)
+    keys.add("anna", Role.DISPLAY, NOW)
     assert stat.S_IMODE((keys.folder / "clients").stat().st_mode) == 0o700
     for file in (keys.client_file("anna"), *(ROOT / "config" / "zenoh").glob("client_*.json5")):
         config = zenoh.Config.from_file(str(file))

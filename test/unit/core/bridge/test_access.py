@@ -23,7 +23,7 @@ from mrlab_ros.core.bridge.rules import Direction, Role
 ROOT = Path(__file__).parents[4]
 SHIPPED = br.parse(yaml.safe_load((ROOT / "config" / "bridge.yaml").read_text()))
 ANNA = Person("anna", Role.OPERATOR, "anna.1")
-BEN = Person("ben", Role.VIEWER, "ben.2")
+BEN = Person("ben", Role.DISPLAY, "ben.2")
 PARTS = st.sampled_from(["a", "b", "*", "**"])
 PATTERNS = st.lists(PARTS, min_size=1, max_size=5)
 NAMES = st.lists(st.sampled_from(["a", "b", "c"]), min_size=1, max_size=5)
@@ -102,10 +102,10 @@ def test_a_pattern_does_not_open_a_stricter_service(services, allowed):
 
 def test_a_topic_does_not_open_a_service_of_its_name_nor_another_topic():
     document = {
-        "topics": [{"name": "/a/x"}, {"name": "/**", "direction": "in", "role": "viewer"}],
+        "topics": [{"name": "/a/x"}, {"name": "/**", "direction": "in", "role": "display"}],
         "services": [{"name": "/a/*"}],
     }
-    rules = role_rules(br.parse(document), Role.VIEWER)
+    rules = role_rules(br.parse(document), Role.DISPLAY)
     assert not permits(rules, "query", "ingress", "a/x")
     assert not permits(rules, "put", "ingress", "a/x")
     assert permits(rules, "put", "ingress", "b/x")
@@ -121,8 +121,8 @@ def test_patterns_that_share_a_name_overlap(one, other, name):
 @given(PATTERNS)
 def test_every_pattern_of_the_list_becomes_a_key_expression_of_zenoh(pattern):
     name = "/" + "/".join(pattern)
-    rules = br.parse({"services": [{"name": name, "role": "viewer"}]})
-    keys = role_rules(rules, Role.VIEWER)[2]["key_exprs"]
+    rules = br.parse({"services": [{"name": name, "role": "display"}]})
+    keys = role_rules(rules, Role.DISPLAY)[2]["key_exprs"]
     assert str(zenoh.KeyExpr(keys[0])) == keys[0]
     assert zenoh.KeyExpr(keys[0]) == zenoh.KeyExpr.autocanonize(name[1:])
 
@@ -145,12 +145,12 @@ def test_everybody_has_the_rules_of_one_role():
     assert found["enabled"] is True
     assert found["default_permission"] == "deny"
     policies = {policy["id"]: policy for policy in found["policies"]}
-    assert set(policies) == {"viewer", "operator"}
+    assert set(policies) == {"display", "operator"}
     assert policies["operator"]["subjects"] == ["anna"]
     assert all(rule.startswith("operator_") for rule in policies["operator"]["rules"])
     known = [rule["id"] for rule in found["rules"]]
     assert len(known) == len(set(known))
-    assert set(policies["viewer"]["rules"]) <= set(known)
+    assert set(policies["display"]["rules"]) <= set(known)
 
 
 @pytest.mark.parametrize("file", sorted((ROOT / "config" / "zenoh").glob("*.json5")), ids=str)
@@ -160,7 +160,8 @@ def test_zenoh_reads_the_shipped_files(file):
 
 def test_a_role_includes_those_before_it():
     assert [[role.may(needed) for needed in Role] for role in Role] == [
-        [True, False, False],
-        [True, True, False],
-        [True, True, True],
+        [True, False, False, False],
+        [True, True, False, False],
+        [True, True, True, False],
+        [True, True, True, True],
     ]

@@ -111,10 +111,10 @@ def test_a_prefix_that_is_no_key_is_refused(prefix):
 
 
 def test_who_may_receive_cannot_be_said_topic_by_topic():
-    assert topics({"name": "/a", "direction": "in", "role": "viewer"}).topics[0].role
+    assert topics({"name": "/a", "direction": "in", "role": "display"}).topics[0].role
     with pytest.raises(BadInput, match="goes out"):
         topics({"name": "/a", "role": "operator"})
-    with pytest.raises(BadInput, match="viewer, operator or instructor"):
+    with pytest.raises(BadInput, match="display, student, operator or instructor"):
         topics({"name": "/a", "direction": "in", "role": "boss"})
 
 

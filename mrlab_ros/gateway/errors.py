@@ -1,0 +1,144 @@
+"""The one form of errors over HTTP: {"error": {"message": "...", "code": "..."}}."""
+
+from __future__ import annotations
+
+import logging
+from collections.abc import Mapping
+from typing import Any, ClassVar
+
+from fastapi import FastAPI, Request
+from fastapi.exceptions import RequestValidationError
+from fastapi.responses import JSONResponse
+from pydantic import BaseModel
+from starlette.exceptions import HTTPException
+
+from mrlab_ros.core.errors import BadInput, LabError, Misuse, Unavailable
+
+logger = logging.getLogger("mrlab.gateway")
+
+
+class GatewayError(LabError):
+    """An error with a status of its own; a subclass says which."""
+
+    status: ClassVar[int] = 500
+    code: ClassVar[str] = "fault"
+
+    def __init__(self, message: str, headers: Mapping[str, str] | None = None) -> None:
+        super().__init__(message)
+        self.headers = dict(headers or {})
+
+
+class NotSignedIn(GatewayError):
+    """Nobody is signed in, or the sign-in has ended."""
+
+    status = 401
+    code = "not_signed_in"
+
+
+class NotAllowed(GatewayError):
+    """Somebody is signed in whose role does not allow this."""
+
+    status = 403
+    code = "not_allowed"
+
+
+class NotFound(GatewayError):
+    """There is no such thing, or not for this person."""
+
+    status = 404
+    code = "not_found"
+
+
+class TooLarge(GatewayError):
+    """A body is larger than it may be."""
+
+    status = 413
+    code = "too_large"
+
+
+class TooMany(GatewayError):
+    """A person or an address asks too often."""
+
+    status = 429
+    code = "too_many"
+
+    def __init__(self, message: str, retry_after: float) -> None:
+        """retry_after: s until it may work again."""
+        super().__init__(message, {"Retry-After": str(max(1, round(retry_after)))})
+
+
+class Fault(BaseModel):
+    """What went wrong: a sentence for a person, and a word for a program."""
+
+    message: str
+    code: str
+
+
+class Problem(BaseModel):
+    """The body of every answer that is an error."""
+
+    error: Fault
+
+
+# The first class that fits decides.
+STATUS: tuple[tuple[type[LabError], int, str], ...] = (
+    (Unavailable, 503, "unavailable"),
+    (BadInput, 400, "bad_input"),
+    (Misuse, 409, "misuse"),
+    (LabError, 502, "lab"),
+)
+# What any route may answer, for the OpenAPI description.
+RESPONSES: dict[int | str, dict[str, Any]] = {
+    status: {"model": Problem}
+    for status in (400, 401, 403, 404, 405, 409, 413, 422, 429, 502, 503, 504)
+}
+
+
+def problem(
+    status: int, code: str, message: str, headers: Mapping[str, str] | None = None
+) -> JSONResponse:
+    """Return the answer for an error."""
+    body = {"error": {"message": message, "code": code}}
+    return JSONResponse(body, status, headers=dict(headers or {}))
+
+
+def of_lab_error(error: LabError) -> JSONResponse:
+    """Return the answer for an error that was raised on purpose."""
+    if isinstance(error, GatewayError):
+        return problem(error.status, error.code, str(error), error.headers)
+    for kind, status, code in STATUS:
+        if isinstance(error, kind):
+            return problem(status, code, str(error))
+    raise AssertionError(error)
+
+
+def install(app: FastAPI) -> None:
+    """Have every error of `app` answered in the one form."""
+
+    @app.exception_handler(LabError)
+    async def _(_: Request, error: LabError) -> JSONResponse:
+        return of_lab_error(error)
+
+    @app.exception_handler(HTTPException)
+    async def _(request: Request, error: HTTPException) -> JSONResponse:
+        words = {
+            404: ("not_found", f"there is nothing at {request.url.path}"),
+            405: ("method", f"{request.method} is not possible at {request.url.path}"),
+        }
+        code, message = words.get(error.status_code, ("http", str(error.detail)))
+        return problem(error.status_code, code, message, error.headers)
+
+    @app.exception_handler(RequestValidationError)
+    async def _(_: Request, error: RequestValidationError) -> JSONResponse:
+        found = [
+            f"{'.'.join(str(part) for part in each['loc'])}: {each['msg']}"
+            for each in error.errors()
+        ]
+        message = f"the request is not as described in /api/openapi.json: {'; '.join(found)}"
+        return problem(422, "bad_request", message)
+
+    @app.exception_handler(Exception)
+    async def _(request: Request, error: Exception) -> JSONResponse:
+        logger.error("%s %s failed", request.method, request.url.path, exc_info=error)
+        message = "the gateway failed at this request; its log, on the lab's machine, says why"
+        return problem(500, "fault", message)

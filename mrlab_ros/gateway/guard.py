@@ -1,0 +1,126 @@
+"""One guard for HTTP and the WebSocket: Host, Origin, CSRF token, and the headers of answers.
+
+A page of another site can neither read nor change the lab: its Origin is foreign. A name that was
+made to point here (DNS rebinding) is no Host of this gateway.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+from starlette.datastructures import Headers, MutableHeaders
+from starlette.types import ASGIApp, Message, Receive, Scope, Send
+
+from mrlab_ros.gateway.errors import problem
+
+SAFE = ("GET", "HEAD", "OPTIONS")
+CSRF_HEADER = "x-csrf-token"
+# wasm-unsafe-eval: meshes are unpacked by WebAssembly. blob: textures of glTF files.
+POLICY = "; ".join(
+    (
+        "default-src 'none'",
+        "script-src 'self' 'wasm-unsafe-eval'",
+        "style-src 'self'",
+        "img-src 'self' blob:",
+        "font-src 'self'",
+        "media-src 'self'",
+        "connect-src 'self' blob:",
+        "worker-src 'self'",
+        "manifest-src 'self'",
+        "form-action 'self'",
+        "base-uri 'none'",
+        "frame-ancestors 'none'",
+    )
+)
+HEADERS = {
+    "Content-Security-Policy": POLICY,
+    "Cross-Origin-Opener-Policy": "same-origin",
+    "Cross-Origin-Resource-Policy": "same-origin",
+    "Permissions-Policy": "camera=(), geolocation=(), microphone=(), xr-spatial-tracking=(self)",
+    "Referrer-Policy": "no-referrer",
+    "X-Content-Type-Options": "nosniff",
+    "X-Frame-Options": "DENY",
+}
+
+
+class Guard:
+    """Refuses requests with a wrong Host, Origin or CSRF token; adds HEADERS to every answer.
+
+    host_allowed: whether a Host, without its port, is a name of this gateway. public_origin: that
+    of a reverse proxy before it, or empty. csrf_matches: whether a token is the right one for the
+    Cookie header of its request.
+    """
+
+    def __init__(
+        self,
+        app: ASGIApp,
+        host_allowed: Callable[[str], bool],
+        public_origin: str,
+        csrf_matches: Callable[[str, str], bool],
+    ) -> None:
+        self._app = app
+        self._host_allowed = host_allowed
+        self._public_origin = public_origin
+        self._csrf_matches = csrf_matches
+
+    async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
+        """Pass a request on, or refuse it."""
+        if scope["type"] not in ("http", "websocket"):
+            await self._app(scope, receive, send)
+            return
+        refusal = self._refusal(scope)
+        if scope["type"] == "websocket":
+            if refusal is not None:
+                await send({"type": "websocket.close", "code": 1008, "reason": refusal[0]})
+                return
+            await self._app(scope, receive, send)
+            return
+
+        async def send_with_headers(message: Message) -> None:
+            if message["type"] == "http.response.start":
+                headers = MutableHeaders(scope=message)
+                for name, value in HEADERS.items():
+                    headers.setdefault(name, value)
+                # What no route says otherwise is for this person alone.
+                headers.setdefault("Cache-Control", "no-store")
+            await send(message)
+
+        if refusal is not None:
+            await problem(403, *refusal)(scope, receive, send_with_headers)
+            return
+        await self._app(scope, receive, send_with_headers)
+
+    def _refusal(self, scope: Scope) -> tuple[str, str] | None:
+        """Return code and sentence where the request is refused."""
+        headers = Headers(scope=scope)
+        host = headers.get("host", "")
+        if not self._host_allowed(without_port(host)):
+            return "host", (
+                f"this gateway is not called {host[:100]!r}; open it by the address that it "
+                "printed when it started"
+            )
+        unsafe = scope["type"] == "websocket" or scope["method"] not in SAFE
+        if not unsafe:
+            return None
+        origin = headers.get("origin", "")
+        secure = scope.get("scheme") in ("https", "wss")
+        own = f"{'https' if secure else 'http'}://{host}"
+        if not origin or origin not in (own, self._public_origin):
+            return "origin", (
+                f"this request comes from {origin[:100] or 'nowhere (no Origin)'!r}, not from the "
+                f"pages of this gateway; expected the header Origin: {self._public_origin or own}"
+            )
+        if scope["type"] == "http" and not self._csrf_matches(
+            headers.get(CSRF_HEADER, ""), headers.get("cookie", "")
+        ):
+            return "csrf", (
+                "the header X-CSRF-Token is missing or old; take the csrf of GET /api/session"
+            )
+        return None
+
+
+def without_port(host: str) -> str:
+    """Return the name or address of a Host header, in lower case and without brackets."""
+    if host.startswith("["):
+        return host[1:].partition("]")[0]
+    return host.partition(":")[0].lower()

@@ -1,0 +1,1 @@
+"""The lab as the gateway sees it: keys of zenoh."""

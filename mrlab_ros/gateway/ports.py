@@ -1,0 +1,24 @@
+"""The outside worlds of a gateway; tests put fakes in their place."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+from fastapi.requests import HTTPConnection
+
+if TYPE_CHECKING:
+    from mrlab_ros.gateway.lab.port import LabConnection
+
+
+@dataclass
+class Ports:
+    """The outside worlds of a gateway; what is None is not there, and its routes say so."""
+
+    lab: LabConnection | None = None
+
+
+def ports(connection: HTTPConnection) -> Ports:
+    """Return the ports, as a dependency of routes and sockets."""
+    found: Ports = connection.app.state.ports
+    return found

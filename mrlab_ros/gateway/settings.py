@@ -1,0 +1,77 @@
+"""What a gateway is started with."""
+
+from __future__ import annotations
+
+import ipaddress
+from dataclasses import dataclass, field
+from pathlib import Path
+
+from mrlab_ros.core.errors import BadInput
+
+HOST = "127.0.0.1"
+PORT = 8080
+LARGEST_PORT = 65535
+
+
+@dataclass(frozen=True)
+class Settings:
+    """What a gateway is started with.
+
+    state_dir: folder of people, sign-ins and the store. host, port: where it listens; port 0: any
+    free one. zenoh: endpoint of the lab's bridge or router. zenoh_config: a zenoh client file in
+    its place, such as keys/gateway.json5. prefix: what the lab's keys begin with. keys: the lab's
+    keys folder: people sign in, and its certificate serves HTTPS. certificate, certificate_key:
+    another one for HTTPS. public_url: the address by which a reverse proxy offers this gateway.
+    insecure: listen beyond this machine without keys. allow_list: the bridge's YAML file, the
+    shipped one if None. store: URL or folder of the object store; empty: in state_dir. oidc: YAML
+    file of an OpenID Connect provider. pages: folder of the built pages; None: the installed ones.
+    """
+
+    state_dir: Path
+    host: str = HOST
+    port: int = PORT
+    zenoh: str = "tcp/127.0.0.1:7447"
+    zenoh_config: Path | None = None
+    prefix: str = ""
+    keys: Path | None = None
+    certificate: Path | None = None
+    certificate_key: Path | None = None
+    public_url: str = ""
+    insecure: bool = False
+    allow_list: Path | None = None
+    store: str = ""
+    oidc: Path | None = None
+    pages: Path | None = None
+    lab_name: str = field(default="MR-Lab")
+
+    @property
+    def https(self) -> bool:
+        """Whether this gateway itself serves HTTPS."""
+        return self.keys is not None or self.certificate is not None
+
+    @property
+    def signs_in(self) -> bool:
+        """Whether people sign in; otherwise one local user needs no password."""
+        return self.keys is not None or bool(self.public_url)
+
+
+def parsed_address(text: str) -> tuple[str, int]:
+    """Return host and port of HOST:PORT, PORT or [IPV6]:PORT; raise BadInput for another text."""
+    host, colon, port = text.rpartition(":")
+    host = host.strip("[]") if colon else HOST
+    if not (host and port.isascii() and port.isdigit() and int(port) <= LARGEST_PORT):
+        raise BadInput(
+            f"--http {text} is no address to listen on; expected HOST:PORT such as "
+            f"{HOST}:{PORT} or 0.0.0.0:{PORT}"
+        )
+    return host, int(port)
+
+
+def is_loopback(host: str) -> bool:
+    """Return whether `host`, a name or an address without a port, is this machine alone."""
+    if host == "localhost":
+        return True
+    try:
+        return ipaddress.ip_address(host).is_loopback
+    except ValueError:
+        return False
