@@ -1,0 +1,85 @@
+import type { MotionDocument } from '../playback/motion'
+import type {
+  Conversion,
+  ConversionRequest,
+  Device,
+  Invitation,
+  InvitationLink,
+  NewPerson,
+  Pairing,
+  PairingState,
+  Person,
+  RobotLibrary,
+  Role,
+  Session,
+  TrajectoryInfo,
+  Upload,
+  Version,
+} from './types'
+
+/** What the pages ask of the gateway by HTTP. Every method rejects with an ApiError. */
+export interface Api {
+  session(): Promise<Session>
+  signIn(name: string, password: string): Promise<Session>
+  signOut(): Promise<void>
+
+  robots(): Promise<RobotLibrary>
+
+  /** onProgress: share sent, 0 to 1. */
+  upload(file: File, onProgress: (share: number) => void, signal: AbortSignal): Promise<Upload>
+  convert(request: ConversionRequest, signal: AbortSignal): Promise<Conversion>
+  motion(url: string, signal?: AbortSignal): Promise<MotionDocument>
+
+  trajectories(): Promise<readonly TrajectoryInfo[]>
+  publish(draft: string, id: string, shared: boolean): Promise<TrajectoryInfo>
+  versions(id: string): Promise<readonly Version[]>
+  share(id: string, shared: boolean): Promise<void>
+  remove(id: string): Promise<void>
+  /** version 0: bring a deleted one back; else an older version becomes the newest. */
+  restore(id: string, version: number): Promise<TrajectoryInfo>
+
+  people(): Promise<readonly Person[]>
+  invite(person: NewPerson): Promise<InvitationLink>
+  removePerson(name: string): Promise<void>
+  invitation(token: string): Promise<Invitation>
+  acceptInvitation(token: string, password: string): Promise<Session>
+
+  devices(): Promise<readonly Device[]>
+  revokeDevice(id: string): Promise<void>
+  startPairing(): Promise<Pairing>
+  pairing(secret: string): Promise<PairingState>
+  approvePairing(code: string, role: Role): Promise<void>
+}
+
+export class ApiError extends Error {
+  override readonly name = 'ApiError'
+  constructor(
+    /** HTTP status; 0: no answer. */
+    readonly status: number,
+    readonly code: string,
+    message: string,
+  ) {
+    super(message)
+  }
+}
+
+/** Return what to tell a person of anything that was thrown. */
+export function sentence(error: unknown): string {
+  return error instanceof Error ? error.message : String(error)
+}
+
+export function isAbort(error: unknown): boolean {
+  return error instanceof DOMException && error.name === 'AbortError'
+}
+
+export type FileFormat = 'json' | 'mat' | 'csv'
+
+/** Return a trajectory's place below /api/trajectories; an id holds one slash at most. */
+export function trajectoryUrl(id: string, part = ''): string {
+  const path = id.split('/').map(encodeURIComponent).join('/')
+  return `/api/trajectories/${path}${part && `/${part}`}`
+}
+
+export function fileUrl(id: string, format: FileFormat): string {
+  return trajectoryUrl(id, `file?format=${format}`)
+}

@@ -1,0 +1,180 @@
+import type { MotionDocument } from '../playback/motion'
+import { type Api, ApiError, trajectoryUrl } from './api'
+import type {
+  Conversion,
+  ConversionRequest,
+  Device,
+  Invitation,
+  InvitationLink,
+  NewPerson,
+  Pairing,
+  PairingState,
+  Person,
+  RobotLibrary,
+  Role,
+  Session,
+  TrajectoryInfo,
+  Upload,
+  Version,
+} from './types'
+
+type Method = 'GET' | 'POST' | 'PUT' | 'PATCH' | 'DELETE'
+
+/** The gateway, by fetch; uploads by XMLHttpRequest, which alone reports progress. */
+export class HttpApi implements Api {
+  #csrf = ''
+  /** Called with the sentence when a sign-in has ended. */
+  onSignedOut: () => void = () => {}
+
+  constructor(private readonly noAnswer: () => string) {}
+
+  async session(): Promise<Session> {
+    return this.#kept(await this.#ask<Session>('GET', '/api/session'))
+  }
+  async signIn(name: string, password: string): Promise<Session> {
+    await this.#ask('POST', '/api/session', { name, password })
+    return this.session()
+  }
+  async signOut(): Promise<void> {
+    await this.#ask('DELETE', '/api/session')
+  }
+
+  robots(): Promise<RobotLibrary> {
+    return this.#ask('GET', '/assets/robots.json')
+  }
+
+  upload(file: File, onProgress: (share: number) => void, signal: AbortSignal): Promise<Upload> {
+    return new Promise((resolve, reject) => {
+      const request = new XMLHttpRequest()
+      const abort = () => request.abort()
+      const end = (act: () => void) => {
+        signal.removeEventListener('abort', abort)
+        act()
+      }
+      request.open('PUT', `/api/uploads/${encodeURIComponent(file.name)}`)
+      request.setRequestHeader('X-CSRF-Token', this.#csrf)
+      request.setRequestHeader('Content-Type', 'application/octet-stream')
+      request.upload.onprogress = (event) => {
+        if (event.lengthComputable) onProgress(event.loaded / event.total)
+      }
+      request.onload = () =>
+        end(() => {
+          const body = parsed(request.responseText)
+          if (request.status < 300) resolve(body as Upload)
+          else reject(this.#failure(request.status, body))
+        })
+      request.onerror = () => end(() => reject(new ApiError(0, 'no_answer', this.noAnswer())))
+      request.onabort = () => end(() => reject(new DOMException('Cancelled', 'AbortError')))
+      signal.addEventListener('abort', abort)
+      if (signal.aborted) request.abort()
+      else request.send(file)
+    })
+  }
+  convert(request: ConversionRequest, signal: AbortSignal): Promise<Conversion> {
+    return this.#ask('POST', '/api/conversions', request, signal)
+  }
+  motion(url: string, signal?: AbortSignal): Promise<MotionDocument> {
+    return this.#ask('GET', url, undefined, signal)
+  }
+
+  async trajectories(): Promise<readonly TrajectoryInfo[]> {
+    const answer = await this.#ask<{ trajectories: TrajectoryInfo[] }>('GET', '/api/trajectories')
+    return answer.trajectories
+  }
+  publish(draft: string, id: string, shared: boolean): Promise<TrajectoryInfo> {
+    return this.#ask('POST', '/api/trajectories', { draft, id, shared })
+  }
+  async versions(id: string): Promise<readonly Version[]> {
+    const url = trajectoryUrl(id, 'versions')
+    return (await this.#ask<{ versions: Version[] }>('GET', url)).versions
+  }
+  async share(id: string, shared: boolean): Promise<void> {
+    await this.#ask('PATCH', trajectoryUrl(id), { shared })
+  }
+  async remove(id: string): Promise<void> {
+    await this.#ask('DELETE', trajectoryUrl(id))
+  }
+  restore(id: string, version: number): Promise<TrajectoryInfo> {
+    return this.#ask('POST', trajectoryUrl(id, 'restore'), { version })
+  }
+
+  async people(): Promise<readonly Person[]> {
+    return (await this.#ask<{ people: Person[] }>('GET', '/api/people')).people
+  }
+  invite(person: NewPerson): Promise<InvitationLink> {
+    return this.#ask('POST', '/api/people', person)
+  }
+  async removePerson(name: string): Promise<void> {
+    await this.#ask('DELETE', `/api/people/${encodeURIComponent(name)}`)
+  }
+  invitation(token: string): Promise<Invitation> {
+    return this.#ask('GET', `/api/invitations/${encodeURIComponent(token)}`)
+  }
+  async acceptInvitation(token: string, password: string): Promise<Session> {
+    await this.#ask('POST', `/api/invitations/${encodeURIComponent(token)}`, { password })
+    return this.session()
+  }
+
+  async devices(): Promise<readonly Device[]> {
+    return (await this.#ask<{ devices: Device[] }>('GET', '/api/devices')).devices
+  }
+  async revokeDevice(id: string): Promise<void> {
+    await this.#ask('DELETE', `/api/devices/${encodeURIComponent(id)}`)
+  }
+  startPairing(): Promise<Pairing> {
+    return this.#ask('POST', '/api/pairings')
+  }
+  pairing(secret: string): Promise<PairingState> {
+    return this.#ask('GET', `/api/pairings/${encodeURIComponent(secret)}`)
+  }
+  async approvePairing(code: string, role: Role): Promise<void> {
+    await this.#ask('POST', '/api/pairings/approve', { code, role })
+  }
+
+  #kept(session: Session): Session {
+    this.#csrf = session.csrf
+    return session
+  }
+
+  async #ask<Answer>(
+    method: Method,
+    url: string,
+    body?: object,
+    signal?: AbortSignal,
+  ): Promise<Answer> {
+    const headers: Record<string, string> = { Accept: 'application/json' }
+    if (method !== 'GET') headers['X-CSRF-Token'] = this.#csrf
+    if (body) headers['Content-Type'] = 'application/json'
+    const init: RequestInit = { method, headers, credentials: 'same-origin' }
+    if (body) init.body = JSON.stringify(body)
+    if (signal) init.signal = signal
+    let response: Response
+    try {
+      response = await fetch(url, init)
+    } catch (error) {
+      if (error instanceof DOMException) throw error
+      throw new ApiError(0, 'no_answer', this.noAnswer())
+    }
+    const answer = parsed(await response.text())
+    if (!response.ok) throw this.#failure(response.status, answer)
+    return answer as Answer
+  }
+
+  #failure(status: number, answer: unknown): ApiError {
+    const error = (answer as { error?: { code?: string; message?: string } } | null)?.error
+    if (status === 401) this.onSignedOut()
+    return new ApiError(
+      status,
+      error?.code ?? '',
+      error?.message ?? `${status}: ${this.noAnswer()}`,
+    )
+  }
+}
+
+function parsed(text: string): unknown {
+  try {
+    return JSON.parse(text)
+  } catch {
+    return null
+  }
+}

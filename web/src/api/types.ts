@@ -1,0 +1,182 @@
+/** The gateway's JSON. Field names are those of mrlab_msgs. */
+
+export type Role = 'student' | 'instructor' | 'operator' | 'display'
+export const ROLES = ['student', 'instructor', 'operator', 'display'] as const satisfies Role[]
+
+export interface Session {
+  readonly lab: { readonly id: string; readonly name: string; readonly version: string }
+  readonly user: { readonly name: string; readonly role: Role } | null
+  /** To be sent with every request that changes something. */
+  readonly csrf: string
+  readonly ways: { readonly password: boolean; readonly oidc: boolean; readonly pairing: boolean }
+}
+
+export interface Robot {
+  readonly model: string
+  readonly name: string
+  readonly joints: number
+  /** URL of a picture; null: none. */
+  readonly thumbnail: string | null
+}
+
+export interface EndEffector {
+  readonly id: string
+  readonly name: string
+  readonly thumbnail: string | null
+}
+
+export interface RobotLibrary {
+  readonly robots: readonly Robot[]
+  readonly end_effectors: readonly EndEffector[]
+}
+
+export interface Upload {
+  readonly upload: string
+  readonly file_name: string
+  readonly size: number
+  readonly sha256: string
+}
+
+/** Options of ConvertTrajectory; what is absent keeps its default. */
+export interface ConvertOptions {
+  readonly frame_rate?: number
+  readonly variable?: string
+  readonly columns?: string
+  readonly transpose?: boolean
+  readonly degrees?: boolean
+  readonly unwrap?: boolean
+  readonly resample?: boolean
+  readonly join?: string
+  readonly gripper?: string
+  readonly invert?: boolean
+  readonly units?: string
+}
+
+export interface ConversionRequest extends ConvertOptions {
+  readonly upload: string
+  readonly robot_model: string
+  readonly end_effector: string
+}
+
+export interface Fix {
+  readonly option: string
+  readonly value: string
+  readonly matlab: string
+}
+
+export interface Diagnostic {
+  readonly severity: 'info' | 'warning' | 'error'
+  readonly code: string
+  readonly message: string
+  readonly remedy: string
+  readonly variable: string
+  readonly where: string
+  readonly first_row: number
+  readonly last_row: number
+  readonly joint: string
+  readonly value: number | null
+  readonly limit: number | null
+  readonly unit: string
+  readonly fixes: readonly Fix[]
+}
+
+export interface Preview {
+  readonly variable: string
+  readonly rows: readonly number[]
+  readonly columns: number
+  /** Row by row; null where not finite. */
+  readonly values: readonly (number | null)[]
+}
+
+export interface Candidate {
+  readonly variable: string
+  readonly rows: number
+  readonly columns: number
+  readonly minimum: number | null
+  readonly maximum: number | null
+  readonly score: number
+  readonly why: string
+  readonly preview: Preview
+}
+
+export interface TrajectoryInfo {
+  readonly id: string
+  readonly robot_model: string
+  readonly end_effector: string
+  readonly source_file: string
+  readonly source_variable: string
+  readonly source_sha256: string
+  /** s since the epoch */
+  readonly created: number
+  readonly frame_rate: number
+  readonly frame_count: number
+  readonly duration: number
+  readonly has_gripper: boolean
+  readonly owner: string
+  readonly version: number
+  readonly shared: boolean
+  readonly warnings: readonly Diagnostic[]
+}
+
+export interface Conversion {
+  readonly outcome: 'accepted' | 'rejected' | 'ambiguous'
+  readonly message: string
+  readonly diagnostics: readonly Diagnostic[]
+  readonly candidates: readonly Candidate[]
+  readonly trajectory: TrajectoryInfo | null
+  readonly draft: string | null
+  /** URL of a MotionDocument */
+  readonly motion: string | null
+}
+
+export interface Version {
+  readonly version: number
+  /** s since the epoch */
+  readonly created: number
+  readonly source_file: string
+  readonly frame_count: number
+  readonly duration: number
+}
+
+export interface Invitation {
+  readonly name: string
+  readonly role: Role
+}
+
+export interface NewPerson {
+  readonly name: string
+  readonly role: Role
+}
+
+export interface Person {
+  readonly name: string
+  readonly role: Role
+}
+
+/** The link by which a new person chooses a password, once. */
+export interface InvitationLink {
+  readonly url: string
+}
+
+export interface Device {
+  readonly id: string
+  readonly name: string
+  readonly role: Role
+  /** Who approved it. */
+  readonly approved_by: string
+  /** s since the epoch */
+  readonly created: number
+  readonly last_seen: number | null
+}
+
+export interface Pairing {
+  /** To be typed at the phone. */
+  readonly code: string
+  readonly secret: string
+  /** s */
+  readonly expires_in: number
+}
+
+export interface PairingState {
+  readonly state: 'waiting' | 'approved' | 'expired' | 'refused'
+}

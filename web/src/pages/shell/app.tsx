@@ -1,0 +1,126 @@
+import type { ComponentType } from 'preact'
+import { useEffect, useErrorBoundary, useState } from 'preact/hooks'
+import { type Api, sentence } from '../../api/api'
+import { Button, ButtonLink } from '../../design/button'
+import { Notice } from '../../design/notice'
+import { Toasts } from '../../design/toast'
+import { words } from '../../words/words'
+import { Header } from './header'
+import { lazy } from './lazy'
+import { path } from './router'
+import { ApiProvider, session } from './session'
+
+interface Route {
+  readonly path: RegExp
+  readonly page: ComponentType
+  /** Shown to people who have signed in only. */
+  readonly members: boolean
+  /** The page has the whole window below the header. */
+  readonly wide?: boolean
+}
+
+const SignIn = lazy(async () => (await import('../account/sign_in')).SignInPage)
+
+const ROUTES: readonly Route[] = [
+  {
+    path: /^\/$/,
+    page: lazy(async () => (await import('../upload/page')).UploadPage),
+    members: true,
+  },
+  {
+    path: /^\/lab$/,
+    page: lazy(async () => (await import('../lab/page')).LabPage),
+    members: true,
+    wide: true,
+  },
+  {
+    path: /^\/trajectories(\/.*)?$/,
+    page: lazy(async () => (await import('../trajectories/page')).TrajectoriesPage),
+    members: true,
+  },
+  {
+    path: /^\/people$/,
+    page: lazy(async () => (await import('../people/page')).PeoplePage),
+    members: true,
+  },
+  { path: /^\/sign-in$/, page: SignIn, members: false },
+  {
+    path: /^\/pair$/,
+    page: lazy(async () => (await import('../account/pair')).PairPage),
+    members: false,
+  },
+  {
+    path: /^\/invitation\/[^/]+$/,
+    page: lazy(async () => (await import('../account/invitation')).InvitationPage),
+    members: false,
+  },
+]
+
+function NotFound() {
+  return (
+    <section class="stack">
+      <h1>{words.value.notFound.title}</h1>
+      <p>
+        <ButtonLink href="/">{words.value.notFound.back}</ButtonLink>
+      </p>
+    </section>
+  )
+}
+
+function Crashed({ error }: { error: unknown }) {
+  const w = words.value.crashed
+  return (
+    <Notice severity="error">
+      <h2>{w.title}</h2>
+      <p>{w.remedy}</p>
+      <p class="second">
+        <code>{sentence(error)}</code>
+      </p>
+      <Button onClick={() => location.reload()}>{w.reload}</Button>
+    </Notice>
+  )
+}
+
+function Page() {
+  const [error] = useErrorBoundary()
+  if (error) return <Crashed error={error} />
+  const route = ROUTES.find((each) => each.path.test(path.value))
+  if (!route) return <NotFound />
+  const Shown = route.members && session.value?.user === null ? SignIn : route.page
+  return <Shown />
+}
+
+/** The whole of the pages: header, page, toasts. */
+export function App({ api }: { api: Api }) {
+  const [error, setError] = useState('')
+  const load = () => {
+    setError('')
+    api
+      .session()
+      .then((answer) => {
+        session.value = answer
+      })
+      .catch((problem: unknown) => setError(sentence(problem)))
+  }
+  useEffect(load, [])
+  const wide = ROUTES.find((each) => each.path.test(path.value))?.wide && session.value?.user
+  return (
+    <ApiProvider value={api}>
+      <a class="skip" href="#main">
+        {words.value.nav.skip}
+      </a>
+      <Header />
+      <main id="main" tabIndex={-1} class={wide ? 'main-wide' : 'main'}>
+        {error ? (
+          <Notice severity="error">
+            <p>{error}</p>
+            <Button onClick={load}>{words.value.retry}</Button>
+          </Notice>
+        ) : (
+          session.value && <Page key={path.value.split('/')[1]} />
+        )}
+      </main>
+      <Toasts />
+    </ApiProvider>
+  )
+}

@@ -1,0 +1,163 @@
+import { useEffect, useRef, useState } from 'preact/hooks'
+import { Button } from '../../design/button'
+import { Segments } from '../../design/field'
+import { Icon, type IconName } from '../../design/icons'
+import { setTheme, themeName } from '../../design/theme'
+import { LANGUAGES, type Language, language, setLanguage, words } from '../../words/words'
+import { navigate, path } from './router'
+import { mayAdmit, session, useApi } from './session'
+
+interface Place {
+  readonly href: string
+  readonly icon: IconName
+  readonly name: 'upload' | 'trajectories' | 'lab' | 'people'
+}
+
+const PLACES: readonly Place[] = [
+  { href: '/', icon: 'upload', name: 'upload' },
+  { href: '/trajectories', icon: 'motion', name: 'trajectories' },
+  { href: '/lab', icon: 'robot', name: 'lab' },
+  { href: '/people', icon: 'people', name: 'people' },
+]
+
+function here(href: string): boolean {
+  return href === '/' ? path.value === '/' : path.value.startsWith(href)
+}
+
+function Logo() {
+  return (
+    <svg class="logo" viewBox="0 0 32 32" aria-hidden="true">
+      <path class="logo-arm" d="M7 27h11M12.5 27v-5L7.5 13.5 16.5 6.5l7 5.5" />
+      <circle class="logo-joint" cx="12.5" cy="21.5" r="2.6" />
+      <circle class="logo-joint" cx="7.8" cy="13.5" r="2.6" />
+      <circle class="logo-joint" cx="16.5" cy="6.8" r="2.6" />
+      <circle class="logo-tool" cx="24.5" cy="13" r="2.6" />
+    </svg>
+  )
+}
+
+/** Close a menu on Escape and on a click beside it. */
+function useOutside(open: boolean, close: () => void) {
+  const menu = useRef<HTMLDivElement>(null)
+  useEffect(() => {
+    if (!open) return
+    const onKey = (event: KeyboardEvent) => {
+      if (event.key !== 'Escape') return
+      close()
+      menu.current?.querySelector('button')?.focus()
+    }
+    const onPress = (event: Event) => {
+      if (!menu.current?.contains(event.target as Node)) close()
+    }
+    document.addEventListener('keydown', onKey)
+    document.addEventListener('pointerdown', onPress)
+    return () => {
+      document.removeEventListener('keydown', onKey)
+      document.removeEventListener('pointerdown', onPress)
+    }
+  }, [open, close])
+  return menu
+}
+
+function AccountMenu() {
+  const api = useApi()
+  const [open, setOpen] = useState(false)
+  const menu = useOutside(open, () => setOpen(false))
+  const w = words.value
+  const user = session.value?.user
+  const signOut = async () => {
+    await api.signOut()
+    session.value = await api.session()
+    navigate('/sign-in')
+  }
+  return (
+    <div class="menu" ref={menu}>
+      <Button
+        look="quiet"
+        icon="person"
+        aria-expanded={open}
+        aria-haspopup="true"
+        onClick={() => setOpen(!open)}
+        label={user ? `${w.nav.account}: ${user.name}` : w.nav.account}
+      >
+        {user ? <span class="account-name">{user.name}</span> : undefined}
+      </Button>
+      {open && (
+        <div class="menu-list account-list">
+          {user && (
+            <p class="account-who">
+              <strong>{user.name}</strong>
+              <span class="second small">{w.roles[user.role]}</span>
+            </p>
+          )}
+          <div class="account-choice">
+            <span class="field-label">{w.nav.language}</span>
+            <Segments<Language>
+              label={w.nav.language}
+              value={language.value}
+              onChange={(next) => void setLanguage(next)}
+              options={[
+                ['en', LANGUAGES.en],
+                ['de', LANGUAGES.de],
+              ]}
+            />
+          </div>
+          <div class="account-choice">
+            <span class="field-label">{w.nav.appearance}</span>
+            <Segments
+              label={w.nav.appearance}
+              value={themeName.value}
+              onChange={setTheme}
+              options={[
+                ['light', w.nav.light],
+                ['dark', w.nav.dark],
+              ]}
+            />
+          </div>
+          {user && (
+            <a class="button button-quiet" href="/pair" onClick={() => setOpen(false)}>
+              <Icon name="headset" />
+              {w.nav.pair}
+            </a>
+          )}
+          {user && session.value?.ways.password && (
+            <Button look="quiet" icon="back" onClick={() => void signOut()}>
+              {w.nav.signOut}
+            </Button>
+          )}
+          {!user && (
+            <a class="button button-quiet" href="/sign-in" onClick={() => setOpen(false)}>
+              <Icon name="person" />
+              {w.nav.signIn}
+            </a>
+          )}
+        </div>
+      )}
+    </div>
+  )
+}
+
+export function Header() {
+  const w = words.value
+  const user = session.value?.user
+  const places = PLACES.filter((place) => place.name !== 'people' || mayAdmit(session.value))
+  return (
+    <header class="header">
+      <a class="brand" href="/">
+        <Logo />
+        <span>MR-Lab</span>
+      </a>
+      {user && (
+        <nav class="nav" aria-label={w.nav.main}>
+          {places.map(({ href, icon, name }) => (
+            <a key={href} href={href} aria-current={here(href) ? 'page' : undefined}>
+              <Icon name={icon} />
+              <span>{w.nav[name]}</span>
+            </a>
+          ))}
+        </nav>
+      )}
+      <AccountMenu />
+    </header>
+  )
+}

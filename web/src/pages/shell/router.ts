@@ -1,0 +1,36 @@
+import { signal } from '@preact/signals'
+
+/** The path of the page that is shown, without search and hash. */
+export const path = signal(location.pathname)
+
+export function navigate(to: string, how: 'push' | 'replace' = 'push'): void {
+  if (to === location.pathname + location.search) return
+  if (how === 'push') history.pushState(null, '', to)
+  else history.replaceState(null, '', to)
+  path.value = location.pathname
+  scrollTo(0, 0)
+}
+
+/** Follow links to our own pages without loading anew; return what ends it. */
+export function followLinks(): () => void {
+  const onPopState = () => {
+    path.value = location.pathname
+  }
+  const onClick = (event: MouseEvent) => {
+    if (event.defaultPrevented || event.button !== 0) return
+    if (event.metaKey || event.ctrlKey || event.shiftKey || event.altKey) return
+    const link = (event.target as Element).closest?.('a')
+    if (!link || link.origin !== location.origin || link.target || link.hasAttribute('download'))
+      return
+    // A place on this page, and what the gateway itself serves.
+    if (link.hash || /^\/(api|assets|ca)(\/|$)/.test(link.pathname)) return
+    event.preventDefault()
+    navigate(link.pathname + link.search)
+  }
+  addEventListener('popstate', onPopState)
+  document.addEventListener('click', onClick)
+  return () => {
+    removeEventListener('popstate', onPopState)
+    document.removeEventListener('click', onClick)
+  }
+}

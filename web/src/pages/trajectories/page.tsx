@@ -1,0 +1,3 @@
+export function TrajectoriesPage() {
+  return <h1>MR-Lab</h1>
+}

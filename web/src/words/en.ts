@@ -1,0 +1,53 @@
+/** Every word of the pages. Sentences with numbers are functions. */
+export const en = {
+  close: 'Close',
+  cancel: 'Cancel',
+  undo: 'Undo',
+  copy: 'Copy',
+  copied: 'Copied',
+  loading: 'Loading…',
+  retry: 'Try again',
+  yes: 'Yes',
+  noAnswer: 'The lab does not answer. Check that it is running and that you are on its network.',
+  states: {
+    IDLE: 'idle',
+    READY: 'ready',
+    ADJUSTING: 'adjusting',
+    PLAYING: 'playing',
+    PAUSED: 'paused',
+    COLLISION_HALT: 'collision halt',
+    COMPLETE: 'complete',
+  },
+  outcomes: { accepted: 'accepted', rejected: 'refused', ambiguous: 'your choice' },
+  severities: { error: 'Error', warning: 'Warning', info: 'Note' },
+  roles: {
+    student: 'Student',
+    instructor: 'Instructor',
+    operator: 'Operator',
+    display: 'Display',
+  },
+  nav: {
+    main: 'Main',
+    upload: 'Upload',
+    trajectories: 'Trajectories',
+    lab: 'Lab',
+    people: 'People',
+    pair: 'Pair a headset',
+    signIn: 'Sign in',
+    signOut: 'Sign out',
+    language: 'Language',
+    appearance: 'Appearance',
+    light: 'Light',
+    dark: 'Dark',
+    skip: 'Skip to the page',
+    account: 'Account',
+  },
+  notFound: { title: 'There is no such page', back: 'Go to the upload page' },
+  crashed: {
+    title: 'This page could not be shown',
+    remedy: 'Reload it. If that does not help, say what you did and what stands here:',
+    reload: 'Reload',
+  },
+}
+
+export type Words = typeof en

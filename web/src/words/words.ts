@@ -1,0 +1,49 @@
+import { computed, signal } from '@preact/signals'
+import { en, type Words } from './en'
+
+export type Language = 'en' | 'de'
+export const LANGUAGES = { en: 'English', de: 'Deutsch' } as const satisfies Record<
+  Language,
+  string
+>
+
+const KEY = 'mrlab.language'
+const loaded = signal<{ readonly language: Language; readonly words: Words }>({
+  language: 'en',
+  words: en,
+})
+
+/** The words of the language that is chosen. */
+export const words = computed(() => loaded.value.words)
+export const language = computed(() => loaded.value.language)
+
+/** Return the language that was chosen here before, else the first of the browser's that there is. */
+export function preferredLanguage(): Language {
+  const wanted = [localStorage.getItem(KEY), ...navigator.languages.map((tag) => tag.slice(0, 2))]
+  return wanted.find((tag): tag is Language => tag === 'en' || tag === 'de') ?? 'en'
+}
+
+export async function setLanguage(next: Language, keep = true): Promise<void> {
+  const chosen = next === 'de' ? (await import('./de')).de : en
+  if (keep) localStorage.setItem(KEY, next)
+  document.documentElement.lang = next
+  loaded.value = { language: next, words: chosen }
+}
+
+/** Return a number in the language's own way, with at most `digits` behind the comma. */
+export function number(value: number, digits = 2): string {
+  return value.toLocaleString(language.value, { maximumFractionDigits: digits })
+}
+
+/** Return a date and time, s since the epoch, in the language's own way. */
+export function dateTime(seconds: number): string {
+  return new Date(seconds * 1000).toLocaleString(language.value, {
+    dateStyle: 'medium',
+    timeStyle: 'short',
+  })
+}
+
+/** Return a size in kB or MB. */
+export function fileSize(bytes: number): string {
+  return bytes < 1e6 ? `${number(bytes / 1e3, 0)} kB` : `${number(bytes / 1e6, 1)} MB`
+}

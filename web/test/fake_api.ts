@@ -1,0 +1,316 @@
+import { type Api, ApiError } from '../src/api/api'
+import type {
+  Candidate,
+  Conversion,
+  ConversionRequest,
+  Device,
+  Diagnostic,
+  Invitation,
+  NewPerson,
+  Pairing,
+  PairingState,
+  Person,
+  RobotLibrary,
+  Role,
+  Session,
+  TrajectoryInfo,
+  Upload,
+  Version,
+} from '../src/api/types'
+import type { MotionDocument, MotionFinding } from '../src/playback/motion'
+import { fakeMotion } from './fake_motion'
+
+const GALLERY = '/@fs/docs/gallery'
+const MODELS = [
+  'ur5e',
+  'kuka_kr6_r900_sixx',
+  'kuka_kr10_r900_2',
+  'kuka_lbr_iisy15_r930',
+  'kuka_kr560_r3100_2',
+]
+
+export function finding(of: Partial<Diagnostic>): Diagnostic {
+  return {
+    severity: 'error',
+    code: 'joint_limit',
+    message: '',
+    remedy: '',
+    variable: 'q',
+    where: '',
+    first_row: 0,
+    last_row: 0,
+    joint: '',
+    value: null,
+    limit: null,
+    unit: '',
+    fixes: [],
+    ...of,
+  }
+}
+
+export const JOINT_LIMIT = finding({
+  message: 'elbow leaves its range in rows 295 to 345: it reaches 191 deg, the limit is 180 deg.',
+  remedy: 'Plan the motion with the limits of the UR5e, or remove the jumps by a full turn.',
+  first_row: 295,
+  last_row: 345,
+  joint: 'elbow',
+  value: 3.33,
+  limit: Math.PI,
+  unit: 'rad',
+  fixes: [{ option: 'unwrap', value: 'true', matlab: 'q = unwrap(q);' }],
+})
+const RATE = finding({
+  severity: 'warning',
+  code: 'rate_assumed',
+  message: 'The file says no rate; 100 rows a second was assumed.',
+  remedy: "Save the rate as well: fs = 100; save('traj.mat', 'q', 'fs').",
+  fixes: [{ option: 'frame_rate', value: '200', matlab: 'fs = 200;' }],
+})
+
+function wave(columns: number, scale: number): Candidate['preview'] {
+  const rows = Array.from({ length: 120 }, (_, i) => 1 + i * 4)
+  const values = rows.flatMap((row) =>
+    Array.from({ length: columns }, (_, j) => scale * Math.sin(row / (60 + 17 * j) + j)),
+  )
+  return { variable: 'q', rows, columns, values }
+}
+
+export function trajectory(of: Partial<TrajectoryInfo>): TrajectoryInfo {
+  return {
+    id: 'quintic',
+    robot_model: 'ur5e',
+    end_effector: '',
+    source_file: 'quintic_ur5e.mat',
+    source_variable: 'q',
+    source_sha256: '0'.repeat(64),
+    created: 1.79e9,
+    frame_rate: 100,
+    frame_count: 801,
+    duration: 8,
+    has_gripper: false,
+    owner: '',
+    version: 1,
+    shared: true,
+    warnings: [],
+    ...of,
+  }
+}
+
+/** A gateway of a lab with a few people, in memory. What a file's name holds decides what becomes
+ * of it: "bad", "which"; every other file is accepted. */
+export class FakeApi implements Api {
+  user: Session['user'] = { name: 'ada', role: 'instructor' }
+  readonly requests: ConversionRequest[] = []
+  catalogue: TrajectoryInfo[] = [
+    trajectory({}),
+    trajectory({
+      id: 'ada/wave',
+      owner: 'ada',
+      version: 3,
+      shared: false,
+      source_file: 'wave.mat',
+    }),
+    trajectory({
+      id: 'ada/pick_and_place',
+      owner: 'ada',
+      has_gripper: true,
+      duration: 12.4,
+      frame_count: 1241,
+      end_effector: 'parallel_gripper',
+    }),
+    trajectory({
+      id: 'grace/spiral',
+      owner: 'grace',
+      robot_model: 'kuka_kr6_r900_sixx',
+      version: 2,
+      duration: 20,
+    }),
+  ]
+  readonly #deleted = new Map<string, TrajectoryInfo>()
+  #people: Person[] = [
+    { name: 'ada', role: 'instructor' },
+    { name: 'grace', role: 'student' },
+    { name: 'beamer', role: 'display' },
+  ]
+  #devices: Device[] = [
+    {
+      id: 'd1',
+      name: 'Quest 3',
+      role: 'student',
+      approved_by: 'ada',
+      created: 1.79e9,
+      last_seen: 1.79e9 + 600,
+    },
+  ]
+  #pairing: PairingState = { state: 'waiting' }
+  // Files by the key of their upload.
+  readonly #names = new Map<string, string>()
+
+  async session(): Promise<Session> {
+    return {
+      lab: { id: 'lab', name: 'MR-Lab', version: '0.1.0' },
+      user: this.user,
+      csrf: 'token',
+      ways: { password: true, oidc: true, pairing: true },
+    }
+  }
+  async signIn(name: string, password: string): Promise<Session> {
+    if (password !== 'secret')
+      throw new ApiError(401, 'wrong_password', 'Name and password do not belong together.')
+    this.user = { name, role: 'student' }
+    return this.session()
+  }
+  async signOut(): Promise<void> {
+    this.user = null
+  }
+  async robots(): Promise<RobotLibrary> {
+    return {
+      robots: MODELS.map((model) => ({
+        model,
+        name: model === 'ur5e' ? 'UR5e' : model.slice(5).toUpperCase().replaceAll('_', ' '),
+        joints: 6,
+        thumbnail: `${GALLERY}/${model}.png`,
+      })),
+      end_effectors: ['parallel_gripper', 'vacuum_cup', 'centric_gripper'].map((id) => ({
+        id,
+        name: id.replace('_', ' '),
+        thumbnail: `${GALLERY}/${id}.png`,
+      })),
+    }
+  }
+  async upload(file: File, onProgress: (share: number) => void): Promise<Upload> {
+    const upload = `users/ada/uploads/${this.#names.size + 1}/${file.name}`
+    this.#names.set(upload, file.name)
+    onProgress(1)
+    return { upload, file_name: file.name, size: file.size, sha256: '0'.repeat(64) }
+  }
+  async convert(request: ConversionRequest): Promise<Conversion> {
+    this.requests.push(request)
+    const name = this.#names.get(request.upload) ?? ''
+    const none = { candidates: [], trajectory: null, draft: null, motion: null }
+    if (name.includes('which') && !request.variable)
+      return {
+        ...none,
+        outcome: 'ambiguous',
+        message: 'Two matrices could be the joint positions of UR5e.',
+        diagnostics: [],
+        candidates: [
+          {
+            variable: 'q',
+            rows: 480,
+            columns: 6,
+            minimum: -1.6,
+            maximum: 2.1,
+            score: 0.62,
+            why: 'within the limits of every joint',
+            preview: wave(6, 1),
+          },
+          {
+            variable: 'log.q_soll',
+            rows: 480,
+            columns: 6,
+            minimum: -92,
+            maximum: 121,
+            score: 0.58,
+            why: 'named as set-points; looks like degrees',
+            preview: wave(6, 60),
+          },
+        ],
+      }
+    if (name.includes('bad') && !request.unwrap)
+      return {
+        ...none,
+        outcome: 'rejected',
+        message: 'q was not taken: one joint leaves its range.',
+        diagnostics: [JOINT_LIMIT, RATE],
+        motion: '/api/motions/bad',
+      }
+    return {
+      ...none,
+      outcome: 'accepted',
+      message: 'q, 801 x 6, is a motion of UR5e: 8.0 s at 100 Hz.',
+      diagnostics: name.includes('bad') ? [RATE] : [],
+      trajectory: trajectory({ id: 'ada/run', owner: 'ada', shared: false, source_file: name }),
+      draft: 'users/ada/drafts/1.npz',
+      motion: '/api/motions/good',
+    }
+  }
+  async motion(url: string): Promise<MotionDocument> {
+    if (url.includes('bad'))
+      return fakeMotion({
+        verdict: 'refused',
+        message: 'one joint leaves its range',
+        findings: [JOINT_LIMIT, RATE] as readonly MotionFinding[],
+        bump: 2.15,
+      })
+    return fakeMotion({
+      verdict: 'accepted',
+      message: '8.0 s at 100 Hz',
+      bump: url.includes('wave') ? 0.4 : 0,
+    })
+  }
+  async trajectories(): Promise<readonly TrajectoryInfo[]> {
+    return this.catalogue
+  }
+  async publish(_draft: string, id: string, shared: boolean): Promise<TrajectoryInfo> {
+    const info = trajectory({ id: `ada/${id}`, owner: 'ada', shared })
+    this.catalogue = [info, ...this.catalogue]
+    return info
+  }
+  async versions(id: string): Promise<readonly Version[]> {
+    const info = this.catalogue.find((each) => each.id === id)
+    return Array.from({ length: info?.version ?? 0 }, (_, i) => ({
+      version: (info?.version ?? 0) - i,
+      created: (info?.created ?? 0) - i * 86400,
+      source_file: info?.source_file ?? '',
+      frame_count: 801,
+      duration: 8,
+    }))
+  }
+  async share(id: string, shared: boolean): Promise<void> {
+    this.catalogue = this.catalogue.map((each) => (each.id === id ? { ...each, shared } : each))
+  }
+  async remove(id: string): Promise<void> {
+    const info = this.catalogue.find((each) => each.id === id)
+    if (info) this.#deleted.set(id, info)
+    this.catalogue = this.catalogue.filter((each) => each.id !== id)
+  }
+  async restore(id: string): Promise<TrajectoryInfo> {
+    const info = this.#deleted.get(id) ?? this.catalogue.find((each) => each.id === id)
+    if (!info) throw new ApiError(404, 'not_found', `There is no trajectory '${id}'.`)
+    this.catalogue = [info, ...this.catalogue.filter((each) => each.id !== id)]
+    return info
+  }
+  async people(): Promise<readonly Person[]> {
+    return this.#people
+  }
+  async invite(person: NewPerson) {
+    this.#people = [...this.#people, person]
+    return { url: `${location.origin}/invitation/kxQ3zt81` }
+  }
+  async removePerson(name: string): Promise<void> {
+    this.#people = this.#people.filter((each) => each.name !== name)
+  }
+  async invitation(): Promise<Invitation> {
+    return { name: 'grace', role: 'student' }
+  }
+  async acceptInvitation(): Promise<Session> {
+    return this.session()
+  }
+  async devices(): Promise<readonly Device[]> {
+    return this.#devices
+  }
+  async revokeDevice(id: string): Promise<void> {
+    this.#devices = this.#devices.filter((each) => each.id !== id)
+  }
+  async startPairing(): Promise<Pairing> {
+    return { code: 'BKWT-3917', secret: 's', expires_in: 120 }
+  }
+  async pairing(): Promise<PairingState> {
+    return this.#pairing
+  }
+  async approvePairing(code: string, _role: Role): Promise<void> {
+    if (!code) throw new ApiError(404, 'unknown_code', 'No headset shows this code now.')
+    this.#pairing = { state: 'approved' }
+  }
+}
