@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
+import threading
+import weakref
 from collections.abc import Callable
-from concurrent.futures import Future
+from concurrent.futures import CancelledError, Future, InvalidStateError
+from contextlib import suppress
 from typing import Any
 
 from mrlab_msgs import msg, srv
 from rclpy.context import Context
-from rclpy.executors import Executor
 from rclpy.node import Node
 from rclpy.parameter import Parameter
 from sensor_msgs.msg import JointState
@@ -22,7 +24,8 @@ from mrlab_ros.core.playback.playback import Playback, PlaybackStatus
 from mrlab_ros.core.playback.states import State
 from mrlab_ros.core.playback.stream import Sample
 from mrlab_ros.core.robots.model import RobotModel
-from mrlab_ros.core.systems.members import Command, Order
+from mrlab_ros.core.systems.members import Command as MemberCommand
+from mrlab_ros.core.systems.members import Order
 from mrlab_ros.core.trajectory.trajectory import Trajectory
 from mrlab_ros.messages import qos
 from mrlab_ros.messages.joint_states import JointStateEncoder
@@ -38,14 +41,22 @@ from mrlab_ros.nodes.catalogue import CatalogueClient
 from mrlab_ros.nodes.parameters import PlaybackParameters
 from mrlab_ros.ros import share
 from mrlab_ros.ros.answers import answered, create_deferred_service
-from mrlab_ros.ros.deadlines import Player, Scheduler
+from mrlab_ros.ros.deadlines import Command, Player, Scheduler
 from mrlab_ros.ros.parameters import ParameterNode
-from mrlab_ros.ros.spinning import Caller
+from mrlab_ros.ros.priority import REALTIME, take_precedence
+from mrlab_ros.ros.spinning import Caller, SpunNode
 from mrlab_ros.ros.worker import Worker
+
+# Trajectories that are fetched at the same time.
+MOST_LOADS = 4
 
 
 class PlaybackNode(Node):
-    """Publishes one robot's joint states and offers its playback services."""
+    """Publishes one robot's joint states and offers its playback services.
+
+    Its callbacks halt and command the arm, so none of them loads, decodes or calls: `load` runs
+    in a thread of the robot's own, and the trajectory is swapped in when it is complete.
+    """
 
     def __init__(
         self,
@@ -54,7 +65,6 @@ class PlaybackNode(Node):
         planner: MotionPlanner,
         scheduler: Scheduler,
         fetch: Callable[[str], Trajectory],
-        loads: Worker,
         standing_rate: float,
         *,
         host: str,
@@ -73,7 +83,8 @@ class PlaybackNode(Node):
         self.model = model
         self._scheduler = scheduler
         self._fetch = fetch
-        self._loads = loads
+        self._loads = Worker(f"load {robot}")
+        self._loading: set[Future[Any]] = set()
         self._host = host
         self.playback = Playback(model, planner, standing_rate)
         self._encoder = JointStateEncoder(robot, model.joint_names)
@@ -98,37 +109,45 @@ class PlaybackNode(Node):
         self.player = Player(self.playback, self._send, self._announce)
         scheduler.add(self.player)
 
+    def _command(self) -> Command:
+        return self._scheduler.command(self.player)
+
     def close(self) -> None:
-        """Remove the playback from the scheduler, then the node from the graph."""
+        """Remove the playback from the scheduler, then the node from the graph.
+
+        Loads that are under way are answered; their threads end by themselves.
+        """
+        self._loads.end()
+        for answer in list(self._loading):
+            with suppress(InvalidStateError):
+                answer.set_exception(CancelledError())
         self._scheduler.remove(self.player)
         self.destroy_node()
 
-    def publish_telemetry(self) -> None:
+    def publish_telemetry(self, now_ns: int) -> None:
         """Publish the display values of the last joint state, while the robot moves."""
-        with self._scheduler.command() as now_ns:
-            sample, playback = self.player.last, self.playback
-            trajectory = playback.trajectory
-            if sample is None or trajectory is None or not playback.moving:
-                return
-            sent, lost = playback.sent, playback.lost
-            errors = self.player.error_ns, self.player.error_max_ns
+        last = self.player.last
+        if last is None or last.trajectory is None or not self.playback.moving:
+            return
         self._telemetry.publish(
             telemetry_to_message(
                 now_ns,
                 self.robot,
-                trajectory,
-                sample,
-                self.model.chain.tool0(sample.positions),
-                sent=sent,
-                lost=lost,
-                error_ns=errors[0],
-                error_max_ns=errors[1],
+                last.trajectory,
+                last.sample,
+                self.model.chain.tool0(last.sample.positions),
+                sent=last.sent,
+                lost=last.lost,
+                error_ns=last.error_ns,
+                error_max_ns=last.error_max_ns,
             )
         )
 
     def publish_state(self) -> None:
         """Publish the present state again, while the robot moves."""
-        with self._scheduler.command() as now_ns:
+        if not self.playback.moving:
+            return
+        with self._command() as now_ns:
             if self.playback.moving:
                 self._announce(now_ns, self.playback.status())
 
@@ -145,13 +164,26 @@ class PlaybackNode(Node):
         self._targets.publish(targets_to_message(now_ns, self.robot, trajectory, tool0))
 
     def _begin_load(self, request: Any, response: Any) -> Future[Any]:
-        """Load on the host's own thread for that: halts and pauses do not wait for files."""
-        return self._loads.later(lambda: self._load(request, response))
+        """Load in the robot's own thread for that: no halt, pause or stop waits for files."""
+        answer: Future[Any] = Future()
+        self._loading.add(answer)
+        answer.add_done_callback(self._loading.discard)
+
+        def work() -> None:
+            loaded = self._load(request, response)
+            # The robot may have been removed meanwhile: then the answer is given already.
+            with suppress(InvalidStateError):
+                answer.set_result(loaded)
+
+        self._loads.send(work)
+        return answer
 
     @answered
     def _load(self, request: Any, response: Any) -> str:
         trajectory = self._fetch(request.id) if request.id else None
-        with self._scheduler.command() as now_ns:
+        if self._loads.ended:
+            raise Misuse(f"{self.robot} was removed while it loaded")
+        with self._command() as now_ns:
             if trajectory is None:
                 self.playback.unload(now_ns)
             else:
@@ -165,44 +197,44 @@ class PlaybackNode(Node):
 
     @answered
     def _play(self, request: Any, response: Any) -> str:
-        with self._scheduler.command() as now_ns:
+        with self._command() as now_ns:
             self.playback.play(now_ns)
             moves = self.playback.state is State.ADJUSTING
         return "moves to the start, then plays" if moves else "plays"
 
     @answered
     def _pause(self, request: Any, response: Any) -> str:
-        with self._scheduler.command() as now_ns:
+        with self._command() as now_ns:
             self.playback.pause(now_ns)
             return f"paused at {self.playback.clock.position:.3f} s"
 
     @answered
     def _stop(self, request: Any, response: Any) -> str:
-        with self._scheduler.command() as now_ns:
+        with self._command() as now_ns:
             self.playback.stop(now_ns)
         return "stopped"
 
     @answered
     def _seek(self, request: Any, response: Any) -> str:
-        with self._scheduler.command() as now_ns:
+        with self._command() as now_ns:
             self.playback.seek(now_ns, request.position)
         return f"at {request.position:g} s"
 
     @answered
     def _set_rate(self, request: Any, response: Any) -> str:
-        with self._scheduler.command() as now_ns:
+        with self._command() as now_ns:
             self.playback.set_rate(now_ns, request.rate)
         return f"rate {request.rate:g}"
 
     @answered
     def _set_loop(self, request: Any, response: Any) -> str:
-        with self._scheduler.command():
+        with self._command():
             self.playback.set_loop(request.data)
         return "loops" if request.data else "plays once"
 
     @answered
     def _clear_halt(self, request: Any, response: Any) -> str:
-        with self._scheduler.command() as now_ns:
+        with self._command() as now_ns:
             self.playback.clear_halt(now_ns)
         return "clear; play resumes in place"
 
@@ -212,28 +244,28 @@ class PlaybackNode(Node):
         Returns how long a staging takes, s.
         """
         playback, start_ns = self.playback, order.stamp_ns or None
-        if order.command is Command.CLAIM:
+        if order.command is MemberCommand.CLAIM:
             playback.claim(by)
-        elif order.command is Command.RELEASE:
+        elif order.command is MemberCommand.RELEASE:
             playback.release(now_ns, by)
-        elif order.command is Command.STAGE:
+        elif order.command is MemberCommand.STAGE:
             return playback.stage(now_ns, order.position, by)
-        elif order.command is Command.PLAY:
+        elif order.command is MemberCommand.PLAY:
             playback.play(now_ns, start_ns, order.rate, order.until, by)
-        elif order.command is Command.PAUSE:
+        elif order.command is MemberCommand.PAUSE:
             playback.pause(now_ns, by)
-        elif order.command is Command.STOP:
+        elif order.command is MemberCommand.STOP:
             playback.stop(now_ns, by)
-        elif order.command is Command.SEEK:
+        elif order.command is MemberCommand.SEEK:
             playback.seek(now_ns, order.position, by)
-        elif order.command is Command.SET_RATE:
+        elif order.command is MemberCommand.SET_RATE:
             playback.set_rate(now_ns, order.rate, start_ns, by)
         else:
             playback.hold_at(order.until, by)
         return 0.0
 
     def _on_collision(self, message: msg.Collision) -> None:
-        with self._scheduler.command() as now_ns:
+        with self._command() as now_ns:
             if message.colliding:
                 contact = message.contact
                 self.playback.collide(now_ns, f"{contact.link} touches {contact.other}")
@@ -241,8 +273,39 @@ class PlaybackNode(Node):
                 self.playback.clear(now_ns)
 
 
+class Fetches:
+    """Fetches trajectories for several robots at once, the same one only once at a time.
+
+    Robots that load the same trajectory one after another share its matrices.
+    """
+
+    def __init__(self, fetch: Callable[[str], Trajectory], most: int = MOST_LOADS) -> None:
+        self._fetch = fetch
+        self._slots = threading.BoundedSemaphore(most)
+        self._lock = threading.Lock()
+        self._same: weakref.WeakValueDictionary[str, _Turn] = weakref.WeakValueDictionary()
+
+    def __call__(self, trajectory_id: str) -> Trajectory:
+        with self._lock:
+            turn = self._same.setdefault(trajectory_id, _Turn())
+        with turn.lock, self._slots:
+            return self._fetch(trajectory_id)
+
+
+class _Turn:
+    """Whose turn it is to fetch a trajectory."""
+
+    def __init__(self) -> None:
+        self.lock = threading.Lock()
+
+
 class PlaybackHostNode(ParameterNode[PlaybackParameters]):
-    """Runs one playback node for each robot of the scene, all on one deadline thread."""
+    """Runs one playback node for each robot of the scene, all on one deadline thread.
+
+    The playback nodes and the orders of robot systems have an executor of their own, whose
+    callbacks neither load nor call anything. This node makes and removes playbacks and publishes
+    telemetry, in another thread.
+    """
 
     def __init__(
         self,
@@ -262,14 +325,18 @@ class PlaybackHostNode(ParameterNode[PlaybackParameters]):
         self._library = RobotLibrary(share.directory() / "robots")
         self.scheduler = Scheduler(self.context.ok)
         self.nodes: dict[str, PlaybackNode] = {}
-        self._executor: Executor | None = None
         self._caller = Caller(self)
-        self._trajectories = CatalogueClient(self._caller.node)
-        self._loads = Worker("loads")
+        self._fetch = Fetches(CatalogueClient(self._caller.node).fetch)
+        orders = Node(
+            "_playback_host_orders",
+            context=context,
+            start_parameter_services=False,
+            enable_rosout=False,
+        )
         self.create_subscription(msg.Robots, "/robots", self._on_robots, qos.LATCHED)
-        self.create_service(
+        orders.create_service(
             srv.CommandMembers,
-            "~/command_members",
+            f"{self.get_fully_qualified_name()}/command_members",
             self._command_members,
             qos_profile=qos.SERVICES,
         )
@@ -278,6 +345,8 @@ class PlaybackHostNode(ParameterNode[PlaybackParameters]):
         )
         self.create_timer(1.0, self._states)
         self.scheduler.start()
+        self.get_logger().info(f"the deadline thread runs with {self.scheduler.precedence}")
+        self._safety = SpunNode(orders, lambda: take_precedence(REALTIME - 1))
 
     def parameters_changed(self) -> None:
         with self.scheduler.command() as now_ns:
@@ -293,18 +362,12 @@ class PlaybackHostNode(ParameterNode[PlaybackParameters]):
         values = self.parameters
         return StagingLimits(values.velocity_share, values.acceleration, values.jerk)
 
-    def adopt(self, executor: Executor) -> None:
-        """Have `executor` spin all playback nodes too, present and future."""
-        self._executor = executor
-        for node in self.nodes.values():
-            executor.add_node(node)
-
     def destroy_node(self) -> None:
-        self._loads.close()
         self._caller.close()
         self.scheduler.stop()
         for robot in list(self.nodes):
             self._remove(robot)
+        self._safety.close()
         super().destroy_node()
 
     def _on_robots(self, message: msg.Robots) -> None:
@@ -315,8 +378,9 @@ class PlaybackHostNode(ParameterNode[PlaybackParameters]):
         for robot in wanted.values():
             if robot.name not in self.nodes:
                 self._add(robot.name, robot.model)
-            with self.scheduler.command():
-                self.nodes[robot.name].playback.end_effector = robot.end_effector
+            node = self.nodes[robot.name]
+            with self.scheduler.command(node.player):
+                node.playback.end_effector = robot.end_effector
 
     def _add(self, robot: str, model: str) -> None:
         node = PlaybackNode(
@@ -324,21 +388,18 @@ class PlaybackHostNode(ParameterNode[PlaybackParameters]):
             self._library.model(model),
             self._planner,
             self.scheduler,
-            self._trajectories.fetch,
-            self._loads,
+            self._fetch,
             self.parameters.standing_rate,
             host=self.get_fully_qualified_name(),
             context=self.context,
         )
         self.nodes[robot] = node
-        if self._executor is not None:
-            self._executor.add_node(node)
+        self._safety.executor.add_node(node)
         self.get_logger().info(f"added the playback of {robot} ({model})")
 
     def _remove(self, robot: str) -> None:
         node = self.nodes.pop(robot)
-        if self._executor is not None:
-            self._executor.remove_node(node)
+        self._safety.executor.remove_node(node)
         node.close()
 
     @answered
@@ -358,8 +419,9 @@ class PlaybackHostNode(ParameterNode[PlaybackParameters]):
         return "done"
 
     def _telemetry(self) -> None:
+        now_ns = self.scheduler.clock.now_ns()
         for node in self.nodes.values():
-            node.publish_telemetry()
+            node.publish_telemetry(now_ns)
 
     def _states(self) -> None:
         for node in self.nodes.values():

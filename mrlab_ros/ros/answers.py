@@ -42,24 +42,54 @@ def answered(callback: Callable[..., str | None]) -> Callable[..., Any]:
     return wrapped
 
 
+def refusal(kind: Any, why: str) -> Any:
+    """Return a response of a service of type `kind` that says failure; None: it cannot say so."""
+    response = kind.Response()
+    if not hasattr(response, "success"):
+        return None
+    response.success, response.message = False, why
+    return response
+
+
+def end_service(node: Node, service: Any, why: str) -> None:
+    """Refuse the requests that wait for `service` with `why`, then destroy it.
+
+    A request in the queue of a service that is destroyed would never be answered.
+    """
+    gone = rclpy_implementation.InvalidHandle, rclpy_implementation.RCLError
+    answer = refusal(service.srv_type, why)
+    with contextlib.suppress(*gone), service.handle:
+        while answer is not None:
+            _, header = service.handle.service_take_request(service.srv_type.Request)
+            if header is None:
+                break
+            service.send_response(answer, header)
+    node.destroy_service(service)
+
+
 def create_deferred_service(
     node: Node, kind: Any, name: str, begin: Callable[[Any, Any], Future[Any]], **options: Any
 ) -> Any:
     """Create a service whose `begin(request, response)` returns a future of the response.
 
-    The executor goes on at once; the response is sent by the thread that completes the future,
-    or not at all where the future is cancelled. A coroutine would be polled by the executor
-    without pause, and a callback that waits would block the other callbacks of its thread.
+    The executor goes on at once; the response is sent by the thread that completes the future.
+    Where the future is cancelled, the answer says that the service ended. A coroutine would be
+    polled by the executor without pause, and a callback that waits would block the other
+    callbacks of its thread.
     """
     service = node.create_service(kind, name, begin, **options, qos_profile=qos.SERVICES)
     send = service.send_response
 
     def send_when_done(future: Future[Any], header: Any) -> None:
         def forward(done: Future[Any]) -> None:
+            try:
+                answer = done.result()
+            except CancelledError:
+                answer = refusal(kind, f"{service.srv_name} ended before it could answer")
             # InvalidHandle: the service was destroyed meanwhile, nobody waits for the answer
-            with contextlib.suppress(CancelledError, rclpy_implementation.InvalidHandle):
-                if node.context.ok():
-                    send(done.result(), header)
+            with contextlib.suppress(rclpy_implementation.InvalidHandle):
+                if answer is not None and node.context.ok():
+                    send(answer, header)
 
         future.add_done_callback(forward)
 

@@ -12,10 +12,13 @@ import threading
 import time
 import traceback
 from collections.abc import Callable
+from typing import NamedTuple
 
 from mrlab_ros.core.clock import SECOND
 from mrlab_ros.core.playback.playback import Playback, PlaybackStatus
 from mrlab_ros.core.playback.stream import Sample
+from mrlab_ros.core.trajectory.trajectory import Trajectory
+from mrlab_ros.ros.priority import take_precedence
 
 PR_SET_TIMERSLACK = 29
 # The longest the thread sleeps without a deadline, s.
@@ -47,8 +50,26 @@ class LabClock:
         return time.monotonic_ns() + self._offset_ns
 
 
+class Report(NamedTuple):
+    """A joint state that was sent, and the run that it belongs to.
+
+    sent, lost: frames of the run. error_ns, error_max_ns: how late this joint state was
+    published, and the latest of the run.
+    """
+
+    sample: Sample
+    trajectory: Trajectory | None
+    sent: int
+    lost: int
+    error_ns: int
+    error_max_ns: int
+
+
 class Player:
-    """A playback, the callbacks for its output, and its deadline errors."""
+    """A playback, the callbacks for its output, and what it sent last.
+
+    last: may be read by any thread without the scheduler's lock; it is replaced as a whole.
+    """
 
     def __init__(
         self,
@@ -59,9 +80,8 @@ class Player:
         self.playback = playback
         self._send = send
         self._announce = announce
-        self.last: Sample | None = None
-        self.error_ns = 0
-        self.error_max_ns = 0
+        self.last: Report | None = None
+        self._error_ns = self._error_max_ns = 0
 
     def prepare(self, now_ns: int) -> Sample | None:
         """Return the joint state that is due, or will be within moments; None without one."""
@@ -71,11 +91,20 @@ class Player:
     def send(self, sample: Sample, now_ns: Callable[[], int]) -> None:
         """Publish a prepared joint state; keep its deadline error."""
         self._send(sample)
-        self.last = sample
+        playback = self.playback
+        sent = playback.sent
         if sample.streamed:
-            self.error_ns = now_ns() - sample.due_ns
-            first = self.playback.sent <= 1
-            self.error_max_ns = self.error_ns if first else max(self.error_max_ns, self.error_ns)
+            self._error_ns = now_ns() - sample.due_ns
+            longest = 0 if sent <= 1 else self._error_max_ns
+            self._error_max_ns = max(longest, self._error_ns)
+        self.last = Report(
+            sample,
+            playback.trajectory,
+            sent,
+            playback.lost,
+            self._error_ns,
+            self._error_max_ns,
+        )
 
     def announce(self, now_ns: int) -> None:
         for status in self.playback.take_statuses():
@@ -85,8 +114,10 @@ class Player:
 class Scheduler:
     """Serves players at their deadlines; commands run between two of them.
 
-    Use `with scheduler.command() as now_ns:` around every use of a playback. What a player
+    Use `with scheduler.command(player) as now_ns:` around every use of a playback. What a player
     raises is printed while `connected()`: a failure after the shutdown of the context is expected.
+
+    precedence: in words which priority the deadline thread got; empty before start().
     """
 
     def __init__(self, connected: Callable[[], bool] = lambda: True) -> None:
@@ -95,11 +126,14 @@ class Scheduler:
         self._changed = threading.Condition(threading.Lock())
         self._players: list[Player] = []
         self._running = True
+        self.precedence = ""
+        self._prepared = threading.Event()
         self._thread = threading.Thread(target=self._run, name="deadlines", daemon=True)
 
     def start(self) -> None:
         sys.setswitchinterval(SWITCH_INTERVAL_S)
         self._thread.start()
+        self._prepared.wait()
 
     def stop(self) -> None:
         """Stop the thread and wait for it."""
@@ -118,12 +152,15 @@ class Scheduler:
         with self._changed:
             self._players.remove(player)
 
-    def command(self) -> Command:
-        return Command(self)
+    def command(self, *players: Player) -> Command:
+        """Return the lock for a command to `players` (default: all); enter it to know the time."""
+        return Command(self, players)
 
     def _run(self) -> None:
         # The kernel rounds a sleep up by 50 us unless asked not to.
         ctypes.CDLL(None).prctl(PR_SET_TIMERSLACK, 1, 0, 0, 0)
+        self.precedence = take_precedence()
+        self._prepared.set()
         now_ns = self.clock.now_ns
         with self._changed:
             while self._running:
@@ -177,10 +214,14 @@ class Scheduler:
 
 
 class Command:
-    """Locks the deadline thread out while a command runs; wakes it afterwards."""
+    """Locks the deadline thread out while a command runs; then announces what it changed.
 
-    def __init__(self, scheduler: Scheduler) -> None:
+    players: those that the command is for; none: all.
+    """
+
+    def __init__(self, scheduler: Scheduler, players: tuple[Player, ...] = ()) -> None:
         self._scheduler = scheduler
+        self._players = players
 
     def __enter__(self) -> int:
         self._scheduler._changed.acquire()
@@ -190,7 +231,7 @@ class Command:
         scheduler = self._scheduler
         now_ns = scheduler.clock.now_ns()
         try:
-            for player in scheduler._players:
+            for player in self._players or scheduler._players:
                 player.announce(now_ns)
         finally:
             scheduler._changed.notify()

@@ -11,6 +11,7 @@ from __future__ import annotations
 
 import threading
 import traceback
+from collections.abc import Callable
 from contextlib import suppress
 
 import rclpy
@@ -76,24 +77,27 @@ def shut_down() -> None:
 
 
 class SpunNode:
-    """A node with an executor and a thread of its own."""
+    """A node with an executor and a thread of its own.
 
-    def __init__(self, node: Node) -> None:
+    executor: may spin further nodes beside it. prepare: called first in the thread.
+    """
+
+    def __init__(self, node: Node, prepare: Callable[[], object] = lambda: None) -> None:
         self.node = node
         self.executor = make_executor(node.context)
         self.executor.add_node(node)
-        adopt = getattr(node, "adopt", None)
-        if adopt is not None:
-            # A node that makes further nodes has them spun beside it.
-            adopt(self.executor)
+        self._prepare = prepare
         self._stop = threading.Event()
         self._thread = threading.Thread(
-            target=spin,
-            args=(self.executor, node.context, self._stop),
+            target=self._run,
             name=node.get_name(),
             daemon=True,
         )
         self._thread.start()
+
+    def _run(self) -> None:
+        self._prepare()
+        spin(self.executor, self.node.context, self._stop)
 
     def close(self) -> None:
         """Stop spinning, then destroy the node."""

@@ -76,6 +76,17 @@ class Worker:
                 task.future.set_exception(CancelledError())
         self._thread.join()
 
+    def end(self) -> None:
+        """Run what waits, then end; nobody waits for it."""
+        with self._changed:
+            self._closed = True
+            self._changed.notify()
+
+    @property
+    def ended(self) -> bool:
+        """Whether no further work is taken."""
+        return self._closed
+
     def _put(self, task: _Task) -> bool:
         dropped = False
         with self._changed:

@@ -201,12 +201,40 @@ def test_a_robot_that_is_removed_while_it_loads_hurts_nobody(graph, lab, monkeyp
     entered, go_on = hold_reads(monkeypatch)
     client = graph.client.create_client(srv.LoadTrajectory, f"/{robot}/load")
     assert client.wait_for_service(LONG)
-    client.call_async(srv.LoadTrajectory.Request(id="wave"))
+    answer = client.call_async(srv.LoadTrajectory.Request(id="wave"))
     assert entered.wait(LONG)
     assert graph.call(srv.Remove, "/lab/remove_robot", name=robot).success
     wait_for(lambda: robot not in lab.host.nodes, "the removal")
+    wait_for(answer.done, "the answer of the robot that is gone")
+    assert "ended before it could answer" in answer.result().message
+    comes = spawn(graph)
+    wait_for(lambda: comes in lab.host.nodes, "a robot that comes meanwhile")
     go_on.set()
     load(graph, stays, "wave")
+
+
+def test_a_load_that_takes_long_does_not_delay_that_of_another_robot(graph, lab, monkeypatch):
+    lab.kept.save(make("ur5e", "wave"))
+    lab.kept.save(make("ur5e", "slow"))
+    first, second = spawn(graph), spawn(graph)
+    entered, go_on, read = threading.Event(), threading.Event(), store.read
+
+    def held(path):
+        if path.stem == "slow":
+            entered.set()
+            assert go_on.wait(LONG)
+        return read(path)
+
+    monkeypatch.setattr(catalogue.store, "read", held)
+    client = graph.client.create_client(srv.LoadTrajectory, f"/{first}/load")
+    assert client.wait_for_service(LONG)
+    answer = client.call_async(srv.LoadTrajectory.Request(id="slow"))
+    assert entered.wait(LONG)
+    load(graph, second, "wave")
+    assert not answer.done()
+    go_on.set()
+    wait_for(answer.done, "the slow load")
+    assert answer.result().success
 
 
 def test_a_damaged_file_is_named_and_what_is_loaded_stays(graph, lab):
