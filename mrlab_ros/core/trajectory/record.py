@@ -1,0 +1,161 @@
+"""What the catalogue keeps of one trajectory: its versions, who may see it, whether it is there.
+
+Every change makes a new record, so that it can be stored before it counts.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+from dataclasses import asdict, dataclass, fields, replace
+from typing import Any
+
+from mrlab_ros.core.errors import BadInput
+from mrlab_ros.core.trajectory.names import TrajectoryName
+
+FORMAT = 1
+
+
+@dataclass(frozen=True)
+class Version:
+    """One version of a trajectory.
+
+    key: of its file in the store, which several versions may share. size: of that file, bytes.
+    head: the metadata in that file. published_ns: wall time. draft: the key of the draft that it
+    was published from; empty: converted into the catalogue at once.
+    """
+
+    number: int
+    key: str
+    size: int
+    head: Mapping[str, Any]
+    published_ns: int
+    draft: str = ""
+
+
+@dataclass(frozen=True)
+class Record:
+    """A trajectory of the catalogue.
+
+    versions: oldest first, at least one. deleted_ns: wall time; 0: it is there.
+    """
+
+    owner: str
+    name: str
+    shared: bool
+    versions: tuple[Version, ...]
+    deleted_ns: int = 0
+
+    @property
+    def id(self) -> str:
+        return TrajectoryName(self.owner, self.name).id
+
+    @property
+    def newest(self) -> Version:
+        return self.versions[-1]
+
+    @property
+    def size(self) -> int:
+        """Bytes that its files take in the store."""
+        return sum({version.key: version.size for version in self.versions}.values())
+
+    @property
+    def keys(self) -> frozenset[str]:
+        return frozenset(version.key for version in self.versions)
+
+    def version(self, number: int) -> Version:
+        """Return a version, the newest for 0; raise BadInput where it is not kept."""
+        for version in self.versions:
+            if number in (version.number, 0):
+                return self.newest if number == 0 else version
+        kept = ", ".join(str(version.number) for version in self.versions)
+        raise BadInput(f"'{self.id}' has no version {number}; kept are: {kept}")
+
+    def visible_to(self, user: str) -> bool:
+        """Say whether a user who is no instructor may see it; an empty one: everybody."""
+        return self.shared or not self.owner or (bool(user) and self.owner == user)
+
+
+def published(
+    record: Record | None, name: TrajectoryName, version: Version, *, shared: bool, kept: int
+) -> Record:
+    """Return the record with `version` as its next one, of which the newest `kept` stay.
+
+    record: what was there, deleted or not; None: nothing. The lab's own are always shared.
+    """
+    before = record.versions if record is not None else ()
+    number = before[-1].number + 1 if before else 1
+    versions = (*before, replace(version, number=number))[-kept:]
+    return Record(name.owner, name.name, shared or not name.owner, versions)
+
+
+def shared(record: Record, value: bool) -> Record:
+    """Return the record shared or not; raise BadInput for one of the lab's own."""
+    if not record.owner and not value:
+        raise BadInput(
+            f"'{record.id}' is the lab's own, which everybody may see; give it an owner by "
+            "publishing it as a user's"
+        )
+    return replace(record, shared=value)
+
+
+def deleted(record: Record, now_ns: int) -> Record:
+    """Return the record as deleted; it can be brought back until its time is over."""
+    if record.deleted_ns:
+        raise BadInput(f"'{record.id}' is deleted already; restore brings it back")
+    return replace(record, deleted_ns=now_ns)
+
+
+def restored(record: Record, number: int, now_ns: int, kept: int) -> Record:
+    """Return the record as there, with version `number` as its next one; 0: as it was."""
+    if number == 0:
+        if not record.deleted_ns:
+            raise BadInput(
+                f"'{record.id}' is not deleted; name the version that becomes the next one"
+            )
+        return replace(record, deleted_ns=0)
+    version = record.version(number)
+    if version is record.newest:
+        if record.deleted_ns:
+            return replace(record, deleted_ns=0)
+        raise BadInput(f"version {number} of '{record.id}' is the newest already")
+    again = replace(version, number=record.newest.number + 1, published_ns=now_ns, draft="")
+    return replace(record, deleted_ns=0, versions=(*record.versions, again)[-kept:])
+
+
+def without(record: Record, key: str) -> Record | None:
+    """Return the record without the versions whose file is `key`; None: there is no other."""
+    versions = tuple(version for version in record.versions if version.key != key)
+    return replace(record, versions=versions) if versions else None
+
+
+def to_document(record: Record) -> dict[str, Any]:
+    """Return the record as plain data."""
+    return {"format": FORMAT, **asdict(record)}
+
+
+def from_document(document: Mapping[str, Any]) -> Record:
+    """Build a record from plain data; raise BadInput where it is none of this format."""
+    try:
+        if document["format"] != FORMAT:
+            raise BadInput(
+                f"a record of the catalogue has format {document['format']}; this MR-Lab reads "
+                f"format {FORMAT}: update it"
+            )
+        versions = tuple(
+            Version(**{name: version[name] for name in _names(Version)})
+            for version in document["versions"]
+        )
+        values = {name: document[name] for name in _names(Record)} | {"versions": versions}
+        record = Record(**values)
+        numbers = [version.number for version in versions]
+        if not versions or numbers != sorted(set(numbers)) or not isinstance(record.name, str):
+            raise ValueError("versions that are not in order")
+        for version in versions:
+            _ = version.head["id"], version.head["frame_count"] + 0, version.key + ""
+    except (KeyError, TypeError, ValueError, AttributeError) as error:
+        raise BadInput(f"it is no record of a trajectory ({error!r})") from None
+    return record
+
+
+def _names(kind: type[Version] | type[Record]) -> Iterable[str]:
+    return (field.name for field in fields(kind))
