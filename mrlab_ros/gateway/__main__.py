@@ -55,11 +55,11 @@ def serve(settings: Settings) -> None:
     import uvicorn
 
     from mrlab_ros.gateway.app import create_app
-    from mrlab_ros.gateway.ports import Ports
+    from mrlab_ros.gateway.ports import real_ports
 
     uvicorn.Server(
         uvicorn.Config(
-            create_app(settings, Ports()),
+            create_app(settings, real_ports(settings)),
             host=settings.host,
             port=settings.port,
             ws="websockets-sansio",

@@ -13,6 +13,7 @@ from pydantic import BaseModel
 from starlette.exceptions import HTTPException
 
 from mrlab_ros.core.errors import BadInput, LabError, Misuse, Unavailable
+from mrlab_ros.gateway.lab.connection import NoAnswer, Refused
 
 logger = logging.getLogger("mrlab.gateway")
 
@@ -82,6 +83,8 @@ class Problem(BaseModel):
 
 # The first class that fits decides.
 STATUS: tuple[tuple[type[LabError], int, str], ...] = (
+    (NoAnswer, 504, "no_answer"),
+    (Refused, 502, "refused"),
     (Unavailable, 503, "unavailable"),
     (BadInput, 400, "bad_input"),
     (Misuse, 409, "misuse"),

@@ -8,7 +8,8 @@ from typing import TYPE_CHECKING
 from fastapi.requests import HTTPConnection
 
 if TYPE_CHECKING:
-    from mrlab_ros.gateway.lab.port import LabConnection
+    from mrlab_ros.gateway.settings import Settings
+    from mrlab_ros.gateway.lab.connection import LabConnection
 
 
 @dataclass
@@ -16,6 +17,13 @@ class Ports:
     """The outside worlds of a gateway; what is None is not there, and its routes say so."""
 
     lab: LabConnection | None = None
+
+
+def real_ports(settings: Settings) -> Ports:
+    """Return the ports that `settings` name; nothing is opened yet."""
+    from mrlab_ros.gateway.lab.zenoh_lab import lab_at
+
+    return Ports(lab_at(settings.zenoh, settings.zenoh_config, settings.prefix))
 
 
 def ports(connection: HTTPConnection) -> Ports:

@@ -1,0 +1,176 @@
+"""Encodes and decodes CDR by message definitions."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from pathlib import Path
+from types import SimpleNamespace
+from typing import Any
+
+import numpy as np
+from ament_index_python.packages import PackageNotFoundError, get_package_share_directory
+from rosbags.interfaces import Nodetype
+from rosbags.typesys import Stores, get_types_from_msg, get_typestore
+
+from mrlab_ros.core.errors import BadInput, Unavailable
+
+PACKAGE = "mrlab_msgs"
+STD_SRVS = {
+    "std_srvs/srv/Empty": "---\n",
+    "std_srvs/srv/SetBool": "bool data\n---\nbool success\nstring message\n",
+    "std_srvs/srv/Trigger": "---\nbool success\nstring message\n",
+}
+# What ROS puts into a message without fields.
+EMPTY = "structure_needs_at_least_one_member"
+LITTLE_ENDIAN = b"\x00\x01\x00\x00"
+
+
+class Definitions:
+    """The message types of the lab, ROS's standard ones included.
+
+    texts: type name such as mrlab_msgs/msg/Robots or mrlab_msgs/srv/Seek -> text of its file.
+    A request is named mrlab_msgs/srv/Seek_Request, a response mrlab_msgs/srv/Seek_Response.
+    """
+
+    def __init__(self, texts: Mapping[str, str]) -> None:
+        self._store = get_typestore(Stores.ROS2_JAZZY)
+        found: dict[str, Any] = {}
+        for name, text in (STD_SRVS | dict(texts)).items():
+            package, folder, kind = name.split("/")
+            if folder == "srv":
+                # Halves of services are registered as messages: they find their own package.
+                request, _, response = text.partition("---")
+                found |= _parsed(request, f"{package}/msg/{kind}_Request")
+                found |= _parsed(response, f"{package}/msg/{kind}_Response")
+            else:
+                found |= _parsed(text, name)
+        known = self._store.fielddefs
+        self._store.register({name: entry for name, entry in found.items() if name not in known})
+
+    def encode(self, type_name: str, values: object) -> bytes:
+        """Return the CDR, with its header, of a message or of a mapping: field -> value.
+
+        Fields that a mapping leaves out are 0, empty or false. Raises BadInput for an unknown type
+        or field, or a value that does not fit its field.
+        """
+        name = self._known(type_name)
+        if isinstance(values, Mapping):
+            values = self._filled(name, values)
+        try:
+            return bytes(self._store.serialize_cdr(values, name))
+        except Exception as error:
+            raise BadInput(
+                f"{_short(values)} is no {type_name}: {error}; give each field a value of its type"
+            ) from error
+
+    def decode(self, type_name: str, payload: bytes) -> Any:
+        """Return the message, with its fields as attributes. Raises BadInput where it is none."""
+        name = self._known(type_name)
+        definition = self._store.get_msgdef(name)
+        try:
+            # Not deserialize_cdr: that refuses bytes behind the last field, and rclpy leaves
+            # padding there.
+            little = payload[1] & 1
+            read = definition.deserialize_cdr_le if little else definition.deserialize_cdr_be
+            message, _ = read(memoryview(payload)[4:], 0, definition.cls, self._store)
+        except Exception as error:
+            raise BadInput(
+                f"{len(payload)} bytes are no {type_name}: {error}; check that both sides have "
+                "the same message definitions"
+            ) from error
+        return message
+
+    def _known(self, type_name: str) -> str:
+        name = type_name.replace("/srv/", "/msg/")
+        if name not in self._store.fielddefs:
+            raise BadInput(
+                f"{type_name} is no known message type; expected a standard type or one of "
+                f"{PACKAGE}, such as {PACKAGE}/msg/Robots or {PACKAGE}/srv/Seek_Request"
+            )
+        return name
+
+    def _filled(self, name: str, values: Mapping[str, Any]) -> Any:
+        fields = dict(self._store.get_msgdef(name).fields)
+        strangers = [key for key in values if key not in fields]
+        if strangers:
+            raise BadInput(
+                f"{name} has no field {', '.join(strangers)}; it has "
+                f"{', '.join(field for field in fields if field != EMPTY) or 'none'}"
+            )
+        parts = {key: self._part(kind, values.get(key)) for key, kind in fields.items()}
+        return self._store.types[name](**parts)
+
+    def _part(self, kind: Any, value: Any) -> Any:
+        """Return `value` as a field holds it; None: zeros."""
+        node, detail = kind
+        if node is Nodetype.NAME:
+            if value is None or isinstance(value, Mapping):
+                return self._filled(detail, value or {})
+            return value
+        if node is Nodetype.BASE:
+            return _zero(detail[0]) if value is None else value
+        (inner, inner_detail), length = detail
+        if value is None:
+            value = [None] * (length if node is Nodetype.ARRAY else 0)
+        if inner is Nodetype.BASE and inner_detail[0] != "string":
+            if isinstance(value, bytes | bytearray | memoryview):
+                return np.frombuffer(value, inner_detail[0])
+            return np.array([0 if each is None else each for each in value], inner_detail[0])
+        return [self._part((inner, inner_detail), each) for each in value]
+
+
+def installed_definitions() -> Definitions:
+    """Return the types of the message package on this machine. Raises Unavailable without it."""
+    try:
+        folder = Path(get_package_share_directory(PACKAGE))
+    except PackageNotFoundError as error:
+        raise Unavailable(
+            f"the package {PACKAGE} is not installed here; build it, or take the definitions from "
+            "the lab's key schema"
+        ) from error
+    return Definitions(texts_of(folder))
+
+
+def texts_of(folder: Path, package: str = PACKAGE) -> dict[str, str]:
+    """Return the definitions in a package's folder with msg/ and srv/: type name -> text."""
+    return {
+        f"{package}/{kind}/{file.stem}": file.read_text()
+        for kind in ("msg", "srv")
+        for file in sorted(folder.glob(f"{kind}/*.{kind}"))
+        if file.is_file()  # a link may be left of a type that is no more
+    }
+
+
+def plain(message: object) -> Any:
+    """Return a message as JSON has it: mappings, lists, numbers and texts; NaN becomes None."""
+    if isinstance(message, SimpleNamespace):
+        return {key: plain(value) for key, value in vars(message).items()}
+    if hasattr(message, "__msgtype__"):
+        names = [name for name in message.__dataclass_fields__ if name != "__msgtype__"]  # type: ignore[attr-defined]
+        return {name: plain(getattr(message, name)) for name in names if name != EMPTY}
+    if isinstance(message, np.ndarray):
+        return plain(message.tolist())
+    if isinstance(message, list | tuple):
+        return [plain(each) for each in message]
+    if isinstance(message, np.generic):
+        return plain(message.item())
+    if isinstance(message, float) and not math.isfinite(message):
+        return None
+    return message
+
+
+def _parsed(text: str, name: str) -> dict[str, Any]:
+    bare = [line.split("#")[0].strip() for line in text.splitlines()]
+    if not any(line and "=" not in line for line in bare):
+        text += f"\nuint8 {EMPTY}\n"
+    return dict(get_types_from_msg(text, name))
+
+
+def _zero(base: str) -> Any:
+    return {"string": "", "bool": False}.get(base, 0.0 if base.startswith("float") else 0)
+
+
+def _short(values: object) -> str:
+    text = repr(values)
+    return text if len(text) < 200 else f"{text[:200]}..."

@@ -1,0 +1,99 @@
+"""The gateway's connection to a lab, against a bridge-like zenoh session."""
+
+from __future__ import annotations
+
+import asyncio
+from collections.abc import Callable
+
+import pytest
+from zenoh_side import free_endpoint
+
+from mrlab_ros.adapters.zenoh_session import Publisher, Query, ZenohSession, configuration
+from mrlab_ros.core.bridge.latency import attachment
+from mrlab_ros.core.bridge.rules import (
+    Direction,
+    TopicQos,
+    TopicRule,
+    bridge_token,
+    service_token,
+    topic_token,
+)
+from mrlab_ros.gateway.lab.connection import NoAnswer, Phase, Refused, Sample
+from mrlab_ros.gateway.lab.definitions import installed_definitions
+from mrlab_ros.gateway.lab.zenoh_lab import ZenohLab
+
+LATCHED = TopicQos(reliable=True, latched=True, depth=1)
+
+
+class Bridge:
+    """A session that shows itself as the bridge does; declared things live while it holds them."""
+
+    def __init__(self, endpoint: str, prefix: str) -> None:
+        self.session = ZenohSession(configuration(listen=(endpoint,)))
+        self.prefix = prefix
+        self.held = [self.session.token(bridge_token(self.session.zid))]
+
+    def topic(self, key: str, type_name: str) -> Publisher:
+        key, zid = f"{self.prefix}/{key}", self.session.zid
+        self.held.append(
+            self.session.token(topic_token(zid, Direction.OUT, key, type_name, LATCHED))
+        )
+        return self.session.publisher(key, TopicRule(name=f"/{key}"), 1)
+
+    def service(self, key: str, type_name: str, answer: Callable[[Query], None]) -> None:
+        key, zid = f"{self.prefix}/{key}", self.session.zid
+        self.held.append(self.session.token(service_token(zid, key, type_name)))
+        self.held.append(self.session.queryable(key, answer))
+
+
+async def until(condition: Callable[[], object]) -> None:
+    async def poll() -> None:
+        while not condition():
+            await asyncio.sleep(0.01)
+
+    await asyncio.wait_for(poll(), 20)
+
+
+def test_topics_services_and_presence() -> None:
+    prefix = "campus/lab_1"
+
+    async def scenario() -> None:
+        endpoint, definitions = free_endpoint(), installed_definitions()
+        config = configuration(mode="client", listen=(), connect=(endpoint,))
+        lab = ZenohLab(config, definitions, prefix)
+        got: list[Sample] = []
+        lab.subscribe("robots", got.append)
+        await lab.open()
+        assert lab.phase is Phase.CONNECTING
+        with pytest.raises(NoAnswer, match="no connection to the lab"):
+            await lab.call("a/play", "std_srvs/srv/Trigger")
+
+        bridge = Bridge(endpoint, prefix)
+        try:
+            robots = bridge.topic("robots", "mrlab_msgs/msg/Robots")
+            done = definitions.encode("std_srvs/srv/Trigger_Response", {"success": True})
+            bridge.service("a/play", "std_srvs/srv/Trigger", lambda query: query.reply(done))
+            bridge.service("b/play", "std_srvs/srv/Trigger", lambda query: query.refuse("not now"))
+            await until(lambda: lab.phase is Phase.OPEN and "b/play" in lab.keys.services)
+            assert lab.keys.latched == {"robots"}
+
+            assert (await lab.call("a/play", "std_srvs/srv/Trigger")).success
+            with pytest.raises(Refused, match="not now"):
+                await lab.call("b/play", "std_srvs/srv/Trigger")
+            with pytest.raises(NoAnswer, match="nobody answers c/play"):
+                await lab.call("c/play", "std_srvs/srv/Trigger", timeout_s=2.0)
+
+            robots.put(definitions.encode("mrlab_msgs/msg/Robots", {}), attachment(7, 8, 9))
+            await until(lambda: got)
+            assert (got[0].key, got[0].sequence, got[0].published_ns) == ("robots", 7, 8)
+            newest = await lab.get("robots")
+            assert newest is not None
+            assert newest.sequence == 7
+
+            bridge.session.close()
+            await until(lambda: lab.phase is Phase.LOST)
+            assert not lab.keys.services
+        finally:
+            await lab.close()
+
+    asyncio.run(scenario())
