@@ -8,8 +8,8 @@ from typing import TYPE_CHECKING
 from fastapi.requests import HTTPConnection
 
 if TYPE_CHECKING:
-    from mrlab_ros.gateway.settings import Settings
     from mrlab_ros.gateway.lab.connection import LabConnection
+    from mrlab_ros.gateway.settings import Settings
 
 
 @dataclass
