@@ -2,34 +2,49 @@
 
 from __future__ import annotations
 
+import asyncio
 from collections.abc import AsyncIterator
-from contextlib import asynccontextmanager
+from contextlib import asynccontextmanager, suppress
 
-from fastapi import APIRouter, FastAPI
+from fastapi import APIRouter, Depends, FastAPI
 
 import mrlab_ros
 from mrlab_ros.gateway import errors, pages
 from mrlab_ros.gateway.guard import Guard
-from mrlab_ros.gateway.people import routes as people
+from mrlab_ros.gateway.hosts import Hosts
+from mrlab_ros.gateway.people import pairing_routes
+from mrlab_ros.gateway.people import routes as people_routes
+from mrlab_ros.gateway.people.people import People
+from mrlab_ros.gateway.policy import authorise, read_policy
 from mrlab_ros.gateway.ports import Ports
-from mrlab_ros.gateway.settings import Settings, is_loopback
+from mrlab_ros.gateway.settings import Settings
 
-# One module a subject; each has a `router`. The pages come last: they answer any path.
-ROUTERS: tuple[APIRouter, ...] = (people.router, pages.router)
+# One module a subject; each has a `router`, and each route a line in policy.py. The pages come
+# last: they answer any path.
+ROUTERS: tuple[APIRouter, ...] = (people_routes.router, pairing_routes.router, pages.router)
 
 
 def create_app(settings: Settings, ports: Ports) -> FastAPI:
-    """Return the application; it opens the ports when it starts and closes them at its end."""
+    """Return the application; it opens the ports when it starts and closes them at its end.
+
+    Raises BadInput where the settings cannot be served.
+    """
+    people = ports.people or People(settings)
 
     @asynccontextmanager
     async def lifespan(_: FastAPI) -> AsyncIterator[None]:
+        following = asyncio.create_task(people.follow())
         if ports.lab is not None:
             await ports.lab.open()
         try:
             yield
         finally:
+            following.cancel()
+            with suppress(asyncio.CancelledError):
+                await following
             if ports.lab is not None:
                 await ports.lab.close()
+            people.database.close()
 
     app = FastAPI(
         title="MR-Lab gateway",
@@ -41,19 +56,23 @@ def create_app(settings: Settings, ports: Ports) -> FastAPI:
         redoc_url=None,
         lifespan=lifespan,
         responses=errors.RESPONSES,
+        dependencies=[Depends(authorise)],
     )
     app.state.settings = settings
     app.state.ports = ports
+    app.state.people = people
+    app.state.policy = read_policy(settings.allow_list)
     app.state.pages = settings.pages or pages.pages_folder()
     errors.install(app)
     app.add_api_route("/healthz", healthz, tags=["health"])
     for router in ROUTERS:
         app.include_router(router)
+    hosts = Hosts.of(settings)
     app.add_middleware(
         Guard,
-        host_allowed=is_loopback,
-        public_origin="",
-        csrf_matches=lambda token, _: bool(token),
+        host_allowed=hosts.allows,
+        public_origin=hosts.public_origin,
+        csrf_matches=people.csrf_matches,
     )
     return app
 

@@ -10,8 +10,13 @@ from pathlib import Path
 
 from anyio import to_thread
 from fastapi import APIRouter, Request, Response
+from fastapi.responses import RedirectResponse
 
+from mrlab_ros.core.bridge.rules import Role
 from mrlab_ros.gateway.errors import NotFound
+from mrlab_ros.gateway.people.people import People, ThePeople, address_of
+from mrlab_ros.gateway.people.person import LOCAL
+from mrlab_ros.gateway.share import directory
 
 # Set here: what the machine's own table says differs between machines.
 MIME_TYPES = {
@@ -39,6 +44,8 @@ FOR_EVER = "public, max-age=31536000, immutable"
 ASK_AGAIN = "no-cache"
 # What is an API or a file answers 404 where there is none; other paths are the application's.
 NOT_PAGES = ("api/", "assets/", "static/", "link")
+# The one-time token in the URL that is opened on the lab's machine.
+TOKEN = "token"
 NOT_BUILT = (
     "<!doctype html><title>MR-Lab</title><p>The pages are not built. "
     "Run <code>make demo</code>, or <code>scripts/npm run build</code>, then load this again.</p>"
@@ -59,17 +66,10 @@ class Page:
 
 def pages_folder() -> Path:
     """Return the folder of the built pages: the installed ones, or those of the source tree."""
-    # Imported here: a gateway with a folder of its own needs no ROS index.
-    from ament_index_python.packages import PackageNotFoundError, get_package_share_directory
-
-    try:
-        installed = Path(get_package_share_directory("mrlab_ros")) / "web" / "dist"
-        # A symlinked install points back at the source tree, which may have been built anew.
-        if (index := installed / "index.html").exists():
-            return index.resolve().parent
-    except PackageNotFoundError:
-        pass
-    return Path(__file__).resolve().parents[2] / "web" / "dist"
+    installed = directory() / "web" / "dist"
+    # A symlinked install points back at the source tree, which may have been built anew.
+    index = installed / "index.html"
+    return index.resolve().parent if index.exists() else installed
 
 
 def read_page(folder: Path, path: str) -> Page | None:
@@ -116,9 +116,24 @@ def accepts_gzip(request: Request) -> bool:
     return any(kind == "gzip" and quality != "q=0" for kind, _, quality in kinds)
 
 
+def enter(request: Request, people: People) -> Response:
+    """Sign the local user in, where the token of the URL is one; go on without it in the URL."""
+    people.links_by_address.check(address_of(request), people.steady())
+    # Not request.url.path alone: //host would lead away.
+    response = RedirectResponse("/" + request.url.path.lstrip("/"), 303)
+    if people.accounts.opened(request.query_params[TOKEN], people.clock()):
+        people.sign_in(response, LOCAL, Role.INSTRUCTOR)
+    return response
+
+
 @router.api_route("/{path:path}", methods=["GET", "HEAD"])
-async def page(request: Request, path: str) -> Response:
-    """Answer with a built file, or with the application, which reads the path itself."""
+async def page(request: Request, people: ThePeople, path: str) -> Response:
+    """Answer with a built file, or with the application, which reads the path itself.
+
+    The one-time token in the URL that `mrlab up` and `mrlab open` print is taken out of it.
+    """
+    if TOKEN in request.query_params and request.method == "GET":
+        return await to_thread.run_sync(enter, request, people)
     folder: Path = request.app.state.pages
     found = await to_thread.run_sync(read_page, folder, path or "index.html")
     if found is not None:

@@ -9,14 +9,19 @@ from fastapi.requests import HTTPConnection
 
 if TYPE_CHECKING:
     from mrlab_ros.gateway.lab.connection import LabConnection
+    from mrlab_ros.gateway.people.people import People
     from mrlab_ros.gateway.settings import Settings
 
 
 @dataclass
 class Ports:
-    """The outside worlds of a gateway; what is None is not there, and its routes say so."""
+    """The outside worlds of a gateway; what is None is not there, and its routes say so.
+
+    people: None for those of the settings.
+    """
 
     lab: LabConnection | None = None
+    people: People | None = None
 
 
 def real_ports(settings: Settings) -> Ports:

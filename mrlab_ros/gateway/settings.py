@@ -50,9 +50,19 @@ class Settings:
         return self.keys is not None or self.certificate is not None
 
     @property
+    def certificate_file(self) -> Path:
+        """The certificate for HTTPS."""
+        return self.certificate or (self.keys or Path()) / "server.pem"
+
+    @property
+    def certificate_key_file(self) -> Path:
+        """The key of the certificate for HTTPS."""
+        return self.certificate_key or (self.keys or Path()) / "server.key"
+
+    @property
     def signs_in(self) -> bool:
         """Whether people sign in; otherwise one local user needs no password."""
-        return self.keys is not None or bool(self.public_url)
+        return self.keys is not None or self.certificate is not None or bool(self.public_url)
 
 
 def parsed_address(text: str) -> tuple[str, int]:

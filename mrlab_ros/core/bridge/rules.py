@@ -156,6 +156,15 @@ class ServiceRule:
         64,
     )
     role: Role = field(enum_values(Role), "Who may call the service.", Role.INSTRUCTOR)
+    own: Role = field(
+        enum_values(Role),
+        "Who may call it in the browser for what is their own.",
+        Role.INSTRUCTOR,
+    )
+
+    def needed(self, *, own: bool) -> Role:
+        """Return who may call the service; own: for what belongs to the one who calls."""
+        return self.own if own and self.role.may(self.own) else self.role
 
     @cached_property
     def pattern(self) -> re.Pattern[str]:

@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Annotated, Protocol
 
+from fastapi import Depends
 from fastapi.requests import HTTPConnection
 
 from mrlab_ros.core.bridge.rules import Role
@@ -15,22 +17,31 @@ LOCAL = "local"
 
 @dataclass(frozen=True)
 class Person:
-    """Who a request comes from; the name scopes what is one's own."""
+    """Who a request comes from. The name scopes what is one's own; sign_in: id of the sign-in."""
 
     name: str
     role: Role
+    sign_in: str = ""
+
+
+class Knows(Protocol):
+    """Knows people by their requests."""
+
+    def known(self, connection: HTTPConnection) -> Person | None: ...
 
 
 def known_person(connection: HTTPConnection) -> Person | None:
     """Return who is signed in, None where nobody is: a dependency of routes and sockets."""
-    if connection.app.state.settings.signs_in:
-        return None
-    return Person(LOCAL, Role.INSTRUCTOR)
+    people: Knows = connection.app.state.people
+    return people.known(connection)
 
 
-def current_person(connection: HTTPConnection) -> Person:
+def current_person(person: Annotated[Person | None, Depends(known_person)]) -> Person:
     """Return who is signed in, as a dependency of routes and sockets; raises NotSignedIn."""
-    person = known_person(connection)
     if person is None:
-        raise NotSignedIn("nobody is signed in; sign in first")
+        raise NotSignedIn("nobody is signed in, or the sign-in has ended; sign in first")
     return person
+
+
+KnownPerson = Annotated[Person | None, Depends(known_person)]
+CurrentPerson = Annotated[Person, Depends(current_person)]

@@ -1,59 +1,195 @@
-"""Sign-in, sign-out, and who is there."""
+"""Sign-in and sign-out, one-time links, the people of the lab, and their devices.
+
+Routes that hash passwords or write the database are plain functions, so that they run in threads.
+"""
 
 from __future__ import annotations
 
-from typing import Annotated
+import io
 
-from fastapi import APIRouter, Depends, Request
-from pydantic import BaseModel
+import segno
+from fastapi import APIRouter, Request, Response
 
-from mrlab_ros.gateway.people.person import Person, known_person
+from mrlab_ros.core.bridge.rules import Role
+from mrlab_ros.gateway.errors import NotAllowed, NotFound, NotSignedIn
+from mrlab_ros.gateway.people import answers
+from mrlab_ros.gateway.people.accounts import INVITATION_LIFETIME_S
+from mrlab_ros.gateway.people.people import People, ThePeople, address_of
+from mrlab_ros.gateway.people.person import CurrentPerson, KnownPerson, Person
 
 router = APIRouter(prefix="/api", tags=["people"])
 
 
-class LabAnswer(BaseModel):
-    """Which lab this is."""
-
-    id: str
-    name: str
-    version: str
-
-
-class UserAnswer(BaseModel):
-    """Who is signed in."""
-
-    name: str
-    role: str
-
-
-class WaysAnswer(BaseModel):
-    """In which ways somebody can sign in."""
-
-    password: bool
-    oidc: bool
-    pairing: bool
-
-
-class SessionAnswer(BaseModel):
-    """What a page needs to know first."""
-
-    lab: LabAnswer
-    user: UserAnswer | None
-    csrf: str
-    ways: WaysAnswer
-
-
 @router.get("/session")
-async def session(
-    request: Request, person: Annotated[Person | None, Depends(known_person)]
-) -> SessionAnswer:
+async def read_session(
+    request: Request, people: ThePeople, person: KnownPerson
+) -> answers.Session:
     """Say which lab this is, who is signed in, and how one signs in."""
-    settings = request.app.state.settings
-    ways = settings.signs_in
-    return SessionAnswer(
-        lab=LabAnswer(id="lab", name=settings.lab_name, version=request.app.version),
-        user=None if person is None else UserAnswer(name=person.name, role=person.role.value),
-        csrf="csrf",
-        ways=WaysAnswer(password=ways, oidc=settings.oidc is not None, pairing=ways),
+    csrf = people.sign_ins.csrf(people.secret(request.headers.get("cookie", "")))
+    return session_answer(request, people, person, csrf)
+
+
+@router.post("/session")
+def sign_in(
+    request: Request, response: Response, people: ThePeople, body: answers.Credentials
+) -> answers.Session:
+    """Sign in with name and password."""
+    check_signs_in(people)
+    now = people.steady()
+    address = address_of(request)
+    people.sign_ins_by_address.check(address, now)
+    # With the address: nobody can lock somebody else out.
+    people.sign_ins_by_name.check(f"{body.name.lower()} {address}", now)
+    account = people.accounts.matching(body.name, body.password)
+    if account is None:
+        raise NotSignedIn("this name and password do not belong together; try again")
+    csrf = people.sign_in(response, account.name, account.role)
+    return session_answer(request, people, Person(account.name, account.role), csrf)
+
+
+@router.delete("/session", status_code=204)
+def sign_out(response: Response, people: ThePeople, person: KnownPerson) -> None:
+    """Sign out."""
+    people.sign_out(response, person)
+
+
+@router.get("/invitations/{token}")
+def read_invitation(request: Request, people: ThePeople, token: str) -> answers.Invited:
+    """Say whom a one-time link invites."""
+    people.links_by_address.check(address_of(request), people.steady())
+    account = people.accounts.invited(token, people.clock())
+    return answers.Invited(name=account.name, role=account.role)
+
+
+@router.post("/invitations/{token}")
+def accept_invitation(
+    request: Request,
+    response: Response,
+    people: ThePeople,
+    token: str,
+    body: answers.NewPassword,
+) -> answers.Session:
+    """Choose a password with a one-time link, and be signed in."""
+    people.links_by_address.check(address_of(request), people.steady())
+    account = people.accounts.accept(token, body.password, people.clock())
+    csrf = people.sign_in(response, account.name, account.role)
+    return session_answer(request, people, Person(account.name, account.role), csrf)
+
+
+@router.get("/people")
+def list_people(people: ThePeople) -> answers.People:
+    """List the people of the lab."""
+    return answers.People(
+        people=[
+            answers.PersonEntry(name=each.name, role=each.role, signs_in=each.signs_in)
+            for each in people.accounts.all()
+        ]
     )
+
+
+@router.post("/people", status_code=201)
+def add_person(request: Request, people: ThePeople, body: answers.NewPerson) -> answers.Invitation:
+    """Let somebody in; the answer's link is for that person alone."""
+    check_signs_in(people)
+    account = people.accounts.add(body.name, body.role)
+    return invitation(request, people, account.name, account.role)
+
+
+@router.post("/people/{name}/invitation", status_code=201)
+def invite_person(request: Request, people: ThePeople, name: str) -> answers.Invitation:
+    """Make a new one-time link for somebody who lost the password, which counts until then."""
+    account = people.accounts.get(name)
+    return invitation(request, people, account.name, account.role)
+
+
+@router.patch("/people/{name}")
+def change_role(people: ThePeople, name: str, body: answers.RoleChange) -> answers.PersonEntry:
+    """Give somebody another role, at once."""
+    people.accounts.set_role(name, body.role)
+    account = people.accounts.get(name)
+    return answers.PersonEntry(name=account.name, role=account.role, signs_in=account.signs_in)
+
+
+@router.delete("/people/{name}", status_code=204)
+def remove_person(people: ThePeople, name: str) -> None:
+    """Remove somebody; every sign-in of that person ends."""
+    people.accounts.remove(name)
+
+
+@router.get("/devices")
+def list_devices(people: ThePeople, person: CurrentPerson) -> answers.Devices:
+    """List the sign-ins: one's own, and for an instructor everybody's."""
+    name = None if person.role.may(Role.INSTRUCTOR) else person.name
+    found = people.sign_ins.all(people.clock(), name)
+    return answers.Devices(
+        devices=[
+            answers.Device(
+                id=each.id,
+                name=each.device or "browser",
+                role=each.role,
+                approved_by=each.name,
+                created=each.created,
+                last_seen=each.seen,
+                expires=each.expires,
+                this=each.id == person.sign_in,
+            )
+            for each in found
+        ]
+    )
+
+
+@router.delete("/devices/{sign_in}", status_code=204)
+def end_device(people: ThePeople, person: CurrentPerson, sign_in: str) -> None:
+    """End a sign-in; its sockets close."""
+    found = [each for each in people.sign_ins.all(people.clock()) if each.id == sign_in]
+    # To others' people a foreign sign-in does not exist.
+    if not found or not (person.role.may(Role.INSTRUCTOR) or found[0].name == person.name):
+        raise NotFound("there is no such device; it may have signed out")
+    people.sign_ins.end(sign_in)
+
+
+def session_answer(
+    request: Request, people: People, person: Person | None, csrf: str
+) -> answers.Session:
+    """Return what a page needs to know first."""
+    settings = people.settings
+    return answers.Session(
+        lab=answers.Lab(
+            id=people.database.lab_id, name=settings.lab_name, version=request.app.version
+        ),
+        user=None if person is None else answers.User(name=person.name, role=person.role),
+        csrf=csrf,
+        ways=answers.Ways(
+            password=settings.signs_in, oidc=settings.oidc is not None, pairing=settings.signs_in
+        ),
+    )
+
+
+def invitation(request: Request, people: People, name: str, role: Role) -> answers.Invitation:
+    """Make a one-time link for a person."""
+    secret = people.accounts.invite(name, people.clock())
+    url = f"{base_url(request, people)}/invitation/{secret}"
+    return answers.Invitation(
+        name=name, role=role, url=url, qr=qr_svg(url), expires_in=INVITATION_LIFETIME_S
+    )
+
+
+def base_url(request: Request, people: People) -> str:
+    """Return the address by which people reach this gateway, without a slash at its end."""
+    return people.settings.public_url or str(request.base_url).rstrip("/")
+
+
+def qr_svg(text: str) -> str:
+    """Return a QR code as an SVG document without styles, so that any policy shows it."""
+    out = io.BytesIO()
+    segno.make(text, micro=False).save(out, kind="svg", xmldecl=False, border=2, omitsize=True)
+    return out.getvalue().decode()
+
+
+def check_signs_in(people: People) -> None:
+    """Raise NotAllowed where nobody signs in, as there is one local user."""
+    if not people.settings.signs_in:
+        raise NotAllowed(
+            "this lab has one local user and no sign-in; for more people start it with keys: "
+            "mrlab keys init, then mrlab up --keys keys"
+        )

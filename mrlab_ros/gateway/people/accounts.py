@@ -1,0 +1,171 @@
+"""The people of a lab: names, roles, passwords, and one-time links."""
+
+from __future__ import annotations
+
+import re
+import sqlite3
+from dataclasses import dataclass
+
+from mrlab_ros.core.bridge.rules import Role
+from mrlab_ros.core.errors import BadInput, Misuse
+from mrlab_ros.gateway.errors import NotFound
+from mrlab_ros.gateway.people.database import Database, digest, new_secret
+from mrlab_ros.gateway.people.passwords import Passwords
+from mrlab_ros.gateway.people.person import LOCAL
+
+NAME = re.compile(r"[A-Za-z0-9][A-Za-z0-9_.-]{0,40}")
+# Names of the store and of the lab itself.
+RESERVED = (LOCAL, "lab", "shared", "gateway", "nobody")
+INVITATION_LIFETIME_S = 7 * 24 * 3600.0
+OPENING_LIFETIME_S = 24 * 3600.0
+INVITATION = "invitation"
+OPENING = "opening"
+
+
+@dataclass(frozen=True)
+class Account:
+    """A person of the lab; signs_in: `password`, `oidc`, or empty until the link was used."""
+
+    name: str
+    role: Role
+    signs_in: str
+
+
+class Accounts:
+    """The people of a lab. Times are s since 1970."""
+
+    def __init__(self, database: Database, passwords: Passwords) -> None:
+        self._database = database
+        self._passwords = passwords
+
+    def all(self) -> list[Account]:
+        """Return everybody, by name."""
+        return [_account(row) for row in self._database.rows("SELECT * FROM people ORDER BY name")]
+
+    def get(self, name: str) -> Account:
+        """Return a person; raises NotFound where there is none."""
+        rows = self._database.rows("SELECT * FROM people WHERE name = ?", name)
+        if not rows:
+            raise NotFound(f"there is nobody called {name!r}; mrlab users list shows who there is")
+        return _account(rows[0])
+
+    def add(self, name: str, role: Role, subject: str | None = None) -> Account:
+        """Add a person; subject: what the OpenID Connect provider calls the person."""
+        check_name(name)
+        try:
+            with self._database.writing() as connection:
+                connection.execute(
+                    "INSERT INTO people VALUES (?, ?, NULL, ?)", (name, role.value, subject)
+                )
+        except sqlite3.IntegrityError:
+            raise Misuse(
+                f"there is somebody called {name!r} already; choose another name, or remove that "
+                f"one first with: mrlab users remove {name}"
+            ) from None
+        return Account(name, role, "oidc" if subject else "")
+
+    def remove(self, name: str) -> None:
+        """Remove a person, the links and the sign-ins; raises NotFound where there is none."""
+        self.get(name)
+        with self._database.writing() as connection:
+            for table in ("people", "sign_ins", "links"):
+                connection.execute(f"DELETE FROM {table} WHERE name = ?", (name,))
+
+    def set_role(self, name: str, role: Role) -> None:
+        """Give a person another role; raises NotFound where there is none."""
+        self.get(name)
+        with self._database.writing() as connection:
+            connection.execute("UPDATE people SET role = ? WHERE name = ?", (role.value, name))
+
+    def invite(self, name: str, now: float) -> str:
+        """Return the secret of a link with which a person chooses a password, once."""
+        self.get(name)
+        return self._link(INVITATION, name, now + INVITATION_LIFETIME_S)
+
+    def invited(self, secret: str, now: float) -> Account:
+        """Return whom a link invites; raises NotFound where it is used, old or none."""
+        return self.get(self._named(INVITATION, secret, now))
+
+    def accept(self, secret: str, password: str, now: float) -> Account:
+        """Use up a link and set the password; earlier sign-ins of the person end."""
+        self.invited(secret, now)
+        hashed = self._passwords.hash(password)
+        with self._database.writing() as connection:
+            row = connection.execute(
+                "DELETE FROM links WHERE digest = ? RETURNING name", (digest(secret),)
+            ).fetchone()
+            if row is None:
+                raise _no_link()
+            connection.execute(
+                "UPDATE people SET password = ? WHERE name = ?", (hashed, row["name"])
+            )
+            for table in ("sign_ins", "links"):
+                connection.execute(f"DELETE FROM {table} WHERE name = ?", (row["name"],))
+        return self.get(row["name"])
+
+    def open(self, now: float) -> str:
+        """Return the secret of a link that signs the local user in, once."""
+        return self._link(OPENING, LOCAL, now + OPENING_LIFETIME_S)
+
+    def opened(self, secret: str, now: float) -> bool:
+        """Use up a link of the local user; return whether it was one."""
+        with self._database.writing() as connection:
+            row = connection.execute(
+                "DELETE FROM links WHERE digest = ? AND kind = ? AND expires > ? RETURNING name",
+                (digest(secret), OPENING, now),
+            ).fetchone()
+        return row is not None
+
+    def matching(self, name: str, password: str) -> Account | None:
+        """Return the person with this name and password; None where there is none."""
+        rows = self._database.rows("SELECT * FROM people WHERE name = ?", name)
+        stored = rows[0]["password"] if rows else None
+        return _account(rows[0]) if self._passwords.matches(stored, password) else None
+
+    def of_subject(self, subject: str) -> Account | None:
+        """Return the person whom an OpenID Connect provider calls so; None: there is none."""
+        rows = self._database.rows("SELECT * FROM people WHERE subject = ?", subject)
+        return _account(rows[0]) if rows else None
+
+    def _link(self, kind: str, name: str, expires: float) -> str:
+        secret = new_secret()
+        with self._database.writing() as connection:
+            # A new invitation replaces the one before.
+            if kind == INVITATION:
+                connection.execute("DELETE FROM links WHERE name = ?", (name,))
+            connection.execute(
+                "INSERT INTO links VALUES (?, ?, ?, ?)", (digest(secret), kind, name, expires)
+            )
+        return secret
+
+    def _named(self, kind: str, secret: str, now: float) -> str:
+        rows = self._database.rows(
+            "SELECT name FROM links WHERE digest = ? AND kind = ? AND expires > ?",
+            digest(secret),
+            kind,
+            now,
+        )
+        if not rows:
+            raise _no_link()
+        return str(rows[0]["name"])
+
+
+def check_name(name: str) -> None:
+    """Raise BadInput where a person cannot have this name."""
+    if not NAME.fullmatch(name) or name.lower() in RESERVED:
+        raise BadInput(
+            f"{name[:60]!r} is no name for a person; expected up to 41 letters, digits, '_', '-' "
+            f"and '.', beginning with a letter or digit, and none of {', '.join(RESERVED)}"
+        )
+
+
+def _account(row: sqlite3.Row) -> Account:
+    way = "oidc" if row["subject"] else "password" if row["password"] else ""
+    return Account(row["name"], Role(row["role"]), way)
+
+
+def _no_link() -> NotFound:
+    return NotFound(
+        "this link was used already, or is too old; ask your instructor for a new one "
+        "(mrlab users invite NAME)"
+    )

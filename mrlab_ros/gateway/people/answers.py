@@ -1,0 +1,155 @@
+"""What the routes about people take and answer."""
+
+from __future__ import annotations
+
+from typing import Annotated, Literal
+
+from pydantic import BaseModel, Field
+
+from mrlab_ros.core.bridge.rules import Role
+from mrlab_ros.gateway.people.passwords import LONGEST
+
+Name = Annotated[str, Field(max_length=200)]
+# Longer than any allowed one, so that its length is judged in one place.
+Password = Annotated[str, Field(max_length=10 * LONGEST)]
+
+
+class Lab(BaseModel):
+    """Which lab this is."""
+
+    id: str
+    name: str
+    version: str
+
+
+class User(BaseModel):
+    """Who is signed in."""
+
+    name: str
+    role: Role
+
+
+class Ways(BaseModel):
+    """In which ways somebody can sign in; none: open the link that `mrlab up` printed."""
+
+    password: bool
+    oidc: bool
+    pairing: bool
+
+
+class Session(BaseModel):
+    """What a page needs to know first. csrf: for the header X-CSRF-Token of unsafe requests."""
+
+    lab: Lab
+    user: User | None
+    csrf: str
+    ways: Ways
+
+
+class Credentials(BaseModel):
+    """A name and a password."""
+
+    name: Name
+    password: Password
+
+
+class NewPassword(BaseModel):
+    """The password that somebody chooses with a one-time link."""
+
+    password: Password
+
+
+class PairingBegin(BaseModel):
+    """What a device calls itself, for the list of devices."""
+
+    device: Annotated[str, Field(max_length=80)] = "headset"
+
+
+class PairingShown(BaseModel):
+    """What a device shows, and the secret with which it asks. qr: an SVG document."""
+
+    code: str
+    secret: str
+    url: str
+    qr: str
+    expires_in: float
+
+
+class PairingState(BaseModel):
+    """Whether a device was let in; its cookie comes with this answer, once."""
+
+    state: Literal["waiting", "approved", "expired"]
+    user: User | None
+
+
+class PairingApproval(BaseModel):
+    """The code that a device shows, and as what it is let in."""
+
+    code: Annotated[str, Field(max_length=40)]
+    role: Role
+
+
+class PersonEntry(BaseModel):
+    """A person of the lab; signs_in: password, oidc, or empty until the link was used."""
+
+    name: str
+    role: Role
+    signs_in: str
+
+
+class NewPerson(BaseModel):
+    """Somebody to let in."""
+
+    name: Name
+    role: Role
+
+
+class RoleChange(BaseModel):
+    """Another role for a person."""
+
+    role: Role
+
+
+class Invitation(BaseModel):
+    """A one-time link with which a person chooses a password. qr: an SVG document."""
+
+    name: str
+    role: Role
+    url: str
+    qr: str
+    expires_in: float
+
+
+class Invited(BaseModel):
+    """Whom a link invites."""
+
+    name: str
+    role: Role
+
+
+class Device(BaseModel):
+    """A sign-in: a paired device, or a browser. Times are s since 1970.
+
+    name: what the device calls itself. approved_by: whose it is. this: it is the one that asks.
+    """
+
+    id: str
+    name: str
+    role: Role
+    approved_by: str
+    created: float
+    last_seen: float
+    expires: float
+    this: bool
+
+
+class Devices(BaseModel):
+    """Sign-ins, newest first."""
+
+    devices: list[Device]
+
+
+class People(BaseModel):
+    """The people of the lab, by name."""
+
+    people: list[PersonEntry]

@@ -1,0 +1,120 @@
+"""Pairing of a device without a keyboard, as in RFC 8628. Pure; time is an argument.
+
+The headset shows a code and a QR code. Somebody who is signed in types or scans it and chooses a
+role; the headset, which asks again and again with its secret, is then signed in.
+"""
+
+from __future__ import annotations
+
+import secrets
+from dataclasses import dataclass
+
+from mrlab_ros.core.bridge.rules import Role
+from mrlab_ros.core.errors import BadInput
+from mrlab_ros.gateway.errors import NotFound, TooMany
+from mrlab_ros.gateway.people.database import new_secret
+from mrlab_ros.gateway.people.person import Person
+
+# RFC 8628 6.1: letters that make no words and are not mistaken for each other.
+LETTERS = "BCDFGHJKLMNPQRSTVWXZ"
+LENGTH = 8
+LIFETIME_S = 120.0
+# Codes that one person may get wrong within LIFETIME_S.
+TRIES = 5
+# Devices that may wait at once.
+WAITING = 200
+
+
+@dataclass
+class Pairing:
+    """A device that waits; granted: who approved it, and as what."""
+
+    code: str
+    secret: str
+    device: str
+    expires: float
+    granted: tuple[Person, Role] | None = None
+
+
+class Pairings:
+    """The devices that wait to be paired. Times are s, monotonic."""
+
+    def __init__(self) -> None:
+        self._waiting: dict[str, Pairing] = {}
+        self._wrong: dict[str, list[float]] = {}
+
+    def begin(self, device: str, now: float) -> Pairing:
+        """Have a device wait; raises TooMany where WAITING do already."""
+        self._forget(now)
+        if len(self._waiting) >= WAITING:
+            raise TooMany("too many devices wait to be paired; try again", LIFETIME_S)
+        code = ""
+        while not code or code in (pairing.code for pairing in self._waiting.values()):
+            code = "".join(secrets.choice(LETTERS) for _ in range(LENGTH))
+        pairing = Pairing(code, new_secret(), device, now + LIFETIME_S)
+        self._waiting[pairing.secret] = pairing
+        return pairing
+
+    def waiting(self, code: str, person: Person, now: float) -> Pairing:
+        """Return the device that shows `code`.
+
+        Raises NotFound where none does, TooMany where `person` was wrong TRIES times.
+        """
+        self._forget(now)
+        wrong = self._wrong.get(person.name, [])
+        if len(wrong) >= TRIES:
+            raise TooMany(
+                f"{TRIES} codes were wrong; wait until the device shows a new one",
+                wrong[0] + LIFETIME_S - now,
+            )
+        plain = normal(code)
+        for pairing in self._waiting.values():
+            if secrets.compare_digest(pairing.code, plain) and pairing.granted is None:
+                return pairing
+        self._wrong[person.name] = [*wrong, now]
+        raise NotFound(
+            f"no device shows the code {shown(plain[:LENGTH])}; a code is good for "
+            f"{LIFETIME_S / 60:g} minutes, so compare it with the device again"
+        )
+
+    def approve(self, code: str, person: Person, role: Role, now: float) -> Pairing:
+        """Let the device that shows `code` in, for `person` and as `role`.
+
+        Raises BadInput where that is more than the person may do.
+        """
+        pairing = self.waiting(code, person, now)
+        if not person.role.may(role):
+            raise BadInput(
+                f"{person.name} is {person.role.value} and cannot pair a device as {role.value}; "
+                f"choose {person.role.value} or less"
+            )
+        pairing.granted = (person, role)
+        return pairing
+
+    def collect(self, secret: str, now: float) -> Pairing | None:
+        """Return the device once it was approved, and forget it; None while it waits.
+
+        Raises NotFound where it has waited too long.
+        """
+        self._forget(now)
+        pairing = self._waiting.get(secret)
+        if pairing is None:
+            raise NotFound("this pairing has ended; begin another one")
+        if pairing.granted is None:
+            return None
+        return self._waiting.pop(secret)
+
+    def _forget(self, now: float) -> None:
+        self._waiting = {s: p for s, p in self._waiting.items() if p.expires > now}
+        recent = {n: [t for t in w if t + LIFETIME_S > now] for n, w in self._wrong.items()}
+        self._wrong = {name: times for name, times in recent.items() if times}
+
+
+def normal(code: str) -> str:
+    """Return a code as it is compared: upper case, without what divides it."""
+    return "".join(letter for letter in code.upper() if letter.isascii() and letter.isalnum())
+
+
+def shown(code: str) -> str:
+    """Return a code as people read it: BCDF-GHJK."""
+    return f"{code[: LENGTH // 2]}-{code[LENGTH // 2 :]}"

@@ -1,0 +1,133 @@
+"""Everything about people in one place: accounts, sign-ins, pairing, limits, and the cookie."""
+
+from __future__ import annotations
+
+import asyncio
+import time
+from collections.abc import Callable
+from http.cookies import CookieError, SimpleCookie
+from typing import Annotated
+
+from fastapi import Depends, Response
+from fastapi.requests import HTTPConnection
+
+from mrlab_ros.core.bridge.rules import Role
+from mrlab_ros.gateway.people.accounts import Account, Accounts
+from mrlab_ros.gateway.people.database import FILE, Database
+from mrlab_ros.gateway.people.pairing import Pairings
+from mrlab_ros.gateway.people.passwords import Passwords
+from mrlab_ros.gateway.people.person import LOCAL, Person
+from mrlab_ros.gateway.people.rate_limits import Limit, RateLimit
+from mrlab_ros.gateway.people.sign_ins import FOLLOW_PERIOD_S, LIFETIME_S, SignIns
+from mrlab_ros.gateway.settings import Settings, is_loopback
+
+SIGN_INS_BY_ADDRESS = Limit("sign-ins from this address", 60, 2.0)
+SIGN_INS_BY_NAME = Limit("sign-ins with this name", 10, 15.0)
+LINKS_BY_ADDRESS = Limit("links from this address", 30, 2.0)
+PAIRINGS_BY_ADDRESS = Limit("pairings from this address", 10, 10.0)
+
+
+class People:
+    """The people of a gateway, and who a request comes from.
+
+    clock: s since 1970; steady: s, monotonic.
+    """
+
+    def __init__(
+        self,
+        settings: Settings,
+        *,
+        passwords: Passwords | None = None,
+        clock: Callable[[], float] = time.time,
+        steady: Callable[[], float] = time.monotonic,
+    ) -> None:
+        self.settings = settings
+        self.clock, self.steady = clock, steady
+        self.database = Database((settings.keys or settings.state_dir) / FILE)
+        self.accounts = Accounts(self.database, passwords or Passwords())
+        self.sign_ins = SignIns(self.database)
+        self.pairings = Pairings()
+        self.sign_ins_by_address = RateLimit(SIGN_INS_BY_ADDRESS)
+        self.sign_ins_by_name = RateLimit(SIGN_INS_BY_NAME)
+        self.links_by_address = RateLimit(LINKS_BY_ADDRESS)
+        self.pairings_by_address = RateLimit(PAIRINGS_BY_ADDRESS)
+        # Cookies ignore ports, so several labs of one machine need names of their own. Browsers
+        # take __Host- from this very host over HTTPS only, never from a neighbour of its domain.
+        self.secure = settings.https or settings.public_url.startswith("https:")
+        self.cookie = f"{'__Host-' if self.secure else ''}mrlab-{self.database.lab_id}"
+        # With --insecure whoever reaches this gateway may do everything, as over zenoh.
+        self._open = not settings.signs_in and not is_loopback(settings.host)
+
+    def known(self, connection: HTTPConnection) -> Person | None:
+        """Return who is signed in, None where nobody is."""
+        if self._open:
+            return Person(LOCAL, Role.INSTRUCTOR)
+        secret = self.secret(connection.headers.get("cookie", ""))
+        return self.sign_ins.person(secret, self.clock()) if secret else None
+
+    def secret(self, cookies: str) -> str:
+        """Return the secret in a Cookie header; empty: there is none."""
+        try:
+            found = SimpleCookie(cookies).get(self.cookie)
+        except CookieError:
+            return ""
+        return found.value if found is not None else ""
+
+    def csrf_matches(self, token: str, cookies: str) -> bool:
+        """Return whether a CSRF token is the one for a Cookie header."""
+        return self.sign_ins.csrf_matches(token, self.secret(cookies))
+
+    def sign_in(
+        self,
+        response: Response,
+        name: str,
+        role: Role,
+        *,
+        device: str = "",
+        lifetime: float = LIFETIME_S,
+    ) -> str:
+        """Sign somebody in with a cookie of `response`; return the new CSRF token."""
+        secret = self.sign_ins.begin(name, role, self.clock(), device=device, lifetime=lifetime)
+        response.set_cookie(
+            self.cookie,
+            secret,
+            max_age=int(lifetime),
+            path="/",
+            secure=self.secure,
+            httponly=True,
+            samesite="strict",
+        )
+        return self.sign_ins.csrf(secret)
+
+    def sign_in_account(self, response: Response, account: Account) -> Person:
+        """Sign a person of the lab in."""
+        self.sign_in(response, account.name, account.role)
+        return Person(account.name, account.role)
+
+    def sign_out(self, response: Response, person: Person | None) -> None:
+        """End the sign-in of a request, and its cookie."""
+        if person is not None:
+            self.sign_ins.end(person.sign_in)
+        response.delete_cookie(
+            self.cookie, path="/", secure=self.secure, httponly=True, samesite="strict"
+        )
+
+    async def follow(self) -> None:
+        """End the sockets of sign-ins that have ended, until cancelled."""
+        while True:
+            await asyncio.sleep(FOLLOW_PERIOD_S)
+            self.sign_ins.check(self.clock())
+
+
+def people_of(connection: HTTPConnection) -> People:
+    """Return the people of a gateway, as a dependency."""
+    found: People = connection.app.state.people
+    return found
+
+
+def address_of(connection: HTTPConnection) -> str:
+    """Return the address of a client, for rate limits."""
+    return connection.client.host if connection.client else ""
+
+
+ThePeople = Annotated[People, Depends(people_of)]

@@ -1,0 +1,139 @@
+"""Sign-ins: rows on the server, so that they can be listed and taken back at once."""
+
+from __future__ import annotations
+
+import asyncio
+import hmac
+import secrets
+import sqlite3
+from collections.abc import Iterator
+from contextlib import contextmanager, suppress
+from dataclasses import dataclass
+
+from mrlab_ros.core.bridge.rules import Role
+from mrlab_ros.gateway.people.database import Database, digest, new_secret
+from mrlab_ros.gateway.people.person import LOCAL, Person
+
+LIFETIME_S = 7 * 24 * 3600.0
+DEVICE_LIFETIME_S = 90 * 24 * 3600.0
+# How often `seen` is written for a sign-in that is in use, s.
+SEEN_PERIOD_S = 60.0
+# How often a gateway looks for changes by `mrlab users` and for sign-ins that expired, s.
+FOLLOW_PERIOD_S = 0.5
+
+
+@dataclass(frozen=True)
+class SignIn:
+    """A sign-in; device: a paired one's name, empty for a browser. Times are s since 1970."""
+
+    id: str
+    name: str
+    role: Role
+    device: str
+    created: float
+    seen: float
+    expires: float
+
+
+# A person's role now; a device has at most the role that it was paired as. The local user has no
+# row in people.
+VALID = (
+    "SELECT s.*, p.role AS now_role FROM sign_ins s LEFT JOIN people p ON p.name = s.name "
+    f"WHERE s.expires > ? AND (p.name IS NOT NULL OR s.name = '{LOCAL}')"
+)
+
+
+class SignIns:
+    """The sign-ins of a lab; `follow` runs while the gateway does."""
+
+    def __init__(self, database: Database) -> None:
+        self._database = database
+        # By id: for whom somebody waits for the end of the sign-in, and the role at that time.
+        self._waiting: dict[str, list[tuple[Role, asyncio.Event]]] = {}
+
+    def begin(
+        self, name: str, role: Role, now: float, *, device: str = "", lifetime: float = LIFETIME_S
+    ) -> str:
+        """Sign somebody in; return the secret for the cookie."""
+        secret = new_secret()
+        row = (
+            secrets.token_hex(8), digest(secret), name, role.value, device, now, now,
+            now + lifetime,
+        )  # fmt: skip
+        with self._database.writing() as connection:
+            connection.execute("DELETE FROM sign_ins WHERE expires <= ?", (now,))
+            connection.execute("INSERT INTO sign_ins VALUES (?, ?, ?, ?, ?, ?, ?, ?)", row)
+        return secret
+
+    def person(self, secret: str, now: float) -> Person | None:
+        """Return whom a cookie's secret signs in; None where it signs in nobody (any more)."""
+        rows = self._database.rows(f"{VALID} AND s.digest = ?", now, digest(secret))
+        if not rows:
+            return None
+        found = _sign_in(rows[0])
+        if now - found.seen > SEEN_PERIOD_S:
+            # Another process may be writing; the next request tries again.
+            with suppress(sqlite3.OperationalError), self._database.writing() as connection:
+                connection.execute("UPDATE sign_ins SET seen = ? WHERE id = ?", (now, found.id))
+        return Person(found.name, found.role, found.id)
+
+    def all(self, now: float, name: str | None = None) -> list[SignIn]:
+        """Return the sign-ins of a person, or of everybody, newest first."""
+        if name is None:
+            rows = self._database.rows(f"{VALID} ORDER BY s.created DESC", now)
+        else:
+            rows = self._database.rows(
+                f"{VALID} AND s.name = ? ORDER BY s.created DESC", now, name
+            )
+        return [_sign_in(row) for row in rows]
+
+    def end(self, sign_in: str) -> None:
+        """End a sign-in; its sockets close. Nothing happens where there is none."""
+        with self._database.writing() as connection:
+            connection.execute("DELETE FROM sign_ins WHERE id = ?", (sign_in,))
+
+    def csrf(self, secret: str) -> str:
+        """Return the CSRF token that belongs to a cookie's secret; empty: nobody is signed in."""
+        message = b"csrf:" + secret.encode(errors="replace")
+        return hmac.new(self._database.secret, message, "sha256").hexdigest()
+
+    def csrf_matches(self, token: str, secret: str) -> bool:
+        """Return whether a CSRF token belongs to a cookie's secret."""
+        return hmac.compare_digest(token.encode(errors="replace"), self.csrf(secret).encode())
+
+    @contextmanager
+    def ending(self, person: Person) -> Iterator[asyncio.Event]:
+        """Yield an event that is set when the sign-in of `person` ends or changes its role.
+
+        For sockets: they close then. In the event loop of the gateway only.
+        """
+        entry = (person.role, asyncio.Event())
+        self._waiting.setdefault(person.sign_in, []).append(entry)
+        try:
+            yield entry[1]
+        finally:
+            entries = self._waiting[person.sign_in]
+            entries.remove(entry)
+            if not entries:
+                del self._waiting[person.sign_in]
+
+    def check(self, now: float) -> None:
+        """Set the events of sign-ins that have ended or have another role."""
+        if not self._waiting:
+            return
+        roles = {each.id: each.role for each in self.all(now)}
+        for sign_in, entries in self._waiting.items():
+            for role, event in entries:
+                if roles.get(sign_in) is not role:
+                    event.set()
+
+
+def _sign_in(row: sqlite3.Row) -> SignIn:
+    role = Role(row["role"])
+    if row["now_role"] is not None:
+        now_role = Role(row["now_role"])
+        # A browser has the person's role; a device at most that.
+        role = now_role if not row["device"] or role.may(now_role) else role
+    return SignIn(
+        row["id"], row["name"], role, row["device"], row["created"], row["seen"], row["expires"]
+    )

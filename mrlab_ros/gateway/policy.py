@@ -1,0 +1,135 @@
+"""What each route needs: the same policy as the lab's keys have, route by route.
+
+A route without a line here answers nobody: a new route cannot be open by mistake.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from enum import Enum
+from pathlib import Path
+from typing import Annotated
+
+import yaml
+from fastapi import Depends
+from fastapi.requests import HTTPConnection
+
+from mrlab_ros.core.bridge.policy import Policy, Verb
+from mrlab_ros.core.bridge.rules import Role, parse
+from mrlab_ros.core.errors import BadInput
+from mrlab_ros.gateway.errors import NotAllowed, NotSignedIn
+from mrlab_ros.gateway.people.person import KnownPerson, Person
+from mrlab_ros.gateway.share import directory
+
+
+class Everybody(Enum):
+    """No sign-in is needed: the sign-in itself, health, and the pages."""
+
+    EVERYBODY = "everybody"
+
+
+@dataclass(frozen=True)
+class Need:
+    """What somebody needs for a route: the right to a verb on a key of the lab.
+
+    own: the right to one's own is enough; the route checks whose it is.
+    """
+
+    verb: Verb
+    key: str
+    own: bool = False
+
+
+EVERYBODY = Everybody.EVERYBODY
+CONVERTS_OWN = Need(Verb.CALL, "converter/convert", own=True)
+READS = Need(Verb.CALL, "converter/get")
+SOCKET = "WEBSOCKET"
+
+ROUTES: Mapping[tuple[str, str], Everybody | Role | Need] = {
+    ("GET", "/healthz"): EVERYBODY,
+    ("GET", "/ca"): EVERYBODY,
+    ("GET", "/ca.pem"): EVERYBODY,
+    ("GET", "/{path:path}"): EVERYBODY,
+    ("HEAD", "/{path:path}"): EVERYBODY,
+    ("GET", "/api/session"): EVERYBODY,
+    ("POST", "/api/session"): EVERYBODY,
+    ("DELETE", "/api/session"): EVERYBODY,
+    ("GET", "/api/oidc/start"): EVERYBODY,
+    ("GET", "/api/oidc/callback"): EVERYBODY,
+    ("GET", "/api/invitations/{token}"): EVERYBODY,
+    ("POST", "/api/invitations/{token}"): EVERYBODY,
+    ("POST", "/api/pairings"): EVERYBODY,
+    ("GET", "/api/pairings/{secret}"): EVERYBODY,
+    # A device can let no further device in.
+    ("POST", "/api/pairings/approve"): Role.STUDENT,
+    ("GET", "/api/people"): Role.INSTRUCTOR,
+    ("POST", "/api/people"): Role.INSTRUCTOR,
+    ("POST", "/api/people/{name}/invitation"): Role.INSTRUCTOR,
+    ("PATCH", "/api/people/{name}"): Role.INSTRUCTOR,
+    ("DELETE", "/api/people/{name}"): Role.INSTRUCTOR,
+    ("GET", "/api/devices"): Role.STUDENT,
+    ("DELETE", "/api/devices/{sign_in}"): Role.STUDENT,
+    ("PUT", "/api/uploads/{file_name}"): CONVERTS_OWN,
+    ("POST", "/api/conversions"): CONVERTS_OWN,
+    ("GET", "/api/motions/{motion}"): READS,
+    ("GET", "/api/trajectories"): Need(Verb.CALL, "converter/list"),
+    ("POST", "/api/trajectories"): CONVERTS_OWN,
+    ("GET", "/api/trajectories/{trajectory:path}/motion"): READS,
+    ("GET", "/api/trajectories/{trajectory:path}/versions"): READS,
+    ("GET", "/api/trajectories/{trajectory:path}/file"): READS,
+    ("PATCH", "/api/trajectories/{trajectory:path}"): CONVERTS_OWN,
+    ("DELETE", "/api/trajectories/{trajectory:path}"): CONVERTS_OWN,
+    ("POST", "/api/trajectories/{trajectory:path}/restore"): CONVERTS_OWN,
+    ("GET", "/assets/{path:path}"): Need(Verb.RECEIVE, "assets"),
+    # What is needed for the keys that a socket asks for, the socket itself checks.
+    (SOCKET, "/link"): Role.DISPLAY,
+}
+
+
+def may(person: Person, policy: Policy, verb: Verb, key: str, *, own: bool = False) -> bool:
+    """Return whether a person may do this; for a socket, and where a route has read the owner."""
+    return policy.may(person.role, verb, key, own=own)
+
+
+def read_policy(allow_list: Path | None) -> Policy:
+    """Return the policy of an allow-list, the shipped one where none is named.
+
+    Raises BadInput where the file cannot be read.
+    """
+    path = allow_list or directory() / "config" / "bridge.yaml"
+    try:
+        return Policy(parse(yaml.safe_load(path.read_text())))
+    except (OSError, yaml.YAMLError) as error:
+        raise BadInput(f"the allow-list {path} cannot be read: {error}") from error
+
+
+def policy_of(connection: HTTPConnection) -> Policy:
+    """Return the policy of a gateway, as a dependency."""
+    found: Policy = connection.app.state.policy
+    return found
+
+
+ThePolicy = Annotated[Policy, Depends(policy_of)]
+
+
+def authorise(connection: HTTPConnection, policy: ThePolicy, person: KnownPerson) -> None:
+    """Refuse a request that its person may not make; a dependency of every route.
+
+    Raises NotSignedIn or NotAllowed.
+    """
+    method = connection.scope.get("method", SOCKET)
+    path = connection.scope["route"].path
+    if (method, path) not in ROUTES:
+        raise NotAllowed(f"{method} {path} has no line in gateway/policy.py, so nobody may use it")
+    need = ROUTES[method, path]
+    if isinstance(need, Everybody):
+        return
+    if person is None:
+        raise NotSignedIn("nobody is signed in, or the sign-in has ended; sign in first")
+    role = policy.needed(need.verb, need.key, own=need.own) if isinstance(need, Need) else need
+    if role is None or not person.role.may(role):
+        raise NotAllowed(
+            f"{person.name} is {person.role.value}, and this needs "
+            f"{'a role that nobody has' if role is None else role.value}; ask your instructor"
+        )

@@ -1,0 +1,107 @@
+"""The people of a lab over HTTP: who may let whom in, and what removal ends."""
+
+from __future__ import annotations
+
+import asyncio
+
+import pytest
+from gateway_side import Gateway, code_of
+
+from mrlab_ros.core.bridge.rules import Role
+from mrlab_ros.gateway.people.person import Person
+
+
+@pytest.mark.parametrize("role", [Role.DISPLAY, Role.STUDENT, Role.OPERATOR])
+def test_only_instructors_see_and_change_people(class_lab: Gateway, role: Role) -> None:
+    somebody = class_lab.browser("somebody", role)
+    body = {"name": "eve", "role": "instructor"}
+    tries = [
+        somebody.get("/api/people"),
+        somebody.send("POST", "/api/people", json=body),
+        somebody.send("PATCH", "/api/people/somebody", json={"role": "instructor"}),
+        somebody.send("DELETE", "/api/people/somebody"),
+    ]
+    assert [code_of(each) for each in tries] == [(403, "not_allowed")] * 4
+    assert [each.name for each in class_lab.people.accounts.all()] == ["somebody"]
+
+
+def test_an_instructor_lists_changes_and_removes(class_lab: Gateway) -> None:
+    teacher = class_lab.browser("teacher", Role.INSTRUCTOR)
+    anna = class_lab.browser("anna")
+    assert teacher.get("/api/people").json() == {
+        "people": [
+            {"name": "anna", "role": "student", "signs_in": "password"},
+            {"name": "teacher", "role": "instructor", "signs_in": "password"},
+        ]
+    }
+    changed = teacher.send("PATCH", "/api/people/anna", json={"role": "operator"})
+    assert changed.json()["role"] == "operator"
+    assert anna.user == {"name": "anna", "role": "operator"}
+    assert teacher.send("DELETE", "/api/people/anna").status_code == 204
+    assert anna.user is None
+    assert code_of(teacher.send("DELETE", "/api/people/anna")) == (404, "not_found")
+
+
+@pytest.mark.parametrize("name", ["", "local", "LOCAL", "lab", "a b", "../x", "a/b", "x" * 60])
+def test_a_name_must_be_one_for_keys_and_folders(class_lab: Gateway, name: str) -> None:
+    teacher = class_lab.browser("teacher", Role.INSTRUCTOR)
+    body = {"name": name, "role": "student"}
+    assert teacher.send("POST", "/api/people", json=body).status_code == 400
+
+
+def test_names_differ_by_more_than_case(class_lab: Gateway) -> None:
+    teacher = class_lab.browser("teacher", Role.INSTRUCTOR)
+    body = {"name": "Teacher", "role": "student"}
+    assert code_of(teacher.send("POST", "/api/people", json=body)) == (409, "misuse")
+
+
+def test_a_removed_name_that_comes_back_has_no_old_sign_in(class_lab: Gateway) -> None:
+    anna = class_lab.browser("anna")
+    class_lab.people.accounts.remove("anna")
+    class_lab.people.accounts.add("anna", Role.INSTRUCTOR)
+    assert anna.user is None
+
+
+def test_everybody_ends_their_own_sign_ins_and_no_others(class_lab: Gateway) -> None:
+    anna, ben = class_lab.browser("anna"), class_lab.browser("ben")
+    phone = class_lab.browser()
+    phone.sign_in("anna")
+    mine = anna.get("/api/devices").json()["devices"]
+    assert [(each["approved_by"], each["this"]) for each in mine].count(("anna", True)) == 1
+    assert {each["approved_by"] for each in mine} == {"anna"}
+    (other,) = [each["id"] for each in mine if not each["this"]]
+    assert code_of(ben.send("DELETE", f"/api/devices/{other}")) == (404, "not_found")
+    assert phone.user
+    assert anna.send("DELETE", f"/api/devices/{other}").status_code == 204
+    assert phone.user is None
+    assert anna.user
+
+
+def test_the_end_of_a_sign_in_and_a_new_role_are_events(class_lab: Gateway) -> None:
+    sign_ins, accounts, clock = (
+        class_lab.people.sign_ins,
+        class_lab.people.accounts,
+        class_lab.clock,
+    )
+    for name in ("anna", "ben", "carla"):
+        accounts.add(name, Role.STUDENT)
+    people = {}
+    for name in ("anna", "ben", "carla"):
+        person = sign_ins.person(sign_ins.begin(name, Role.STUDENT, clock()), clock())
+        assert isinstance(person, Person)
+        people[name] = person
+
+    async def check() -> list[bool]:
+        with (
+            sign_ins.ending(people["anna"]) as one,
+            sign_ins.ending(people["ben"]) as two,
+            sign_ins.ending(people["carla"]) as three,
+        ):
+            sign_ins.check(clock())
+            assert not any(event.is_set() for event in (one, two, three))
+            sign_ins.end(people["anna"].sign_in)
+            accounts.set_role("ben", Role.DISPLAY)
+            sign_ins.check(clock())
+            return [one.is_set(), two.is_set(), three.is_set()]
+
+    assert asyncio.run(check()) == [True, True, False]

@@ -1,0 +1,161 @@
+"""Signing in and out over HTTP: passwords, one-time links, the local user, cookies."""
+
+from __future__ import annotations
+
+import re
+
+import pytest
+from gateway_side import PASSWORD, Gateway, code_of
+
+from mrlab_ros.core.bridge.rules import Role
+from mrlab_ros.gateway.people.accounts import INVITATION_LIFETIME_S, OPENING_LIFETIME_S
+from mrlab_ros.gateway.people.sign_ins import LIFETIME_S
+
+
+def test_nobody_is_signed_in_at_first_and_no_names_are_told(class_lab: Gateway) -> None:
+    class_lab.browser("anna")
+    stranger = class_lab.browser()
+    answer = stranger.get("/api/session").json()
+    assert answer["user"] is None
+    assert answer["ways"] == {"password": True, "oidc": False, "pairing": True}
+    for path in ("/api/people", "/api/devices"):
+        response = stranger.get(path)
+        assert code_of(response) == (401, "not_signed_in")
+        assert "anna" not in response.text
+
+
+def test_a_person_signs_in_and_out(class_lab: Gateway) -> None:
+    anna = class_lab.browser("anna", Role.OPERATOR)
+    assert anna.user == {"name": "anna", "role": "operator"}
+    assert anna.send("DELETE", "/api/session").status_code == 204
+    assert anna.user is None
+
+
+def test_a_wrong_name_and_a_wrong_password_get_the_same_answer(class_lab: Gateway) -> None:
+    class_lab.browser("anna")
+    wrong = [class_lab.browser().sign_in(*each) for each in (("anna", "nonsense"), ("eve", "no"))]
+    assert [code_of(each) for each in wrong] == [(401, "not_signed_in")] * 2
+    assert wrong[0].text == wrong[1].text
+
+
+@pytest.mark.parametrize("url", ["https://lab.example.org", "http://lab.example.org"])
+def test_the_cookie_is_out_of_reach_of_scripts_and_other_sites(tmp_path, url) -> None:
+    with Gateway(tmp_path, public_url=url) as lab:
+        lab.browser("anna")
+        cookie = lab.browser().sign_in("anna").headers["set-cookie"]
+    assert {"HttpOnly", "SameSite=strict", "Path=/"} <= set(cookie.split("; "))
+    assert "domain" not in cookie.lower()
+    secure = url.startswith("https")
+    assert ("Secure" in cookie) == secure
+    assert cookie.startswith("__Host-mrlab-" if secure else "mrlab-")
+
+
+def test_two_labs_of_one_machine_have_cookies_of_their_own(tmp_path) -> None:
+    with Gateway(tmp_path / "a") as one, Gateway(tmp_path / "b") as other:
+        assert one.people.cookie != other.people.cookie
+        assert re.fullmatch(r"mrlab-[0-9a-f]{8}", one.people.cookie)
+
+
+def test_a_sign_in_ends_after_its_time(class_lab: Gateway) -> None:
+    anna = class_lab.browser("anna")
+    class_lab.clock.now += LIFETIME_S - 1
+    assert anna.user
+    class_lab.clock.now += 2
+    assert anna.user is None
+
+
+def test_an_invitation_is_good_once(class_lab: Gateway) -> None:
+    teacher = class_lab.browser("teacher", Role.INSTRUCTOR)
+    made = teacher.send("POST", "/api/people", json={"name": "anna", "role": "student"})
+    assert made.status_code == 201
+    assert made.json()["qr"].startswith("<svg")
+    base, _, token = made.json()["url"].rpartition("/")
+    assert base == "https://lab.example.org/invitation"
+    anna = class_lab.browser()
+    path = f"/api/invitations/{token}"
+    assert anna.get(path).json() == {"name": "anna", "role": "student"}
+    assert code_of(anna.send("POST", path, json={"password": "short"})) == (400, "bad_input")
+    accepted = anna.send("POST", path, json={"password": PASSWORD})
+    assert accepted.json()["user"] == {"name": "anna", "role": "student"}
+    assert anna.user == {"name": "anna", "role": "student"}
+    again = class_lab.browser().send("POST", path, json={"password": PASSWORD})
+    assert code_of(again) == (404, "not_found")
+    assert class_lab.browser().sign_in("anna").status_code == 200
+
+
+def test_an_invitation_expires_and_a_new_one_replaces_it(class_lab: Gateway) -> None:
+    class_lab.browser("anna")
+    accounts, clock = class_lab.people.accounts, class_lab.clock
+    first = accounts.invite("anna", clock())
+    second = accounts.invite("anna", clock())
+    stranger = class_lab.browser()
+    assert stranger.get(f"/api/invitations/{first}").status_code == 404
+    assert stranger.get(f"/api/invitations/{second}").status_code == 200
+    clock.now += INVITATION_LIFETIME_S + 1
+    assert stranger.get(f"/api/invitations/{second}").status_code == 404
+
+
+def test_a_new_password_ends_earlier_sign_ins(class_lab: Gateway) -> None:
+    anna = class_lab.browser("anna")
+    secret = class_lab.people.accounts.invite("anna", class_lab.clock())
+    assert anna.user
+    body = {"password": "another long one"}
+    other = class_lab.browser()
+    assert other.send("POST", f"/api/invitations/{secret}", json=body).status_code == 200
+    assert anna.user is None
+    assert other.user
+
+
+def test_the_local_user_enters_by_the_link_once(local_lab: Gateway) -> None:
+    token = local_lab.people.accounts.open(local_lab.clock())
+    mine, theirs = local_lab.browser(), local_lab.browser()
+    response = mine.get(f"/lab?token={token}", follow_redirects=False)
+    assert response.status_code == 303
+    assert response.headers["location"] == "/lab"
+    assert mine.user == {"name": "local", "role": "instructor"}
+    theirs.get(f"/?token={token}")
+    assert theirs.user is None
+    assert code_of(theirs.get("/api/devices")) == (401, "not_signed_in")
+
+
+def test_the_link_does_not_lead_away_and_expires(local_lab: Gateway) -> None:
+    token = local_lab.people.accounts.open(local_lab.clock())
+    local_lab.clock.now += OPENING_LIFETIME_S + 1
+    late = local_lab.browser()
+    response = late.http.get(
+        f"http://localhost:8080//evil.example?token={token}", follow_redirects=False
+    )
+    assert response.headers["location"] == "/evil.example"
+    assert late.user is None
+
+
+def test_without_keys_nobody_else_can_be_let_in(local_lab: Gateway) -> None:
+    local = local_lab.local()
+    assert local.get("/api/session").json()["ways"] == {
+        "password": False, "oidc": False, "pairing": False,
+    }  # fmt: skip
+    body = {"name": "anna", "role": "student"}
+    assert code_of(local.send("POST", "/api/people", json=body)) == (403, "not_allowed")
+    assert code_of(local.sign_in("anna")) == (403, "not_allowed")
+
+
+def test_sign_ins_are_slowed_down(class_lab: Gateway) -> None:
+    class_lab.browser("anna")
+    stranger = class_lab.browser()
+    tries = [stranger.sign_in("anna", "guess") for _ in range(15)]
+    assert tries[0].status_code == 401
+    assert code_of(tries[-1]) == (429, "too_many")
+    assert int(tries[-1].headers["retry-after"]) > 0
+    class_lab.clock.now += 300
+    assert stranger.sign_in("anna").status_code == 200
+
+
+def test_a_copy_of_the_file_holds_no_secret(class_lab: Gateway) -> None:
+    anna = class_lab.browser("anna")
+    (cookie,) = anna.http.cookies.jar
+    link = class_lab.people.accounts.invite("anna", class_lab.clock())
+    folder = class_lab.people.database.path.parent
+    stored = b"".join(file.read_bytes() for file in folder.glob("users.sqlite*"))
+    assert b"anna" in stored
+    assert not any(each.encode() in stored for each in (str(cookie.value), link, PASSWORD))
+    assert class_lab.people.database.path.stat().st_mode & 0o077 == 0
