@@ -103,6 +103,14 @@ KINDS: dict[str, Kind] = {
         "Copy the file again, or save it again in MATLAB: save('traj.mat', 'q').",
         SAVE_AGAIN,
     ),
+    "bad_table": Kind(
+        ERROR,
+        "A text file is no table of numbers with one row a sample.",
+        "'{file}' cannot be read as a table: {problem}.",
+        "Write numbers with a decimal point, one row a sample, under one row of headings; in "
+        "MATLAB: writematrix([t q], 'traj.csv'), or save('traj.mat', 'q', 't').",
+        (("", "", "writematrix([t q], 'traj.csv')"),),
+    ),
     "converter_failed": Kind(
         ERROR,
         "The converter itself failed on the file; nothing of it is taken, and the next file is.",
@@ -212,7 +220,7 @@ KINDS: dict[str, Kind] = {
         "The matrix has the wrong number of columns or dimensions for the robot.",
         "'{variable}' is {size}; {robot} needs {joints} columns, one a joint, or {more} with "
         "the gripper last.{hint}",
-        "Save one row a sample and one column a joint, or pick columns: --columns 1:{joints}.",
+        "Save one row a sample and one column a joint{pick}.",
         (("", "", "size({name})"),),
     ),
     "transforms": Kind(
@@ -305,6 +313,19 @@ KINDS: dict[str, Kind] = {
         "Write columns as in MATLAB: 2:7, or 1,3,5, or 2:end.",
         (("columns", "", "size({variable}, 2)"),),
     ),
+    "bad_part": Kind(
+        ERROR,
+        "The part of a matrix that was asked for is not there.",
+        "'{variable}' cannot be taken from '{other}', which is {size}: {problem}.",
+        "Write rows and columns as in MATLAB: q(1:200, :), or q(201:end, 1:6).",
+    ),
+    "pieces_differ": Kind(
+        ERROR,
+        "The vectors that hold a joint each differ in length, so they cannot be joined.",
+        "The joints from '{variable}' on differ in length: {found}.",
+        "Find out which samples are missing and save all of them again. If all begin together, "
+        "cut them to the first {rows} in MATLAB: {code}",
+    ),
     "bad_rate": Kind(
         ERROR,
         "The frame rate that was asked for is out of bounds.",
@@ -355,6 +376,11 @@ KINDS: dict[str, Kind] = {
         "'{variable}' was taken; {found} could have been meant too.",
         "To take another one: --variable NAME.",
     ),
+    "copies": Kind(
+        INFO,
+        "Matrices hold the same numbers; one of them was taken.",
+        "'{variable}' was taken; {found} holds the same numbers.",
+    ),
     "twin": Kind(
         WARNING,
         "Two matrices hold nearly the same motion, such as measured and commanded positions.",
@@ -383,8 +409,8 @@ KINDS: dict[str, Kind] = {
         "The rows are far apart, in time and in angle, as waypoints are; the robot would jump.",
         "The rows of '{variable}' come at {rate:g} Hz and are up to {step:.3g} rad apart, the "
         "most before row {row}: they are waypoints, between which the robot jumps.",
-        "Join them by straight lines with --resample --rate 100 (this needs their times), or "
-        "in MATLAB: q = interp1(t, q, (t(1):0.01:t(end))').",
+        "Join them by straight lines with --resample (this needs their times, saved as t), or in "
+        "MATLAB: q = interp1(t, q, (t(1):0.01:t(end))').",
         (("resample", "true", "q = interp1(t, q, (t(1):0.01:t(end))'); fs = 100;"),),
     ),
     "rate_found": Kind(
@@ -448,6 +474,18 @@ KINDS: dict[str, Kind] = {
         "{row}; played evenly at {rate:g} rows a second, a row is up to {deviation:.3g} s away "
         "from its time.",
         "Make the rows even with the option resample (--resample), or in MATLAB with interp1.",
+    ),
+    "time_rounded": Kind(
+        INFO,
+        "Times of even rows were rounded when they were written; the rows are even.",
+        "The times of '{variable}' were rounded to {rounded:g} s; the rows come evenly, {rate:g} "
+        "a second.",
+    ),
+    "no_times": Kind(
+        ERROR,
+        "Rows are to be made even, but the file does not say when each of them is reached.",
+        "The option resample needs the times of the rows of '{variable}', and the file has none.",
+        "Save a time in s for each row, for example 2 s from row to row: {code}",
     ),
     "time_repeated": Kind(
         WARNING,

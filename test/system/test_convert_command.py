@@ -45,7 +45,7 @@ def folder(tmp_path):
     inside.mkdir()
     q = np.column_stack([motion(), np.arange(200) > 100])
     scipy.io.savemat(inside / "good.mat", {"q": q, "fs": 50.0})
-    scipy.io.savemat(inside / "two.mat", {"q1": motion(), "q2": motion()})
+    scipy.io.savemat(inside / "two.mat", {"q1": motion(), "q2": motion() + 0.5})
     (inside / "bad.mat").write_text("q = 1;")
     return inside
 
@@ -125,3 +125,34 @@ def test_a_wrong_call_is_one_sentence(arguments, words):
     assert done.returncode == 1
     assert words in done.stderr
     assert "Traceback" not in done.stderr
+
+
+@pytest.mark.parametrize(
+    ("arguments", "said"),
+    [
+        (["--memory", "-1"], "--memory is -1; expected 64"),
+        (["--time-limit", "nan"], "--time-limit is nan; expected 0.1"),
+        (["--time-limit", "0"], "--time-limit is 0; expected 0.1"),
+        (["--plot", "one.png"], "is one picture, and there are 3 files"),
+    ],
+)
+def test_a_limit_that_cannot_be_is_refused_before_anything_is_read(folder, arguments, said):
+    done = run(*arguments, folder)
+    assert done.returncode != 0
+    assert said in done.stderr
+    assert "Traceback" not in done.stderr
+    assert not done.stdout
+
+
+def test_what_cannot_be_written_ends_no_batch(folder, tmp_path):
+    occupied = tmp_path / "file"
+    occupied.write_text("")
+    for option in ("--out", "--plot"):
+        done = run(option, occupied / "inside", folder)
+        assert done.returncode == 1
+        assert f"{option} '{occupied / 'inside'}' cannot be written" in done.stderr
+    (tmp_path / "out" / "good.json").mkdir(parents=True)
+    done = run("--out", tmp_path / "out", "--json", folder)
+    assert done.returncode == 1
+    assert "not written" in done.stderr
+    assert len(done.stdout.splitlines()) == 3

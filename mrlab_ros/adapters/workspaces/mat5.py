@@ -16,6 +16,10 @@ class Damaged(Exception):
     """The bytes contradict the format; the text completes 'the file is damaged: ...'."""
 
 
+class NotATable(Damaged):
+    """A text is no table of numbers; the text of this says why."""
+
+
 class NotAWorkspace(Exception):
     """The bytes are something else, which the text names."""
 

@@ -156,7 +156,7 @@ def read(data: memoryview, name: str, sink: mat5.Sink, limit: int) -> str:
     if name.lower().endswith(".npz"):
         tables.read_npz(data, sink, limit)
         return "NumPy npz"
-    if form in TEXTS and name.lower().endswith((".csv", ".txt", ".tsv")):
+    if form in TEXTS and name.lower().endswith((".csv", ".txt", ".tsv", ".lvm")):
         tables.read_csv(data, sink)
         return "CSV"
     raise mat5.NotAWorkspace(form)
@@ -216,6 +216,8 @@ def serve(source: int, target: int, numbers: int | None, request: dict[str, Any]
             sink.finish(problem=problem, variable=path)
     except mat5.NotAWorkspace as error:
         sink.finish(code="unsupported_format", problem=str(error))
+    except mat5.NotATable as error:
+        sink.finish(code="bad_table", problem=str(error))
     except mat5.Damaged as error:
         sink.finish(code="unreadable", problem=str(error))
     except mat5.TooLarge as error:

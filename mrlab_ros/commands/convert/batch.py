@@ -34,6 +34,7 @@ from mrlab_ros.adapters.workspaces.reader import (
 )
 from mrlab_ros.adapters.workspaces.results import Task, refused, unexpected
 from mrlab_ros.commands.convert import report
+from mrlab_ros.commands.convert.targets import PICTURES, Targets
 from mrlab_ros.core.conversion.convert import (
     DEFAULT_FRAME_RATE,
     ConversionResult,
@@ -51,7 +52,8 @@ EXIT_CODES = {Outcome.ACCEPTED: 0, Outcome.REJECTED: 1, Outcome.AMBIGUOUS: 2}
 BADNESS = (0, 2, 1)
 AHEAD = 64  # files that may be converted before the first of them is reported
 MANY_PLOTS = 8  # from so many on, processes that draw are worth their start
-SUFFIXES = (".mat", ".mat.gz", ".csv", ".npz", ".mcap", ".db3")
+LEAST_MEMORY, LEAST_TIME, MOST_LIMIT = 64, 0.1, 1_000_000  # MiB, s, either
+SUFFIXES = (".mat", ".mat.gz", ".csv", ".lvm", ".npz", ".mcap", ".db3")
 
 
 @dataclass(frozen=True)
@@ -88,6 +90,7 @@ class Input:
 
 def run(request: Request) -> int:
     """Convert everything and return the exit code of the worst; raise BadInput or Misuse."""
+    _check(request)
     library = RobotLibrary(share.directory() / "robots")
     model = library.model(request.robot)
     if request.end_effector:
@@ -98,6 +101,7 @@ def run(request: Request) -> int:
     taken: set[str] = set()
     limits = Limits(memory=request.memory * MiB, time=request.time_limit, rows=request.row_limit)
     inputs = _inputs(request)
+    targets = Targets(request.out, request.plot, len(inputs))
     tasks = [
         Task(
             file=source.name,
@@ -112,14 +116,14 @@ def run(request: Request) -> int:
         )
         for source in inputs
     ]
-    with _plotter(len(inputs) if request.plot else 0) as plot:
+    with _plotter(len(inputs) if request.plot else 0, targets) as plot:
         converted = _converted(inputs, tasks, limits)
         for source, task, result in _with_progress(converted, len(inputs), request):
             results.append(result)
             written = None
             if request.out is not None and result.trajectory is not None:
-                request.out.mkdir(parents=True, exist_ok=True)
-                written = writer(result.trajectory, request.out)
+                with targets.writing():
+                    written = writer(result.trajectory, request.out)
             if request.plot is not None:
                 plot(result, model, _plot_path(request.plot, task.trajectory_id))
             if request.as_json:
@@ -129,7 +133,22 @@ def run(request: Request) -> int:
                 report.show(result, written)
     if len(results) > 1 and not request.as_json:
         report.summarise(results)
-    return max((EXIT_CODES[r.outcome] for r in results), key=BADNESS.index)
+    worst = max((EXIT_CODES[r.outcome] for r in results), key=BADNESS.index)
+    return EXIT_CODES[Outcome.REJECTED] if targets.report() else worst
+
+
+def _check(request: Request) -> None:
+    """Raise Misuse where a limit cannot be one."""
+    for option, value, least, unit in (
+        ("memory", request.memory, LEAST_MEMORY, "MiB"),
+        ("time-limit", request.time_limit, LEAST_TIME, "s"),
+        ("timeout", request.timeout, 0, "s"),
+    ):
+        if not least <= value <= MOST_LIMIT:
+            raise Misuse(
+                f"--{option} is {value:g}; expected {least:g} to {MOST_LIMIT:g} {unit}; leave it "
+                "out for the usual limit"
+            )
 
 
 def _converted(
@@ -181,10 +200,15 @@ Plotter = Callable[[ConversionResult, RobotModel, Path], None]
 
 
 @contextlib.contextmanager
-def _plotter(count: int) -> Iterator[Plotter]:
+def _plotter(count: int, targets: Targets) -> Iterator[Plotter]:
     """Yield what draws a result: at once where there are few, else in processes beside this."""
+
+    def plot_now(result: ConversionResult, robot: RobotModel, path: Path) -> None:
+        with targets.writing():
+            _plot(result, robot, path)
+
     if count < MANY_PLOTS:
-        yield _plot
+        yield plot_now
         return
     workers = max(2, os.cpu_count() or 1)
     with ProcessPoolExecutor(workers, multiprocessing.get_context("spawn")) as pool:
@@ -195,7 +219,8 @@ def _plotter(count: int) -> Iterator[Plotter]:
 
         yield plot
         for future in drawn:
-            future.result()
+            with targets.writing():
+                future.result()
 
 
 def _with_progress(
@@ -266,4 +291,4 @@ def _plot(result: ConversionResult, robot: RobotModel, path: Path) -> None:
 
 
 def _plot_path(plot: Path, trajectory_id: str) -> Path:
-    return plot if plot.suffix in (".png", ".svg") else plot / f"{trajectory_id}.png"
+    return plot if plot.suffix in PICTURES else plot / f"{trajectory_id}.png"

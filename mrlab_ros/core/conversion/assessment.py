@@ -33,7 +33,8 @@ class Assessment:
     is. rates: Hz, those at which other matrices are its derivatives, with their paths.
     tool_of: the matrix at whose joint positions its points are the tool's. tool_path: the matrix
     of poses that agrees with it. other_tool_path: one that claims to be the tool's path and does
-    not agree, with how far it is away. twin: the same motion, measured or commanded.
+    not agree, with how far it is away. twin: the same motion, measured or commanded. copies: the
+    matrices with the same numbers.
     objections: why it is no joint positions. doubts: what a person should check. reasons: what
     its points were made from; points: 0 to about 1.5, larger is likelier.
     """
@@ -60,6 +61,7 @@ class Assessment:
     tool_path: str = ""
     other_tool_path: tuple[str, PoseMatch] | None = None
     twin: str = ""
+    copies: tuple[str, ...] = ()
     objections: tuple[str, ...] = ()
     doubts: tuple[str, ...] = ()
     reasons: tuple[str, ...] = ()

@@ -18,6 +18,7 @@ NEAR_BASE = 0.08  # of the reach; tools stay farther from the base than this
 BELOW_BASE = 1.0  # m
 POINTING_DOWN = 0.03  # rad
 STILL = 1e-6
+WRAPPED = 0.01  # rad; what angles that atan2 made may pass pi by, as they are noisy
 
 
 def is_transforms(values: NDArray[Any] | None) -> bool:
@@ -102,9 +103,18 @@ def _hints(point: Array, turn: Array) -> list[str]:
         hints.append("columns 4 to 6 are the orientation of a tool that points down")
     if moves.sum() >= 2 and still:
         hints.append("columns 4 to 6 never change while columns 1 to 3 move")
+    if moves.any() and _wraps(turn) and not _wraps(point):
+        hints.append("columns 4 to 6 jump between -pi and pi, as angles of an orientation do")
     if _is_circle(point):
         hints.append("two of columns 1 to 3 run on a circle")
     return hints
+
+
+def _wraps(angles: Array) -> bool:
+    """Say whether angles within -pi and pi jump by a full turn from one row to another."""
+    if np.abs(angles).max() > np.pi + WRAPPED:
+        return False
+    return bool(np.abs(np.diff(angles, axis=0)).max() > 2 * np.pi - 0.5)
 
 
 def _is_circle(point: Array) -> bool:

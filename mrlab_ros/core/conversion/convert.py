@@ -12,6 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mrlab_ros.core.conversion import (
+    datevec,
     dimensions,
     discovery,
     frame_rate,
@@ -32,7 +33,7 @@ from mrlab_ros.core.conversion.preview import Preview, preview
 from mrlab_ros.core.conversion.stated import with_headings, with_statements
 from mrlab_ros.core.conversion.survey import Survey, survey
 from mrlab_ros.core.conversion.workspace import Variable, Workspace
-from mrlab_ros.core.diagnostics import Diagnostic, Refused, Severity, finding
+from mrlab_ros.core.diagnostics import Diagnostic, Fix, Refused, Severity, finding
 from mrlab_ros.core.errors import BadInput
 from mrlab_ros.core.robots.model import RobotModel
 from mrlab_ros.core.trajectory import channels
@@ -45,6 +46,7 @@ MOST_ROWS = 5_000_000  # of a matrix, if not said otherwise: almost 14 hours at 
 MOST_OWN_RATE = 10_000.0  # Hz; points that come more often are sampled at the default
 # Hz and rad (m): rows that come more slowly and are farther apart are waypoints
 WAYPOINT_RATE, WAYPOINT_STEP = 10.0, 0.1
+TIMES_IN_MATLAB = "t = 2 * (0:size(q, 1) - 1)'; save('traj.mat', 'q', 't')"
 ID = re.compile(r"[A-Za-z0-9][A-Za-z0-9._-]{0,127}")
 
 
@@ -86,7 +88,7 @@ class ConversionResult:
 
 def id_from(file: str) -> str:
     """Return a name for the catalogue from a file's name: its letters, digits, '.', '_', '-'."""
-    stem = re.sub(r"(\.(mat|csv|txt|tsv|npz|json|mcap|gz|db3|cdr))+$", "", file, flags=re.I)
+    stem = re.sub(r"(\.(mat|csv|txt|tsv|lvm|npz|json|mcap|gz|db3|cdr))+$", "", file, flags=re.I)
     cleaned = re.sub(r"[^A-Za-z0-9._-]+", "_", stem).strip("._-")[:128]
     return cleaned or "trajectory"
 
@@ -197,6 +199,7 @@ def _prepared(
 
     The second is the path of the matrix that the options name, or empty.
     """
+    workspace = datevec.with_times(workspace)
     workspace = split_tables(with_headings(workspace, robot), robot)
     wanted = options.variable
     if workspace.find(wanted) is None:
@@ -261,6 +264,7 @@ def _at_a_rate(
         return _resampled(survey.workspace, variable, layout, options, default, notes)
     rows = len(layout.arm)
     if options.frame_rate and not options.resample:
+        notes += _waypoints(variable.path, layout.arm, options.frame_rate, timed=False)
         return layout, options.frame_rate
     assessment = survey.of(variable)
     if layout.scale != 1.0:
@@ -269,9 +273,12 @@ def _at_a_rate(
     found = frame_rate.find(survey, assessment, variable.path, rows, layout.times, default, file)
     if not options.resample:
         notes += found.notes
-        notes += _waypoints(variable.path, layout.arm, found.rate)
+        assumed = any(n.code == "rate_default" for n in found.notes)
+        notes += _waypoints(
+            variable.path, layout.arm, found.rate, timed=not assumed, assumed=assumed
+        )
         return layout, found.rate
-    return _made_even(variable.path, found, layout, options, notes)
+    return _made_even(variable.path, found, layout, options, default, notes)
 
 
 def _too_long(path: str, *, duration: float, rate: float) -> Diagnostic:
@@ -283,17 +290,25 @@ def _too_long(path: str, *, duration: float, rate: float) -> Diagnostic:
     return found if lower >= 1 else replace(found, fixes=())
 
 
-def _waypoints(path: str, arm: NDArray[Any], rate: float) -> list[Diagnostic]:
-    """Return a warning where rows are so far apart that they are waypoints rather than samples."""
-    if rate > WAYPOINT_RATE:
+def _waypoints(
+    path: str, arm: NDArray[Any], rate: float, *, timed: bool, assumed: bool = False
+) -> list[Diagnostic]:
+    """Return a warning where rows are so far apart that they are waypoints rather than samples.
+
+    timed: the file says when the rows are reached. assumed: it does not say their rate either.
+    """
+    if rate > WAYPOINT_RATE and not assumed:
         return []
     steps = np.abs(np.diff(arm, axis=0)).max(axis=1)
     worst = int(steps.argmax())
-    if steps[worst] <= WAYPOINT_STEP:
+    least = float(np.median(steps)) if rate > WAYPOINT_RATE else steps[worst]
+    if least <= WAYPOINT_STEP:
         return []
     place: dict[str, Any] = {"first_row": worst + 2, "last_row": worst + 2, "row": worst + 2}
     numbers: dict[str, Any] = {"value": float(steps[worst]), "unit": "rad", "limit": WAYPOINT_STEP}
     step = numbers["value"]
+    if not timed:
+        place["fixes"] = (Fix(matlab=TIMES_IN_MATLAB),)
     return [finding("waypoints", variable=path, rate=rate, step=step, **place, **numbers)]
 
 
@@ -302,21 +317,33 @@ def _made_even(
     found: frame_rate.Rate,
     layout: Layout,
     options: Options,
+    default: float,
     notes: list[Diagnostic],
 ) -> tuple[Layout, float]:
-    """Return rows at times of their own as frames at an even rate, joined by straight lines."""
+    """Return rows at times of their own as frames at an even rate, joined by straight lines.
+
+    Waypoints become frames at the rate that was asked for, else at `default`, Hz.
+    """
     clock = found.clock
+    if clock is None and any(n.code == "rate_default" for n in found.notes):
+        fixes = (Fix(matlab=TIMES_IN_MATLAB), Fix("resample", "", ""))
+        raise Refused(finding("no_times", variable=path, code=TIMES_IN_MATLAB, fixes=fixes))
     if clock is None:
-        problem = f"no times of the rows of '{path}' were found"
-        raise Refused(finding("bad_option", option="resample", found="true", problem=problem))
-    flaws = frame_rate.flaws(clock)
-    if clock.backward:
-        raise Refused(replace(flaws[0], severity=Severity.ERROR))
-    notes += [n for n in found.notes if n not in flaws and not n.code.startswith("time_")]
-    times_ns = np.rint(clock.times * 1e9).astype(np.int64)
+        times = np.arange(len(layout.arm)) / found.rate
+        even = found.rate
+        notes += found.notes
+    else:
+        flaws = frame_rate.flaws(clock)
+        if clock.backward:
+            raise Refused(replace(flaws[0], severity=Severity.ERROR))
+        notes += [n for n in found.notes if n not in flaws and not n.code.startswith("time_")]
+        times, even = clock.times, frame_rate.resampling_rate(clock)
+    if even <= WAYPOINT_RATE:
+        even = default
+    times_ns = np.rint(times * 1e9).astype(np.int64)
     kept = np.flatnonzero(np.diff(times_ns, prepend=times_ns[0] - 1) > 0)
     times_ns = times_ns[kept]
-    rate = options.frame_rate or frame_rate.resampling_rate(clock)
+    rate = options.frame_rate or even
     frames = resampling.frame_count(times_ns, rate)
     words: dict[str, Any] = {"duration": float(times_ns[-1]) * 1e-9, "rate": rate}
     if frames > MOST_FRAMES:

@@ -7,9 +7,9 @@ from mrlab_ros.core.conversion.assessment import Assessment
 from mrlab_ros.core.conversion.explain import (
     contents,
     holds_samples,
-    matlab_name,
     object_finding,
     refusal,
+    saving,
 )
 from mrlab_ros.core.conversion.scoring import FEW_ROWS
 from mrlab_ros.core.conversion.survey import Survey
@@ -40,8 +40,16 @@ def choose(
     hidden = [v for v in named if holds_samples(v, Hint.POSITIONS)]
     notes: list[Diagnostic] = []
     best = _best(plausible, conceivable, survey, bool(hidden))
+    asked = best is None and survey.columns_asked and len(ranked) == 1 == len(conceivable)
+    if asked:
+        # columns that only one matrix has say which one is meant
+        best = conceivable[0]
     if best is not None:
-        others = [a for a in plausible if a is not best]
+        same = [a.path for a in plausible if a.path in best.copies]
+        if same:
+            names = ", ".join(f"'{path}'" for path in same[:5])
+            notes.append(finding("copies", variable=best.path, found=names))
+        others = [a for a in plausible if a is not best and a.path not in same]
         if others:
             names = ", ".join(f"'{a.path}'" for a in others[:5])
             code = "twin" if best.twin in {a.path for a in others} else "other_candidates"
@@ -52,7 +60,7 @@ def choose(
         ignored = hidden or [v for v in objects if v.kind != "function_handle"]
         if ignored:
             notes.append(object_finding("object_ignored", ignored, file))
-        notes += doubts(best, asked=False)
+        notes += doubts(best, asked=asked)
         return best, [], notes
     if conceivable and not (hidden and not plausible):
         conceivable = conceivable[:MOST_OFFERED]
@@ -68,8 +76,8 @@ def _best(
     if not plausible:
         return None
     best, others = plausible[0], plausible[1:]
-    twins = {best.path, best.twin}
-    others = [a for a in others if a.path not in twins and a.twin not in twins - {""}]
+    twins = {best.path, best.twin, *best.copies} - {""}
+    others = [a for a in others if a.path not in twins and a.twin not in twins]
     if others and best.points - others[0].points < CLEAR_LEAD:
         return None
     if best.name.hint is Hint.POSITIONS or best.confirmed:
@@ -117,10 +125,7 @@ def _described(a: Assessment) -> str:
 
 
 def _choices(offered: list[Assessment]) -> tuple[Fix, ...]:
-    return tuple(
-        Fix("variable", a.path, f"q = {matlab_name(a.path)}; save('traj.mat', 'q')")
-        for a in offered
-    )
+    return tuple(Fix("variable", a.path, saving(a.path)) for a in offered)
 
 
 def doubts(chosen: Assessment, *, asked: bool) -> list[Diagnostic]:
@@ -135,7 +140,7 @@ def doubts(chosen: Assessment, *, asked: bool) -> list[Diagnostic]:
         if name.hint in (Hint.AGAINST, Hint.DOUBTFUL) and not chosen.objections:
             notes.append(finding("doubtful_name", variable=path, why=name.why))
     elif name.hint in (Hint.NEUTRAL, Hint.TWO_FACED) and not chosen.confirmed:
-        fixes = (Fix("variable", path, f"q = {matlab_name(path)}; save('traj.mat', 'q')"),)
+        fixes = (Fix("variable", path, saving(path)),)
         notes.append(
             finding("neutral_name", variable=path, why=name.why, seen=_seen(chosen), fixes=fixes)
         )

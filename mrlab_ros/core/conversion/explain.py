@@ -11,9 +11,10 @@ from mrlab_ros.core.conversion import relations
 from mrlab_ros.core.conversion.assessment import Assessment, blocking_clocks
 from mrlab_ros.core.conversion.cartesian import is_transforms
 from mrlab_ros.core.conversion.clock_columns import ClockColumn, clocks_among
+from mrlab_ros.core.conversion.datevec import is_datevec
 from mrlab_ros.core.conversion.dimensions import page_line
 from mrlab_ros.core.conversion.gripper import has_states
-from mrlab_ros.core.conversion.joining import Series, series
+from mrlab_ros.core.conversion.joining import Series, series, unequal, unequal_series
 from mrlab_ros.core.conversion.named_columns import misnamed
 from mrlab_ros.core.conversion.options import columns_text
 from mrlab_ros.core.conversion.scoring import FEW_ROWS
@@ -44,6 +45,13 @@ MOST_SHOWN = 5
 def matlab_name(path: str) -> str:
     """Return what a line of MATLAB calls the variable at `path`: a joined one, or a part, is q."""
     return "q" if ".." in path or "," in path or not path[:1].isalpha() else path
+
+
+def saving(path: str) -> str:
+    """Return the line of MATLAB that saves the matrix at `path` as q."""
+    is_expression = ".." not in path and path[:1].isalpha() and "," not in path.split("{")[0]
+    taken = "" if path == "q" or not is_expression else f"q = {path}; "
+    return f"{taken}save('traj.mat', 'q')"
 
 
 def holds_samples(variable: Variable, hint: Hint) -> bool:
@@ -93,6 +101,9 @@ def refusal(survey: Survey, file: str) -> Diagnostic:
     pieces = series(workspace, joints)
     if pieces:
         return _in_pieces(pieces[0], workspace)
+    differing = unequal_series(workspace, joints)
+    if differing:
+        return unequal(differing)
     named = [miss for rank, miss in misses if rank == 0]
     if named:
         return named[0]
@@ -100,10 +111,24 @@ def refusal(survey: Survey, file: str) -> Diagnostic:
         return object_finding("unsupported_object", opaque, file)
     if misses:
         return misses[0][1]
+    states = _states(survey)
+    if states is not None:
+        return states
     poses = next((v for v in workspace.variables if is_transforms(v.values)), None)
     if poses is not None and not survey.fitting:
         return _transforms(poses)
     return no_trajectory(survey, file)
+
+
+def _states(survey: Survey) -> Diagnostic | None:
+    """Return the finding of a matrix of states, such as X = [t q qd], or None."""
+    joints = len(survey.robot.joints)
+    for v in survey.workspace.variables:
+        if v.values is None or len(v.shape) != 2 or survey.name(v).hint is not Hint.DOUBTFUL:
+            continue
+        if joints + 1 < v.shape[1] <= 64 and v.shape[0] >= max(FEW_ROWS, v.shape[1]):
+            return near_miss(v, survey)
+    return None
 
 
 def no_trajectory(survey: Survey, file: str) -> Diagnostic:
@@ -118,10 +143,7 @@ def no_trajectory(survey: Survey, file: str) -> Diagnostic:
         robot=robot.id,
         joints=joints,
         found=contents(survey.workspace) + looks,
-        fixes=tuple(
-            Fix("variable", a.path, f"q = {matlab_name(a.path)}; save('traj.mat', 'q')")
-            for a in others
-        )
+        fixes=tuple(Fix("variable", a.path, saving(a.path)) for a in others)
         or (Fix(matlab="save('traj.mat', 'q')"),),
     )
 
@@ -177,6 +199,7 @@ def near_miss(variable: Variable, survey: Survey) -> Diagnostic | None:
         "robot": robot.id,
         "joints": joints,
         "more": joints + 1,
+        "pick": "",
     }
     named = survey.name(variable).hint is Hint.POSITIONS
     if variable.is_message and variable.note:
@@ -184,6 +207,8 @@ def near_miss(variable: Variable, survey: Survey) -> Diagnostic | None:
     if variable.values is not None and (wrong := misnamed(variable, robot)) is not None:
         return wrong
     if len(shape) < 2 or variable.is_object or variable.kind in ("struct", "cell", "char"):
+        return None
+    if variable.values is None and variable.kind in OPENED:
         return None
     if len(shape) > 2:
         return _many_dimensions(variable, words, joints)
@@ -200,7 +225,7 @@ def near_miss(variable: Variable, survey: Survey) -> Diagnostic | None:
     if min(shape) == 1:
         if max(shape) in widths:
             return finding("single_sample", **words)
-        return _too_narrow(words) if named and max(shape) > 1 else None
+        return _too_narrow(words, 1) if named and max(shape) > 1 else None
     if shape[1] in widths and shape[0] >= 2:
         a = survey.of(variable)
         clocks = blocking_clocks(a, robot)
@@ -277,7 +302,7 @@ def _looks_like(a: Assessment) -> Diagnostic:
         variable=a.path,
         size=a.variable.size,
         why=a.objections[0],
-        fixes=(Fix("variable", a.path, f"q = {matlab_name(a.path)}; save('traj.mat', 'q')"),),
+        fixes=(Fix("variable", a.path, saving(a.path)),),
     )
 
 
@@ -298,10 +323,10 @@ def _transforms(variable: Variable) -> Diagnostic:
     return finding("transforms", variable=variable.path, size=variable.size)
 
 
-def _too_narrow(words: dict[str, Any]) -> Diagnostic:
-    name, joints = words["name"], words["joints"]
-    line = f"q = [{name} zeros(size({name}, 1), {joints} - size({name}, 2))];"
-    return finding("wrong_shape", **words, hint="", fixes=(Fix(matlab=line),))
+def _too_narrow(words: dict[str, Any], columns: int, hint: str = "") -> Diagnostic:
+    if columns > 1:
+        hint += f" A robot of {columns} joints may be meant."
+    return finding("wrong_shape", **words, hint=hint)
 
 
 def wide(variable: Variable, survey: Survey, words: dict[str, Any]) -> Diagnostic:
@@ -309,24 +334,29 @@ def wide(variable: Variable, survey: Survey, words: dict[str, Any]) -> Diagnosti
     joints = len(survey.robot.joints)
     clocks = clocks_of(variable, survey)
     taken = {c.index for c in clocks}
+    dated = variable.values is not None and is_datevec(variable.values)
+    if dated:
+        taken |= set(range(6))
     left = [c for c in range(variable.shape[1]) if c not in taken]
-    hint = ""
+    hint = " Columns 1 to 6 are dates." if dated else ""
     if clocks:
         hint = f" Column {clocks[0].index + 1} looks like time, {len(left)} columns follow."
         if clocks[0].index:
             hint = f" Column {clocks[0].index + 1} looks like time, beside {len(left)} others."
     if len(left) < joints:
-        return replace_hint(_too_narrow(words), words, hint)
+        return _too_narrow(words, len(left), hint)
     block = _block_of_joints(variable, left, survey)
     text = columns_text(block)
     hint += f" Columns {text} may be the joints."
     name = words["name"]
     fixes = (Fix("columns", text, f"q = {name}(:, {text}); save('traj.mat', 'q')"),)
-    return finding("wrong_shape", **words, hint=hint, fixes=fixes)
+    pick = f", or pick columns: --columns {quoted(text)}"
+    return finding("wrong_shape", **words | {"pick": pick}, hint=hint, fixes=fixes)
 
 
-def replace_hint(found: Diagnostic, words: dict[str, Any], hint: str) -> Diagnostic:
-    return finding("wrong_shape", **words, hint=hint, fixes=found.fixes) if hint else found
+def quoted(text: str) -> str:
+    """Return an option's value as a shell takes it."""
+    return f"'{text}'" if " " in text else text
 
 
 def _block_of_joints(variable: Variable, left: list[int], survey: Survey) -> list[int]:

@@ -19,6 +19,7 @@ from mrlab_ros.core.conversion.survey import Survey
 from mrlab_ros.core.conversion.time_vectors import (
     LEAST_RATE,
     MOST_RATE,
+    NAMED_SECONDS,
     PATH_PARAMETERS,
     UNIT_NAMES,
     Clock,
@@ -64,6 +65,7 @@ RELATED = words(
     "trajectory trajektorie robot roboter record recording rec result results messung joint "
     "joints arm ref reference state states"
 )
+COARSE_SINGLE = 1e5  # above it, single precision is no clock of a robot
 AGREES = 0.01  # relative; rates that differ by less are the same
 AGREES_WITH_MOTION = 0.05  # the same for a rate from a velocity
 MOST_NAMED = 5
@@ -73,11 +75,15 @@ KEY = re.compile(r"""\('([^']+)'\)$|\{"([^"]+)"\}$""")
 
 @dataclass(frozen=True)
 class Scalar:
-    """A number of the file that may be the rate. sure: its name means nothing else."""
+    """A number of the file that may be the rate.
+
+    sure: its name means nothing else. foreign: it lies beside other data.
+    """
 
     path: str
     rate: float
     sure: bool
+    foreign: bool = False
 
 
 @dataclass
@@ -125,7 +131,7 @@ def find(
     workspace = survey.workspace
     coarse = chosen is not None and chosen.coarse
     motion = chosen.rates if chosen is not None else ()
-    scalars = _scalars(workspace, path, rows)
+    scalars = _scalars(workspace, path, rows, coarse)
     likely = tuple(s.rate for s in scalars if s.sure) + tuple(r for _, r in motion)
     clocks = _clocks(workspace, path, rows, column, coarse, likely)
     usable = [c for c in clocks if c.rate]
@@ -150,7 +156,11 @@ def find(
     if wrong_length is not None:
         notes.append(wrong_length)
     unsure = [s for s in scalars if not s.sure]
-    likely_ones = [s for s in unsure if s.rate and LIKELY_RATES[0] <= s.rate <= LIKELY_RATES[1]]
+    likely_ones = [
+        s
+        for s in unsure
+        if not s.foreign and s.rate and LIKELY_RATES[0] <= s.rate <= LIKELY_RATES[1]
+    ]
     if likely_ones:
         best = likely_ones[0]
         notes.append(_assumed(best.path, best.rate, default))
@@ -168,7 +178,9 @@ def find(
                 unit="Hz",
                 found=", ".join(f"'{s.path}'" for s in unsure[:MOST_NAMED]),
                 rate=default,
-                fixes=(_rate_fix(default),),
+                fixes=tuple(
+                    _rate_fix(r) for r in dict.fromkeys([default, *(s.rate for s in unsure)]) if r
+                ),
             )
         )
     elif (unused := _unused(workspace, path, rows, clocks, default)) is not None:
@@ -235,6 +247,9 @@ def _by_scalar(
 def flaws(clock: Clock) -> list[Diagnostic]:
     """Return what is to say of times that are uneven, repeated or go back."""
     notes = []
+    if clock.rounded:
+        words = {"value": clock.rounded, "rounded": clock.rounded, "rate": clock.rate}
+        notes.append(finding("time_rounded", variable=clock.source, unit="s", **words))
     resample = Fix("resample", "true", _interpolation(clock))
     if clock.backward:
         row = clock.backward[0]
@@ -304,8 +319,7 @@ def _interpolation(clock: Clock) -> str:
 
 def _step_in_unit(clock: Clock) -> str:
     usual = float(np.median(np.diff(clock.times)))
-    scale = {"s": 1.0, "ms": 1e-3, "us": 1e-6, "ns": 1e-9, "days": 86_400.0}[clock.unit]
-    return f"{usual / scale:.4g}"
+    return f"{usual / NAMED_SECONDS[clock.unit]:.4g}"
 
 
 def _counted(number: int, noun: str) -> str:
@@ -471,6 +485,8 @@ def _unused(
                 problem = f"it is {what} where a real number is expected"
             elif is_time_name(v.path) and rows in v.shape and v.kind != "struct":
                 problem = f"its class is {v.note or v.kind}"
+                if v.kind in ("char", "string", "cell"):
+                    problem += f" (in MATLAB {v.path} = str2double(string({v.path})))"
         elif count == 1:
             if of_rate:
                 problem = f"{float(v.values.reshape(-1)[0]):g} is no rate or step of the rows"
@@ -492,6 +508,9 @@ def _why_unused(v: Variable, rows: int) -> str:
     bad = np.flatnonzero(~np.isfinite(column))
     if len(column) == rows and len(bad):
         return f"its row {bad[0] + 1} is {column[bad[0]]:g}"
+    if len(column) == rows and v.kind == "single" and float(np.abs(column).max()) > COARSE_SINGLE:
+        coarse = float(np.spacing(np.float32(np.abs(column).max())))
+        return f"single precision holds such times in steps of {coarse:g} only; save it as double"
     if len(column) == rows:
         return "its values are no times of the rows that rise at a rate of joints"
     if len(column) == 2 or len(column) == rows - 1:
@@ -526,8 +545,11 @@ def _is_elsewhere(path: str, near: str) -> bool:
     return any(not (RELATED & set(parts(name)) or is_time_name(name)) for name in theirs)
 
 
-def _scalars(workspace: Workspace, path: str, rows: int) -> list[Scalar]:
-    """Return the numbers that are named like a rate or a step, those beside the matrix first."""
+def _scalars(workspace: Workspace, path: str, rows: int, coarse: bool) -> list[Scalar]:
+    """Return the numbers that are named like a rate or a step, those beside the matrix first.
+
+    coarse: the rows are waypoints, between which seconds may pass.
+    """
     near = first_path(path).rpartition(".")[0]
     found: list[tuple[bool, bool, Scalar]] = []
     for v in workspace.variables:
@@ -545,22 +567,23 @@ def _scalars(workspace: Workspace, path: str, rows: int) -> list[Scalar]:
             rate = number
         elif whole in STEP_NAMES or stepped in STEP_NAMES:
             rate = 1 / step
-            if not unit and rate < 1:
+            if not unit and rate < 1 and not (coarse and rate >= LEAST_RATE):
                 # 8 is 8 ms rather than 8 s
                 rate, sure = (1e3 / step, False) if step <= 100 else (0.0, False)
-        elif whole in UNSURE_RATES:
+        elif whole in UNSURE_RATES and number != rows:
             rate, sure = number, False
         elif whole in UNSURE_STEPS:
             likely = LIKELY_STEPS[0] <= step <= LIKELY_STEPS[1]
             rate, sure = (1 / step if likely else 0.0), False
         else:
             continue
-        if sure and not (1.0 <= rate <= MOST_RATE):
+        if sure and not ((LEAST_RATE if coarse else 1.0) <= rate <= MOST_RATE):
             rate, sure = 0.0, False
         if rate and not LEAST_RATE <= rate <= MOST_RATE:
             rate = 0.0
-        sure = sure and not _is_foreign(workspace, v.path, near, rows)
-        scalar = Scalar(v.path, snapped(rate) if rate else 0.0, sure)
+        foreign = sure and _is_foreign(workspace, v.path, near, rows)
+        sure = sure and not foreign
+        scalar = Scalar(v.path, snapped(rate) if rate else 0.0, sure, foreign)
         found.append((not sure, v.path.rpartition(".")[0] != near, scalar))
     found.sort(key=lambda item: item[:2])
     return [scalar for _, _, scalar in found]

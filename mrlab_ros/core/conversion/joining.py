@@ -3,19 +3,22 @@
 from __future__ import annotations
 
 import re
+from collections import Counter
 from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from mrlab_ros.core.conversion.options import parse_columns
+from mrlab_ros.core.conversion.options import indices
 from mrlab_ros.core.conversion.variable_names import Hint, hint
 from mrlab_ros.core.conversion.workspace import Variable, Workspace
-from mrlab_ros.core.diagnostics import Refused, finding
+from mrlab_ros.core.diagnostics import Diagnostic, Fix, Refused, finding
 
 NUMBER = re.compile(r"\d+(?=\D*$)")
 MOST_PIECES = 20_000
+MOST_LISTED = 6
+COUNTED = re.compile(r"(?P<begin>\d+)\s*:\s*(?:(?P<step>\d+)\s*:\s*)?(?:\d+|end)")
 PART = re.compile(r"(?P<path>.+)\((?P<rows>[^(),]+),(?P<columns>[^(),]+)\)$")
 
 
@@ -76,6 +79,8 @@ def joined(workspace: Workspace, text: str, joints: int, contents: str, file: st
         raise Refused(finding("bad_option", option="join", found=text, problem=problem))
     arrays = [np.asarray(p.values) for p in pieces]
     whole = _put_together(arrays, joints)
+    if whole is None and all(min(a.shape) == 1 for a in arrays):
+        raise Refused(unequal(pieces))
     if whole is None:
         sizes = ", ".join(f"{p.path} is {p.size}" for p in pieces[:8])
         problem = f"they differ in size: {sizes}"
@@ -96,11 +101,56 @@ def _put_together(arrays: list[NDArray[Any]], joints: int) -> NDArray[Any] | Non
         )
         flat = [a.reshape(-1) for a in arrays]
         return np.vstack(flat) if configurations or one_each == 1 else np.column_stack(flat)
+    if vectors and joints > 1:
+        return None
     if len({a.shape[1] for a in arrays}) == 1:
         return np.vstack(arrays)
     if len({a.shape[0] for a in arrays}) == 1:
         return np.hstack(arrays)
     return None
+
+
+def unequal(pieces: list[Variable]) -> Diagnostic:
+    """Return the finding of vectors, one a joint, that differ in length."""
+    lengths = {p.path: max(p.shape) for p in pieces}
+    usual = Counter(lengths.values()).most_common(1)[0][0]
+    others = [f"'{path}' has {n}" for path, n in lengths.items() if n != usual]
+    listed = ", ".join(others[:MOST_LISTED]) + (" ..." if len(others) > MOST_LISTED else "")
+    rows = min(lengths.values())
+    cut = "; ".join(f"{path}(1:{rows})" for path in lengths)
+    line = f"q = reshape([{cut}], {rows}, []); save('traj.mat', 'q')"
+    if any(p.shape[0] == 1 for p in pieces):
+        line = line.replace("; ", ", ", len(pieces) - 1)
+    return finding(
+        "pieces_differ",
+        variable=pieces[0].path,
+        found=f"most have {usual} samples, {listed}",
+        rows=rows,
+        code=line,
+        value=float(rows),
+        limit=float(max(lengths.values())),
+        fixes=(Fix(matlab=line),),
+    )
+
+
+def unequal_series(workspace: Workspace, joints: int) -> list[Variable]:
+    """Return vectors such as q1 to q6, as many as joints, that differ in length; or none."""
+    groups: dict[tuple[str, str], dict[int, Variable]] = {}
+    for v in workspace.variables:
+        number = NUMBER.search(v.path)
+        if number and v.values is not None and len(v.shape) == 2 and min(v.shape) == 1:
+            key = (v.path[: number.start()], v.path[number.end() :])
+            groups.setdefault(key, {})[int(number[0])] = v
+    for members in groups.values():
+        numbers = sorted(members)
+        found = [members[n] for n in numbers]
+        counts_up = numbers == list(range(numbers[0], numbers[0] + len(numbers)))
+        long = all(max(v.shape) > joints for v in found)
+        differ = len(found) == joints and len({v.shape for v in found}) > 1
+        said = hint(f"{found[0].path}..{found[-1].path}")
+        if counts_up and long and differ and said is Hint.POSITIONS:
+            return found
+    return []
 
 
 def series(workspace: Workspace, joints: int) -> list[Series]:
@@ -149,7 +199,7 @@ def sources(path: str, join: str) -> list[str]:
     if join and path == join.strip():
         return expanded(join)
     part = PART.fullmatch(path)
-    return [part["path"]] if part else [path]
+    return sources(part["path"], join) if part else [path]
 
 
 def part_of(workspace: Workspace, text: str) -> Workspace | None:
@@ -161,11 +211,13 @@ def part_of(workspace: Workspace, text: str) -> Workspace | None:
     match = PART.fullmatch(text.strip())
     if match is None:
         return None
+    if workspace.find(match["path"]) is None:
+        workspace = part_of(workspace, match["path"]) or workspace
     whole = workspace.find(match["path"])
     if whole is None or whole.values is None or len(whole.shape) != 2:
         return None
-    rows = _indices(match["rows"], whole.shape[0], whole)
-    columns = _indices(match["columns"], whole.shape[1], whole)
+    rows = _indices(match["rows"], 0, text, whole)
+    columns = _indices(match["columns"], 1, text, whole)
     names = tuple(whole.columns[i] for i in columns) if whole.columns else ()
     values = whole.values[np.ix_(rows, columns)]
     kept = replace(whole, path=text, values=values, shape=values.shape, columns=names)
@@ -186,10 +238,29 @@ def _same_rows(variable: Variable, count: int, rows: NDArray[np.intp]) -> Variab
     return replace(variable, values=values, shape=values.shape)
 
 
-def _indices(text: str, count: int, variable: Variable) -> NDArray[np.intp]:
+def _indices(text: str, axis: int, part: str, whole: Variable) -> NDArray[np.intp]:
+    """Return the rows (axis 0) or columns, from 0, of a part; raise Refused if not there."""
+    count, noun = whole.shape[axis], ("row", "column")[axis]
     if text.strip() == ":":
         return np.arange(count)
-    return np.array(parse_columns(text, count, variable.path, variable.size), dtype=np.intp)
+    try:
+        return np.array(indices(text, count, noun), dtype=np.intp)
+    except ValueError as error:
+        words = {"other": whole.path, "size": whole.size, "problem": str(error)}
+        fixes = (Fix("variable", whole.path, f"size({whole.path})"),)
+        raise Refused(finding("bad_part", variable=part, fixes=fixes, **words)) from None
+
+
+def rows_of(path: str, first: int, last: int) -> str:
+    """Return the path of rows of a matrix, from 1; of a part, the same rows of its matrix."""
+    match = PART.fullmatch(path)
+    counted = match and COUNTED.fullmatch(match["rows"].strip())
+    if match is None or (counted is None and match["rows"].strip() != ":"):
+        return f"{path}({first}:{last}, :)"
+    begin, step = (int(counted["begin"]), int(counted["step"] or 1)) if counted else (1, 1)
+    first, last = begin + (first - 1) * step, begin + (last - 1) * step
+    middle = f":{step}" if step > 1 else ""
+    return f"{match['path']}({first}{middle}:{last}, {match['columns'].strip()})"
 
 
 def first_path(path: str) -> str:

@@ -18,6 +18,7 @@ from mrlab_ros.core.conversion.explain import (
     near_miss,
     time_finding,
 )
+from mrlab_ros.core.conversion.joining import rows_of
 from mrlab_ros.core.conversion.measuring import fits
 from mrlab_ros.core.conversion.named_columns import names_joints, order
 from mrlab_ros.core.conversion.options import (
@@ -125,7 +126,7 @@ def pick(variable: Variable, options: Options, workspace: Workspace, robot: Robo
     picked = list(range(width))
     if options.columns:
         picked = parse_columns(options.columns, width, variable.path, size)
-    column, without = _gripper_column(variable, options, workspace, values, size, picked, robot)
+    column, without = _gripper_column(variable, options, workspace, values, picked, robot)
     if isinstance(column, int):
         picked = [c for c in picked if c != column]
     elif without and not options.columns and len(picked) == len(robot.joints) + 1:
@@ -150,7 +151,6 @@ def _gripper_column(
     options: Options,
     workspace: Workspace,
     values: NDArray[Any],
-    size: str,
     picked: list[int],
     robot: RobotModel,
 ) -> tuple[int | NDArray[Any] | None, bool]:
@@ -164,8 +164,7 @@ def _gripper_column(
     if text == NO_GRIPPER:
         return None, True
     if _is_column(text):
-        (column,) = parse_columns(text, values.shape[1], variable.path, size)
-        return column, False
+        return _gripper_index(text, variable, values.shape[1], picked, robot), False
     found = workspace.find(text)
     if found is None or found.values is None or found.values.size != len(values):
         problem = (
@@ -175,6 +174,27 @@ def _gripper_column(
         )
         raise Refused(finding("bad_option", option="gripper", found=text, problem=problem))
     return found.values.reshape(-1), False
+
+
+def _gripper_index(
+    text: str, variable: Variable, width: int, picked: list[int], robot: RobotModel
+) -> int:
+    """Return the column of the gripper, from 0, among `width`; raise Refused where it is none."""
+    joints = len(robot.joints)
+    column = width - 1 if text == "end" else int(text) - 1
+    left = len([c for c in picked if c != column])
+    problem = ""
+    if not 0 <= column < width:
+        problem = f"'{variable.path}' has the columns 1 to {width}"
+    elif left < joints:
+        problem = (
+            f"'{variable.path}' has {width} columns, and without column {column + 1} only {left} "
+            f"are left for the {joints} joints of {robot.id}"
+        )
+    if not problem:
+        return column
+    words = {"option": "gripper", "found": text, "problem": problem, "limit": float(width)}
+    raise Refused(finding("bad_option", variable=variable.path, **words))
 
 
 def lay_out(chosen: Chosen, survey: Survey, options: Options, notes: list[Diagnostic]) -> Layout:
@@ -253,14 +273,13 @@ def _refuse_times(assessment: Assessment, survey: Survey, notes: list[Diagnostic
 
 def _refuse_unfilled(assessment: Assessment) -> None:
     path, rows = assessment.path, assessment.rows
-    name = matlab_name(path)
     if assessment.finite and not (assessment.low.any() or assessment.high.any()):
         raise Refused(
             finding("never_filled", variable=path, size=assessment.variable.size, last_row=rows)
         )
     if assessment.unfilled is not None:
         first, last = assessment.unfilled
-        kept = f"{last + 1}:{rows}" if first == 1 else f"1:{first - 1}"
+        kept = rows_of(path, last + 1, rows) if first == 1 else rows_of(path, 1, first - 1)
         raise Refused(
             finding(
                 "rows_not_filled",
@@ -270,8 +289,8 @@ def _refuse_unfilled(assessment: Assessment) -> None:
                 last_row=last,
                 value=0.0,
                 count=last - first + 1,
-                fix=f"{path}({kept}, :)",
-                fixes=(Fix("variable", f"{path}({kept}, :)", f"q = {name}({kept}, :);"),),
+                fix=kept,
+                fixes=(Fix("variable", kept, f"q = {kept};"),),
             )
         )
 
@@ -287,6 +306,7 @@ def _misfit(variable: Variable, survey: Survey) -> Diagnostic:
         joints=joints,
         more=joints + 1,
         hint="",
+        pick="",
         name=matlab_name(variable.path),
     )
 

@@ -2,13 +2,16 @@
 
 from __future__ import annotations
 
+import itertools
 import math
 from collections.abc import Sequence
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
+from mrlab_ros.core.conversion.joining import rows_of
 from mrlab_ros.core.conversion.options import LEAST_RATE
 from mrlab_ros.core.diagnostics import Diagnostic, Fix, finding
 from mrlab_ros.core.robots.model import Joint
@@ -26,6 +29,7 @@ JUMP_USUAL_FACTOR = 10.0
 JUMP_LEAST = 0.25
 # A step of this many rad from a full turn is one (an arm moves on while its angle wraps).
 TURN_TOLERANCE = 0.5
+MOST_PARTS = 4  # between jumps that are offered
 
 
 def counted(number: int, noun: str) -> str:
@@ -62,9 +66,9 @@ def _without(rows: NDArray[Any], count: int, variable: str) -> tuple[Fix, ...]:
     line = "q = q(all(isfinite(q), 2), :);"
     first, last = int(rows[0]), int(rows[-1])
     if len(rows) == last - first + 1 and last == count and first > 2:
-        return (Fix("variable", f"{variable}(1:{first - 1}, :)", line),)
+        return (Fix("variable", rows_of(variable, 1, first - 1), line),)
     if len(rows) == last - first + 1 and first == 1 and last < count - 1:
-        return (Fix("variable", f"{variable}({last + 1}:{count}, :)", line),)
+        return (Fix("variable", rows_of(variable, last + 1, count), line),)
     return (Fix("", "", line),)
 
 
@@ -80,12 +84,18 @@ def against_robot(
     One finding a joint and kind at most, of its worst frame; frames count from 0.
     """
     findings: list[Diagnostic] = []
+    jumps: set[int] = set()
     for column, joint in enumerate(joints):
         q = np.ascontiguousarray(positions[:, column])
         steps = _steps(q, column, joint, frame_rate, variable, robot)
         beyond = _range(q, column, joint, frame_rate, variable)
         # a full turn, or a jump, is why the joint leaves its range
         findings += [*steps, *beyond] if steps else beyond
+        if any(found.code == "discontinuity" for found in steps):
+            jumps |= _jumps(q, joint, frame_rate)
+    if jumps:
+        parts = _between(sorted(jumps), len(positions), variable)
+        findings = [replace(f, fixes=parts) if f.code == "discontinuity" else f for f in findings]
     return sorted(findings, key=lambda found: found.code != "jump_2pi")
 
 
@@ -141,11 +151,13 @@ def _steps(
     }
     usual = float(np.quantile(steps, 0.95))
     isolated = largest > max(reach * JUMP_VELOCITY_FACTOR, usual * JUMP_USUAL_FACTOR, JUMP_LEAST)
-    if isolated and abs(largest - FULL_TURN) < TURN_TOLERANCE:
+    # a joint may wrap every other sample: such jumps are no usual steps
+    turned = abs(largest - FULL_TURN) < TURN_TOLERANCE and largest > reach * JUMP_VELOCITY_FACTOR
+    if turned and (isolated or _wraps(q)):
         return [finding("jump_2pi", value=largest, limit=reach, unit="rad", **place)]
     # A handful of waypoints has no usual step that one could stand out from.
     if isolated and len(steps) >= 10:
-        return [_jump(largest, usual, reach, len(q), place)]
+        return [_jump(largest, usual, reach, place)]
     too_fast = int(np.count_nonzero(steps > reach * 1.01))
     return [
         finding(
@@ -168,24 +180,49 @@ def _slower(rate: float) -> float:
     return max(float(f"{math.floor(rate / digit + 1e-9) * digit:.2g}"), LEAST_RATE)
 
 
-def _jump(
-    largest: float, usual: float, reach: float, rows: int, place: dict[str, Any]
-) -> Diagnostic:
-    """Return the finding of a jump, with the parts before and behind it as fixes."""
-    frame, variable = place["frame"], place["variable"]
+def _wraps(q: Array) -> bool:
+    """Say whether angles stay between -pi and pi and jump from one to the other."""
+    return bool(np.abs(q).max() <= np.pi + 0.01 and np.ptp(q) > FULL_TURN - TURN_TOLERANCE)
+
+
+def _jumps(q: Array, joint: Joint, frame_rate: float) -> set[int]:
+    """Return the frames after which a joint jumps, as the largest of its steps does."""
+    steps = np.abs(np.diff(q))
+    usual = float(np.quantile(steps, 0.95))
+    reach = joint.max_velocity / frame_rate
+    least = max(reach * JUMP_VELOCITY_FACTOR, usual * JUMP_USUAL_FACTOR, JUMP_LEAST)
+    return {int(frame) for frame in np.flatnonzero(steps > least)}
+
+
+def _between(jumps: list[int], rows: int, variable: str) -> tuple[Fix, ...]:
+    """Return what takes one of the parts between jumps after those frames, the longest first."""
+    ends = [-1, *jumps, rows - 1]
+    pieces = [(a + 2, b + 1) for a, b in itertools.pairwise(ends) if b - a >= 2]
+    pieces.sort(key=lambda piece: piece[0] - piece[1])
+    if not pieces:
+        return (Fix(matlab=f"plot(diff({variable}))"),)
+    fixes = []
+    for first, last in pieces[:MOST_PARTS]:
+        path = rows_of(variable, first, last)
+        is_stored = ".." not in variable and variable[0].isalpha()
+        fixes.append(
+            Fix("variable", path, f"q = {path if is_stored else f'q({first}:{last}, :)'};")
+        )
+    return tuple(fixes)
+
+
+def _jump(largest: float, usual: float, reach: float, place: dict[str, Any]) -> Diagnostic:
+    """Return the finding of a jump."""
     others = (
         f"its other steps stay below {usual:.4g} rad"
         if usual >= 1e-9
         else "it hardly moves otherwise"
     )
-    parts = [f"{frame + 2}:{rows}", f"1:{frame + 1}"]
-    longer = sorted(parts, key=lambda p: p.startswith("1:") != (frame + 1 >= rows / 2))
     return finding(
         "discontinuity",
         value=largest,
         limit=reach,
         unit="rad",
         others=others,
-        fixes=tuple(Fix("variable", f"{variable}({p}, :)", f"q = q({p}, :);") for p in longer),
         **place,
     )

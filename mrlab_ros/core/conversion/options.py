@@ -86,35 +86,36 @@ def parse_columns(text: str, width: int, variable: str, size: str) -> list[int]:
     Raises Refused where `text` is no such list or a column is not among the `width`.
     """
 
-    def refuse(problem: str) -> Refused:
-        return Refused(
-            finding(
-                "bad_columns",
-                variable=variable,
-                columns=text,
-                size=size,
-                problem=problem,
-                width=width,
-            )
-        )
+    try:
+        return indices(text, width, "column")
+    except ValueError as error:
+        words = {"columns": text, "size": size, "problem": str(error), "limit": float(width)}
+        raise Refused(finding("bad_columns", variable=variable, **words)) from None
 
-    indices: list[int] = []
+
+def indices(text: str, count: int, noun: str) -> list[int]:
+    """Return the indices, from 0, that `text` lists as MATLAB does.
+
+    Raises ValueError, in words that call them `noun`, where it is no list or one is not among the
+    `count`.
+    """
+    found: list[int] = []
     cleaned = re.sub(r"\s*:\s*", ":", text.strip().removeprefix("[").removesuffix("]"))
     for term in re.split(r"[,\s]+", cleaned.strip()):
         match = TERM.match(term)
         if match is None:
-            raise refuse(f"'{term}' is no column")
+            raise ValueError(f"'{term}' is no {noun}")
         first, step, last = match.groups()
-        start = width if first == "end" else int(first)
-        stop = start if last is None else width if last == "end" else int(last)
+        start = count if first == "end" else int(first)
+        stop = start if last is None else count if last == "end" else int(last)
         if step == "0":
-            raise refuse("a step of 0 leads nowhere")
-        if not (start >= 1 and max(start, stop) <= width):
-            raise refuse(f"there are the columns 1 to {width}")
-        indices += range(start - 1, stop, int(step or 1))
-    if not indices:
-        raise refuse("that is no column at all")
-    return indices
+            raise ValueError("a step of 0 leads nowhere")
+        if not (start >= 1 and max(start, stop) <= count):
+            raise ValueError(f"there are the {noun}s 1 to {count}")
+        found += range(start - 1, stop, int(step or 1))
+    if not found:
+        raise ValueError(f"that is no {noun} at all")
+    return found
 
 
 def columns_text(indices: list[int]) -> str:

@@ -13,12 +13,16 @@ from mrlab_ros.core.conversion.variable_names import leaf, parts, words
 from mrlab_ros.core.trajectory.trajectory import Array
 
 SECONDS = {"s": 1.0, "ms": 1e-3, "us": 1e-6, "ns": 1e-9, "days": 86_400.0}
+# units that only a name says, which may mean a minimum or a height as well
+NAMED_SECONDS = {**SECONDS, "min": 60.0, "h": 3600.0}
 UNIT_NAMES = {
     "s": "seconds",
     "ms": "milliseconds",
     "us": "microseconds",
     "ns": "nanoseconds",
     "days": "days, as datenum counts them",
+    "min": "minutes",
+    "h": "hours",
 }
 UNIT_WORDS = {
     "s": words("s sec secs second seconds sek sekunden"),
@@ -26,6 +30,8 @@ UNIT_WORDS = {
     "us": words("us usec usecs micros microsec microseconds mikrosekunden"),
     "ns": words("ns nsec nsecs nanos nanosec nanoseconds nanosekunden"),
     "days": words("datenum days tage"),
+    "min": words("min mins minute minutes minuten"),
+    "h": words("h hr hrs hour hours std stunden"),
 }
 TIME_NAMES = words(
     "t time tout timevec timevector times tvec timecont ts tq tt tsamples trajtimes timestamp "
@@ -47,6 +53,9 @@ SAME_STEP = 0.05  # of the usual step; a step that is the usual one
 MANY, FEW = 0.8, 0.05  # shares of the steps
 EPOCH = {"s": (1e9, 3e9), "ms": (1e12, 3e12), "us": (1e15, 3e15), "ns": (1e18, 3e18)}
 DATENUM = (6.5e5, 8.0e5)  # days since the year 0: 1780 to 2190
+ROUNDINGS = (10.0, 1.0, 0.1, 0.01, 1e-3, 1e-4)
+ROUNDED_TO, LEAST_STEP_ROUNDED = 0.0101, 1e-7  # s; coarser times are no rounding of even ones
+ROUNDED_ALIKE = 0.9  # of the rows; so many even times have to be these once they are rounded
 COARSEST = 0.2  # of a step; the last digit of times that are rounded
 # change from step to step over the spread of the steps: 1.4 where they are independent
 IRREGULAR = 1.1
@@ -63,7 +72,8 @@ class Clock:
     the numbers leave no doubt of it. rate: Hz; 0 where the unit is not known. named: its name
     says time. least, most: s, the smallest and the largest step; deviation: s, how far a row is
     from where an even rate puts it, at most, at row worst_row (from 1). repeated, backward: rows
-    (from 1) whose time is that of the row before, or earlier.
+    (from 1) whose time is that of the row before, or earlier. rounded: s, what even times were
+    rounded to, where their steps differ by that alone; 0 where they were not.
     """
 
     source: str
@@ -78,6 +88,7 @@ class Clock:
     worst_row: int
     repeated: tuple[int, ...]
     backward: tuple[int, ...]
+    rounded: float = 0.0
 
     @property
     def even(self) -> bool:
@@ -121,6 +132,8 @@ def is_regular(column: NDArray[Any], *, falling: bool = False) -> bool:
     """
     if len(column) < 3:
         return False
+    if _rounded(column.astype(np.float64)) is not None:
+        return True
     chosen = np.linspace(0, len(column) - 1, min(len(column), SAMPLE)).astype(int)
     coarse = np.diff(column[chosen].astype(np.float64))
     if not np.isfinite(coarse).all():
@@ -183,19 +196,27 @@ def clock_of(
     t = np.asarray(values, dtype=np.float64).reshape(-1)
     if len(t) < 2 or not np.isfinite(t).all():
         return None
+    rounded = _rounded(t)
     steps = np.diff(t)
     back = np.flatnonzero(steps < 0)
     same = np.flatnonzero(steps == 0)
     if t[-1] <= t[0] and not (named and len(back)):
         return None
-    if len(back) > (FEW * len(steps) if named else 0) or len(same) > 0.5 * len(steps):
+    if len(back) > (FEW * len(steps) if named else 0):
+        return None
+    if len(same) > 0.5 * len(steps) and rounded is None:
         return None
     forward = steps[steps > 0]
     if not len(forward):
         return None
     usual = float(np.median(forward))
-    unit, known = (unit, True) if unit else _unit(t, usual, coarse, likely_rates)
-    scale = SECONDS.get(unit, 1.0)
+    if unit:
+        known = unit in SECONDS
+    else:
+        unit, known = _unit(t, usual, coarse, likely_rates)
+    scale = NAMED_SECONDS.get(unit, 1.0)
+    if rounded is not None and unit and LEAST_STEP_ROUNDED < rounded[0] * scale <= ROUNDED_TO:
+        return _evened(t, source, rounded, unit, known, named)
     times = (t - t[0]) * scale
     usual *= scale
     steps = steps * scale
@@ -230,6 +251,52 @@ def clock_of(
         tuple(int(i) + 2 for i in same[:100]),
         tuple(int(i) + 2 for i in back[:100]),
     )
+
+
+def _rounded(t: Array) -> tuple[float, float] | None:
+    """Return what even times were rounded to, where that makes their steps differ, and the step.
+
+    Both are in the unit of the times. None where rounding does not explain what differs.
+    """
+    if len(t) < 20 or not np.isfinite(t[0]) or not t[-1] > t[0]:
+        return None
+    offset = t - np.floor(t[0])
+    unit = next(
+        (u for u in ROUNDINGS if np.abs(offset / u - np.rint(offset / u)).max() < 1e-3), None
+    )
+    span = float(t[-1] - t[0])
+    if unit is None or unit <= COARSEST * span / (len(t) - 1):
+        return None
+    rows = np.arange(len(t))
+    step, start = np.polyfit(rows, offset, 1)
+    left = offset - (start + step * rows)
+    if step <= 0 or np.ptp(left) > 1.1 * unit or np.ptp(left) < 0.1 * unit:
+        return None
+    middle = (float(left.max()) + float(left.min())) / 2
+    expected = np.rint((start + middle + step * rows) / unit)
+    right = np.count_nonzero(expected == np.rint(offset / unit))
+    return (unit, float(step)) if right >= ROUNDED_ALIKE * len(t) else None
+
+
+def _evened(
+    t: Array,
+    source: str,
+    rounded: tuple[float, float],
+    unit: str,
+    known: bool,
+    named: bool,
+) -> Clock | None:
+    """Return the even clock whose times were rounded."""
+    scale = NAMED_SECONDS[unit]
+    to, step = rounded[0] * scale, rounded[1] * scale
+    rate = snapped(1 / step, to / (step * len(t)))
+    if not LEAST_RATE <= rate <= MOST_RATE:
+        return None
+    times = np.arange(len(t)) / rate
+    off = float(np.abs((t - t[0]) * scale - times).max())
+    steps = np.diff(t) * scale
+    ends = float(steps.min()), float(steps.max())
+    return Clock(source, times, unit, known, rate, named, *ends, off, 0, (), (), rounded=to)
 
 
 def _resolution(t: Array, steps: Array) -> float:

@@ -152,6 +152,15 @@ TWO_FACED_PARTS = words(
     "traj trajectory trajectories trj path waypoints waypoint pos position positions points bahn "
     "trajektorie punkte pfad"
 )
+# a unit that a name ends in, as its words; '/' and 'per' are left out
+UNIT_ENDINGS = (
+    (
+        VELOCITIES,
+        ("rad s", "deg s", "grad s", "m s", "mm s", "rads", "degs", "rad sec", "deg sec"),
+    ),
+    (ACCELERATIONS, ("rad s2", "deg s2", "grad s2", "m s2", "rad s 2", "deg s 2", "rad sec2")),
+    (TORQUES, ("nm", "n m")),
+)
 DEGREE_PARTS = words("deg degs degree degrees grad")
 DEGREE_ENDINGS = ("deg", "degrees", "indeg", "ingrad", "grad")
 # what joints are called where each has a variable or a column of its own: A1 to A6, q1 to q6
@@ -197,6 +206,9 @@ def describe(path: str) -> Name:
     path = first
     name = re.sub(r"[({][^.]*$", "", leaf(path))
     said = parts(name)
+    of_unit = _said_by_unit(said)
+    if of_unit:
+        return Name(Hint.AGAINST, of_unit)
     unit = ""
     if said and (DEGREE_PARTS.intersection(said) or said[-1].endswith(DEGREE_ENDINGS)):
         unit = "deg"
@@ -211,6 +223,16 @@ def describe(path: str) -> Name:
         of_struct = _said_by_struct(path)
         return found if of_struct is None else Name(of_struct.hint, of_struct.what, unit)
     return found
+
+
+def _said_by_unit(said: list[str]) -> str:
+    """Return the quantity of the unit that a name, as its words, ends in, or nothing."""
+    rest = [p for p in said if p != "per"]
+    for what, endings in UNIT_ENDINGS:
+        for ending in map(str.split, endings):
+            if len(rest) > len(ending) and rest[-len(ending) :] == ending:
+                return what
+    return ""
 
 
 def _said_by_struct(path: str) -> Name | None:

@@ -110,9 +110,9 @@ def test_the_usual_company_does_not_disturb():
 
 
 def test_several_plausible_are_offered_likeliest_first():
-    assert offered(var("q1", motion()), var("q2", motion())) == ["q1", "q2"]
+    assert offered(var("q1", motion()), var("q2", motion() + 0.5)) == ["q1", "q2"]
     assert (
-        accepted(var("q1", motion()), var("q2", motion()), variable="q2").source.variable == "q2"
+        accepted(var("q1", motion()), var("q2", -motion()), variable="q2").source.variable == "q2"
     )
 
 

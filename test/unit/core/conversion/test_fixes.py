@@ -209,7 +209,7 @@ def test_times_that_repeat_or_go_back_are_named_with_their_row():
 
 
 def test_without_times_nothing_is_resampled():
-    assert codes(convert(var("q", Q), resample=True))[0] == "bad_option"
+    assert codes(convert(var("q", Q), resample=True))[0] == "no_times"
 
 
 CLOSED = (np.arange(300) > 100) & (np.arange(300) < 200)

@@ -1,0 +1,67 @@
+"""Dates and times of day as text, in seconds since the first of them."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Sequence
+from datetime import datetime
+
+CLOCK = r"(?P<hour>\d{1,2}):(?P<minute>\d\d):(?P<second>\d\d)(?:[.,](?P<fraction>\d{1,9}))?"
+ZONE = r"(?:\s*(?:Z|UTC|[+-]\d\d:?\d\d))?"
+DATES = (
+    r"(?P<year>\d{4})[-/](?P<month>\d\d?)[-/](?P<day>\d\d?)",  # ISO 8601
+    r"(?P<day>\d\d?)\.(?P<month>\d\d?)\.(?P<year>\d{4})",  # German
+    r"(?P<day>\d\d?)[-/](?P<month>\d\d?)[-/](?P<year>\d{4})",
+    r"(?P<day>\d\d?)-(?P<name>[A-Za-z]{3})-(?P<year>\d{4})",  # datetime of MATLAB
+)
+PATTERNS = tuple(re.compile(f"(?:{date}[T ]\\s*)?{CLOCK}{ZONE}$") for date in DATES)
+MONTHS = ("jan", "feb", "mar", "apr", "may", "jun", "jul", "aug", "sep", "oct", "nov", "dec")
+DAY = 86_400.0
+
+
+def is_instant(text: str) -> bool:
+    """Say whether a text is a time of day, with or without a date before it."""
+    return ":" in text and any(p.match(text) for p in PATTERNS)
+
+
+def seconds(texts: Sequence[str]) -> list[float | None]:
+    """Return the time of each text since the first, s; None where one is no instant.
+
+    Times of day without a date pass midnight where they fall by more than half a day.
+    """
+    pattern = next((p for p in PATTERNS if texts and p.match(texts[0])), None)
+    found: list[float | None] = []
+    start: float | None = None
+    first_day = 0
+    passed, before = 0.0, 0.0
+    for text in texts:
+        match = pattern.match(text) if pattern else None
+        if match is None:
+            found.append(None)
+            continue
+        given = match.groupdict()
+        now = int(given["hour"]) * 3600.0 + int(given["minute"]) * 60 + int(given["second"])
+        now += float(f"0.{given['fraction'] or 0}")
+        days = _days(given)
+        if days is None:
+            passed += DAY if now + passed < before - DAY / 2 else 0.0
+            now += passed
+        else:
+            first_day = days if start is None else first_day
+            now += (days - first_day) * DAY
+        start = now if start is None else start
+        before = now
+        found.append(round(now - start, 9))
+    return found
+
+
+def _days(given: dict[str, str | None]) -> int | None:
+    """Return the days since the year 1 of a date, or None where the text has none."""
+    year, day = given.get("year"), given.get("day")
+    if year is None or day is None:
+        return None
+    month = given.get("month")
+    number = int(month) if month else MONTHS.index(str(given["name"]).lower()) + 1
+    if number > 12:  # the month before the day, as in the United States
+        number, day = int(day), str(number)
+    return datetime(int(year), number, int(day)).toordinal()

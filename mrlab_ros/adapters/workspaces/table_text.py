@@ -1,0 +1,343 @@
+"""Text tables as spreadsheets, loggers and LabVIEW write them: headings, units, dates, numbers."""
+
+from __future__ import annotations
+
+import csv
+import re
+from collections import Counter
+from dataclasses import dataclass, field
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mrlab_ros.adapters.workspaces.instants import is_instant, seconds
+from mrlab_ros.adapters.workspaces.mat5 import NotATable
+from mrlab_ros.core.conversion.unit_names import against
+
+KNOWN_UNITS = {"", "-", "rad", "deg", "grad", "°", "degree", "degrees", "radian", "radians"}
+KNOWN_UNITS |= {"s", "sec", "ms", "us", "bool"}
+TIMES = ("t", "time", "time_from_start")
+SEPARATOR = re.compile(r"[\"']?sep=(.)[\"']?", re.I)
+SEPARATORS = (";", "\t", ",")
+END_OF_HEADER = "***End_of_Header***"  # of LabVIEW's measurement files
+LABVIEW_X, LABVIEW_COMMENT = "x_value", "comment"
+STATED = re.compile(
+    r"\s*(?P<name>[A-Za-z][\w .-]{0,40}?)\s*(\[[^\]]*\]|\([^)]*\))?\s*[:=;,\t]\s*"
+    r"(?P<number>[-+]?\d+(?:[.,]\d+)?(?:[eE][-+]?\d+)?)\s*[A-Za-z]{0,3}[;,\t\s]*$"
+)
+MOST_ABOVE = 200  # lines above a table
+DAY_AND_TIME = re.compile(r"(\d{4}-\d\d-\d\d|\d\d\.\d\d\.\d{4}) (?=\d\d?:\d\d)")
+
+
+@dataclass(frozen=True, eq=False)
+class TextTable:
+    """A table of numbers, (N, C), and what its text says of them.
+
+    headings: C texts with their units in brackets, or none. instants: the column, from 0, whose
+    dates or times of day became s since the first of them, or None. stated: numbers that lines
+    above the table name.
+    """
+
+    values: NDArray[np.float64]
+    headings: tuple[str, ...]
+    instants: int | None
+    stated: dict[str, float] = field(default_factory=dict)
+
+
+def parsed(data: bytes) -> TextTable:
+    """Return the table in a text; raise NotATable with the line that does not fit.
+
+    The separator is a comma, semicolon, tab or blanks; decimals may be commas where the columns
+    are separated by something else, or where the numbers are quoted.
+    """
+    text = decoded(data).replace("\r\n", "\n").replace("\r", "\n")
+    lines = text.split("\n")
+    stated: dict[str, float] = {}
+    begin, asked, units = _labview(lines, stated)
+    if not begin:
+        begin, asked = _marked(lines, stated)
+    lines = lines[begin:]
+    separator = _separator(lines, asked)
+    above = _above(lines, separator, stated)
+    lines, begin = lines[above:], begin + above
+    if separator and _all_end_with(lines, separator):
+        lines = [line.rstrip().removesuffix(separator) for line in lines]
+    first = next(iter(lines), "")
+    cells = _cells(first, separator)
+    headed = not all(_is_value(c, separator) for c in cells)
+    if headed and [c.lower() for c in cells][:1] == [LABVIEW_X]:
+        units = [*units, *[""] * len(cells)]
+        cells = ["t", *(_with_unit(h, u) for h, u in zip(cells[1:], units, strict=False))]
+    if headed:
+        lines, begin = lines[1:], begin + 1
+        given = _cells(lines[0], separator) if lines else []
+        if len(given) == len(cells) and _are_units(given):
+            cells = _with_units(cells, given)
+            lines, begin = lines[1:], begin + 1
+    headings = cells if headed else []
+    if headed and headings[-1].lower() == LABVIEW_COMMENT:
+        lines, headings = _without_comments(lines, separator, len(headings)), headings[:-1]
+    if not any(line.strip() for line in lines):
+        raise NotATable("it holds no row of numbers")
+    values, instants = _numbers(lines, separator, begin + 1, len(headings))
+    if len(headings) != values.shape[1]:
+        headings = []
+    return TextTable(values, tuple(headings), instants, stated)
+
+
+def decoded(data: bytes) -> str:
+    """Return a table's text: UTF-8, UTF-16 with its mark, or Windows-1252 as Excel writes it."""
+    if data.startswith((b"\xff\xfe", b"\xfe\xff")):
+        try:
+            return data.decode("utf-16")
+        except UnicodeDecodeError as error:
+            raise NotATable(f"byte {error.start} is not UTF-16 text") from None
+    try:
+        return data.decode("utf-8-sig")
+    except UnicodeDecodeError as error:
+        start = error.start
+    if not any(b < 9 or 14 <= b < 32 for b in data[:65_536]):
+        try:
+            return data.decode("cp1252")
+        except UnicodeDecodeError:
+            pass
+    raise NotATable(f"byte {start} is not UTF-8 text")
+
+
+def _labview(lines: list[str], stated: dict[str, float]) -> tuple[int, str, list[str]]:
+    """Return where the table of a LabVIEW file begins, its separator, and its units; else 0."""
+    if not lines[0].startswith("LabVIEW Measurement"):
+        return 0, "", []
+    ends = [i for i, line in enumerate(lines) if line.startswith(END_OF_HEADER)]
+    if len(ends) != 2:
+        raise NotATable(
+            f"its LabVIEW header ends {len(ends)} times where a file of one segment has 2; "
+            "export one segment"
+        )
+    units: list[str] = []
+    separator = "\t"
+    for line in lines[: ends[1]]:
+        key, *given = line.rstrip().split("\t" if "\t" in line else ",")
+        if key == "Separator":
+            separator = "," if given[:1] == ["Comma"] else "\t"
+        elif key == "Y_Unit_Label":
+            units = given
+        elif key == "Delta_X" and given and _is_number(given[0].replace(",", ".")):
+            stated["dt"] = float(given[0].replace(",", "."))
+    return ends[1] + 1, separator, units
+
+
+def _marked(lines: list[str], stated: dict[str, float]) -> tuple[int, str]:
+    """Return how many lines are comments or name the separator, and that separator."""
+    asked = ""
+    for number, line in enumerate(map(str.strip, lines)):
+        match = SEPARATOR.fullmatch(line)
+        if match:
+            asked = match[1]
+        elif line.startswith(("#", "%")) and not _is_as_wide(line, lines):
+            _state(line.lstrip("#% "), stated)
+        else:
+            return number, asked
+    return 0, asked
+
+
+def _is_as_wide(line: str, lines: list[str]) -> bool:
+    """Say whether a line with a mark of comments is the headings, as rostopic writes them."""
+    last = next((x for x in reversed(lines) if x.strip()), "")
+    return any(s in line and line.count(s) == last.count(s) for s in SEPARATORS)
+
+
+def _state(line: str, stated: dict[str, float]) -> None:
+    match = STATED.match(line)
+    if match:
+        name = re.sub(r"\W+", "_", match["name"].strip()).strip("_")
+        stated.setdefault(name, float(match["number"].replace(",", ".")))
+
+
+def _separator(lines: list[str], asked: str) -> str | None:
+    """Return what separates the columns, None for blanks: what rows have in common."""
+    filled = [line for line in lines[:1000] if line.strip()]
+    decimal = set()
+    for separator in filter(None, (asked, *SEPARATORS)):
+        if filled and all(separator in line for line in filled[-min(20, len(filled) // 2 + 1) :]):
+            cells = _cells(filled[-1], separator)
+            # blanks may separate numbers with decimal commas
+            if separator != "," or 2 * sum(_is_value(c, separator) for c in cells) > len(cells):
+                return separator
+            decimal.add(separator)
+    first = filled[0] if filled else ""
+    return next((s for s in (asked, *SEPARATORS) if s and s in first and s not in decimal), None)
+
+
+def _above(lines: list[str], separator: str | None, stated: dict[str, float]) -> int:
+    """Return how many lines stand above the table: texts that have another number of cells."""
+    filled = [line for line in lines[:1000] if line.strip()]
+    if len(filled) < 3:
+        return next((i for i, line in enumerate(lines) if line.strip()), 0)
+    widths = Counter(len(_cells(line, separator)) for line in filled[-50:])
+    width = widths.most_common(1)[0][0]
+    for number, line in enumerate(lines[:MOST_ABOVE]):
+        cells = _cells(line, separator)
+        if line.strip() and (
+            len(cells) == width or all(_is_value(c, separator) for c in cells if c)
+        ):
+            return number
+        following = next((x for x in lines[number + 1 :] if x.strip()), "")
+        if line.strip() and all(_is_value(c, separator) for c in _cells(following, separator)):
+            # headings of another width say nothing, but the rows follow
+            _state(line, stated)
+            return number
+        _state(line, stated)
+    return 0
+
+
+def _cells(line: str, separator: str | None) -> list[str]:
+    if separator is None:
+        return DAY_AND_TIME.sub(r"\1T", line).split()
+    try:
+        row = next(csv.reader([line], delimiter=separator), [])
+    except csv.Error as error:
+        raise NotATable(f"its first row cannot be read ({error})") from None
+    return [cell.strip() for cell in row]
+
+
+def _all_end_with(lines: list[str], separator: str) -> bool:
+    filled = [stripped for line in lines if (stripped := line.rstrip(" "))]
+    return len(filled) > 1 and all(line.endswith(separator) for line in filled)
+
+
+def _is_value(cell: str, separator: str | None) -> bool:
+    """Say whether a cell is a number, which may have a decimal comma, or an instant."""
+    number = cell if separator == "," and "," not in cell else cell.replace(",", ".")
+    return _is_number(number) or is_instant(cell)
+
+
+def _are_units(cells: list[str]) -> bool:
+    """Say whether a row under the headings holds units: short words, and no number."""
+    return (
+        any(cells)
+        and all(len(c) <= 12 for c in cells)
+        and not any(_is_number(c.replace(",", ".")) or is_instant(c) for c in cells)
+    )
+
+
+def _with_units(headings: list[str], units: list[str]) -> list[str]:
+    """Return headings as if each unit stood in brackets, which the headings' own rules read."""
+    bare = [u.strip("[](){} ") for u in units]
+    other = next((u for u in bare if u.lower() not in KNOWN_UNITS and not against(u)), None)
+    if other is not None:
+        raise NotATable(f"its row of units has '{other}', which is no unit that is known here")
+    return [_with_unit(h, u) for h, u in zip(headings, bare, strict=True)]
+
+
+def _with_unit(heading: str, unit: str) -> str:
+    bare = unit.strip("[](){} ")
+    if bare in ("", "-") or (heading.lower() in TIMES and bare == "s"):
+        return heading
+    return f"{heading} [{bare}]"
+
+
+def _without_comments(lines: list[str], separator: str | None, width: int) -> list[str]:
+    """Return rows of a LabVIEW table without the comments behind their numbers."""
+    if separator is None:
+        return lines
+    return [separator.join(line.split(separator)[: width - 1]) for line in lines]
+
+
+def _numbers(
+    lines: list[str], separator: str | None, first_line: int, headings: int
+) -> tuple[NDArray[np.float64], int | None]:
+    """Return the rows of a table and the column of its instants, or None.
+
+    first_line: the line of the file that `lines` begin at. headings: how many there are. Raises
+    NotATable with the first line that does not fit.
+    """
+    lines, separator, instants = _plain(lines, separator, first_line)
+    try:
+        values = np.loadtxt(lines, delimiter=separator, ndmin=2, dtype=np.float64)
+    except ValueError:
+        raise _misfit(lines, separator, first_line) from None
+    if separator == ",":
+        _refuse_two_commas(lines, values, headings)
+    return values, instants
+
+
+def _plain(
+    lines: list[str], separator: str | None, first_line: int
+) -> tuple[list[str], str | None, int | None]:
+    """Return rows without quotes, decimal commas and instants, and what separates them."""
+    if any('"' in line for line in lines[:2]):
+        try:
+            rows = list(csv.reader(lines, delimiter=separator or " "))
+        except csv.Error as error:
+            raise NotATable(f"its quoted cells cannot be read ({error})") from None
+        lines, separator = ["\t".join(c.strip() for c in row) for row in rows], "\t"
+    first = next((line for line in lines if line.strip()), "")
+    columns = [i for i, c in enumerate(_cells(first, separator)) if is_instant(c)]
+    if separator != "," and any("," in line for line in lines):
+        lines = [line.replace(",", ".") for line in lines]
+    if not columns:
+        return lines, separator, None
+    if len(columns) > 1:
+        raise NotATable(f"it has dates in {len(columns)} columns; keep one of them")
+    column = columns[0]
+    rows = [_cells(line, separator) if line.strip() else [] for line in lines]
+    elapsed = iter(seconds([row[column] if column < len(row) else "" for row in rows if row]))
+    joined = []
+    for number, row in enumerate(rows):
+        if row:
+            time = next(elapsed)
+            if time is None:
+                wrong = row[column] if column < len(row) else ""
+                line = first_line + number
+                raise NotATable(f"line {line} has '{wrong[:40]}' where a date is expected")
+            row[column] = repr(time)
+        joined.append((separator or " ").join(row))
+    return joined, separator, column
+
+
+def _refuse_two_commas(lines: list[str], values: NDArray[Any], headings: int) -> None:
+    """Refuse a table whose commas are decimal ones and separators at once."""
+    width = values.shape[1]
+    twice = width == 2 * headings if headings else width % 2 == 0 and width >= 4
+    if not twice:
+        return
+    behind = set()
+    for line in [x for x in lines if x.strip()][:50]:
+        cells = [c.strip() for c in line.split(",")]
+        if not all(re.fullmatch(r"[-+]?\d+", c) for c in cells):
+            return
+        if not all(c.isdigit() for c in cells[1::2]):
+            return
+        behind |= {len(c) for c in cells[1::2]}
+    if headings or (len(behind) == 1 and min(behind) >= 2):
+        under = f" under {headings} headings" if headings else ""
+        raise NotATable(
+            f"commas are its decimal point and separate its columns as well: each row has {width} "
+            f"values{under}; export it with semicolons between the columns"
+        )
+
+
+def _misfit(lines: list[str], separator: str | None, first_line: int) -> NotATable:
+    """Return what names the first line that does not fit."""
+    width = None
+    for number, line in enumerate(lines, first_line):
+        cells = [c.strip() for c in (line.split(separator) if separator else line.split())]
+        if not any(cells):
+            continue
+        width = width or len(cells)
+        wrong = next((c for c in cells if not _is_number(c)), None)
+        if wrong is not None:
+            return NotATable(f"line {number} has '{wrong[:40]}' where a number is expected")
+        if len(cells) != width:
+            return NotATable(f"line {number} has {len(cells)} values and the first {width}")
+    return NotATable("it holds no table of numbers")
+
+
+def _is_number(text: str) -> bool:
+    try:
+        float(text)
+    except ValueError:
+        return False
+    return True
