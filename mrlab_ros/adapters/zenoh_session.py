@@ -80,16 +80,24 @@ class Publisher(Declared, Protocol):
 class Query(Protocol):
     """A query that waits for its one reply; `payload` is None where it has none.
 
-    key: the queried key expression, perhaps a pattern such as `*/play`.
+    key: the queried key expression, perhaps a pattern such as `*/play`. parameters: what stands
+    behind the `?` of its selector.
     """
 
     @property
     def key(self) -> str: ...
 
     @property
+    def parameters(self) -> Mapping[str, str]: ...
+
+    @property
     def payload(self) -> bytes | None: ...
 
     def reply(self, payload: bytes) -> None: ...
+
+    def reply_asset(self, payload: bytes, media_type: str, attachment: bytes) -> None:
+        """Reply on the queried key, which must not be a pattern."""
+        ...
 
     def refuse(self, reason: str) -> None: ...
 
@@ -292,6 +300,11 @@ class _Query:
         return str(self._query.key_expr)
 
     @property
+    def parameters(self) -> Mapping[str, str]:
+        found: dict[str, str] = dict(self._query.parameters)  # type: ignore[call-overload]
+        return found
+
+    @property
     def payload(self) -> bytes | None:
         payload = self._query.payload
         return None if payload is None else payload.to_bytes()
@@ -299,6 +312,15 @@ class _Query:
     def reply(self, payload: bytes) -> None:
         self._query.reply(self._key, payload)
         # zenoh ends the caller's wait only when the query is dropped.
+        self._query.drop()
+
+    def reply_asset(self, payload: bytes, media_type: str, attachment: bytes) -> None:
+        self._query.reply(
+            self._query.key_expr,
+            payload,
+            encoding=media_type,
+            attachment=attachment,
+        )
         self._query.drop()
 
     def refuse(self, reason: str) -> None:

@@ -14,6 +14,7 @@ NAME = re.compile(r"[a-z][a-z0-9_]{0,62}")
 # Names below which the lab's own topics and services live.
 RESERVED = frozenset(
     {
+        "assets",
         "bridge",
         "contacts",
         "converter",
@@ -25,6 +26,7 @@ RESERVED = frozenset(
         "recorder",
         "robots",
         "rosout",
+        "schema",
         "surfaces",
         "systems",
         "tf",

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from functools import cache
 from pathlib import Path
+from typing import Any
 
 from ament_index_python.packages import PackageNotFoundError, get_package_share_directory
 from rosidl_parser.definition import AbstractNestedType, NamespacedType
@@ -25,28 +26,32 @@ def definition(kind: str) -> str:
     """
     kinds = [kind]
     for parent in kinds:  # grows while it is read
-        kinds += [inner for inner in dict.fromkeys(_types_in(parent)) if inner not in kinds]
-    parts = [_text(kind)]
+        kinds += [
+            inner for inner in dict.fromkeys(types_in(message_class(parent))) if inner not in kinds
+        ]
+    parts = [text_of(kind)]
     for inner in kinds[1:]:
         package, _, name = inner.split("/")
-        parts.append(f"{SEPARATOR}\nMSG: {package}/{name}\n{_text(inner)}")
+        parts.append(f"{SEPARATOR}\nMSG: {package}/{name}\n{text_of(inner)}")
     return "\n".join(part.rstrip("\n") for part in parts) + "\n"
 
 
-def _types_in(kind: str) -> Iterator[str]:
-    """Yield the message types of the fields of `kind`, in their order."""
-    for slot in message_class(kind).SLOT_TYPES:
+def types_in(message: Any) -> Iterator[str]:
+    """Yield the message types of the fields of a message's class, in their order."""
+    for slot in message.SLOT_TYPES:
         held = slot.value_type if isinstance(slot, AbstractNestedType) else slot
         if isinstance(held, NamespacedType):
             yield "/".join(held.namespaced_name())
 
 
-def _text(kind: str) -> str:
+def text_of(kind: str) -> str:
+    """Return the installed text of a message or a service; raise BadInput without one."""
     package, folder, name = kind.split("/")
     try:
-        return (Path(get_package_share_directory(package)) / folder / f"{name}.msg").read_text()
+        share = Path(get_package_share_directory(package))
+        return (share / folder / f"{name}.{folder}").read_text()
     except (PackageNotFoundError, OSError):
         raise BadInput(
-            f"the text of the message {kind} is not installed; install the package {package}, "
+            f"the text of {kind} is not installed; install the package {package}, "
             "or leave out the topics of that type"
         ) from None

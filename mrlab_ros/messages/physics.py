@@ -8,13 +8,14 @@ from typing import Any
 import numpy as np
 from geometry_msgs.msg import Point, Twist, Vector3
 from mrlab_msgs import msg
+from shape_msgs.msg import SolidPrimitive
 from std_msgs.msg import ColorRGBA
 
 from mrlab_ros.core.clock import PlaybackClock
 from mrlab_ros.core.errors import BadInput
 from mrlab_ros.core.geometry import Vector, checked_vector
 from mrlab_ros.core.physics.catalogue import ObjectType
-from mrlab_ros.core.physics.engine import BodyState, Kind
+from mrlab_ros.core.physics.engine import BodyState, Kind, Shape
 from mrlab_ros.core.physics.events import (
     CollisionChanged,
     Contact,
@@ -29,6 +30,11 @@ from mrlab_ros.messages.poses import pose_from_message, pose_to_message
 from mrlab_ros.messages.time import make_header, time_from_message, time_to_message
 
 WORLD = "world"
+PRIMITIVES = {
+    Shape.BOX: SolidPrimitive.BOX,
+    Shape.CYLINDER: SolidPrimitive.CYLINDER,
+    Shape.SPHERE: SolidPrimitive.SPHERE,
+}
 
 
 def playing_from_message(message: msg.PlaybackState) -> Playing:
@@ -131,6 +137,7 @@ def object_to_message(thing: SceneObject, motion: BodyState) -> msg.SceneObject:
         mass=kind.mass,
         color=_color(kind),
         mesh=kind.mesh,
+        primitive=primitive_to_message(kind),
         held_by=thing.held_by,
     )
 
@@ -143,7 +150,18 @@ def type_to_message(kind: ObjectType) -> msg.ObjectType:
         mass=kind.mass,
         color=_color(kind),
         mesh=kind.mesh,
+        primitive=primitive_to_message(kind),
     )
+
+
+def primitive_to_message(kind: ObjectType) -> SolidPrimitive:
+    """Return the shape of an object; type 0 where it is none that a SolidPrimitive can be."""
+    solid = kind.solid
+    if solid is None:
+        return SolidPrimitive()
+    # The order of the dimensions is that of shape_msgs: height before radius.
+    size = solid.size[::-1] if solid.shape is Shape.CYLINDER else solid.size
+    return SolidPrimitive(type=PRIMITIVES[solid.shape], dimensions=size)
 
 
 def surface_to_message(surface: Surface) -> msg.Surface:

@@ -44,6 +44,7 @@ GRAPH = {
     "rclpy",
     "rosidl_runtime_py",
     "sensor_msgs",
+    "shape_msgs",
     "std_msgs",
     "std_srvs",
     "tf2_msgs",

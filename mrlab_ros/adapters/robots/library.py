@@ -70,7 +70,7 @@ class RobotLibrary:
         if not end_effector:
             return text
         robot = urdf.parse(text, f"{robot_id}/robot.urdf")
-        tool = self._end_effector(end_effector)
+        tool = self.end_effector(end_effector)
         facts = self.facts(robot_id)
         return _composed(robot, tool, facts, end_effector)
 
@@ -85,6 +85,15 @@ class RobotLibrary:
         place = uri.removeprefix(MESH_PREFIX)
         own = self.folder / place
         return own if own.is_file() else self.imported / place
+
+    def end_effector(self, end_effector: str) -> ET.Element:
+        """Return the URDF of an end effector; raise BadInput that names the known ids."""
+        path = self._end_effector_folder(end_effector) / "end_effector.urdf"
+        return urdf.parse(_read(path), str(path))
+
+    def end_effector_facts(self, end_effector: str) -> dict[str, Any]:
+        """Return the content of end_effector.yaml."""
+        return read_yaml(self._end_effector_folder(end_effector) / "end_effector.yaml")
 
     def collision_description(self, robot_id: str, end_effector: str | None = None) -> str:
         """Return the URDF without visuals and with mesh paths in place of URIs.
@@ -142,15 +151,14 @@ class RobotLibrary:
         own = self.folder / robot_id
         return own if own.is_dir() else self.imported / robot_id
 
-    def _end_effector(self, end_effector: str) -> ET.Element:
+    def _end_effector_folder(self, end_effector: str) -> Path:
         known = self.end_effectors()
         if end_effector not in known:
             raise BadInput(
                 f"there is no end effector '{end_effector}'; known are: {', '.join(known)}; "
                 f"leave it empty for a bare flange{did_you_mean(end_effector, known)}"
             )
-        path = self.folder / END_EFFECTORS / end_effector / "end_effector.urdf"
-        return urdf.parse(_read(path), str(path))
+        return self.folder / END_EFFECTORS / end_effector
 
     def _read_model(self, robot_id: str) -> RobotModel:
         folder = self._robot_folder(robot_id)

@@ -13,6 +13,7 @@ from dataclasses import dataclass
 from enum import Enum
 from typing import Any
 
+from mrlab_ros.core.bridge.assets import ASSETS, SCHEMA
 from mrlab_ros.core.bridge.rules import (
     Direction,
     Role,
@@ -116,6 +117,7 @@ def role_rules(rules: Rules, role: Role, prefix: str = "") -> list[dict[str, Any
     published, published_not = _divided(messages, prefix)
     histories = [f"{key}/@adv/**" for key in published]
     seen = [TOKENS, history]
+    answered = [*queries, *_asset_keys(prefix), statistics, history]
     found: list[dict[str, Any]] = []
 
     def rule(
@@ -134,9 +136,9 @@ def role_rules(rules: Rules, role: Role, prefix: str = "") -> list[dict[str, Any
 
     rule("subscribes", "ingress", ["declare_subscriber"], [everything, history])
     rule("receives", "egress", ["put"], [everything, history])
-    rule("queries", "ingress", ["query"], [*queries, statistics, history])
+    rule("queries", "ingress", ["query"], answered)
     rule("queries_not", "ingress", ["query"], queries_not, "deny")
-    rule("finds_queryables", "egress", ["declare_queryable"], [*queries, statistics, history])
+    rule("finds_queryables", "egress", ["declare_queryable"], answered)
     rule("receives_replies", "egress", ["reply"], [everything, statistics, history])
     rule("watches_tokens", "ingress", ["liveliness_query", "declare_liveliness_subscriber"], seen)
     rule("receives_tokens", "egress", ["liveliness_token"], seen)
@@ -157,6 +159,11 @@ def _all_keys(prefix: str) -> list[str]:
     A wildcard does not match parts that begin with @.
     """
     return [key_of(name, prefix) for name in ("/**", "/**/@adv/**", "/@mrlab/**")]
+
+
+def _asset_keys(prefix: str) -> list[str]:
+    """Return the keys of what a client draws and decodes with; everybody may get them."""
+    return [key_of(f"/{name}", prefix) for name in (f"{ASSETS}/**", SCHEMA)]
 
 
 def _lab_rule(prefix: str) -> dict[str, Any]:

@@ -181,6 +181,12 @@ class Rules:
     topics: tuple[TopicRule, ...] = ()
     services: tuple[ServiceRule, ...] = ()
 
+    @property
+    def types(self) -> tuple[str, ...]:
+        """Return the types that the rules name, sorted."""
+        named = {*(rule.type for rule in self.topics), *(rule.type for rule in self.services)}
+        return tuple(sorted(named - {""}))
+
     def topic(self, name: str, type_name: str) -> TopicRule | None:
         return _first(self.topics, name, type_name)
 

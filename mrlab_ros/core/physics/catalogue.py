@@ -21,7 +21,7 @@ from mrlab_ros.core.geometry import (
     subtract,
 )
 from mrlab_ros.core.naming import did_you_mean
-from mrlab_ros.core.physics.engine import Body, Part, Shape
+from mrlab_ros.core.physics.engine import IDENTITY, Body, Part, Shape
 from mrlab_ros.core.records import (
     FLAG,
     NAME,
@@ -54,6 +54,8 @@ RESTITUTION = Number(between(0.0, 1.0))
 COLOR = Numbers(4, between(0.0, 1.0), "red, green, blue, alpha")
 # More corners cost time at every step and make the hull no better.
 HULL_CORNERS = 128
+# URI of the mesh that the lab draws of an object of several parts that has none; see drawing.glb.
+DRAWN = "package://mrlab_ros/objects/{}.glb"
 
 
 @dataclass(frozen=True, eq=False)
@@ -77,7 +79,7 @@ class ObjectType:
     """One entry of the catalogue.
 
     body: its parts about its centre of mass. low, high: corners of its bounding box in its own
-    frame, m. color: red, green, blue, alpha, 0 to 1. mesh: URI for displays, or empty.
+    frame, m. color: red, green, blue, alpha, 0 to 1. mesh: URI for displays; empty: draw `solid`.
     """
 
     id: str
@@ -95,6 +97,11 @@ class ObjectType:
     @property
     def mass(self) -> float:
         return self.body.mass
+
+    @property
+    def solid(self) -> Part | None:
+        """Return its shape where that is one box, cylinder or sphere at its origin."""
+        return _solid(self.body.parts)
 
 
 class Catalogue:
@@ -160,9 +167,14 @@ def _type(name: object, value: object, meshes: Meshes | None) -> ObjectType:
         low=_corner(min, [b[0] for b in boxes]),
         high=_corner(max, [b[1] for b in boxes]),
         color=(red, green, blue, alpha),
-        mesh=uri,
+        mesh=uri or ("" if _solid(parts) else DRAWN.format(type_id)),
         about=entry.value("about", TEXT, ""),
     )
+
+
+def _solid(parts: Sequence[Part]) -> Part | None:
+    only = parts[0] if len(parts) == 1 else None
+    return only if only and only.shape in SIZES and only.pose == IDENTITY else None
 
 
 def _of_mesh(mesh: Mesh, fixed: bool) -> Part:

@@ -32,6 +32,7 @@ from mrlab_ros.core.errors import BadInput
 from mrlab_ros.messages import qos
 from mrlab_ros.messages.latency import latency_to_message
 from mrlab_ros.nodes import parameters
+from mrlab_ros.nodes.bridge.assets import AssetRoutes
 from mrlab_ros.nodes.bridge.context import BridgeContext
 from mrlab_ros.nodes.bridge.inward import Inward
 from mrlab_ros.nodes.bridge.outward import Outward
@@ -87,6 +88,7 @@ class BridgeNode(ParameterNode[BridgeParameters]):
         self._outward = Outward(self._bridge, self._ledger)
         self._inward = Inward(self._bridge)
         self._service_routes = Services(self._bridge)
+        self._assets = AssetRoutes(self._bridge, share.directory(), self._rules.types)
         self._streams = SpunNode(streams)
         sys.setswitchinterval(SWITCH_INTERVAL_S)
         zid = self._session.zid
@@ -210,6 +212,7 @@ class BridgeNode(ParameterNode[BridgeParameters]):
         total = self.statistics()
         for declared in self._declared:
             declared.undeclare()
+        self._assets.stop()
         self._service_routes.stop()
         self._outward.stop()
         self._inward.keep({})

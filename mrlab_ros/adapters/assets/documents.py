@@ -1,0 +1,109 @@
+"""Documents about robots and objects for clients: what there is, and where its pictures are."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from mrlab_ros.adapters.assets.files import PACKAGE, THUMBNAIL, AssetFiles
+from mrlab_ros.adapters.robots import urdf
+from mrlab_ros.adapters.robots.library import END_EFFECTORS, TIP, RobotLibrary
+from mrlab_ros.core.bridge.assets import asset_key, key_of_uri
+from mrlab_ros.core.errors import LabError
+from mrlab_ros.core.physics.catalogue import Catalogue, ObjectType
+from mrlab_ros.core.robots.model import Joint
+
+
+def robots(library: RobotLibrary, files: AssetFiles) -> dict[str, Any]:
+    """Return what assets/robots.json says: all models and end effectors.
+
+    A model that cannot be read is left out and named in `problems`.
+    """
+    tools = library.end_effectors()
+    found, problems = [], []
+    for robot_id in library.ids():
+        try:
+            found.append(_robot(library, files, robot_id, tools))
+        except (LabError, KeyError, ValueError) as error:
+            problems.append(f"robot '{robot_id}' is left out: {error}")
+    return {
+        "robots": found,
+        "end_effectors": [_end_effector(library, files, tool) for tool in tools],
+        "problems": problems,
+    }
+
+
+def objects(catalogue: Catalogue, files: AssetFiles) -> dict[str, Any]:
+    """Return what assets/objects.json says: all types of objects."""
+    return {"objects": [_object(catalogue.get(kind), files) for kind in catalogue.ids]}
+
+
+def _robot(
+    library: RobotLibrary, files: AssetFiles, robot_id: str, tools: tuple[str, ...]
+) -> dict[str, Any]:
+    model, facts = library.model(robot_id), library.facts(robot_id)
+    origin = f"{robot_id}/robot.urdf"
+    root = urdf.parse(library.own_description(robot_id), origin)
+    kinds = {joint.name: joint.kind for joint in urdf.joints(root, origin)}
+    return {
+        "id": robot_id,
+        "name": f"{model.manufacturer} {model.product}",
+        "maker": model.manufacturer,
+        "product": model.product,
+        "class": model.robot_class,
+        "payload": model.payload,
+        "reach": model.reach,
+        "joints": [_joint(joint, kinds[joint.name]) for joint in model.joints],
+        "home": model.home.tolist(),
+        "tip_link": facts.get("tip_link", TIP),
+        "end_effectors": list(tools),
+        "thumbnail": _thumbnail(files, f"robots/{robot_id}/{THUMBNAIL}"),
+        "urdf": asset_key(f"robots/{robot_id}.urdf"),
+    }
+
+
+def _end_effector(library: RobotLibrary, files: AssetFiles, tool: str) -> dict[str, Any]:
+    facts = library.end_effector_facts(tool)
+    joints = urdf.joints(library.end_effector(tool), tool)
+    return {
+        "id": tool,
+        "name": str(facts["name"]),
+        "class": str(facts["class"]),
+        "stroke": float(facts["stroke"]),
+        "force": float(facts["force"]),
+        "joints": [
+            {**_joint(joint.limits(tool), joint.kind), "mimic": joint.mimic}
+            for joint in joints
+            if joint.moves
+        ],
+        "thumbnail": _thumbnail(files, f"robots/{END_EFFECTORS}/{tool}/{THUMBNAIL}"),
+    }
+
+
+def _joint(joint: Joint, kind: str) -> dict[str, Any]:
+    return {
+        "name": joint.name,
+        "kind": kind,
+        "lower": joint.lower,
+        "upper": joint.upper,
+        "max_velocity": joint.max_velocity,
+        "max_effort": joint.max_effort,
+    }
+
+
+def _object(kind: ObjectType, files: AssetFiles) -> dict[str, Any]:
+    solid = kind.solid
+    return {
+        "id": kind.id,
+        "about": kind.about,
+        "size": kind.size,
+        "mass": kind.mass,
+        "color": kind.color,
+        "shape": solid and {"kind": solid.shape.value, "size": solid.size},
+        "mesh": key_of_uri(kind.mesh) if kind.mesh else None,
+        "thumbnail": _thumbnail(files, f"config/objects/{kind.id}.webp"),
+    }
+
+
+def _thumbnail(files: AssetFiles, place: str) -> str | None:
+    path = f"{PACKAGE}/{place}"
+    return asset_key(path) if files.find(path) else None
