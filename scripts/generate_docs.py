@@ -7,12 +7,15 @@ import argparse
 import re
 import sys
 from collections.abc import Callable
+from functools import partial
 from pathlib import Path
 
 import design_tokens
 import parameters_page
 import protocol_page
+import protocol_vectors
 import roles_page
+import typescript_protocol
 
 from mrlab_ros.core import diagnostics
 from mrlab_ros.core.physics import grasp
@@ -47,6 +50,8 @@ FILES: dict[str, Callable[[], str]] = {
     "web/src/design/tokens.css": lambda: design_tokens.css(ROOT),
     "web/src/design/tokens.ts": lambda: design_tokens.typescript(ROOT),
     "config/zenoh/roles.json5": lambda: roles_page.current(ROOT),
+    protocol_vectors.FILE: lambda: protocol_vectors.current(ROOT),
+    **{path: partial(str, content) for path, content in typescript_protocol.files(ROOT).items()},
 }
 
 

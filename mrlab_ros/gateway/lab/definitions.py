@@ -31,10 +31,11 @@ class Definitions:
 
     texts: type name such as mrlab_msgs/msg/Robots or mrlab_msgs/srv/Seek -> text of its file.
     A request is named mrlab_msgs/srv/Seek_Request, a response mrlab_msgs/srv/Seek_Response.
+    store: rosbags' types; the halves of services are in msg/ there.
     """
 
     def __init__(self, texts: Mapping[str, str]) -> None:
-        self._store = get_typestore(Stores.ROS2_JAZZY)
+        self.store = get_typestore(Stores.ROS2_JAZZY)
         found: dict[str, Any] = {}
         for name, text in (STD_SRVS | dict(texts)).items():
             package, folder, kind = name.split("/")
@@ -45,8 +46,8 @@ class Definitions:
                 found |= _parsed(response, f"{package}/msg/{kind}_Response")
             else:
                 found |= _parsed(text, name)
-        known = self._store.fielddefs
-        self._store.register({name: entry for name, entry in found.items() if name not in known})
+        known = self.store.fielddefs
+        self.store.register({name: entry for name, entry in found.items() if name not in known})
 
     def encode(self, type_name: str, values: object) -> bytes:
         """Return the CDR, with its header, of a message or of a mapping: field -> value.
@@ -58,7 +59,7 @@ class Definitions:
         if isinstance(values, Mapping):
             values = self._filled(name, values)
         try:
-            return bytes(self._store.serialize_cdr(values, name))
+            return bytes(self.store.serialize_cdr(values, name))
         except Exception as error:
             raise BadInput(
                 f"{_short(values)} is no {type_name}: {error}; give each field a value of its type"
@@ -67,13 +68,13 @@ class Definitions:
     def decode(self, type_name: str, payload: bytes) -> Any:
         """Return the message, with its fields as attributes. Raises BadInput where it is none."""
         name = self._known(type_name)
-        definition = self._store.get_msgdef(name)
+        definition = self.store.get_msgdef(name)
         try:
             # Not deserialize_cdr: that refuses bytes behind the last field, and rclpy leaves
             # padding there.
             little = payload[1] & 1
             read = definition.deserialize_cdr_le if little else definition.deserialize_cdr_be
-            message, _ = read(memoryview(payload)[4:], 0, definition.cls, self._store)
+            message, _ = read(memoryview(payload)[4:], 0, definition.cls, self.store)
         except Exception as error:
             raise BadInput(
                 f"{len(payload)} bytes are no {type_name}: {error}; check that both sides have "
@@ -83,7 +84,7 @@ class Definitions:
 
     def _known(self, type_name: str) -> str:
         name = type_name.replace("/srv/", "/msg/")
-        if name not in self._store.fielddefs:
+        if name not in self.store.fielddefs:
             raise BadInput(
                 f"{type_name} is no known message type; expected a standard type or one of "
                 f"{PACKAGE}, such as {PACKAGE}/msg/Robots or {PACKAGE}/srv/Seek_Request"
@@ -91,7 +92,7 @@ class Definitions:
         return name
 
     def _filled(self, name: str, values: Mapping[str, Any]) -> Any:
-        fields = dict(self._store.get_msgdef(name).fields)
+        fields = dict(self.store.get_msgdef(name).fields)
         strangers = [key for key in values if key not in fields]
         if strangers:
             raise BadInput(
@@ -99,7 +100,7 @@ class Definitions:
                 f"{', '.join(field for field in fields if field != EMPTY) or 'none'}"
             )
         parts = {key: self._part(kind, values.get(key)) for key, kind in fields.items()}
-        return self._store.types[name](**parts)
+        return self.store.types[name](**parts)
 
     def _part(self, kind: Any, value: Any) -> Any:
         """Return `value` as a field holds it; None: zeros."""

@@ -41,6 +41,10 @@ export interface Sample {
 /** A generated codec of a message type (src/protocol/). */
 export interface MessageType<T> {
   readonly name: string
+  /** Return a message of zeros and empty texts, with `values` in it. */
+  create(values?: Partial<T>): T
+  /** Return the message; `into` is filled and returned where it is given, and what it holds is
+   * reused. Numbers of a message without `into` may be views of the payload. */
   decode(payload: Uint8Array, into?: T): T
   encode(message: T): Uint8Array
 }

@@ -1,0 +1,4084 @@
+// Generated from the message definitions by scripts/generate_docs.py.
+
+import type { MessageType, ServiceType } from '../link/link'
+import { type CdrReader, type CdrWriter, messageType } from './cdr'
+import { type Time, createTime, readTime, writeTime } from './builtin_interfaces'
+import { type Point, type Pose, type Twist, type Vector3, createPoint, createPose, createTwist, createVector3, readPoint, readPose, readTwist, readVector3, writePoint, writePose, writeTwist, writeVector3 } from './geometry_msgs'
+import { type SolidPrimitive, createSolidPrimitive, readSolidPrimitive, writeSolidPrimitive } from './shape_msgs'
+import { type ColorRGBA, type Header, createColorRGBA, createHeader, readColorRGBA, readHeader, writeColorRGBA, writeHeader } from './std_msgs'
+
+/** mrlab_msgs/srv/Attach_Request: Fix an object to a robot's gripper by hand. */
+export interface AttachRequest {
+  robot: string
+  object: string
+}
+
+export function createAttachRequest(): AttachRequest {
+  return {
+    robot: '',
+    object: '',
+  }
+}
+
+export function readAttachRequest(from: CdrReader, into: AttachRequest): void {
+  into.robot = from.string(into.robot)
+  into.object = from.string(into.object)
+}
+
+export function writeAttachRequest(to: CdrWriter, message: AttachRequest): void {
+  to.string(message.robot)
+  to.string(message.object)
+}
+
+export const attachRequestType: MessageType<AttachRequest> = /* @__PURE__ */ messageType(
+  'mrlab_msgs/srv/Attach_Request',
+  createAttachRequest,
+  readAttachRequest,
+  writeAttachRequest,
+)
+
+/** mrlab_msgs/srv/Attach_Response */
+export interface AttachResponse {
+  /** false: nothing was changed */
+  success: boolean
+  /** why not, or what was done */
+  message: string
+}
+
+export function createAttachResponse(): AttachResponse {
+  return {
+    success: false,
+    message: '',
+  }
+}
+
+export function readAttachResponse(from: CdrReader, into: AttachResponse): void {
+  into.success = from.bool()
+  into.message = from.string(into.message)
+}
+
+export function writeAttachResponse(to: CdrWriter, message: AttachResponse): void {
+  to.bool(message.success)
+  to.string(message.message)
+}
+
+export const attachResponseType: MessageType<AttachResponse> = /* @__PURE__ */ messageType(
+  'mrlab_msgs/srv/Attach_Response',
+  createAttachResponse,
+  readAttachResponse,
+  writeAttachResponse,
+)
+
+/** mrlab_msgs/msg/Candidate: A matrix in a workspace file that could be the trajectory. */
+export interface Candidate {
+  /** its path, written as in MATLAB, such as out.q.signals.values */
+  variable: string
+  /** as MATLAB's size() gives them */
+  rows: number
+  columns: number
+  /** smallest value, in the matrix's own unit */
+  minimum: number
+  /** largest value, in the matrix's own unit */
+  maximum: number
+  /** 0 to 1, larger is likelier */
+  score: number
+  /** what speaks for and against it */
+  why: string
+  /** some of its rows */
+  preview: Preview
+}
+
+export function createCandidate(): Candidate {
+  return {
+    variable: '',
+    rows: 0,
+    columns: 0,
+    minimum: 0,
+    maximum: 0,
+    score: 0,
+    why: '',
+    preview: createPreview(),
+  }
+}
+
+export function readCandidate(from: CdrReader, into: Candidate): void {
+  into.variable = from.string(into.variable)
+  into.rows = from.uint32()
+  into.columns = from.uint32()
+  into.minimum = from.float64()
+  into.maximum = from.float64()
+  into.score = from.float64()
+  into.why = from.string(into.why)
+  readPreview(from, into.preview)
+}
+
+export function writeCandidate(to: CdrWriter, message: Candidate): void {
+  to.string(message.variable)
+  to.uint32(message.rows)
+  to.uint32(message.columns)
+  to.float64(message.minimum)
+  to.float64(message.maximum)
+  to.float64(message.score)
+  to.string(message.why)
+  writePreview(to, message.preview)
+}
+
+export const candidateType: MessageType<Candidate> = /* @__PURE__ */ messageType(
+  'mrlab_msgs/msg/Candidate',
+  createCandidate,
+  readCandidate,
+  writeCandidate,
+)
+
+/** mrlab_msgs/msg/Collision: Whether a robot's arm touches something it should not. Latched; sent at each change. */
+export interface Collision {
+  /** frame_id is world */
+  header: Header
+  /** true: halt; false: clear, with the margin kept */
+  colliding: boolean
+  /** the first contact of this collision */
+  contact: Contact
+  /** m to the nearest thing, as far as physics looks; negative: overlap */
+  clearance: number
+}
+
+export function createCollision(): Collision {
+  return {
+    header: createHeader(),
+    colliding: false,
+    contact: createContact(),
+    clearance: 0,
+  }
+}
+
+export function readCollision(from: CdrReader, into: Collision): void {
+  readHeader(from, into.header)
+  into.colliding = from.bool()
+  readContact(from, into.contact)
+  into.clearance = from.float64()
+}
+
+export function writeCollision(to: CdrWriter, message: Collision): void {
+  writeHeader(to, message.header)
+  to.bool(message.colliding)
+  writeContact(to, message.contact)
+  to.float64(message.clearance)
+}
+
+export const collisionType: MessageType<Collision> = /* @__PURE__ */ messageType(
+  'mrlab_msgs/msg/Collision',
+  createCollision,
+  readCollision,
+  writeCollision,
+)
+
+/** mrlab_msgs/srv/CommandMembers_Request: How a robot system commands those of its members that one playback host plays: all orders at one instant, in order, up to the first that is refused. */
+export interface CommandMembersRequest {
+  /** name of the system; a member obeys only its own */
+  system: string
+  orders: DriveOrder[]
+}
+
+export function createCommandMembersRequest(): CommandMembersRequest {
+  return {
+    system: '',
+    orders: [],
+  }
+}
+
+export function readCommandMembersRequest(from: CdrReader, into: CommandMembersRequest): void {
+  into.system = from.string(into.system)
+  into.orders = from.messages(into.orders, createDriveOrder, readDriveOrder)
+}
+
+export function writeCommandMembersRequest(to: CdrWriter, message: CommandMembersRequest): void {
+  to.string(message.system)
+  to.messages(message.orders, writeDriveOrder)
+}
+
+export const commandMembersRequestType: MessageType<CommandMembersRequest> = /* @__PURE__ */ messageType(
+  'mrlab_msgs/srv/CommandMembers_Request',
+  createCommandMembersRequest,
+  readCommandMembersRequest,
+  writeCommandMembersRequest,
+)
+
+/** mrlab_msgs/srv/CommandMembers_Response */
+export interface CommandMembersResponse {
+  /** false: replies ends before the order that was refused */
+  success: boolean
+  /** why not */
+  message: string
+  /** when the orders were carried out */
+  stamp: Time
+  /** one for each order that was carried out */
+  replies: DriveReply[]
+}
+
+export function createCommandMembersResponse(): CommandMembersResponse {
+  return {
+    success: false,
+    message: '',
+    stamp: createTime(),
+    replies: [],
+  }
+}
+
+export function readCommandMembersResponse(from: CdrReader, into: CommandMembersResponse): void {
+  into.success = from.bool()
+  into.message = from.string(into.message)
+  readTime(from, into.stamp)
+  into.replies = from.messages(into.replies, createDriveReply, readDriveReply)
+}
+
+export function writeCommandMembersResponse(to: CdrWriter, message: CommandMembersResponse): void {
+  to.bool(message.success)
+  to.string(message.message)
+  writeTime(to, message.stamp)
+  to.messages(message.replies, writeDriveReply)
+}
+
+export const commandMembersResponseType: MessageType<CommandMembersResponse> = /* @__PURE__ */ messageType(
+  'mrlab_msgs/srv/CommandMembers_Response',
+  createCommandMembersResponse,
+  readCommandMembersResponse,
+  writeCommandMembersResponse,
+)
+
+/** mrlab_msgs/msg/Contact: One contact between a robot and something else. */
+export interface Contact {
+  stamp: Time
+  /** name of the robot */
+  robot: string
+  /** its link that touches */
+  link: string
+  /** what it touches: one of the constants above */
+  kind: number
+  /** name of the object, surface or robot */
+  other: string
+  /** link of the other robot, or of the same one; else empty */
+  other_link: string
+  /** in world, m */
+  point: Point
+  /** unit vector in world, from the other towards the robot */
+  normal: Vector3
+  /** m, positive: overlap */
+  depth: number
+  /** N*s of the physics step */
+  impulse: number
+  /** source frame of the robot's trajectory */
+  frame: number
+}
+
+export const Contact = {
+  /** a scene object */
+  OBJECT: 0,
+  /** the floor, or a surface of the room */
+  SURFACE: 1,
+  /** another robot */
+  ROBOT: 2,
+  /** a link of the same robot that is not its neighbour */
+  SELF: 3,
+} as const
+
+export function createContact(): Contact {
+  return {
+    stamp: createTime(),
+    robot: '',
+    link: '',
+    kind: 0,
+    other: '',
+    other_link: '',
+    point: createPoint(),
+    normal: createVector3(),
+    depth: 0,
+    impulse: 0,
+    frame: 0,
+  }
+}
+
+export function readContact(from: CdrReader, into: Contact): void {
+  readTime(from, into.stamp)
+  into.robot = from.string(into.robot)
+  into.link = from.string(into.link)
+  into.kind = from.uint8()
+  into.other = from.string(into.other)
+  into.other_link = from.string(into.other_link)
+  readPoint(from, into.point)
+  readVector3(from, into.normal)
+  into.depth = from.float64()
+  into.impulse = from.float64()
+  into.frame = from.uint32()
+}
+
+export function writeContact(to: CdrWriter, message: Contact): void {
+  writeTime(to, message.stamp)
+  to.string(message.robot)
+  to.string(message.link)
+  to.uint8(message.kind)
+  to.string(message.other)
+  to.string(message.other_link)
+  writePoint(to, message.point)
+  writeVector3(to, message.normal)
+  to.float64(message.depth)
+  to.float64(message.impulse)
+  to.uint32(message.frame)
+}
+
+export const contactType: MessageType<Contact> = /* @__PURE__ */ messageType(
+  'mrlab_msgs/msg/Contact',
+  createContact,
+  readContact,
+  writeContact,
+)
+
+/** mrlab_msgs/msg/Contacts: All contacts of one physics step. */
+export interface Contacts {
+  /** frame_id is world */
+  header: Header
+  contacts: Contact[]
+}
+
+export function createContacts(): Contacts {
+  return {
+    header: createHeader(),
+    contacts: [],
+  }
+}
+
+export function readContacts(from: CdrReader, into: Contacts): void {
+  readHeader(from, into.header)
+  into.contacts = from.messages(into.contacts, createContact, readContact)
+}
+
+export function writeContacts(to: CdrWriter, message: Contacts): void {
+  writeHeader(to, message.header)
+  to.messages(message.contacts, writeContact)
+}
+
+export const contactsType: MessageType<Contacts> = /* @__PURE__ */ messageType(
+  'mrlab_msgs/msg/Contacts',
+  createContacts,
+  readContacts,
+  writeContacts,
+)
+
+/** mrlab_msgs/srv/ConvertTrajectory_Request: Read a workspace file, find and check the trajectory, put it in the catalogue. */
+export interface ConvertTrajectoryRequest {
+  /** file on the lab's machine; empty: the file is in upload or data */
+  path: string
+  /** key of the file in the store; empty: the file is in data */
+  upload: string
+  /** the file's bytes, when path and upload are empty */
+  data: Uint8Array
+  /** name of the file in data */
+  file_name: string
+  /** id of the robot it is for, such as ur5e */
+  robot_model: string
+  /** id of the end effector; empty: none */
+  end_effector: string
+  /** Hz at which the rows were sampled; 0: taken from the file or the lab's default */
+  frame_rate: number
+  /** which variable, written as in MATLAB; empty: the converter finds it */
+  variable: string
+  /** which columns or rows hold the joints, as in MATLAB, such as 2:7; empty: all */
+  columns: string
+  /** true: samples are columns */
+  transpose: boolean
+  /** true: values are degrees */
+  degrees: boolean
+  /** true: jumps of 2*pi are removed */
+  unwrap: boolean
+  /** true: rows at uneven times become frames at an even rate */
+  resample: boolean
+  /** variables to put side by side (joints) or below one another (segments): q1..q6, or q1,q2,q3 */
+  join: string
+  /** column that holds the gripper, as in MATLAB, such as 1 or end; none: there is no gripper; empty: the column after the joints */
+  gripper: string
+  /** true: larger values of the gripper's column mean open */
+  invert: boolean
+  /** unit of the joints: rad, deg, counts:N with N counts a turn, or mm for joints in m; empty: rad */
+  units: string
+  /** name in the catalogue; empty: from the file's name */
+  id: string
+  /** user whose trajectory it becomes; empty: the lab's */
+  owner: string
+  /** key in the store under which an accepted trajectory is left; empty: it enters the catalogue at once */
+  draft: string
+  /** with an owner: true: everybody may see and load it */
+  shared: boolean
+}
+
+export function createConvertTrajectoryRequest(): ConvertTrajectoryRequest {
+  return {
+    path: '',
+    upload: '',
+    data: new Uint8Array(0),
+    file_name: '',
+    robot_model: '',
+    end_effector: '',
+    frame_rate: 0,
+    variable: '',
+    columns: '',
+    transpose: false,
+    degrees: false,
+    unwrap: false,
+    resample: false,
+    join: '',
+    gripper: '',
+    invert: false,
+    units: '',
+    id: '',
+    owner: '',
+    draft: '',
+    shared: false,
+  }
+}
+
+export function readConvertTrajectoryRequest(from: CdrReader, into: ConvertTrajectoryRequest): void {
+  into.path = from.string(into.path)
+  into.upload = from.string(into.upload)
+  into.data = from.uint8s(into.data)
+  into.file_name = from.string(into.file_name)
+  into.robot_model = from.string(into.robot_model)
+  into.end_effector = from.string(into.end_effector)
+  into.frame_rate = from.float64()
+  into.variable = from.string(into.variable)
+  into.columns = from.string(into.columns)
+  into.transpose = from.bool()
+  into.degrees = from.bool()
+  into.unwrap = from.bool()
+  into.resample = from.bool()
+  into.join = from.string(into.join)
+  into.gripper = from.string(into.gripper)
+  into.invert = from.bool()
+  into.units = from.string(into.units)
+  into.id = from.string(into.id)
+  into.owner = from.string(into.owner)
+  into.draft = from.string(into.draft)
+  into.shared = from.bool()
+}
+
+export function writeConvertTrajectoryRequest(to: CdrWriter, message: ConvertTrajectoryRequest): void {
+  to.string(message.path)
+  to.string(message.upload)
+  to.uint8s(message.data)
+  to.string(message.file_name)
+  to.string(message.robot_model)
+  to.string(message.end_effector)
+  to.float64(message.frame_rate)
+  to.string(message.variable)
+  to.string(message.columns)
+  to.bool(message.transpose)
+  to.bool(message.degrees)
+  to.bool(message.unwrap)
+  to.bool(message.resample)
+  to.string(message.join)
+  to.string(message.gripper)
+  to.bool(message.invert)
+  to.string(message.units)
+  to.string(message.id)
+  to.string(message.owner)
+  to.string(message.draft)
+  to.bool(message.shared)
+}
+
+export const convertTrajectoryRequestType: MessageType<ConvertTrajectoryRequest> = /* @__PURE__ */ messageType(
+  'mrlab_msgs/srv/ConvertTrajectory_Request',
+  createConvertTrajectoryRequest,
+  readConvertTrajectoryRequest,
+  writeConvertTrajectoryRequest,
+)
+
+/** mrlab_msgs/srv/ConvertTrajectory_Response */
+export interface ConvertTrajectoryResponse {
+  /** true: ACCEPTED */
+  success: boolean
+  /** one sentence for a person */
+  message: string
+  /** one of the constants above */
+  outcome: number
+  /** meaningful only where ACCEPTED */
+  trajectory: TrajectoryInfo
+  /** likeliest first */
+  candidates: Candidate[]
+  /** all findings, worst first */
+  diagnostics: Diagnostic[]
+  /** of the matrix that was refused, where one was found */
+  preview: Preview
+}
+
+export const ConvertTrajectoryResponse = {
+  REJECTED: 0,
+  ACCEPTED: 1,
+  /** choose one of candidates and ask again with variable */
+  AMBIGUOUS: 2,
+} as const
+
+export function createConvertTrajectoryResponse(): ConvertTrajectoryResponse {
+  return {
+    success: false,
+    message: '',
+    outcome: 0,
+    trajectory: createTrajectoryInfo(),
+    candidates: [],
+    diagnostics: [],
+    preview: createPreview(),
+  }
+}
+
+export function readConvertTrajectoryResponse(from: CdrReader, into: ConvertTrajectoryResponse): void {
+  into.success = from.bool()
+  into.message = from.string(into.message)
+  into.outcome = from.uint8()
+  readTrajectoryInfo(from, into.trajectory)
+  into.candidates = from.messages(into.candidates, createCandidate, readCandidate)
+  into.diagnostics = from.messages(into.diagnostics, createDiagnostic, readDiagnostic)
+  readPreview(from, into.preview)
+}
+
+export function writeConvertTrajectoryResponse(to: CdrWriter, message: ConvertTrajectoryResponse): void {
+  to.bool(message.success)
+  to.string(message.message)
+  to.uint8(message.outcome)
+  writeTrajectoryInfo(to, message.trajectory)
+  to.messages(message.candidates, writeCandidate)
+  to.messages(message.diagnostics, writeDiagnostic)
+  writePreview(to, message.preview)
+}
+
+export const convertTrajectoryResponseType: MessageType<ConvertTrajectoryResponse> = /* @__PURE__ */ messageType(
+  'mrlab_msgs/srv/ConvertTrajectory_Response',
+  createConvertTrajectoryResponse,
+  readConvertTrajectoryResponse,
+  writeConvertTrajectoryResponse,
+)
+
+/** mrlab_msgs/srv/CreateSystem_Request: Make a robot system. */
+export interface CreateSystemRequest {
+  /** wanted name; empty: system and a number */
+  name: string
+  /** robot, trajectory_id, dwell and waits are read */
+  members: SystemMember[]
+  /** as in RobotSystem */
+  mode: number
+  /** as in RobotSystem */
+  policy: number
+  loop: boolean
+}
+
+export function createCreateSystemRequest(): CreateSystemRequest {
+  return {
+    name: '',
+    members: [],
+    mode: 0,
+    policy: 0,
+    loop: false,
+  }
+}
+
+export function readCreateSystemRequest(from: CdrReader, into: CreateSystemRequest): void {
+  into.name = from.string(into.name)
+  into.members = from.messages(into.members, createSystemMember, readSystemMember)
+  into.mode = from.uint8()
+  into.policy = from.uint8()
+  into.loop = from.bool()
+}
+
+export function writeCreateSystemRequest(to: CdrWriter, message: CreateSystemRequest): void {
+  to.string(message.name)
+  to.messages(message.members, writeSystemMember)
+  to.uint8(message.mode)
+  to.uint8(message.policy)
+  to.bool(message.loop)
+}
+
+export const createSystemRequestType: MessageType<CreateSystemRequest> = /* @__PURE__ */ messageType(
+  'mrlab_msgs/srv/CreateSystem_Request',
+  createCreateSystemRequest,
+  readCreateSystemRequest,
+  writeCreateSystemRequest,
+)
+
+/** mrlab_msgs/srv/CreateSystem_Response */
+export interface CreateSystemResponse {
+  /** false: nothing was changed */
+  success: boolean
+  /** why not */
+  message: string
+  /** meaningful only on success */
+  system: RobotSystem
+}
+
+export function createCreateSystemResponse(): CreateSystemResponse {
+  return {
+    success: false,
+    message: '',
+    system: createRobotSystem(),
+  }
+}
+
+export function readCreateSystemResponse(from: CdrReader, into: CreateSystemResponse): void {
+  into.success = from.bool()
+  into.message = from.string(into.message)
+  readRobotSystem(from, into.system)
+}
+
+export function writeCreateSystemResponse(to: CdrWriter, message: CreateSystemResponse): void {
+  to.bool(message.success)
+  to.string(message.message)
+  writeRobotSystem(to, message.system)
+}
+
+export const createSystemResponseType: MessageType<CreateSystemResponse> = /* @__PURE__ */ messageType(
+  'mrlab_msgs/srv/CreateSystem_Response',
+  createCreateSystemResponse,
+  readCreateSystemResponse,
+  writeCreateSystemResponse,
+)
+
+/** mrlab_msgs/srv/Detach_Request: Let a robot's gripper lose what it holds. */
+export interface DetachRequest {
+  robot: string
+}
+
+export function createDetachRequest(): DetachRequest {
+  return {
+    robot: '',
+  }
+}
+
+export function readDetachRequest(from: CdrReader, into: DetachRequest): void {
+  into.robot = from.string(into.robot)
+}
+
+export function writeDetachRequest(to: CdrWriter, message: DetachRequest): void {
+  to.string(message.robot)
+}
+
+export const detachRequestType: MessageType<DetachRequest> = /* @__PURE__ */ messageType(
+  'mrlab_msgs/srv/Detach_Request',
+  createDetachRequest,
+  readDetachRequest,
+  writeDetachRequest,
+)
+
+/** mrlab_msgs/srv/Detach_Response */
+export interface DetachResponse {
+  /** false: nothing was changed */
+  success: boolean
+  /** why not, or what was done */
+  message: string
+}
+
+export function createDetachResponse(): DetachResponse {
+  return {
+    success: false,
+    message: '',
+  }
+}
+
+export function readDetachResponse(from: CdrReader, into: DetachResponse): void {
+  into.success = from.bool()
+  into.message = from.string(into.message)
+}
+
+export function writeDetachResponse(to: CdrWriter, message: DetachResponse): void {
+  to.bool(message.success)
+  to.string(message.message)
+}
+
+export const detachResponseType: MessageType<DetachResponse> = /* @__PURE__ */ messageType(
+  'mrlab_msgs/srv/Detach_Response',
+  createDetachResponse,
+  readDetachResponse,
+  writeDetachResponse,
+)
+
+/** mrlab_msgs/msg/Diagnostic: One finding about a workspace file, a trajectory or a robot, for a person to act on. docs/diagnostics.md lists every code. */
+export interface Diagnostic {
+  /** one of the constants above */
+  severity: number
+  /** stable name for programs, such as joint_limit */
+  code: string
+  /** what was found and what was expected, in plain words */
+  message: string
+  /** what to do next, in MATLAB where that is where to do it; may be empty */
+  remedy: string
+  /** variable in the workspace, written as in MATLAB; empty: the whole file */
+  variable: string
+  /** place inside the variable, such as "row 12, column 3"; may be empty */
+  where: string
+  /** first row of the variable that it applies to, counted from 1 as in MATLAB; 0: no rows */
+  first_row: number
+  /** last of these rows; 0: no rows */
+  last_row: number
+  /** joint of the robot that it applies to; empty: no single joint */
+  joint: string
+  /** what was found there, in unit; NaN: no number */
+  value: number
+  /** what it was compared with, in unit; NaN: no number */
+  limit: number
+  /** of value and limit: rad, rad/s, s, Hz; empty: that of the variable, or none */
+  unit: string
+  /** ways to mend it, the likeliest first; may be empty */
+  fixes: Fix[]
+}
+
+export const Diagnostic = {
+  /** good to know, nothing to do */
+  INFO: 0,
+  /** accepted, but doubtful */
+  WARNING: 1,
+  /** refused */
+  ERROR: 2,
+} as const
+
+export function createDiagnostic(): Diagnostic {
+  return {
+    severity: 0,
+    code: '',
+    message: '',
+    remedy: '',
+    variable: '',
+    where: '',
+    first_row: 0,
+    last_row: 0,
+    joint: '',
+    value: 0,
+    limit: 0,
+    unit: '',
+    fixes: [],
+  }
+}
+
+export function readDiagnostic(from: CdrReader, into: Diagnostic): void {
+  into.severity = from.uint8()
+  into.code = from.string(into.code)
+  into.message = from.string(into.message)
+  into.remedy = from.string(into.remedy)
+  into.variable = from.string(into.variable)
+  into.where = from.string(into.where)
+  into.first_row = from.uint32()
+  into.last_row = from.uint32()
+  into.joint = from.string(into.joint)
+  into.value = from.float64()
+  into.limit = from.float64()
+  into.unit = from.string(into.unit)
+  into.fixes = from.messages(into.fixes, createFix, readFix)
+}
+
+export function writeDiagnostic(to: CdrWriter, message: Diagnostic): void {
+  to.uint8(message.severity)
+  to.string(message.code)
+  to.string(message.message)
+  to.string(message.remedy)
+  to.string(message.variable)
+  to.string(message.where)
+  to.uint32(message.first_row)
+  to.uint32(message.last_row)
+  to.string(message.joint)
+  to.float64(message.value)
+  to.float64(message.limit)
+  to.string(message.unit)
+  to.messages(message.fixes, writeFix)
+}
+
+export const diagnosticType: MessageType<Diagnostic> = /* @__PURE__ */ messageType(
+  'mrlab_msgs/msg/Diagnostic',
+  createDiagnostic,
+  readDiagnostic,
+  writeDiagnostic,
+)
+
+/** mrlab_msgs/msg/DriveOrder: One command of a robot system to one of its members. */
+export interface DriveOrder {
+  robot: string
+  /** one of the constants above */
+  command: number
+  /** of PLAY and SET_RATE: when, on the lab's clock; zero: at once */
+  stamp: Time
+  /** of STAGE and SEEK: s on the member's trajectory */
+  position: number
+  /** of PLAY and SET_RATE: 0.1 to 4 */
+  rate: number
+  /** of PLAY and HOLD: s at which to wait in PAUSED; 0: play to the end */
+  until: number
+}
+
+export const DriveOrder = {
+  /** from now on only this system commands the robot */
+  CLAIM: 0,
+  /** the robot is independent again, paused where it is */
+  RELEASE: 1,
+  /** move to the place position on the trajectory, then wait */
+  STAGE: 2,
+  /** play with the clock pair (stamp, position) */
+  PLAY: 3,
+  /** stand still */
+  PAUSE: 4,
+  /** end the run: READY to play from the first frame */
+  STOP: 5,
+  /** stand at position */
+  SEEK: 6,
+  /** play at rate from stamp on, which may lie a little in the past */
+  SET_RATE: 7,
+  /** wait at until instead of where PLAY said */
+  HOLD: 8,
+} as const
+
+export function createDriveOrder(): DriveOrder {
+  return {
+    robot: '',
+    command: 0,
+    stamp: createTime(),
+    position: 0,
+    rate: 0,
+    until: 0,
+  }
+}
+
+export function readDriveOrder(from: CdrReader, into: DriveOrder): void {
+  into.robot = from.string(into.robot)
+  into.command = from.uint8()
+  readTime(from, into.stamp)
+  into.position = from.float64()
+  into.rate = from.float64()
+  into.until = from.float64()
+}
+
+export function writeDriveOrder(to: CdrWriter, message: DriveOrder): void {
+  to.string(message.robot)
+  to.uint8(message.command)
+  writeTime(to, message.stamp)
+  to.float64(message.position)
+  to.float64(message.rate)
+  to.float64(message.until)
+}
+
+export const driveOrderType: MessageType<DriveOrder> = /* @__PURE__ */ messageType(
+  'mrlab_msgs/msg/DriveOrder',
+  createDriveOrder,
+  readDriveOrder,
+  writeDriveOrder,
+)
+
+/** mrlab_msgs/msg/DriveReply: What a member of a robot system says after an order. */
+export interface DriveReply {
+  robot: string
+  /** a state of PlaybackState */
+  state: number
+  /** s on its trajectory */
+  position: number
+  /** s that STAGE will take */
+  duration: number
+  /** loaded trajectory; empty: none */
+  trajectory_id: string
+  /** s */
+  trajectory_duration: number
+  /** Hz */
+  frame_rate: number
+}
+
+export function createDriveReply(): DriveReply {
+  return {
+    robot: '',
+    state: 0,
+    position: 0,
+    duration: 0,
+    trajectory_id: '',
+    trajectory_duration: 0,
+    frame_rate: 0,
+  }
+}
+
+export function readDriveReply(from: CdrReader, into: DriveReply): void {
+  into.robot = from.string(into.robot)
+  into.state = from.uint8()
+  into.position = from.float64()
+  into.duration = from.float64()
+  into.trajectory_id = from.string(into.trajectory_id)
+  into.trajectory_duration = from.float64()
+  into.frame_rate = from.float64()
+}
+
+export function writeDriveReply(to: CdrWriter, message: DriveReply): void {
+  to.string(message.robot)
+  to.uint8(message.state)
+  to.float64(message.position)
+  to.float64(message.duration)
+  to.string(message.trajectory_id)
+  to.float64(message.trajectory_duration)
+  to.float64(message.frame_rate)
+}
+
+export const driveReplyType: MessageType<DriveReply> = /* @__PURE__ */ messageType(
+  'mrlab_msgs/msg/DriveReply',
+  createDriveReply,
+  readDriveReply,
+  writeDriveReply,
+)
+
+/** mrlab_msgs/msg/Fix: One way to mend what a Diagnostic found: an option of ConvertTrajectory, a line of MATLAB, or either of them. A button sets the option and converts again. */
+export interface Fix {
+  /** field of the request of ConvertTrajectory, such as columns; empty: only MATLAB mends it */
+  option: string
+  /** what to set the option to, as text: "2:7", "true", "100", "deg"; empty without option */
+  value: string
+  /** statements that do the same in MATLAB, such as q = unwrap(q); may be empty */
+  matlab: string
+}
+
+export function createFix(): Fix {
+  return {
+    option: '',
+    value: '',
+    matlab: '',
+  }
+}
+
+export function readFix(from: CdrReader, into: Fix): void {
+  into.option = from.string(into.option)
+  into.value = from.string(into.value)
+  into.matlab = from.string(into.matlab)
+}
+
+export function writeFix(to: CdrWriter, message: Fix): void {
+  to.string(message.option)
+  to.string(message.value)
+  to.string(message.matlab)
+}
+
+export const fixType: MessageType<Fix> = /* @__PURE__ */ messageType(
+  'mrlab_msgs/msg/Fix',
+  createFix,
+  readFix,
+  writeFix,
+)
+
+/** mrlab_msgs/srv/GetObjects_Request: Read all objects and surfaces at one instant, as set_objects takes them. */
+export type GetObjectsRequest = Record<string, never>
+
+export function createGetObjectsRequest(): GetObjectsRequest {
+  return {}
+}
+
+export function readGetObjectsRequest(from: CdrReader, _: GetObjectsRequest): void {
+  from.uint8()
+}
+
+export function writeGetObjectsRequest(to: CdrWriter, _: GetObjectsRequest): void {
+  to.uint8(0)
+}
+
+export const getObjectsRequestType: MessageType<GetObjectsRequest> = /* @__PURE__ */ messageType(
+  'mrlab_msgs/srv/GetObjects_Request',
+  createGetObjectsRequest,
+  readGetObjectsRequest,
+  writeGetObjectsRequest,
+)
+
+/** mrlab_msgs/srv/GetObjects_Response */
+export interface GetObjectsResponse {
+  objects: ObjectPlacement[]
+  surfaces: Surface[]
+}
+
+export function createGetObjectsResponse(): GetObjectsResponse {
+  return {
+    objects: [],
+    surfaces: [],
+  }
+}
+
+export function readGetObjectsResponse(from: CdrReader, into: GetObjectsResponse): void {
+  into.objects = from.messages(into.objects, createObjectPlacement, readObjectPlacement)
+  into.surfaces = from.messages(into.surfaces, createSurface, readSurface)
+}
+
+export function writeGetObjectsResponse(to: CdrWriter, message: GetObjectsResponse): void {
+  to.messages(message.objects, writeObjectPlacement)
+  to.messages(message.surfaces, writeSurface)
+}
+
+export const getObjectsResponseType: MessageType<GetObjectsResponse> = /* @__PURE__ */ messageType(
+  'mrlab_msgs/srv/GetObjects_Response',
+  createGetObjectsResponse,
+  readGetObjectsResponse,
+  writeGetObjectsResponse,
+)
+
+/** mrlab_msgs/srv/GetTrajectory_Request: Fetch a trajectory: all of its frames, some of them, or the name of the file that holds them. */
+export interface GetTrajectoryRequest {
+  id: string
+  /** true: frames are left out of the answer where it names a file */
+  file_only: boolean
+  /** first frame of the answer, from 0 */
+  begin: number
+  /** number of frames in the answer, at most; 0: all from begin on */
+  count: number
+}
+
+export function createGetTrajectoryRequest(): GetTrajectoryRequest {
+  return {
+    id: '',
+    file_only: false,
+    begin: 0,
+    count: 0,
+  }
+}
+
+export function readGetTrajectoryRequest(from: CdrReader, into: GetTrajectoryRequest): void {
+  into.id = from.string(into.id)
+  into.file_only = from.bool()
+  into.begin = from.uint32()
+  into.count = from.uint32()
+}
+
+export function writeGetTrajectoryRequest(to: CdrWriter, message: GetTrajectoryRequest): void {
+  to.string(message.id)
+  to.bool(message.file_only)
+  to.uint32(message.begin)
+  to.uint32(message.count)
+}
+
+export const getTrajectoryRequestType: MessageType<GetTrajectoryRequest> = /* @__PURE__ */ messageType(
+  'mrlab_msgs/srv/GetTrajectory_Request',
+  createGetTrajectoryRequest,
+  readGetTrajectoryRequest,
+  writeGetTrajectoryRequest,
+)
+
+/** mrlab_msgs/srv/GetTrajectory_Response */
+export interface GetTrajectoryResponse {
+  success: boolean
+  /** why not */
+  message: string
+  /** meaningful only on success; info describes the whole trajectory */
+  trajectory: Trajectory
+  /** path on the lab's machine, numpy's npz with the matrices; empty: none */
+  file: string
+}
+
+export function createGetTrajectoryResponse(): GetTrajectoryResponse {
+  return {
+    success: false,
+    message: '',
+    trajectory: createTrajectory(),
+    file: '',
+  }
+}
+
+export function readGetTrajectoryResponse(from: CdrReader, into: GetTrajectoryResponse): void {
+  into.success = from.bool()
+  into.message = from.string(into.message)
+  readTrajectory(from, into.trajectory)
+  into.file = from.string(into.file)
+}
+
+export function writeGetTrajectoryResponse(to: CdrWriter, message: GetTrajectoryResponse): void {
+  to.bool(message.success)
+  to.string(message.message)
+  writeTrajectory(to, message.trajectory)
+  to.string(message.file)
+}
+
+export const getTrajectoryResponseType: MessageType<GetTrajectoryResponse> = /* @__PURE__ */ messageType(
+  'mrlab_msgs/srv/GetTrajectory_Response',
+  createGetTrajectoryResponse,
+  readGetTrajectoryResponse,
+  writeGetTrajectoryResponse,
+)
+
+/** mrlab_msgs/msg/Grasp: What a robot's gripper does. Latched; sent at each change. */
+export interface Grasp {
+  /** frame_id is the robot's tool0 */
+  header: Header
+  /** one of the constants above */
+  state: number
+  /** held object; empty unless HOLDING */
+  object: string
+  /** finger joints of the end effector */
+  fingers: string[]
+  /** m or rad, in the order of fingers */
+  finger_positions: Float64Array
+  /** N or N*m, in the order of fingers */
+  finger_forces: Float64Array
+}
+
+export const Grasp = {
+  /** open, or opening */
+  OPEN: 0,
+  /** fingers move, nothing held yet */
+  CLOSING: 1,
+  /** an object is attached */
+  HOLDING: 2,
+  /** closed on nothing */
+  EMPTY: 3,
+} as const
+
+export function createGrasp(): Grasp {
+  return {
+    header: createHeader(),
+    state: 0,
+    object: '',
+    fingers: [],
+    finger_positions: new Float64Array(0),
+    finger_forces: new Float64Array(0),
+  }
+}
+
+export function readGrasp(from: CdrReader, into: Grasp): void {
+  readHeader(from, into.header)
+  into.state = from.uint8()
+  into.object = from.string(into.object)
+  into.fingers = from.strings(into.fingers)
+  into.finger_positions = from.float64s(into.finger_positions)
+  into.finger_forces = from.float64s(into.finger_forces)
+}
+
+export function writeGrasp(to: CdrWriter, message: Grasp): void {
+  writeHeader(to, message.header)
+  to.uint8(message.state)
+  to.string(message.object)
+  to.strings(message.fingers)
+  to.float64s(message.finger_positions)
+  to.float64s(message.finger_forces)
+}
+
+export const graspType: MessageType<Grasp> = /* @__PURE__ */ messageType(
+  'mrlab_msgs/msg/Grasp',
+  createGrasp,
+  readGrasp,
+  writeGrasp,
+)
+
+/** mrlab_msgs/msg/GraspTarget: A frame at which the trajectory opens or closes the gripper. */
+export interface GraspTarget {
+  /** the first frame with the new gripper state */
+  frame: number
+  /** s from the first frame */
+  time: number
+  /** true closes, false opens */
+  close: boolean
+  /** pose of tool0 in the robot's base_link at that frame, m */
+  tool0: Pose
+}
+
+export function createGraspTarget(): GraspTarget {
+  return {
+    frame: 0,
+    time: 0,
+    close: false,
+    tool0: createPose(),
+  }
+}
+
+export function readGraspTarget(from: CdrReader, into: GraspTarget): void {
+  into.frame = from.uint32()
+  into.time = from.float64()
+  into.close = from.bool()
+  readPose(from, into.tool0)
+}
+
+export function writeGraspTarget(to: CdrWriter, message: GraspTarget): void {
+  to.uint32(message.frame)
+  to.float64(message.time)
+  to.bool(message.close)
+  writePose(to, message.tool0)
+}
+
+export const graspTargetType: MessageType<GraspTarget> = /* @__PURE__ */ messageType(
+  'mrlab_msgs/msg/GraspTarget',
+  createGraspTarget,
+  readGraspTarget,
+  writeGraspTarget,
+)
+
+/** mrlab_msgs/msg/GraspTargets: Where the loaded trajectory grasps and releases. Latched; empty without a gripper. */
+export interface GraspTargets {
+  /** frame_id is the robot's base_link */
+  header: Header
+  trajectory_id: string
+  /** in order of time */
+  targets: GraspTarget[]
+}
+
+export function createGraspTargets(): GraspTargets {
+  return {
+    header: createHeader(),
+    trajectory_id: '',
+    targets: [],
+  }
+}
+
+export function readGraspTargets(from: CdrReader, into: GraspTargets): void {
+  readHeader(from, into.header)
+  into.trajectory_id = from.string(into.trajectory_id)
+  into.targets = from.messages(into.targets, createGraspTarget, readGraspTarget)
+}
+
+export function writeGraspTargets(to: CdrWriter, message: GraspTargets): void {
+  writeHeader(to, message.header)
+  to.string(message.trajectory_id)
+  to.messages(message.targets, writeGraspTarget)
+}
+
+export const graspTargetsType: MessageType<GraspTargets> = /* @__PURE__ */ messageType(
+  'mrlab_msgs/msg/GraspTargets',
+  createGraspTargets,
+  readGraspTargets,
+  writeGraspTargets,
+)
+
+/** mrlab_msgs/msg/Latency: How long messages take on their way, as one observer measured it. Sent about once a second. */
+export interface Latency {
+  /** end of the window */
+  header: Header
+  /** who measured: "bridge", or the name that a client gives itself */
+  observer: string
+  /** s that the report covers */
+  window: number
+  /** s, bound of the observer's clock error against the lab's; 0: same */
+  clock_error: number
+  hops: LatencyHop[]
+}
+
+export function createLatency(): Latency {
+  return {
+    header: createHeader(),
+    observer: '',
+    window: 0,
+    clock_error: 0,
+    hops: [],
+  }
+}
+
+export function readLatency(from: CdrReader, into: Latency): void {
+  readHeader(from, into.header)
+  into.observer = from.string(into.observer)
+  into.window = from.float64()
+  into.clock_error = from.float64()
+  into.hops = from.messages(into.hops, createLatencyHop, readLatencyHop)
+}
+
+export function writeLatency(to: CdrWriter, message: Latency): void {
+  writeHeader(to, message.header)
+  to.string(message.observer)
+  to.float64(message.window)
+  to.float64(message.clock_error)
+  to.messages(message.hops, writeLatencyHop)
+}
+
+export const latencyType: MessageType<Latency> = /* @__PURE__ */ messageType(
+  'mrlab_msgs/msg/Latency',
+  createLatency,
+  readLatency,
+  writeLatency,
+)
+
+/** mrlab_msgs/msg/LatencyHop: How long the messages of one key took over one hop, in the window that the report covers. */
+export interface LatencyHop {
+  /** one of the constants above */
+  hop: number
+  /** name of the topic, such as /ur5e_1/joint_states; empty: all topics */
+  topic: string
+  /** messages measured */
+  count: number
+  /** s, the median */
+  p50: number
+  /** s */
+  p95: number
+  /** s */
+  max: number
+}
+
+export const LatencyHop = {
+  /** from publishing in the graph until the bridge handed it to zenoh */
+  PUBLISHED_TO_BRIDGED: 0,
+  /** from there until a client had it */
+  BRIDGED_TO_RECEIVED: 1,
+  /** all of it */
+  PUBLISHED_TO_RECEIVED: 2,
+} as const
+
+export function createLatencyHop(): LatencyHop {
+  return {
+    hop: 0,
+    topic: '',
+    count: 0,
+    p50: 0,
+    p95: 0,
+    max: 0,
+  }
+}
+
+export function readLatencyHop(from: CdrReader, into: LatencyHop): void {
+  into.hop = from.uint8()
+  into.topic = from.string(into.topic)
+  into.count = from.uint32()
+  into.p50 = from.float64()
+  into.p95 = from.float64()
+  into.max = from.float64()
+}
+
+export function writeLatencyHop(to: CdrWriter, message: LatencyHop): void {
+  to.uint8(message.hop)
+  to.string(message.topic)
+  to.uint32(message.count)
+  to.float64(message.p50)
+  to.float64(message.p95)
+  to.float64(message.max)
+}
+
+export const latencyHopType: MessageType<LatencyHop> = /* @__PURE__ */ messageType(
+  'mrlab_msgs/msg/LatencyHop',
+  createLatencyHop,
+  readLatencyHop,
+  writeLatencyHop,
+)
+
+/** mrlab_msgs/srv/ListCatalogue_Request: List the types of objects that spawn_object takes. */
+export type ListCatalogueRequest = Record<string, never>
+
+export function createListCatalogueRequest(): ListCatalogueRequest {
+  return {}
+}
+
+export function readListCatalogueRequest(from: CdrReader, _: ListCatalogueRequest): void {
+  from.uint8()
+}
+
+export function writeListCatalogueRequest(to: CdrWriter, _: ListCatalogueRequest): void {
+  to.uint8(0)
+}
+
+export const listCatalogueRequestType: MessageType<ListCatalogueRequest> = /* @__PURE__ */ messageType(
+  'mrlab_msgs/srv/ListCatalogue_Request',
+  createListCatalogueRequest,
+  readListCatalogueRequest,
+  writeListCatalogueRequest,
+)
+
+/** mrlab_msgs/srv/ListCatalogue_Response */
+export interface ListCatalogueResponse {
+  /** the catalogue */
+  types: ObjectType[]
+  /** objects that may be active at a time */
+  limit: number
+}
+
+export function createListCatalogueResponse(): ListCatalogueResponse {
+  return {
+    types: [],
+    limit: 0,
+  }
+}
+
+export function readListCatalogueResponse(from: CdrReader, into: ListCatalogueResponse): void {
+  into.types = from.messages(into.types, createObjectType, readObjectType)
+  into.limit = from.uint32()
+}
+
+export function writeListCatalogueResponse(to: CdrWriter, message: ListCatalogueResponse): void {
+  to.messages(message.types, writeObjectType)
+  to.uint32(message.limit)
+}
+
+export const listCatalogueResponseType: MessageType<ListCatalogueResponse> = /* @__PURE__ */ messageType(
+  'mrlab_msgs/srv/ListCatalogue_Response',
+  createListCatalogueResponse,
+  readListCatalogueResponse,
+  writeListCatalogueResponse,
+)
+
+/** mrlab_msgs/srv/ListScenes_Request: List the scenes that load_scene takes. */
+export type ListScenesRequest = Record<string, never>
+
+export function createListScenesRequest(): ListScenesRequest {
+  return {}
+}
+
+export function readListScenesRequest(from: CdrReader, _: ListScenesRequest): void {
+  from.uint8()
+}
+
+export function writeListScenesRequest(to: CdrWriter, _: ListScenesRequest): void {
+  to.uint8(0)
+}
+
+export const listScenesRequestType: MessageType<ListScenesRequest> = /* @__PURE__ */ messageType(
+  'mrlab_msgs/srv/ListScenes_Request',
+  createListScenesRequest,
+  readListScenesRequest,
+  writeListScenesRequest,
+)
+
+/** mrlab_msgs/srv/ListScenes_Response */
+export interface ListScenesResponse {
+  /** names, sorted: those shipped with the lab and those saved in it */
+  scenes: string[]
+}
+
+export function createListScenesResponse(): ListScenesResponse {
+  return {
+    scenes: [],
+  }
+}
+
+export function readListScenesResponse(from: CdrReader, into: ListScenesResponse): void {
+  into.scenes = from.strings(into.scenes)
+}
+
+export function writeListScenesResponse(to: CdrWriter, message: ListScenesResponse): void {
+  to.strings(message.scenes)
+}
+
+export const listScenesResponseType: MessageType<ListScenesResponse> = /* @__PURE__ */ messageType(
+  'mrlab_msgs/srv/ListScenes_Response',
+  createListScenesResponse,
+  readListScenesResponse,
+  writeListScenesResponse,
+)
+
+/** mrlab_msgs/srv/ListTrajectories_Request: List the trajectories that fit a robot. */
+export interface ListTrajectoriesRequest {
+  /** empty: any */
+  robot_model: string
+  /** only meaningful with robot_model: empty means none is fitted */
+  end_effector: string
+}
+
+export function createListTrajectoriesRequest(): ListTrajectoriesRequest {
+  return {
+    robot_model: '',
+    end_effector: '',
+  }
+}
+
+export function readListTrajectoriesRequest(from: CdrReader, into: ListTrajectoriesRequest): void {
+  into.robot_model = from.string(into.robot_model)
+  into.end_effector = from.string(into.end_effector)
+}
+
+export function writeListTrajectoriesRequest(to: CdrWriter, message: ListTrajectoriesRequest): void {
+  to.string(message.robot_model)
+  to.string(message.end_effector)
+}
+
+export const listTrajectoriesRequestType: MessageType<ListTrajectoriesRequest> = /* @__PURE__ */ messageType(
+  'mrlab_msgs/srv/ListTrajectories_Request',
+  createListTrajectoriesRequest,
+  readListTrajectoriesRequest,
+  writeListTrajectoriesRequest,
+)
+
+/** mrlab_msgs/srv/ListTrajectories_Response */
+export interface ListTrajectoriesResponse {
+  trajectories: TrajectoryInfo[]
+}
+
+export function createListTrajectoriesResponse(): ListTrajectoriesResponse {
+  return {
+    trajectories: [],
+  }
+}
+
+export function readListTrajectoriesResponse(from: CdrReader, into: ListTrajectoriesResponse): void {
+  into.trajectories = from.messages(into.trajectories, createTrajectoryInfo, readTrajectoryInfo)
+}
+
+export function writeListTrajectoriesResponse(to: CdrWriter, message: ListTrajectoriesResponse): void {
+  to.messages(message.trajectories, writeTrajectoryInfo)
+}
+
+export const listTrajectoriesResponseType: MessageType<ListTrajectoriesResponse> = /* @__PURE__ */ messageType(
+  'mrlab_msgs/srv/ListTrajectories_Response',
+  createListTrajectoriesResponse,
+  readListTrajectoriesResponse,
+  writeListTrajectoriesResponse,
+)
+
+/** mrlab_msgs/srv/LoadTrajectory_Request: Load a trajectory from the catalogue into a robot's playback. */
+export interface LoadTrajectoryRequest {
+  /** empty: unload */
+  id: string
+}
+
+export function createLoadTrajectoryRequest(): LoadTrajectoryRequest {
+  return {
+    id: '',
+  }
+}
+
+export function readLoadTrajectoryRequest(from: CdrReader, into: LoadTrajectoryRequest): void {
+  into.id = from.string(into.id)
+}
+
+export function writeLoadTrajectoryRequest(to: CdrWriter, message: LoadTrajectoryRequest): void {
+  to.string(message.id)
+}
+
+export const loadTrajectoryRequestType: MessageType<LoadTrajectoryRequest> = /* @__PURE__ */ messageType(
+  'mrlab_msgs/srv/LoadTrajectory_Request',
+  createLoadTrajectoryRequest,
+  readLoadTrajectoryRequest,
+  writeLoadTrajectoryRequest,
+)
+
+/** mrlab_msgs/srv/LoadTrajectory_Response */
+export interface LoadTrajectoryResponse {
+  /** false: nothing was changed */
+  success: boolean
+  /** why not, or what was done */
+  message: string
+}
+
+export function createLoadTrajectoryResponse(): LoadTrajectoryResponse {
+  return {
+    success: false,
+    message: '',
+  }
+}
+
+export function readLoadTrajectoryResponse(from: CdrReader, into: LoadTrajectoryResponse): void {
+  into.success = from.bool()
+  into.message = from.string(into.message)
+}
+
+export function writeLoadTrajectoryResponse(to: CdrWriter, message: LoadTrajectoryResponse): void {
+  to.bool(message.success)
+  to.string(message.message)
+}
+
+export const loadTrajectoryResponseType: MessageType<LoadTrajectoryResponse> = /* @__PURE__ */ messageType(
+  'mrlab_msgs/srv/LoadTrajectory_Response',
+  createLoadTrajectoryResponse,
+  readLoadTrajectoryResponse,
+  writeLoadTrajectoryResponse,
+)
+
+/** mrlab_msgs/srv/MoveObject_Request: Move an object by hand. */
+export interface MoveObjectRequest {
+  name: string
+  /** in world, m */
+  pose: Pose
+  /** in world; how it flies when it is let go */
+  twist: Twist
+  /** true: the hand keeps it; false: it is let go here */
+  held: boolean
+}
+
+export function createMoveObjectRequest(): MoveObjectRequest {
+  return {
+    name: '',
+    pose: createPose(),
+    twist: createTwist(),
+    held: false,
+  }
+}
+
+export function readMoveObjectRequest(from: CdrReader, into: MoveObjectRequest): void {
+  into.name = from.string(into.name)
+  readPose(from, into.pose)
+  readTwist(from, into.twist)
+  into.held = from.bool()
+}
+
+export function writeMoveObjectRequest(to: CdrWriter, message: MoveObjectRequest): void {
+  to.string(message.name)
+  writePose(to, message.pose)
+  writeTwist(to, message.twist)
+  to.bool(message.held)
+}
+
+export const moveObjectRequestType: MessageType<MoveObjectRequest> = /* @__PURE__ */ messageType(
+  'mrlab_msgs/srv/MoveObject_Request',
+  createMoveObjectRequest,
+  readMoveObjectRequest,
+  writeMoveObjectRequest,
+)
+
+/** mrlab_msgs/srv/MoveObject_Response */
+export interface MoveObjectResponse {
+  /** false: nothing was changed */
+  success: boolean
+  /** why not, or what was done */
+  message: string
+}
+
+export function createMoveObjectResponse(): MoveObjectResponse {
+  return {
+    success: false,
+    message: '',
+  }
+}
+
+export function readMoveObjectResponse(from: CdrReader, into: MoveObjectResponse): void {
+  into.success = from.bool()
+  into.message = from.string(into.message)
+}
+
+export function writeMoveObjectResponse(to: CdrWriter, message: MoveObjectResponse): void {
+  to.bool(message.success)
+  to.string(message.message)
+}
+
+export const moveObjectResponseType: MessageType<MoveObjectResponse> = /* @__PURE__ */ messageType(
+  'mrlab_msgs/srv/MoveObject_Response',
+  createMoveObjectResponse,
+  readMoveObjectResponse,
+  writeMoveObjectResponse,
+)
+
+/** mrlab_msgs/msg/ObjectPlacement: Where an object is put, and in which gripper. */
+export interface ObjectPlacement {
+  /** unique in the scene, such as cube_1 */
+  name: string
+  /** id in the catalogue config/objects.yaml */
+  type: string
+  /** in world, m */
+  pose: Pose
+  /** true: on the nearest surface below pose, free of others */
+  automatic: boolean
+  /** robot whose gripper holds it; empty: free */
+  held_by: string
+  /** only with held_by: in the frame of the link that holds it, m */
+  in_hand: Pose
+}
+
+export function createObjectPlacement(): ObjectPlacement {
+  return {
+    name: '',
+    type: '',
+    pose: createPose(),
+    automatic: false,
+    held_by: '',
+    in_hand: createPose(),
+  }
+}
+
+export function readObjectPlacement(from: CdrReader, into: ObjectPlacement): void {
+  into.name = from.string(into.name)
+  into.type = from.string(into.type)
+  readPose(from, into.pose)
+  into.automatic = from.bool()
+  into.held_by = from.string(into.held_by)
+  readPose(from, into.in_hand)
+}
+
+export function writeObjectPlacement(to: CdrWriter, message: ObjectPlacement): void {
+  to.string(message.name)
+  to.string(message.type)
+  writePose(to, message.pose)
+  to.bool(message.automatic)
+  to.string(message.held_by)
+  writePose(to, message.in_hand)
+}
+
+export const objectPlacementType: MessageType<ObjectPlacement> = /* @__PURE__ */ messageType(
+  'mrlab_msgs/msg/ObjectPlacement',
+  createObjectPlacement,
+  readObjectPlacement,
+  writeObjectPlacement,
+)
+
+/** mrlab_msgs/msg/ObjectRemoved: An object that the lab itself took out of the scene. Removals by request are not announced. */
+export interface ObjectRemoved {
+  header: Header
+  /** its name in the scene */
+  name: string
+  /** its id in the catalogue */
+  type: string
+  /** why, for a person: it was the oldest, or it fell out of the room */
+  reason: string
+}
+
+export function createObjectRemoved(): ObjectRemoved {
+  return {
+    header: createHeader(),
+    name: '',
+    type: '',
+    reason: '',
+  }
+}
+
+export function readObjectRemoved(from: CdrReader, into: ObjectRemoved): void {
+  readHeader(from, into.header)
+  into.name = from.string(into.name)
+  into.type = from.string(into.type)
+  into.reason = from.string(into.reason)
+}
+
+export function writeObjectRemoved(to: CdrWriter, message: ObjectRemoved): void {
+  writeHeader(to, message.header)
+  to.string(message.name)
+  to.string(message.type)
+  to.string(message.reason)
+}
+
+export const objectRemovedType: MessageType<ObjectRemoved> = /* @__PURE__ */ messageType(
+  'mrlab_msgs/msg/ObjectRemoved',
+  createObjectRemoved,
+  readObjectRemoved,
+  writeObjectRemoved,
+)
+
+/** mrlab_msgs/msg/ObjectType: One entry of the catalogue of objects. */
+export interface ObjectType {
+  /** what spawn_object takes as type */
+  id: string
+  /** what it is, for a person */
+  about: string
+  /** edge lengths of its bounding box in its own frame, m */
+  size: Vector3
+  /** kg; 0: fixed */
+  mass: number
+  color: ColorRGBA
+  /** URI of its mesh; empty: draw the primitive */
+  mesh: string
+  /** its shape in its own frame; type 0: several parts or a mesh */
+  primitive: SolidPrimitive
+}
+
+export function createObjectType(): ObjectType {
+  return {
+    id: '',
+    about: '',
+    size: createVector3(),
+    mass: 0,
+    color: createColorRGBA(),
+    mesh: '',
+    primitive: createSolidPrimitive(),
+  }
+}
+
+export function readObjectType(from: CdrReader, into: ObjectType): void {
+  into.id = from.string(into.id)
+  into.about = from.string(into.about)
+  readVector3(from, into.size)
+  into.mass = from.float64()
+  readColorRGBA(from, into.color)
+  into.mesh = from.string(into.mesh)
+  readSolidPrimitive(from, into.primitive)
+}
+
+export function writeObjectType(to: CdrWriter, message: ObjectType): void {
+  to.string(message.id)
+  to.string(message.about)
+  writeVector3(to, message.size)
+  to.float64(message.mass)
+  writeColorRGBA(to, message.color)
+  to.string(message.mesh)
+  writeSolidPrimitive(to, message.primitive)
+}
+
+export const objectTypeType: MessageType<ObjectType> = /* @__PURE__ */ messageType(
+  'mrlab_msgs/msg/ObjectType',
+  createObjectType,
+  readObjectType,
+  writeObjectType,
+)
+
+/** mrlab_msgs/srv/PlaceRobot_Request: Move a robot's base. */
+export interface PlaceRobotRequest {
+  robot: string
+  /** base_link in world, m */
+  pose: Pose
+}
+
+export function createPlaceRobotRequest(): PlaceRobotRequest {
+  return {
+    robot: '',
+    pose: createPose(),
+  }
+}
+
+export function readPlaceRobotRequest(from: CdrReader, into: PlaceRobotRequest): void {
+  into.robot = from.string(into.robot)
+  readPose(from, into.pose)
+}
+
+export function writePlaceRobotRequest(to: CdrWriter, message: PlaceRobotRequest): void {
+  to.string(message.robot)
+  writePose(to, message.pose)
+}
+
+export const placeRobotRequestType: MessageType<PlaceRobotRequest> = /* @__PURE__ */ messageType(
+  'mrlab_msgs/srv/PlaceRobot_Request',
+  createPlaceRobotRequest,
+  readPlaceRobotRequest,
+  writePlaceRobotRequest,
+)
+
+/** mrlab_msgs/srv/PlaceRobot_Response */
+export interface PlaceRobotResponse {
+  /** false: nothing was changed */
+  success: boolean
+  /** why not, or what was done */
+  message: string
+}
+
+export function createPlaceRobotResponse(): PlaceRobotResponse {
+  return {
+    success: false,
+    message: '',
+  }
+}
+
+export function readPlaceRobotResponse(from: CdrReader, into: PlaceRobotResponse): void {
+  into.success = from.bool()
+  into.message = from.string(into.message)
+}
+
+export function writePlaceRobotResponse(to: CdrWriter, message: PlaceRobotResponse): void {
+  to.bool(message.success)
+  to.string(message.message)
+}
+
+export const placeRobotResponseType: MessageType<PlaceRobotResponse> = /* @__PURE__ */ messageType(
+  'mrlab_msgs/srv/PlaceRobot_Response',
+  createPlaceRobotResponse,
+  readPlaceRobotResponse,
+  writePlaceRobotResponse,
+)
+
+/** mrlab_msgs/msg/PlaybackClock: The clock of a trajectory: position(t) = position + rate * (t - stamp). A client that holds the trajectory computes the pose at any instant from it. */
+export interface PlaybackClock {
+  /** time on the lab's clock at which position held; may lie ahead */
+  stamp: Time
+  /** s from the first frame */
+  position: number
+  /** 1 is the declared speed; 0 while it stands */
+  rate: number
+}
+
+export function createPlaybackClock(): PlaybackClock {
+  return {
+    stamp: createTime(),
+    position: 0,
+    rate: 0,
+  }
+}
+
+export function readPlaybackClock(from: CdrReader, into: PlaybackClock): void {
+  readTime(from, into.stamp)
+  into.position = from.float64()
+  into.rate = from.float64()
+}
+
+export function writePlaybackClock(to: CdrWriter, message: PlaybackClock): void {
+  writeTime(to, message.stamp)
+  to.float64(message.position)
+  to.float64(message.rate)
+}
+
+export const playbackClockType: MessageType<PlaybackClock> = /* @__PURE__ */ messageType(
+  'mrlab_msgs/msg/PlaybackClock',
+  createPlaybackClock,
+  readPlaybackClock,
+  writePlaybackClock,
+)
+
+/** mrlab_msgs/msg/PlaybackState: The state of one robot's playback. Latched; sent at each change and once a second while moving. */
+export interface PlaybackState {
+  /** when the state was taken; frame_id is the robot's name */
+  header: Header
+  /** one of the constants above */
+  state: number
+  /** the state's name, such as PLAYING */
+  label: string
+  /** why it is in this state, for a person; may be empty */
+  message: string
+  /** empty in IDLE */
+  trajectory_id: string
+  /** where on the trajectory it is at any time */
+  clock: PlaybackClock
+  /** the last source frame reached */
+  frame: number
+  /** frames of the trajectory; 0 in IDLE */
+  frame_count: number
+  /** Hz of the trajectory; 0 in IDLE */
+  frame_rate: number
+  /** s; 0 in IDLE */
+  duration: number
+  /** the speed it plays at when it plays, 0.1 to 4 */
+  rate: number
+  /** true: starts over after the last frame */
+  loop: boolean
+  /** node that plays it; its command_members service commands it for a system */
+  host: string
+  /** the robot system that drives it; empty: independent */
+  system: string
+  /** id of the lab that published it; empty: unknown */
+  lab: string
+}
+
+export const PlaybackState = {
+  /** no trajectory loaded */
+  IDLE: 0,
+  /** loaded, waiting to play */
+  READY: 1,
+  /** moving to the first frame */
+  ADJUSTING: 2,
+  /** streaming the trajectory */
+  PLAYING: 3,
+  /** stands on the trajectory, plays on from there */
+  PAUSED: 4,
+  /** stopped by a contact, waits until physics confirms it is clear */
+  COLLISION_HALT: 5,
+  /** the last frame was sent; READY follows */
+  COMPLETE: 6,
+} as const
+
+export function createPlaybackState(): PlaybackState {
+  return {
+    header: createHeader(),
+    state: 0,
+    label: '',
+    message: '',
+    trajectory_id: '',
+    clock: createPlaybackClock(),
+    frame: 0,
+    frame_count: 0,
+    frame_rate: 0,
+    duration: 0,
+    rate: 0,
+    loop: false,
+    host: '',
+    system: '',
+    lab: '',
+  }
+}
+
+export function readPlaybackState(from: CdrReader, into: PlaybackState): void {
+  readHeader(from, into.header)
+  into.state = from.uint8()
+  into.label = from.string(into.label)
+  into.message = from.string(into.message)
+  into.trajectory_id = from.string(into.trajectory_id)
+  readPlaybackClock(from, into.clock)
+  into.frame = from.uint32()
+  into.frame_count = from.uint32()
+  into.frame_rate = from.float64()
+  into.duration = from.float64()
+  into.rate = from.float64()
+  into.loop = from.bool()
+  into.host = from.string(into.host)
+  into.system = from.string(into.system)
+  into.lab = from.string(into.lab)
+}
+
+export function writePlaybackState(to: CdrWriter, message: PlaybackState): void {
+  writeHeader(to, message.header)
+  to.uint8(message.state)
+  to.string(message.label)
+  to.string(message.message)
+  to.string(message.trajectory_id)
+  writePlaybackClock(to, message.clock)
+  to.uint32(message.frame)
+  to.uint32(message.frame_count)
+  to.float64(message.frame_rate)
+  to.float64(message.duration)
+  to.float64(message.rate)
+  to.bool(message.loop)
+  to.string(message.host)
+  to.string(message.system)
+  to.string(message.lab)
+}
+
+export const playbackStateType: MessageType<PlaybackState> = /* @__PURE__ */ messageType(
+  'mrlab_msgs/msg/PlaybackState',
+  createPlaybackState,
+  readPlaybackState,
+  writePlaybackState,
+)
+
+/** mrlab_msgs/msg/Preview: Some rows of a matrix, for a picture of it: at most 400, evenly chosen, the first, the last and the rows that findings name among them. */
+export interface Preview {
+  /** path of the matrix, written as in MATLAB; empty: no preview */
+  variable: string
+  /** which rows, counted from 1 as in MATLAB, rising */
+  rows: Uint32Array
+  /** how many columns of each row, at most 32 */
+  columns: number
+  /** in the matrix's own unit, row by row: size(rows) x columns, NaN where not finite */
+  values: Float32Array
+}
+
+export function createPreview(): Preview {
+  return {
+    variable: '',
+    rows: new Uint32Array(0),
+    columns: 0,
+    values: new Float32Array(0),
+  }
+}
+
+export function readPreview(from: CdrReader, into: Preview): void {
+  into.variable = from.string(into.variable)
+  into.rows = from.uint32s(into.rows)
+  into.columns = from.uint32()
+  into.values = from.float32s(into.values)
+}
+
+export function writePreview(to: CdrWriter, message: Preview): void {
+  to.string(message.variable)
+  to.uint32s(message.rows)
+  to.uint32(message.columns)
+  to.float32s(message.values)
+}
+
+export const previewType: MessageType<Preview> = /* @__PURE__ */ messageType(
+  'mrlab_msgs/msg/Preview',
+  createPreview,
+  readPreview,
+  writePreview,
+)
+
+/** mrlab_msgs/srv/PublishTrajectory_Request: Put a draft into the catalogue as the next version of a trajectory. */
+export interface PublishTrajectoryRequest {
+  /** key of the draft in the store, as ConvertTrajectory was given it */
+  draft: string
+  /** name in the catalogue; empty: the draft's own */
+  id: string
+  /** user whose trajectory it becomes; empty: the lab's */
+  owner: string
+  /** with an owner: true: everybody may see and load it */
+  shared: boolean
+}
+
+export function createPublishTrajectoryRequest(): PublishTrajectoryRequest {
+  return {
+    draft: '',
+    id: '',
+    owner: '',
+    shared: false,
+  }
+}
+
+export function readPublishTrajectoryRequest(from: CdrReader, into: PublishTrajectoryRequest): void {
+  into.draft = from.string(into.draft)
+  into.id = from.string(into.id)
+  into.owner = from.string(into.owner)
+  into.shared = from.bool()
+}
+
+export function writePublishTrajectoryRequest(to: CdrWriter, message: PublishTrajectoryRequest): void {
+  to.string(message.draft)
+  to.string(message.id)
+  to.string(message.owner)
+  to.bool(message.shared)
+}
+
+export const publishTrajectoryRequestType: MessageType<PublishTrajectoryRequest> = /* @__PURE__ */ messageType(
+  'mrlab_msgs/srv/PublishTrajectory_Request',
+  createPublishTrajectoryRequest,
+  readPublishTrajectoryRequest,
+  writePublishTrajectoryRequest,
+)
+
+/** mrlab_msgs/srv/PublishTrajectory_Response */
+export interface PublishTrajectoryResponse {
+  /** false: nothing was changed */
+  success: boolean
+  /** why not, or what was done */
+  message: string
+  /** meaningful only on success */
+  trajectory: TrajectoryInfo
+}
+
+export function createPublishTrajectoryResponse(): PublishTrajectoryResponse {
+  return {
+    success: false,
+    message: '',
+    trajectory: createTrajectoryInfo(),
+  }
+}
+
+export function readPublishTrajectoryResponse(from: CdrReader, into: PublishTrajectoryResponse): void {
+  into.success = from.bool()
+  into.message = from.string(into.message)
+  readTrajectoryInfo(from, into.trajectory)
+}
+
+export function writePublishTrajectoryResponse(to: CdrWriter, message: PublishTrajectoryResponse): void {
+  to.bool(message.success)
+  to.string(message.message)
+  writeTrajectoryInfo(to, message.trajectory)
+}
+
+export const publishTrajectoryResponseType: MessageType<PublishTrajectoryResponse> = /* @__PURE__ */ messageType(
+  'mrlab_msgs/srv/PublishTrajectory_Response',
+  createPublishTrajectoryResponse,
+  readPublishTrajectoryResponse,
+  writePublishTrajectoryResponse,
+)
+
+/** mrlab_msgs/msg/RecorderState: What the recorder does. Latched; sent at each change and once a second while it works. */
+export interface RecorderState {
+  header: Header
+  /** one of the constants above */
+  state: number
+  /** folder of the bag; empty when STOPPED */
+  bag: string
+  /** s recorded, or s into the replay */
+  position: number
+  /** s of the bag that is replayed; 0 while recording */
+  duration: number
+  /** of the replay; 1 while recording */
+  rate: number
+  /** written or replayed */
+  messages: bigint
+  /** written, or size of the replayed bag */
+  bytes: bigint
+  /** trouble, for a person; may be empty */
+  message: string
+}
+
+export const RecorderState = {
+  STOPPED: 0,
+  RECORDING: 1,
+  REPLAYING: 2,
+  /** a replay that stands */
+  PAUSED: 3,
+} as const
+
+export function createRecorderState(): RecorderState {
+  return {
+    header: createHeader(),
+    state: 0,
+    bag: '',
+    position: 0,
+    duration: 0,
+    rate: 0,
+    messages: 0n,
+    bytes: 0n,
+    message: '',
+  }
+}
+
+export function readRecorderState(from: CdrReader, into: RecorderState): void {
+  readHeader(from, into.header)
+  into.state = from.uint8()
+  into.bag = from.string(into.bag)
+  into.position = from.float64()
+  into.duration = from.float64()
+  into.rate = from.float64()
+  into.messages = from.uint64()
+  into.bytes = from.uint64()
+  into.message = from.string(into.message)
+}
+
+export function writeRecorderState(to: CdrWriter, message: RecorderState): void {
+  writeHeader(to, message.header)
+  to.uint8(message.state)
+  to.string(message.bag)
+  to.float64(message.position)
+  to.float64(message.duration)
+  to.float64(message.rate)
+  to.uint64(message.messages)
+  to.uint64(message.bytes)
+  to.string(message.message)
+}
+
+export const recorderStateType: MessageType<RecorderState> = /* @__PURE__ */ messageType(
+  'mrlab_msgs/msg/RecorderState',
+  createRecorderState,
+  readRecorderState,
+  writeRecorderState,
+)
+
+/** mrlab_msgs/srv/Remove_Request: Remove something by its name: a robot, an object, a trajectory or a robot system. */
+export interface RemoveRequest {
+  name: string
+}
+
+export function createRemoveRequest(): RemoveRequest {
+  return {
+    name: '',
+  }
+}
+
+export function readRemoveRequest(from: CdrReader, into: RemoveRequest): void {
+  into.name = from.string(into.name)
+}
+
+export function writeRemoveRequest(to: CdrWriter, message: RemoveRequest): void {
+  to.string(message.name)
+}
+
+export const removeRequestType: MessageType<RemoveRequest> = /* @__PURE__ */ messageType(
+  'mrlab_msgs/srv/Remove_Request',
+  createRemoveRequest,
+  readRemoveRequest,
+  writeRemoveRequest,
+)
+
+/** mrlab_msgs/srv/Remove_Response */
+export interface RemoveResponse {
+  /** false: nothing was changed */
+  success: boolean
+  /** why not, or what was done */
+  message: string
+}
+
+export function createRemoveResponse(): RemoveResponse {
+  return {
+    success: false,
+    message: '',
+  }
+}
+
+export function readRemoveResponse(from: CdrReader, into: RemoveResponse): void {
+  into.success = from.bool()
+  into.message = from.string(into.message)
+}
+
+export function writeRemoveResponse(to: CdrWriter, message: RemoveResponse): void {
+  to.bool(message.success)
+  to.string(message.message)
+}
+
+export const removeResponseType: MessageType<RemoveResponse> = /* @__PURE__ */ messageType(
+  'mrlab_msgs/srv/Remove_Response',
+  createRemoveResponse,
+  readRemoveResponse,
+  writeRemoveResponse,
+)
+
+/** mrlab_msgs/srv/Replay_Request: Replay a bag into the graph. */
+export interface ReplayRequest {
+  /** folder of the bag */
+  bag: string
+  /** 0.1 to 10 */
+  rate: number
+  /** s into the bag */
+  start: number
+  loop: boolean
+}
+
+export function createReplayRequest(): ReplayRequest {
+  return {
+    bag: '',
+    rate: 0,
+    start: 0,
+    loop: false,
+  }
+}
+
+export function readReplayRequest(from: CdrReader, into: ReplayRequest): void {
+  into.bag = from.string(into.bag)
+  into.rate = from.float64()
+  into.start = from.float64()
+  into.loop = from.bool()
+}
+
+export function writeReplayRequest(to: CdrWriter, message: ReplayRequest): void {
+  to.string(message.bag)
+  to.float64(message.rate)
+  to.float64(message.start)
+  to.bool(message.loop)
+}
+
+export const replayRequestType: MessageType<ReplayRequest> = /* @__PURE__ */ messageType(
+  'mrlab_msgs/srv/Replay_Request',
+  createReplayRequest,
+  readReplayRequest,
+  writeReplayRequest,
+)
+
+/** mrlab_msgs/srv/Replay_Response */
+export interface ReplayResponse {
+  /** false: nothing was changed */
+  success: boolean
+  /** why not, or what was done */
+  message: string
+}
+
+export function createReplayResponse(): ReplayResponse {
+  return {
+    success: false,
+    message: '',
+  }
+}
+
+export function readReplayResponse(from: CdrReader, into: ReplayResponse): void {
+  into.success = from.bool()
+  into.message = from.string(into.message)
+}
+
+export function writeReplayResponse(to: CdrWriter, message: ReplayResponse): void {
+  to.bool(message.success)
+  to.string(message.message)
+}
+
+export const replayResponseType: MessageType<ReplayResponse> = /* @__PURE__ */ messageType(
+  'mrlab_msgs/srv/Replay_Response',
+  createReplayResponse,
+  readReplayResponse,
+  writeReplayResponse,
+)
+
+/** mrlab_msgs/srv/RestoreTrajectory_Request: Bring a trajectory of the catalogue back: one that was deleted, or an older version. */
+export interface RestoreTrajectoryRequest {
+  /** name in the catalogue */
+  id: string
+  /** 0: the newest one; an older version becomes the next one */
+  version: number
+}
+
+export function createRestoreTrajectoryRequest(): RestoreTrajectoryRequest {
+  return {
+    id: '',
+    version: 0,
+  }
+}
+
+export function readRestoreTrajectoryRequest(from: CdrReader, into: RestoreTrajectoryRequest): void {
+  into.id = from.string(into.id)
+  into.version = from.uint32()
+}
+
+export function writeRestoreTrajectoryRequest(to: CdrWriter, message: RestoreTrajectoryRequest): void {
+  to.string(message.id)
+  to.uint32(message.version)
+}
+
+export const restoreTrajectoryRequestType: MessageType<RestoreTrajectoryRequest> = /* @__PURE__ */ messageType(
+  'mrlab_msgs/srv/RestoreTrajectory_Request',
+  createRestoreTrajectoryRequest,
+  readRestoreTrajectoryRequest,
+  writeRestoreTrajectoryRequest,
+)
+
+/** mrlab_msgs/srv/RestoreTrajectory_Response */
+export interface RestoreTrajectoryResponse {
+  /** false: nothing was changed */
+  success: boolean
+  /** why not, or what was done */
+  message: string
+  /** meaningful only on success */
+  trajectory: TrajectoryInfo
+}
+
+export function createRestoreTrajectoryResponse(): RestoreTrajectoryResponse {
+  return {
+    success: false,
+    message: '',
+    trajectory: createTrajectoryInfo(),
+  }
+}
+
+export function readRestoreTrajectoryResponse(from: CdrReader, into: RestoreTrajectoryResponse): void {
+  into.success = from.bool()
+  into.message = from.string(into.message)
+  readTrajectoryInfo(from, into.trajectory)
+}
+
+export function writeRestoreTrajectoryResponse(to: CdrWriter, message: RestoreTrajectoryResponse): void {
+  to.bool(message.success)
+  to.string(message.message)
+  writeTrajectoryInfo(to, message.trajectory)
+}
+
+export const restoreTrajectoryResponseType: MessageType<RestoreTrajectoryResponse> = /* @__PURE__ */ messageType(
+  'mrlab_msgs/srv/RestoreTrajectory_Response',
+  createRestoreTrajectoryResponse,
+  readRestoreTrajectoryResponse,
+  writeRestoreTrajectoryResponse,
+)
+
+/** mrlab_msgs/msg/Robot: One robot in the scene. */
+export interface Robot {
+  /** its namespace, such as ur5e_1 */
+  name: string
+  /** id of the model, such as ur5e */
+  model: string
+  /** id of the end effector; empty: none */
+  end_effector: string
+  /** base_link in the frame world, m */
+  pose: Pose
+  /** moving joints of the arm, base first */
+  joint_names: string[]
+}
+
+export function createRobot(): Robot {
+  return {
+    name: '',
+    model: '',
+    end_effector: '',
+    pose: createPose(),
+    joint_names: [],
+  }
+}
+
+export function readRobot(from: CdrReader, into: Robot): void {
+  into.name = from.string(into.name)
+  into.model = from.string(into.model)
+  into.end_effector = from.string(into.end_effector)
+  readPose(from, into.pose)
+  into.joint_names = from.strings(into.joint_names)
+}
+
+export function writeRobot(to: CdrWriter, message: Robot): void {
+  to.string(message.name)
+  to.string(message.model)
+  to.string(message.end_effector)
+  writePose(to, message.pose)
+  to.strings(message.joint_names)
+}
+
+export const robotType: MessageType<Robot> = /* @__PURE__ */ messageType(
+  'mrlab_msgs/msg/Robot',
+  createRobot,
+  readRobot,
+  writeRobot,
+)
+
+/** mrlab_msgs/msg/RobotSystem: Robots that play as one, on one timeline. */
+export interface RobotSystem {
+  /** unique; its services are below this name */
+  name: string
+  /** in order of selection */
+  members: SystemMember[]
+  /** PARALLEL or SEQUENTIAL */
+  mode: number
+  /** HALT_ALL or HALT_MEMBER */
+  policy: number
+  /** READY to STOPPING, above */
+  state: number
+  /** the state's name */
+  label: string
+  /** why it is in this state, for a person; may be empty */
+  message: string
+  /** of the timeline */
+  clock: PlaybackClock
+  /** s of the timeline */
+  duration: number
+  /** the speed it plays at when it plays, 0.1 to 4 */
+  rate: number
+  loop: boolean
+}
+
+export const RobotSystem = {
+  /** all begin at one stamp */
+  PARALLEL: 0,
+  /** one after another, in order of the members */
+  SEQUENTIAL: 1,
+  /** a collision of one member halts all */
+  HALT_ALL: 0,
+  /** a collision halts that member only */
+  HALT_MEMBER: 1,
+  /** values as in PlaybackState */
+  READY: 1,
+  /** every member moves to its first frame */
+  STAGING: 2,
+  PLAYING: 3,
+  PAUSED: 4,
+  COLLISION_HALT: 5,
+  COMPLETE: 6,
+  /** a member was not reached; READY follows once all stand */
+  STOPPING: 7,
+} as const
+
+export function createRobotSystem(): RobotSystem {
+  return {
+    name: '',
+    members: [],
+    mode: 0,
+    policy: 0,
+    state: 0,
+    label: '',
+    message: '',
+    clock: createPlaybackClock(),
+    duration: 0,
+    rate: 0,
+    loop: false,
+  }
+}
+
+export function readRobotSystem(from: CdrReader, into: RobotSystem): void {
+  into.name = from.string(into.name)
+  into.members = from.messages(into.members, createSystemMember, readSystemMember)
+  into.mode = from.uint8()
+  into.policy = from.uint8()
+  into.state = from.uint8()
+  into.label = from.string(into.label)
+  into.message = from.string(into.message)
+  readPlaybackClock(from, into.clock)
+  into.duration = from.float64()
+  into.rate = from.float64()
+  into.loop = from.bool()
+}
+
+export function writeRobotSystem(to: CdrWriter, message: RobotSystem): void {
+  to.string(message.name)
+  to.messages(message.members, writeSystemMember)
+  to.uint8(message.mode)
+  to.uint8(message.policy)
+  to.uint8(message.state)
+  to.string(message.label)
+  to.string(message.message)
+  writePlaybackClock(to, message.clock)
+  to.float64(message.duration)
+  to.float64(message.rate)
+  to.bool(message.loop)
+}
+
+export const robotSystemType: MessageType<RobotSystem> = /* @__PURE__ */ messageType(
+  'mrlab_msgs/msg/RobotSystem',
+  createRobotSystem,
+  readRobotSystem,
+  writeRobotSystem,
+)
+
+/** mrlab_msgs/msg/RobotSystems: All robot systems. Latched. */
+export interface RobotSystems {
+  header: Header
+  systems: RobotSystem[]
+  /** id of the lab that published it; empty: unknown */
+  lab: string
+  /** the coordinator that holds the claims; after a restart another one */
+  holder: string
+}
+
+export function createRobotSystems(): RobotSystems {
+  return {
+    header: createHeader(),
+    systems: [],
+    lab: '',
+    holder: '',
+  }
+}
+
+export function readRobotSystems(from: CdrReader, into: RobotSystems): void {
+  readHeader(from, into.header)
+  into.systems = from.messages(into.systems, createRobotSystem, readRobotSystem)
+  into.lab = from.string(into.lab)
+  into.holder = from.string(into.holder)
+}
+
+export function writeRobotSystems(to: CdrWriter, message: RobotSystems): void {
+  writeHeader(to, message.header)
+  to.messages(message.systems, writeRobotSystem)
+  to.string(message.lab)
+  to.string(message.holder)
+}
+
+export const robotSystemsType: MessageType<RobotSystems> = /* @__PURE__ */ messageType(
+  'mrlab_msgs/msg/RobotSystems',
+  createRobotSystems,
+  readRobotSystems,
+  writeRobotSystems,
+)
+
+/** mrlab_msgs/msg/Robots: All robots in the scene, in order of arrival. Latched. */
+export interface Robots {
+  /** frame_id is world */
+  header: Header
+  robots: Robot[]
+  /** id of the lab that published it; empty: unknown */
+  lab: string
+}
+
+export function createRobots(): Robots {
+  return {
+    header: createHeader(),
+    robots: [],
+    lab: '',
+  }
+}
+
+export function readRobots(from: CdrReader, into: Robots): void {
+  readHeader(from, into.header)
+  into.robots = from.messages(into.robots, createRobot, readRobot)
+  into.lab = from.string(into.lab)
+}
+
+export function writeRobots(to: CdrWriter, message: Robots): void {
+  writeHeader(to, message.header)
+  to.messages(message.robots, writeRobot)
+  to.string(message.lab)
+}
+
+export const robotsType: MessageType<Robots> = /* @__PURE__ */ messageType(
+  'mrlab_msgs/msg/Robots',
+  createRobots,
+  readRobots,
+  writeRobots,
+)
+
+/** mrlab_msgs/srv/SceneFile_Request: Save the scene to, or load it from, a file in the lab's scene folder. */
+export interface SceneFileRequest {
+  /** without folder and extension */
+  name: string
+}
+
+export function createSceneFileRequest(): SceneFileRequest {
+  return {
+    name: '',
+  }
+}
+
+export function readSceneFileRequest(from: CdrReader, into: SceneFileRequest): void {
+  into.name = from.string(into.name)
+}
+
+export function writeSceneFileRequest(to: CdrWriter, message: SceneFileRequest): void {
+  to.string(message.name)
+}
+
+export const sceneFileRequestType: MessageType<SceneFileRequest> = /* @__PURE__ */ messageType(
+  'mrlab_msgs/srv/SceneFile_Request',
+  createSceneFileRequest,
+  readSceneFileRequest,
+  writeSceneFileRequest,
+)
+
+/** mrlab_msgs/srv/SceneFile_Response */
+export interface SceneFileResponse {
+  /** false: nothing was changed, unless message names what was */
+  success: boolean
+  /** what was done and what is left out, or why not */
+  message: string
+}
+
+export function createSceneFileResponse(): SceneFileResponse {
+  return {
+    success: false,
+    message: '',
+  }
+}
+
+export function readSceneFileResponse(from: CdrReader, into: SceneFileResponse): void {
+  into.success = from.bool()
+  into.message = from.string(into.message)
+}
+
+export function writeSceneFileResponse(to: CdrWriter, message: SceneFileResponse): void {
+  to.bool(message.success)
+  to.string(message.message)
+}
+
+export const sceneFileResponseType: MessageType<SceneFileResponse> = /* @__PURE__ */ messageType(
+  'mrlab_msgs/srv/SceneFile_Response',
+  createSceneFileResponse,
+  readSceneFileResponse,
+  writeSceneFileResponse,
+)
+
+/** mrlab_msgs/msg/SceneObject: One movable or fixed thing in the scene. */
+export interface SceneObject {
+  /** unique in the scene, such as cube_1 */
+  name: string
+  /** id in the catalogue config/objects.yaml */
+  type: string
+  /** in world, m */
+  pose: Pose
+  /** in world, m/s and rad/s */
+  twist: Twist
+  /** edge lengths of its bounding box in its own frame, m */
+  size: Vector3
+  /** kg; 0: fixed */
+  mass: number
+  color: ColorRGBA
+  /** URI of its mesh; empty: draw the primitive */
+  mesh: string
+  /** its shape in its own frame; type 0: several parts or a mesh */
+  primitive: SolidPrimitive
+  /** robot that holds it, or "hand"; empty: free */
+  held_by: string
+}
+
+export function createSceneObject(): SceneObject {
+  return {
+    name: '',
+    type: '',
+    pose: createPose(),
+    twist: createTwist(),
+    size: createVector3(),
+    mass: 0,
+    color: createColorRGBA(),
+    mesh: '',
+    primitive: createSolidPrimitive(),
+    held_by: '',
+  }
+}
+
+export function readSceneObject(from: CdrReader, into: SceneObject): void {
+  into.name = from.string(into.name)
+  into.type = from.string(into.type)
+  readPose(from, into.pose)
+  readTwist(from, into.twist)
+  readVector3(from, into.size)
+  into.mass = from.float64()
+  readColorRGBA(from, into.color)
+  into.mesh = from.string(into.mesh)
+  readSolidPrimitive(from, into.primitive)
+  into.held_by = from.string(into.held_by)
+}
+
+export function writeSceneObject(to: CdrWriter, message: SceneObject): void {
+  to.string(message.name)
+  to.string(message.type)
+  writePose(to, message.pose)
+  writeTwist(to, message.twist)
+  writeVector3(to, message.size)
+  to.float64(message.mass)
+  writeColorRGBA(to, message.color)
+  to.string(message.mesh)
+  writeSolidPrimitive(to, message.primitive)
+  to.string(message.held_by)
+}
+
+export const sceneObjectType: MessageType<SceneObject> = /* @__PURE__ */ messageType(
+  'mrlab_msgs/msg/SceneObject',
+  createSceneObject,
+  readSceneObject,
+  writeSceneObject,
+)
+
+/** mrlab_msgs/msg/SceneObjects: All objects in the scene. */
+export interface SceneObjects {
+  /** frame_id is world */
+  header: Header
+  objects: SceneObject[]
+}
+
+export function createSceneObjects(): SceneObjects {
+  return {
+    header: createHeader(),
+    objects: [],
+  }
+}
+
+export function readSceneObjects(from: CdrReader, into: SceneObjects): void {
+  readHeader(from, into.header)
+  into.objects = from.messages(into.objects, createSceneObject, readSceneObject)
+}
+
+export function writeSceneObjects(to: CdrWriter, message: SceneObjects): void {
+  writeHeader(to, message.header)
+  to.messages(message.objects, writeSceneObject)
+}
+
+export const sceneObjectsType: MessageType<SceneObjects> = /* @__PURE__ */ messageType(
+  'mrlab_msgs/msg/SceneObjects',
+  createSceneObjects,
+  readSceneObjects,
+  writeSceneObjects,
+)
+
+/** mrlab_msgs/srv/Seek_Request: Go to a place on the timeline. */
+export interface SeekRequest {
+  /** s from the first frame */
+  position: number
+}
+
+export function createSeekRequest(): SeekRequest {
+  return {
+    position: 0,
+  }
+}
+
+export function readSeekRequest(from: CdrReader, into: SeekRequest): void {
+  into.position = from.float64()
+}
+
+export function writeSeekRequest(to: CdrWriter, message: SeekRequest): void {
+  to.float64(message.position)
+}
+
+export const seekRequestType: MessageType<SeekRequest> = /* @__PURE__ */ messageType(
+  'mrlab_msgs/srv/Seek_Request',
+  createSeekRequest,
+  readSeekRequest,
+  writeSeekRequest,
+)
+
+/** mrlab_msgs/srv/Seek_Response */
+export interface SeekResponse {
+  /** false: nothing was changed */
+  success: boolean
+  /** why not, or what was done */
+  message: string
+}
+
+export function createSeekResponse(): SeekResponse {
+  return {
+    success: false,
+    message: '',
+  }
+}
+
+export function readSeekResponse(from: CdrReader, into: SeekResponse): void {
+  into.success = from.bool()
+  into.message = from.string(into.message)
+}
+
+export function writeSeekResponse(to: CdrWriter, message: SeekResponse): void {
+  to.bool(message.success)
+  to.string(message.message)
+}
+
+export const seekResponseType: MessageType<SeekResponse> = /* @__PURE__ */ messageType(
+  'mrlab_msgs/srv/Seek_Response',
+  createSeekResponse,
+  readSeekResponse,
+  writeSeekResponse,
+)
+
+/** mrlab_msgs/srv/SetEndEffector_Request: Exchange a robot's end effector. */
+export interface SetEndEffectorRequest {
+  robot: string
+  /** id of the end effector; empty: none */
+  end_effector: string
+}
+
+export function createSetEndEffectorRequest(): SetEndEffectorRequest {
+  return {
+    robot: '',
+    end_effector: '',
+  }
+}
+
+export function readSetEndEffectorRequest(from: CdrReader, into: SetEndEffectorRequest): void {
+  into.robot = from.string(into.robot)
+  into.end_effector = from.string(into.end_effector)
+}
+
+export function writeSetEndEffectorRequest(to: CdrWriter, message: SetEndEffectorRequest): void {
+  to.string(message.robot)
+  to.string(message.end_effector)
+}
+
+export const setEndEffectorRequestType: MessageType<SetEndEffectorRequest> = /* @__PURE__ */ messageType(
+  'mrlab_msgs/srv/SetEndEffector_Request',
+  createSetEndEffectorRequest,
+  readSetEndEffectorRequest,
+  writeSetEndEffectorRequest,
+)
+
+/** mrlab_msgs/srv/SetEndEffector_Response */
+export interface SetEndEffectorResponse {
+  /** false: nothing was changed */
+  success: boolean
+  /** why not, or what was done */
+  message: string
+}
+
+export function createSetEndEffectorResponse(): SetEndEffectorResponse {
+  return {
+    success: false,
+    message: '',
+  }
+}
+
+export function readSetEndEffectorResponse(from: CdrReader, into: SetEndEffectorResponse): void {
+  into.success = from.bool()
+  into.message = from.string(into.message)
+}
+
+export function writeSetEndEffectorResponse(to: CdrWriter, message: SetEndEffectorResponse): void {
+  to.bool(message.success)
+  to.string(message.message)
+}
+
+export const setEndEffectorResponseType: MessageType<SetEndEffectorResponse> = /* @__PURE__ */ messageType(
+  'mrlab_msgs/srv/SetEndEffector_Response',
+  createSetEndEffectorResponse,
+  readSetEndEffectorResponse,
+  writeSetEndEffectorResponse,
+)
+
+/** mrlab_msgs/srv/SetMode_Request: Set how a robot system plays. */
+export interface SetModeRequest {
+  /** as in RobotSystem */
+  mode: number
+}
+
+export function createSetModeRequest(): SetModeRequest {
+  return {
+    mode: 0,
+  }
+}
+
+export function readSetModeRequest(from: CdrReader, into: SetModeRequest): void {
+  into.mode = from.uint8()
+}
+
+export function writeSetModeRequest(to: CdrWriter, message: SetModeRequest): void {
+  to.uint8(message.mode)
+}
+
+export const setModeRequestType: MessageType<SetModeRequest> = /* @__PURE__ */ messageType(
+  'mrlab_msgs/srv/SetMode_Request',
+  createSetModeRequest,
+  readSetModeRequest,
+  writeSetModeRequest,
+)
+
+/** mrlab_msgs/srv/SetMode_Response */
+export interface SetModeResponse {
+  /** false: nothing was changed */
+  success: boolean
+  /** why not, or what was done */
+  message: string
+}
+
+export function createSetModeResponse(): SetModeResponse {
+  return {
+    success: false,
+    message: '',
+  }
+}
+
+export function readSetModeResponse(from: CdrReader, into: SetModeResponse): void {
+  into.success = from.bool()
+  into.message = from.string(into.message)
+}
+
+export function writeSetModeResponse(to: CdrWriter, message: SetModeResponse): void {
+  to.bool(message.success)
+  to.string(message.message)
+}
+
+export const setModeResponseType: MessageType<SetModeResponse> = /* @__PURE__ */ messageType(
+  'mrlab_msgs/srv/SetMode_Response',
+  createSetModeResponse,
+  readSetModeResponse,
+  writeSetModeResponse,
+)
+
+/** mrlab_msgs/srv/SetObjects_Request: Replace all objects and all surfaces of the room. All are checked before anything changes. */
+export interface SetObjectsRequest {
+  /** one with held_by is gripped as soon as that robot is there */
+  objects: ObjectPlacement[]
+  /** without one labelled floor there is an endless floor */
+  surfaces: Surface[]
+  /** true: check only, change nothing */
+  dry_run: boolean
+}
+
+export function createSetObjectsRequest(): SetObjectsRequest {
+  return {
+    objects: [],
+    surfaces: [],
+    dry_run: false,
+  }
+}
+
+export function readSetObjectsRequest(from: CdrReader, into: SetObjectsRequest): void {
+  into.objects = from.messages(into.objects, createObjectPlacement, readObjectPlacement)
+  into.surfaces = from.messages(into.surfaces, createSurface, readSurface)
+  into.dry_run = from.bool()
+}
+
+export function writeSetObjectsRequest(to: CdrWriter, message: SetObjectsRequest): void {
+  to.messages(message.objects, writeObjectPlacement)
+  to.messages(message.surfaces, writeSurface)
+  to.bool(message.dry_run)
+}
+
+export const setObjectsRequestType: MessageType<SetObjectsRequest> = /* @__PURE__ */ messageType(
+  'mrlab_msgs/srv/SetObjects_Request',
+  createSetObjectsRequest,
+  readSetObjectsRequest,
+  writeSetObjectsRequest,
+)
+
+/** mrlab_msgs/srv/SetObjects_Response */
+export interface SetObjectsResponse {
+  /** false: nothing was changed */
+  success: boolean
+  /** why not, or what was done */
+  message: string
+  /** meaningful only on success: as in the request, where they are put */
+  objects: ObjectPlacement[]
+}
+
+export function createSetObjectsResponse(): SetObjectsResponse {
+  return {
+    success: false,
+    message: '',
+    objects: [],
+  }
+}
+
+export function readSetObjectsResponse(from: CdrReader, into: SetObjectsResponse): void {
+  into.success = from.bool()
+  into.message = from.string(into.message)
+  into.objects = from.messages(into.objects, createObjectPlacement, readObjectPlacement)
+}
+
+export function writeSetObjectsResponse(to: CdrWriter, message: SetObjectsResponse): void {
+  to.bool(message.success)
+  to.string(message.message)
+  to.messages(message.objects, writeObjectPlacement)
+}
+
+export const setObjectsResponseType: MessageType<SetObjectsResponse> = /* @__PURE__ */ messageType(
+  'mrlab_msgs/srv/SetObjects_Response',
+  createSetObjectsResponse,
+  readSetObjectsResponse,
+  writeSetObjectsResponse,
+)
+
+/** mrlab_msgs/srv/SetRate_Request: Set the speed of playback. */
+export interface SetRateRequest {
+  /** 0.1 to 4; 1 is the declared speed */
+  rate: number
+}
+
+export function createSetRateRequest(): SetRateRequest {
+  return {
+    rate: 0,
+  }
+}
+
+export function readSetRateRequest(from: CdrReader, into: SetRateRequest): void {
+  into.rate = from.float64()
+}
+
+export function writeSetRateRequest(to: CdrWriter, message: SetRateRequest): void {
+  to.float64(message.rate)
+}
+
+export const setRateRequestType: MessageType<SetRateRequest> = /* @__PURE__ */ messageType(
+  'mrlab_msgs/srv/SetRate_Request',
+  createSetRateRequest,
+  readSetRateRequest,
+  writeSetRateRequest,
+)
+
+/** mrlab_msgs/srv/SetRate_Response */
+export interface SetRateResponse {
+  /** false: nothing was changed */
+  success: boolean
+  /** why not, or what was done */
+  message: string
+}
+
+export function createSetRateResponse(): SetRateResponse {
+  return {
+    success: false,
+    message: '',
+  }
+}
+
+export function readSetRateResponse(from: CdrReader, into: SetRateResponse): void {
+  into.success = from.bool()
+  into.message = from.string(into.message)
+}
+
+export function writeSetRateResponse(to: CdrWriter, message: SetRateResponse): void {
+  to.bool(message.success)
+  to.string(message.message)
+}
+
+export const setRateResponseType: MessageType<SetRateResponse> = /* @__PURE__ */ messageType(
+  'mrlab_msgs/srv/SetRate_Response',
+  createSetRateResponse,
+  readSetRateResponse,
+  writeSetRateResponse,
+)
+
+/** mrlab_msgs/srv/SetSurfaces_Request: Replace the surfaces of the room. */
+export interface SetSurfacesRequest {
+  surfaces: Surface[]
+}
+
+export function createSetSurfacesRequest(): SetSurfacesRequest {
+  return {
+    surfaces: [],
+  }
+}
+
+export function readSetSurfacesRequest(from: CdrReader, into: SetSurfacesRequest): void {
+  into.surfaces = from.messages(into.surfaces, createSurface, readSurface)
+}
+
+export function writeSetSurfacesRequest(to: CdrWriter, message: SetSurfacesRequest): void {
+  to.messages(message.surfaces, writeSurface)
+}
+
+export const setSurfacesRequestType: MessageType<SetSurfacesRequest> = /* @__PURE__ */ messageType(
+  'mrlab_msgs/srv/SetSurfaces_Request',
+  createSetSurfacesRequest,
+  readSetSurfacesRequest,
+  writeSetSurfacesRequest,
+)
+
+/** mrlab_msgs/srv/SetSurfaces_Response */
+export interface SetSurfacesResponse {
+  /** false: nothing was changed */
+  success: boolean
+  /** why not, or what was done */
+  message: string
+}
+
+export function createSetSurfacesResponse(): SetSurfacesResponse {
+  return {
+    success: false,
+    message: '',
+  }
+}
+
+export function readSetSurfacesResponse(from: CdrReader, into: SetSurfacesResponse): void {
+  into.success = from.bool()
+  into.message = from.string(into.message)
+}
+
+export function writeSetSurfacesResponse(to: CdrWriter, message: SetSurfacesResponse): void {
+  to.bool(message.success)
+  to.string(message.message)
+}
+
+export const setSurfacesResponseType: MessageType<SetSurfacesResponse> = /* @__PURE__ */ messageType(
+  'mrlab_msgs/srv/SetSurfaces_Response',
+  createSetSurfacesResponse,
+  readSetSurfacesResponse,
+  writeSetSurfacesResponse,
+)
+
+/** mrlab_msgs/srv/ShareTrajectory_Request: Let everybody see a trajectory of the catalogue, or its owner and instructors alone. */
+export interface ShareTrajectoryRequest {
+  /** name in the catalogue */
+  id: string
+  shared: boolean
+}
+
+export function createShareTrajectoryRequest(): ShareTrajectoryRequest {
+  return {
+    id: '',
+    shared: false,
+  }
+}
+
+export function readShareTrajectoryRequest(from: CdrReader, into: ShareTrajectoryRequest): void {
+  into.id = from.string(into.id)
+  into.shared = from.bool()
+}
+
+export function writeShareTrajectoryRequest(to: CdrWriter, message: ShareTrajectoryRequest): void {
+  to.string(message.id)
+  to.bool(message.shared)
+}
+
+export const shareTrajectoryRequestType: MessageType<ShareTrajectoryRequest> = /* @__PURE__ */ messageType(
+  'mrlab_msgs/srv/ShareTrajectory_Request',
+  createShareTrajectoryRequest,
+  readShareTrajectoryRequest,
+  writeShareTrajectoryRequest,
+)
+
+/** mrlab_msgs/srv/ShareTrajectory_Response */
+export interface ShareTrajectoryResponse {
+  /** false: nothing was changed */
+  success: boolean
+  /** why not, or what was done */
+  message: string
+}
+
+export function createShareTrajectoryResponse(): ShareTrajectoryResponse {
+  return {
+    success: false,
+    message: '',
+  }
+}
+
+export function readShareTrajectoryResponse(from: CdrReader, into: ShareTrajectoryResponse): void {
+  into.success = from.bool()
+  into.message = from.string(into.message)
+}
+
+export function writeShareTrajectoryResponse(to: CdrWriter, message: ShareTrajectoryResponse): void {
+  to.bool(message.success)
+  to.string(message.message)
+}
+
+export const shareTrajectoryResponseType: MessageType<ShareTrajectoryResponse> = /* @__PURE__ */ messageType(
+  'mrlab_msgs/srv/ShareTrajectory_Response',
+  createShareTrajectoryResponse,
+  readShareTrajectoryResponse,
+  writeShareTrajectoryResponse,
+)
+
+/** mrlab_msgs/srv/SpawnObject_Request: Put an object into the scene. */
+export interface SpawnObjectRequest {
+  /** id in the catalogue */
+  type: string
+  /** wanted name; empty: the type and a number */
+  name: string
+  /** true: on the nearest surface below pose, free of others */
+  automatic: boolean
+  /** in world, m */
+  pose: Pose
+}
+
+export function createSpawnObjectRequest(): SpawnObjectRequest {
+  return {
+    type: '',
+    name: '',
+    automatic: false,
+    pose: createPose(),
+  }
+}
+
+export function readSpawnObjectRequest(from: CdrReader, into: SpawnObjectRequest): void {
+  into.type = from.string(into.type)
+  into.name = from.string(into.name)
+  into.automatic = from.bool()
+  readPose(from, into.pose)
+}
+
+export function writeSpawnObjectRequest(to: CdrWriter, message: SpawnObjectRequest): void {
+  to.string(message.type)
+  to.string(message.name)
+  to.bool(message.automatic)
+  writePose(to, message.pose)
+}
+
+export const spawnObjectRequestType: MessageType<SpawnObjectRequest> = /* @__PURE__ */ messageType(
+  'mrlab_msgs/srv/SpawnObject_Request',
+  createSpawnObjectRequest,
+  readSpawnObjectRequest,
+  writeSpawnObjectRequest,
+)
+
+/** mrlab_msgs/srv/SpawnObject_Response */
+export interface SpawnObjectResponse {
+  /** false: nothing was changed */
+  success: boolean
+  /** why not */
+  message: string
+  /** meaningful only on success */
+  object: SceneObject
+}
+
+export function createSpawnObjectResponse(): SpawnObjectResponse {
+  return {
+    success: false,
+    message: '',
+    object: createSceneObject(),
+  }
+}
+
+export function readSpawnObjectResponse(from: CdrReader, into: SpawnObjectResponse): void {
+  into.success = from.bool()
+  into.message = from.string(into.message)
+  readSceneObject(from, into.object)
+}
+
+export function writeSpawnObjectResponse(to: CdrWriter, message: SpawnObjectResponse): void {
+  to.bool(message.success)
+  to.string(message.message)
+  writeSceneObject(to, message.object)
+}
+
+export const spawnObjectResponseType: MessageType<SpawnObjectResponse> = /* @__PURE__ */ messageType(
+  'mrlab_msgs/srv/SpawnObject_Response',
+  createSpawnObjectResponse,
+  readSpawnObjectResponse,
+  writeSpawnObjectResponse,
+)
+
+/** mrlab_msgs/srv/SpawnRobot_Request: Put a robot into the scene. */
+export interface SpawnRobotRequest {
+  /** id of the model, such as ur5e */
+  model: string
+  /** id of the end effector; empty: none */
+  end_effector: string
+  /** wanted name; empty: the model's id and a number */
+  name: string
+  /** true: the lab finds a free place and pose is ignored */
+  automatic: boolean
+  /** base_link in world, m */
+  pose: Pose
+  /** where to look for a free place; empty: the floor */
+  surface: string
+}
+
+export function createSpawnRobotRequest(): SpawnRobotRequest {
+  return {
+    model: '',
+    end_effector: '',
+    name: '',
+    automatic: false,
+    pose: createPose(),
+    surface: '',
+  }
+}
+
+export function readSpawnRobotRequest(from: CdrReader, into: SpawnRobotRequest): void {
+  into.model = from.string(into.model)
+  into.end_effector = from.string(into.end_effector)
+  into.name = from.string(into.name)
+  into.automatic = from.bool()
+  readPose(from, into.pose)
+  into.surface = from.string(into.surface)
+}
+
+export function writeSpawnRobotRequest(to: CdrWriter, message: SpawnRobotRequest): void {
+  to.string(message.model)
+  to.string(message.end_effector)
+  to.string(message.name)
+  to.bool(message.automatic)
+  writePose(to, message.pose)
+  to.string(message.surface)
+}
+
+export const spawnRobotRequestType: MessageType<SpawnRobotRequest> = /* @__PURE__ */ messageType(
+  'mrlab_msgs/srv/SpawnRobot_Request',
+  createSpawnRobotRequest,
+  readSpawnRobotRequest,
+  writeSpawnRobotRequest,
+)
+
+/** mrlab_msgs/srv/SpawnRobot_Response */
+export interface SpawnRobotResponse {
+  /** false: nothing was changed */
+  success: boolean
+  /** why not */
+  message: string
+  /** meaningful only on success */
+  robot: Robot
+}
+
+export function createSpawnRobotResponse(): SpawnRobotResponse {
+  return {
+    success: false,
+    message: '',
+    robot: createRobot(),
+  }
+}
+
+export function readSpawnRobotResponse(from: CdrReader, into: SpawnRobotResponse): void {
+  into.success = from.bool()
+  into.message = from.string(into.message)
+  readRobot(from, into.robot)
+}
+
+export function writeSpawnRobotResponse(to: CdrWriter, message: SpawnRobotResponse): void {
+  to.bool(message.success)
+  to.string(message.message)
+  writeRobot(to, message.robot)
+}
+
+export const spawnRobotResponseType: MessageType<SpawnRobotResponse> = /* @__PURE__ */ messageType(
+  'mrlab_msgs/srv/SpawnRobot_Response',
+  createSpawnRobotResponse,
+  readSpawnRobotResponse,
+  writeSpawnRobotResponse,
+)
+
+/** mrlab_msgs/srv/StartRecording_Request: Start writing a bag. */
+export interface StartRecordingRequest {
+  /** folder to make; empty: named by date and time */
+  bag: string
+  /** empty: all of the lab's topics */
+  topics: string[]
+  /** s after which a new file begins; 0: never */
+  split_duration: number
+}
+
+export function createStartRecordingRequest(): StartRecordingRequest {
+  return {
+    bag: '',
+    topics: [],
+    split_duration: 0,
+  }
+}
+
+export function readStartRecordingRequest(from: CdrReader, into: StartRecordingRequest): void {
+  into.bag = from.string(into.bag)
+  into.topics = from.strings(into.topics)
+  into.split_duration = from.float64()
+}
+
+export function writeStartRecordingRequest(to: CdrWriter, message: StartRecordingRequest): void {
+  to.string(message.bag)
+  to.strings(message.topics)
+  to.float64(message.split_duration)
+}
+
+export const startRecordingRequestType: MessageType<StartRecordingRequest> = /* @__PURE__ */ messageType(
+  'mrlab_msgs/srv/StartRecording_Request',
+  createStartRecordingRequest,
+  readStartRecordingRequest,
+  writeStartRecordingRequest,
+)
+
+/** mrlab_msgs/srv/StartRecording_Response */
+export interface StartRecordingResponse {
+  success: boolean
+  /** why not */
+  message: string
+  /** the folder */
+  bag: string
+}
+
+export function createStartRecordingResponse(): StartRecordingResponse {
+  return {
+    success: false,
+    message: '',
+    bag: '',
+  }
+}
+
+export function readStartRecordingResponse(from: CdrReader, into: StartRecordingResponse): void {
+  into.success = from.bool()
+  into.message = from.string(into.message)
+  into.bag = from.string(into.bag)
+}
+
+export function writeStartRecordingResponse(to: CdrWriter, message: StartRecordingResponse): void {
+  to.bool(message.success)
+  to.string(message.message)
+  to.string(message.bag)
+}
+
+export const startRecordingResponseType: MessageType<StartRecordingResponse> = /* @__PURE__ */ messageType(
+  'mrlab_msgs/srv/StartRecording_Response',
+  createStartRecordingResponse,
+  readStartRecordingResponse,
+  writeStartRecordingResponse,
+)
+
+/** mrlab_msgs/srv/Step_Request: Step a standing robot system frame by frame. */
+export interface StepRequest {
+  /** of the member with the highest frame rate; negative: backwards */
+  frames: number
+}
+
+export function createStepRequest(): StepRequest {
+  return {
+    frames: 0,
+  }
+}
+
+export function readStepRequest(from: CdrReader, into: StepRequest): void {
+  into.frames = from.int32()
+}
+
+export function writeStepRequest(to: CdrWriter, message: StepRequest): void {
+  to.int32(message.frames)
+}
+
+export const stepRequestType: MessageType<StepRequest> = /* @__PURE__ */ messageType(
+  'mrlab_msgs/srv/Step_Request',
+  createStepRequest,
+  readStepRequest,
+  writeStepRequest,
+)
+
+/** mrlab_msgs/srv/Step_Response */
+export interface StepResponse {
+  /** false: nothing was changed */
+  success: boolean
+  /** why not, or what was done */
+  message: string
+}
+
+export function createStepResponse(): StepResponse {
+  return {
+    success: false,
+    message: '',
+  }
+}
+
+export function readStepResponse(from: CdrReader, into: StepResponse): void {
+  into.success = from.bool()
+  into.message = from.string(into.message)
+}
+
+export function writeStepResponse(to: CdrWriter, message: StepResponse): void {
+  to.bool(message.success)
+  to.string(message.message)
+}
+
+export const stepResponseType: MessageType<StepResponse> = /* @__PURE__ */ messageType(
+  'mrlab_msgs/srv/Step_Response',
+  createStepResponse,
+  readStepResponse,
+  writeStepResponse,
+)
+
+/** mrlab_msgs/msg/Surface: A static surface of the room: the floor, a table, a wall, or a mesh the headset detected. */
+export interface Surface {
+  /** unique, such as table_1 */
+  name: string
+  /** floor, wall, ceiling, table, ... as the headset names it */
+  label: string
+  /** in world, m; of a plane, z is its normal */
+  pose: Pose
+  /** in the surface's frame, m: a plane's outline, or a mesh's vertices */
+  vertices: Point[]
+  /** three vertex indices each; empty: a plane */
+  triangles: Uint32Array
+}
+
+export function createSurface(): Surface {
+  return {
+    name: '',
+    label: '',
+    pose: createPose(),
+    vertices: [],
+    triangles: new Uint32Array(0),
+  }
+}
+
+export function readSurface(from: CdrReader, into: Surface): void {
+  into.name = from.string(into.name)
+  into.label = from.string(into.label)
+  readPose(from, into.pose)
+  into.vertices = from.messages(into.vertices, createPoint, readPoint)
+  into.triangles = from.uint32s(into.triangles)
+}
+
+export function writeSurface(to: CdrWriter, message: Surface): void {
+  to.string(message.name)
+  to.string(message.label)
+  writePose(to, message.pose)
+  to.messages(message.vertices, writePoint)
+  to.uint32s(message.triangles)
+}
+
+export const surfaceType: MessageType<Surface> = /* @__PURE__ */ messageType(
+  'mrlab_msgs/msg/Surface',
+  createSurface,
+  readSurface,
+  writeSurface,
+)
+
+/** mrlab_msgs/msg/Surfaces: All surfaces of the room. Latched. */
+export interface Surfaces {
+  /** frame_id is world */
+  header: Header
+  surfaces: Surface[]
+}
+
+export function createSurfaces(): Surfaces {
+  return {
+    header: createHeader(),
+    surfaces: [],
+  }
+}
+
+export function readSurfaces(from: CdrReader, into: Surfaces): void {
+  readHeader(from, into.header)
+  into.surfaces = from.messages(into.surfaces, createSurface, readSurface)
+}
+
+export function writeSurfaces(to: CdrWriter, message: Surfaces): void {
+  writeHeader(to, message.header)
+  to.messages(message.surfaces, writeSurface)
+}
+
+export const surfacesType: MessageType<Surfaces> = /* @__PURE__ */ messageType(
+  'mrlab_msgs/msg/Surfaces',
+  createSurfaces,
+  readSurfaces,
+  writeSurfaces,
+)
+
+/** mrlab_msgs/msg/SystemMember: One robot of a robot system and its share of the timeline. */
+export interface SystemMember {
+  /** name of the robot */
+  robot: string
+  trajectory_id: string
+  /** s on the system's timeline at which it begins */
+  start: number
+  /** s at the system's rate 1 */
+  duration: number
+  /** s it waits after its end before the next one starts (sequential) */
+  dwell: number
+  /** a state of PlaybackState */
+  state: number
+  /** s on its own trajectory when it last stood or was ordered */
+  position: number
+  /** what it waits for, such as "frame 0: after kr6_1.frame 120" */
+  waits: string[]
+  /** the wait that holds it now; empty: none */
+  waiting_for: string
+}
+
+export function createSystemMember(): SystemMember {
+  return {
+    robot: '',
+    trajectory_id: '',
+    start: 0,
+    duration: 0,
+    dwell: 0,
+    state: 0,
+    position: 0,
+    waits: [],
+    waiting_for: '',
+  }
+}
+
+export function readSystemMember(from: CdrReader, into: SystemMember): void {
+  into.robot = from.string(into.robot)
+  into.trajectory_id = from.string(into.trajectory_id)
+  into.start = from.float64()
+  into.duration = from.float64()
+  into.dwell = from.float64()
+  into.state = from.uint8()
+  into.position = from.float64()
+  into.waits = from.strings(into.waits)
+  into.waiting_for = from.string(into.waiting_for)
+}
+
+export function writeSystemMember(to: CdrWriter, message: SystemMember): void {
+  to.string(message.robot)
+  to.string(message.trajectory_id)
+  to.float64(message.start)
+  to.float64(message.duration)
+  to.float64(message.dwell)
+  to.uint8(message.state)
+  to.float64(message.position)
+  to.strings(message.waits)
+  to.string(message.waiting_for)
+}
+
+export const systemMemberType: MessageType<SystemMember> = /* @__PURE__ */ messageType(
+  'mrlab_msgs/msg/SystemMember',
+  createSystemMember,
+  readSystemMember,
+  writeSystemMember,
+)
+
+/** mrlab_msgs/msg/Telemetry: What a display shows beside the robot, at a bounded rate. joint_states is the motion itself. */
+export interface Telemetry {
+  /** when it was taken; frame_id is the robot's name */
+  header: Header
+  /** order of the arrays below */
+  joint_names: string[]
+  /** rad/s, derived from the trajectory */
+  velocities: Float64Array
+  /** N*m nominal, for display only: not a torque */
+  effort_proxy: Float64Array
+  /** source frame */
+  frame: number
+  /** s from the first frame */
+  position: number
+  has_gripper: boolean
+  /** meaningful only where has_gripper */
+  gripper_closed: boolean
+  /** pose of tool0 in the robot's base_link, m */
+  tool0: Pose
+  /** s, how late the last joint state left */
+  deadline_error: number
+  /** s, largest since play */
+  deadline_error_max: number
+  /** joint states of this trajectory sent since play */
+  frames_sent: number
+  /** joint states left out since play because they were far too late */
+  frames_lost: number
+}
+
+export function createTelemetry(): Telemetry {
+  return {
+    header: createHeader(),
+    joint_names: [],
+    velocities: new Float64Array(0),
+    effort_proxy: new Float64Array(0),
+    frame: 0,
+    position: 0,
+    has_gripper: false,
+    gripper_closed: false,
+    tool0: createPose(),
+    deadline_error: 0,
+    deadline_error_max: 0,
+    frames_sent: 0,
+    frames_lost: 0,
+  }
+}
+
+export function readTelemetry(from: CdrReader, into: Telemetry): void {
+  readHeader(from, into.header)
+  into.joint_names = from.strings(into.joint_names)
+  into.velocities = from.float64s(into.velocities)
+  into.effort_proxy = from.float64s(into.effort_proxy)
+  into.frame = from.uint32()
+  into.position = from.float64()
+  into.has_gripper = from.bool()
+  into.gripper_closed = from.bool()
+  readPose(from, into.tool0)
+  into.deadline_error = from.float64()
+  into.deadline_error_max = from.float64()
+  into.frames_sent = from.uint32()
+  into.frames_lost = from.uint32()
+}
+
+export function writeTelemetry(to: CdrWriter, message: Telemetry): void {
+  writeHeader(to, message.header)
+  to.strings(message.joint_names)
+  to.float64s(message.velocities)
+  to.float64s(message.effort_proxy)
+  to.uint32(message.frame)
+  to.float64(message.position)
+  to.bool(message.has_gripper)
+  to.bool(message.gripper_closed)
+  writePose(to, message.tool0)
+  to.float64(message.deadline_error)
+  to.float64(message.deadline_error_max)
+  to.uint32(message.frames_sent)
+  to.uint32(message.frames_lost)
+}
+
+export const telemetryType: MessageType<Telemetry> = /* @__PURE__ */ messageType(
+  'mrlab_msgs/msg/Telemetry',
+  createTelemetry,
+  readTelemetry,
+  writeTelemetry,
+)
+
+/** mrlab_msgs/msg/Trajectory: A checked trajectory with its frames. Matrices are row by row: frame i of joint j is at index i * size(joint_names) + j. */
+export interface Trajectory {
+  info: TrajectoryInfo
+  /** column order of the matrices */
+  joint_names: string[]
+  /** rad, exactly the workspace's values */
+  positions: Float64Array
+  /** rad/s, derived */
+  velocities: Float64Array
+  /** N*m nominal, derived, for display only: not a torque */
+  effort_proxy: Float64Array
+  /** one a frame, 0 open, 1 closed; empty: no gripper */
+  gripper: Uint8Array
+}
+
+export function createTrajectory(): Trajectory {
+  return {
+    info: createTrajectoryInfo(),
+    joint_names: [],
+    positions: new Float64Array(0),
+    velocities: new Float64Array(0),
+    effort_proxy: new Float64Array(0),
+    gripper: new Uint8Array(0),
+  }
+}
+
+export function readTrajectory(from: CdrReader, into: Trajectory): void {
+  readTrajectoryInfo(from, into.info)
+  into.joint_names = from.strings(into.joint_names)
+  into.positions = from.float64s(into.positions)
+  into.velocities = from.float64s(into.velocities)
+  into.effort_proxy = from.float64s(into.effort_proxy)
+  into.gripper = from.uint8s(into.gripper)
+}
+
+export function writeTrajectory(to: CdrWriter, message: Trajectory): void {
+  writeTrajectoryInfo(to, message.info)
+  to.strings(message.joint_names)
+  to.float64s(message.positions)
+  to.float64s(message.velocities)
+  to.float64s(message.effort_proxy)
+  to.uint8s(message.gripper)
+}
+
+export const trajectoryType: MessageType<Trajectory> = /* @__PURE__ */ messageType(
+  'mrlab_msgs/msg/Trajectory',
+  createTrajectory,
+  readTrajectory,
+  writeTrajectory,
+)
+
+/** mrlab_msgs/msg/TrajectoryCatalogue: All trajectories that can be loaded, ordered by id. Latched. */
+export interface TrajectoryCatalogue {
+  trajectories: TrajectoryInfo[]
+}
+
+export function createTrajectoryCatalogue(): TrajectoryCatalogue {
+  return {
+    trajectories: [],
+  }
+}
+
+export function readTrajectoryCatalogue(from: CdrReader, into: TrajectoryCatalogue): void {
+  into.trajectories = from.messages(into.trajectories, createTrajectoryInfo, readTrajectoryInfo)
+}
+
+export function writeTrajectoryCatalogue(to: CdrWriter, message: TrajectoryCatalogue): void {
+  to.messages(message.trajectories, writeTrajectoryInfo)
+}
+
+export const trajectoryCatalogueType: MessageType<TrajectoryCatalogue> = /* @__PURE__ */ messageType(
+  'mrlab_msgs/msg/TrajectoryCatalogue',
+  createTrajectoryCatalogue,
+  readTrajectoryCatalogue,
+  writeTrajectoryCatalogue,
+)
+
+/** mrlab_msgs/msg/TrajectoryInfo: What there is to know of a trajectory without its frames. */
+export interface TrajectoryInfo {
+  /** name in the catalogue, unique there */
+  id: string
+  /** id of the robot model it was checked against, such as ur5e */
+  robot_model: string
+  /** id of the end effector; empty: none */
+  end_effector: string
+  /** name of the workspace file, without folder */
+  source_file: string
+  /** variable in that file, written as in MATLAB */
+  source_variable: string
+  /** of the workspace file, 64 hexadecimal digits */
+  source_sha256: string
+  /** when it was converted, wall time */
+  created: Time
+  /** Hz */
+  frame_rate: number
+  /** at least 2 */
+  frame_count: number
+  /** s, (frame_count - 1) / frame_rate */
+  duration: number
+  /** true: every frame has a gripper state */
+  has_gripper: boolean
+  /** user whose it is; empty: the lab's, made at its own machine */
+  owner: string
+  /** from 1; a new upload of the same name and owner is the next one */
+  version: number
+  /** true: everybody may see and load it; false: its owner and instructors; the lab's are shared */
+  shared: boolean
+  /** what the converter doubted, never of severity ERROR */
+  warnings: Diagnostic[]
+}
+
+export function createTrajectoryInfo(): TrajectoryInfo {
+  return {
+    id: '',
+    robot_model: '',
+    end_effector: '',
+    source_file: '',
+    source_variable: '',
+    source_sha256: '',
+    created: createTime(),
+    frame_rate: 0,
+    frame_count: 0,
+    duration: 0,
+    has_gripper: false,
+    owner: '',
+    version: 0,
+    shared: false,
+    warnings: [],
+  }
+}
+
+export function readTrajectoryInfo(from: CdrReader, into: TrajectoryInfo): void {
+  into.id = from.string(into.id)
+  into.robot_model = from.string(into.robot_model)
+  into.end_effector = from.string(into.end_effector)
+  into.source_file = from.string(into.source_file)
+  into.source_variable = from.string(into.source_variable)
+  into.source_sha256 = from.string(into.source_sha256)
+  readTime(from, into.created)
+  into.frame_rate = from.float64()
+  into.frame_count = from.uint32()
+  into.duration = from.float64()
+  into.has_gripper = from.bool()
+  into.owner = from.string(into.owner)
+  into.version = from.uint32()
+  into.shared = from.bool()
+  into.warnings = from.messages(into.warnings, createDiagnostic, readDiagnostic)
+}
+
+export function writeTrajectoryInfo(to: CdrWriter, message: TrajectoryInfo): void {
+  to.string(message.id)
+  to.string(message.robot_model)
+  to.string(message.end_effector)
+  to.string(message.source_file)
+  to.string(message.source_variable)
+  to.string(message.source_sha256)
+  writeTime(to, message.created)
+  to.float64(message.frame_rate)
+  to.uint32(message.frame_count)
+  to.float64(message.duration)
+  to.bool(message.has_gripper)
+  to.string(message.owner)
+  to.uint32(message.version)
+  to.bool(message.shared)
+  to.messages(message.warnings, writeDiagnostic)
+}
+
+export const trajectoryInfoType: MessageType<TrajectoryInfo> = /* @__PURE__ */ messageType(
+  'mrlab_msgs/msg/TrajectoryInfo',
+  createTrajectoryInfo,
+  readTrajectoryInfo,
+  writeTrajectoryInfo,
+)
+
+export const attachType: ServiceType<AttachRequest, AttachResponse> = {
+  name: 'mrlab_msgs/srv/Attach',
+  request: attachRequestType,
+  response: attachResponseType,
+}
+
+export const commandMembersType: ServiceType<CommandMembersRequest, CommandMembersResponse> = {
+  name: 'mrlab_msgs/srv/CommandMembers',
+  request: commandMembersRequestType,
+  response: commandMembersResponseType,
+}
+
+export const convertTrajectoryType: ServiceType<ConvertTrajectoryRequest, ConvertTrajectoryResponse> = {
+  name: 'mrlab_msgs/srv/ConvertTrajectory',
+  request: convertTrajectoryRequestType,
+  response: convertTrajectoryResponseType,
+}
+
+export const createSystemType: ServiceType<CreateSystemRequest, CreateSystemResponse> = {
+  name: 'mrlab_msgs/srv/CreateSystem',
+  request: createSystemRequestType,
+  response: createSystemResponseType,
+}
+
+export const detachType: ServiceType<DetachRequest, DetachResponse> = {
+  name: 'mrlab_msgs/srv/Detach',
+  request: detachRequestType,
+  response: detachResponseType,
+}
+
+export const getObjectsType: ServiceType<GetObjectsRequest, GetObjectsResponse> = {
+  name: 'mrlab_msgs/srv/GetObjects',
+  request: getObjectsRequestType,
+  response: getObjectsResponseType,
+}
+
+export const getTrajectoryType: ServiceType<GetTrajectoryRequest, GetTrajectoryResponse> = {
+  name: 'mrlab_msgs/srv/GetTrajectory',
+  request: getTrajectoryRequestType,
+  response: getTrajectoryResponseType,
+}
+
+export const listCatalogueType: ServiceType<ListCatalogueRequest, ListCatalogueResponse> = {
+  name: 'mrlab_msgs/srv/ListCatalogue',
+  request: listCatalogueRequestType,
+  response: listCatalogueResponseType,
+}
+
+export const listScenesType: ServiceType<ListScenesRequest, ListScenesResponse> = {
+  name: 'mrlab_msgs/srv/ListScenes',
+  request: listScenesRequestType,
+  response: listScenesResponseType,
+}
+
+export const listTrajectoriesType: ServiceType<ListTrajectoriesRequest, ListTrajectoriesResponse> = {
+  name: 'mrlab_msgs/srv/ListTrajectories',
+  request: listTrajectoriesRequestType,
+  response: listTrajectoriesResponseType,
+}
+
+export const loadTrajectoryType: ServiceType<LoadTrajectoryRequest, LoadTrajectoryResponse> = {
+  name: 'mrlab_msgs/srv/LoadTrajectory',
+  request: loadTrajectoryRequestType,
+  response: loadTrajectoryResponseType,
+}
+
+export const moveObjectType: ServiceType<MoveObjectRequest, MoveObjectResponse> = {
+  name: 'mrlab_msgs/srv/MoveObject',
+  request: moveObjectRequestType,
+  response: moveObjectResponseType,
+}
+
+export const placeRobotType: ServiceType<PlaceRobotRequest, PlaceRobotResponse> = {
+  name: 'mrlab_msgs/srv/PlaceRobot',
+  request: placeRobotRequestType,
+  response: placeRobotResponseType,
+}
+
+export const publishTrajectoryType: ServiceType<PublishTrajectoryRequest, PublishTrajectoryResponse> = {
+  name: 'mrlab_msgs/srv/PublishTrajectory',
+  request: publishTrajectoryRequestType,
+  response: publishTrajectoryResponseType,
+}
+
+export const removeType: ServiceType<RemoveRequest, RemoveResponse> = {
+  name: 'mrlab_msgs/srv/Remove',
+  request: removeRequestType,
+  response: removeResponseType,
+}
+
+export const replayType: ServiceType<ReplayRequest, ReplayResponse> = {
+  name: 'mrlab_msgs/srv/Replay',
+  request: replayRequestType,
+  response: replayResponseType,
+}
+
+export const restoreTrajectoryType: ServiceType<RestoreTrajectoryRequest, RestoreTrajectoryResponse> = {
+  name: 'mrlab_msgs/srv/RestoreTrajectory',
+  request: restoreTrajectoryRequestType,
+  response: restoreTrajectoryResponseType,
+}
+
+export const sceneFileType: ServiceType<SceneFileRequest, SceneFileResponse> = {
+  name: 'mrlab_msgs/srv/SceneFile',
+  request: sceneFileRequestType,
+  response: sceneFileResponseType,
+}
+
+export const seekType: ServiceType<SeekRequest, SeekResponse> = {
+  name: 'mrlab_msgs/srv/Seek',
+  request: seekRequestType,
+  response: seekResponseType,
+}
+
+export const setEndEffectorType: ServiceType<SetEndEffectorRequest, SetEndEffectorResponse> = {
+  name: 'mrlab_msgs/srv/SetEndEffector',
+  request: setEndEffectorRequestType,
+  response: setEndEffectorResponseType,
+}
+
+export const setModeType: ServiceType<SetModeRequest, SetModeResponse> = {
+  name: 'mrlab_msgs/srv/SetMode',
+  request: setModeRequestType,
+  response: setModeResponseType,
+}
+
+export const setObjectsType: ServiceType<SetObjectsRequest, SetObjectsResponse> = {
+  name: 'mrlab_msgs/srv/SetObjects',
+  request: setObjectsRequestType,
+  response: setObjectsResponseType,
+}
+
+export const setRateType: ServiceType<SetRateRequest, SetRateResponse> = {
+  name: 'mrlab_msgs/srv/SetRate',
+  request: setRateRequestType,
+  response: setRateResponseType,
+}
+
+export const setSurfacesType: ServiceType<SetSurfacesRequest, SetSurfacesResponse> = {
+  name: 'mrlab_msgs/srv/SetSurfaces',
+  request: setSurfacesRequestType,
+  response: setSurfacesResponseType,
+}
+
+export const shareTrajectoryType: ServiceType<ShareTrajectoryRequest, ShareTrajectoryResponse> = {
+  name: 'mrlab_msgs/srv/ShareTrajectory',
+  request: shareTrajectoryRequestType,
+  response: shareTrajectoryResponseType,
+}
+
+export const spawnObjectType: ServiceType<SpawnObjectRequest, SpawnObjectResponse> = {
+  name: 'mrlab_msgs/srv/SpawnObject',
+  request: spawnObjectRequestType,
+  response: spawnObjectResponseType,
+}
+
+export const spawnRobotType: ServiceType<SpawnRobotRequest, SpawnRobotResponse> = {
+  name: 'mrlab_msgs/srv/SpawnRobot',
+  request: spawnRobotRequestType,
+  response: spawnRobotResponseType,
+}
+
+export const startRecordingType: ServiceType<StartRecordingRequest, StartRecordingResponse> = {
+  name: 'mrlab_msgs/srv/StartRecording',
+  request: startRecordingRequestType,
+  response: startRecordingResponseType,
+}
+
+export const stepType: ServiceType<StepRequest, StepResponse> = {
+  name: 'mrlab_msgs/srv/Step',
+  request: stepRequestType,
+  response: stepResponseType,
+}
