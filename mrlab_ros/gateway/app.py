@@ -10,6 +10,8 @@ from fastapi import APIRouter, Depends, FastAPI
 
 import mrlab_ros
 from mrlab_ros.gateway import errors, pages
+from mrlab_ros.gateway.assets import routes as asset_routes
+from mrlab_ros.gateway.assets.cache import AssetCache
 from mrlab_ros.gateway.guard import Guard
 from mrlab_ros.gateway.hosts import Hosts
 from mrlab_ros.gateway.people import pairing_routes
@@ -21,7 +23,12 @@ from mrlab_ros.gateway.settings import Settings
 
 # One module a subject; each has a `router`, and each route a line in policy.py. The pages come
 # last: they answer any path.
-ROUTERS: tuple[APIRouter, ...] = (people_routes.router, pairing_routes.router, pages.router)
+ROUTERS: tuple[APIRouter, ...] = (
+    people_routes.router,
+    pairing_routes.router,
+    asset_routes.router,
+    pages.router,
+)
 
 
 def create_app(settings: Settings, ports: Ports) -> FastAPI:
@@ -62,6 +69,7 @@ def create_app(settings: Settings, ports: Ports) -> FastAPI:
     app.state.ports = ports
     app.state.people = people
     app.state.policy = read_policy(settings.allow_list)
+    app.state.assets = None if ports.lab is None else AssetCache(ports.lab)
     app.state.pages = settings.pages or pages.pages_folder()
     errors.install(app)
     app.add_api_route("/healthz", healthz, tags=["health"])

@@ -100,13 +100,18 @@ def respond(request: Request, page: Page, cache: str) -> Response:
     packed = page.compressed is not None and accepts_gzip(request)
     etag = f'"{page.etag}{"-gzip" if packed else ""}"'
     headers = {"ETag": etag, "Cache-Control": cache, "Vary": "Accept-Encoding"}
-    known = request.headers.get("if-none-match", "")
-    if known == "*" or etag in (each.strip().removeprefix("W/") for each in known.split(",")):
+    if is_known(request, etag):
         return Response(status_code=304, headers=headers)
     if packed:
         headers["Content-Encoding"] = "gzip"
     body = page.compressed if packed else page.body
     return Response(body, headers=headers, media_type=page.media_type)
+
+
+def is_known(request: Request, etag: str) -> bool:
+    """Return whether the browser has this version: the header If-None-Match."""
+    known = request.headers.get("if-none-match", "")
+    return known == "*" or etag in (each.strip().removeprefix("W/") for each in known.split(","))
 
 
 def accepts_gzip(request: Request) -> bool:

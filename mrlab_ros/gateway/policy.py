@@ -82,6 +82,7 @@ ROUTES: Mapping[tuple[str, str], Everybody | Role | Need] = {
     ("DELETE", "/api/trajectories/{trajectory:path}"): CONVERTS_OWN,
     ("POST", "/api/trajectories/{trajectory:path}/restore"): CONVERTS_OWN,
     ("GET", "/assets/{path:path}"): Need(Verb.RECEIVE, "assets"),
+    ("HEAD", "/assets/{path:path}"): Need(Verb.RECEIVE, "assets"),
     # What is needed for the keys that a socket asks for, the socket itself checks.
     (SOCKET, "/link"): Role.DISPLAY,
 }

@@ -32,7 +32,7 @@ def test_the_application_answers_every_path_that_is_its_own(lab: Gateway) -> Non
         assert response.headers["cache-control"] == "no-cache"
 
 
-@pytest.mark.parametrize("path", ["/api/x", "/static/gone.js", "/assets/x.stl", "/gone.js"])
+@pytest.mark.parametrize("path", ["/api/x", "/static/gone.js", "/gone.js"])
 def test_a_missing_file_is_no_page(lab: Gateway, path: str) -> None:
     assert code_of(lab.anyone.get(path)) == (404, "not_found")
 

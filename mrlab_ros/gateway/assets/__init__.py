@@ -1,0 +1,1 @@
+"""The lab's assets over HTTP, fetched once over zenoh."""
