@@ -12,7 +12,7 @@ from rclpy.node import Node
 from mrlab_ros.adapters.robots.library import RobotLibrary
 from mrlab_ros.core.trajectory.trajectory import Channels, Source, Trajectory
 from mrlab_ros.messages import qos, trajectories
-from mrlab_ros.nodes.coordinator import CoordinatorNode
+from mrlab_ros.nodes.coordinator.node import CoordinatorNode
 from mrlab_ros.nodes.lab.node import LabNode
 from mrlab_ros.nodes.playback import PlaybackHostNode
 from mrlab_ros.ros import share

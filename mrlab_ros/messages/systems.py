@@ -119,4 +119,11 @@ def reply_from_message(message: msg.DriveReply, stamp_ns: int) -> Reply:
 
 def loaded_from_message(message: msg.DriveReply, stamp_ns: int) -> Loaded:
     """stamp_ns: when the member was claimed."""
-    return Loaded(message.trajectory_id, message.trajectory_duration, message.frame_rate, stamp_ns)
+    return Loaded(
+        message.trajectory_id,
+        message.trajectory_duration,
+        message.frame_rate,
+        stamp_ns,
+        State(message.state),
+        message.position,
+    )

@@ -24,8 +24,8 @@ from mrlab_ros.core.playback.playback import Playback, PlaybackStatus
 from mrlab_ros.core.playback.states import State
 from mrlab_ros.core.playback.stream import Sample
 from mrlab_ros.core.robots.model import RobotModel
+from mrlab_ros.core.systems.members import NOT_PLAYED, Order
 from mrlab_ros.core.systems.members import Command as MemberCommand
-from mrlab_ros.core.systems.members import Order
 from mrlab_ros.core.trajectory.trajectory import Trajectory
 from mrlab_ros.messages import qos
 from mrlab_ros.messages.joint_states import JointStateEncoder
@@ -245,7 +245,7 @@ class PlaybackNode(Node):
         """
         playback, start_ns = self.playback, order.stamp_ns or None
         if order.command is MemberCommand.CLAIM:
-            playback.claim(by)
+            playback.claim(now_ns, by)
         elif order.command is MemberCommand.RELEASE:
             playback.release(now_ns, by)
         elif order.command is MemberCommand.STAGE:
@@ -409,7 +409,7 @@ class PlaybackHostNode(ParameterNode[PlaybackParameters]):
             for order in request.orders:
                 node = self.nodes.get(order.robot)
                 if node is None:
-                    raise Misuse(f"{order.robot}: has no playback here; is it still in the scene?")
+                    raise Misuse(f"{order.robot}: {NOT_PLAYED}")
                 try:
                     duration = node.drive(now_ns, request.system, order_from_message(order))
                 except LabError as error:

@@ -50,7 +50,7 @@ NODES = {
         ("/trajectories", "TrajectoryCatalogue"),
     ),
     "coordinator": NodeEntry(
-        "mrlab_ros.nodes.coordinator",
+        "mrlab_ros.nodes.coordinator.node",
         "CoordinatorNode",
         "coordinator",
         ("/systems", "RobotSystems"),

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import threading
+
 import pytest
 import small_lab
 from graph import Graph, wait_for
@@ -105,6 +107,58 @@ def test_a_system_that_cannot_be_is_refused_and_leaves_nothing_behind(graph, lab
     assert graph.call(Trigger, f"/{robot}/play").success
 
 
+def test_a_refused_system_changes_no_robot(graph, lab):
+    a, b = spawn(graph), spawn(graph)
+    load(graph, a, "long")
+    assert graph.call(srv.Seek, f"/{a}/seek", position=2.0).success
+    states = {robot: listen_state(graph, robot) for robot in (a, b)}
+    seen = {robot: len(states[robot]) for robot in (a, b)}
+    answer = make_system(graph, {a: "wave", b: "wave"}, waits={b: ["frame 99: after a.frame 1"]})
+    assert not answer.success
+    assert "waits at frame 99" in answer.message
+    answer = make_system(graph, {a: "wave", b: "nothing"})
+    assert not answer.success
+    assert graph.call(Trigger, f"/{a}/play").success
+    wait_for(lambda: states[a].last() and states[a].last().label == "PLAYING", "the motion")
+    assert states[a].last().trajectory_id == "long"
+    assert not [s for s in states[a][seen[a] :] if s.system]
+    answer = make_system(graph, {a: "wave"})
+    assert not answer.success
+    assert "is in PLAYING; stop it first" in answer.message
+
+
+def test_members_that_wait_for_each_other_are_refused_with_the_circle(graph, lab):
+    a, b = spawn(graph), spawn(graph)
+    waits = {a: [f"frame 10: after {b}.frame 20"], b: [f"frame 10: after {a}.frame 20"]}
+    answer = make_system(graph, {a: "wave", b: "wave"}, waits=waits)
+    assert not answer.success
+    assert f"{a} waits at frame 10: after {b}.frame 20" in answer.message
+    assert "without end" in answer.message
+
+
+def test_a_play_that_waits_when_its_system_is_dissolved_is_answered(graph, lab):
+    a = spawn(graph)
+    assert make_system(graph, {a: "wave"}).success
+    clients = {
+        service: graph.client.create_client(kind, service)
+        for kind, service in (
+            (Trigger, "/cell/play"),
+            (srv.Remove, "/coordinator/dissolve_system"),
+        )
+    }
+    assert all(client.wait_for_service(15.0) for client in clients.values())
+    held, go_on = threading.Event(), threading.Event()
+    # The worker is busy, so both requests wait.
+    lab.coordinator.worker.send(lambda: (held.set(), go_on.wait(15.0)))
+    assert held.wait(15.0)
+    gone = clients["/coordinator/dissolve_system"].call_async(srv.Remove.Request(name="cell"))
+    waiting = [clients["/cell/play"].call_async(Trigger.Request()) for _ in range(3)]
+    go_on.set()
+    wait_for(lambda: gone.done() and all(answer.done() for answer in waiting), "all answers")
+    assert gone.result().success
+    assert not any(answer.result().success for answer in waiting if not answer.result().message)
+
+
 def listen_systems(graph: Graph):
     return graph.listen(msg.RobotSystems, "/systems", qos.LATCHED_EVENTS)
 
@@ -176,7 +230,7 @@ def test_a_member_waits_for_what_another_holds(graph, lab):
     wait_for(lambda: state_of(systems).message == "played to the end", "the end")
 
 
-def test_a_killed_playback_host_ends_the_run_and_the_next_play_recovers(graph, lab):
+def test_a_killed_playback_host_pauses_the_system_and_the_next_play_goes_on(graph, lab):
     a, b = spawn(graph), spawn(graph)
     systems = listen_systems(graph)
     assert make_system(graph, {a: "long", b: "long"}).success
@@ -185,7 +239,7 @@ def test_a_killed_playback_host_ends_the_run_and_the_next_play_recovers(graph, l
     graph.drop(lab.host)
     graph.add(PlaybackHostNode)
     wait_for(lambda: "lost its playback" in state_of(systems).message, "the loss")
-    assert state_of(systems).label == "READY"
+    assert state_of(systems).label == "PAUSED"
     answer = graph.call(Trigger, "/cell/play")
     assert answer.success, answer.message
     wait_for(lambda: state_of(systems).label == "PLAYING", "a new run")

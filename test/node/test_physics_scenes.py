@@ -13,7 +13,7 @@ from std_srvs.srv import Trigger
 
 from mrlab_ros.messages import qos
 from mrlab_ros.nodes.converter import ConverterNode
-from mrlab_ros.nodes.coordinator import CoordinatorNode
+from mrlab_ros.nodes.coordinator.node import CoordinatorNode
 from mrlab_ros.nodes.lab.node import LabNode
 from mrlab_ros.nodes.physics.node import PhysicsNode
 from mrlab_ros.nodes.playback import PlaybackHostNode

@@ -14,7 +14,7 @@ from small_lab import Catalogue, listen_state, load, spawn
 from std_srvs.srv import SetBool, Trigger
 
 from mrlab_ros.messages import qos
-from mrlab_ros.nodes.coordinator import CoordinatorNode
+from mrlab_ros.nodes.coordinator.node import CoordinatorNode
 from mrlab_ros.nodes.lab.node import LabNode
 from mrlab_ros.nodes.playback import PlaybackHostNode
 

@@ -9,13 +9,14 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from mrlab_ros.core.clock import PlaybackClock, checked_position, checked_rate
-from mrlab_ros.core.errors import BadInput, Misuse
+from mrlab_ros.core.errors import Misuse
 from mrlab_ros.core.geometry import Array
 from mrlab_ros.core.playback.planner import MotionPlanner
 from mrlab_ros.core.playback.states import MOVING, TABLE, Event, State
 from mrlab_ros.core.playback.stream import Sample, Stream
 from mrlab_ros.core.robots.model import RobotModel
 from mrlab_ros.core.state_machine import Machine
+from mrlab_ros.core.trajectory.fit import check_fits
 from mrlab_ros.core.trajectory.trajectory import Trajectory
 
 
@@ -251,10 +252,18 @@ class Playback:
 
     # membership -----------------------------------------------------------------------------
 
-    def claim(self, system: str) -> None:
-        """Become a member of `system`; raise Misuse where another system has the robot."""
+    def claim(self, now_ns: int, system: str) -> None:
+        """Become a member of `system`, standing where the arm is.
+
+        Raises Misuse where another system has the robot, or where the robot moves by itself.
+        """
         if self.system not in ("", system):
             raise Misuse(f"is a member of system '{self.system}' already; dissolve that one first")
+        if self.moving:
+            if not self.system:
+                raise Misuse(f"is in {self.state.name}; stop it first")
+            # The system was restarted, and knows nothing of what its member does.
+            self._halt(now_ns, Event.RELEASED, "")
         self.system = system
         self._announce(f"driven by system {system}")
 
@@ -331,22 +340,11 @@ class Playback:
 
     def _check_fits(self, trajectory: Trajectory) -> None:
         """Raise BadInput where the trajectory was not made for this robot."""
-        if trajectory.robot_model != self.model.id:
-            raise BadInput(
-                f"trajectory '{trajectory.id}' was made for {trajectory.robot_model}, this robot "
-                f"is a {self.model.id}; convert the file again for {self.model.id}"
-            )
-        if trajectory.joint_names != self.model.joint_names:
-            raise BadInput(
-                f"trajectory '{trajectory.id}' has the joints {', '.join(trajectory.joint_names)}"
-                f"; expected {', '.join(self.model.joint_names)}; convert the file again"
-            )
-        if trajectory.end_effector not in (None, self.end_effector):
-            raise BadInput(
-                f"trajectory '{trajectory.id}' was made for the end effector "
-                f"{trajectory.end_effector}, this robot carries {self.end_effector or 'none'}; "
-                "exchange the end effector, or convert the file again"
-            )
+        check_fits(
+            trajectory.id,
+            (trajectory.robot_model, trajectory.joint_names, trajectory.end_effector or ""),
+            (self.model.id, self.model.joint_names, self.end_effector),
+        )
 
     def _announce(self, message: str) -> None:
         self._message = message
@@ -409,7 +407,8 @@ class Playback:
 
     def _finish(self, end_ns: int) -> None:
         """End the run, or start over: the last frame left at `end_ns`."""
-        if not self.loop:
+        # A member's own loop would keep its system from ending.
+        if self.system or not self.loop:
             # COMPLETE lasts no longer than its announcement.
             self._stand(end_ns, Event.FINISHED, self._loaded().duration, "played to the end")
             self._machine.fire(Event.REARMED)

@@ -138,7 +138,14 @@ def _member(place: str, number: int, value: object) -> MemberEntry:
     entry.place = f"{place}, member {robot}"
     waits = _waits(entry, 0)
     for hold in entry.records("holds", HOLD_FIELDS, "hold"):
-        waits += _waits(hold, hold.required("frame", FRAME))
+        frame = hold.required("frame", FRAME)
+        conditions = _waits(hold, frame)
+        if not conditions:
+            raise hold.error(
+                f"nothing says until when it holds frame {frame}; add wait, such as 'object "
+                "cube_1 free', or after, such as 'kr6_1.frame 120'"
+            )
+        waits += conditions
     waits += _parsed(entry, entry.value("waits", TEXTS, ()))
     return MemberEntry(
         robot=robot,

@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from enum import Enum
 from typing import Protocol
 
 from mrlab_ros.core.playback.states import State
+
+# What a host says of a robot that it does not play. A host that was just started may not yet.
+NOT_PLAYED = "has no playback here; is it still in the scene?"
 
 
 class Command(Enum):
@@ -51,30 +54,45 @@ class Reply:
 
 @dataclass(frozen=True)
 class Loaded:
-    """The trajectory of a member; an empty id: it has none. stamp_ns: when it was claimed."""
+    """The trajectory of a member; an empty id: it has none. stamp_ns: when it was claimed.
+
+    state, position (s on its trajectory): where it stood then.
+    """
 
     trajectory_id: str
     duration: float
     frame_rate: float
     stamp_ns: int = 0
+    state: State = State.READY
+    position: float = 0.0
 
 
 class Fleet(Protocol):
-    """The members of one system. Every method raises LabError where a member cannot be reached
-    or refuses."""
+    """The members of one system. Every call reaches all robots at once, within one time-out.
 
-    def claim(self, robot: str) -> Loaded:
-        """Make the robot a member; from then on it accepts commands of the system alone."""
+    Where a member cannot be reached or refuses, the methods raise LabError, but for reach().
+    """
+
+    def claim(self, robots: Sequence[str]) -> list[Loaded]:
+        """Make the robots members; from then on they accept commands of the system alone."""
         ...
 
-    def release(self, robot: str) -> None:
-        """Let the robot go, paused where it is."""
+    def release(self, robots: Sequence[str]) -> None:
+        """Let the robots go, paused where they are; no effect for one that is no member."""
         ...
 
-    def load(self, robot: str, trajectory_id: str) -> None:
-        """Load a trajectory; a robot loads only while it is no member."""
+    def load(self, trajectories: Mapping[str, str]) -> None:
+        """Load trajectories by robot, empty: unload; a robot loads only while it is no member."""
         ...
 
     def drive(self, orders: Sequence[Order]) -> list[Reply]:
-        """Send all orders at once; return one reply for each, in their order."""
+        """Send all orders; return one reply for each, in their order."""
+        ...
+
+    def reach(self, orders: Sequence[Order], timeout: float | None = None) -> list[Reply | None]:
+        """Send each order by itself; return the replies, None where a robot did not answer.
+
+        One that refuses is no member any more, or has no trajectory: its reply says IDLE.
+        timeout: s; None: that of drive().
+        """
         ...

@@ -12,9 +12,10 @@ from contextlib import contextmanager
 from enum import Enum
 
 from mrlab_ros.core.clock import SECOND, PlaybackClock, checked_position, checked_rate
-from mrlab_ros.core.errors import LabError, Misuse
+from mrlab_ros.core.errors import LabError
 from mrlab_ros.core.playback.states import MOVING, State
 from mrlab_ros.core.state_machine import Machine
+from mrlab_ros.core.systems.claims import Claims
 from mrlab_ros.core.systems.members import Command, Fleet, Order, Reply
 from mrlab_ros.core.systems.states import ACTIVE, TABLE, SystemEvent, SystemState, reason
 from mrlab_ros.core.systems.timeline import Member, Mode, Timeline
@@ -26,6 +27,9 @@ START_LEAD_S = 0.1
 ORDER_HORIZON_S = 0.3
 # A staging that takes this much longer than planned has failed, s.
 STAGING_TIMEOUT_S = 5.0
+# A member that was not reached is asked again this often, and given this time to answer, s.
+RETRY_PERIOD_S = 1.0
+RETRY_TIMEOUT_S = 0.5
 
 
 class Policy(Enum):
@@ -72,9 +76,13 @@ class RobotSystem:
         self.rate = 1.0
         self._timeline = Timeline(members, mode)
         self._fleet = fleet
+        self._claims = Claims(fleet, self._timeline)
         self._announce = announce
         self._machine = Machine(TABLE, reason)
         self._staged_by_ns = 0
+        self._retry_ns = 0
+        # Members that did not answer when they were to stop.
+        self._stranded: list[Member] = []
 
     # what it is -----------------------------------------------------------------------------
 
@@ -105,12 +113,29 @@ class RobotSystem:
 
     # commands -------------------------------------------------------------------------------
 
-    def prepare(self) -> None:
-        """Claim and load every member; raise LabError where one cannot be had."""
-        for member in self._timeline:
-            self._prepare(member)
+    def check(self) -> None:
+        """Raise BadInput where the waits cannot be; the lengths of the members are known."""
         self._timeline.check_waits()
+
+    def prepare(self) -> None:
+        """Claim and load every member.
+
+        Raises LabError where one cannot be had; every robot is then as it was before.
+        """
+        self._claims.prepare()
         self._timeline.lay_out()
+
+    def come_back(self, now_ns: int, position: float, rate: float) -> None:
+        """Stand PAUSED at `position` (s) after a restart of the coordinator.
+
+        The members have their shares, trajectories and met waits. Each is claimed again as it
+        reports itself, and by the next play.
+        """
+        self._machine.fire(SystemEvent.RETURN)
+        self.rate = rate
+        self._timeline.place(position)
+        self.clock = PlaybackClock(now_ns, min(position, self.duration), 0.0)
+        self.message = "the coordinator was restarted; play goes on from here"
 
     def play(self, now_ns: int) -> float:
         """Bring every member to its place, then play; return how long the staging takes, s."""
@@ -124,13 +149,18 @@ class RobotSystem:
         self.message = "paused"
 
     def stop(self, now_ns: int) -> None:
-        """End the run; the next play begins at the start of the timeline."""
+        """End the run; the next play begins at the start of the timeline.
+
+        A member that does not answer may still move: the system is STOPPING until it does.
+        """
         self._machine.check(SystemEvent.STOP)
-        there = [m for m in self._timeline if m.playback_state is not State.IDLE]
-        self._drive(now_ns, [Order(m.robot, Command.STOP) for m in there])
-        self._rewind(now_ns)
+        there = [
+            m for m in self._timeline if m.playback_state is not State.IDLE or m in self._stranded
+        ]
         self._machine.fire(SystemEvent.STOP)
         self.message = "stopped"
+        self._stop_members(now_ns, there)
+        self._rewind(now_ns)
 
     def seek(self, now_ns: int, position: float) -> None:
         """Go to `position` (s) of the timeline at once; PLAYING plays on from there.
@@ -167,6 +197,8 @@ class RobotSystem:
 
     def set_mode(self, mode: Mode) -> None:
         """Set how the members share the timeline; only while nothing is under way."""
+        self._machine.check(SystemEvent.SET_MODE)
+        self._timeline.check_circles(mode)
         self._machine.fire(SystemEvent.SET_MODE)
         self._timeline.mode = mode
         self._timeline.lay_out()
@@ -180,20 +212,31 @@ class RobotSystem:
         state: State,
         position: float,
         stamp_ns: int | None = None,
+        owner: str | None = None,
+        trajectory_id: str = "",
     ) -> None:
         """Take a member's new state, and let the system follow it.
 
         stamp_ns: when the member was in that state; one from before its last reply is out of
-        date and ignored. None: now.
+        date and ignored. None: now. owner: the system that the member obeys; None: this one.
+        trajectory_id: what it has loaded. One that came back with its trajectory is claimed again.
         """
         member = self.members[robot]
         if stamp_ns is not None and stamp_ns < member.replied_ns:
             return
         with self._announcing():
-            before, member.playback_state = member.playback_state, state
+            if owner is not None and (owner != self.name or member.playback_state is State.IDLE):
+                if owner != self.name or state is State.IDLE:
+                    self._lose(now_ns, member)
+                if owner in ("", self.name) and trajectory_id == member.trajectory_id:
+                    self._take_back(now_ns, member)
+                return
             if state is State.IDLE:
                 self._lose(now_ns, member)
-            elif state is State.COLLISION_HALT:
+                self._poll(now_ns)
+                return
+            before, member.playback_state = member.playback_state, state
+            if state is State.COLLISION_HALT:
                 member.position = position
                 if before is not State.COLLISION_HALT:
                     self._collide(now_ns, member)
@@ -237,7 +280,7 @@ class RobotSystem:
     def _stage(self, now_ns: int, event: SystemEvent) -> float:
         """Start the staging with `event`; return how long it takes, s."""
         self._machine.check(event)
-        self._revive()
+        self._claims.revive()
         if self.state is not SystemState.PAUSED:
             self._rewind(now_ns)
         self._machine.fire(event)
@@ -249,7 +292,9 @@ class RobotSystem:
         ]
         replies = self._drive(now_ns, orders)
         longest = max((reply.duration for reply in replies), default=0.0)
-        self._staged_by_ns = now_ns + round((longest + STAGING_TIMEOUT_S) * SECOND)
+        # Members that were loaded first got their orders later than now.
+        ordered_ns = max([now_ns, *(reply.stamp_ns for reply in replies)])
+        self._staged_by_ns = ordered_ns + round((longest + STAGING_TIMEOUT_S) * SECOND)
         self._start_when_staged(now_ns)
         return longest
 
@@ -271,7 +316,7 @@ class RobotSystem:
         """Put the timeline and every member at `position`, s."""
         target = self._machine.check(event)
         checked_position(position, self.duration)
-        self._revive()
+        self._claims.revive()
         if self.state is SystemState.PLAYING:
             self._freeze(now_ns)
         self._timeline.seek(position)
@@ -306,24 +351,89 @@ class RobotSystem:
         self.message = "clear again"
 
     def _lose(self, now_ns: int, member: Member) -> None:
-        """End the run: the member's playback has no trajectory any more."""
-        if not self._machine.ignores(SystemEvent.LOSE):
-            message = f"{member.robot} lost its playback; play again to start over"
-            self._come_to_rest(now_ns, SystemEvent.LOSE, message)
-        member.playback_state = State.IDLE
+        """Let all stand where they are: the member has no trajectory, or obeys another."""
+        known, member.playback_state = member.playback_state, State.IDLE
+        member.ordered = False
+        if known is State.IDLE or self._machine.ignores(SystemEvent.LOSE):
+            return
+        complete = self.state is SystemState.COMPLETE
+        self._machine.fire(SystemEvent.LOSE)
+        if complete:
+            self.message = f"{member.robot} lost its playback; play again to start over"
+            self._rewind(now_ns)
+            return
+        self.message = f"{member.robot} lost its playback; play goes on from here"
+        position = min(self.clock.at(now_ns), self.duration)
+        self.clock = PlaybackClock(now_ns, position, 0.0)
+        self._timeline.place(position)
+        for other in self._timeline:
+            other.ordered = False
+        moving = [m for m in self._timeline if m.playback_state in MOVING]
+        orders = [Order(m.robot, Command.PAUSE) for m in moving]
+        for other, reply in zip(moving, self._fleet.reach(orders), strict=True):
+            # One that did not answer is lost as well, until it reports itself again.
+            if reply is None:
+                other.playback_state = State.IDLE
+            else:
+                self._take([reply], [other])
+        self._clear()
+
+    def _take_back(self, now_ns: int, member: Member) -> None:
+        """Claim a member that came back; the next play moves it to its place."""
+        state = self._claims.take_back(member)
+        if state is State.COLLISION_HALT and self._machine.can(SystemEvent.RETURN_HALTED):
+            self._machine.fire(SystemEvent.RETURN_HALTED)
+            self.message = f"{member.robot} still collides"
 
     def _come_to_rest(self, now_ns: int, event: SystemEvent, why: str) -> None:
         """Stop every member after something failed; the next play begins at the start."""
         self._machine.fire(event)
         self.message = why
-        for member in self._timeline:
-            member.ordered = False
-            try:
-                self._take(self._fleet.drive([Order(member.robot, Command.STOP)]), [member])
-            except LabError:
-                # The member is unreachable or no longer a member; the next play claims it again.
-                member.playback_state = State.IDLE
+        # A member that did not answer has had its time already.
+        self._stop_members(now_ns, list(self._timeline), RETRY_TIMEOUT_S)
         self._rewind(now_ns)
+
+    def _stop_members(
+        self, now_ns: int, members: Sequence[Member], timeout: float | None = None
+    ) -> None:
+        """Stop all members within one time-out; those that do not answer are asked again."""
+        for member in members:
+            member.ordered = False
+        self._stranded = self._reach_to_stop(members, timeout)
+        if self._stranded:
+            # In a collision halt the system waits for its members anyway.
+            if self._machine.can(SystemEvent.STRAND):
+                self._machine.fire(SystemEvent.STRAND)
+            names = ", ".join(m.robot for m in self._stranded)
+            self.message = f"{self.message}; {names} did not answer and may still move"
+            self._retry_ns = now_ns + round(RETRY_PERIOD_S * SECOND)
+        elif not self._machine.ignores(SystemEvent.REST):
+            self._machine.fire(SystemEvent.REST)
+
+    def _reach_to_stop(
+        self, members: Sequence[Member], timeout: float | None = None
+    ) -> list[Member]:
+        """Stop the members; return those that did not answer."""
+        replies = self._fleet.reach([Order(m.robot, Command.STOP) for m in members], timeout)
+        stranded = []
+        for member, reply in zip(members, replies, strict=True):
+            if reply is None:
+                stranded.append(member)
+                # The next play claims it again.
+                member.playback_state = State.IDLE
+            else:
+                self._take([reply], [member])
+        return stranded
+
+    def _retry(self, now_ns: int) -> None:
+        """Ask the members again that did not answer when they were to stop."""
+        if now_ns < self._retry_ns:
+            return
+        self._retry_ns = now_ns + round(RETRY_PERIOD_S * SECOND)
+        self._stranded = self._reach_to_stop(self._stranded, RETRY_TIMEOUT_S)
+        if not self._stranded:
+            self._machine.fire(SystemEvent.REST)
+            self.message = "all members stand; play starts over"
 
     def _finish(self, now_ns: int) -> None:
         """End the run: READY, or the next round where it loops."""
@@ -345,27 +455,6 @@ class RobotSystem:
             raise
 
     # inside: members ------------------------------------------------------------------------
-
-    def _prepare(self, member: Member) -> None:
-        """Claim a member, with its trajectory loaded."""
-        loaded = self._fleet.claim(member.robot)
-        if member.trajectory_id not in ("", loaded.trajectory_id):
-            # A member accepts no load, so it leaves the system for it.
-            self._fleet.release(member.robot)
-            self._fleet.load(member.robot, member.trajectory_id)
-            loaded = self._fleet.claim(member.robot)
-        if not loaded.trajectory_id:
-            raise Misuse(f"{member.robot} has no trajectory; load one, or name one for the system")
-        member.trajectory_id = loaded.trajectory_id
-        member.duration, member.frame_rate = loaded.duration, loaded.frame_rate
-        member.replied_ns = loaded.stamp_ns
-        member.playback_state = State.READY
-
-    def _revive(self) -> None:
-        """Claim and load those members again that lost their playback."""
-        for member in self._timeline:
-            if member.playback_state is State.IDLE:
-                self._prepare(member)
 
     def _rewind(self, now_ns: int) -> None:
         self.clock = PlaybackClock(now_ns, 0.0, 0.0)
@@ -412,6 +501,9 @@ class RobotSystem:
     # inside: time ---------------------------------------------------------------------------
 
     def _poll(self, now_ns: int) -> None:
+        if self.state is SystemState.STOPPING:
+            self._retry(now_ns)
+            return
         if self.state is SystemState.STAGING and now_ns > self._staged_by_ns:
             late = [m.robot for m in self._timeline if m.playback_state is State.ADJUSTING]
             why = f"{', '.join(late)} did not arrive at the start in time"

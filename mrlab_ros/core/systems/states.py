@@ -1,4 +1,4 @@
-"""The six states of a robot system: one table decides every transition.
+"""The seven states of a robot system: one table decides every transition.
 
 `docs/systems.md` shows the diagram and the table. Setting the rate and the loop changes no state
 and is allowed in every state, so these are no events.
@@ -20,6 +20,7 @@ class SystemState(Enum):
     PAUSED = 4
     COLLISION_HALT = 5
     COMPLETE = 6
+    STOPPING = 7
 
 
 class SystemEvent(Enum):
@@ -40,6 +41,10 @@ class SystemEvent(Enum):
     FINISH = "finish"
     REPEAT = "start over"
     REARM = "be ready again"
+    STRAND = "miss an answer"
+    REST = "have all members at rest"
+    RETURN = "come back"
+    RETURN_HALTED = "come back in a halt"
 
 
 S, E = SystemState, SystemEvent
@@ -58,14 +63,14 @@ TABLE: Table[SystemState, SystemEvent] = Table(
         (S.STAGING, E.COLLIDE): S.COLLISION_HALT,
         # A staging waits for all members, so one that halts halts it whatever the policy.
         (S.STAGING, E.COLLIDE_ALONE): S.COLLISION_HALT,
-        (S.STAGING, E.LOSE): S.READY,
+        (S.STAGING, E.LOSE): S.PAUSED,
         (S.STAGING, E.ABORT): S.READY,
         (S.PLAYING, E.PAUSE): S.PAUSED,
         (S.PLAYING, E.STOP): S.READY,
         (S.PLAYING, E.SEEK): S.PLAYING,
         (S.PLAYING, E.COLLIDE): S.COLLISION_HALT,
         (S.PLAYING, E.COLLIDE_ALONE): S.PLAYING,
-        (S.PLAYING, E.LOSE): S.READY,
+        (S.PLAYING, E.LOSE): S.PAUSED,
         (S.PLAYING, E.ABORT): S.READY,
         (S.PLAYING, E.FINISH): S.COMPLETE,
         (S.PAUSED, E.STAGE): S.STAGING,
@@ -73,37 +78,48 @@ TABLE: Table[SystemState, SystemEvent] = Table(
         (S.PAUSED, E.STOP): S.READY,
         (S.PAUSED, E.SEEK): S.PAUSED,
         (S.PAUSED, E.STEP): S.PAUSED,
-        (S.PAUSED, E.LOSE): S.READY,
+        (S.PAUSED, E.LOSE): S.PAUSED,
         (S.PAUSED, E.ABORT): S.READY,
         (S.COLLISION_HALT, E.STOP): S.COLLISION_HALT,
         (S.COLLISION_HALT, E.SEEK): S.COLLISION_HALT,
         (S.COLLISION_HALT, E.STEP): S.COLLISION_HALT,
         (S.COLLISION_HALT, E.CLEAR): S.PAUSED,
-        (S.COLLISION_HALT, E.LOSE): S.READY,
+        (S.COLLISION_HALT, E.LOSE): S.COLLISION_HALT,
         (S.COLLISION_HALT, E.ABORT): S.READY,
         (S.COMPLETE, E.REPEAT): S.STAGING,
         (S.COMPLETE, E.REARM): S.READY,
         (S.COMPLETE, E.LOSE): S.READY,
         (S.COMPLETE, E.ABORT): S.READY,
+        # A member that was not reached may still move.
+        (S.READY, E.STRAND): S.STOPPING,
+        (S.STOPPING, E.STOP): S.STOPPING,
+        (S.STOPPING, E.REST): S.READY,
+        # After a restart of the coordinator, or of a playback.
+        (S.READY, E.RETURN): S.PAUSED,
+        (S.READY, E.RETURN_HALTED): S.COLLISION_HALT,
+        (S.PAUSED, E.RETURN_HALTED): S.COLLISION_HALT,
     },
     # What members report in a state that does not wait for it.
     ignored={
-        E.STAGED: (S.READY, S.PLAYING, S.PAUSED, S.COLLISION_HALT, S.COMPLETE),
-        E.COLLIDE: (S.READY, S.PAUSED, S.COLLISION_HALT, S.COMPLETE),
-        E.COLLIDE_ALONE: (S.READY, S.PAUSED, S.COLLISION_HALT, S.COMPLETE),
-        E.CLEAR: (S.READY, S.STAGING, S.PLAYING, S.PAUSED, S.COMPLETE),
-        E.LOSE: (S.READY,),
+        E.STAGED: (S.READY, S.PLAYING, S.PAUSED, S.COLLISION_HALT, S.COMPLETE, S.STOPPING),
+        E.COLLIDE: (S.READY, S.PAUSED, S.COLLISION_HALT, S.COMPLETE, S.STOPPING),
+        E.COLLIDE_ALONE: (S.READY, S.PAUSED, S.COLLISION_HALT, S.COMPLETE, S.STOPPING),
+        E.CLEAR: (S.READY, S.STAGING, S.PLAYING, S.PAUSED, S.COMPLETE, S.STOPPING),
+        E.LOSE: (S.READY, S.STOPPING),
+        E.REST: (S.READY, S.STAGING, S.PLAYING, S.PAUSED, S.COLLISION_HALT, S.COMPLETE),
     },
     commands=(E.STAGE, E.PAUSE, E.STOP, E.SEEK, E.STEP, E.SET_MODE),
     no_command="only waiting",
 )
-# The states in which members move and time makes something due.
-ACTIVE = (S.STAGING, S.PLAYING)
+# The states in which members move, or may, and time makes something due.
+ACTIVE = (S.STAGING, S.PLAYING, S.STOPPING)
 del S, E
 
 
 def reason(state: SystemState, event: SystemEvent) -> str:
     """Return what a refused command needs first, for the text of the error; may be empty."""
+    if state is SystemState.STOPPING:
+        return "wait until all members were reached, or dissolve the system"
     if event is SystemEvent.STEP and state in ACTIVE:
         return "pause first"
     if event is SystemEvent.SET_MODE:

@@ -13,6 +13,7 @@ from enum import Enum
 
 from mrlab_ros.core.errors import BadInput
 from mrlab_ros.core.playback.states import State
+from mrlab_ros.core.systems.circles import waiting_circle
 from mrlab_ros.core.systems.waits import AfterFrame, Held, Wait
 
 # A member's own end and the timeline's are the same within this, s.
@@ -132,11 +133,27 @@ class Timeline:
                         f"to {frames - 1}"
                     )
                 condition = wait.condition
-                if isinstance(condition, AfterFrame) and condition.robot not in self.members:
+                if not isinstance(condition, AfterFrame):
+                    continue
+                if condition.robot not in self.members:
                     raise BadInput(
                         f"'{wait.text}' names {condition.robot}; expected a member of the system: "
                         f"{', '.join(self.members)}"
                     )
+                if condition.robot == member.robot:
+                    raise BadInput(
+                        f"{member.robot} waits for itself: '{wait.text}'; name another member"
+                    )
+        self.check_circles(self.mode)
+
+    def check_circles(self, mode: Mode) -> None:
+        """Raise BadInput where members would wait for each other without end in `mode`."""
+        circle = waiting_circle(list(self), sequential=mode is Mode.SEQUENTIAL)
+        if circle:
+            raise BadInput(
+                f"the members would wait for each other without end: {'; '.join(circle)}. Leave "
+                "one of these waits out"
+            )
 
     # shares ---------------------------------------------------------------------------------
 
@@ -165,6 +182,19 @@ class Timeline:
             member.position = min(max(position - member.start, 0.0), member.duration)
             member.met = {w for w in member.waits if member.wait_position(w) < member.position}
             member.done = position >= member.end - SAME_INSTANT and member.position > 0
+
+    def place(self, position: float) -> None:
+        """Put members that play on later where they are at `position` (s) of the timeline.
+
+        Unlike seek() it keeps which waits were met and who is done; a member that waits stands
+        where it waits.
+        """
+        for member in self:
+            if member.done:
+                continue
+            reached = min(max(position - member.start, 0.0), member.duration)
+            until = member.until
+            member.position = reached if until is None else min(reached, until)
 
     def shift(self, member: Member, start: float) -> None:
         """Begin a member's share at `start` (s); in sequential mode those after it follow."""

@@ -255,7 +255,7 @@ def test_seek_and_stop_in_a_halt_move_the_arm_and_keep_the_halt():
 
 def test_staging_waits_at_the_start_until_the_common_stamp():
     playback = loaded()
-    playback.claim("cell")
+    playback.claim(START, "cell")
     assert playback.stage(START, 0.0, by="cell") == 0.5
     run(playback, START + SECOND)
     assert playback.state is State.PAUSED
@@ -331,14 +331,14 @@ def test_staging_where_it_is_paused_already_changes_nothing():
 
 def test_a_system_cannot_play_a_member_it_has_not_staged():
     playback = loaded()
-    playback.claim("cell")
+    playback.claim(START, "cell")
     with pytest.raises(Misuse, match="stage it first"):
         playback.play(START, by="cell")
 
 
 def test_a_member_obeys_its_system_alone():
     playback = on_start()
-    playback.claim("cell")
+    playback.claim(START, "cell")
     for command in (
         lambda: playback.play(START),
         lambda: playback.pause(START),
@@ -350,7 +350,7 @@ def test_a_member_obeys_its_system_alone():
         with pytest.raises(Misuse, match="driven by system 'cell'"):
             command()
     with pytest.raises(Misuse, match="member of system 'cell'"):
-        playback.claim("other")
+        playback.claim(START, "other")
     playback.play(START, by="cell")
     playback.release(START + PERIOD, "cell")
     assert playback.state is State.PAUSED
@@ -462,7 +462,7 @@ def test_a_trajectory_for_another_end_effector_is_refused_until_it_is_fitted():
 
 def test_a_refused_play_of_a_system_does_not_change_the_rate():
     playback = loaded()
-    playback.claim("cell")
+    playback.claim(START, "cell")
     with pytest.raises(Misuse, match="stage it first"):
         playback.play(START, rate=2.0, by="cell")
     assert playback.rate == 1.0
@@ -471,7 +471,7 @@ def test_a_refused_play_of_a_system_does_not_change_the_rate():
 @pytest.mark.parametrize("state", [s for s in State if s is not State.COMPLETE])
 def test_leaving_a_system_pauses_what_moves_and_nothing_else(state):
     playback = in_state(state)
-    playback.claim("cell")
+    playback.system = "cell"
     playback.release(START, "cell")
     assert playback.state is TABLE.rows[state, Event.RELEASED]
     assert playback.system == ""

@@ -34,6 +34,12 @@ members:
 """
 
 
+def test_a_hold_without_a_condition_is_refused_with_what_to_add():
+    cell = {"members": [{"robot": "a", "holds": [{"frame": 3}]}]}
+    with pytest.raises(BadInput, match="until when it holds frame 3; add wait, such as"):
+        read(cell)
+
+
 def test_a_full_file_is_read_as_written():
     cell = read(yaml.safe_load(FULL))
     assert (cell.name, cell.mode, cell.policy, cell.loop) == (

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 
 import numpy as np
 import pytest
@@ -30,6 +30,10 @@ MS = SECOND // 1000
 PERIOD = 10 * MS
 
 
+class Frozen(LabError):
+    """A robot did not answer in time."""
+
+
 class World:
     """Robots that obey at once, and the time they live in."""
 
@@ -39,6 +43,8 @@ class World:
         self.sent: dict[str, list] = {robot: [] for robot in frames}
         self.seen: dict[str, State] = {}
         self.refusing: set[str] = set()
+        # Robots whose process does not answer.
+        self.frozen: set[str] = set()
         self.catalogue: dict[str, Trajectory] = {}
         self.announced: list[tuple[SystemState, str]] = []
         self.system: RobotSystem
@@ -51,25 +57,51 @@ class World:
 
     # the fleet
 
-    def claim(self, robot: str) -> Loaded:
-        playback = self.playbacks[robot]
-        playback.claim("cell")
-        trajectory = playback.trajectory
-        if trajectory is None:
-            return Loaded("", 0.0, 0.0, self.now)
-        return Loaded(trajectory.id, trajectory.duration, trajectory.frame_rate, self.now)
+    def claim(self, robots: Sequence[str]) -> list[Loaded]:
+        found = []
+        for robot in robots:
+            self._answer(robot)
+            playback = self.playbacks[robot]
+            playback.claim(self.now, "cell")
+            playback.take_statuses()
+            had = playback.trajectory
+            name, *lengths = (had.id, had.duration, had.frame_rate) if had else ("", 0.0, 0.0)
+            position = playback.clock.position
+            found.append(Loaded(name, *lengths, self.now, playback.state, position))
+        return found
 
-    def release(self, robot: str) -> None:
-        self.playbacks[robot].release(self.now, "cell")
+    def release(self, robots: Sequence[str]) -> None:
+        for robot in robots:
+            self._answer(robot)
+            self.playbacks[robot].release(self.now, "cell")
 
-    def load(self, robot: str, trajectory_id: str) -> None:
-        playback = self.playbacks[robot]
-        playback.load(self.now, self.catalogue[trajectory_id])
-        playback.take_statuses()
+    def load(self, trajectories: Mapping[str, str]) -> None:
+        for robot, trajectory_id in trajectories.items():
+            playback = self.playbacks[robot]
+            if trajectory_id not in self.catalogue:
+                raise BadInput(f"there is no trajectory '{trajectory_id}'")
+            playback.load(self.now, self.catalogue[trajectory_id])
+            playback.take_statuses()
+
+    def reach(self, orders: Sequence[Order], timeout: float | None = None) -> list[Reply | None]:
+        replies: list[Reply | None] = []
+        for order in orders:
+            try:
+                replies += self.drive([order])
+            except Frozen:
+                replies.append(None)
+            except LabError:
+                replies.append(Reply(State.IDLE, 0.0, stamp_ns=self.now))
+        return replies
+
+    def _answer(self, robot: str) -> None:
+        if robot in self.frozen:
+            raise Frozen(f"{robot} did not answer")
 
     def drive(self, orders: Sequence[Order]) -> list[Reply]:
         replies = []
         for order in orders:
+            self._answer(order.robot)
             if order.robot in self.refusing:
                 raise Misuse(f"{order.robot} refuses")
             playback, duration = self.playbacks[order.robot], 0.0
@@ -338,19 +370,136 @@ def test_a_staging_that_never_ends_is_given_up():
     assert world.sent == {"a": [], "b": []}
 
 
-def test_a_member_that_lost_its_playback_ends_the_run_and_the_next_play_recovers():
+def lose(world: World, robot: str) -> None:
+    """Put a new playback in the place of a robot's, as if its process had been restarted."""
+    trajectory = world.playbacks[robot].trajectory
+    world.playbacks[robot] = Playback(make_model(), StraightPlanner(), 0.0)
+    world.playbacks[robot].load(0, trajectory)
+    world.playbacks[robot].take_statuses()
+    world.system.member_changed(world.now, robot, State.IDLE, 0.0)
+
+
+def test_a_system_whose_member_lost_its_playback_stands_in_place_and_plays_on():
     world = make(TWO)
     world.system.play(world.now)
     world.run_until(SystemState.PLAYING)
     world.advance(0.3)
-    trajectory = world.playbacks["a"].trajectory
-    world.playbacks["a"] = Playback(make_model(), StraightPlanner(), 0.0)
-    world.playbacks["a"].load(0, trajectory)
-    world.system.member_changed(world.now, "a", State.IDLE, 0.0)
+    lose(world, "a")
+    assert world.system.state is SystemState.PAUSED
+    assert "a lost its playback; play goes on from here" in world.system.message
+    assert world.playbacks["b"].state is State.PAUSED
+    place = world.system.clock.position
+    assert 0.1 < place < 0.3
+    world.sent = {"a": [], "b": []}
+    world.system.play(world.now)
+    world.run_until(SystemState.READY)
+    assert world.frames("a")[-1] == 100
+    assert world.frames("a")[0] == pytest.approx(place * 100, abs=1)
+    assert world.frames("b")[0] == pytest.approx(place * 100, abs=1)
+
+
+def test_a_member_that_comes_back_with_its_trajectory_is_claimed_again():
+    world = make(TWO)
+    world.system.play(world.now)
+    world.run_until(SystemState.PLAYING)
+    world.advance(0.3)
+    lose(world, "a")
+    world.system.member_changed(world.now, "a", State.READY, 0.0, owner="", trajectory_id="other")
+    assert world.playbacks["a"].system == ""
+    world.system.member_changed(world.now, "a", State.READY, 0.0, owner="", trajectory_id="a")
+    assert world.playbacks["a"].system == "cell"
+    assert world.system.state is SystemState.PAUSED
+
+
+def test_a_member_that_obeys_nobody_any_more_pauses_the_system_and_is_claimed_again():
+    world = make(TWO)
+    world.system.play(world.now)
+    world.run_until(SystemState.PLAYING)
+    world.advance(0.3)
+    world.playbacks["a"].release(world.now, "cell")
+    world.playbacks["a"].take_statuses()
+    world.system.member_changed(world.now, "a", State.PAUSED, 0.2, owner="", trajectory_id="a")
+    assert world.system.state is SystemState.PAUSED
+    assert world.playbacks["b"].state is State.PAUSED
+    assert world.playbacks["a"].system == "cell"
+    world.system.play(world.now)
+    world.run_until(SystemState.READY)
+    assert world.frames("a") == list(range(101))
+
+
+def test_a_restarted_system_stands_in_place_and_takes_its_members_back():
+    world = make(TWO)
+    world.system.play(world.now)
+    world.run_until(SystemState.PLAYING)
+    world.advance(0.3)
+    members = [
+        Member(m.robot, m.trajectory_id, duration=m.duration, frame_rate=m.frame_rate)
+        for m in world.system.members.values()
+    ]
+    world.system = RobotSystem("cell", members, world, announce=world.announce)
+    world.system.come_back(world.now, 0.2, 1.0)
+    assert (world.system.state, world.system.clock.position) == (SystemState.PAUSED, 0.2)
+    # They still play for the one that is gone.
+    for robot in TWO:
+        world.system.member_changed(
+            world.now, robot, State.PLAYING, 0.3, owner="cell", trajectory_id=robot
+        )
+    assert {p.state for p in world.playbacks.values()} == {State.PAUSED}
+    world.system.play(world.now)
+    world.run_until(SystemState.READY)
+    assert world.frames("a")[-1] == 100
+
+
+def test_a_member_that_comes_back_in_a_halt_halts_the_system():
+    world = make(TWO)
+    world.system.play(world.now)
+    world.run_until(SystemState.PLAYING)
+    world.advance(0.3)
+    world.playbacks["a"].collide(world.now, "touches")
+    world.playbacks["a"].take_statuses()
+    world.system.members["a"].playback_state = State.IDLE
+    world.system.pause(world.now)
+    world.system.member_changed(
+        world.now, "a", State.COLLISION_HALT, 0.3, owner="", trajectory_id="a"
+    )
+    assert world.system.state is SystemState.COLLISION_HALT
+    assert "a still collides" in world.system.message
+    world.playbacks["a"].clear(world.now)
+    world.report()
+    assert world.system.state is SystemState.PAUSED
+
+
+def test_a_stop_that_does_not_reach_a_member_is_repeated_until_it_does():
+    world = make(TWO)
+    world.system.play(world.now)
+    world.run_until(SystemState.PLAYING)
+    world.frozen = {"b"}
+    world.system.stop(world.now)
+    assert world.system.state is SystemState.STOPPING
+    assert "b did not answer and may still move" in world.system.message
+    assert world.playbacks["a"].state is State.READY
+    with pytest.raises(Misuse, match="cannot play in STOPPING"):
+        world.system.play(world.now)
+    world.now += 5 * SECOND
+    world.system.poll(world.now)
+    assert world.system.state is SystemState.STOPPING
+    world.frozen = set()
+    world.now += 5 * SECOND
+    world.system.poll(world.now)
     assert world.system.state is SystemState.READY
-    assert "a lost its playback" in world.system.message
     assert world.playbacks["b"].state is State.READY
     world.sent = {"a": [], "b": []}
+    world.system.play(world.now)
+    world.run_until(SystemState.READY)
+    assert world.frames("b") == list(range(51))
+
+
+def test_a_member_that_loops_by_itself_does_not_keep_the_system_from_ending():
+    world = World(TWO)
+    world.playbacks["a"].set_loop(True)
+    world.system = RobotSystem("cell", [Member(robot) for robot in TWO], world)
+    world.system.prepare()
+    world.report()
     world.system.play(world.now)
     world.run_until(SystemState.READY)
     assert world.frames("a") == list(range(101))
@@ -410,6 +559,7 @@ def test_in_sequential_mode_those_behind_a_wait_follow_it():
     ("wait", "says"),
     [
         ("frame 0: after x.frame 1", "expected a member of the system: a, b"),
+        ("frame 10: after b.frame 20", "b waits for itself"),
         ("frame 51: after a.frame 1", "its trajectory has frames 0 to 50"),
         ("when ready", "is no wait; expected"),
     ],
@@ -496,7 +646,7 @@ def test_whatever_happens_no_member_moves_while_the_system_stands_and_play_recov
         moving = [
             r for r, p in world.playbacks.items() if p.state in (State.PLAYING, State.ADJUSTING)
         ]
-        assert not (standing and moving), (system.state, system.message)
+        assert not (standing and moving), (system.state, system.message, moving)
         assert 0 <= system.clock.position <= system.duration + 1e-6
         assert system.duration >= max(m.duration for m in system.members.values())
         world.advance(round(x * 0.3, 3))
@@ -532,6 +682,9 @@ def in_state(state: SystemState) -> World:
     if state is SystemState.COMPLETE:
         # COMPLETE lasts no longer than its announcement, so no command leads to it.
         world.system._machine.fire(SystemEvent.FINISH)
+    if state is SystemState.STOPPING:
+        world.frozen = {"b"}
+        world.system.stop(world.now)
     assert world.system.state is state
     world.announced.clear()
     return world
@@ -607,8 +760,8 @@ def test_a_loop_whose_members_cannot_be_claimed_again_ends_with_the_reason():
     world.system.members["a"].done = True
     world.system.members["a"].playback_state = State.IDLE
 
-    def gone(robot: str) -> Loaded:
-        raise Misuse(f"{robot}: is not played here")
+    def gone(robots: Sequence[str]) -> list[Loaded]:
+        raise Misuse(f"{robots[0]}: is not played here")
 
     world.claim = gone
     with pytest.raises(Misuse, match="a: is not played here"):
@@ -640,6 +793,42 @@ def test_a_member_with_another_trajectory_loads_the_one_it_is_given():
     assert world.playbacks["a"].trajectory is other
     assert world.system.duration == other.duration
     assert world.playbacks["a"].system == "cell"
+
+
+def test_a_system_that_cannot_be_leaves_every_robot_as_it_was():
+    world = World({"a": 101, "b": 51})
+    first = world.playbacks["a"].trajectory
+    world.catalogue = {
+        "a": first,
+        "other": make_trajectory(np.ones((21, 2)), trajectory_id="other"),
+    }
+    world.playbacks["a"].seek(world.now, 0.5)
+    arm = world.playbacks["a"].arm
+    members = [Member("a", "other"), Member("b", waits=(parse("frame 60: after a.frame 1"),))]
+    with pytest.raises(BadInput, match="b waits at frame 60"):
+        RobotSystem("cell", members, world).prepare()
+    a, b = world.playbacks["a"], world.playbacks["b"]
+    assert (a.system, b.system) == ("", "")
+    assert a.trajectory is first
+    assert (a.state, a.clock.position) == (State.PAUSED, 0.5)
+    assert np.array_equal(a.arm, arm)
+    assert b.state is State.READY
+
+
+def test_a_load_that_fails_leaves_every_robot_as_it_was():
+    world = World({"a": 11, "b": 11})
+    with pytest.raises(BadInput, match="no trajectory 'ghost'"):
+        RobotSystem("cell", [Member("a"), Member("b", "ghost")], world).prepare()
+    assert [p.system for p in world.playbacks.values()] == ["", ""]
+
+
+def test_a_robot_that_moves_by_itself_is_not_claimed():
+    world = World({"a": 101})
+    world.playbacks["a"].seek(world.now, 0.0)
+    world.playbacks["a"].play(world.now)
+    with pytest.raises(Misuse, match="is in PLAYING; stop it first"):
+        RobotSystem("cell", [Member("a")], world).prepare()
+    assert world.playbacks["a"].state is State.PLAYING
 
 
 def test_a_member_without_a_trajectory_is_refused():

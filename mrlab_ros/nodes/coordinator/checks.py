@@ -1,0 +1,87 @@
+"""What is checked of the members of a new system before any robot is touched."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Mapping
+from typing import Any
+
+from mrlab_msgs import msg, srv
+from rclpy.node import Node
+
+from mrlab_ros.core.errors import BadInput, Misuse
+from mrlab_ros.core.playback.states import State
+from mrlab_ros.core.systems.robot_system import RobotSystem
+from mrlab_ros.core.trajectory.fit import check_fits
+from mrlab_ros.messages import qos
+from mrlab_ros.nodes.coordinator.fleet import FIND_TIMEOUT_S, MemberClient
+from mrlab_ros.ros.calls import call_all
+
+# The converter answers what it has of a trajectory within this time, s.
+CATALOGUE_TIMEOUT_S = 4.0
+# A robot that a system takes stands, and nothing waits to be cleared.
+FREE = (State.IDLE, State.READY, State.PAUSED)
+
+
+class MemberChecks:
+    """Checks that robots are free, that their trajectories exist and fit, and the waits.
+
+    node: is spun by another thread than the one that checks.
+    """
+
+    def __init__(self, node: Node) -> None:
+        self._get = node.create_client(
+            srv.GetTrajectory, "/converter/get", qos_profile=qos.SERVICES
+        )
+
+    def check(
+        self,
+        system: RobotSystem,
+        clients: Mapping[str, MemberClient],
+        robots: Mapping[str, msg.Robot],
+    ) -> None:
+        """Raise LabError where `system` cannot be made of its members; nothing is changed."""
+        deadline = time.monotonic() + FIND_TIMEOUT_S
+        states = {robot: client.wait(deadline) for robot, client in clients.items()}
+        wanted: dict[str, str] = {}
+        for member in system.members.values():
+            robot, state = member.robot, states[member.robot]
+            _check_free(robot, state)
+            if member.trajectory_id not in ("", state.trajectory_id):
+                wanted[robot] = member.trajectory_id
+            elif state.trajectory_id:
+                member.duration, member.frame_rate = state.duration, state.frame_rate
+            else:
+                raise Misuse(f"{robot} has no trajectory; load one, or name one for the system")
+        known = self._trajectories(set(wanted.values()))
+        for robot, trajectory_id in wanted.items():
+            trajectory, placed = known[trajectory_id], robots[robot]
+            info = trajectory.info
+            check_fits(
+                info.id,
+                (info.robot_model, tuple(trajectory.joint_names), info.end_effector),
+                (placed.model, tuple(placed.joint_names), placed.end_effector),
+            )
+            member = system.members[robot]
+            member.duration, member.frame_rate = info.duration, info.frame_rate
+        system.check()
+
+    def _trajectories(self, ids: set[str]) -> dict[str, Any]:
+        """Return what the catalogue has; raise BadInput where it lacks one."""
+        requests = [srv.GetTrajectory.Request(id=name, file_only=True) for name in sorted(ids)]
+        found = {}
+        answers = call_all([(self._get, request) for request in requests], CATALOGUE_TIMEOUT_S)
+        for request, answer in zip(requests, answers, strict=True):
+            if not answer.success:
+                raise BadInput(answer.message)
+            found[request.id] = answer.trajectory
+        return found
+
+
+def _check_free(robot: str, state: msg.PlaybackState) -> None:
+    if state.system:
+        raise Misuse(
+            f"'{robot}' is a member of system '{state.system}' already; dissolve that one first"
+        )
+    if State(state.state) not in FREE:
+        raise Misuse(f"'{robot}' is in {state.label}; stop it first, then create the system")

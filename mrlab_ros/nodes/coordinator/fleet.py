@@ -1,0 +1,196 @@
+"""The members of a robot system in the graph, and the hosts that play them."""
+
+from __future__ import annotations
+
+import threading
+import time
+from collections.abc import Mapping, Sequence
+from typing import Any, Protocol
+
+from mrlab_msgs import msg, srv
+from rclpy.client import Client
+from rclpy.node import Node
+
+from mrlab_ros.core.errors import Misuse
+from mrlab_ros.core.playback.states import State
+from mrlab_ros.core.systems.members import NOT_PLAYED, Command, Loaded, Order, Reply
+from mrlab_ros.messages import qos
+from mrlab_ros.messages.systems import (
+    loaded_from_message,
+    order_to_message,
+    reply_from_message,
+)
+from mrlab_ros.messages.time import time_from_message
+from mrlab_ros.ros.calls import NoAnswer, call_all, call_each
+
+# A playback loads a trajectory within this time, and publishes its state within this time, s.
+LOAD_TIMEOUT_S = 15.0
+FIND_TIMEOUT_S = 4.0
+# A host carries out an order within this time, s; otherwise it counts as frozen.
+ORDER_TIMEOUT_S = 2.0
+RETRY_PERIOD_S = 0.1
+
+
+class Reports(Protocol):
+    """Takes what members publish, in the thread that receives it."""
+
+    def on_state(self, client: MemberClient, message: msg.PlaybackState) -> None: ...
+
+    def on_grasp(self, robot: str, held: str | None) -> None: ...
+
+
+class MemberClient:
+    """The services and topics of one member."""
+
+    def __init__(self, node: Node, robot: str, reports: Reports) -> None:
+        self.robot = robot
+        # The newest state that the playback published.
+        self.state: msg.PlaybackState | None = None
+        self._known = threading.Event()
+        self._node = node
+        self._reports = reports
+        self.load = self._node.create_client(
+            srv.LoadTrajectory, f"/{robot}/load", qos_profile=qos.SERVICES
+        )
+        self._subscriptions = [
+            self._node.create_subscription(kind, f"/{robot}/{topic}", callback, qos.LATCHED_EVENTS)
+            for kind, topic, callback in (
+                (msg.PlaybackState, "playback_state", self._on_state),
+                (msg.Grasp, "grasp", self._on_grasp),
+            )
+        ]
+
+    def wait(self, deadline: float) -> msg.PlaybackState:
+        """Return the newest state; raise NoAnswer where none came by `deadline`, monotonic s."""
+        self._known.wait(max(deadline - time.monotonic(), 0.0))
+        if self.state is None:
+            raise NoAnswer(
+                f"no playback publishes the state of {self.robot}; is the playback running?"
+            )
+        return self.state
+
+    def host(self) -> str:
+        """Return the node that plays the robot; raise NoAnswer where none publishes its state."""
+        return str(self.wait(time.monotonic() + FIND_TIMEOUT_S).host)
+
+    @property
+    def known_host(self) -> str:
+        """The node that played the robot last; empty: none has published its state."""
+        return "" if self.state is None else str(self.state.host)
+
+    def _on_state(self, message: msg.PlaybackState) -> None:
+        self.state = message
+        self._known.set()
+        self._reports.on_state(self, message)
+
+    def _on_grasp(self, message: msg.Grasp) -> None:
+        held = message.object if message.state == msg.Grasp.HOLDING else None
+        self._reports.on_grasp(self.robot, held)
+
+    def close(self) -> None:
+        for subscription in self._subscriptions:
+            self._node.destroy_subscription(subscription)
+        self._node.destroy_client(self.load)
+
+
+class RosFleet:
+    """The members of one system, commanded through the hosts that play them."""
+
+    def __init__(self, system: str, members: Mapping[str, MemberClient], hosts: Hosts) -> None:
+        self._system = system
+        self._members = members
+        self._hosts = hosts
+
+    def claim(self, robots: Sequence[str]) -> list[Loaded]:
+        """Make the robots members of the system; wait for a host that is just starting."""
+        orders = [Order(robot, Command.CLAIM) for robot in robots]
+        deadline = time.monotonic() + FIND_TIMEOUT_S
+        while True:
+            try:
+                sent = self._send(orders)
+                break
+            except Misuse as error:
+                if NOT_PLAYED not in str(error) or time.monotonic() > deadline:
+                    raise
+            time.sleep(RETRY_PERIOD_S)
+        return [loaded_from_message(reply, stamp_ns) for reply, stamp_ns in sent]
+
+    def release(self, robots: Sequence[str]) -> None:
+        """Let the robots leave the system."""
+        self._send([Order(robot, Command.RELEASE) for robot in robots])
+
+    def load(self, trajectories: Mapping[str, str]) -> None:
+        """Load trajectories on robots that are no members; raise Misuse where one is refused."""
+        calls = [
+            (self._members[robot].load, srv.LoadTrajectory.Request(id=trajectory_id))
+            for robot, trajectory_id in trajectories.items()
+        ]
+        answers = call_all(calls, LOAD_TIMEOUT_S)
+        for robot, answer in zip(trajectories, answers, strict=True):
+            if not answer.success:
+                raise Misuse(f"{robot}: {answer.message}")
+
+    def drive(self, orders: Sequence[Order]) -> list[Reply]:
+        return [reply_from_message(reply, stamp_ns) for reply, stamp_ns in self._send(orders)]
+
+    def reach(self, orders: Sequence[Order], timeout: float | None = None) -> list[Reply | None]:
+        """Send each order in a request of its own, all at once."""
+        hosts = [self._members[order.robot].known_host for order in orders]
+        calls = [
+            (self._hosts.client(host), self._request([order]))
+            for host, order in zip(hosts, orders, strict=True)
+            if host
+        ]
+        answers = iter(call_each(calls, ORDER_TIMEOUT_S if timeout is None else timeout))
+        return [_reply(next(answers)) if host else None for host in hosts]
+
+    def _request(self, orders: Sequence[Order]) -> srv.CommandMembers.Request:
+        return srv.CommandMembers.Request(
+            system=self._system, orders=[order_to_message(order) for order in orders]
+        )
+
+    def _send(self, orders: Sequence[Order]) -> list[tuple[msg.DriveReply, int]]:
+        """Send each host its members' orders, all hosts at once.
+
+        Returns for each order its reply and when it was carried out, ns.
+        """
+        by_host: dict[str, list[Order]] = {}
+        for order in orders:
+            by_host.setdefault(self._members[order.robot].host(), []).append(order)
+        answers = call_all(
+            [(self._hosts.client(host), self._request(part)) for host, part in by_host.items()],
+            ORDER_TIMEOUT_S,
+        )
+        replies = {}
+        for answer in answers:
+            if not answer.success:
+                raise Misuse(answer.message)
+            stamp_ns = time_from_message(answer.stamp)
+            replies.update({reply.robot: (reply, stamp_ns) for reply in answer.replies})
+        return [replies[order.robot] for order in orders]
+
+
+def _reply(answer: Any) -> Reply | None:
+    """Return what a robot that was asked by itself replies; None: it did not answer."""
+    if isinstance(answer, NoAnswer):
+        return None
+    stamp_ns = time_from_message(answer.stamp)
+    if not answer.success:
+        return Reply(State.IDLE, 0.0, stamp_ns=stamp_ns)
+    return reply_from_message(answer.replies[0], stamp_ns)
+
+
+class Hosts:
+    """Clients of the playback hosts' command_members services, one a host."""
+
+    def __init__(self, node: Node) -> None:
+        self._node = node
+        self._clients: dict[str, Client] = {}
+
+    def client(self, host: str) -> Client:
+        if host not in self._clients:
+            service = f"{host}/command_members"
+            self._clients[host] = self._node.create_client(
+                srv.CommandMembers, service, qos_profile=qos.SERVICES
+            )
+        return self._clients[host]
