@@ -297,13 +297,16 @@ class Setup:
     def pages(self):
         self.npm("run", "build")
 
+    def prefixes(self):
+        """Return the folders in which ROS packages are looked up."""
+        return [INSTALL / "mrlab_ros", INSTALL / "mrlab_msgs", VENV]
+
     def env(self):
         """Return the environment in which the ROS wheels build and run.
 
         Setting the bootstrapper's guard spares every Python start a second exec.
         """
         libraries = [VENV / "lib"] + sorted(self.site.glob("ros_*.libs"))
-        prefixes = [INSTALL / "mrlab_ros", INSTALL / "mrlab_msgs", VENV]
         packages = "lib/python{}/site-packages".format(self.python["version"])
         # colcon's symlink install leaves an egg-link in build/; the sources are the package.
         paths = [INSTALL / "mrlab_msgs" / packages, ROOT]
@@ -316,7 +319,7 @@ class Setup:
                 "PATH": "{}:{}".format(VENV / "bin", os.environ.get("PATH", "")),
                 "LD_LIBRARY_PATH": ":".join(map(str, libraries)),
                 "_ROS_WHEELS_BOOTSTRAP_COMPLETE": "1",
-                "AMENT_PREFIX_PATH": ":".join(map(str, prefixes)),
+                "AMENT_PREFIX_PATH": ":".join(map(str, self.prefixes())),
                 "CMAKE_PREFIX_PATH": str(VENV),
                 "PYTHONPATH": ":".join(map(str, paths)),
             }
@@ -330,11 +333,16 @@ class Setup:
             "VIRTUAL_ENV",
             "LD_LIBRARY_PATH",
             "_ROS_WHEELS_BOOTSTRAP_COMPLETE",
-            "AMENT_PREFIX_PATH",
             "CMAKE_PREFIX_PATH",
             "PYTHONPATH",
         ):
             lines.append("export {}='{}'".format(key, env[key]))
+        # The caller's own packages stay known, so that robots can be imported by their names.
+        lines.append(
+            "case \":${{AMENT_PREFIX_PATH:-}}:\" in *':{0}:'*) ;; *)\n"
+            "export AMENT_PREFIX_PATH='{0}'\"${{AMENT_PREFIX_PATH:+:$AMENT_PREFIX_PATH}}\" ;; "
+            "esac".format(":".join(map(str, self.prefixes())))
+        )
         lines.append("export PATH='{}':\"$PATH\"".format(VENV / "bin"))
         script = VENV / "mrlab.sh"
         script.write_text("\n".join(lines) + "\n")

@@ -180,7 +180,7 @@ def check(
     for robot in robots or library.ids():
         text = library.description(robot)
         origin = f"{robot}/robot.urdf"
-        found = checks.check(text, origin, library.mesh_path)
+        found = checks.check(text, origin, library.mesh_path, library.hand(robot))
         if not checks.errors(found):
             library.model(robot)
             found += hulls.check(text, origin, library.mesh_path)
@@ -192,47 +192,101 @@ def check(
         raise BadInput(f"{worst} errors were found; see the remedies above")
 
 
+SOURCE_HELP = (
+    "A URDF or a .xacro, the name of a ROS package, or PACKAGE/PATH of a file in it; behind it "
+    "the arguments of a xacro as NAME:=VALUE."
+)
+Source = Annotated[list[str], typer.Argument(metavar="SOURCE [NAME:=VALUE]...", help=SOURCE_HELP)]
+
+
 @app.command("import")
 def import_robot(
-    source: Annotated[str, typer.Argument(help="A URDF, or the name of a ROS package.")],
+    source: Source,
     robot_id: Annotated[str, typer.Option("--id", help="Id in the lab; empty: the name.")] = "",
+    tip: Annotated[
+        str, typer.Option(help="Last link of the arm; empty: a tool frame, or where it ends.")
+    ] = "",
+    srdf: Annotated[
+        Path | None,
+        typer.Option(help="SRDF whose groups name the arm; not given: the one nearby, if any."),
+    ] = None,
+    speed: Annotated[
+        float, typer.Option(min=0.0, help="rad/s or m/s of the arm's joints that state none.")
+    ] = 0.0,
     package: Annotated[
         list[str] | None,
-        typer.Option("--package", help="NAME=FOLDER for package:// meshes; repeatable."),
+        typer.Option(
+            "--package",
+            help="NAME=FOLDER for package:// and $(find); repeatable. Packages of the source "
+            "tree around the file are found without it.",
+        ),
     ] = None,
 ) -> None:
-    """Check a URDF and install it as a robot of the lab."""
-    from mrlab_ros.adapters.robots import checks, importing
+    """Check a robot description and install it as a robot of the lab.
 
-    path = importing.find_urdf(source)
+    The arm and the hand are told apart: the motion's columns are the arm's joints, and one more
+    column opens and closes the hand. The sheet that is printed says what was understood.
+    """
+    from mrlab_ros.adapters.robots import checks, importing
+    from mrlab_ros.adapters.robots.source import find_description
+
+    path = find_description(source[0])
     library = _library()
-    wanted = robot_id or path.stem.lower().replace("-", "_")
-    found = importing.import_robot(path, wanted, library, _folders(package))
-    _print(found)
-    wrong = checks.errors(found)
+    wanted = robot_id or path.name.split(".")[0].lower().replace("-", "_")
+    imported = importing.import_robot(
+        path,
+        wanted,
+        library,
+        _folders(package),
+        arguments=source[1:],
+        tip=tip,
+        srdf=srdf,
+        speed=speed,
+    )
+    _print(imported.findings)
+    wrong = checks.errors(imported.findings)
     if wrong:
         raise BadInput(f"{path.name} was not imported: {len(wrong)} errors")
+    assert imported.split is not None
+    _print_sheet(library, wanted)
+    print(f"the arm: {imported.split.why}; its tip is {imported.split.tip} (--tip changes it)")
+    for finger in imported.fingers:
+        follows = f", follows {finger.mimics}" if finger.mimics else ""
+        turned = ", axis turned round" if finger.flipped else ""
+        print(
+            f"the hand: {finger.name}, open at {finger.lower:g}, closed at "
+            f"{finger.upper:g}{follows}{turned}"
+        )
     print(f"{wanted} is a robot of the lab; its files: {library.imported / wanted}")
+    print(f"look at it: mrlab robots show {wanted} --out {wanted}.png")
 
 
 @app.command()
 def meshes(
     robot: Annotated[str, typer.Argument(help="Id of one of the lab's own robots.")],
-    source: Annotated[str, typer.Argument(help="A URDF, or the name of a ROS package.")],
+    source: Source,
     package: Annotated[
         list[str] | None,
-        typer.Option("--package", help="NAME=FOLDER for package:// meshes; repeatable."),
+        typer.Option("--package", help="NAME=FOLDER for package:// and $(find); repeatable."),
     ] = None,
     collision: Annotated[
         bool, typer.Option("--collision", help="Use its collision meshes too.")
     ] = False,
 ) -> None:
     """Show one of the lab's robots with the meshes of a vendor's description."""
-    from mrlab_ros.adapters.robots import checks, importing, vendor_meshes
+    from mrlab_ros.adapters.robots import checks, vendor_meshes
+    from mrlab_ros.adapters.robots.source import find_description
 
-    path = importing.find_urdf(source)
+    path = find_description(source[0])
     library = _library()
-    found = vendor_meshes.use_meshes(path, robot, library, _folders(package), collision=collision)
+    found = vendor_meshes.use_meshes(
+        path,
+        robot,
+        library,
+        _folders(package),
+        arguments=source[1:],
+        collision=collision,
+    )
     _print(found)
     wrong = checks.errors(found)
     if wrong:

@@ -671,7 +671,18 @@ KINDS: dict[str, Kind] = {
         ERROR,
         "A joint's largest speed is not above 0.",
         "The velocity limit of '{joint}' is {value:g}.",
-        "Write the largest speed, rad/s or m/s.",
+        "Write the largest speed, rad/s or m/s; or import it with --speed, such as --speed 3.14.",
+    ),
+    "robot_speed": Kind(
+        WARNING,
+        "A joint states no largest speed; one was assumed.",
+        "'{joint}' states no largest speed; motions are checked against {value}.",
+        "Write its <limit velocity=> into the URDF from the data sheet, and import it again.",
+    ),
+    "robot_still": Kind(
+        INFO,
+        "A joint moves neither the arm nor the hand.",
+        "'{joint}' moves neither the arm nor its hand; the lab keeps it at 0.",
     ),
     "robot_effort": Kind(
         INFO,

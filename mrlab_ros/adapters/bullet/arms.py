@@ -11,14 +11,14 @@ import math
 import os
 import sys
 import tempfile
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
 import pybullet
 
-from mrlab_ros.adapters.bullet.description import Description
+from mrlab_ros.adapters.bullet.description import Coupling, Description
 from mrlab_ros.adapters.bullet.shapes import NEUTRAL
 from mrlab_ros.core.errors import BadInput, Misuse
 from mrlab_ros.core.geometry import Pose
@@ -36,21 +36,23 @@ SAMPLES = (0.0, 0.35, -0.5, 0.8)
 
 @dataclass(eq=False)
 class LoadedArm:
-    """An arm as Bullet knows it: its numbers of body, joints and links."""
+    """An arm as Bullet knows it: its numbers of body, joints and links.
+
+    index: the number of each link. links: the link that each number counts as: what is fixed to
+    a finger is that finger.
+    """
 
     body: int
     facts: Arm
     joints: list[int]
     fingers: list[int]
+    index: dict[str, int]
     links: dict[int, str]
     moving: list[int]
     positions: list[float]
-    coupled: bool
+    couplings: tuple[Coupling, ...]
     ignored: set[tuple[int, int]]
     driven: bool = False
-
-    def __post_init__(self) -> None:
-        self.index = {link: i for i, link in self.links.items()}
 
 
 class Arms:
@@ -94,10 +96,11 @@ class Arms:
             facts=description.facts(),
             joints=[joint_index[j] for j in joints],
             fingers=[joint_index[f.joint] for f in description.fingers],
-            links=links,
+            index={link: i for i, link in links.items()},
+            links={i: description.finger_of.get(link, link) for i, link in links.items()},
             moving=[i for i in links if links[i] not in description.fixed_links],
             positions=[0.0] * len(joints),
-            coupled=description.coupled,
+            couplings=description.couplings,
             ignored=set(),
         )
         self._free(arm)
@@ -269,17 +272,32 @@ class Arms:
     def stepped(self) -> None:
         """Keep coupled fingers equally far closed; call it after every step."""
         for arm in self._arms.values():
-            if arm.coupled and arm.driven:
-                states = self._call(pybullet.getJointStates, arm.body, arm.fingers)
-                position = _mean(state[0] for state in states)
-                velocity = _mean(state[1] for state in states)
-                for joint in arm.fingers:
-                    self._call(pybullet.resetJointState, arm.body, joint, position, velocity)
+            if arm.couplings and arm.driven:
+                self._couple(arm)
+
+    def _couple(self, arm: LoadedArm) -> None:
+        """Place each leader at the mean of what its followers' positions mean for it, and them."""
+        states = self._call(pybullet.getJointStates, arm.body, arm.fingers)
+        led: dict[int, list[tuple[int, float, float]]] = {}
+        for c in arm.couplings:
+            led.setdefault(c.leader, [(c.leader, 1.0, 0.0)]).append(
+                (c.follower, c.multiplier, c.offset)
+            )
+        for members in led.values():
+            position = _mean([(states[i][0] - o) / m for i, m, o in members])
+            velocity = _mean([states[i][1] / m for i, m, _ in members])
+            for i, m, o in members:
+                self._call(
+                    pybullet.resetJointState,
+                    arm.body,
+                    arm.fingers[i],
+                    m * position + o,
+                    m * velocity,
+                )
 
 
-def _mean(values: Iterable[float]) -> float:
-    taken = list(values)
-    return sum(taken) / len(taken)
+def _mean(values: Sequence[float]) -> float:
+    return sum(values) / len(values)
 
 
 @contextlib.contextmanager

@@ -6,6 +6,7 @@ import math
 import os
 import xml.etree.ElementTree as ET
 from collections.abc import Callable, Iterator
+from dataclasses import dataclass
 from pathlib import Path
 
 from mrlab_ros.adapters.robots import urdf
@@ -47,8 +48,11 @@ class Description:
         self._parent = {joint.child: joint for joint in everything}
         fingers = [j for j in everything if j.moves and j.name not in joints]
         self.fingers = tuple(_finger(joint) for joint in fingers)
-        self.coupled = len(fingers) > 1 and all(joint.mimic for joint in fingers[1:])
-        self.finger_links = {joint.child for joint in fingers}
+        self.couplings = _couplings(fingers)
+        # What is rigidly fixed to a finger, such as a pad, is that finger.
+        moved = {joint.child for joint in fingers}
+        self.finger_of = {link: self._group(link) for link in links if self._group(link) in moved}
+        self.finger_links = set(self.finger_of)
         self.fixed_links = {link for link in links if self._group(link) == self.base}
         tip = "tool0" if "tool0" in links else links[-1]
         self.tool_links = {link for link in links if tip in self._above(link)}
@@ -131,6 +135,29 @@ class Description:
                     )
                 mesh.set("filename", os.fspath(path))
         return ET.tostring(self._root, encoding="unicode")
+
+
+@dataclass(frozen=True)
+class Coupling:
+    """A finger that follows another: position = multiplier * (position of `leader`) + offset.
+
+    leader, follower: their places among the fingers.
+    """
+
+    leader: int
+    follower: int
+    multiplier: float
+    offset: float
+
+
+def _couplings(fingers: list[urdf.UrdfJoint]) -> tuple[Coupling, ...]:
+    """Return how fingers follow each other; one that mimics no finger is driven by itself."""
+    place = {joint.name: i for i, joint in enumerate(fingers)}
+    return tuple(
+        Coupling(place[mimic.joint], i, mimic.multiplier, mimic.offset)
+        for i, joint in enumerate(fingers)
+        if (mimic := joint.mimic) is not None and mimic.joint in place and mimic.multiplier
+    )
 
 
 def _finger(joint: urdf.UrdfJoint) -> Finger:

@@ -19,17 +19,28 @@ MESH_FORMATS = (".stl", ".dae", ".obj", ".glb", ".gltf")
 Resolve = Callable[[str], Path]
 
 
-def check(text: str, origin: str, resolve: Resolve) -> tuple[Diagnostic, ...]:
+def check(
+    text: str, origin: str, resolve: Resolve, hand: frozenset[str] = frozenset()
+) -> tuple[Diagnostic, ...]:
     """Return the findings on a URDF; `resolve` returns the file of a mesh URI.
 
-    Raises BadInput where the text is not a URDF, or a number or an attribute is not as expected.
+    hand: joints that the trajectory does not prescribe. Raises BadInput where the text is not a
+    URDF, or a number or an attribute is not as expected.
     """
-    root = urdf.parse(text, origin)
+    return check_root(urdf.parse(text, origin), origin, resolve, hand)
+
+
+def check_root(
+    root: ET.Element, origin: str, resolve: Resolve, hand: frozenset[str] = frozenset()
+) -> tuple[Diagnostic, ...]:
+    """Return the findings on a URDF that was parsed; see check()."""
     joints = urdf.joints(root, origin)
     _check_numbers(root, origin)
+    arm = tuple(joint for joint in joints if joint.name not in hand)
     return (
-        *_check_tree(root, joints),
-        *_check_joints(joints),
+        *check_tree(root, origin),
+        *_check_count(arm),
+        *_check_joints(arm),
         *_check_inertias(root),
         *check_meshes(root, resolve),
     )
@@ -85,7 +96,9 @@ def _check_numbers(root: ET.Element, origin: str) -> None:
                 raise BadInput(f"{where}: a <{shape.tag}> has no {', '.join(missing)}; add it")
 
 
-def _check_tree(root: ET.Element, joints: tuple[urdf.UrdfJoint, ...]) -> list[Diagnostic]:
+def check_tree(root: ET.Element, origin: str) -> tuple[Diagnostic, ...]:
+    """Return the findings on what is joined to what: without an error it is one tree of links."""
+    joints = urdf.joints(root, origin)
     links = [str(element.get("name")) for element in root.iterfind("link")]
     found = [
         finding("robot_no_link", where=f"joint {joint.name}", joint=joint.name, link=end)
@@ -96,10 +109,14 @@ def _check_tree(root: ET.Element, joints: tuple[urdf.UrdfJoint, ...]) -> list[Di
     roots = sorted(set(links) - {joint.child for joint in joints})
     if len(roots) != 1:
         found.append(finding("robot_roots", found=", ".join(roots) or "none"))
+    return tuple(found)
+
+
+def _check_count(joints: tuple[urdf.UrdfJoint, ...]) -> list[Diagnostic]:
     moving = [joint for joint in joints if joint.moves and joint.mimic is None]
     if not 1 <= len(moving) <= MOST_JOINTS:
-        found.append(finding("robot_joints", count=len(moving), most=MOST_JOINTS))
-    return found
+        return [finding("robot_joints", count=len(moving), most=MOST_JOINTS)]
+    return []
 
 
 def _check_joints(joints: tuple[urdf.UrdfJoint, ...]) -> list[Diagnostic]:
@@ -113,7 +130,7 @@ def _check_joints(joints: tuple[urdf.UrdfJoint, ...]) -> list[Diagnostic]:
         if not joint.moves:
             continue
         if joint.mimic is not None:
-            found.append(finding("robot_mimic", where=where, joint=name, other=joint.mimic))
+            found.append(finding("robot_mimic", where=where, joint=name, other=joint.mimic.joint))
         limit = joint.limit
         if limit is None or "velocity" not in limit:
             found.append(finding("robot_no_limits", where=where, joint=name))

@@ -1,45 +1,37 @@
-"""Imports a robot from a URDF of the user."""
+"""Imports a robot from a URDF or a xacro of the user."""
 
 from __future__ import annotations
 
 import re
+import shutil
 import xml.etree.ElementTree as ET
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping, Sequence
+from contextlib import contextmanager, suppress
+from dataclasses import dataclass
+from math import degrees
 from pathlib import Path
+from typing import Any
 
+import numpy as np
+import trimesh
 import yaml
 from ament_index_python.packages import PackageNotFoundError, get_package_share_directory
 
 from mrlab_ros.adapters.robots import checks, mesh_files, urdf
-from mrlab_ros.adapters.robots.library import MESH_PREFIX, TIP, RobotLibrary
-from mrlab_ros.core.diagnostics import Diagnostic
+from mrlab_ros.adapters.robots.arm_and_hand import Groups, Split, split
+from mrlab_ros.adapters.robots.assembly import Assembly
+from mrlab_ros.adapters.robots.hand import Finger, fingers
+from mrlab_ros.adapters.robots.library import MESH_PREFIX, RobotLibrary
+from mrlab_ros.adapters.robots.source import description_text, packages_around
+from mrlab_ros.core.diagnostics import Diagnostic, finding
 from mrlab_ros.core.errors import BadInput
+from mrlab_ros.core.geometry import Array
+from mrlab_ros.core.robots.model import RobotModel
+from mrlab_ros.core.robots.reach import reach
 
+# Of a continuous joint that states none, rad/s: slower than any arm of a few kilogrammes.
+ASSUMED_SPEED = np.pi
 ID = re.compile(r"[a-z][a-z0-9_]{0,47}")
-
-
-def find_urdf(source: str) -> Path:
-    """Return the URDF for a path or for the name of an installed ROS package."""
-    path = Path(source)
-    if path.is_file():
-        if path.suffix == ".xacro":
-            raise BadInput(
-                f"{path.name} is a xacro; run `xacro {path.name} -o robot.urdf` and import that"
-            )
-        return path
-    try:
-        share = Path(get_package_share_directory(source))
-    except (PackageNotFoundError, ValueError):
-        raise BadInput(
-            f"'{source}' is neither a file nor an installed ROS package; give the path of a URDF"
-        ) from None
-    found = sorted(share.rglob("*.urdf"))
-    if len(found) != 1:
-        names = ", ".join(str(file.relative_to(share)) for file in found) or "none"
-        raise BadInput(
-            f"package '{source}' holds these URDFs: {names}; give the path of the one you want"
-        )
-    return found[0]
 
 
 class MeshFinder:
@@ -62,13 +54,38 @@ class MeshFinder:
         return self.base / uri.removeprefix("file://")
 
 
-def import_robot(
-    source: Path, robot_id: str, library: RobotLibrary, packages: Mapping[str, Path]
-) -> tuple[Diagnostic, ...]:
-    """Check the URDF and install it under `robot_id`; return the findings.
+@dataclass(frozen=True)
+class Imported:
+    """What the lab understood of a description.
 
-    With a finding that is an error nothing is installed. Raises BadInput for an id that is
-    malformed or already used.
+    findings: an error among them means that nothing was installed; the rest is then None.
+    """
+
+    findings: tuple[Diagnostic, ...]
+    split: Split | None = None
+    fingers: tuple[Finger, ...] = ()
+
+
+def import_robot(
+    source: Path,
+    robot_id: str,
+    library: RobotLibrary,
+    packages: Mapping[str, Path],
+    *,
+    arguments: Sequence[str] = (),
+    tip: str = "",
+    srdf: Path | None = None,
+    speed: float = 0.0,
+) -> Imported:
+    """Read a URDF or a xacro, tell the arm from the hand, and install it under `robot_id`.
+
+    packages: folders of package:// URIs and of xacro's $(find), before those in whose source tree
+    the file lies and the installed ones. arguments: of the xacro, NAME:=VALUE. tip: the last
+    link of the arm; empty: found. srdf: a file whose planning groups name the arm; None: the one
+    beside the description, if any. speed: rad/s or m/s, of the arm's joints that state none; 0:
+    only a continuous joint may leave it out. With a finding that is an error nothing is
+    installed. Raises BadInput for an id that is malformed or already used, and where the file
+    cannot be understood.
     """
     if not ID.fullmatch(robot_id):
         raise BadInput(
@@ -76,62 +93,188 @@ def import_robot(
         )
     if robot_id in library.ids():
         raise BadInput(f"there is a robot '{robot_id}' already; choose another id with --id")
-    try:
-        text = source.read_text(encoding="utf-8")
-    except (OSError, UnicodeDecodeError) as error:
-        raise BadInput(f"{source} cannot be read: {error}; expected a URDF") from None
+    packages = packages_around(source) | dict(packages)
+    text = description_text(source, packages, arguments)
     find = MeshFinder(source.parent, packages)
-    found = checks.check(text, source.name, find)
-    if checks.errors(found):
-        return found
     root = urdf.parse(text, source.name)
-    tip = _tip(root, source.name)
-    folder = library.imported / robot_id
-    (folder / "meshes").mkdir(parents=True, exist_ok=True)
-    names: dict[str, str] = {}
-    for mesh in checks.meshes(root):
-        uri = str(mesh.get("filename"))
-        if uri not in names:
-            names[uri] = mesh_files.copy(find(uri), folder / "meshes", f"{len(names):02d}")
-        mesh.set("filename", f"{MESH_PREFIX}{robot_id}/meshes/{names[uri]}")
-    ET.indent(root)
-    body = ET.tostring(root, encoding="unicode")
-    (folder / "robot.urdf").write_text(f'<?xml version="1.0"?>\n{body}\n', encoding="utf-8")
-    (folder / "robot.yaml").write_text(_facts(root, robot_id, tip, source), encoding="utf-8")
-    return found
+    tree = checks.check_tree(root, source.name)
+    if checks.errors(tree):
+        return Imported(tree)
+    parts = split(root, source.name, tip, _groups(source, srdf, root))
+    assumed = _keep_still(root, parts) + _state_speeds(root, parts, speed)
+    hand = frozenset(joint.name for joint in parts.hand)
+    found = (*assumed, *checks.check_root(root, source.name, find, hand))
+    if checks.errors(found):
+        return Imported(found)
+    closing = fingers(parts.below, _centres(root, hand, find), source.name) if hand else ()
+    _turn_fingers(root, closing)
+    with _new_folder(library.imported / robot_id) as folder:
+        _copy_meshes(root, robot_id, folder, find)
+        ET.indent(root)
+        body = ET.tostring(root, encoding="unicode")
+        (folder / "robot.urdf").write_text(f'<?xml version="1.0"?>\n{body}\n', encoding="utf-8")
+        facts = _facts(root, robot_id, parts, source)
+        (folder / "robot.yaml").write_text(
+            yaml.safe_dump(facts, sort_keys=False, allow_unicode=True), encoding="utf-8"
+        )
+    return Imported(found, parts, closing)
 
 
-def _tip(root: ET.Element, origin: str) -> str:
-    """Return tool0 if the robot has it, else the leaf link below the most moving joints."""
-    joints = urdf.joints(root, origin)
-    links = [str(element.get("name")) for element in root.iterfind("link")]
-    if TIP in links:
-        return TIP
-    parents = {joint.parent for joint in joints}
-    leaves = [link for link in links if link not in parents]
-    return max(
-        leaves,
-        key=lambda leaf: sum(j.moves and not j.mimic for j in urdf.path_to(leaf, joints)[1]),
+@contextmanager
+def _new_folder(folder: Path) -> Iterator[Path]:
+    """Yield a folder that takes its name only where its content is complete."""
+    aside = folder.with_name(f".{folder.name}.new")
+    shutil.rmtree(aside, ignore_errors=True)
+    (aside / "meshes").mkdir(parents=True)
+    try:
+        yield aside
+        aside.rename(folder)
+    finally:
+        shutil.rmtree(aside, ignore_errors=True)
+
+
+def _groups(source: Path, srdf: Path | None, root: ET.Element) -> Groups | None:
+    """Return the planning groups of the SRDF given, or of the one of this robot nearby."""
+    if srdf is not None:
+        return Groups(_read(srdf), srdf.name)
+    folders = (source.parent, *(source.parent.parent / n for n in ("srdf", "config")))
+    for file in sorted(f for folder in folders for f in folder.glob("*.srdf")):
+        with suppress(ET.ParseError):
+            if ET.fromstring(_read(file)).get("name") == root.get("name"):
+                return Groups(_read(file), file.name)
+    return None
+
+
+def _read(path: Path) -> str:
+    try:
+        return path.read_text(encoding="utf-8")
+    except (OSError, UnicodeDecodeError) as error:
+        raise BadInput(f"{path} cannot be read: {error}; expected an SRDF") from None
+
+
+def _elements(root: ET.Element) -> dict[str, ET.Element]:
+    return {str(element.get("name")): element for element in root.iterfind("joint")}
+
+
+def _keep_still(root: ET.Element, parts: Split) -> tuple[Diagnostic, ...]:
+    """Fix the joints that move neither the arm nor the hand."""
+    elements = _elements(root)
+    for joint in parts.still:
+        element = elements[joint.name]
+        element.set("type", "fixed")
+        for tag in ("axis", "limit", "mimic", "dynamics", "safety_controller", "calibration"):
+            for child in element.findall(tag):
+                element.remove(child)
+    return tuple(
+        finding("robot_still", where=f"joint {joint.name}", joint=joint.name)
+        for joint in parts.still
     )
 
 
-def _facts(root: ET.Element, robot_id: str, tip: str, source: Path) -> str:
-    """Return the text of robot.yaml; home is 0 if the limits allow it, else their middle."""
-    from math import degrees
+def _state_speeds(root: ET.Element, parts: Split, speed: float) -> tuple[Diagnostic, ...]:
+    """Give joints of the arm that state no speed the one that the user, or the lab, assumes."""
+    elements = _elements(root)
+    found = []
+    for joint in parts.arm:
+        limit = joint.limit or {}
+        if limit.get("velocity", 0.0) > 0:
+            continue
+        if not speed and (joint.kind != "continuous" or "velocity" in limit):
+            continue  # the check of the joints says so
+        element = elements[joint.name].find("limit")
+        if element is None:
+            element = ET.SubElement(elements[joint.name], "limit", effort="0")
+        element.set("velocity", repr(speed or ASSUMED_SPEED))
+        where = f"joint {joint.name}"
+        assumed = f"{speed:g} m/s"
+        if joint.kind != "prismatic":
+            assumed = f"{degrees(speed or ASSUMED_SPEED):g} deg/s"
+        found.append(finding("robot_speed", where=where, joint=joint.name, value=assumed))
+    return tuple(found)
 
-    _, joints = urdf.chain(root, tip, source.name)
+
+def _centres(root: ET.Element, hand: frozenset[str], find: MeshFinder) -> dict[str, Array]:
+    """Return the middle of the shapes of the links at the hand's joints, m, in the link's frame.
+
+    With all joints at 0 a link's frame is where the tree puts it.
+    """
+    assembly = Assembly(root, "the hand", find)
+    poses = assembly.poses()
+    joints = [joint for joint in urdf.joints(root, "the hand") if joint.name in hand]
+    wanted = {link for joint in joints for link in (joint.parent, joint.child)}
+    boxes: dict[str, list[Array]] = {}
+    for link, mesh, pose in assembly.meshes():
+        if link in wanted:
+            boxes.setdefault(link, []).append(trimesh.transform_points(mesh.bounds, pose))
+    found = {}
+    for link, corners in boxes.items():
+        every = np.concatenate(corners)
+        middle = np.append((every.min(axis=0) + every.max(axis=0)) / 2, 1.0)
+        found[link] = (np.linalg.inv(poses[link]) @ middle)[:3]
+    return found
+
+
+def _turn_fingers(root: ET.Element, closing: Sequence[Finger]) -> None:
+    """Write the hand's joints as the lab has them: closing from the lower to the upper limit."""
+    elements = _elements(root)
+    for finger in closing:
+        element = elements[finger.name]
+        axis = element.find("axis")
+        if finger.flipped:
+            if axis is None:
+                axis = ET.SubElement(element, "axis", xyz="1 0 0")
+            xyz = urdf.numbers(axis.get("xyz", "1 0 0"), 3, f"joint {finger.name}: axis")
+            axis.set("xyz", " ".join(repr(-value + 0.0) for value in xyz))
+        limit = element.find("limit")
+        if limit is None:
+            limit = ET.SubElement(element, "limit", effort="0")
+        limit.set("lower", repr(finger.lower))
+        limit.set("upper", repr(finger.upper))
+        limit.set("velocity", repr(finger.velocity))
+        if finger.mimics:
+            mimic = element.find("mimic")
+            assert mimic is not None
+            mimic.set("joint", finger.mimics)
+            mimic.set("multiplier", repr(finger.multiplier))
+            mimic.set("offset", repr(finger.offset))
+
+
+def _copy_meshes(root: ET.Element, robot_id: str, folder: Path, find: MeshFinder) -> None:
+    """Copy every mesh once; what collides becomes an STL where physics reads no such format."""
+    names: dict[tuple[str, bool], str] = {}
+    for link in root.iterfind("link"):
+        for shape in link:
+            for mesh in shape.iterfind("geometry/mesh"):
+                uri = str(mesh.get("filename"))
+                path = find(uri)
+                solid = shape.tag == "collision" and not mesh_files.readable_by_physics(path)
+                if (uri, solid) not in names:
+                    prefix = f"{len(names):02d}"
+                    copy = mesh_files.as_stl if solid else mesh_files.copy
+                    names[uri, solid] = copy(path, folder / "meshes", prefix)
+                mesh.set("filename", f"{MESH_PREFIX}{robot_id}/meshes/{names[uri, solid]}")
+
+
+def _facts(root: ET.Element, robot_id: str, parts: Split, source: Path) -> dict[str, Any]:
+    """Return the content of robot.yaml; home is 0 if the limits allow it, else their middle."""
+    chain, joints = urdf.chain(root, parts.tip, source.name)
     home = [0.0 if j.lower <= 0 <= j.upper else (j.lower + j.upper) / 2 for j in joints]
-    facts = {
+    model = RobotModel(robot_id, "", "", "", 0.0, 0.0, joints, np.array(home), chain)
+    facts: dict[str, Any] = {
         "id": robot_id,
         "manufacturer": "imported",
         "product": root.get("name", robot_id),
         "class": "imported robot",
         "payload": 0.0,
-        "reach": 0.0,
+        "reach": round(reach(model, "flange"), 4),
         "reach_definition": "flange",
-        "tip_link": tip,
+        "tip_link": parts.tip,
         "home_deg": [round(degrees(angle), 6) for angle in home],
         "sources": [{"file": source.name}],
-        "notes": ["Payload and reach are unknown: write them here from the data sheet."],
+        "notes": [
+            "The payload is unknown: write it here from the data sheet. The reach is computed."
+        ],
     }
-    return yaml.safe_dump(facts, sort_keys=False)
+    if parts.hand:
+        facts["hand"] = [joint.name for joint in parts.hand]
+    return facts

@@ -72,11 +72,20 @@ class RobotLibrary:
         robot = urdf.parse(text, f"{robot_id}/robot.urdf")
         tool = self.end_effector(end_effector)
         facts = self.facts(robot_id)
+        if facts.get("hand"):
+            raise BadInput(
+                f"robot '{robot_id}' has a hand of its own; leave the end effector empty, or "
+                "import the robot again without its hand"
+            )
         return _composed(robot, tool, facts, end_effector)
 
     def own_description(self, robot_id: str) -> str:
         """Return the bare robot's URDF with the lab's own meshes, ignoring imported ones."""
         return _read(self._robot_folder(robot_id) / "robot.urdf")
+
+    def hand(self, robot_id: str) -> frozenset[str]:
+        """Return the joints of a robot's own hand; empty where it has none."""
+        return frozenset(map(str, self.facts(robot_id).get("hand", ())))
 
     def mesh_path(self, uri: str) -> Path:
         """Return the file that a mesh URI of one of the library's URDFs names."""

@@ -60,6 +60,26 @@ def copy(path: Path, folder: Path, prefix: str) -> str:
     return name
 
 
+def readable_by_physics(path: Path) -> bool:
+    """Return whether pybullet reads the file: an OBJ, or an STL that is not text."""
+    suffix = path.suffix.lower()
+    if suffix != ".stl":
+        return suffix == ".obj"
+    with path.open("rb") as file:
+        head = file.read(84)
+    # A binary STL has an 80-byte head, the number of triangles, and 50 bytes for each.
+    return len(head) == 84 and path.stat().st_size >= 84 + 50 * int.from_bytes(head[80:], "little")
+
+
+def as_stl(path: Path, folder: Path, prefix: str) -> str:
+    """Write a mesh file's triangles as a binary STL into `folder`; return its name."""
+    import trimesh
+
+    name = f"{prefix}_{path.stem}.stl"
+    trimesh.load_scene(path).to_mesh().export(folder / name)
+    return name
+
+
 def _renamed(names: dict[str, str]) -> Callable[[re.Match[str]], str]:
     def replace(match: re.Match[str]) -> str:
         before, written, after = match.groups()

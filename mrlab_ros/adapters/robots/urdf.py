@@ -70,6 +70,15 @@ def numbers(text: str, count: int, where: str) -> list[float]:
 
 
 @dataclass(frozen=True)
+class Mimic:
+    """position = multiplier * (position of `joint`) + offset"""
+
+    joint: str
+    multiplier: float
+    offset: float
+
+
+@dataclass(frozen=True)
 class UrdfJoint:
     """A joint as the URDF has it; `limit` is None without a <limit> element."""
 
@@ -81,7 +90,7 @@ class UrdfJoint:
     rpy: list[float]
     axis: list[float]
     limit: dict[str, float] | None
-    mimic: str | None
+    mimic: Mimic | None
 
     @property
     def moves(self) -> bool:
@@ -140,11 +149,19 @@ def _joint(element: ET.Element, origin: str) -> UrdfJoint:
         limit=None
         if limit is None
         else {key: numbers(value, 1, f"{where}: {key}")[0] for key, value in limit.items()},
-        mimic=None if mimic is None else mimic.get("joint"),
+        mimic=None if mimic is None else _mimic(mimic, where),
     )
     if joint.moves and not np.linalg.norm(joint.axis) > 1e-9:
         raise BadInput(f"{where}: the axis is '{direction}'; expected a direction such as 0 0 1")
     return joint
+
+
+def _mimic(element: ET.Element, where: str) -> Mimic:
+    multiplier, offset = (
+        numbers(element.get(name, default), 1, f"{where}: mimic {name}")[0]
+        for name, default in (("multiplier", "1"), ("offset", "0"))
+    )
+    return Mimic(element.get("joint", ""), multiplier, offset)
 
 
 def path_to(tip: str, all_joints: tuple[UrdfJoint, ...]) -> tuple[str, tuple[UrdfJoint, ...]]:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import shutil
 import xml.etree.ElementTree as ET
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 
 import numpy as np
@@ -13,6 +13,7 @@ from mrlab_ros.adapters.robots import checks, mesh_files, urdf
 from mrlab_ros.adapters.robots.assembly import Assembly
 from mrlab_ros.adapters.robots.importing import MeshFinder
 from mrlab_ros.adapters.robots.library import MESH_PREFIX, RobotLibrary
+from mrlab_ros.adapters.robots.source import description_text, packages_around
 from mrlab_ros.core.diagnostics import Diagnostic, finding
 from mrlab_ros.core.errors import BadInput
 from mrlab_ros.core.geometry import Array
@@ -27,9 +28,10 @@ def use_meshes(
     library: RobotLibrary,
     packages: Mapping[str, Path],
     *,
+    arguments: Sequence[str] = (),
     collision: bool = False,
 ) -> tuple[Diagnostic, ...]:
-    """Install the meshes of the URDF `source` for the links of `robot_id` with the same names.
+    """Install the meshes of `source`, a URDF or a xacro, for the links with the same names.
 
     Kinematics, limits and masses stay those of the library, and so do the convex hulls unless
     `collision` is true; physics then takes the convex hull of each collision mesh. With a finding
@@ -39,10 +41,8 @@ def use_meshes(
     if not (library.folder / robot_id / "robot.urdf").is_file():
         raise BadInput(f"'{robot_id}' is not one of the lab's own robots; import it again instead")
     ours = urdf.parse(library.own_description(robot_id), robot_id)
-    try:
-        theirs = urdf.parse(source.read_text(encoding="utf-8"), source.name)
-    except (OSError, UnicodeDecodeError) as error:
-        raise BadInput(f"{source} cannot be read: {error}; expected a URDF") from None
+    packages = packages_around(source) | dict(packages)
+    theirs = urdf.parse(description_text(source, packages, arguments), source.name)
     find = MeshFinder(source.parent, packages)
     shared = _shared(ours, theirs, robot_id, source.name)
     taken = ("visual", "collision") if collision else ("visual",)

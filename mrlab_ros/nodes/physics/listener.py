@@ -213,8 +213,9 @@ def _unused(message: Any) -> None:
 
 
 def _gripper(end_effector: str) -> Gripper:
+    """Return how a robot holds; without an end effector, by the fingers of its own, if any."""
     if not end_effector:
-        return Gripper.NONE
+        return Gripper.FINGERS
     path = share.directory() / "robots" / END_EFFECTORS / end_effector / "end_effector.yaml"
     kind = str(read_yaml(path).get("class", ""))
     return Gripper.VACUUM if "vacuum" in kind else Gripper.FINGERS

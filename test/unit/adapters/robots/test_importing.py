@@ -9,8 +9,9 @@ import pytest
 import trimesh
 
 from mrlab_ros.adapters.robots import checks, mesh_files, urdf
-from mrlab_ros.adapters.robots.importing import MeshFinder, find_urdf, import_robot
+from mrlab_ros.adapters.robots.importing import MeshFinder, import_robot
 from mrlab_ros.adapters.robots.library import RobotLibrary
+from mrlab_ros.adapters.robots.source import find_description
 from mrlab_ros.adapters.robots.vendor_meshes import remove, use_meshes
 from mrlab_ros.core.errors import BadInput
 
@@ -53,7 +54,7 @@ def codes(text: str, arm: Path) -> set[str]:
 
 
 def test_imported_robot_is_a_robot_of_the_lab(arm: Path, library: RobotLibrary) -> None:
-    found = import_robot(arm, "mine", library, {"arm": arm.parent / "package"})
+    found = import_robot(arm, "mine", library, {"arm": arm.parent / "package"}).findings
     assert checks.errors(found) == ()
     assert "mine" in library.ids()
     model = library.model("mine")
@@ -66,7 +67,7 @@ def test_imported_robot_is_a_robot_of_the_lab(arm: Path, library: RobotLibrary) 
 
 
 def test_missing_mesh_is_named(arm: Path, library: RobotLibrary) -> None:
-    found = import_robot(arm, "mine", library, {})
+    found = import_robot(arm, "mine", library, {}).findings
     assert "package 'arm' of mesh package://arm/box.stl" in checks.errors(found)[0].message
     assert "mine" not in library.ids()
 
@@ -126,7 +127,9 @@ def test_a_mesh_that_cannot_be_read_is_refused(
 ) -> None:
     (arm.parent / "package" / name).write_bytes(content)
     arm.write_text(ARM.replace("box.stl", name))
-    found = checks.errors(import_robot(arm, "mine", library, {"arm": arm.parent / "package"}))
+    found = checks.errors(
+        import_robot(arm, "mine", library, {"arm": arm.parent / "package"}).findings
+    )
     assert [one.code for one in found] == ["robot_mesh_unreadable"]
     assert f"package://arm/{name} cannot be read: " in found[0].message
     assert "mine" not in library.ids()
@@ -145,10 +148,7 @@ def test_ids_are_checked(arm: Path, library: RobotLibrary) -> None:
 
 def test_sources_that_are_no_urdf_are_refused(tmp_path: Path) -> None:
     with pytest.raises(BadInput, match="neither a file nor an installed ROS package"):
-        find_urdf("no_such_package")
-    (tmp_path / "arm.xacro").write_text("")
-    with pytest.raises(BadInput, match=r"run `xacro arm\.xacro"):
-        find_urdf(str(tmp_path / "arm.xacro"))
+        find_description("no_such_package")
     with pytest.raises(BadInput, match="is not XML"):
         checks.check("solid box", "box.stl", MeshFinder(tmp_path, {}))
 
@@ -178,7 +178,7 @@ def test_materials_and_textures_come_along(tmp_path: Path, library: RobotLibrary
     shapes = "".join(visual.format(name) for name in ("one/box.obj", "two/box.obj", "arm.dae"))
     source = tmp_path / "arm.urdf"
     source.write_text(ARM.replace(visual.format("box.stl"), shapes))
-    found = import_robot(source, "painted", library, {"arm": package})
+    found = import_robot(source, "painted", library, {"arm": package}).findings
     assert [one for one in found if one.severity > 0] == []
     folder = library.imported / "painted" / "meshes"
     for number, colour in (("00", b"red"), ("01", b"blue")):
@@ -189,7 +189,7 @@ def test_materials_and_textures_come_along(tmp_path: Path, library: RobotLibrary
     assert texture.read_bytes() == b"red"
     (package / "tex" / "two it.png").unlink()
     assert "robot_no_texture" in {
-        one.code for one in import_robot(source, "b", library, {"arm": package})
+        one.code for one in import_robot(source, "b", library, {"arm": package}).findings
     }
 
 

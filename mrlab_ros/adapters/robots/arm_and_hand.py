@@ -1,0 +1,198 @@
+"""Tells the arm of a URDF from its hand."""
+
+from __future__ import annotations
+
+import re
+import xml.etree.ElementTree as ET
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+from mrlab_ros.adapters.robots import urdf
+from mrlab_ros.core.errors import BadInput
+
+# Names of joints and links that belong to a hand.
+HAND_NAME = re.compile(r"finger|grip|jaw|knuckle|claw|thumb", re.IGNORECASE)
+# Names of a frame between the fingers.
+TIP_NAME = re.compile(r"tcp|tool|grasp|(^|_)ee(_|$)|end_effector", re.IGNORECASE)
+# An arm has at least this many more joints than whatever branches off it.
+LONGER_BY = 2
+
+
+@dataclass(frozen=True)
+class Split:
+    """arm: its moving joints, base first. tip: the link whose pose the arm decides. below: all
+    joints below the arm, parents first. still: moving joints that belong neither to the arm nor
+    below it. why: how it was decided, for a person."""
+
+    arm: tuple[urdf.UrdfJoint, ...]
+    tip: str
+    below: tuple[urdf.UrdfJoint, ...]
+    still: tuple[urdf.UrdfJoint, ...]
+    why: str
+
+    @property
+    def hand(self) -> tuple[urdf.UrdfJoint, ...]:
+        return tuple(joint for joint in self.below if joint.moves)
+
+
+def split(root: ET.Element, origin: str, tip: str = "", groups: Groups | None = None) -> Split:
+    """Return the arm and the hand of a URDF.
+
+    tip: a link that the user named; groups: what an SRDF says. Without either, the arm is the
+    chain from the root down to where moving joints branch, and the hand is what branches there.
+    Raises BadInput for an unknown tip, or where two chains are equally long.
+    """
+    tree = _Tree(root, origin)
+    if tip:
+        if tip not in tree.links:
+            raise BadInput(
+                f"{origin} has no link '{tip}'; choose --tip from: {', '.join(tree.links)}"
+            )
+        return tree.split_at(tip, "--tip")
+    if groups is not None and (named := groups.arm_tip(tree)) is not None:
+        return tree.split_at(named, f"group '{groups.arm_name}' of the SRDF")
+    return tree.trunk()
+
+
+class _Tree:
+    def __init__(self, root: ET.Element, origin: str) -> None:
+        self.origin = origin
+        self.joints = urdf.joints(root, origin)
+        self.links = [str(element.get("name")) for element in root.iterfind("link")]
+        self._below: dict[str, list[urdf.UrdfJoint]] = {}
+        for joint in self.joints:
+            self._below.setdefault(joint.parent, []).append(joint)
+        children = {joint.child for joint in self.joints}
+        self.root = next(link for link in self.links if link not in children)
+
+    def path(self, tip: str) -> tuple[urdf.UrdfJoint, ...]:
+        return urdf.path_to(tip, self.joints)[1]
+
+    def below(self, link: str) -> Iterator[urdf.UrdfJoint]:
+        """Yield all joints below a link."""
+        for joint in self._below.get(link, ()):
+            yield joint
+            yield from self.below(joint.child)
+
+    def split_at(self, tip: str, why: str) -> Split:
+        arm = tuple(joint for joint in self.path(tip) if joint.moves)
+        if not arm:
+            raise BadInput(
+                f"{self.origin}: no joint moves link '{tip}'; choose another one with --tip"
+            )
+        return self._split(arm, tip, why)
+
+    def _split(self, arm: tuple[urdf.UrdfJoint, ...], tip: str, why: str) -> Split:
+        for joint in arm:
+            if joint.mimic is not None:
+                raise BadInput(
+                    f"{self.origin}: joint '{joint.name}' of the arm mimics "
+                    f"'{joint.mimic.joint}'; each joint of an arm is a column of the motion: make "
+                    "it driven or fixed"
+                )
+        below = tuple(self.below(arm[-1].child))
+        used = {joint.name for joint in (*arm, *below)}
+        still = tuple(joint for joint in self.joints if joint.moves and joint.name not in used)
+        return Split(arm, tip, below, still, why)
+
+    def depth(self, joint: urdf.UrdfJoint) -> int:
+        """Return the most driven joints on a way down that begins with `joint`."""
+        own = int(joint.moves and joint.mimic is None)
+        return own + max(map(self.depth, self._below.get(joint.child, ())), default=0)
+
+    def trunk(self) -> Split:
+        link, arm = self.root, list[urdf.UrdfJoint]()
+        why = "the longest chain of driven joints"
+        while True:
+            ways = [j for j in self._below.get(link, ()) if j.moves or self._moves_below(j)]
+            if not ways:
+                break
+            ways.sort(key=self.depth, reverse=True)
+            first, second = self.depth(ways[0]), self.depth(ways[1]) if len(ways) > 1 else 0
+            if len(ways) > 1 and first - second < LONGER_BY:
+                if first > LONGER_BY and not any(HAND_NAME.search(j.name) for j in ways):
+                    raise BadInput(
+                        f"{self.origin}: at link '{link}' chains of {first} and {second} joints "
+                        "begin; the lab moves one arm: name the last link of it with --tip, such "
+                        f"as --tip {self._end(ways[0])}"
+                    )
+                break
+            joint = ways[0]
+            if arm and (HAND_NAME.search(joint.name) or HAND_NAME.search(joint.child)):
+                if joint.moves:
+                    break
+                if not self._arm_below(joint):
+                    # A fixed joint that the hand begins with.
+                    link = joint.child
+                    continue
+            if joint.moves:
+                arm.append(joint)
+            link = joint.child
+        if not arm:
+            raise BadInput(
+                f"{self.origin}: no joint moves before the chains branch at link '{link}', as in "
+                "a gripper or a vehicle; import an arm, or name its last link with --tip"
+            )
+        return self._split(tuple(arm), self._tip(arm[-1].child), why)
+
+    def _driven_arm(self, joint: urdf.UrdfJoint) -> bool:
+        named = HAND_NAME.search(joint.name) or HAND_NAME.search(joint.child)
+        return joint.moves and joint.mimic is None and not named
+
+    def _moves_below(self, joint: urdf.UrdfJoint) -> bool:
+        return any(below.moves for below in self.below(joint.child))
+
+    def _end(self, joint: urdf.UrdfJoint) -> str:
+        """Return the last link before the hand on the longest way down."""
+        while True:
+            ways = [j for j in self._below.get(joint.child, ()) if self._driven_arm(j)]
+            ways += [j for j in self._below.get(joint.child, ()) if self._arm_below(j)]
+            if not ways:
+                return joint.child
+            joint = max(ways, key=self.depth)
+
+    def _arm_below(self, joint: urdf.UrdfJoint) -> bool:
+        return any(self._driven_arm(below) for below in self.below(joint.child))
+
+    def _tip(self, link: str) -> str:
+        """Return tool0, a tool frame, or the last link that is rigidly fixed to `link`."""
+        rigid = [link]
+        for at in rigid:
+            rigid += [j.child for j in self._below.get(at, ()) if not j.moves]
+        if "tool0" in rigid:
+            return "tool0"
+        named = [at for at in rigid[1:] if TIP_NAME.search(at)]
+        if named:
+            return named[-1]
+        # Along the chain of single fixed joints: a flange, not a camera beside it.
+        while len(ways := [j for j in self._below.get(link, ()) if not j.moves]) == 1:
+            link = ways[0].child
+        return link
+
+
+class Groups:
+    """The planning groups of an SRDF."""
+
+    def __init__(self, text: str, origin: str) -> None:
+        try:
+            self._root = ET.fromstring(text)
+        except ET.ParseError as error:
+            raise BadInput(f"{origin} is not XML: {error}; expected an SRDF") from None
+        self.arm_name = ""
+
+    def arm_tip(self, tree: _Tree) -> str | None:
+        """Return the last link of the group whose chain moves most joints; None without one."""
+        hands = {element.get("group") for element in self._root.iterfind("end_effector")}
+        best = 0
+        found = None
+        for group in self._root.iterfind("group"):
+            chain = group.find("chain")
+            if chain is None or group.get("name") in hands:
+                continue
+            tip = str(chain.get("tip_link"))
+            if tip not in tree.links:
+                continue
+            moved = sum(joint.moves for joint in tree.path(tip))
+            if moved > best:
+                best, found, self.arm_name = moved, tip, str(group.get("name"))
+        return found
