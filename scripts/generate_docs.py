@@ -12,6 +12,7 @@ from pathlib import Path
 
 import design_tokens
 import parameters_page
+import playback_vectors
 import protocol_page
 import protocol_vectors
 import roles_page
@@ -49,6 +50,7 @@ FILES: dict[str, Callable[[], str]] = {
     "mrlab_ros/core/design.py": lambda: design_tokens.python(ROOT),
     "web/src/design/tokens.css": lambda: design_tokens.css(ROOT),
     "web/src/design/tokens.ts": lambda: design_tokens.typescript(ROOT),
+    "web/test/playback/vectors.json": playback_vectors.current,
     "config/zenoh/roles.json5": lambda: roles_page.current(ROOT),
     protocol_vectors.FILE: lambda: protocol_vectors.current(ROOT),
     **{path: partial(str, content) for path, content in typescript_protocol.files(ROOT).items()},

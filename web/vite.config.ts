@@ -1,4 +1,7 @@
+import { fileURLToPath } from 'node:url'
 import { defineConfig } from 'vitest/config'
+
+const noLoader = fileURLToPath(new URL('src/scene/no_loader.ts', import.meta.url))
 
 // The gateway serves the pages below /; hashed names below /static/ are cached for ever.
 export default defineConfig({
@@ -9,6 +12,13 @@ export default defineConfig({
     assetsInlineLimit: 0,
     modulePreload: { polyfill: false },
     reportCompressedSize: true,
+  },
+  resolve: {
+    // urdf-loader imports both for its own way of reading meshes, which is not used: 23 kB.
+    alias: {
+      'three/examples/jsm/loaders/STLLoader.js': noLoader,
+      'three/examples/jsm/loaders/ColladaLoader.js': noLoader,
+    },
   },
   oxc: { jsx: { runtime: 'automatic', importSource: 'preact' } },
   test: { include: ['test/**/*.test.{ts,tsx}'] },

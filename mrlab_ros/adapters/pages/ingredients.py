@@ -1,0 +1,49 @@
+"""The files that go into a one-file page."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable
+from pathlib import Path
+
+from mrlab_ros.adapters.robots import quantised, urdf
+from mrlab_ros.core.errors import BadInput
+from mrlab_ros.core.show.page import Code
+
+
+def code(share: Path) -> Code:
+    """Return the built code in the package's share folder; raise BadInput where it is missing."""
+    folder = share / "web" / "dist" / "show"
+    try:
+        return Code(
+            (folder / "show.js").read_bytes(), (folder / "show.css").read_text(encoding="utf-8")
+        )
+    except OSError:
+        raise BadInput(
+            f"the pages are not built: there is no {folder / 'show.js'}; run make setup, or "
+            "scripts/npm run build"
+        ) from None
+
+
+def meshes_of(descriptions: Iterable[str], resolve: Callable[[str], Path]) -> dict[str, bytes]:
+    """Return the visual meshes of URDFs as small GLB files, by URI.
+
+    resolve: returns the file of a URI. A mesh that is missing or cannot be read is left out: the
+    page says so and draws a placeholder.
+    """
+    uris = {
+        str(mesh.get("filename"))
+        for text in descriptions
+        for mesh in urdf.parse(text, "the robot").iterfind("link/visual/geometry/mesh")
+    }
+    return small(uris, resolve)
+
+
+def small(uris: Iterable[str], resolve: Callable[[str], Path]) -> dict[str, bytes]:
+    """Return the meshes that can be read as small GLB files, by URI."""
+    found = {}
+    for uri in sorted(uris):
+        try:
+            found[uri] = quantised.quantised(resolve(uri))
+        except BadInput:
+            continue
+    return found

@@ -1,0 +1,126 @@
+"""One HTML file that shows something in 3D: code, data and meshes in it, and nothing from outside.
+
+What must be readable without a script (verdict, findings, plots, a picture) is plain HTML and SVG.
+"""
+
+from __future__ import annotations
+
+import base64
+import hashlib
+import json
+import struct
+import zlib
+from collections.abc import Mapping
+from dataclasses import dataclass
+from html import escape
+from typing import Any
+
+LEVEL = 9  # of compression
+# Unpacks code and data, and starts the code: the only script that the page trusts by itself.
+LOADER = """
+(async () => {
+  const old = document.getElementById('old-browser')
+  try {
+    const unpack = async (id) => {
+      const text = atob(document.getElementById(id).textContent)
+      const bytes = Uint8Array.from(text, (c) => c.charCodeAt(0))
+      const inflated = new Blob([bytes]).stream().pipeThrough(new DecompressionStream('deflate'))
+      return new Response(inflated).arrayBuffer()
+    }
+    globalThis.mrlabData = await unpack('data')
+    const code = new Blob([await unpack('code')], { type: 'text/javascript' })
+    const script = document.createElement('script')
+    script.src = URL.createObjectURL(code)
+    script.onerror = () => { old.hidden = false }
+    document.body.append(script)
+  } catch (error) {
+    old.hidden = false
+    console.error(error)
+  }
+})()
+"""
+
+
+@dataclass(frozen=True)
+class Code:
+    """The built script and style sheet of the page."""
+
+    script: bytes
+    style: str
+
+
+def page(
+    title: str,
+    body: str,
+    document: Mapping[str, Any],
+    meshes: Mapping[str, bytes],
+    code: Code,
+    language: str = "en",
+) -> str:
+    """Return the page. body: HTML that is there from the start, with an element #view.
+
+    document: what the code reads, JSON. meshes: GLB files by their URIs; equal ones are stored
+    once.
+    """
+    style = code.style.replace("</style", "<\\/style")
+    policy = "; ".join(
+        (
+            "default-src 'none'",
+            f"script-src '{_hash(LOADER)}' 'strict-dynamic'",
+            f"style-src '{_hash(style)}'",
+            "img-src data: blob:",
+            "connect-src blob:",
+            "base-uri 'none'",
+            "form-action 'none'",
+        )
+    )
+    return "\n".join(
+        (
+            "<!doctype html>",
+            f'<html lang="{language}">',
+            "<head>",
+            '<meta charset="utf-8">',
+            f'<meta http-equiv="Content-Security-Policy" content="{policy}">',
+            '<meta name="viewport" content="width=device-width, initial-scale=1">',
+            '<meta name="referrer" content="no-referrer">',
+            f"<title>{escape(title)}</title>",
+            f"<style>{style}</style>",
+            "</head>",
+            "<body>",
+            body,
+            '<p id="old-browser" hidden>This browser is too old to show the motion in 3D; the '
+            "plots and findings on this page are complete.</p>",
+            f'<script type="text/plain" id="data">{_packed(_data(document, meshes))}</script>',
+            f'<script type="text/plain" id="code">{_packed(code.script)}</script>',
+            f"<script>{LOADER}</script>",
+            "</body>",
+            "</html>",
+            "",
+        )
+    )
+
+
+def _data(document: Mapping[str, Any], meshes: Mapping[str, bytes]) -> bytes:
+    """Return the length of the head, the head, and each mesh once by its sha256."""
+    places: dict[str, list[int]] = {}
+    stored: dict[bytes, int] = {}
+    content: list[bytes] = []
+    size = 0
+    for uri, mesh in meshes.items():
+        digest = hashlib.sha256(mesh).digest()
+        if digest not in stored:
+            stored[digest] = size
+            content.append(mesh)
+            size += len(mesh)
+        places[uri] = [stored[digest], len(mesh)]
+    head = json.dumps({"document": document, "meshes": places}, separators=(",", ":")).encode()
+    return struct.pack("<I", len(head)) + head + b"".join(content)
+
+
+def _packed(content: bytes) -> str:
+    return base64.b64encode(zlib.compress(content, LEVEL)).decode("ascii")
+
+
+def _hash(text: str) -> str:
+    digest = hashlib.sha256(text.encode()).digest()
+    return f"sha256-{base64.b64encode(digest).decode('ascii')}"

@@ -1,0 +1,162 @@
+import { type PlaybackClock, positionAt } from './clock'
+
+/** Speeds that a person may choose, 1 is the declared one; the range is that of the lab. */
+export const RATES = [0.1, 0.25, 0.5, 1, 2, 4] as const
+
+/** Something that goes along a timeline: a live robot, a bag or a motion. */
+export interface Player {
+  readonly kind: 'live' | 'bag' | 'motion'
+  /** s */
+  readonly duration: number
+  readonly playing: boolean
+  readonly rate: number
+  /** Return the place on the timeline now, s, from 0 to duration. */
+  position(): number
+  play(): void
+  pause(): void
+  /** s */
+  seek(position: number): void
+  setRate(rate: number): void
+  /** Be called after each change of clock: play, pause, seek, rate, end. */
+  onChange(listener: () => void): () => void
+}
+
+/** What a player asks elsewhere: the services of a playback, a system or the recorder. */
+export interface Commands {
+  play(): void
+  pause(): void
+  seek(position: number): void
+  setRate(rate: number): void
+}
+
+function within(position: number, duration: number): number {
+  return Math.min(Math.max(position, 0), duration)
+}
+
+class Listeners {
+  private readonly known = new Set<() => void>()
+
+  add(listener: () => void): () => void {
+    this.known.add(listener)
+    return () => this.known.delete(listener)
+  }
+
+  call(): void {
+    for (const listener of this.known) listener()
+  }
+}
+
+/** Plays a motion that is here. now: s of any clock that goes on steadily. */
+export class MotionPlayer implements Player {
+  readonly kind = 'motion'
+  private clock: PlaybackClock
+  private chosen = 1
+  private readonly listeners = new Listeners()
+
+  constructor(
+    readonly duration: number,
+    private readonly now: () => number,
+  ) {
+    this.clock = { stamp: now(), position: 0, rate: 0 }
+  }
+
+  get playing(): boolean {
+    return this.clock.rate !== 0 && this.position() < this.duration
+  }
+
+  get rate(): number {
+    return this.chosen
+  }
+
+  position(): number {
+    return within(positionAt(this.clock, this.now()), this.duration)
+  }
+
+  /** From the end it starts over. */
+  play(): void {
+    const position = this.position()
+    this.retake(position >= this.duration ? 0 : position, this.chosen)
+  }
+
+  pause(): void {
+    this.retake(this.position(), 0)
+  }
+
+  seek(position: number): void {
+    const playing = this.playing
+    this.retake(within(position, this.duration), playing ? this.chosen : 0)
+  }
+
+  setRate(rate: number): void {
+    const playing = this.playing
+    this.chosen = rate
+    this.retake(this.position(), playing ? rate : 0)
+  }
+
+  onChange(listener: () => void): () => void {
+    return this.listeners.add(listener)
+  }
+
+  private retake(position: number, rate: number): void {
+    this.clock = { stamp: this.now(), position, rate }
+    this.listeners.call()
+  }
+}
+
+/** Follows a clock that is kept elsewhere: that of a robot in the lab, or of a bag's replay. */
+export class RemotePlayer implements Player {
+  duration = 0
+  rate = 1
+  private clock: PlaybackClock = { stamp: 0, position: 0, rate: 0 }
+  private readonly listeners = new Listeners()
+
+  constructor(
+    readonly kind: 'live' | 'bag',
+    private readonly labTime: () => number,
+    private readonly commands: Commands,
+  ) {}
+
+  get playing(): boolean {
+    return this.clock.rate !== 0 && this.position() < this.duration
+  }
+
+  position(): number {
+    return within(positionAt(this.clock, this.labTime()), this.duration)
+  }
+
+  /** Take over what the lab announced: its clock, duration, s, and chosen rate. */
+  follow(clock: PlaybackClock, duration: number, rate: number): void {
+    const { stamp, position, rate: speed } = this.clock
+    const same =
+      stamp === clock.stamp &&
+      position === clock.position &&
+      speed === clock.rate &&
+      duration === this.duration &&
+      rate === this.rate
+    if (same) return
+    this.clock = { stamp: clock.stamp, position: clock.position, rate: clock.rate }
+    this.duration = duration
+    this.rate = rate
+    this.listeners.call()
+  }
+
+  play(): void {
+    this.commands.play()
+  }
+
+  pause(): void {
+    this.commands.pause()
+  }
+
+  seek(position: number): void {
+    this.commands.seek(within(position, this.duration))
+  }
+
+  setRate(rate: number): void {
+    this.commands.setRate(rate)
+  }
+
+  onChange(listener: () => void): () => void {
+    return this.listeners.add(listener)
+  }
+}

@@ -1,0 +1,113 @@
+import { type Player, RATES } from '../playback/player'
+import type { SceneWords } from './words'
+
+const ICONS = {
+  play: 'M8 5.5v13l11-6.5z',
+  pause: 'M7 5.5h3.6v13H7zM13.4 5.5H17v13h-3.6z',
+} as const
+
+/** A switch beside the timeline, such as the one of the ghosts. */
+export interface Toggle {
+  readonly label: string
+  readonly on: boolean
+  readonly set: (on: boolean) => void
+}
+
+/** Play, a timeline, the time and the speed, for a player. */
+export class Controls {
+  readonly element = document.createElement('div')
+  private readonly button = document.createElement('button')
+  private readonly icon = document.createElementNS('http://www.w3.org/2000/svg', 'path')
+  private readonly slider = document.createElement('input')
+  private readonly clock = document.createElement('output')
+  private readonly speed = document.createElement('select')
+  private readonly stopListening: () => void
+  private shownTenth = -1
+  private scrubbing = false
+
+  /** step: s, of the arrow keys on the timeline; rowAt: row of the file at a time. */
+  constructor(
+    private readonly player: Player,
+    private readonly words: SceneWords,
+    step: number,
+    private readonly rowAt: (time: number) => number,
+    toggles: readonly Toggle[],
+  ) {
+    this.element.className = 'scene-controls'
+    this.button.type = 'button'
+    this.button.className = 'scene-play'
+    const svg = document.createElementNS('http://www.w3.org/2000/svg', 'svg')
+    svg.setAttribute('viewBox', '0 0 24 24')
+    svg.setAttribute('aria-hidden', 'true')
+    svg.append(this.icon)
+    this.button.append(svg)
+    this.button.addEventListener('click', () => {
+      if (player.playing) player.pause()
+      else player.play()
+    })
+
+    this.slider.type = 'range'
+    this.slider.className = 'scene-time'
+    this.slider.min = '0'
+    this.slider.max = String(player.duration)
+    this.slider.step = String(Math.max(step, player.duration / 5000))
+    this.slider.setAttribute('aria-label', words.time)
+    this.slider.addEventListener('input', () => {
+      this.scrubbing = true
+      player.seek(Number(this.slider.value))
+      this.scrubbing = false
+    })
+
+    this.clock.className = 'scene-clock'
+    this.speed.className = 'scene-speed'
+    this.speed.setAttribute('aria-label', words.speed)
+    for (const rate of RATES) {
+      const option = document.createElement('option')
+      option.value = String(rate)
+      option.textContent = `${rate}×`
+      this.speed.append(option)
+    }
+    this.speed.addEventListener('change', () => player.setRate(Number(this.speed.value)))
+    this.element.append(this.button, this.slider, this.clock, this.speed)
+    for (const toggle of toggles) this.element.append(switchFor(toggle))
+    this.stopListening = player.onChange(() => this.showState())
+    this.showState()
+    this.show(player.position())
+  }
+
+  /** Show a time; the text changes ten times a second at most. */
+  show(time: number): void {
+    if (!this.scrubbing) this.slider.value = String(time)
+    const tenth = this.player.playing ? Math.round(time * 10) : -2 - time
+    if (tenth === this.shownTenth) return
+    this.shownTenth = tenth
+    const text = time.toFixed(2)
+    this.clock.textContent = `${text} / ${this.player.duration.toFixed(2)} s`
+    this.slider.setAttribute('aria-valuetext', this.words.at(text, this.rowAt(time)))
+  }
+
+  showState(): void {
+    const { playing } = this.player
+    this.icon.setAttribute('d', playing ? ICONS.pause : ICONS.play)
+    this.button.setAttribute('aria-label', playing ? this.words.pause : this.words.play)
+    this.button.title = playing ? this.words.pause : this.words.play
+    this.speed.value = String(this.player.rate)
+    this.slider.max = String(this.player.duration)
+  }
+
+  dispose(): void {
+    this.stopListening()
+    this.element.remove()
+  }
+}
+
+function switchFor(toggle: Toggle): HTMLElement {
+  const label = document.createElement('label')
+  label.className = 'scene-toggle'
+  const box = document.createElement('input')
+  box.type = 'checkbox'
+  box.checked = toggle.on
+  box.addEventListener('change', () => toggle.set(box.checked))
+  label.append(box, toggle.label)
+  return label
+}

@@ -1,0 +1,31 @@
+import { Color, LineBasicMaterial, MeshStandardMaterial } from 'three'
+import type { SceneTheme } from './theme'
+
+/** Materials that say something about a robot rather than what it is made of. */
+export class Looks {
+  readonly grey = new MeshStandardMaterial({ roughness: 0.75, metalness: 0 })
+  readonly failing = new MeshStandardMaterial({ roughness: 0.5, metalness: 0 })
+  readonly ghost = new MeshStandardMaterial({
+    transparent: true,
+    roughness: 0.9,
+    metalness: 0,
+    // behind what it coincides with: a robot at its first pose is not tinted by its ghost
+    polygonOffset: true,
+    polygonOffsetFactor: 2,
+    polygonOffsetUnits: 8,
+  })
+  readonly missing = new LineBasicMaterial({ color: 0xd6006c })
+
+  setTheme(theme: SceneTheme): void {
+    const dark = theme.name === 'dark'
+    this.grey.color.set(dark ? 0x7d8791 : 0xa9b1ba)
+    this.failing.color.set(theme.failing)
+    this.failing.emissive.copy(new Color(theme.failing)).multiplyScalar(0.25)
+    this.ghost.color.set(theme.accent)
+    this.ghost.opacity = dark ? 0.26 : 0.2
+  }
+
+  dispose(): void {
+    for (const material of [this.grey, this.failing, this.ghost, this.missing]) material.dispose()
+  }
+}

@@ -1,0 +1,205 @@
+import { Vector3 } from 'three'
+import type { Course } from '../playback/course'
+import type { MotionDocument, MotionFinding } from '../playback/motion'
+import { pushCorners } from './corners'
+import { contactPatch } from './floor'
+import { Label } from './labels'
+import { Looks } from './looks'
+import type { MeshSource } from './meshes'
+import { SceneRobot } from './robot'
+import type { Stage } from './stage'
+import type { SceneTheme } from './theme'
+import { placeOf, ToolPath, type Track, trackOf } from './tool_path'
+import type { SceneWords } from './words'
+
+const LABEL = 0.019 // as a part of the distance to it
+const MARK = 0.024
+const POSES = 7 // of the robot that the camera shows whole
+
+interface Marker {
+  readonly label: Label
+  readonly finding: MotionFinding
+}
+
+/** A motion on the stage: the robot, its first and last pose, the tool's path, the findings. */
+export class PreviewScene {
+  readonly robot: SceneRobot
+  readonly ready: Promise<void>
+  private readonly ghosts: readonly SceneRobot[]
+  private readonly path: ToolPath
+  private readonly markers: Marker[] = []
+  private readonly ends: readonly Label[]
+  private readonly looks = new Looks()
+  private readonly patch = contactPatch(0.42)
+  private readonly positions: Float64Array
+  private readonly undo: (() => void)[] = []
+  private chosen = 0
+  private frame = -1
+  private time = 0
+
+  constructor(
+    private readonly stage: Stage,
+    private readonly motion: MotionDocument,
+    private readonly course: Course,
+    meshes: MeshSource,
+    words: SceneWords,
+  ) {
+    const { urdf, joints } = motion.robot
+    const names = joints.map((joint) => joint.name)
+    const changed = () => stage.invalidate()
+    const make = () => new SceneRobot(urdf, names, meshes, this.looks, changed)
+    this.positions = new Float64Array(course.jointCount)
+    this.robot = make()
+    const track = trackOf(this.robot, course)
+    this.ghosts = [make(), make()]
+    const last = course.duration
+    for (const [i, ghost] of this.ghosts.entries()) {
+      ghost.setLook('ghost')
+      course.sample(i === 0 ? 0 : last, this.positions)
+      ghost.setPositions(this.positions)
+      ghost.setGripper(course.gripperAt(i === 0 ? 0 : last) === true)
+      stage.world.add(ghost.root)
+    }
+    stage.world.add(this.robot.root, this.patch)
+
+    const bad = motion.findings.filter((one) => one.severity === 'error' && one.first_row > 0)
+    const marked = (frame: number) => {
+      const row = course.rowOf(frame)
+      return bad.some(
+        (one) => one.first_row <= row && row <= Math.max(one.last_row, one.first_row),
+      )
+    }
+    this.path = new ToolPath(track, marked)
+    stage.world.add(this.path.line)
+    this.ends = [this.endLabel(words.start, 0), this.endLabel(words.end, last)]
+    this.mark()
+    this.undo.push(stage.onTheme((theme) => this.setTheme(theme)))
+
+    this.ready = Promise.all([this.robot, ...this.ghosts].map((one) => one.ready)).then(() => {
+      this.fit(track)
+    })
+    this.fit(track)
+    this.show(0)
+  }
+
+  /** Move the robot to a time, s. */
+  show(time: number): void {
+    const { course, robot } = this
+    this.time = time
+    this.frame = course.sample(time, this.positions)
+    robot.setPositions(this.positions)
+    const closed = course.gripperAt(time)
+    if (closed !== null) robot.setGripper(closed)
+    this.paint()
+    this.stage.invalidate()
+  }
+
+  /** Choose a finding by its number, from 1; 0: none. Return its time, s, or null without rows. */
+  choose(number: number): number | null {
+    this.chosen = number
+    this.setTheme(this.stage.theme)
+    this.stage.invalidate()
+    const finding = this.motion.findings[number - 1]
+    if (finding === undefined || finding.first_row === 0) return null
+    return this.course.timeOfRow(finding.first_row)
+  }
+
+  /** Return the number of the finding whose mark is at a place on the canvas, CSS pixels; 0: none. */
+  markAt(x: number, y: number): number {
+    const at = new Vector3()
+    for (const { label, finding } of this.markers) {
+      this.stage.toScreen(label.sprite.position, at)
+      const near = Math.hypot(at.x - x, at.y - 20 - y) < 22
+      if (near) return this.motion.findings.indexOf(finding) + 1
+    }
+    return 0
+  }
+
+  setGhosts(on: boolean): void {
+    for (const ghost of this.ghosts) ghost.root.visible = on
+    for (const label of this.ends) label.sprite.visible = on
+    this.stage.invalidate()
+  }
+
+  setPath(on: boolean): void {
+    this.path.line.visible = on
+    this.stage.invalidate()
+  }
+
+  dispose(): void {
+    for (const undo of this.undo) undo()
+    for (const robot of [this.robot, ...this.ghosts]) robot.dispose()
+    for (const { label } of this.markers) label.dispose()
+    for (const label of this.ends) label.dispose()
+    this.path.dispose()
+    this.patch.geometry.dispose()
+    this.patch.material.dispose()
+    this.looks.dispose()
+  }
+
+  /** Fit the camera to the tool's path and to the robot in some poses. */
+  private fit(track: Track): void {
+    const points = [new Vector3(-0.1, -0.1, 0), new Vector3(0.1, 0.1, 0)]
+    for (let i = 0; i < track.points.length; i += 3 * Math.ceil(track.points.length / 600)) {
+      points.push(new Vector3().fromArray(track.points, i))
+    }
+    for (let pose = 0; pose < POSES; pose++) {
+      this.course.sample((pose / (POSES - 1)) * this.course.duration, this.positions)
+      this.robot.setPositions(this.positions)
+      pushCorners(this.robot.root, this.stage.world, points)
+    }
+    this.stage.frame(points)
+    this.show(Math.max(this.time, 0))
+  }
+
+  private endLabel(text: string, time: number): Label {
+    const label = new Label(text, LABEL)
+    this.course.sample(time, this.positions)
+    placeOf(this.robot, this.positions, label.sprite.position)
+    this.stage.world.add(label.sprite)
+    return label
+  }
+
+  private mark(): void {
+    for (const [i, finding] of this.motion.findings.entries()) {
+      if (finding.first_row === 0) continue
+      const label = new Label(String(i + 1), MARK)
+      this.course.sample(this.course.timeOfRow(finding.first_row), this.positions)
+      placeOf(this.robot, this.positions, label.sprite.position)
+      const { position, center } = label.sprite
+      const before = this.markers.filter(
+        (m) => m.label.sprite.position.distanceTo(position) < 0.02,
+      )
+      center.set(0.5 - before.length * 1.05, -0.25)
+      this.stage.world.add(label.sprite)
+      this.markers.push({ label, finding })
+    }
+  }
+
+  /** Grey the robot and paint the link that fails, where a finding applies. */
+  private paint(): void {
+    const row = this.course.rowOf(this.frame)
+    let failing = ''
+    for (const [i, finding] of this.motion.findings.entries()) {
+      const here =
+        finding.first_row > 0 &&
+        finding.first_row <= row &&
+        row <= Math.max(finding.last_row, finding.first_row)
+      const counts = finding.severity === 'error' || i + 1 === this.chosen
+      if (here && counts && finding.joint !== '') failing = this.robot.linkOf(finding.joint)
+    }
+    const refused = this.motion.verdict === 'refused'
+    this.robot.setLook(refused || failing !== '' ? 'grey' : 'own', failing)
+  }
+
+  private setTheme(theme: SceneTheme): void {
+    this.looks.setTheme(theme)
+    this.path.setTheme(theme)
+    for (const label of this.ends) label.paint(theme.card, theme.second)
+    for (const [i, { label, finding }] of this.markers.entries()) {
+      const chosen = this.motion.findings[this.chosen - 1] === finding
+      label.paint(theme[finding.severity], theme.card, chosen)
+      label.sprite.renderOrder = chosen ? 20 : 10 + (this.markers.length - i) / 100
+    }
+  }
+}

@@ -1,0 +1,219 @@
+import {
+  BoxGeometry,
+  EdgesGeometry,
+  Group,
+  LineSegments,
+  type Material,
+  Mesh,
+  type Object3D,
+  Quaternion,
+  type Vector3,
+} from 'three'
+import URDFLoader, { type URDFJoint, type URDFMimicJoint, type URDFRobot } from 'urdf-loader'
+import type { Looks } from './looks'
+import type { MeshSource } from './meshes'
+
+const PLACEHOLDER = 0.09 // m, edge of the box that stands for a missing mesh
+
+interface Movable {
+  readonly joint: URDFJoint
+  readonly axis: Vector3
+  readonly restPosition: Vector3
+  readonly restTurn: Quaternion
+  readonly prismatic: boolean
+  readonly followers: readonly { movable: Movable; multiplier: number; offset: number }[]
+  readonly upper: number
+  readonly lower: number
+}
+
+export type Look = 'own' | 'grey' | 'ghost'
+
+/** A robot of a URDF that moves: no joint is clamped, so a refused pose looks refused. */
+export class SceneRobot {
+  readonly root: URDFRobot
+  /** Meshes that could not be read, a sentence each; a placeholder stands where they belong. */
+  readonly troubles: string[] = []
+  /** Resolves when every mesh, or its placeholder, is there. */
+  readonly ready: Promise<void>
+  /** How many meshes there are, and how many of them are there by now. */
+  meshCount = 0
+  meshesHere = 0
+  /** The frame that works: the end effector's tcp, else tool0, else the last link. */
+  readonly tip: Object3D
+  private readonly movables = new Map<string, Movable>()
+  private readonly ordered: (Movable | undefined)[]
+  private readonly fingers: Movable[] = []
+  private readonly own = new Map<Mesh, Material | Material[]>()
+  private readonly placeholder = new EdgesGeometry(
+    new BoxGeometry(PLACEHOLDER, PLACEHOLDER, PLACEHOLDER),
+  )
+  private look: Look = 'own'
+  private failing = ''
+  private readonly turn = new Quaternion()
+
+  /** jointNames: in the order in which positions come. changed: a picture is due. */
+  constructor(
+    urdf: string,
+    jointNames: readonly string[],
+    meshes: MeshSource,
+    private readonly looks: Looks,
+    private readonly changed: () => void,
+  ) {
+    const loader = new URDFLoader()
+    loader.packages = (name) => `package://${name}`
+    const loading: Promise<void>[] = []
+    loader.loadMeshCb = (uri, _manager, _material, done) => {
+      this.meshCount++
+      loading.push(
+        meshes
+          .load(uri)
+          .catch((error: unknown) => this.missing(uri, error))
+          .then((object) => {
+            this.meshesHere++
+            done(object)
+            this.adopt(object)
+            this.changed()
+          }),
+      )
+    }
+    this.root = loader.parse(urdf)
+    for (const joint of Object.values(this.root.joints)) {
+      joint.ignoreLimits = true
+      if (joint.jointType !== 'fixed') this.movables.set(joint.urdfName, movable(joint))
+    }
+    for (const joint of Object.values(this.root.joints)) {
+      const mimic = joint as URDFMimicJoint
+      if (mimic.mimicJoint === undefined) continue
+      const leader = this.movables.get(mimic.mimicJoint)
+      const follower = this.movables.get(joint.urdfName)
+      if (leader === undefined || follower === undefined) continue
+      const { multiplier, offset } = mimic
+      ;(leader.followers as Movable['followers'][number][]).push({
+        movable: follower,
+        multiplier,
+        offset,
+      })
+    }
+    this.ordered = jointNames.map((name) => this.movables.get(name))
+    for (const [name, found] of this.movables) {
+      const mimics = (found.joint as URDFMimicJoint).mimicJoint !== undefined
+      if (!jointNames.includes(name) && !mimics) this.fingers.push(found)
+    }
+    const last = this.root.joints[jointNames[jointNames.length - 1] ?? '']
+    this.tip = this.root.links.tcp ?? this.root.links.tool0 ?? last ?? this.root
+    this.root.traverse((node) => {
+      if (node instanceof Mesh) this.adopt(node)
+    })
+    this.ready = Promise.all(loading).then(() => undefined)
+  }
+
+  get jointNames(): string[] {
+    return [...this.movables.keys()]
+  }
+
+  /** Move the joints, rad or m, in the order of the names given at the start. */
+  setPositions(positions: ArrayLike<number>): void {
+    for (let i = 0; i < this.ordered.length; i++) {
+      const found = this.ordered[i]
+      const value = positions[i]
+      if (found !== undefined && value !== undefined) this.move(found, value)
+    }
+  }
+
+  /** Move one joint by its name, rad or m; a name that is not there is ignored. */
+  setJoint(name: string, value: number): void {
+    const found = this.movables.get(name)
+    if (found !== undefined) this.move(found, value)
+  }
+
+  /** Move the fingers of the end effector: 0 is open, their upper limit closed. */
+  setGripper(closed: boolean): void {
+    for (const finger of this.fingers) this.move(finger, closed ? finger.upper : finger.lower)
+  }
+
+  /** Return the link that a joint moves; empty where there is no such joint. */
+  linkOf(joint: string): string {
+    const found = this.root.joints[joint]
+    const link = found?.children.find((child) => 'isURDFLink' in child)
+    return link?.name ?? ''
+  }
+
+  /** Show the robot as it is, grey, or as a ghost; `failing` names a link that is painted. */
+  setLook(look: Look, failing = ''): void {
+    if (look === this.look && failing === this.failing) return
+    this.look = look
+    this.failing = failing
+    for (const [mesh, material] of this.own) this.paint(mesh, material)
+    this.changed()
+  }
+
+  dispose(): void {
+    this.placeholder.dispose()
+    this.root.removeFromParent()
+  }
+
+  private move(found: Movable, value: number): void {
+    const { joint, axis } = found
+    if (found.prismatic) {
+      joint.position.copy(axis).applyQuaternion(found.restTurn).multiplyScalar(value)
+      joint.position.add(found.restPosition)
+    } else {
+      this.turn.setFromAxisAngle(axis, value)
+      joint.quaternion.multiplyQuaternions(found.restTurn, this.turn)
+    }
+    joint.matrixWorldNeedsUpdate = true
+    for (const { movable: follower, multiplier, offset } of found.followers) {
+      this.move(follower, value * multiplier + offset)
+    }
+  }
+
+  private missing(uri: string, error: unknown): Object3D {
+    const why = error instanceof Error ? error.message : String(error)
+    const name = uri.slice(uri.lastIndexOf('/') + 1)
+    this.troubles.push(why.includes(name) ? why : `${uri}: ${why}`)
+    const group = new Group()
+    group.add(new LineSegments(this.placeholder, this.looks.missing))
+    return group
+  }
+
+  private adopt(object: Object3D): void {
+    object.traverse((node) => {
+      if (!(node instanceof Mesh)) return
+      const material = node.material as Material | Material[]
+      if (!this.own.has(node)) this.own.set(node, material)
+      this.paint(node, this.own.get(node) ?? material)
+    })
+  }
+
+  private paint(mesh: Mesh, own: Material | Material[]): void {
+    const link = linkAbove(mesh)
+    const ghost = this.look === 'ghost'
+    mesh.castShadow = !ghost
+    mesh.receiveShadow = !ghost
+    mesh.renderOrder = ghost ? 1 : 0
+    if (ghost) mesh.material = this.looks.ghost
+    else if (this.failing !== '' && link === this.failing) mesh.material = this.looks.failing
+    else if (this.look === 'grey' || this.failing !== '') mesh.material = this.looks.grey
+    else mesh.material = own
+  }
+}
+
+function movable(joint: URDFJoint): Movable {
+  return {
+    joint,
+    axis: joint.axis.clone(),
+    restPosition: joint.position.clone(),
+    restTurn: joint.quaternion.clone(),
+    prismatic: joint.jointType === 'prismatic',
+    followers: [],
+    upper: joint.limit.upper,
+    lower: joint.limit.lower,
+  }
+}
+
+function linkAbove(object: Object3D): string {
+  for (let node: Object3D | null = object; node !== null; node = node.parent) {
+    if ('isURDFLink' in node || 'isURDFRobot' in node) return node.name
+  }
+  return ''
+}

@@ -1,0 +1,83 @@
+import { expect, test, vi } from 'vitest'
+import { MotionPlayer, RemotePlayer } from '../../src/playback/player'
+
+function player() {
+  const clock = { now: 100 }
+  return { clock, player: new MotionPlayer(8, () => clock.now) }
+}
+
+test('it stands until it plays, and stops at the end', () => {
+  const { clock, player: motion } = player()
+  clock.now = 105
+  expect(motion.position()).toBe(0)
+  motion.play()
+  clock.now = 107
+  expect(motion.position()).toBe(2)
+  clock.now = 120
+  expect(motion.position()).toBe(8)
+  expect(motion.playing).toBe(false)
+})
+
+test('played again at the end it starts over', () => {
+  const { clock, player: motion } = player()
+  motion.seek(8)
+  motion.play()
+  clock.now = 101
+  expect(motion.position()).toBe(1)
+})
+
+test('a new rate holds from where it is', () => {
+  const { clock, player: motion } = player()
+  motion.play()
+  clock.now = 102
+  motion.setRate(0.5)
+  clock.now = 106
+  expect(motion.position()).toBe(4)
+  motion.pause()
+  clock.now = 200
+  expect(motion.position()).toBe(4)
+  expect(motion.rate).toBe(0.5)
+})
+
+test('a seek keeps playing, and stays within the timeline', () => {
+  const { clock, player: motion } = player()
+  motion.play()
+  motion.seek(20)
+  expect(motion.position()).toBe(8)
+  motion.seek(-3)
+  expect(motion.position()).toBe(0)
+  motion.play()
+  motion.seek(2)
+  clock.now = 101
+  expect(motion.position()).toBe(3)
+})
+
+test('each change is announced until nobody listens', () => {
+  const { player: motion } = player()
+  const heard = vi.fn()
+  const stop = motion.onChange(heard)
+  motion.play()
+  motion.seek(1)
+  stop()
+  motion.pause()
+  expect(heard).toHaveBeenCalledTimes(2)
+})
+
+test('a remote player asks and follows', () => {
+  const clock = { now: 50 }
+  const commands = { play: vi.fn(), pause: vi.fn(), seek: vi.fn(), setRate: vi.fn() }
+  const remote = new RemotePlayer('live', () => clock.now, commands)
+  const heard = vi.fn()
+  remote.onChange(heard)
+  remote.play()
+  expect(commands.play).toHaveBeenCalledOnce()
+  expect(remote.playing).toBe(false)
+  remote.follow({ stamp: 50, position: 1, rate: 2 }, 10, 2)
+  remote.follow({ stamp: 50, position: 1, rate: 2 }, 10, 2)
+  expect(heard).toHaveBeenCalledOnce()
+  clock.now = 52
+  expect(remote.position()).toBe(5)
+  expect(remote.playing).toBe(true)
+  remote.seek(99)
+  expect(commands.seek).toHaveBeenCalledWith(10)
+})
