@@ -29,14 +29,17 @@ import report
 import scipy.io
 
 from mrlab_ros.adapters.robots.library import RobotLibrary
+from mrlab_ros.adapters.store.objects import open_store
 from mrlab_ros.adapters.trajectories import json_file
+from mrlab_ros.adapters.trajectories.catalogue_writer import CatalogueWriter
 from mrlab_ros.adapters.trajectories.coefficients import load_coefficients
-from mrlab_ros.adapters.trajectories.store import TrajectoryStore
+from mrlab_ros.adapters.trajectories.files import TrajectoryFiles
 from mrlab_ros.adapters.workspaces.pool import ConversionPool
 from mrlab_ros.adapters.workspaces.reader import Limits, WorkspaceReader, opened
 from mrlab_ros.adapters.workspaces.results import Task
 from mrlab_ros.core.conversion.options import Options
 from mrlab_ros.core.trajectory.document import document
+from mrlab_ros.core.trajectory.names import TrajectoryName
 from mrlab_ros.core.trajectory.trajectory import Trajectory
 from mrlab_ros.ros import share
 
@@ -101,7 +104,8 @@ def measure(frames: int, reader: WorkspaceReader, folder: Path, repeats: int) ->
     del matrix
     robot = RobotLibrary(share.directory() / "robots").model("ur5e")
     coefficients = load_coefficients(share.directory() / "config" / "torque_proxy.yaml")
-    store = TrajectoryStore(folder / "store")
+    store = opened_catalogue(folder / "store")
+    files = TrajectoryFiles(store.store, folder / "fetched")
     task = Task(path.name, Options(frame_rate=100.0), robot, coefficients, None, "", 0, 100.0)
     target = folder / "written.json"
 
@@ -109,7 +113,7 @@ def measure(frames: int, reader: WorkspaceReader, folder: Path, repeats: int) ->
         return convert(reader, store, path, task)
 
     def whole() -> Trajectory:
-        trajectory = store.load(stored())
+        trajectory = files.load(*store.find(stored()))
         json_file.write(trajectory, target)
         return trajectory
 
@@ -139,13 +143,20 @@ def measure(frames: int, reader: WorkspaceReader, folder: Path, repeats: int) ->
     }
 
 
-def convert(reader: WorkspaceReader, store: TrajectoryStore, path: Path, task: Task) -> str:
+def opened_catalogue(folder: Path) -> CatalogueWriter:
+    catalogue = CatalogueWriter(open_store(str(folder)))
+    catalogue.open()
+    return catalogue
+
+
+def convert(reader: WorkspaceReader, store: CatalogueWriter, path: Path, task: Task) -> str:
     """Convert a file into the store; return the trajectory's id."""
-    with opened(path) as source, store.new_file() as (file, commit):
+    with opened(path) as source, tempfile.TemporaryFile() as file:
         converted = reader.convert(source, task, file)
         assert converted.head is not None, converted.message
-        commit(converted.head["id"])
-        return str(converted.head["id"])
+        name = str(converted.head["id"])
+        store.publish(TrajectoryName("", name), converted.head, file)
+        return name
 
 
 def processor_time() -> float:
@@ -161,7 +172,7 @@ def submissions(folder: Path) -> dict[str, Any]:
     """Convert CLASS files that arrive at once."""
     robot = RobotLibrary(share.directory() / "robots").model("ur5e")
     coefficients = load_coefficients(share.directory() / "config" / "torque_proxy.yaml")
-    store = TrajectoryStore(folder / "class")
+    store = opened_catalogue(folder / "class")
     paths = []
     for i in range(CLASS):
         paths.append(folder / f"student{i}.mat")

@@ -49,17 +49,17 @@ TRAJECTORIES = {
     "kuka": make("kuka_kr6_r900_sixx", "kuka", frames=90),
 }
 
-# Listed, and refused by /converter/get.
+# Listed, and refused by /converter/get_any.
 UNREADABLE: set[str] = set()
 
 
 class Catalogue(Node):
-    """Answers /converter/get and /converter/list from TRAJECTORIES."""
+    """Answers /converter/get_any and /converter/list_any from TRAJECTORIES."""
 
     def __init__(self, **kwargs) -> None:
         super().__init__("converter", **kwargs)
-        self.create_service(srv.GetTrajectory, "~/get", self._get)
-        self.create_service(srv.ListTrajectories, "~/list", self._list)
+        self.create_service(srv.GetTrajectory, "~/get_any", self._get)
+        self.create_service(srv.ListTrajectories, "~/list_any", self._list)
 
     def _get(self, request, response):
         trajectory = None if request.id in UNREADABLE else TRAJECTORIES.get(request.id)

@@ -32,6 +32,7 @@ def status_to_message(
         label=status.state.name,
         message=status.message,
         trajectory_id=trajectory.id if trajectory else "",
+        trajectory_version=trajectory.version if trajectory else 0,
         clock=clock_to_message(status.clock),
         frame=status.frame,
         frame_count=trajectory.frame_count if trajectory else 0,

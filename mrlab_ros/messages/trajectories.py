@@ -75,12 +75,15 @@ def info_to_message(trajectory: Trajectory) -> msg.TrajectoryInfo:
         frame_count=trajectory.frame_count,
         duration=trajectory.duration,
         has_gripper=trajectory.gripper is not None,
+        owner=trajectory.owner,
+        version=trajectory.version,
+        shared=trajectory.shared,
         warnings=[diagnostic_to_message(d) for d in trajectory.warnings],
     )
 
 
-def catalogue_to_message(infos: list[msg.TrajectoryInfo]) -> msg.TrajectoryCatalogue:
-    return msg.TrajectoryCatalogue(trajectories=infos)
+def catalogue_to_message(infos: list[msg.TrajectoryInfo], total: int) -> msg.TrajectoryCatalogue:
+    return msg.TrajectoryCatalogue(trajectories=infos, total=total)
 
 
 def _array(kind: str, values: NDArray[Any] | None) -> array.array[Any]:
@@ -141,6 +144,9 @@ def trajectory_from_message(message: msg.Trajectory) -> Trajectory:
         source=Source(info.source_file, info.source_variable, info.source_sha256),
         created_ns=time_from_message(info.created),
         warnings=tuple(diagnostic_from_message(d) for d in info.warnings),
+        owner=info.owner,
+        version=info.version,
+        shared=info.shared,
     )
 
 
@@ -186,6 +192,9 @@ def info_from_head(head: Mapping[str, Any]) -> msg.TrajectoryInfo:
         frame_count=head["frame_count"],
         duration=(head["frame_count"] - 1) / head["frame_rate"],
         has_gripper=head["has_gripper"],
+        owner=head.get("owner", ""),
+        version=head.get("version", 1),
+        shared=head.get("shared", True),
         warnings=[diagnostic_to_message(d) for d in warnings_of(head)],
     )
 

@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 import weakref
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
 from mrlab_msgs import srv
 from rclpy.node import Node
 
-from mrlab_ros.adapters.trajectories import store
+from mrlab_ros.adapters.trajectories import npz_file
 from mrlab_ros.core.errors import BadInput
 from mrlab_ros.core.trajectory.trajectory import Trajectory
 from mrlab_ros.messages import qos, trajectories
@@ -21,7 +22,7 @@ TIMEOUT_S = 5.0
 
 
 class CatalogueClient:
-    """Calls /converter/get; `node` must be spun by another thread than the one that fetches.
+    """Calls /converter/get_any; `node` must be spun by another thread than the one that fetches.
 
     On the converter's machine the matrices are read from the file that the answer names: a
     million frames take 0.2 s, as a message more than 1 s. Elsewhere they come as messages.
@@ -30,7 +31,7 @@ class CatalogueClient:
     def __init__(self, node: Node) -> None:
         self._node = node
         self._client = node.create_client(
-            srv.GetTrajectory, "/converter/get", qos_profile=qos.SERVICES
+            srv.GetTrajectory, "/converter/get_any", qos_profile=qos.SERVICES
         )
         # Robots that play the same trajectory share its matrices.
         self._loaded: weakref.WeakValueDictionary[str, Trajectory] = weakref.WeakValueDictionary()
@@ -60,11 +61,15 @@ class CatalogueClient:
         if not answer.file or not path.is_file():
             return None
         try:
-            trajectory = store.read(path)
+            read = npz_file.read(path)
         except (BadInput, OSError):
             return None  # the converter says what is wrong with it when it is asked for frames
-        same = trajectories.info_to_message(trajectory) == answer.trajectory.info
-        return trajectory if same else None
+        # The file does not say under which id, for whom and as which version it was published.
+        info = answer.trajectory.info
+        trajectory = replace(
+            read, id=info.id, owner=info.owner, version=info.version, shared=info.shared
+        )
+        return trajectory if trajectories.info_to_message(trajectory) == info else None
 
     def _receive(self, answer: Any) -> Trajectory:
         """Return what the answers of the converter hold."""

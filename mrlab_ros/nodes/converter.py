@@ -2,22 +2,27 @@
 
 from __future__ import annotations
 
-import threading
+import contextlib
+import tempfile
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from concurrent.futures import Future, ThreadPoolExecutor
+from dataclasses import replace
 from functools import partial
 from pathlib import Path
 from typing import Any
 
-from mrlab_msgs import msg, srv
+from mrlab_msgs import srv
 from rclpy.callback_groups import ReentrantCallbackGroup
 from rclpy.context import Context
 from rclpy.parameter import Parameter
 
 from mrlab_ros.adapters.robots.library import RobotLibrary
+from mrlab_ros.adapters.store import keys
+from mrlab_ros.adapters.store.objects import open_store
+from mrlab_ros.adapters.trajectories.catalogue_writer import CatalogueWriter
 from mrlab_ros.adapters.trajectories.coefficients import load_coefficients
-from mrlab_ros.adapters.trajectories.store import Damaged, TrajectoryStore
+from mrlab_ros.adapters.trajectories.files import TrajectoryFiles
 from mrlab_ros.adapters.workspaces.pool import ConversionPool
 from mrlab_ros.adapters.workspaces.reader import (
     Limits,
@@ -28,25 +33,21 @@ from mrlab_ros.adapters.workspaces.reader import (
     opened,
 )
 from mrlab_ros.adapters.workspaces.results import Converted, Task, refused
-from mrlab_ros.core.conversion.convert import ID
-from mrlab_ros.core.diagnostics import Refused
+from mrlab_ros.core.diagnostics import Refused, finding
 from mrlab_ros.core.errors import BadInput, LabError
 from mrlab_ros.core.naming import did_you_mean
-from mrlab_ros.messages import qos, trajectories
-from mrlab_ros.messages.trajectories import (
-    candidate_to_message,
-    catalogue_to_message,
-    info_from_head,
-    trajectory_without_frames,
-)
+from mrlab_ros.core.trajectory.names import checked_id
+from mrlab_ros.core.trajectory.record import head_of
+from mrlab_ros.messages import trajectories
+from mrlab_ros.messages.trajectories import candidate_to_message, info_from_head
 from mrlab_ros.nodes import parameters
 from mrlab_ros.nodes.parameters import ConverterParameters
+from mrlab_ros.nodes.trajectories import TrajectoryServices
 from mrlab_ros.ros import share
 from mrlab_ros.ros.answers import create_deferred_service
 from mrlab_ros.ros.parameters import ParameterNode
 
-# A longer trajectory is announced without its frames, which `get` gives in parts.
-MOST_ANNOUNCED = 20_000
+SWEEP_PERIOD_S = 3600.0
 
 
 class ConverterNode(ParameterNode[ConverterParameters]):
@@ -69,27 +70,46 @@ class ConverterNode(ParameterNode[ConverterParameters]):
         folder = Path(state) if state else Path.home() / ".local" / "share" / "mrlab"
         self._coefficients = load_coefficients(share.directory() / "config" / "torque_proxy.yaml")
         self._library = RobotLibrary(share.directory() / "robots")
-        self._store = TrajectoryStore(folder / "trajectories", self.get_logger().error)
+        self._store = open_store(self.parameters.store or str(folder / "store"))
+        # Where converted files lie until the store has them.
+        self._work = folder / "work"
+        self._work.mkdir(parents=True, exist_ok=True)
+        self._writer = CatalogueWriter(self._store, self.get_logger().error)
+        self._set_bounds()
+        self.trajectories = TrajectoryServices(
+            self,
+            self._writer,
+            TrajectoryFiles(self._store, folder / "fetched"),
+            folder / "trajectories",
+        )
         self._pool = ConversionPool(self._limits())
         self._reads = ThreadPoolExecutor(max_workers=2, thread_name_prefix="catalogue")
-        self._infos: dict[str, msg.TrajectoryInfo] = {}
-        self._lock = threading.Lock()  # held while the catalogue is changed or announced
-
-        self._catalogue = self.create_publisher(
-            msg.TrajectoryCatalogue, "/trajectories", qos.LATCHED
-        )
-        self._converted = self.create_publisher(
-            msg.Trajectory, "/trajectories/converted", qos.EVENTS
-        )
         self._group = ReentrantCallbackGroup()
         self._serve(srv.ConvertTrajectory, "~/convert", self._begin_conversion)
-        self._serve(srv.GetTrajectory, "~/get", self._on_threads(self._get))
-        self._serve(srv.ListTrajectories, "~/list", self._on_threads(self._list))
-        self._serve(srv.Remove, "~/delete", self._on_threads(self._delete))
-        self._read_catalogue()
+        for kind, name, answer in (
+            (srv.GetTrajectory, "get", self.trajectories.get),
+            (srv.GetTrajectory, "get_any", self.trajectories.get_any),
+            (srv.ListTrajectories, "list", self.trajectories.list_fitting),
+            (srv.ListTrajectories, "list_any", self.trajectories.list_any_fitting),
+            (srv.Remove, "delete", self.trajectories.delete),
+            (srv.PublishTrajectory, "publish", self.trajectories.publish),
+            (srv.ShareTrajectory, "share", self.trajectories.share),
+            (srv.RestoreTrajectory, "restore", self.trajectories.restore),
+        ):
+            self._serve(kind, f"~/{name}", self._on_threads(answer))
+        self.create_timer(SWEEP_PERIOD_S, self._sweep, callback_group=self._group)
 
     def parameters_changed(self) -> None:
         self._pool.limits = self._limits()
+        self._set_bounds()
+
+    def _set_bounds(self) -> None:
+        self._writer.versions_kept = self.parameters.versions_kept
+        self._writer.quota = self.parameters.quota * MiB
+
+    def _sweep(self) -> None:
+        values = self.parameters
+        self._reads.submit(self.trajectories.sweep, values.trash_time, values.upload_time)
 
     def _limits(self) -> Limits:
         values = self.parameters
@@ -106,6 +126,7 @@ class ConverterNode(ParameterNode[ConverterParameters]):
         self._reads.shutdown(wait=False, cancel_futures=True)
         self._pool.close()
         self._reads.shutdown()
+        self.trajectories.close()
         super().destroy_node()
 
     def _serve(self, kind: Any, name: str, begin: Callable[[Any, Any], Future[Any]]) -> None:
@@ -142,9 +163,12 @@ class ConverterNode(ParameterNode[ConverterParameters]):
 
         try:
             task = self._task(request)
-            data = None if request.path else memoryview(request.data)
+            self.trajectories.check_ready()
+            data = None if request.path or request.upload else memoryview(request.data)
             size = _size(request.path) if data is None else data.nbytes
-            work = partial(self._convert, task, Path(request.path), data)
+            if request.upload:
+                size = self._store.size(request.upload)
+            work = partial(self._convert, task, request, data)
             self._pool.submit(work, size, 0 if data is None else size).add_done_callback(finish)
         except LabError as error:
             response.success, response.message = False, str(error)
@@ -159,13 +183,18 @@ class ConverterNode(ParameterNode[ConverterParameters]):
                 f"{', '.join(known)}; leave it empty for a bare flange"
                 f"{did_you_mean(request.end_effector, known)}"
             )
-        if request.id and not ID.fullmatch(request.id):
-            raise BadInput(
-                f"the name '{request.id}' cannot be used; expected letters, digits, '.', '_' and "
-                "'-', at most 128, beginning with a letter or digit"
-            )
+        if request.id:
+            checked_id(request.id)
+        file = Path(request.path or request.file_name).name
+        if request.upload:
+            user = keys.owner_of(request.upload, keys.UPLOAD)
+            file = keys.name_of(request.upload.rsplit("/", 1)[1])
+            if request.owner and keys.segment(request.owner) != user:
+                raise BadInput(f"the upload is not one of {request.owner}'s; send the file again")
+        if request.draft:
+            keys.owner_of(request.draft, keys.DRAFT)
         return Task(
-            file=Path(request.path or request.file_name).name or "upload.mat",
+            file=file or "upload.mat",
             options=trajectories.options_from_request(request),
             robot=self._library.model(request.robot_model),
             coefficients=self._coefficients,
@@ -176,23 +205,59 @@ class ConverterNode(ParameterNode[ConverterParameters]):
         )
 
     def _convert(
-        self, task: Task, path: Path, data: memoryview | None, reader: WorkspaceReader
+        self, task: Task, request: Any, data: memoryview | None, reader: WorkspaceReader
     ) -> Converted:
-        """Convert behind the wall; put an accepted trajectory into the catalogue's folder."""
+        """Convert behind the wall; put an accepted trajectory into the store."""
         try:
             with (
-                opened(path) if data is None else in_memory(data) as source,
-                self._store.new_file() as (file, commit),
+                self._opened(task, request, data) as source,
+                tempfile.TemporaryFile(dir=self._work) as file,
             ):
-                converted = reader.convert(source, task, file)
-                if converted.head is not None:
-                    commit(converted.head["id"])
-                return converted
+                converted = reader.convert(source, task, file)  # type: ignore[arg-type]
+                if converted.head is None:
+                    return converted
+                return replace(converted, head=self._keep(converted.head, file, request))
         except TooSlow:
             raise  # the pool decides whether it has more time
         except Refused as error:
             result = refused(task.file, error.finding)
             return Converted(result, result.message)
+        except OSError as error:
+            raise BadInput(
+                f"the lab has no room for '{task.file}' ({error.strerror}); make room in "
+                f"{self._work} and send it again"
+            ) from None
+
+    @contextlib.contextmanager
+    def _opened(self, task: Task, request: Any, data: memoryview | None) -> Iterator[int]:
+        """Yield the descriptor of the file that a request names or holds."""
+        if data is not None:
+            with in_memory(data) as source:
+                yield source
+            return
+        path = Path(request.path) if request.path else self._store.path(request.upload)
+        if path is not None:
+            with opened(path) as source:
+                yield source
+            return
+        size, limit = self._store.size(request.upload), self._pool.limits.file_size
+        if size > limit:
+            problem = f"{size / MiB:.0f} MiB, the limit is {limit / MiB:.0f} MiB"
+            raise Refused(finding("too_large", file=task.file, problem=problem))
+        with tempfile.TemporaryFile(dir=self._work) as fetched:
+            self._store.get_file(request.upload, fetched)  # type: ignore[arg-type]
+            fetched.flush()
+            yield fetched.fileno()
+
+    def _keep(self, head: dict[str, Any], file: Any, request: Any) -> dict[str, Any]:
+        """Leave a trajectory as a draft, or put it into the catalogue; return its head there."""
+        if request.draft:
+            self._store.put_file(request.draft, file)
+            return head | {"owner": request.owner, "version": 0, "shared": False}
+        record, version = self.trajectories.keep(
+            head, file, head["id"], request.owner, shared=request.shared
+        )
+        return head_of(record, version)
 
     def _answer(self, done: Future[Converted], task: Task, response: Any) -> None:
         try:
@@ -212,76 +277,7 @@ class ConverterNode(ParameterNode[ConverterParameters]):
             self.get_logger().info(f"refused: {converted.message}")
             return
         response.trajectory = info_from_head(head)
-        self._update(head["id"])
-        if self._converted.get_subscription_count():
-            self._converted.publish(self._event(head))
         self.get_logger().info(converted.message)
-
-    def _event(self, head: dict[str, Any]) -> msg.Trajectory:
-        """Return what `/trajectories/converted` says: all frames, of a long one the info alone.
-
-        rclpy holds the interpreter while it copies a message, so a long one would hold up every
-        node of the process.
-        """
-        if head["frame_count"] <= MOST_ANNOUNCED:
-            return trajectories.frames_to_message(self._store.frames(head["id"], 0, 0))
-        return trajectory_without_frames(head)
-
-    def _get(self, request: Any, response: Any) -> None:
-        try:
-            if request.file_only:
-                response.trajectory.info = info_from_head(self._store.head(request.id))
-            else:
-                frames = self._store.frames(request.id, request.begin, request.count)
-                response.trajectory = trajectories.frames_to_message(frames)
-            response.file = str(self._store.file(request.id))
-        except Damaged as error:
-            self.get_logger().error(f"removed from the catalogue: {error}")
-            self._update(request.id)
-            raise
-        response.success = True
-
-    def _list(self, request: Any, response: Any) -> None:
-        infos = self._sorted()
-        if request.robot_model:
-            infos = [
-                info
-                for info in infos
-                if info.robot_model == request.robot_model
-                and info.end_effector in ("", request.end_effector)
-            ]
-        response.trajectories = infos
-
-    def _delete(self, request: Any, response: Any) -> None:
-        self._store.delete(request.name)
-        self._update(request.name)
-        response.success, response.message = True, f"'{request.name}' was deleted"
-
-    def _read_catalogue(self) -> None:
-        for trajectory_id in self._store.ids():
-            try:
-                self._infos[trajectory_id] = info_from_head(self._store.head(trajectory_id))
-            except BadInput as error:
-                self.get_logger().error(f"left out of the catalogue: {error}")
-        self._catalogue.publish(catalogue_to_message(self._sorted()))
-
-    def _sorted(self) -> list[msg.TrajectoryInfo]:
-        infos = dict(self._infos)
-        return [infos[key] for key in sorted(infos)]
-
-    def _update(self, trajectory_id: str) -> None:
-        """Let the catalogue say of a trajectory what its file says, and announce it.
-
-        The file is asked, as conversions of the same name end in any order.
-        """
-        with self._lock:
-            try:
-                head = self._store.head(trajectory_id)
-            except BadInput:
-                self._infos.pop(trajectory_id, None)
-            else:
-                self._infos[trajectory_id] = info_from_head(head)
-            self._catalogue.publish(catalogue_to_message(self._sorted()))
 
 
 def _size(path: str) -> int:

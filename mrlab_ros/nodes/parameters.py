@@ -43,7 +43,36 @@ def _state_dir(about: str) -> Any:
 
 @dataclass(frozen=True)
 class ConverterParameters:
-    state_dir: str = _state_dir("Folder for the trajectories; empty: ~/.local/share/mrlab.")
+    state_dir: str = _state_dir(
+        "Folder for the store and for trajectories fetched from one; empty: ~/.local/share/mrlab."
+    )
+    store: str = field(
+        TEXT,
+        "Object store of uploads and trajectories: a folder, or an URL such as s3://bucket/lab; "
+        "empty: the folder store in state_dir.",
+        "",
+    )
+    versions_kept: int = field(
+        Integer(between(1, 1000)), "Versions of a trajectory that are kept.", 10, changeable=True
+    )
+    quota: int = field(
+        Integer(between(0, 1_048_576), "MiB"),
+        "Size of one user's trajectories; 0: no limit.",
+        2048,
+        changeable=True,
+    )
+    trash_time: float = field(
+        Number(above(0, 3650), "d"),
+        "How long a deleted trajectory can be brought back.",
+        30.0,
+        changeable=True,
+    )
+    upload_time: float = field(
+        Number(above(0, 3650), "d"),
+        "How long uploads and unpublished drafts are kept.",
+        7.0,
+        changeable=True,
+    )
     default_frame_rate: float = field(
         Number(above(0, 100_000), "Hz"),
         "Frame rate of a file that does not give one.",

@@ -172,7 +172,9 @@ class Graph:
 
     def catalogue(self) -> list[Any]:
         """Return what there is to load."""
-        answer = self.call(srv.ListTrajectories, "/converter/list", srv.ListTrajectories.Request())
+        answer = self.call(
+            srv.ListTrajectories, "/converter/list_any", srv.ListTrajectories.Request()
+        )
         infos: list[Any] = answer.trajectories
         return infos
 

@@ -10,13 +10,13 @@ import numpy as np
 import pytest
 import scipy.io
 from graph import Graph, wait_for
+from kept import Kept
 from mrlab_msgs import msg, srv
 from sensor_msgs.msg import JointState
 from small_lab import labels, listen_state, load, make, spawn
 from std_srvs.srv import Trigger
 
-from mrlab_ros.adapters.trajectories import store
-from mrlab_ros.adapters.trajectories.store import TrajectoryStore
+from mrlab_ros.adapters.trajectories import npz_file
 from mrlab_ros.core.trajectory.trajectory import Channels
 from mrlab_ros.messages import qos
 from mrlab_ros.nodes import catalogue
@@ -29,10 +29,10 @@ LONG = 60.0  # s; far above what any of this takes
 
 @pytest.fixture
 def lab(graph: Graph, tmp_path):
-    kept = TrajectoryStore(tmp_path / "trajectories")
+    converter = graph.add(ConverterNode, state_dir=str(tmp_path))
     return SimpleNamespace(
-        kept=kept,
-        converter=graph.add(ConverterNode, state_dir=str(tmp_path)),
+        kept=Kept(converter.trajectories.catalogue, converter.trajectories.files),
+        converter=converter,
         lab=graph.add(LabNode),
         host=graph.add(PlaybackHostNode),
     )
@@ -51,7 +51,7 @@ def test_the_numbers_of_a_workspace_are_played_bit_for_bit(
     graph, lab, tmp_path, monkeypatch, same_machine
 ):
     if not same_machine:
-        monkeypatch.setattr(catalogue.store, "read", elsewhere)
+        monkeypatch.setattr(catalogue.npz_file, "read", elsewhere)
         monkeypatch.setattr(catalogue, "CHUNK", 17)
     # degrees and back would change the last place of about half of these
     u = np.linspace(0, 1, 80)[:, None]
@@ -88,7 +88,7 @@ def long_motion(frames):
 @pytest.mark.parametrize("same_machine", [True, False])
 def test_hours_of_motion_can_be_loaded(graph, lab, monkeypatch, same_machine):
     if not same_machine:
-        monkeypatch.setattr(catalogue.store, "read", elsewhere)
+        monkeypatch.setattr(catalogue.npz_file, "read", elsewhere)
     trajectory = long_motion(1_000_000)
     lab.kept.save(trajectory)
     robot = spawn(graph)
@@ -116,14 +116,14 @@ def test_robots_share_the_matrices_of_one_trajectory(graph, lab):
 
 def hold_reads(monkeypatch):
     """Stop every read of a trajectory file; return the events that one began and may go on."""
-    entered, go_on, read = threading.Event(), threading.Event(), store.read
+    entered, go_on, read = threading.Event(), threading.Event(), npz_file.read
 
     def held(path):
         entered.set()
         assert go_on.wait(LONG)
         return read(path)
 
-    monkeypatch.setattr(catalogue.store, "read", held)
+    monkeypatch.setattr(catalogue.npz_file, "read", held)
     return entered, go_on
 
 
@@ -217,7 +217,7 @@ def test_a_load_that_takes_long_does_not_delay_that_of_another_robot(graph, lab,
     lab.kept.save(make("ur5e", "wave"))
     lab.kept.save(make("ur5e", "slow"))
     first, second = spawn(graph), spawn(graph)
-    entered, go_on, read = threading.Event(), threading.Event(), store.read
+    entered, go_on, read = threading.Event(), threading.Event(), npz_file.read
 
     def held(path):
         if path.stem == "slow":
@@ -225,7 +225,7 @@ def test_a_load_that_takes_long_does_not_delay_that_of_another_robot(graph, lab,
             assert go_on.wait(LONG)
         return read(path)
 
-    monkeypatch.setattr(catalogue.store, "read", held)
+    monkeypatch.setattr(catalogue.npz_file, "read", held)
     client = graph.client.create_client(srv.LoadTrajectory, f"/{first}/load")
     assert client.wait_for_service(LONG)
     answer = client.call_async(srv.LoadTrajectory.Request(id="slow"))
@@ -247,6 +247,7 @@ def test_a_damaged_file_is_named_and_what_is_loaded_stays(graph, lab):
     load(graph, robot, "wave")
     answer = graph.call(srv.LoadTrajectory, f"/{robot}/load", id="broken")
     assert not answer.success
-    assert "'broken.npz' is damaged" in answer.message
+    assert "version 1 of 'broken'" in answer.message
+    assert "is damaged" in answer.message
     assert loaded(lab, robot).id == "wave"
     assert lab.kept.ids() == ["wave"]

@@ -2,6 +2,7 @@
 
 import threading
 from concurrent.futures import ThreadPoolExecutor
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -16,11 +17,11 @@ from rclpy.executors import MultiThreadedExecutor, SingleThreadedExecutor
 from rclpy.node import Node
 from rclpy.parameter import Parameter
 
-from mrlab_ros.adapters.trajectories import json_file
-from mrlab_ros.adapters.trajectories.store import TrajectoryStore
+from mrlab_ros.adapters.trajectories import json_file, npz_file
 from mrlab_ros.adapters.workspaces.reader import WorkspaceReader
 from mrlab_ros.messages import qos
-from mrlab_ros.nodes.converter import MOST_ANNOUNCED, ConverterNode
+from mrlab_ros.nodes.converter import ConverterNode
+from mrlab_ros.nodes.trajectories import MOST_ANNOUNCED
 from mrlab_ros.ros.spinning import spin
 
 DEADLINE = 60.0  # s; far above what any of this takes
@@ -281,15 +282,18 @@ def test_a_damaged_file_is_taken_out_of_the_catalogue_and_named(graph, tmp_path)
     for name in ("good.mat", "bad.mat"):
         path = save(tmp_path, name, q=motion())
         assert graph.call(ConvertTrajectory, "convert", path=str(path), robot_model="ur5e").success
-    stored = tmp_path / "state" / "trajectories" / "bad.npz"
+    stored = Path(graph.call(GetTrajectory, "get", id="bad", file_only=True).file)
     content = bytearray(stored.read_bytes())
     content[5000] ^= 1
     stored.write_bytes(content)
     answer = graph.call(GetTrajectory, "get", id="bad")
     assert not answer.success
-    assert "'bad.npz' is damaged" in answer.message
+    assert f"version 1 of 'bad': '{stored.name}' is damaged" in answer.message
     assert "convert the workspace again" in answer.message
-    assert (stored.parent / "damaged" / "bad.npz").exists()
+    (aside,) = (tmp_path / "state" / "store" / "damaged").rglob("*.npz")
+    assert str(aside) in answer.message
+    assert aside.read_bytes() == bytes(content)
+    assert not stored.exists()
     wait_for(
         lambda: catalogues and [t.id for t in catalogues[-1].trajectories] == ["good"],
         "the catalogue without it",
@@ -299,9 +303,10 @@ def test_a_damaged_file_is_taken_out_of_the_catalogue_and_named(graph, tmp_path)
 
 def test_a_start_leaves_damage_out_and_lists_a_thousand_entries(tmp_path):
     folder = tmp_path / "state" / "trajectories"
-    kept = TrajectoryStore(folder)
+    folder.mkdir(parents=True)
     for i in range(1000):
-        kept.save(make_trajectory(trajectory_id=f"m{i:04}"))
+        with (folder / f"m{i:04}.npz").open("w+b") as file:
+            npz_file.write(make_trajectory(trajectory_id=f"m{i:04}"), file)
     (folder / "m0007.npz").write_bytes(b"no archive")
     json_file.write(make_trajectory(trajectory_id="old"), folder / "old.json")
     graph = ConverterGraph(SingleThreadedExecutor, tmp_path / "state")

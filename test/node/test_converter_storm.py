@@ -12,9 +12,9 @@ import psutil
 import pytest
 import scipy.io
 from graph import Graph, wait_for
+from kept import Kept
 from mrlab_msgs import srv
 
-from mrlab_ros.adapters.trajectories.store import TrajectoryStore
 from mrlab_ros.adapters.workspaces.reader import MiB
 from mrlab_ros.messages import qos
 from mrlab_ros.nodes.converter import ConverterNode
@@ -133,7 +133,7 @@ def test_every_upload_is_answered_and_the_honest_ones_rightly(graph, lab, tmp_pa
         stop.set()
         for thread in threads:
             thread.join()
-    kept = TrajectoryStore(tmp_path / "state" / "trajectories")
+    kept = Kept(lab.trajectories.catalogue, lab.trajectories.files)
     for name, (_, q) in honest.items():
         answer = asked[name].result()
         assert answer.success, answer.message

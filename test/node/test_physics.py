@@ -69,11 +69,11 @@ TRAJECTORIES = {
 
 
 class Catalogue(Node):
-    """Answers /converter/get from TRAJECTORIES."""
+    """Answers /converter/get_any from TRAJECTORIES."""
 
     def __init__(self, **kwargs) -> None:
         super().__init__("converter", **kwargs)
-        self.create_service(srv.GetTrajectory, "~/get", self._get)
+        self.create_service(srv.GetTrajectory, "~/get_any", self._get)
 
     def _get(self, request, response):
         response.success = True

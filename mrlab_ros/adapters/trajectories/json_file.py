@@ -19,9 +19,6 @@ from mrlab_ros.core.trajectory.trajectory import Trajectory
 
 SUFFIX = ".json"
 BLOCK = 8192  # frames turned into text at once
-# The end of the metadata in what `chunks` writes. Quotes inside a JSON string are escaped, so
-# these bytes occur nowhere before it.
-FRAMES_MARK = b',"frames":{'
 NUMPY = orjson.OPT_SERIALIZE_NUMPY
 
 
@@ -37,7 +34,7 @@ def schema() -> Any:
 
 def chunks(trajectory: Trajectory) -> Iterator[bytes | memoryview]:
     """Yield the trajectory file piece by piece, so that no whole copy of it is in memory."""
-    yield orjson.dumps(trajectory_document.metadata(trajectory))[:-1] + FRAMES_MARK
+    yield orjson.dumps(trajectory_document.metadata(trajectory))[:-1] + b',"frames":{'
     columns = list(trajectory_document.frames(trajectory, 0, 2))
     for number, name in enumerate(columns):
         yield (b"," if number else b"") + b'"' + name.encode() + b'":'
@@ -91,27 +88,3 @@ def write(trajectory: Trajectory, path: Path) -> None:
     except BaseException:
         os.unlink(name)
         raise
-
-
-def head(path: Path) -> dict[str, Any]:
-    """Return the metadata alone; the frames of a file written here are not read.
-
-    Raises BadInput where the file is none of trajectory.schema.json.
-    """
-    with path.open("rb") as file:
-        start = file.read(1 << 16)
-        end = start.find(FRAMES_MARK)
-        text = start[:end] + b"}" if end >= 0 else start + file.read()
-    try:
-        document = orjson.loads(text)
-    except orjson.JSONDecodeError as error:
-        raise BadInput(f"'{path.name}' is no JSON ({error}); convert it again") from None
-    if end >= 0:
-        stub: dict[str, Any] = {k: [[0.0]] * 2 for k in ("q", "dq", "tau_proxy")}
-        stub["t"] = [0.0, 0.0]
-        if document.get("has_gripper"):
-            stub["gripper"] = [0, 0]
-        document["frames"] = stub
-    check(document, path.name)
-    del document["frames"]
-    return dict(document)

@@ -129,7 +129,7 @@ class WorkspaceReader:
         """Convert the regular file behind the descriptor `source`.
 
         An accepted trajectory is written into `stored`, an empty file, as
-        `adapters/trajectories/store.py` writes it. Raises BadInput where the task is wrong, and
+        `adapters/trajectories/npz_file.py` writes it. Raises BadInput where the task is wrong, and
         Refused where the file could not be read at all.
         """
         self._check_size(source, task.file)

@@ -15,7 +15,7 @@ from typing import Any, BinaryIO
 
 import numpy as np
 
-from mrlab_ros.adapters.trajectories import store
+from mrlab_ros.adapters.trajectories import npz_file
 from mrlab_ros.core.conversion.candidates import Candidate
 from mrlab_ros.core.conversion.convert import MOST_ROWS, ConversionResult, Outcome, convert
 from mrlab_ros.core.conversion.options import Options
@@ -92,7 +92,7 @@ def run(
             most_rows=most_rows,
         )
         if result.trajectory is not None:
-            store.write(result.trajectory, trajectory)
+            npz_file.write(result.trajectory, trajectory)
     except BadInput as error:
         return json.dumps({"bad_input": str(error)}).encode()
     except OSError as error:

@@ -11,7 +11,7 @@ the numbers of the variables, then their JSON index, then that index' length (8 
 little-endian). With a third, the memory file of an earlier reading, one matrix of it is compared
 with what a second reader finds in the file. Four: the file, a memory file for the result
 (`results`), the task (a pickle from the lab), and the empty file for the trajectory, as
-`adapters/trajectories/store.py` writes it.
+`adapters/trajectories/npz_file.py` writes it.
 """
 
 from __future__ import annotations

@@ -21,7 +21,7 @@ from rich.console import Console
 from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn
 
 from mrlab_ros.adapters.robots.library import RobotLibrary
-from mrlab_ros.adapters.trajectories import export, store
+from mrlab_ros.adapters.trajectories import export, npz_file
 from mrlab_ros.adapters.trajectories.coefficients import load_coefficients
 from mrlab_ros.adapters.workspaces.pool import ConversionPool
 from mrlab_ros.adapters.workspaces.reader import (
@@ -174,7 +174,7 @@ def _convert(source: Input, task: Task, path: Path, reader: WorkspaceReader) -> 
             converted = reader.convert(file, task, stored)
         if converted.head is None:
             return converted.result
-        return replace(converted.result, trajectory=store.read(path))
+        return replace(converted.result, trajectory=npz_file.read(path))
     except TooSlow:
         raise  # the pool decides whether it has more time
     except Refused as error:

@@ -33,11 +33,16 @@ from mrlab_ros.core.conversion.preview import Preview, preview
 from mrlab_ros.core.conversion.stated import with_headings, with_statements
 from mrlab_ros.core.conversion.survey import Survey, survey
 from mrlab_ros.core.conversion.workspace import Variable, Workspace
+<<<<<<< HEAD
 from mrlab_ros.core.diagnostics import Diagnostic, Fix, Refused, Severity, finding
 from mrlab_ros.core.errors import BadInput
+=======
+from mrlab_ros.core.diagnostics import Diagnostic, Refused, Severity, finding
+>>>>>>> 6bc6448 (Keep trajectories in the store: versions, owners, trash and undo; uploads and drafts read from it by key)
 from mrlab_ros.core.robots.model import RobotModel
 from mrlab_ros.core.trajectory import channels
 from mrlab_ros.core.trajectory.channels import ProxyCoefficients
+from mrlab_ros.core.trajectory.names import checked_id
 from mrlab_ros.core.trajectory.trajectory import Source, Trajectory
 
 DEFAULT_FRAME_RATE = 100.0  # Hz
@@ -46,8 +51,11 @@ MOST_ROWS = 5_000_000  # of a matrix, if not said otherwise: almost 14 hours at 
 MOST_OWN_RATE = 10_000.0  # Hz; points that come more often are sampled at the default
 # Hz and rad (m): rows that come more slowly and are farther apart are waypoints
 WAYPOINT_RATE, WAYPOINT_STEP = 10.0, 0.1
+<<<<<<< HEAD
 TIMES_IN_MATLAB = "t = 2 * (0:size(q, 1) - 1)'; save('traj.mat', 'q', 't')"
 ID = re.compile(r"[A-Za-z0-9][A-Za-z0-9._-]{0,127}")
+=======
+>>>>>>> 6bc6448 (Keep trajectories in the store: versions, owners, trash and undo; uploads and drafts read from it by key)
 
 
 class Outcome(Enum):
@@ -113,12 +121,7 @@ def convert(
     cannot be a name. default_frame_rate: Hz, where neither the options nor the file have one.
     most_rows: a matrix with more samples is refused.
     """
-    trajectory_id = trajectory_id or id_from(file)
-    if not ID.fullmatch(trajectory_id):
-        raise BadInput(
-            f"the name '{trajectory_id}' cannot be used; expected letters, digits, '.', '_' and "
-            "'-', at most 128, beginning with a letter or digit"
-        )
+    trajectory_id = checked_id(trajectory_id or id_from(file))
     notes: list[Diagnostic] = []
     variable: Variable | None = None
     squeezed: dict[str, dimensions.Squeezed] = {}

@@ -122,6 +122,9 @@ def build(
         source=Source(**head["source"]),
         created_ns=head["created_ns"],
         warnings=warnings_of(head),
+        owner=head.get("owner", ""),
+        version=head.get("version", 1),
+        shared=head.get("shared", True),
     )
 
 

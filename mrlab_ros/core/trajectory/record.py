@@ -5,7 +5,7 @@ Every change makes a new record, so that it can be stored before it counts.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import asdict, dataclass, fields, replace
 from typing import Any
 
@@ -126,6 +126,25 @@ def without(record: Record, key: str) -> Record | None:
     """Return the record without the versions whose file is `key`; None: there is no other."""
     versions = tuple(version for version in record.versions if version.key != key)
     return replace(record, versions=versions) if versions else None
+
+
+def head_of(record: Record, version: Version) -> dict[str, Any]:
+    """Return a version's metadata as the catalogue has it: with id, owner, version, shared."""
+    return {
+        **version.head,
+        "id": record.id,
+        "owner": record.owner,
+        "version": version.number,
+        "shared": record.shared,
+    }
+
+
+def newest(found: Sequence[Record], most: int) -> list[Record]:
+    """Return the `most` records that were published last, in the order in which they come."""
+    if len(found) <= most:
+        return list(found)
+    ages = sorted((record.newest.published_ns for record in found), reverse=True)
+    return [record for record in found if record.newest.published_ns >= ages[most - 1]][:most]
 
 
 def to_document(record: Record) -> dict[str, Any]:

@@ -48,7 +48,8 @@ class Trajectory:
     """Joint positions sampled at a fixed rate, checked when made and never changed after.
 
     positions: (N, J) rad, columns in joint_names order, N >= 2. gripper: (N,) bool, true where
-    closed, or None for an arm without one. frame_rate: Hz.
+    closed, or None for an arm without one. frame_rate: Hz. owner: user whose it is, empty: the
+    lab's; version: from 1; shared: everybody may see it.
 
     Raises BadInput when a shape, a value or the frame rate is not as said above.
     """
@@ -64,6 +65,9 @@ class Trajectory:
     source: Source
     created_ns: int = 0
     warnings: tuple[Diagnostic, ...] = field(default=())
+    owner: str = ""
+    version: int = 1
+    shared: bool = True
 
     def __post_init__(self) -> None:
         rows, columns = self.positions.shape if self.positions.ndim == 2 else (0, 0)

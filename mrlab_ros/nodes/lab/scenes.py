@@ -53,7 +53,7 @@ class Scenes:
         self._document = document
         self._caller = caller
         self._list = caller.create_client(
-            srv.ListTrajectories, "/converter/list", qos_profile=qos.SERVICES
+            srv.ListTrajectories, "/converter/list_any", qos_profile=qos.SERVICES
         )
         self._create_system = caller.create_client(
             srv.CreateSystem, "/coordinator/create_system", qos_profile=qos.SERVICES

@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 from mrlab_ros.adapters.robots.library import RobotLibrary
-from mrlab_ros.adapters.trajectories import store
+from mrlab_ros.adapters.trajectories import npz_file
 from mrlab_ros.adapters.trajectories.coefficients import load_coefficients
 from mrlab_ros.adapters.workspaces import results
 from mrlab_ros.core.conversion.convert import Outcome
@@ -39,7 +39,7 @@ def test_an_accepted_file_has_its_head_and_its_trajectory(tmp_path):
     assert converted.result.trajectory is None
     assert converted.message.startswith("'q' of 'f.mat' was taken: 200 frames")
     (tmp_path / "f.npz").write_bytes(stored)
-    trajectory = store.read(tmp_path / "f.npz")
+    trajectory = npz_file.read(tmp_path / "f.npz")
     assert converted.head["id"] == trajectory.id == "f"
     np.testing.assert_array_equal(trajectory.positions, Q)
 

@@ -11,7 +11,6 @@ from hypothesis.extra import numpy as hnp
 from mrlab_ros.adapters.trajectories import json_file
 from mrlab_ros.core.diagnostics import Diagnostic, Fix, Severity
 from mrlab_ros.core.errors import BadInput
-from mrlab_ros.core.trajectory import document
 from mrlab_ros.core.trajectory.channels import ProxyCoefficients, derive
 from mrlab_ros.core.trajectory.trajectory import Source, Trajectory
 
@@ -146,20 +145,6 @@ def test_a_file_that_contradicts_itself_is_refused(path, value):
 def test_other_files_are_refused(data):
     with pytest.raises(BadInput, match=r"pick\.json"):
         parse(data)
-
-
-def test_the_head_of_a_file_is_its_metadata(tmp_path):
-    path = tmp_path / "pick.json"
-    json_file.write(make(np.zeros((3, 2))), path)
-    head = json_file.head(path)
-    assert (head["frame_count"], head["joint_names"]) == (3, ["j0", "j1"])
-    assert document.warnings_of(head) == make(np.zeros((3, 2))).warnings
-    assert "frames" not in head
-    path.write_text(json.dumps(json.loads(path.read_bytes()), indent=2))
-    assert json_file.head(path) == head
-    path.write_text("{" + path.read_text())
-    with pytest.raises(BadInput, match="JSON"):
-        json_file.head(path)
 
 
 def test_a_write_that_fails_leaves_the_old_file(tmp_path, monkeypatch):

@@ -1,0 +1,137 @@
+"""The catalogue as the store holds it: one record a trajectory, read once, then what changed.
+
+The object `changes.json` counts the changes and names the last ones, so that a reader anywhere
+asks for one small object and fetches the records that it lacks.
+"""
+
+from __future__ import annotations
+
+import threading
+from collections.abc import Callable, Iterable
+from concurrent.futures import ThreadPoolExecutor
+
+import orjson
+
+from mrlab_ros.adapters.store import keys
+from mrlab_ros.adapters.store.port import Missing, ObjectStore
+from mrlab_ros.core.errors import BadInput
+from mrlab_ros.core.naming import did_you_mean
+from mrlab_ros.core.trajectory import record as records
+from mrlab_ros.core.trajectory.names import TrajectoryName, parse
+from mrlab_ros.core.trajectory.record import Record, Version
+
+READERS = 8  # requests at once to a store that is no folder
+MOST_NAMED = 10  # ids in the sentence about one that is not there
+
+
+class NoTrajectory(BadInput):
+    """There is no such trajectory, or not for who asks."""
+
+
+class Catalogue:
+    """The records of a store; safe from several threads."""
+
+    def __init__(self, store: ObjectStore, log: Callable[[str], None] = lambda text: None) -> None:
+        self.store = store
+        self._log = log
+        self._records: dict[tuple[str, str], Record] = {}
+        self._reading = threading.Lock()
+        self._epoch, self._number = "", -1
+
+    def refresh(self) -> bool:
+        """Read what changed since the last call; say whether anything did."""
+        with self._reading:
+            epoch, number, recent = read_changes(self.store)
+            if (epoch, number) == (self._epoch, self._number):
+                return False
+            names = [(owner, name) for n, owner, name in recent if n > self._number]
+            if epoch != self._epoch or len(names) < number - self._number:
+                self._records = self._read_all()
+            else:
+                for name in dict.fromkeys(names):
+                    self._read_one(*name)
+            self._epoch, self._number = epoch, number
+            return True
+
+    def records(self) -> list[Record]:
+        """Return every record, ordered by id, the deleted ones too."""
+        return sorted(self._records.copy().values(), key=lambda record: record.id)
+
+    def usage(self, owner: str) -> int:
+        """Return how many bytes a user's trajectories take, the deleted ones too."""
+        return sum(r.size for r in self._records.copy().values() if r.owner == owner)
+
+    def find(
+        self,
+        text: str,
+        visible: Callable[[Record], bool] = lambda record: True,
+        *,
+        deleted: bool = False,
+    ) -> tuple[Record, Version]:
+        """Return the trajectory and the version that an id such as `anna/pick@3` names.
+
+        visible: whether who asks may see a record; one that is not visible is not there. deleted:
+        a deleted one counts too. Raises NoTrajectory, and BadInput for a version that is gone.
+        """
+        try:
+            name = parse(text)
+        except BadInput:
+            name = TrajectoryName("", "")
+        record = self._records.get((name.owner, name.name))
+        if record is None or (record.deleted_ns and not deleted) or not visible(record):
+            ids = [r.id for r in self.records() if not r.deleted_ns and visible(r)]
+            raise NoTrajectory(
+                f"there is no trajectory '{text}'; there are: "
+                f"{', '.join(ids[:MOST_NAMED]) or 'none'}; convert a file or take one of these"
+                f"{did_you_mean(text, ids)}"
+            )
+        return record, record.version(name.version)
+
+    def _read_all(self) -> dict[tuple[str, str], Record]:
+        found = [entry.key for entry in self.store.list(keys.RECORDS)]
+        with ThreadPoolExecutor(READERS) as pool:
+            read = pool.map(self._read, found) if not self._is_folder() else map(self._read, found)
+            return {(r.owner, r.name): r for r in read if r is not None}
+
+    def _is_folder(self) -> bool:
+        return self.store.path(keys.CHANGES) is not None
+
+    def _read_one(self, owner: str, name: str) -> None:
+        record = self._read(keys.record(owner, name))
+        if record is None:
+            self._records.pop((owner, name), None)
+        else:
+            self._records[owner, name] = record
+
+    def _read(self, key: str) -> Record | None:
+        """Return the record under a key; None where it is gone, or none."""
+        try:
+            record = records.from_document(orjson.loads(self.store.get(key)))
+            if keys.record(record.owner, record.name) != key:
+                raise BadInput(f"it holds '{record.id}'")
+        except Missing:
+            return None
+        except (BadInput, orjson.JSONDecodeError) as error:
+            self._unreadable(key, str(error))
+            return None
+        return record
+
+    def _unreadable(self, key: str, why: str) -> None:
+        self._log(f"left out of the catalogue: '{key}' of {self.store.place}: {why}")
+
+
+def read_changes(store: ObjectStore) -> tuple[str, int, list[tuple[int, str, str]]]:
+    """Return the writer's epoch, the number of its changes, and the last ones: number and name."""
+    try:
+        document = orjson.loads(store.get(keys.CHANGES))
+        recent = [(int(n), str(owner), str(name)) for n, owner, name in document["recent"]]
+        return str(document["epoch"]), int(document["number"]), recent
+    except Missing:
+        return "", 0, []
+    except (orjson.JSONDecodeError, KeyError, TypeError, ValueError):
+        return "damaged", 0, []
+
+
+def changes_document(epoch: str, number: int, recent: Iterable[tuple[int, str, str]]) -> bytes:
+    """Return what read_changes() reads."""
+    return orjson.dumps({"epoch": epoch, "number": number, "recent": list(recent)})

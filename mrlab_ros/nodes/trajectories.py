@@ -1,0 +1,289 @@
+"""The catalogue in the graph: services of the converter, and what is announced."""
+
+from __future__ import annotations
+
+import tempfile
+import threading
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from typing import Any, BinaryIO
+
+from mrlab_msgs import msg
+from rclpy.node import Node
+
+from mrlab_ros.adapters.store import keys
+from mrlab_ros.adapters.store.port import StoreFailure
+from mrlab_ros.adapters.trajectories import npz_file
+from mrlab_ros.adapters.trajectories.catalogue_writer import DAY_S, CatalogueWriter
+from mrlab_ros.adapters.trajectories.files import TrajectoryFiles
+from mrlab_ros.adapters.trajectories.npz_file import Damaged
+from mrlab_ros.adapters.trajectories.plain_folder import import_folder
+from mrlab_ros.core.errors import BadInput, LabError
+from mrlab_ros.core.trajectory.names import TrajectoryName, checked_id, parse
+from mrlab_ros.core.trajectory.record import Record, Version, head_of, newest
+from mrlab_ros.messages import qos, trajectories
+from mrlab_ros.messages.trajectories import catalogue_to_message, info_from_head
+from mrlab_ros.ros.worker import Worker
+
+# A longer trajectory is announced without its frames, which `get` gives in parts.
+MOST_ANNOUNCED = 20_000
+# Trajectories in the latched message: 0.2 MB. A client asks `list` for more.
+MOST_LISTED = 1000
+# Of a class that publishes at once, what changed in this time is one announcement, s.
+ANNOUNCE_PERIOD_S = 0.1
+# A store that does not answer at the start is asked again after this time, s.
+RETRY_S = 2.0
+
+
+class TrajectoryServices:
+    """Answers get, list, delete, publish, share and restore, and announces every change.
+
+    Where the store does not answer at the start, every service says so until it does.
+    """
+
+    def __init__(
+        self, node: Node, catalogue: CatalogueWriter, files: TrajectoryFiles, plain_folder: Path
+    ) -> None:
+        self.catalogue, self.files = catalogue, files
+        self._log = node.get_logger()
+        self._plain_folder = plain_folder
+        self._catalogue_topic = node.create_publisher(
+            msg.TrajectoryCatalogue, "/trajectories", qos.LATCHED
+        )
+        self._converted = node.create_publisher(
+            msg.Trajectory, "/trajectories/converted", qos.EVENTS
+        )
+        self._closed = threading.Event()
+        self._infos: dict[str, tuple[Record, msg.TrajectoryInfo, msg.TrajectoryInfo]] = {}
+        self._announcing = threading.Lock()
+        self._waiting = False
+        self._announcer = Worker(
+            "announce_trajectories",
+            on_error=lambda error: self._log.error(f"cannot announce a trajectory: {error!r}"),
+        )
+        self._problem = ""
+        self._open()
+        self._publish_catalogue()
+        if self._problem:
+            self._log.error(f"the catalogue is not there yet: {self._problem}")
+            threading.Thread(target=self._open_later, name="open_store", daemon=True).start()
+
+    def close(self) -> None:
+        self._closed.set()
+        self._announcer.close()
+
+    def check_ready(self) -> None:
+        """Pass where the catalogue was read; raise StoreFailure."""
+        if self._problem:
+            raise StoreFailure(self._problem)
+
+    def get(self, request: Any, response: Any, *, private: bool = False) -> None:
+        self.check_ready()
+        record, version = self._find(request.id, private=private)
+        with self._damage(record, version):
+            if request.file_only:
+                npz_file.read_head(self.files.path(version))
+                response.trajectory.info = info_from_head(head_of(record, version))
+            else:
+                frames = self.files.frames(record, version, request.begin, request.count)
+                response.trajectory = trajectories.frames_to_message(frames)
+            response.file = str(self.files.path(version))
+        response.success = True
+
+    def get_any(self, request: Any, response: Any) -> None:
+        self.get(request, response, private=True)
+
+    def list_fitting(self, request: Any, response: Any, *, private: bool = False) -> None:
+        self.check_ready()
+        fitting = [
+            record
+            for record in self._visible(private=private)
+            if not request.robot_model
+            or (
+                record.newest.head["robot_model"] == request.robot_model
+                and (record.newest.head["end_effector"] or "") in ("", request.end_effector)
+            )
+        ]
+        end = request.begin + request.count if request.count else None
+        response.trajectories = [self._info(record) for record in fitting[request.begin : end]]
+        response.total = len(fitting)
+
+    def list_any_fitting(self, request: Any, response: Any) -> None:
+        self.list_fitting(request, response, private=True)
+
+    def delete(self, request: Any, response: Any) -> None:
+        self.check_ready()
+        self.catalogue.delete(request.name)
+        self.announce()
+        response.success = True
+        response.message = f"'{request.name}' was deleted; converter/restore brings it back"
+
+    def publish(self, request: Any, response: Any) -> None:
+        self.check_ready()
+        user = keys.owner_of(request.draft, keys.DRAFT)
+        if request.owner and keys.segment(request.owner) != user:
+            raise BadInput(f"the draft is not one of {request.owner}'s; publish it as its owner")
+        record, version = self.publish_draft(
+            request.draft, request.id, request.owner, shared=request.shared
+        )
+        response.trajectory = info_from_head(head_of(record, version))
+        response.success = True
+        response.message = f"'{record.id}' was published, version {version.number}"
+
+    def share(self, request: Any, response: Any) -> None:
+        self.check_ready()
+        record = self.catalogue.share(request.id, request.shared)
+        self.announce()
+        seen_by = "everybody" if record.shared else f"{record.owner} and instructors"
+        response.success, response.message = True, f"'{record.id}' is seen by {seen_by}"
+
+    def restore(self, request: Any, response: Any) -> None:
+        self.check_ready()
+        record = self.catalogue.restore(request.id, request.version)
+        self.announce()
+        response.trajectory = info_from_head(head_of(record, record.newest))
+        response.success = True
+        response.message = f"'{record.id}' is there, version {record.newest.number}"
+
+    def publish_draft(
+        self, draft: str, text: str, owner: str, *, shared: bool
+    ) -> tuple[Record, Version]:
+        """Put a draft into the catalogue; a draft that was published before, once."""
+        name = _own_name(text, owner)
+        for record in self.catalogue.records():
+            for version in record.versions:
+                if version.draft == draft:
+                    if name not in ("", record.name) or owner != record.owner:
+                        raise BadInput(f"that draft was published already, as '{record.id}'")
+                    return record, version
+        with self._opened(draft) as path:
+            npz_file.read(path)
+            head = npz_file.read_head(path)
+        return self.keep(head, draft, name or head["id"], owner, shared=shared)
+
+    def keep(
+        self, head: dict[str, Any], source: BinaryIO | str, name: str, owner: str, *, shared: bool
+    ) -> tuple[Record, Version]:
+        """Put a converted trajectory into the catalogue and announce it."""
+        self.check_ready()
+        place = TrajectoryName(owner, checked_id(name))
+        record, version = self.catalogue.publish(place, head, source, shared=shared)
+        self.announce()
+        if record.shared and self._converted.get_subscription_count():
+            self._say_converted(record, version)
+        return record, version
+
+    def announce(self) -> None:
+        """Publish the catalogue soon; changes in quick succession are one message."""
+        with self._announcing:
+            if self._waiting:
+                return
+            self._waiting = True
+
+        def work() -> None:
+            with self._announcing:
+                self._waiting = False
+            self._publish_catalogue()
+            self._closed.wait(ANNOUNCE_PERIOD_S)
+
+        self._announcer.send(work)
+
+    def sweep(self, trash_days: float, unpublished_days: float) -> None:
+        """Remove what is no longer of use; a store that fails is asked again the next time."""
+        try:
+            self.check_ready()
+            self.catalogue.sweep(trash_days * DAY_S, unpublished_days * DAY_S)
+        except LabError as error:
+            self._log.error(f"old trajectories and uploads stay for now: {error}")
+
+    def _open(self) -> None:
+        try:
+            self.catalogue.open()
+            taken = import_folder(self._plain_folder, self.catalogue, self._log.error)
+            if taken:
+                self._log.info(f"took {len(taken)} trajectories of {self._plain_folder} over")
+            self._problem = ""
+        except StoreFailure as error:
+            self._problem = str(error)
+
+    def _open_later(self) -> None:
+        while self._problem and not self._closed.wait(RETRY_S):
+            self._open()
+        if not self._problem:
+            self._log.info(f"the catalogue is there: {self.catalogue.store.place} answers")
+            self.announce()
+
+    @contextmanager
+    def _opened(self, key: str) -> Iterator[Path]:
+        """Yield the path of an object's bytes on this machine; raise Missing."""
+        path = self.catalogue.store.path(key)
+        if path is not None:
+            self.catalogue.store.size(key)
+            yield path
+            return
+        with tempfile.NamedTemporaryFile(suffix=npz_file.SUFFIX) as file:
+            self.catalogue.store.get_file(key, file)  # type: ignore[arg-type]
+            file.flush()
+            yield Path(file.name)
+
+    def _find(self, text: str, *, private: bool) -> tuple[Record, Version]:
+        return self.catalogue.find(text, lambda record: private or record.visible_to(""))
+
+    @contextmanager
+    def _damage(self, record: Record, version: Version) -> Iterator[None]:
+        """Take a version whose file is damaged out of the catalogue, and say so."""
+        try:
+            yield
+        except Damaged as error:
+            aside = self.catalogue.set_aside(record, version)
+            self.announce()
+            said = f"version {version.number} of '{record.id}': {error}; it was moved to {aside}"
+            self._log.error(f"removed from the catalogue: {said}")
+            raise Damaged(said) from error
+
+    def _visible(self, *, private: bool) -> list[Record]:
+        return [
+            record
+            for record in self.catalogue.records()
+            if not record.deleted_ns and (private or record.visible_to(""))
+        ]
+
+    def _info(self, record: Record, *, short_one: bool = False) -> msg.TrajectoryInfo:
+        """Return the catalogue's entry, with its warnings or without, made once a record."""
+        known = self._infos.get(record.id)
+        if known is None or known[0] is not record:
+            head = head_of(record, record.newest)
+            short = info_from_head(head | {"warnings": []})
+            known = self._infos[record.id] = record, info_from_head(head), short
+        return known[2 if short_one else 1]
+
+    def _publish_catalogue(self) -> None:
+        if self._closed.is_set():
+            return
+        visible = self._visible(private=False)
+        infos = [self._info(record, short_one=True) for record in newest(visible, MOST_LISTED)]
+        self._catalogue_topic.publish(catalogue_to_message(infos, len(visible)))
+
+    def _say_converted(self, record: Record, version: Version) -> None:
+        """Say all frames of a trajectory, of a long one the info alone.
+
+        rclpy holds the interpreter while it copies a message, so a long one would hold up every
+        node of the process.
+        """
+        head = head_of(record, version)
+        if head["frame_count"] <= MOST_ANNOUNCED:
+            frames = self.files.frames(record, version, 0, 0)
+            self._converted.publish(trajectories.frames_to_message(frames))
+        else:
+            self._converted.publish(trajectories.trajectory_without_frames(head))
+
+
+def _own_name(text: str, owner: str) -> str:
+    """Return a name without the owner that may stand before it; raise BadInput for another's."""
+    if not text:
+        return ""
+    name = parse(text)
+    if name.version or (name.owner and name.owner != owner):
+        raise BadInput(f"'{text}' cannot be published; expected a name such as {name.name}")
+    return name.name

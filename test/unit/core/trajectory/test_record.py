@@ -1,0 +1,132 @@
+"""Versions, sharing, trash and undo of one trajectory, without a store."""
+
+import pytest
+
+from mrlab_ros.core.errors import BadInput
+from mrlab_ros.core.trajectory import record as records
+from mrlab_ros.core.trajectory.names import TrajectoryName, checked_id, parse
+from mrlab_ros.core.trajectory.record import Record, Version
+
+NAME = TrajectoryName("anna", "pick")
+
+
+def version(key="k", size=10, at=0, draft=""):
+    return Version(0, key, size, {"id": "pick", "frame_count": 2}, at, draft)
+
+
+def made(*keys, kept=10, **more):
+    record = None
+    for i, key in enumerate(keys):
+        record = records.published(
+            record, NAME, version(key, at=i), shared=more.get("shared", False), kept=kept
+        )
+    return record
+
+
+def numbers(record):
+    return [v.number for v in record.versions]
+
+
+@pytest.mark.parametrize(("text", "owner", "name", "number"), [
+    ("pick", "", "pick", 0), ("pick@3", "", "pick", 3), ("anna/pick", "anna", "pick", 0),
+    ("a b@c.de/pick.v2@12", "a b@c.de", "pick.v2", 12), ("a/b/pick", "a/b", "pick", 0),
+    ("Übung/x", "Übung", "x", 0),
+])  # fmt: skip
+def test_an_id_names_owner_name_and_version(text, owner, name, number):
+    parsed = parse(text)
+    assert parsed == TrajectoryName(owner, name, number)
+    assert str(parsed) == text
+
+
+@pytest.mark.parametrize("text", ["", "/pick", "anna/", "pick@0", "pick@", "pick@x", "ä", ".x",
+                                  "a@1@2", "pick@-1", "x" * 129])  # fmt: skip
+def test_what_is_no_id_is_named(text):
+    with pytest.raises(BadInput, match="cannot be the id"):
+        parse(text)
+
+
+@pytest.mark.parametrize("name", ["", "a/b", "a@2", "-a", "x" * 129])
+def test_what_is_no_name_is_named(name):
+    with pytest.raises(BadInput, match="cannot be used"):
+        checked_id(name)
+
+
+def test_versions_are_counted_and_the_oldest_go():
+    record = made("a", "b", "c", "d", kept=3)
+    assert numbers(record) == [2, 3, 4]
+    assert record.newest.key == record.version(0).key == "d"
+    assert record.version(3).key == "c"
+    with pytest.raises(BadInput, match="no version 1; kept are: 2, 3, 4"):
+        record.version(1)
+
+
+def test_who_sees_what():
+    mine = made("a")
+    assert mine.visible_to("anna")
+    assert not mine.visible_to("ben")
+    assert not mine.visible_to("")
+    assert records.shared(mine, True).visible_to("")
+    assert Record("", "pick", True, mine.versions).visible_to("")
+
+
+def test_the_labs_own_is_always_shared():
+    record = records.published(None, TrajectoryName("", "x"), version(), shared=False, kept=2)
+    assert record.shared
+    with pytest.raises(BadInput, match="the lab's own"):
+        records.shared(record, False)
+
+
+def test_what_was_deleted_comes_back():
+    record = made("a", "b")
+    gone = records.deleted(record, 7)
+    assert gone.deleted_ns == 7
+    with pytest.raises(BadInput, match="deleted already"):
+        records.deleted(gone, 8)
+    assert records.restored(gone, 0, 9, 10) == record
+    with pytest.raises(BadInput, match="is not deleted"):
+        records.restored(record, 0, 9, 10)
+
+
+def test_publishing_over_a_deleted_one_counts_on():
+    gone = records.deleted(made("a"), 7)
+    record = records.published(gone, NAME, version("b"), shared=False, kept=10)
+    assert (numbers(record), record.deleted_ns) == ([1, 2], 0)
+
+
+def test_an_older_version_becomes_the_next_one():
+    record = records.restored(made("a", "b"), 1, 99, 10)
+    assert [(v.number, v.key) for v in record.versions] == [(1, "a"), (2, "b"), (3, "a")]
+    assert record.newest.published_ns == 99
+    assert record.size == 20
+    with pytest.raises(BadInput, match="newest already"):
+        records.restored(record, 3, 9, 10)
+    assert records.restored(records.deleted(made("a"), 1), 1, 9, 10).deleted_ns == 0
+
+
+def test_a_damaged_file_takes_its_versions_along():
+    record = records.restored(made("a", "b"), 1, 99, 10)
+    assert numbers(records.without(record, "a")) == [2]
+    assert records.without(made("a"), "a") is None
+
+
+def test_a_record_comes_back_from_its_document():
+    record = made("a", "b")
+    assert records.from_document(records.to_document(record)) == record
+
+
+@pytest.mark.parametrize("change", [
+    {"format": 2}, {"versions": []}, {"versions": None}, {"name": 3}, {"versions": [{}]},
+])  # fmt: skip
+def test_another_document_is_refused(change):
+    with pytest.raises(BadInput):
+        records.from_document(records.to_document(made("a")) | change)
+    with pytest.raises(BadInput):
+        records.from_document({})
+
+
+def test_the_newest_are_chosen_and_stay_in_order():
+    found = [
+        Record("", f"r{i}", True, (version(at=at),)) for i, at in enumerate([5, 1, 9, 7, 7, 2])
+    ]
+    assert [r.name for r in records.newest(found, 3)] == ["r2", "r3", "r4"]
+    assert records.newest(found, 10) == found
