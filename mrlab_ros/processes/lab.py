@@ -71,7 +71,8 @@ class LabOptions:
     config: a ROS parameter file. state_dir: the folder for scene and trajectories. robots: models
     to begin with. listen: where zenoh clients connect; empty: the bridge's default. connect: a
     router that clients connect to in place of the bridge. keys: a keys folder. insecure: listen
-    beyond this machine without keys.
+    beyond this machine without keys. store: URL or folder of uploads and trajectories; empty: in
+    state_dir.
     """
 
     config: Path
@@ -83,13 +84,17 @@ class LabOptions:
     connect: str = ""
     keys: Path | None = None
     insecure: bool = False
+    store: str = ""
 
 
 Parameters = dict[str, object]
 
 
 def _lab_parameters(options: LabOptions) -> Parameters:
-    return {"lab:robots": options.robots} if options.robots else {}
+    found: Parameters = {"lab:robots": options.robots} if options.robots else {}
+    if options.store:
+        found["converter:store"] = options.store
+    return found
 
 
 def _bridge_parameters(options: LabOptions) -> Parameters:

@@ -52,7 +52,8 @@ def open_store(place: str) -> ObstoreStore:
     """
     url = URL.fullmatch(place)
     if url is None:
-        return ObstoreStore(_folder(Path(place).expanduser()), str(Path(place).expanduser()))
+        path = Path(place).expanduser().absolute()
+        return ObstoreStore(_folder(path), str(path))
     if url[1] not in SCHEMES or not url[2].strip("/"):
         raise BadInput(
             f"the store '{place}' cannot be used; expected a folder, or an URL such as "

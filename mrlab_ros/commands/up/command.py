@@ -14,6 +14,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
+from mrlab_ros.adapters.store.objects import open_store
 from mrlab_ros.commands.up.keys import (
     checked_listen,
     checked_router,
@@ -99,6 +100,13 @@ def up(
         Path | None,
         typer.Option(help="Folder for scene and trajectories; not given: gone with the lab."),
     ] = None,
+    store: Annotated[
+        str,
+        typer.Option(
+            help="Where uploads and trajectories are kept: a folder, or an URL such as "
+            "s3://bucket/lab; not given: in the folder for state."
+        ),
+    ] = "",
 ) -> None:
     """Start the lab and keep it running until Ctrl-C.
 
@@ -130,6 +138,7 @@ def up(
             connect=zenoh_connect,
             keys=keys,
             insecure=insecure,
+            store=checked_store(store),
         )
         specs = [process.spec(options) for process in lab_processes(options)]
         seen = keys_changed_at(keys) if keys is not None and bridge else ()
@@ -165,6 +174,11 @@ def up(
                 say(SELF, "stops")
         finally:
             run_file.release()
+
+
+def checked_store(place: str) -> str:
+    """Return the store's URL or its folder's whole path; raise BadInput for one of no use."""
+    return open_store(place).place if place else ""
 
 
 class Refusals:

@@ -33,12 +33,7 @@ from mrlab_ros.core.conversion.preview import Preview, preview
 from mrlab_ros.core.conversion.stated import with_headings, with_statements
 from mrlab_ros.core.conversion.survey import Survey, survey
 from mrlab_ros.core.conversion.workspace import Variable, Workspace
-<<<<<<< HEAD
 from mrlab_ros.core.diagnostics import Diagnostic, Fix, Refused, Severity, finding
-from mrlab_ros.core.errors import BadInput
-=======
-from mrlab_ros.core.diagnostics import Diagnostic, Refused, Severity, finding
->>>>>>> 6bc6448 (Keep trajectories in the store: versions, owners, trash and undo; uploads and drafts read from it by key)
 from mrlab_ros.core.robots.model import RobotModel
 from mrlab_ros.core.trajectory import channels
 from mrlab_ros.core.trajectory.channels import ProxyCoefficients
@@ -51,11 +46,7 @@ MOST_ROWS = 5_000_000  # of a matrix, if not said otherwise: almost 14 hours at 
 MOST_OWN_RATE = 10_000.0  # Hz; points that come more often are sampled at the default
 # Hz and rad (m): rows that come more slowly and are farther apart are waypoints
 WAYPOINT_RATE, WAYPOINT_STEP = 10.0, 0.1
-<<<<<<< HEAD
 TIMES_IN_MATLAB = "t = 2 * (0:size(q, 1) - 1)'; save('traj.mat', 'q', 't')"
-ID = re.compile(r"[A-Za-z0-9][A-Za-z0-9._-]{0,127}")
-=======
->>>>>>> 6bc6448 (Keep trajectories in the store: versions, owners, trash and undo; uploads and drafts read from it by key)
 
 
 class Outcome(Enum):
