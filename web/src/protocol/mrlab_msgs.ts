@@ -1010,6 +1010,7 @@ export const getObjectsResponseType: MessageType<GetObjectsResponse> = /* @__PUR
 
 /** mrlab_msgs/srv/GetTrajectory_Request: Fetch a trajectory: all of its frames, some of them, or the name of the file that holds them. */
 export interface GetTrajectoryRequest {
+  /** name in the catalogue; NAME@3 is its third version */
   id: string
   /** true: frames are left out of the answer where it names a file */
   file_only: boolean
@@ -1441,29 +1442,39 @@ export const listScenesResponseType: MessageType<ListScenesResponse> = /* @__PUR
   writeListScenesResponse,
 )
 
-/** mrlab_msgs/srv/ListTrajectories_Request: List the trajectories that fit a robot. */
+/** mrlab_msgs/srv/ListTrajectories_Request: List the trajectories that fit a robot, ordered by id: all, or one page of them. */
 export interface ListTrajectoriesRequest {
   /** empty: any */
   robot_model: string
   /** only meaningful with robot_model: empty means none is fitted */
   end_effector: string
+  /** first one of the answer, from 0 */
+  begin: number
+  /** how many of them, at most; 0: all from begin on */
+  count: number
 }
 
 export function createListTrajectoriesRequest(): ListTrajectoriesRequest {
   return {
     robot_model: '',
     end_effector: '',
+    begin: 0,
+    count: 0,
   }
 }
 
 export function readListTrajectoriesRequest(from: CdrReader, into: ListTrajectoriesRequest): void {
   into.robot_model = from.string(into.robot_model)
   into.end_effector = from.string(into.end_effector)
+  into.begin = from.uint32()
+  into.count = from.uint32()
 }
 
 export function writeListTrajectoriesRequest(to: CdrWriter, message: ListTrajectoriesRequest): void {
   to.string(message.robot_model)
   to.string(message.end_effector)
+  to.uint32(message.begin)
+  to.uint32(message.count)
 }
 
 export const listTrajectoriesRequestType: MessageType<ListTrajectoriesRequest> = /* @__PURE__ */ messageType(
@@ -1476,20 +1487,25 @@ export const listTrajectoriesRequestType: MessageType<ListTrajectoriesRequest> =
 /** mrlab_msgs/srv/ListTrajectories_Response */
 export interface ListTrajectoriesResponse {
   trajectories: TrajectoryInfo[]
+  /** how many fit */
+  total: number
 }
 
 export function createListTrajectoriesResponse(): ListTrajectoriesResponse {
   return {
     trajectories: [],
+    total: 0,
   }
 }
 
 export function readListTrajectoriesResponse(from: CdrReader, into: ListTrajectoriesResponse): void {
   into.trajectories = from.messages(into.trajectories, createTrajectoryInfo, readTrajectoryInfo)
+  into.total = from.uint32()
 }
 
 export function writeListTrajectoriesResponse(to: CdrWriter, message: ListTrajectoriesResponse): void {
   to.messages(message.trajectories, writeTrajectoryInfo)
+  to.uint32(message.total)
 }
 
 export const listTrajectoriesResponseType: MessageType<ListTrajectoriesResponse> = /* @__PURE__ */ messageType(
@@ -1501,7 +1517,7 @@ export const listTrajectoriesResponseType: MessageType<ListTrajectoriesResponse>
 
 /** mrlab_msgs/srv/LoadTrajectory_Request: Load a trajectory from the catalogue into a robot's playback. */
 export interface LoadTrajectoryRequest {
-  /** empty: unload */
+  /** name in the catalogue, NAME@3 for its third version; empty: unload */
   id: string
 }
 
@@ -1892,6 +1908,8 @@ export interface PlaybackState {
   message: string
   /** empty in IDLE */
   trajectory_id: string
+  /** which one was loaded: converter/get ID@VERSION; 0 in IDLE */
+  trajectory_version: number
   /** where on the trajectory it is at any time */
   clock: PlaybackClock
   /** the last source frame reached */
@@ -1938,6 +1956,7 @@ export function createPlaybackState(): PlaybackState {
     label: '',
     message: '',
     trajectory_id: '',
+    trajectory_version: 0,
     clock: createPlaybackClock(),
     frame: 0,
     frame_count: 0,
@@ -1957,6 +1976,7 @@ export function readPlaybackState(from: CdrReader, into: PlaybackState): void {
   into.label = from.string(into.label)
   into.message = from.string(into.message)
   into.trajectory_id = from.string(into.trajectory_id)
+  into.trajectory_version = from.uint32()
   readPlaybackClock(from, into.clock)
   into.frame = from.uint32()
   into.frame_count = from.uint32()
@@ -1975,6 +1995,7 @@ export function writePlaybackState(to: CdrWriter, message: PlaybackState): void 
   to.string(message.label)
   to.string(message.message)
   to.string(message.trajectory_id)
+  to.uint32(message.trajectory_version)
   writePlaybackClock(to, message.clock)
   to.uint32(message.frame)
   to.uint32(message.frame_count)
@@ -3786,23 +3807,29 @@ export const trajectoryType: MessageType<Trajectory> = /* @__PURE__ */ messageTy
   writeTrajectory,
 )
 
-/** mrlab_msgs/msg/TrajectoryCatalogue: All trajectories that can be loaded, ordered by id. Latched. */
+/** mrlab_msgs/msg/TrajectoryCatalogue: The trajectories that everybody may load: the lab's own and those that are shared, ordered by id. Latched. */
 export interface TrajectoryCatalogue {
+  /** the 1000 newest at most, without their warnings */
   trajectories: TrajectoryInfo[]
+  /** how many there are; converter/list gives all */
+  total: number
 }
 
 export function createTrajectoryCatalogue(): TrajectoryCatalogue {
   return {
     trajectories: [],
+    total: 0,
   }
 }
 
 export function readTrajectoryCatalogue(from: CdrReader, into: TrajectoryCatalogue): void {
   into.trajectories = from.messages(into.trajectories, createTrajectoryInfo, readTrajectoryInfo)
+  into.total = from.uint32()
 }
 
 export function writeTrajectoryCatalogue(to: CdrWriter, message: TrajectoryCatalogue): void {
   to.messages(message.trajectories, writeTrajectoryInfo)
+  to.uint32(message.total)
 }
 
 export const trajectoryCatalogueType: MessageType<TrajectoryCatalogue> = /* @__PURE__ */ messageType(
