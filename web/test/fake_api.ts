@@ -20,7 +20,7 @@ import type {
 import type { MotionDocument, MotionFinding } from '../src/playback/motion'
 import { fakeMotion } from './fake_motion'
 
-const GALLERY = '/@fs/docs/gallery'
+const GALLERY = '/docs/gallery'
 const MODELS = [
   'ur5e',
   'kuka_kr6_r900_sixx',

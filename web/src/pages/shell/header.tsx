@@ -1,7 +1,8 @@
-import { useEffect, useRef, useState } from 'preact/hooks'
+import { useState } from 'preact/hooks'
 import { Button } from '../../design/button'
 import { Segments } from '../../design/field'
 import { Icon, type IconName } from '../../design/icons'
+import { useOutside } from '../../design/menu'
 import { setTheme, themeName } from '../../design/theme'
 import { LANGUAGES, type Language, language, setLanguage, words } from '../../words/words'
 import { navigate, path } from './router'
@@ -34,29 +35,6 @@ function Logo() {
       <circle class="logo-tool" cx="24.5" cy="13" r="2.6" />
     </svg>
   )
-}
-
-/** Close a menu on Escape and on a click beside it. */
-function useOutside(open: boolean, close: () => void) {
-  const menu = useRef<HTMLDivElement>(null)
-  useEffect(() => {
-    if (!open) return
-    const onKey = (event: KeyboardEvent) => {
-      if (event.key !== 'Escape') return
-      close()
-      menu.current?.querySelector('button')?.focus()
-    }
-    const onPress = (event: Event) => {
-      if (!menu.current?.contains(event.target as Node)) close()
-    }
-    document.addEventListener('keydown', onKey)
-    document.addEventListener('pointerdown', onPress)
-    return () => {
-      document.removeEventListener('keydown', onKey)
-      document.removeEventListener('pointerdown', onPress)
-    }
-  }, [open, close])
-  return menu
 }
 
 function AccountMenu() {

@@ -1,21 +1,27 @@
-import { signal } from '@preact/signals'
+import { batch, signal } from '@preact/signals'
 
 /** The path of the page that is shown, without search and hash. */
 export const path = signal(location.pathname)
+/** What stands behind the path, such as ?with=quintic; empty: nothing. */
+export const search = signal(location.search)
+
+function read(): void {
+  batch(() => {
+    path.value = location.pathname
+    search.value = location.search
+  })
+}
 
 export function navigate(to: string, how: 'push' | 'replace' = 'push'): void {
   if (to === location.pathname + location.search) return
   if (how === 'push') history.pushState(null, '', to)
   else history.replaceState(null, '', to)
-  path.value = location.pathname
+  read()
   scrollTo(0, 0)
 }
 
 /** Follow links to our own pages without loading anew; return what ends it. */
 export function followLinks(): () => void {
-  const onPopState = () => {
-    path.value = location.pathname
-  }
   const onClick = (event: MouseEvent) => {
     if (event.defaultPrevented || event.button !== 0) return
     if (event.metaKey || event.ctrlKey || event.shiftKey || event.altKey) return
@@ -27,10 +33,10 @@ export function followLinks(): () => void {
     event.preventDefault()
     navigate(link.pathname + link.search)
   }
-  addEventListener('popstate', onPopState)
+  addEventListener('popstate', read)
   document.addEventListener('click', onClick)
   return () => {
-    removeEventListener('popstate', onPopState)
+    removeEventListener('popstate', read)
     document.removeEventListener('click', onClick)
   }
 }

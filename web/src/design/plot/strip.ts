@@ -1,0 +1,256 @@
+import uPlot from 'uplot'
+import 'uplot/dist/uPlot.min.css'
+import type { Theme } from '../theme'
+
+/** One line over time with its limits, in the unit that is shown. */
+export interface Strip {
+  readonly label: string
+  /** As shown, such as deg. */
+  readonly unit: string
+  /** NaN: a gap */
+  readonly values: Float64Array
+  /** A second motion's values at the same times; null: none. */
+  readonly compared: Float64Array | null
+  readonly lower: number | null
+  readonly upper: number | null
+  /** Place in the theme's colours of joints. */
+  readonly colour: number
+}
+
+/** A finding on the time axis, s. */
+export interface Mark {
+  readonly number: number
+  readonly severity: 'info' | 'warning' | 'error'
+  readonly from: number
+  readonly to: number
+  /** Place of its strip; null: it is about all. */
+  readonly strip: number | null
+}
+
+export interface StripWords {
+  /** Such as "limit 180". */
+  limit(value: string): string
+}
+
+export interface StripPlot {
+  resize(width: number): void
+  /** Show the playhead at a time, s. */
+  setTime(time: number): void
+  dispose(): void
+}
+
+interface StripOptions {
+  readonly times: Float64Array
+  readonly strip: Strip
+  readonly marks: readonly Mark[]
+  readonly theme: Theme
+  readonly words: StripWords
+  readonly height: number
+  /** The last strip has the axis of time. */
+  readonly axis: boolean
+  /** Strips with the same key share their cursor. */
+  readonly sync: string
+  onCursor(index: number | null): void
+  onSeek(time: number): void
+}
+
+const FONT = '13px system-ui, -apple-system, "Segoe UI", Roboto, sans-serif'
+// Left of the plot, for the numbers of the axis; the strips stand below each other.
+const AXIS_WIDTH = 52
+const AXIS_HEIGHT = 30
+// A limit that is farther from the line than this share of its range would only flatten it.
+const NEAR = 0.35
+
+function extent(values: Float64Array | null): [number, number] {
+  let low = Number.POSITIVE_INFINITY
+  let high = Number.NEGATIVE_INFINITY
+  for (const value of values ?? []) {
+    if (value < low) low = value
+    if (value > high) high = value
+  }
+  return [low, high]
+}
+
+/** Return the range of a strip's axis: the line, and limits that are near to it. */
+export function rangeOf(strip: Strip): [number, number] {
+  const [a, b] = extent(strip.values)
+  const [c, d] = extent(strip.compared)
+  let low = Math.min(a, c)
+  let high = Math.max(b, d)
+  if (!(high >= low)) return [-1, 1]
+  const span = Math.max(high - low, 1)
+  if (strip.upper !== null && strip.upper <= high + NEAR * span) high = Math.max(high, strip.upper)
+  if (strip.lower !== null && strip.lower >= low - NEAR * span) low = Math.min(low, strip.lower)
+  const margin = 0.14 * Math.max(high - low, 1)
+  return [low - margin, high + margin]
+}
+
+function hatch(colour: string, ratio: number): CanvasPattern | null {
+  const size = Math.round(7 * ratio)
+  const tile = document.createElement('canvas')
+  tile.width = size
+  tile.height = size
+  const context = tile.getContext('2d')
+  if (context === null) return null
+  context.strokeStyle = colour
+  context.lineWidth = ratio
+  context.beginPath()
+  for (const shift of [-size, 0, size]) {
+    context.moveTo(shift, size)
+    context.lineTo(shift + size, 0)
+  }
+  context.stroke()
+  return context.createPattern(tile, 'repeat')
+}
+
+function drawForbidden(plot: uPlot, { strip, theme, words }: StripOptions): void {
+  const { ctx, bbox } = plot
+  const ratio = devicePixelRatio
+  const colour = theme.states.COLLISION_HALT
+  const pattern = hatch(colour, ratio)
+  const bottom = bbox.top + bbox.height
+  ctx.save()
+  ctx.beginPath()
+  ctx.rect(bbox.left, bbox.top, bbox.width, bbox.height)
+  ctx.clip()
+  ctx.font = FONT.replace('13', String(13 * ratio))
+  for (const [limit, above] of [
+    [strip.upper, true],
+    [strip.lower, false],
+  ] as const) {
+    if (limit === null) continue
+    const y = plot.valToPos(limit, 'y', true)
+    if (y <= bbox.top || y >= bottom) continue
+    const [from, height] = above ? [bbox.top, y - bbox.top] : [y, bottom - y]
+    ctx.globalAlpha = 0.7
+    if (pattern) ctx.fillStyle = pattern
+    ctx.fillRect(bbox.left, from, bbox.width, height)
+    ctx.globalAlpha = 1
+    ctx.strokeStyle = colour
+    ctx.lineWidth = 1.25 * ratio
+    ctx.beginPath()
+    ctx.moveTo(bbox.left, y)
+    ctx.lineTo(bbox.left + bbox.width, y)
+    ctx.stroke()
+    // On a patch of the card, so that the hatching does not cross the letters.
+    const text = words.limit(limit.toFixed(0))
+    const width = ctx.measureText(text).width
+    const place = above ? y + 3 * ratio : y - 17 * ratio
+    ctx.globalAlpha = 0.85
+    ctx.fillStyle = theme.colours.card
+    ctx.fillRect(bbox.left + 4 * ratio, place, width + 8 * ratio, 15 * ratio)
+    ctx.globalAlpha = 1
+    ctx.fillStyle = colour
+    ctx.textBaseline = 'top'
+    ctx.fillText(text, bbox.left + 8 * ratio, place + ratio)
+  }
+  ctx.restore()
+}
+
+const SEVERITY_STATE = { error: 'COLLISION_HALT', warning: 'PAUSED', info: 'READY' } as const
+
+function drawMarks(plot: uPlot, { marks, theme }: StripOptions): void {
+  const { ctx, bbox } = plot
+  const ratio = devicePixelRatio
+  ctx.save()
+  ctx.font = `600 ${FONT.replace('13', String(12 * ratio))}`
+  ctx.textAlign = 'center'
+  ctx.textBaseline = 'middle'
+  for (const mark of marks) {
+    const colour = theme.states[SEVERITY_STATE[mark.severity]]
+    const from = plot.valToPos(mark.from, 'x', true)
+    const to = Math.max(plot.valToPos(mark.to, 'x', true), from + 1.5 * ratio)
+    ctx.globalAlpha = 0.16
+    ctx.fillStyle = colour
+    ctx.fillRect(from, bbox.top, to - from, bbox.height)
+    ctx.globalAlpha = 1
+    const x = Math.min(
+      Math.max((from + to) / 2, bbox.left + 9 * ratio),
+      bbox.left + bbox.width - 9 * ratio,
+    )
+    const y = bbox.top + 10 * ratio
+    ctx.fillStyle = colour
+    ctx.beginPath()
+    ctx.arc(x, y, 9 * ratio, 0, 2 * Math.PI)
+    ctx.fill()
+    ctx.fillStyle = theme.colours.card
+    ctx.fillText(String(mark.number), x, y + 0.5 * ratio)
+  }
+  ctx.restore()
+}
+
+/** Draw a strip into `parent`; straight lines between the samples. */
+export function createStrip(parent: HTMLElement, width: number, options: StripOptions): StripPlot {
+  const { strip, theme, axis } = options
+  const colour = theme.joints[strip.colour % theme.joints.length] ?? theme.colours.ink
+  const range = rangeOf(strip)
+  const line = { stroke: colour, width: 1.75, points: { show: false } }
+  const ticks = { show: false }
+  const degrees = strip.unit === '°' ? '°' : ''
+  const grid = { stroke: theme.colours.hairline, width: 1 }
+  const series: uPlot.Series[] = [{}, line]
+  const data: uPlot.AlignedData = [options.times, strip.values]
+  if (strip.compared) {
+    series.push({ ...line, stroke: theme.colours.second, dash: [5, 4], width: 1.5 })
+    data.push(strip.compared)
+  }
+  const height = options.height + (axis ? AXIS_HEIGHT : 0)
+  const plot = new uPlot(
+    {
+      width,
+      height,
+      padding: [6, 12, 6, 0],
+      legend: { show: false },
+      scales: { x: { time: false }, y: { range } },
+      cursor: {
+        sync: { key: options.sync, setSeries: false },
+        y: false,
+        drag: { x: false, y: false },
+        points: { size: 7 },
+      },
+      axes: [
+        {
+          show: axis,
+          size: AXIS_HEIGHT,
+          stroke: theme.colours.second,
+          font: FONT,
+          grid,
+          ticks,
+          values: (_, splits) => splits.map((split) => `${split} s`),
+        },
+        {
+          size: AXIS_WIDTH,
+          stroke: theme.colours.second,
+          font: FONT,
+          grid,
+          ticks,
+          space: 26,
+          values: (_, splits) => splits.map((split) => `${split}${degrees}`),
+        },
+      ],
+      series,
+      hooks: {
+        drawClear: [(drawn) => drawForbidden(drawn, options)],
+        draw: [(drawn) => drawMarks(drawn, options)],
+        setCursor: [(drawn) => options.onCursor(drawn.cursor.idx ?? null)],
+      },
+    },
+    data,
+    parent,
+  )
+  const playhead = document.createElement('div')
+  playhead.className = 'strip-playhead'
+  plot.over.append(playhead)
+  const seek = (event: MouseEvent) => {
+    const box = plot.over.getBoundingClientRect()
+    options.onSeek(plot.posToVal(event.clientX - box.left, 'x'))
+  }
+  plot.over.addEventListener('click', seek)
+  return {
+    resize: (next) => plot.setSize({ width: next, height }),
+    setTime: (time) => {
+      playhead.style.transform = `translateX(${plot.valToPos(time, 'x')}px)`
+    },
+    dispose: () => plot.destroy(),
+  }
+}

@@ -1,0 +1,109 @@
+import type { ReadonlySignal } from '@preact/signals'
+import { useEffect, useRef, useState } from 'preact/hooks'
+import { words } from '../../words/words'
+import { theme } from '../theme'
+import { createStrip, type Mark, type Strip, type StripPlot } from './strip'
+import './plot.css'
+
+interface StripsProps {
+  /** s */
+  readonly times: Float64Array
+  readonly strips: readonly Strip[]
+  readonly marks: readonly Mark[]
+  /** Row of the workspace's matrix of a sample, from 1. */
+  readonly rowOf: (index: number) => number
+  /** Where the motion is, s. */
+  readonly time: ReadonlySignal<number>
+  readonly onSeek: (time: number) => void
+}
+
+const HEIGHT = 92
+const FLAT_HEIGHT = 76
+const NARROW = 480
+
+function summary(strip: Strip): string {
+  let low = Number.POSITIVE_INFINITY
+  let high = Number.NEGATIVE_INFINITY
+  for (const value of strip.values) {
+    low = Math.min(low, value)
+    high = Math.max(high, value)
+  }
+  const w = words.value.plots
+  const limits =
+    strip.lower === null || strip.upper === null
+      ? ''
+      : w.between(strip.lower.toFixed(0), strip.upper.toFixed(0))
+  return `${strip.label}: ${w.from(low.toFixed(1), high.toFixed(1), strip.unit)}${limits}`
+}
+
+let nextSync = 1
+
+/** One strip a joint, below each other, with one cursor. A click seeks. */
+export function Strips({ times, strips, marks, rowOf, time, onSeek }: StripsProps) {
+  const list = useRef<HTMLDivElement>(null)
+  const seek = useRef(onSeek)
+  seek.current = onSeek
+  const [under, setUnder] = useState<number | null>(null)
+  const w = words.value.plots
+
+  useEffect(() => {
+    const element = list.current
+    if (element === null) return
+    const hosts = [...element.querySelectorAll<HTMLElement>('.strip-plot')]
+    const width = () => Math.max(hosts[0]?.clientWidth ?? 0, 120)
+    const sync = `strips-${nextSync++}`
+    const plots: StripPlot[] = strips.map((strip, index) =>
+      createStrip(hosts[index] as HTMLElement, width(), {
+        times,
+        strip,
+        marks: marks.filter((mark) => mark.strip === null || mark.strip === index),
+        theme: theme.value,
+        words: { limit: words.value.plots.limit },
+        height: width() < NARROW ? FLAT_HEIGHT : HEIGHT,
+        axis: index === strips.length - 1,
+        sync,
+        onCursor: (at) => {
+          if (index === 0) setUnder(at)
+        },
+        onSeek: (at) => seek.current(at),
+      }),
+    )
+    let last = width()
+    const resized = new ResizeObserver(() => {
+      if (width() === last) return
+      last = width()
+      for (const plot of plots) plot.resize(last)
+      show(time.value)
+    })
+    resized.observe(element)
+    const show = (at: number) => {
+      for (const plot of plots) plot.setTime(at)
+    }
+    const stop = time.subscribe(show)
+    return () => {
+      stop()
+      resized.disconnect()
+      for (const plot of plots) plot.dispose()
+    }
+  }, [times, strips, marks, time, theme.value, words.value])
+
+  return (
+    <div class="strips" ref={list}>
+      <p class="strips-cursor tiny second" aria-hidden="true">
+        {under === null ? w.hint : w.at((times[under] ?? 0).toFixed(2), String(rowOf(under)))}
+      </p>
+      {strips.map((strip, index) => (
+        <figure class="strip" key={strip.label}>
+          <figcaption>
+            <span class={`strip-dot joint-${(strip.colour % 7) + 1}`} />
+            <span class="strip-name">{strip.label}</span>
+            <span class="strip-value">
+              {under === null ? '' : `${(strip.values[under] ?? 0).toFixed(1)} ${strip.unit}`}
+            </span>
+          </figcaption>
+          <div class="strip-plot" role="img" aria-label={summary(strip)} data-strip={index} />
+        </figure>
+      ))}
+    </div>
+  )
+}

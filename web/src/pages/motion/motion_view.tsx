@@ -1,0 +1,123 @@
+import { type Signal, useSignal, useSignalEffect } from '@preact/signals'
+import { useEffect, useMemo, useRef, useState } from 'preact/hooks'
+import { sentence } from '../../api/api'
+import { Segments } from '../../design/field'
+import { Notice } from '../../design/notice'
+import {
+  type Channel,
+  channelsOf,
+  marksOf,
+  positionsAt,
+  stripsOf,
+  timesOf,
+} from '../../design/plot/channels'
+import { Strips } from '../../design/plot/strips'
+import { courseOf } from '../../playback/course'
+import type { MotionDocument } from '../../playback/motion'
+import type { MotionPreview } from '../../scene/preview'
+import { language, words } from '../../words/words'
+import './motion.css'
+
+interface MotionViewProps {
+  motion: MotionDocument
+  /** A second motion of the same robot: dashed in the plots. */
+  compared?: MotionDocument | null
+  /** Number of the finding that is shown, from 1; 0: none. */
+  selected: Signal<number>
+}
+
+/** A motion in 3D and as plots, at the same time and with the same numbers of findings. */
+export function MotionView({ motion, compared = null, selected }: MotionViewProps) {
+  const w = words.value.plots
+  const time = useSignal(0)
+  const host = useRef<HTMLDivElement>(null)
+  const preview = useRef<MotionPreview | null>(null)
+  const [channel, setChannel] = useState<Channel>('angles')
+  const [error, setError] = useState('')
+  const course = useMemo(() => courseOf(motion), [motion])
+  const channels = useMemo(() => channelsOf(motion), [motion])
+  const times = useMemo(() => timesOf(course), [course])
+  const strips = useMemo(() => {
+    const other = compared && channel === 'angles' ? positionsAt(course, courseOf(compared)) : null
+    return stripsOf(motion, channel, other)
+  }, [motion, compared, channel, course])
+  const marks = useMemo(
+    () => marksOf(motion.findings, motion.robot.joints, course),
+    [motion, course],
+  )
+
+  useEffect(() => {
+    let here = true
+    let dispose = () => {}
+    import('../../scene/preview')
+      .then(async ({ createMotionPreview }) => {
+        const { GERMAN, ENGLISH } = await import('../../scene/words')
+        const element = host.current
+        if (!here || element === null) return
+        const made = createMotionPreview(element, motion, {
+          words: language.value === 'de' ? GERMAN : ENGLISH,
+        })
+        const stopTime = made.onTime((now) => {
+          time.value = now
+        })
+        const stopSelect = made.onSelect((number) => {
+          selected.value = number
+        })
+        preview.current = made
+        dispose = () => {
+          stopTime()
+          stopSelect()
+          made.dispose()
+          preview.current = null
+        }
+      })
+      .catch((problem: unknown) => here && setError(sentence(problem)))
+    return () => {
+      here = false
+      dispose()
+    }
+  }, [motion, language.value])
+
+  const seek = (to: number) => {
+    if (preview.current) preview.current.seek(to)
+    else time.value = to
+  }
+  useSignalEffect(() => {
+    const number = selected.value
+    const row = motion.findings[number - 1]?.first_row ?? 0
+    if (row === 0) return
+    if (preview.current) preview.current.select(number)
+    else time.value = course.timeOfRow(row)
+  })
+
+  return (
+    <div class="motion-view">
+      <div class="motion-scene" ref={host} />
+      {error && (
+        <Notice severity="warning">
+          <p>{w.noScene}</p>
+          <p class="second small">{error}</p>
+        </Notice>
+      )}
+      <section class="card motion-plots" aria-label={w.title}>
+        <div class="motion-channels">
+          <Segments<Channel>
+            label={w.title}
+            value={channel}
+            onChange={setChannel}
+            options={channels.map((each) => [each, w.channels[each]] as const)}
+          />
+          {channel === 'proxies' && <p class="small second">{w.proxyNote}</p>}
+        </div>
+        <Strips
+          times={times}
+          strips={strips}
+          marks={marks}
+          rowOf={(index) => course.rowOf(index)}
+          time={time}
+          onSeek={seek}
+        />
+      </section>
+    </div>
+  )
+}

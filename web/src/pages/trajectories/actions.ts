@@ -1,0 +1,40 @@
+import { sentence } from '../../api/api'
+import { showToast } from '../../design/toast'
+import { words } from '../../words/words'
+import { type Catalogue, shortName } from './catalogue'
+
+/** Delete at once and offer to undo it. */
+export async function removeWithUndo(
+  catalogue: Catalogue,
+  id: string,
+  onRestored: () => void = () => {},
+): Promise<boolean> {
+  const w = words.value
+  try {
+    await catalogue.remove(id)
+  } catch (error) {
+    showToast(sentence(error))
+    return false
+  }
+  showToast(w.trajectories.deleted(shortName(id)), {
+    label: w.undo,
+    run: () => {
+      catalogue
+        .restore(id, 0)
+        .then(onRestored)
+        .catch((error: unknown) => showToast(sentence(error)))
+    },
+  })
+  return true
+}
+
+/** Let everybody see it, or nobody else. */
+export async function setShared(catalogue: Catalogue, id: string, shared: boolean): Promise<void> {
+  const w = words.value.trajectories
+  try {
+    await catalogue.share(id, shared)
+    showToast(shared ? w.nowShared(shortName(id)) : w.nowPrivate(shortName(id)))
+  } catch (error) {
+    showToast(sentence(error))
+  }
+}

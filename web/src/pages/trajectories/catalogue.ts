@@ -1,0 +1,98 @@
+import { computed, signal } from '@preact/signals'
+import { type Api, sentence } from '../../api/api'
+import type { TrajectoryInfo } from '../../api/types'
+
+export type Scope = 'all' | 'mine' | 'shared'
+
+/** Return the part of an id behind its owner. */
+export function shortName(id: string): string {
+  return id.slice(id.indexOf('/') + 1)
+}
+
+/** Return the page of a trajectory. */
+export function trajectoryPage(id: string, compared = ''): string {
+  const place = id.split('/').map(encodeURIComponent).join('/')
+  return `/trajectories/${place}${compared && `?with=${encodeURIComponent(compared)}`}`
+}
+
+/** Return the id that a page's path names; empty: the list. */
+export function idOfPath(path: string): string {
+  const parts = path.split('/').slice(2)
+  return parts.map(decodeURIComponent).join('/')
+}
+
+/** Return those that `text` is part of, by name, owner, robot or file, of `scope`, newest first. */
+export function found(
+  all: readonly TrajectoryInfo[],
+  text: string,
+  scope: Scope,
+  user: string,
+): TrajectoryInfo[] {
+  const wanted = text.trim().toLowerCase().split(/\s+/).filter(Boolean)
+  return all
+    .filter((each) => {
+      if (scope === 'mine' && each.owner !== user) return false
+      if (scope === 'shared' && each.owner === user) return false
+      if (wanted.length === 0) return true
+      const line =
+        `${each.id} ${each.robot_model} ${each.end_effector} ${each.source_file}`.toLowerCase()
+      return wanted.every((word) => line.includes(word))
+    })
+    .sort((a, b) => b.created - a.created || a.id.localeCompare(b.id))
+}
+
+/** The trajectories that a person may see, and what they look for. */
+export class Catalogue {
+  readonly all = signal<readonly TrajectoryInfo[] | null>(null)
+  readonly error = signal('')
+  readonly text = signal('')
+  readonly scope = signal<Scope>('all')
+  /** Ids to compare, two at most. */
+  readonly chosen = signal<readonly string[]>([])
+  readonly found = computed(() =>
+    found(this.all.value ?? [], this.text.value, this.scope.value, this.user),
+  )
+
+  constructor(
+    private readonly api: Api,
+    private readonly user: string,
+  ) {}
+
+  async load(): Promise<void> {
+    this.error.value = ''
+    try {
+      this.all.value = await this.api.trajectories()
+    } catch (error) {
+      this.error.value = sentence(error)
+    }
+  }
+
+  toggle(id: string): void {
+    const { value } = this.chosen
+    this.chosen.value = value.includes(id)
+      ? value.filter((each) => each !== id)
+      : [...value.slice(-1), id]
+  }
+
+  async share(id: string, shared: boolean): Promise<void> {
+    await this.api.share(id, shared)
+    this.#replace(id, (each) => ({ ...each, shared }))
+  }
+
+  async remove(id: string): Promise<void> {
+    await this.api.remove(id)
+    this.all.value = (this.all.value ?? []).filter((each) => each.id !== id)
+    this.chosen.value = this.chosen.value.filter((each) => each !== id)
+  }
+
+  async restore(id: string, version: number): Promise<TrajectoryInfo> {
+    const info = await this.api.restore(id, version)
+    const others = (this.all.value ?? []).filter((each) => each.id !== id)
+    this.all.value = [info, ...others]
+    return info
+  }
+
+  #replace(id: string, change: (info: TrajectoryInfo) => TrajectoryInfo): void {
+    this.all.value = (this.all.value ?? []).map((each) => (each.id === id ? change(each) : each))
+  }
+}

@@ -1,0 +1,59 @@
+import { useMemo } from 'preact/hooks'
+import { Button } from '../../design/button'
+import { Icon } from '../../design/icons'
+import { courseOf } from '../../playback/course'
+import type { MotionDocument } from '../../playback/motion'
+import { number, words } from '../../words/words'
+import { shortName } from './catalogue'
+import { largestDeviation } from './deviation'
+
+const DEGREES = 180 / Math.PI
+
+interface ComparisonProps {
+  id: string
+  other: string
+  motion: MotionDocument
+  otherMotion: MotionDocument
+  onClose: () => void
+}
+
+function inWords(motion: MotionDocument, otherMotion: MotionDocument): string {
+  const w = words.value.trajectories
+  const { joints } = motion.robot
+  if (joints.length !== otherMotion.robot.joints.length)
+    return w.otherJoints(joints.length, otherMotion.robot.joints.length)
+  const largest = largestDeviation(courseOf(motion), courseOf(otherMotion))
+  if (largest === null) return w.same
+  const joint = joints[largest.joint]
+  const amount =
+    joint?.kind === 'prismatic'
+      ? `${number(largest.amount * 1000, 2)} mm`
+      : `${number(largest.amount * DEGREES, 2)}°`
+  return w.deviation(joint?.name ?? '', amount, number(largest.time, 2), largest.row)
+}
+
+/** How far two motions are apart, in words. */
+export function Comparison({ id, other, motion, otherMotion, onClose }: ComparisonProps) {
+  const w = words.value.trajectories
+  const text = useMemo(() => inWords(motion, otherMotion), [motion, otherMotion, words.value])
+  return (
+    <section class="card stack-8 comparison" aria-labelledby="comparison">
+      <div class="dialog-head">
+        <h2 id="comparison">{w.comparison}</h2>
+        <Button look="quiet" icon="close" label={w.endComparison} onClick={onClose} />
+      </div>
+      <p class="comparison-legend small">
+        <span>
+          <i class="line-solid" /> {shortName(id)}
+        </span>
+        <span>
+          <i class="line-dashed" /> {shortName(other)}
+        </span>
+      </p>
+      <p class="comparison-result">
+        <Icon name="compare" />
+        {text}
+      </p>
+    </section>
+  )
+}

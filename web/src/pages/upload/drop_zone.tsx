@@ -1,0 +1,108 @@
+import { useEffect, useRef, useState } from 'preact/hooks'
+import example from '../../../../examples/quintic_ur5e.mat?url'
+import { sentence } from '../../api/api'
+import { Button } from '../../design/button'
+import { Icon } from '../../design/icons'
+import { showToast } from '../../design/toast'
+import { words } from '../../words/words'
+
+const EXAMPLE_NAME = 'quintic_ur5e.mat'
+const ACCEPTED = '.mat,.csv,.txt,.npz,.mcap,.db3,.cdr,.gz'
+
+/** Take files that are dropped anywhere on the page; return whether one is over it now. */
+export function useFileDrop(onFile: (file: File) => void): boolean {
+  const [over, setOver] = useState(false)
+  const take = useRef(onFile)
+  take.current = onFile
+  useEffect(() => {
+    // dragenter and dragleave come for every element below the pointer.
+    let depth = 0
+    const holdsFile = (event: DragEvent) => event.dataTransfer?.types.includes('Files') ?? false
+    const onEnter = (event: DragEvent) => {
+      if (!holdsFile(event)) return
+      event.preventDefault()
+      depth++
+      setOver(true)
+    }
+    const onOver = (event: DragEvent) => {
+      if (holdsFile(event)) event.preventDefault()
+    }
+    const onLeave = () => {
+      depth = Math.max(depth - 1, 0)
+      if (depth === 0) setOver(false)
+    }
+    const onDrop = (event: DragEvent) => {
+      if (!holdsFile(event)) return
+      event.preventDefault()
+      depth = 0
+      setOver(false)
+      const files = event.dataTransfer?.files
+      const file = files?.[0]
+      if (file) take.current(file)
+      if (files && files.length > 1) showToast(words.value.upload.onlyFirst(file?.name ?? ''))
+    }
+    const listeners = [
+      ['dragenter', onEnter],
+      ['dragover', onOver],
+      ['dragleave', onLeave],
+      ['drop', onDrop],
+    ] as const
+    for (const [name, listener] of listeners) document.addEventListener(name, listener)
+    return () => {
+      for (const [name, listener] of listeners) document.removeEventListener(name, listener)
+    }
+  }, [])
+  return over
+}
+
+interface DropZoneProps {
+  over: boolean
+  onFile: (file: File) => void
+}
+
+export function DropZone({ over, onFile }: DropZoneProps) {
+  const input = useRef<HTMLInputElement>(null)
+  const w = words.value.upload
+  const tryExample = async () => {
+    try {
+      const answer = await fetch(example)
+      onFile(new File([await answer.blob()], EXAMPLE_NAME))
+    } catch (error) {
+      showToast(sentence(error))
+    }
+  }
+  return (
+    <section class={`drop-zone${over ? ' drop-zone-over' : ''}`} aria-label={w.drop}>
+      <svg class="drop-picture" viewBox="0 0 200 96" aria-hidden="true">
+        <path class="drop-line line-a" d="M4 74C40 74 44 22 82 22s40 52 114 40" />
+        <path class="drop-line line-b" d="M4 40c44 0 54 44 92 44s52-62 100-62" />
+        <path class="drop-line line-c" d="M4 60c34-34 66-34 96 0s66 26 96 18" />
+      </svg>
+      <p class="drop-title">{over ? w.dropHere : w.drop}</p>
+      <p class="second small">{w.formats}</p>
+      <div class="row drop-buttons">
+        <Button look="primary" icon="upload" onClick={() => input.current?.click()}>
+          {w.chooseFile}
+        </Button>
+        <Button look="quiet" onClick={() => void tryExample()}>
+          <Icon name="play" />
+          {w.tryExample}
+        </Button>
+      </div>
+      <input
+        ref={input}
+        class="spoken"
+        type="file"
+        accept={ACCEPTED}
+        aria-label={w.chooseFile}
+        tabIndex={-1}
+        onChange={(event) => {
+          const file = event.currentTarget.files?.[0]
+          // The same file can be chosen again once it was changed.
+          if (file) onFile(file)
+          event.currentTarget.value = ''
+        }}
+      />
+    </section>
+  )
+}

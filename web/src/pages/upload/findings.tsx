@@ -1,0 +1,122 @@
+import type { Diagnostic, Fix } from '../../api/types'
+import { Button } from '../../design/button'
+import { Icon } from '../../design/icons'
+import { showToast } from '../../design/toast'
+import { words } from '../../words/words'
+import { applied, fixLabel } from './fixes'
+
+interface FindingsProps {
+  findings: readonly Diagnostic[]
+  /** Number of the one that is shown, from 1; 0: none. */
+  selected: number
+  onSelect: (number: number) => void
+  /** Absent where nothing can be mended here. */
+  onFix?: (fix: Fix) => void
+  busy?: boolean
+}
+
+async function copy(text: string): Promise<void> {
+  await navigator.clipboard.writeText(text)
+  showToast(words.value.copied)
+}
+
+function Matlab({ line }: { line: string }) {
+  return (
+    <div class="matlab">
+      <code>{line}</code>
+      {/* Without HTTPS there is no clipboard; the line can be selected all the same. */}
+      {navigator.clipboard && (
+        <Button
+          look="quiet"
+          icon="copy"
+          label={words.value.upload.copyMatlab}
+          onClick={() => void copy(line)}
+        />
+      )}
+    </div>
+  )
+}
+
+function place(finding: Diagnostic): string {
+  const w = words.value.upload
+  const rows =
+    finding.first_row === 0
+      ? ''
+      : finding.last_row > finding.first_row
+        ? w.rows(finding.first_row, finding.last_row)
+        : w.row(finding.first_row)
+  return [finding.variable, finding.joint, rows].filter(Boolean).join(' · ')
+}
+
+function Finding(props: FindingsProps & { finding: Diagnostic; number: number }) {
+  const { finding, number, selected, onSelect, onFix, busy = false } = props
+  const w = words.value
+  const where = place(finding)
+  // The same line of MATLAB comes with several options at times.
+  const lines = [...new Set(finding.fixes.map((fix) => fix.matlab).filter(Boolean))]
+  return (
+    <li
+      class={`finding finding-${finding.severity}`}
+      data-code={finding.code}
+      aria-current={selected === number ? 'true' : undefined}
+    >
+      <span class="finding-number">{number}</span>
+      <div class="finding-body">
+        <p class="finding-head">
+          <span class="finding-severity">
+            <Icon name={finding.severity} />
+            {w.severities[finding.severity]}
+          </span>
+          {finding.first_row > 0 ? (
+            <button type="button" class="finding-place" onClick={() => onSelect(number)}>
+              {where}
+            </button>
+          ) : (
+            <span class="second">{where}</span>
+          )}
+        </p>
+        <p>{finding.message}</p>
+        {finding.remedy && <p class="second small">{finding.remedy}</p>}
+        {onFix && (
+          <div class="finding-fixes">
+            {finding.fixes
+              .filter((fix) => applied({}, fix) !== null)
+              .map((fix) => (
+                <Button
+                  key={`${fix.option}=${fix.value}`}
+                  icon="wrench"
+                  disabled={busy}
+                  onClick={() => onFix(fix)}
+                >
+                  {fixLabel(fix, w)}
+                </Button>
+              ))}
+          </div>
+        )}
+        {lines.map((line) => (
+          <Matlab key={line} line={line} />
+        ))}
+      </div>
+    </li>
+  )
+}
+
+/** What the converter found; the numbers are those of plots and 3D. */
+export function Findings(props: FindingsProps) {
+  const w = words.value.upload
+  return (
+    <section class="stack-8" aria-labelledby="findings">
+      <h2 id="findings">{w.findings(props.findings.length)}</h2>
+      <ol class="findings">
+        {props.findings.map((finding, index) => (
+          <Finding
+            key={`${finding.code} ${finding.first_row} ${finding.joint} ${finding.message}`}
+            {...props}
+            finding={finding}
+            number={index + 1}
+          />
+        ))}
+      </ol>
+    </section>
+  )
+}

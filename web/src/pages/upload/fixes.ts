@@ -1,0 +1,38 @@
+import type { ConvertOptions, Fix } from '../../api/types'
+import type { Words } from '../../words/en'
+
+const SWITCHES = ['transpose', 'degrees', 'unwrap', 'resample', 'invert'] as const
+const TEXTS = ['variable', 'columns', 'join', 'gripper', 'units'] as const
+type Switch = (typeof SWITCHES)[number]
+type Text = (typeof TEXTS)[number]
+
+function isSwitch(option: string): option is Switch {
+  return (SWITCHES as readonly string[]).includes(option)
+}
+function isText(option: string): option is Text {
+  return (TEXTS as readonly string[]).includes(option)
+}
+
+/** Return the options with a fix applied; null where no button can apply it. */
+export function applied(options: ConvertOptions, { option, value }: Fix): ConvertOptions | null {
+  if (isSwitch(option)) return { ...options, [option]: value === 'true' }
+  if (option === 'frame_rate') {
+    const rate = Number(value)
+    return Number.isFinite(rate) && value !== '' ? { ...options, frame_rate: rate } : null
+  }
+  if (isText(option)) return value === '' ? null : { ...options, [option]: value }
+  return null
+}
+
+/** Return what a fix's button says. */
+export function fixLabel({ option, value }: Fix, words: Words): string {
+  const label = words.fixes[option as keyof Words['fixes']]
+  return label === undefined ? `${option} = ${value}` : label(value)
+}
+
+/** Return the options that are set, as short texts. */
+export function optionLabels(options: ConvertOptions, words: Words): string[] {
+  return Object.entries(options)
+    .filter(([, value]) => value !== undefined && value !== false && value !== '')
+    .map(([option, value]) => fixLabel({ option, value: String(value), matlab: '' }, words))
+}

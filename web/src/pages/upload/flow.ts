@@ -1,0 +1,203 @@
+import { computed, signal } from '@preact/signals'
+import { type Api, isAbort, sentence } from '../../api/api'
+import type {
+  Conversion,
+  ConvertOptions,
+  Fix,
+  RobotLibrary,
+  TrajectoryInfo,
+  Upload,
+} from '../../api/types'
+import type { MotionDocument } from '../../playback/motion'
+import { applied } from './fixes'
+
+export type Stage =
+  | { readonly kind: 'idle' }
+  /** share: 0 to 1 */
+  | { readonly kind: 'sending'; readonly share: number }
+  | { readonly kind: 'converting' }
+  | { readonly kind: 'loading' }
+
+/** What a person chose for a conversion. */
+interface Choice {
+  readonly robot: string
+  readonly effector: string
+  readonly options: ConvertOptions
+}
+
+export interface Result {
+  readonly choice: Choice
+  readonly conversion: Conversion
+  /** null: nothing to show in plots and 3D. */
+  readonly motion: MotionDocument | null
+}
+
+const ROBOT_KEY = 'mrlab.robot'
+const EFFECTOR_KEY = 'mrlab.end_effector'
+const FIRST_ROBOT = 'ur5e'
+
+/** The way of a file: chosen, sent, converted, mended, published. Errors keep file and choices. */
+export class UploadFlow {
+  readonly library = signal<RobotLibrary | null>(null)
+  readonly robot = signal(localStorage.getItem(ROBOT_KEY) ?? '')
+  readonly effector = signal(localStorage.getItem(EFFECTOR_KEY) ?? '')
+  readonly options = signal<ConvertOptions>({})
+  readonly file = signal<File | null>(null)
+  readonly stage = signal<Stage>({ kind: 'idle' })
+  readonly result = signal<Result | null>(null)
+  readonly error = signal('')
+  readonly published = signal<TrajectoryInfo | null>(null)
+  readonly #before = signal<readonly Result[]>([])
+  readonly canUndo = computed(() => this.#before.value.length > 0)
+  readonly busy = computed(() => this.stage.value.kind !== 'idle')
+  #upload: Upload | null = null
+  #running: AbortController | null = null
+
+  constructor(private readonly api: Api) {}
+
+  async loadLibrary(): Promise<void> {
+    try {
+      const library = await this.api.robots()
+      const models = library.robots.map((robot) => robot.model)
+      if (!models.includes(this.robot.value))
+        this.robot.value = models.includes(FIRST_ROBOT) ? FIRST_ROBOT : (models[0] ?? '')
+      if (!library.end_effectors.some((each) => each.id === this.effector.value))
+        this.effector.value = ''
+      this.library.value = library
+    } catch (error) {
+      this.error.value = sentence(error)
+    }
+  }
+
+  /** Take a file and see what is in it. */
+  async choose(file: File): Promise<void> {
+    this.#running?.abort()
+    this.file.value = file
+    this.#upload = null
+    this.options.value = {}
+    this.result.value = null
+    this.#before.value = []
+    this.published.value = null
+    await this.run()
+  }
+
+  /** Begin anew: back to the drop zone. */
+  reset(): void {
+    this.#running?.abort()
+    this.file.value = null
+    this.#upload = null
+    this.options.value = {}
+    this.result.value = null
+    this.#before.value = []
+    this.published.value = null
+    this.error.value = ''
+    this.stage.value = { kind: 'idle' }
+  }
+
+  chooseRobot(model: string): Promise<void> | undefined {
+    if (model === this.robot.value) return
+    localStorage.setItem(ROBOT_KEY, model)
+    this.robot.value = model
+    return this.#again()
+  }
+
+  chooseEffector(id: string): Promise<void> | undefined {
+    if (id === this.effector.value) return
+    localStorage.setItem(EFFECTOR_KEY, id)
+    this.effector.value = id
+    return this.#again()
+  }
+
+  chooseVariable(variable: string): Promise<void> | undefined {
+    this.options.value = { ...this.options.value, variable }
+    return this.#again()
+  }
+
+  apply(fix: Fix): Promise<void> | undefined {
+    const options = applied(this.options.value, fix)
+    if (options === null) return
+    this.options.value = options
+    return this.#again()
+  }
+
+  /** Go back to the result before the last change. */
+  undo(): void {
+    const before = this.#before.value.at(-1)
+    if (before === undefined) return
+    this.#running?.abort()
+    this.#before.value = this.#before.value.slice(0, -1)
+    this.robot.value = before.choice.robot
+    this.effector.value = before.choice.effector
+    this.options.value = before.choice.options
+    this.result.value = before
+    this.published.value = null
+    this.error.value = ''
+  }
+
+  cancel(): void {
+    this.#running?.abort()
+  }
+
+  async publish(id: string, shared: boolean): Promise<void> {
+    const draft = this.result.value?.conversion.draft
+    if (!draft) return
+    this.published.value = await this.api.publish(draft, id, shared)
+  }
+
+  /** Send the file, where that is still to be done, and convert it. */
+  async run(): Promise<void> {
+    const file = this.file.value
+    if (file === null) return
+    this.#running?.abort()
+    const running = new AbortController()
+    this.#running = running
+    this.error.value = ''
+    const choice: Choice = {
+      robot: this.robot.value,
+      effector: this.effector.value,
+      options: this.options.value,
+    }
+    try {
+      if (this.#upload === null) {
+        this.stage.value = { kind: 'sending', share: 0 }
+        const upload = await this.api.upload(
+          file,
+          (share) => {
+            if (!running.signal.aborted) this.stage.value = { kind: 'sending', share }
+          },
+          running.signal,
+        )
+        running.signal.throwIfAborted()
+        this.#upload = upload
+      }
+      this.stage.value = { kind: 'converting' }
+      const { upload } = this.#upload
+      const conversion = await this.api.convert(
+        { ...choice.options, upload, robot_model: choice.robot, end_effector: choice.effector },
+        running.signal,
+      )
+      this.stage.value = { kind: 'loading' }
+      const motion =
+        conversion.motion === null
+          ? null
+          : await this.api.motion(conversion.motion, running.signal)
+      running.signal.throwIfAborted()
+      this.result.value = { choice, conversion, motion }
+    } catch (error) {
+      if (!isAbort(error) && this.#running === running) this.error.value = sentence(error)
+    } finally {
+      if (this.#running === running) {
+        this.#running = null
+        this.stage.value = { kind: 'idle' }
+      }
+    }
+  }
+
+  #again(): Promise<void> | undefined {
+    this.published.value = null
+    if (this.file.value === null) return
+    const { value } = this.result
+    if (value) this.#before.value = [...this.#before.value, value]
+    return this.run()
+  }
+}

@@ -1,0 +1,101 @@
+import { useSignal } from '@preact/signals'
+import { Button } from '../../design/button'
+import { OutcomeChip } from '../../design/chip'
+import { words } from '../../words/words'
+import { MotionView } from '../motion/motion_view'
+import { Candidates } from './candidates'
+import { Findings } from './findings'
+import { optionLabels } from './fixes'
+import type { Result, UploadFlow } from './flow'
+import { Pickers } from './pickers'
+import { Publish } from './publish'
+
+interface VerdictProps {
+  flow: UploadFlow
+  result: Result
+  file: File
+}
+
+function robotName(flow: UploadFlow, model: string): string {
+  return flow.library.value?.robots.find((robot) => robot.model === model)?.name ?? model
+}
+
+/** What became of a file: evidence, motion, findings, and what to do next. */
+export function Verdict({ flow, result, file }: VerdictProps) {
+  const w = words.value
+  const selected = useSignal(0)
+  const { conversion, motion, choice } = result
+  const busy = flow.busy.value
+  const labels = optionLabels(choice.options, w)
+  const effector = flow.library.value?.end_effectors.find((each) => each.id === choice.effector)
+  return (
+    <article class="verdict" aria-busy={busy}>
+      <header class="verdict-head">
+        <div class="grow stack-8">
+          <div class="row">
+            <OutcomeChip outcome={conversion.outcome} />
+            <span class="second small verdict-file">{file.name}</span>
+          </div>
+          <h1 class="verdict-message">{conversion.message}</h1>
+          {labels.length > 0 && (
+            <p class="row small">
+              {labels.map((label) => (
+                <span class="chip chip-plain" key={label}>
+                  {label}
+                </span>
+              ))}
+            </p>
+          )}
+        </div>
+        <div class="row verdict-actions">
+          {flow.canUndo.value && (
+            <Button icon="undo" onClick={() => flow.undo()}>
+              {w.undo}
+            </Button>
+          )}
+          <Button icon="upload" onClick={() => flow.reset()}>
+            {w.upload.otherFile}
+          </Button>
+        </div>
+        {busy && <progress class="progress verdict-progress" aria-label={w.loading} />}
+      </header>
+      <div class={`verdict-columns${motion ? '' : ' verdict-plain'}`}>
+        <div class="verdict-side stack">
+          {conversion.outcome === 'ambiguous' && (
+            <Candidates
+              candidates={conversion.candidates}
+              busy={busy}
+              onChoose={(variable) => void flow.chooseVariable(variable)}
+            />
+          )}
+          {conversion.draft && conversion.trajectory && (
+            <Publish key={conversion.draft} flow={flow} trajectory={conversion.trajectory} />
+          )}
+          {conversion.diagnostics.length > 0 && (
+            <Findings
+              findings={conversion.diagnostics}
+              selected={selected.value}
+              onSelect={(number) => {
+                selected.value = number
+              }}
+              onFix={(fix) => void flow.apply(fix)}
+              busy={busy}
+            />
+          )}
+          <details class="card verdict-robot">
+            <summary>
+              <span class="second small">{w.upload.checkedFor}</span>
+              <strong>
+                {robotName(flow, choice.robot)}
+                {effector && ` + ${effector.name}`}
+              </strong>
+              <span class="verdict-change">{w.upload.change}</span>
+            </summary>
+            <Pickers flow={flow} />
+          </details>
+        </div>
+        {motion && <MotionView key={conversion.motion} motion={motion} selected={selected} />}
+      </div>
+    </article>
+  )
+}
