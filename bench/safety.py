@@ -22,15 +22,16 @@ import numpy as np
 import rclpy
 import report
 from mrlab_msgs import msg, srv
+from mrlab_ros.adapters.trajectories.store import write
 from rclpy.client import Client
 from rclpy.node import Node
 from std_srvs.srv import SetBool, Trigger
 
 from mrlab_ros.adapters.robots.library import RobotLibrary
-from mrlab_ros.adapters.trajectories.store import write
 from mrlab_ros.core.trajectory.trajectory import Channels, Source, Trajectory
 from mrlab_ros.messages import qos
-from mrlab_ros.processes.lab import LabOptions, LabProcess, parameter_file
+from mrlab_ros.processes.lab import LabProcess, parameter_file
+from mrlab_ros.processes.options import LabOptions
 from mrlab_ros.processes.supervisor import Supervisor
 from mrlab_ros.ros import share
 from mrlab_ros.ros.calls import NoAnswer, call

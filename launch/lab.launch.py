@@ -4,19 +4,21 @@ import tempfile
 from pathlib import Path
 
 from launch import LaunchDescription
-from launch.actions import DeclareLaunchArgument, OpaqueFunction
+from launch.actions import DeclareLaunchArgument, ExecuteProcess, OpaqueFunction
 from launch.substitutions import LaunchConfiguration
 from launch_ros.actions import Node
 
 from mrlab_ros.adapters.bullet.support import missing
+from mrlab_ros.commands.up.web import checked_web, prepare_keys
 from mrlab_ros.processes import physics_support
 from mrlab_ros.processes.lab import (
     HOST_EXECUTABLE,
-    LabOptions,
+    LabProcess,
     lab_processes,
     parameter_file,
     robot_models,
 )
+from mrlab_ros.processes.options import LabOptions
 
 # A process that ends is started again after this time, s, and at most so many times: the launcher
 # cannot know that a process refuses its configuration and would start it for ever.
@@ -78,6 +80,18 @@ def generate_launch_description():
                 default_value="",
                 description="folder for scene and trajectories; empty: a temporary one",
             ),
+            DeclareLaunchArgument(
+                "web",
+                default_value="true",
+                choices=flags,
+                description="serve the pages for browsers and headsets",
+            ),
+            DeclareLaunchArgument(
+                "http",
+                default_value="",
+                description="where the pages are served, HOST:PORT; empty: 127.0.0.1:8080, with "
+                "keys 0.0.0.0:8080",
+            ),
             OpaqueFunction(function=processes),
         ]
     )
@@ -92,19 +106,28 @@ def processes(context):
     def path(name):
         return Path(value(name)).expanduser().absolute() if value(name) else None
 
+    keys, insecure = path("keys"), value("insecure") == "true"
+    bridge = value("bridge") == "true"
+    web = None
+    if bridge and value("web") == "true":
+        web = checked_web(value("http"), keys=keys, insecure=insecure)
+        if keys is not None:
+            prepare_keys(keys)
     physics, _ = physics_support.wanted(value("physics") == "true")
     options = LabOptions(
         config=parameter_file(path("config")),
         state_dir=path("state_dir") or Path(tempfile.mkdtemp(prefix="mrlab-")),
         robots=robot_models(value("robots")),
         physics=physics,
-        bridge=value("bridge") == "true",
+        bridge=bridge,
         listen=value("listen"),
         connect=value("connect"),
-        keys=path("keys"),
-        insecure=value("insecure") == "true",
+        keys=keys,
+        insecure=insecure,
+        web=web,
     )
-    return [
+    found = lab_processes(options)
+    nodes = [
         Node(
             package="mrlab_ros",
             executable=HOST_EXECUTABLE,
@@ -116,5 +139,21 @@ def processes(context):
             respawn_delay=RESPAWN_DELAY_S,
             respawn_max_retries=RESPAWN_MAX_RETRIES,
         )
-        for process in lab_processes(options)
+        for process in found
+        if isinstance(process, LabProcess)
     ]
+    # No ROS node: the launcher would give it ROS arguments.
+    programs = [
+        ExecuteProcess(
+            cmd=list(process.command(options)),
+            name=process.name,
+            output="screen",
+            emulate_tty=True,
+            respawn=True,
+            respawn_delay=RESPAWN_DELAY_S,
+            respawn_max_retries=RESPAWN_MAX_RETRIES,
+        )
+        for process in found
+        if not isinstance(process, LabProcess)
+    ]
+    return [*nodes, *programs]

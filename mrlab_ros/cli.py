@@ -9,9 +9,10 @@ from typing import Annotated
 
 import typer
 
-from mrlab_ros.commands import bag, keys, robots, scene, system
+from mrlab_ros.commands import bag, keys, robots, scene, system, users
 from mrlab_ros.commands.convert.command import convert
 from mrlab_ros.commands.demo.command import demo
+from mrlab_ros.commands.open import open_pages
 from mrlab_ros.commands.play import play
 from mrlab_ros.commands.record import record
 from mrlab_ros.commands.replay import replay
@@ -48,12 +49,14 @@ app = typer.Typer(
 )
 for command in (up, demo, convert, play, record, replay, status):
     app.command(command.__name__)(command)
+app.command("open")(open_pages)
 app.add_typer(bag.app, name="bag")
 app.add_typer(keys.app, name="keys")
 app.add_typer(robots.app, name="robots")
 app.add_typer(system.app, name="system")
 app.add_typer(scene.scene, name="scene")
 app.add_typer(scene.objects, name="objects")
+app.add_typer(users.app, name="users")
 
 
 class Settings:

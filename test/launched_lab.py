@@ -41,7 +41,12 @@ def done(*arguments: str | Path) -> str:
 def launched_lab(
     folder: Path, monkeypatch: pytest.MonkeyPatch, *options: str | Path
 ) -> Iterator[None]:
-    """Run a lab on a free ROS domain, which commands then talk to; it has to end well."""
+    """Run a lab on a free ROS domain, which commands then talk to; it has to end well.
+
+    It has no pages, unless the options say where.
+    """
+    if "--http" not in options:
+        options = (*options, "--no-web")
     monkeypatch.setenv("XDG_RUNTIME_DIR", str(folder))
     monkeypatch.setenv("ROS_AUTOMATIC_DISCOVERY_RANGE", "LOCALHOST")
     monkeypatch.delenv("ROS_DOMAIN_ID", raising=False)

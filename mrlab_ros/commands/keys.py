@@ -1,4 +1,4 @@
-"""`mrlab keys`: who may connect to a lab: init, add, list, revoke, renew, config, router."""
+"""`mrlab keys`: who may connect to a lab, and the lab's own certificates."""
 
 from __future__ import annotations
 
@@ -118,6 +118,23 @@ def add(
     print(
         "\nHand each file over on a way that you trust, then delete it here: who has it is that "
         "person.\n" + who_has_it(keys)
+    )
+
+
+@app.command()
+def gateway(folder: Folder = Path("keys")) -> None:
+    """Make the web gateway's key anew, for a gateway on another machine or after its file is lost.
+
+    The one before is taken back. A gateway may do what all people together may do.
+    """
+    from mrlab_ros.adapters.keys.folder import Keys, now
+
+    keys = Keys(folder)
+    file = keys.gateway(now())
+    print(
+        f"{file} lets a gateway connect; whoever has it may do everything. On another machine:\n"
+        "  python -m mrlab_ros.gateway --zenoh-config gateway.json5 --state-dir STATE "
+        "--http 0.0.0.0:8080 --certificate CERT --certificate-key KEY\n" + who_has_it(keys)
     )
 
 

@@ -14,6 +14,7 @@ import typer
 
 from mrlab_ros.processes.lab import NODES, PROCESSES
 from mrlab_ros.processes.run_file import RunFile
+from mrlab_ros.processes.web import gateway_answers
 
 if TYPE_CHECKING:
     from rich.console import RenderableType
@@ -30,6 +31,8 @@ ONCE_TIMEOUT_S = 4.0
 MISSING_AFTER_S = 5.0
 # Who measures reports once a second; one that has been silent for longer has gone, s.
 LATENCY_AGE_S = 5.0
+# How often the gateway is asked whether it is there, s.
+WEB_PERIOD_S = 1.0
 # From where to where, in the order of LatencyHop's constants.
 HOPS = (("published", "bridged"), ("bridged", "received"), ("published", "received"))
 
@@ -139,6 +142,7 @@ class View:
         self._followers: dict[str, Follower] = {}
         # The newest report of each observer, by what it is called here.
         self._latencies: dict[str, Any] = {}
+        self._answers, self._asked = False, -math.inf
         graph.subscribe(msg.Latency, "/latency", self._on_latency, qos.LATCHED)
         graph.subscribe(msg.Latency, "/latency/clients", self._on_client, qos.LATCHED_EVENTS)
 
@@ -201,9 +205,11 @@ class View:
 
     def facts(self) -> dict[str, Any]:
         """Return what is known, ready for JSON: SI units, null where nothing is known."""
+        supervisor = self._run_file.read()
         return {
             "domain": self._graph.domain,
-            "supervisor": self._run_file.read(),
+            "supervisor": supervisor,
+            "web": self._web(supervisor),
             "robots": [_robot_facts(robot, follower) for robot, follower in self.robots()],
             "trajectories": [
                 {
@@ -230,6 +236,16 @@ class View:
             "recorder": _recorder_facts(self._recorder.value),
         }
 
+    def _web(self, supervisor: Mapping[str, Any] | None) -> dict[str, Any] | None:
+        """Return where the pages are and whether they answer, asked once a second at most."""
+        web = (supervisor or {}).get("web")
+        if web is None:
+            return None
+        if time.monotonic() - self._asked > WEB_PERIOD_S:
+            self._answers = gateway_answers(web["here"])()
+            self._asked = time.monotonic()
+        return {"address": web["address"], "answers": self._answers}
+
     def table(self, nodes: Mapping[str, bool] | None = None) -> RenderableType:
         """Return the facts as tables. nodes: name -> whether that node is in the graph."""
         from rich.console import Group
@@ -241,6 +257,9 @@ class View:
         parts: list[RenderableType] = [Text(f"Lab on ROS domain {facts['domain']}, {kept}")]
         if absent := [name for name, present in (nodes or {}).items() if not present]:
             parts.append(Text(f"Not in the graph: {', '.join(absent)}"))
+        if web := facts["web"]:
+            how = "" if web["answers"] else ", which do not answer"
+            parts.append(Text(f"Pages at {web['address']}{how}; open them with: mrlab open"))
         if recorder := _recorder_line(facts["recorder"]):
             parts.append(Text(recorder))
         sections: tuple[tuple[str, tuple[str, ...], list[tuple[str, ...]]], ...] = (

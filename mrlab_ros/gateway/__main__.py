@@ -3,19 +3,26 @@
 from __future__ import annotations
 
 import argparse
+import logging
+import os
 import signal
+import socket
+import ssl
 import sys
 from dataclasses import fields
 from pathlib import Path
+from typing import Any
 
-from mrlab_ros.core.errors import LabError
+from mrlab_ros.core.errors import BadInput, LabError, Unavailable
 from mrlab_ros.gateway.settings import PORT, Settings, parsed_address
 
 # EX_CONFIG of sysexits.h: a restart would end the same way.
 WRONG_CONFIGURATION = 78
 # What may still be sent after a wanted stop, s; the lab ends its processes after 1.5 s.
 LAST_WORDS_S = 1
-# Of a WebSocket: its own frames are smaller.
+# Connections that may wait to be accepted: a class that opens the pages at once.
+BACKLOG = 256
+# Of a WebSocket, bytes: its own frames are smaller.
 LARGEST_FRAME = 4 * 1024 * 1024
 
 
@@ -24,11 +31,19 @@ def main() -> None:
     # A supervisor starts its processes with SIGINT blocked, see processes/supervisor.py.
     signal.signal(signal.SIGINT, signal.SIG_DFL)
     signal.pthread_sigmask(signal.SIG_UNBLOCK, {signal.SIGINT})
+    # As ROS's nodes log, for a lab's common output.
+    logging.addLevelName(logging.WARNING, "WARN")
+    logging.basicConfig(
+        format="[%(levelname)s] [web]: %(message)s", level=logging.INFO, stream=sys.stdout
+    )
+    # Each request of a client of an OpenID Connect provider would be a line.
+    logging.getLogger("httpx").setLevel(logging.WARNING)
     try:
         serve(settings_of(sys.argv[1:]))
     except LabError as error:
-        print(f"[ERROR] {error}", file=sys.stderr)
-        sys.exit(WRONG_CONFIGURATION)
+        logging.error("%s", error)
+        lasting = isinstance(error, BadInput) and not isinstance(error, Unavailable)
+        sys.exit(WRONG_CONFIGURATION if lasting else 1)
 
 
 def settings_of(arguments: list[str]) -> Settings:
@@ -51,28 +66,69 @@ def settings_of(arguments: list[str]) -> Settings:
 
 
 def serve(settings: Settings) -> None:
-    """Serve until SIGINT or SIGTERM."""
+    """Serve until SIGINT or SIGTERM.
+
+    Raises BadInput where the settings cannot be served, Unavailable where the port is taken.
+    """
     import uvicorn
 
     from mrlab_ros.gateway.app import create_app
     from mrlab_ros.gateway.ports import real_ports
 
-    uvicorn.Server(
-        uvicorn.Config(
-            create_app(settings, real_ports(settings)),
-            host=settings.host,
-            port=settings.port,
-            ws="websockets-sansio",
-            # 316 instead of 64 KiB a connection, and a seventh of the processor time.
-            ws_per_message_deflate=False,
-            ws_max_size=LARGEST_FRAME,
-            server_header=False,
-            proxy_headers=False,
-            access_log=False,
-            log_level="warning",
-            timeout_graceful_shutdown=LAST_WORDS_S,
-        )
-    ).run()
+    settings.check()
+    listening = listen(settings)
+    https: dict[str, Any] = {}
+    if settings.https:
+        https = {
+            "ssl_certfile": settings.certificate_file,
+            "ssl_keyfile": settings.certificate_key_file,
+        }
+    config = uvicorn.Config(
+        create_app(settings, real_ports(settings)),
+        ws="websockets-sansio",
+        # 316 instead of 64 KiB a connection, and a seventh of the processor time.
+        ws_per_message_deflate=False,
+        ws_max_size=LARGEST_FRAME,
+        server_header=False,
+        # Only a proxy of this machine is believed, and only where there shall be one.
+        proxy_headers=bool(settings.public_url),
+        access_log=False,
+        log_config=None,
+        log_level="warning",
+        timeout_graceful_shutdown=LAST_WORDS_S,
+        **https,
+    )
+    try:
+        config.load()
+    except (OSError, ssl.SSLError) as error:
+        raise BadInput(
+            f"{settings.certificate_file} and {settings.certificate_key_file} cannot serve HTTPS: "
+            f"{error}; expected a certificate and its key without password (PEM)"
+        ) from error
+    host, port = listening.getsockname()[:2]
+    scheme = "https" if settings.https else "http"
+    address = f"{scheme}://{f'[{host}]' if ':' in host else host}:{port}"
+    logging.info("serves the pages on %s", address)
+    uvicorn.Server(config).run(sockets=[listening])
+
+
+def listen(settings: Settings) -> socket.socket:
+    """Return a socket that listens; raises Unavailable where another program does."""
+    family = socket.AF_INET6 if ":" in settings.host else socket.AF_INET
+    listening = socket.socket(family)
+    listening.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
+    try:
+        listening.bind((settings.host, settings.port))
+        listening.listen(BACKLOG)
+    except OSError as error:
+        listening.close()
+        raise Unavailable(
+            f"the pages cannot be served on {settings.host}:{settings.port}: "
+            f"{os.strerror(error.errno or 0)}; another lab may have that port, so choose another "
+            "one with --http HOST:PORT"
+        ) from error
+    listening.setblocking(False)
+    return listening
 
 
 if __name__ == "__main__":

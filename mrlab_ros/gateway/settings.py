@@ -6,6 +6,7 @@ import ipaddress
 from dataclasses import dataclass, field
 from pathlib import Path
 
+from mrlab_ros.adapters.keys import private_files
 from mrlab_ros.core.errors import BadInput
 
 HOST = "127.0.0.1"
@@ -18,19 +19,20 @@ class Settings:
     """What a gateway is started with.
 
     state_dir: folder of people, sign-ins and the store. host, port: where it listens; port 0: any
-    free one. zenoh: endpoint of the lab's bridge or router. zenoh_config: a zenoh client file in
-    its place, such as keys/gateway.json5. prefix: what the lab's keys begin with. keys: the lab's
-    keys folder: people sign in, and its certificate serves HTTPS. certificate, certificate_key:
-    another one for HTTPS. public_url: the address by which a reverse proxy offers this gateway.
-    insecure: listen beyond this machine without keys. allow_list: the bridge's YAML file, the
-    shipped one if None. store: URL or folder of the object store; empty: in state_dir. oidc: YAML
-    file of an OpenID Connect provider. pages: folder of the built pages; None: the installed ones.
+    free one. zenoh: endpoint of the lab's bridge or router; empty: that of zenoh_config, or
+    tcp/127.0.0.1:7447. zenoh_config: a zenoh client file that holds its key, such as
+    keys/gateway.json5. prefix: what the lab's keys begin with. keys: the lab's keys folder: people
+    sign in, and its certificate serves HTTPS. certificate, certificate_key: another one for HTTPS.
+    public_url: the address by which a reverse proxy offers this gateway. insecure: listen beyond
+    this machine without keys. allow_list: the bridge's YAML file, the shipped one if None. store:
+    URL or folder of the object store; empty: in state_dir. oidc: YAML file of an OpenID Connect
+    provider. pages: folder of the built pages; None: the installed ones.
     """
 
     state_dir: Path
     host: str = HOST
     port: int = PORT
-    zenoh: str = "tcp/127.0.0.1:7447"
+    zenoh: str = ""
     zenoh_config: Path | None = None
     prefix: str = ""
     keys: Path | None = None
@@ -63,6 +65,29 @@ class Settings:
     def signs_in(self) -> bool:
         """Whether people sign in; otherwise one local user needs no password."""
         return self.keys is not None or self.certificate is not None or bool(self.public_url)
+
+    def check(self) -> None:
+        """Raise BadInput where a gateway may not, or cannot, be run with these settings."""
+        if self.insecure and (self.https or self.public_url):
+            raise BadInput("--insecure and keys exclude each other; leave one of them out")
+        if (self.certificate is None) != (self.certificate_key is None):
+            raise BadInput(
+                "a certificate for HTTPS needs its key; give both --https-cert and --https-key"
+            )
+        if not (self.https or self.insecure or is_loopback(self.host)):
+            raise BadInput(
+                f"the pages are to be served on {self.host}:{self.port}, where anybody in the "
+                "network could read and change everything; give the lab keys (mrlab keys init, "
+                "then mrlab up --keys FOLDER), listen on 127.0.0.1, or accept it with --insecure"
+            )
+        if self.https:
+            for file in (self.certificate_file, self.certificate_key_file):
+                if not file.is_file():
+                    raise BadInput(
+                        f"there is no file {file}, which HTTPS needs; make one with mrlab keys "
+                        "init, or name your own with --https-cert and --https-key"
+                    )
+            private_files.check(self.certificate_key_file)
 
 
 def parsed_address(text: str) -> tuple[str, int]:

@@ -14,8 +14,10 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from mrlab_ros.core.errors import BadInput
+from mrlab_ros.processes.options import LabOptions
 from mrlab_ros.processes.parameter_file import check_parameter_file
 from mrlab_ros.processes.supervisor import ProcessSpec
+from mrlab_ros.processes.web import GatewayProcess
 
 # The module that runs the nodes of a process, and its name as a ROS executable.
 HOST_MODULE = "mrlab_ros.processes.host"
@@ -64,29 +66,6 @@ NODES = {
 }
 
 
-@dataclass(frozen=True)
-class LabOptions:
-    """What a lab is started with.
-
-    config: a ROS parameter file. state_dir: the folder for scene and trajectories. robots: models
-    to begin with. listen: where zenoh clients connect; empty: the bridge's default. connect: a
-    router that clients connect to in place of the bridge. keys: a keys folder. insecure: listen
-    beyond this machine without keys. store: URL or folder of uploads and trajectories; empty: in
-    state_dir.
-    """
-
-    config: Path
-    state_dir: Path
-    robots: tuple[str, ...] = ()
-    physics: bool = True
-    bridge: bool = True
-    listen: str = ""
-    connect: str = ""
-    keys: Path | None = None
-    insecure: bool = False
-    store: str = ""
-
-
 Parameters = dict[str, object]
 
 
@@ -130,6 +109,10 @@ class LabProcess:
         given = [a for n, v in parameters.items() for a in ("-p", f"{n}:={json.dumps(v)}")]
         return (*self.nodes, "--ros-args", "--params-file", str(options.config), *given)
 
+    def command(self, options: LabOptions) -> tuple[str, ...]:
+        """Return the program and its arguments."""
+        return (sys.executable, "-m", HOST_MODULE, *self.arguments(options))
+
     def spec(self, options: LabOptions) -> ProcessSpec:
         """Return the process as the supervisor starts it."""
         env = {
@@ -138,20 +121,20 @@ class LabProcess:
                 "RCUTILS_CONSOLE_OUTPUT_FORMAT", LOG_FORMAT
             ),
         }
-        argv = (sys.executable, "-m", HOST_MODULE, *self.arguments(options))
-        return ProcessSpec(self.name, argv, env, unblocks_sigint=True)
+        return ProcessSpec(self.name, self.command(options), env, unblocks_sigint=True)
 
 
-PROCESSES = (
+PROCESSES: tuple[LabProcess | GatewayProcess, ...] = (
     LabProcess("lab", ("converter", "lab", "coordinator"), _lab_parameters),
     LabProcess("playback", ("playback",)),
     LabProcess("recorder", ("recorder",)),
     LabProcess("physics", ("physics",), wanted=lambda options: options.physics),
     LabProcess("bridge", ("bridge",), _bridge_parameters, wanted=lambda options: options.bridge),
+    GatewayProcess(),
 )
 
 
-def lab_processes(options: LabOptions) -> tuple[LabProcess, ...]:
+def lab_processes(options: LabOptions) -> tuple[LabProcess | GatewayProcess, ...]:
     """Return the processes of a lab with these options."""
     return tuple(process for process in PROCESSES if process.wanted(options))
 

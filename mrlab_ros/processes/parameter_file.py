@@ -25,6 +25,17 @@ def check_parameter_file(path: Path) -> None:
     records.every(lambda section: _check_section(*section), content.items(), str(path))
 
 
+def parameter(path: Path, node: str, name: str) -> object:
+    """Return what a parameter file says of one parameter of a node; None: nothing."""
+    content = read_yaml(path, empty=True, loader=RosLoader)
+    found = None
+    # A node's own section wins.
+    for section in (*FOR_ALL, f"/**/{node}", f"/{node}", node):
+        values = (content.get(section) or {}).get("ros__parameters") or {}
+        found = dict(_flat(values)).get(name, found)
+    return found
+
+
 def _check_section(name: object, content: object) -> None:
     node = str(name).removeprefix("/**").removeprefix("/")
     if name not in FOR_ALL and node not in NODES:

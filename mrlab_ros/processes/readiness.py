@@ -18,8 +18,15 @@ READY_TIMEOUT_S = 20.0
 POLL_PERIOD_S = 0.05
 
 
-def wait_until_complete(stop: threading.Event, nodes: Sequence[NodeEntry], robots: int) -> str:
+def wait_until_complete(
+    stop: threading.Event,
+    nodes: Sequence[NodeEntry],
+    robots: int,
+    web: Callable[[], bool] | None = None,
+) -> str:
     """Wait until `nodes` and `robots` robots are in the graph; return what is missing at the end.
+
+    web: whether the gateway answers; None where there is none.
 
     That is nothing where the lab is complete or `stop` is set, and what is missing after
     READY_TIMEOUT_S.
@@ -31,6 +38,8 @@ def wait_until_complete(stop: threading.Event, nodes: Sequence[NodeEntry], robot
         deadline = time.monotonic() + READY_TIMEOUT_S
         while not stop.wait(POLL_PERIOD_S):
             what = missing()
+            if not what and web is not None:
+                what, web = ("", None) if web() else ("the pages", web)
             if not what or time.monotonic() > deadline:
                 return what
     return ""

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import os
+import re
 import signal
 import subprocess
 import sys
@@ -12,6 +13,7 @@ from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import Any
 
+import httpx
 import psutil
 import pytest
 from child_process import start_child
@@ -44,6 +46,7 @@ class Lab:
         with open(self._output, "wb") as output:
             self.process = start_child(
                 *(*MRLAB, "up", "--robots", "ur5e", "--zenoh-listen", self.endpoint),
+                *("--http", "127.0.0.1:0"),
                 stdout=output,
                 stderr=subprocess.STDOUT,
             )
@@ -123,8 +126,25 @@ def test_the_graph_heals_when_a_process_dies(lab: Lab) -> None:
     after = lab.status()
     assert [robot["name"] for robot in after["robots"]] == ["ur5e_1"]
     restarts = {p["name"]: p["restarts"] for p in after["supervisor"]["processes"]}
-    assert restarts == {"lab": 1, "playback": 0, "physics": 0, "bridge": 0, "recorder": 0}
+    others = ("playback", "physics", "bridge", "recorder", "web")
+    assert restarts == {"lab": 1, **dict.fromkeys(others, 0)}
     assert "lab ended (SIGKILL); restarts in 0.5 s" in lab.said
+
+
+def test_the_pages_are_opened_by_the_printed_url(lab: Lab) -> None:
+    wait_for(lambda: "?token=" in lab.said, "the URL")
+    (url,) = re.findall(r"http://\S+", lab.said.split("open the pages")[1].splitlines()[0])
+    with httpx.Client(follow_redirects=True) as browser:
+        browser.get(url)
+        origin = url.partition("/?")[0]
+        assert browser.get(f"{origin}/api/session").json()["user"]["name"] == "local"
+    with httpx.Client(follow_redirects=True) as stranger:
+        stranger.get(url)
+        assert stranger.get(f"{origin}/api/session").json()["user"] is None
+    assert lab.status()["web"] == {"address": origin, "answers": True}
+    victim = next(p for p in lab.status()["supervisor"]["processes"] if p["name"] == "web")
+    os.kill(victim["pid"], signal.SIGKILL)
+    wait_for(lambda: "web ended (SIGKILL); restarts in 0.5 s" in lab.said, "the restart")
 
 
 def test_play_follows_a_workspace_file_to_its_end(lab: Lab) -> None:
@@ -156,6 +176,8 @@ def test_help_teaches() -> None:
     [
         (("up", "--robots", "ur6"), "there is no robot 'ur6'; known are:"),
         (("up", "--config", "/nowhere.yaml"), "there is no parameter file /nowhere.yaml"),
+        (("up", "--http", "0.0.0.0:8080"), "give the lab keys"),
+        (("up", "--http", "here"), "expected HOST:PORT"),
         (("demo", "--once", "--file", "/nowhere.mat"), "there is no file /nowhere.mat"),
     ],
 )
@@ -173,7 +195,7 @@ def test_a_wrong_parameter_file_is_named_whole_and_nothing_starts(tmp_path: Path
         "recorder: {ros__parameters: {split_size: -5}}\n"
         "laab: {ros__parameters: {robots: [ur5e]}}\n"
     )
-    done = mrlab("up", "--config", str(config))
+    done = mrlab("up", "--no-web", "--config", str(config))
     assert done.returncode == 1
     for words in (
         "bad.yaml has 4 mistakes",
@@ -193,7 +215,7 @@ def test_a_process_that_refuses_its_configuration_ends_the_start(
     monkeypatch.setenv("XDG_RUNTIME_DIR", str(tmp_path))
     config = tmp_path / "lab.yaml"
     config.write_text("bridge: {ros__parameters: {allow_list: /nowhere.yaml}}\n")
-    done = mrlab("up", "--no-physics", "--config", str(config))
+    done = mrlab("up", "--no-physics", "--no-web", "--config", str(config))
     assert done.returncode == 1
     assert "the bridge cannot read its allow-list /nowhere.yaml" in done.stdout
     assert "the lab does not start: bridge refused the configuration" in done.stderr

@@ -4,6 +4,7 @@
     server.pem, server.key  the lab's certificate
     lab.pem, lab.key        with which the lab connects to a router of its own, where it has one
     router.json5            all that this router needs: to be handed over
+    gateway.json5           all that the web gateway's zenoh needs to connect
     people.json             names, roles and certificates of who may connect
     passwords.txt           name:password, where people log in with passwords
     clients/NAME.json5      all that NAME's zenoh needs to connect: to be handed over
@@ -25,6 +26,7 @@ from typing import Any
 from mrlab_ros.adapters.keys import certificates, private_files, zenoh_settings
 from mrlab_ros.adapters.keys.certificates import Signed
 from mrlab_ros.adapters.keys.people import (
+    GATEWAY,
     NOBODY,
     Entry,
     People,
@@ -82,7 +84,9 @@ class Keys:
             private_files.write(folder / f"{name}.key", signed.key_pem)
         write_passwords(folder / "passwords.txt", {NOBODY: new_password()})
         People(login, all_hosts).write(folder / "people.json")
-        return cls(folder)
+        keys = cls(folder)
+        keys.gateway(now)
+        return keys
 
     @property
     def entries(self) -> list[Entry]:
@@ -106,24 +110,53 @@ class Keys:
         self._people.check_new(name)
 
     def _add(self, name: str, role: Role, now: datetime, lifetime: timedelta) -> Entry:
+        self.client_file(name).parent.mkdir(mode=0o700, exist_ok=True)
+        entry = self._sign(name, role, now, lifetime, self.client_file(name))
+        self._people.by_name[name] = entry
+        self._people.write(self._people_file)
+        return entry
+
+    def _sign(
+        self, name: str, role: Role, now: datetime, lifetime: timedelta, file: Path
+    ) -> Entry:
+        """Make a key, and write the file with which its owner's zenoh connects."""
         authority = self._authority(now)
         # With a random mark: a new person of the same name does not revive the old certificate.
         person = Person(name, role, f"{name}.{secrets.token_hex(4)}")
         signed = certificates.client(authority, person.common_name, now, lifetime)
         entry = Entry(person, certificates.validity(signed.certificate)[1])
         password = new_password() if self.login.by_password else ""
-        self.client_file(name).parent.mkdir(mode=0o700, exist_ok=True)
-        private_files.write(
-            self.client_file(name),
-            zenoh_settings.client_document(
-                self.folder, self._people, entry, signed, password
-            ).encode(),
+        document = zenoh_settings.client_document(
+            self.folder, self._people, entry, signed, password
         )
+        private_files.write(file, document.encode())
         if password:
             write_passwords(self._passwords, {**read_passwords(self._passwords), name: password})
-        self._people.by_name[name] = entry
-        self._people.write(self._people_file)
         return entry
+
+    @property
+    def gateway_file(self) -> Path:
+        """The file that lets the web gateway connect."""
+        return self.folder / "gateway.json5"
+
+    def gateway(self, now: datetime) -> Path:
+        """Make the web gateway's key anew; return the file that lets it connect.
+
+        It has the largest role, which includes all others: it asks for people of every role, and
+        allows each what that person's role allows.
+        """
+        with self._alone():
+            largest = list(Role)[-1]
+            self._people.gateway = self._sign(
+                GATEWAY, largest, now, SERVER_LIFETIME, self.gateway_file
+            )
+            self._people.write(self._people_file)
+        return self.gateway_file
+
+    def has_gateway(self, now: datetime) -> bool:
+        """Return whether the web gateway has a key that is valid."""
+        entry = self._people.gateway
+        return entry is not None and entry.expires > now and self.gateway_file.exists()
 
     def revoke(self, name: str) -> Entry:
         """Take back what lets `name` connect; it counts once the bridge is started again."""

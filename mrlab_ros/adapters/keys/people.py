@@ -22,6 +22,9 @@ from mrlab_ros.core.errors import BadInput, Misuse
 NAME = re.compile(r"[A-Za-z0-9][A-Za-z0-9_.-]{0,40}")
 # A user whose password nobody knows: zenoh demands passwords only where its file has a user.
 NOBODY = "nobody"
+# The lab's web gateway; it asks for people who have signed in there, and so may do what all of
+# them together may do.
+GATEWAY = "gateway"
 
 
 @dataclass(frozen=True)
@@ -48,11 +51,15 @@ class Entry:
 
 @dataclass
 class People:
-    """How people log in, at which hosts they reach the lab, and each person by name."""
+    """How people log in, at which hosts they reach the lab, and each person by name.
+
+    gateway: the lab's web gateway, None where it has no key.
+    """
 
     login: Login
     hosts: list[str]
     by_name: dict[str, Entry] = field(default_factory=dict)
+    gateway: Entry | None = None
 
     @classmethod
     def read(cls, path: Path) -> People:
@@ -63,6 +70,7 @@ class People:
                 Login(document["login"]),
                 [str(host) for host in document["hosts"]],
                 {record["name"]: Entry.from_record(record) for record in document["people"]},
+                Entry.from_record(document["gateway"]) if document.get("gateway") else None,
             )
         except FileNotFoundError as error:
             raise BadInput(
@@ -82,6 +90,7 @@ class People:
             "login": self.login.value,
             "hosts": self.hosts,
             "people": [entry.record() for entry in self.entries],
+            "gateway": self.gateway.record() if self.gateway else None,
         }
         private_files.write(path, json.dumps(document, indent=2).encode())
 
@@ -91,15 +100,19 @@ class People:
         return sorted(self.by_name.values(), key=lambda entry: entry.person.name)
 
     def at(self, now: datetime) -> list[Person]:
-        """Return the people whose certificates have not expired: a password never expires."""
-        return [entry.person for entry in self.entries if entry.expires > now]
+        """Return who may connect, the gateway too: whose certificate has not expired.
+
+        A password never expires.
+        """
+        entries = [*self.entries, *([self.gateway] if self.gateway else [])]
+        return [entry.person for entry in entries if entry.expires > now]
 
     def check_new(self, name: str) -> None:
         """Raise BadInput where `name` cannot be one, Misuse where it has a key already."""
-        if not NAME.fullmatch(name) or name == NOBODY:
+        if not NAME.fullmatch(name) or name in (NOBODY, GATEWAY):
             raise BadInput(
                 f"{name!r} is no name for a key; expected up to 41 letters, digits, '_', '-' and "
-                f"'.', beginning with a letter or digit, and not {NOBODY!r}"
+                f"'.', beginning with a letter or digit, and not {NOBODY!r} or {GATEWAY!r}"
             )
         if name in self.by_name:
             raise Misuse(

@@ -35,7 +35,7 @@ def demo(
 
     Starts a lab of its own on a free ROS domain and a free zenoh port, converts the shipped
     hand-over, puts two robots in the scene, lets them play as one system, and counts what arrives
-    over zenoh. It stays up until Ctrl-C.
+    over zenoh. It stays up until Ctrl-C, and opens its pages where there is a display.
 
     Ends with 0 when every frame arrived, 1 when anything failed, 130 when interrupted before.
     """
@@ -67,6 +67,8 @@ def demo(
         stop = stack.enter_context(stop_signals())
         try:
             stage = stack.enter_context(running_lab(console, config))
+            if not once:
+                stage.show(console)
             summaries = Run(console, stage, parts, stop).run()
         except Stopped:
             raise typer.Exit(130) from None

@@ -5,6 +5,7 @@ from __future__ import annotations
 import os
 import random
 import socket
+import threading
 import time
 from collections.abc import Iterator
 from contextlib import contextmanager
@@ -17,29 +18,52 @@ from mrlab_ros.commands.up.command import (
     folder_for_state,
     stay_on_this_machine,
 )
+from mrlab_ros.commands.up.web import open_in_browser, opening_url, users_file
 from mrlab_ros.core.errors import LabError, Misuse
-from mrlab_ros.processes.lab import LabOptions, lab_processes, parameter_file
+from mrlab_ros.processes.lab import lab_processes, parameter_file
+from mrlab_ros.processes.options import LabOptions, WebOptions
 from mrlab_ros.processes.run_file import RunFile
 from mrlab_ros.processes.supervisor import Supervisor
+from mrlab_ros.processes.web import gateway_answers, web_address
 from mrlab_ros.ros.domain import domain_id
 
 if TYPE_CHECKING:
     from rich.console import Console
 
 ZENOH_PORT = 7447
+HTTP_PORT = 8080
+# How often the pages are asked whether they are there before they are shown, and for how long, s.
+SHOW_PERIOD_S = 0.2
+SHOW_ATTEMPTS = 150
 # Domains above need ports that Linux hands out to anybody.
 DOMAINS = range(102)
 
 
 @dataclass
 class Stage:
-    """The lab that the demo has started."""
+    """The lab that the demo has started; web: address of its pages, users: their sign-ins."""
 
     options: LabOptions
     domain: int
     endpoint: str
+    web: str
+    users: Path
     log: Log
     begin: float
+
+    def show(self, console: Console) -> None:
+        """Open the pages once they answer, where there is a display; in a thread of its own."""
+
+        def show() -> None:
+            answers = gateway_answers(self.web)
+            for _ in range(SHOW_ATTEMPTS):
+                if answers():
+                    if open_in_browser(opening_url(self.web, self.users, "/lab")):
+                        console.print(f"The lab is shown in the browser: {self.web}/lab")
+                    return
+                time.sleep(SHOW_PERIOD_S)
+
+        threading.Thread(target=show, daemon=True).start()
 
 
 class Log:
@@ -68,18 +92,28 @@ def running_lab(console: Console, config: Path | None) -> Iterator[Stage]:
     stay_on_this_machine()
     with folder_for_state(None) as folder:
         endpoint = f"tcp/127.0.0.1:{free_port(ZENOH_PORT)}"
-        run_file, domain = claim_free_domain(state_dir=str(folder), zenoh=endpoint)
+        options = LabOptions(
+            config=parameter_file(config),
+            state_dir=folder,
+            physics=False,
+            listen=endpoint,
+            web=WebOptions("127.0.0.1", free_port(HTTP_PORT)),
+        )
+        here = web_address(options)
+        users = users_file(folder, None)
+        run_file, domain = claim_free_domain(
+            state_dir=str(folder),
+            zenoh=endpoint,
+            web={"here": here, "address": here, "users": str(users), "signs_in": False},
+        )
         os.environ["ROS_DOMAIN_ID"] = str(domain)
         log = Log(console)
         try:
-            options = LabOptions(
-                config=parameter_file(config), state_dir=folder, physics=False, listen=endpoint
-            )
             specs = [process.spec(options) for process in lab_processes(options)]
             with Supervisor(specs, log, run_file.write):
                 console.print(f"Lab on ROS domain {domain}, zenoh at {endpoint}", style="bold")
                 try:
-                    yield Stage(options, domain, endpoint, log, begin)
+                    yield Stage(options, domain, endpoint, here, users, log, begin)
                 finally:
                     log.stopping = True
         finally:

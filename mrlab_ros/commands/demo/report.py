@@ -10,6 +10,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from mrlab_ros.commands.up.command import COLOURS
+from mrlab_ros.commands.up.web import opening_url
 from mrlab_ros.core.errors import LabError
 from mrlab_ros.processes.supervisor import SELF
 
@@ -167,6 +168,8 @@ def print_next_steps(console: Console, stage: Stage, summaries: list[RobotSummar
     )
     lines = [
         "",
+        "See it move in the browser (this address is good once; mrlab open makes another):",
+        f"  {opening_url(stage.web, stage.users, '/lab')}",
         "The lab stays up until Ctrl-C. In another terminal:",
         f"  {environment}export ROS_DOMAIN_ID={stage.domain}",
         "  mrlab status",

@@ -17,6 +17,7 @@ from mrlab_ros.commands.demo.report import Display, RobotSummary
 from mrlab_ros.core.errors import LabError
 from mrlab_ros.processes.lab import lab_nodes
 from mrlab_ros.processes.readiness import missing_parts
+from mrlab_ros.processes.web import gateway_answers
 
 if TYPE_CHECKING:
     from rich.console import Console
@@ -109,6 +110,8 @@ class Run:
     def _wait_for_lab(self, graph: Graph) -> None:
         missing = missing_parts(graph, lab_nodes(self._stage.options), robots=0)
         self._until(lambda: not missing(), START_TIMEOUT_S, "all parts of the lab")
+        gateway = gateway_answers(self._stage.web)
+        self._until(gateway, START_TIMEOUT_S, "the pages")
         self._say("start", f"the lab is ready after {time.monotonic() - self._stage.begin:.1f} s")
 
     @contextmanager

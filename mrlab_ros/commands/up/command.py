@@ -22,26 +22,34 @@ from mrlab_ros.commands.up.keys import (
     keys_changed_at,
     tell_when_keys_expire,
 )
+from mrlab_ros.commands.up.web import (
+    checked_web,
+    prepare_keys,
+    public_address,
+    say_where,
+    users_file,
+)
 from mrlab_ros.core.errors import BadInput
 from mrlab_ros.processes import physics_support
 from mrlab_ros.processes.lab import (
     PROCESSES,
-    LabOptions,
     lab_nodes,
     lab_processes,
     parameter_file,
     robot_models,
 )
+from mrlab_ros.processes.options import LabOptions
 from mrlab_ros.processes.readiness import READY_TIMEOUT_S, wait_until_complete
 from mrlab_ros.processes.run_file import RunFile
 from mrlab_ros.processes.supervisor import SELF, Phase, ProcessState, Supervisor
+from mrlab_ros.processes.web import gateway_answers, web_address
 from mrlab_ros.ros.domain import domain_id
 
 if TYPE_CHECKING:
     from rich.console import Console
 
 
-PALETTE = ("cyan", "green", "red", "yellow", "magenta")
+PALETTE = ("cyan", "green", "red", "yellow", "magenta", "bright_blue")
 COLOURS = {SELF: "bold"} | {
     process.name: colour for process, colour in zip(PROCESSES, PALETTE, strict=True)
 }
@@ -107,6 +115,33 @@ def up(
             "s3://bucket/lab; not given: in the folder for state."
         ),
     ] = "",
+    web: Annotated[bool, typer.Option(help="Serve the pages for browsers and headsets.")] = True,
+    http: Annotated[
+        str,
+        typer.Option(
+            metavar="HOST:PORT",
+            help="Where the pages are served; not given: 127.0.0.1:8080, with --keys or a "
+            "certificate 0.0.0.0:8080. Port 0: any free one.",
+        ),
+    ] = "",
+    https_cert: Annotated[
+        Path | None,
+        typer.Option(help="Certificate for HTTPS (PEM, whole chain), if not that of --keys."),
+    ] = None,
+    https_key: Annotated[
+        Path | None, typer.Option(help="The private key of --https-cert (PEM).")
+    ] = None,
+    public_url: Annotated[
+        str,
+        typer.Option(
+            help="Address of a reverse proxy that offers the pages, such as "
+            "https://lab.example.org; people then sign in."
+        ),
+    ] = "",
+    oidc: Annotated[
+        Path | None,
+        typer.Option(help="YAML file of an OpenID Connect provider by which people sign in."),
+    ] = None,
 ) -> None:
     """Start the lab and keep it running until Ctrl-C.
 
@@ -122,6 +157,19 @@ def up(
         listen = checked_router(zenoh_connect, zenoh_listen, keys, insecure)
     elif bridge:
         listen = checked_listen(zenoh_listen, keys, insecure)
+    pages = None
+    if web and bridge:
+        pages = checked_web(
+            http,
+            keys=keys,
+            insecure=insecure,
+            certificate=https_cert,
+            certificate_key=https_key,
+            public_url=public_url.rstrip("/"),
+            oidc=oidc,
+        )
+        if keys is not None:
+            prepare_keys(keys)
     with_physics, no_physics = physics_support.wanted(physics)
     stay_on_this_machine()
     domain = domain_id()
@@ -139,10 +187,21 @@ def up(
             keys=keys,
             insecure=insecure,
             store=checked_store(store),
+            web=pages,
         )
+        facts: dict[str, object] = {"state_dir": str(folder), "zenoh": listen}
+        here, where = "", {}
+        if pages is not None:
+            here = web_address(options)
+            facts["web"] = where = {
+                "here": here,
+                "address": public_address(pages, keys, here),
+                "users": str(users_file(folder, keys)),
+                "signs_in": here.startswith("https") or bool(public_url),
+            }
         specs = [process.spec(options) for process in lab_processes(options)]
         seen = keys_changed_at(keys) if keys is not None and bridge else ()
-        run_file.claim(state_dir=str(folder), zenoh=listen)
+        run_file.claim(**facts)
         begin = time.monotonic()
         refusals = Refusals(stop)
 
@@ -159,7 +218,8 @@ def up(
                     tell_when_keys_expire(keys, say, router=bool(zenoh_connect))
                 if no_physics:
                     say(SELF, no_physics)
-                missing = wait_until_complete(stop, lab_nodes(options), len(models))
+                answers = gateway_answers(here) if here else None
+                missing = wait_until_complete(stop, lab_nodes(options), len(models), answers)
                 refusals.raise_any()
                 if missing:
                     say(SELF, f"not complete after {READY_TIMEOUT_S:g} s: {missing} missing")
@@ -167,10 +227,12 @@ def up(
                     took = time.monotonic() - begin
                     zenoh = f"; zenoh clients connect to {listen}" if bridge else ""
                     say(SELF, f"the lab is ready after {took:.1f} s{zenoh}")
+                if pages is not None and not stop.is_set():
+                    say_where(where, say)
                 if keys is None or not bridge or zenoh_connect:
                     stop.wait()
                 else:
-                    follow_keys(keys, seen, stop, say, lambda: supervisor.restart("bridge"))
+                    follow_keys(keys, seen, stop, say, supervisor.restart)
                 say(SELF, "stops")
         finally:
             run_file.release()

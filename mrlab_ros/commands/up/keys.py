@@ -71,20 +71,31 @@ def keys_changed_at(folder: Path) -> tuple[int, ...]:
     return Keys(folder).changed_at()
 
 
+def web_keys_changed_at(folder: Path) -> tuple[int, ...]:
+    """Return when the files of the gateway were changed last, ns."""
+    from mrlab_ros.adapters.keys import private_files
+
+    names = ("server.pem", "server.key", "gateway.json5")
+    return tuple(private_files.changed_at(folder.expanduser() / name) for name in names)
+
+
 def follow_keys(
     folder: Path,
     seen: tuple[int, ...],
     stop: threading.Event,
     say: Callable[[str, str], None],
-    restart: Callable[[], None],
+    restart: Callable[[str], None],
 ) -> None:
     """Restart the bridge whenever the keys change, until `stop`: it reads them at its start.
+
+    The pages start again where their own certificate or key has changed.
 
     seen: the fingerprint of the keys that the bridge has.
     """
     from mrlab_ros.adapters.keys.folder import Keys, now
 
     reported = ""
+    web = web_keys_changed_at(folder)
     while not stop.wait(KEYS_PERIOD_S):
         try:
             with Keys.while_unchanged(folder) as keys:
@@ -93,7 +104,10 @@ def follow_keys(
                     continue
                 keys.check(now())
             say(SELF, "the keys have changed; the bridge starts again with them")
-            restart()
+            restart("bridge")
+            if (now_web := web_keys_changed_at(folder)) != web:
+                web = now_web
+                restart("web")
             seen = changed
             reported = ""
         except BadInput as error:

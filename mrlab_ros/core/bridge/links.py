@@ -54,6 +54,16 @@ def is_local(endpoint: str) -> bool:
         return False
 
 
+def from_here(endpoint: str) -> str:
+    """Return how this machine connects to an endpoint on which it listens itself."""
+    protocol, _, address = endpoint.partition("/")
+    host, _, port = address.rpartition(":")
+    if host not in ("0.0.0.0", "[::]"):
+        return endpoint
+    # The certificate of a keys folder has both; a name is not for all protocols.
+    return f"{protocol}/{'localhost' if protocol in ('tls', 'quic') else '127.0.0.1'}:{port}"
+
+
 def check_router(mode: str, listen: tuple[str, ...], connect: tuple[str, ...]) -> None:
     """Raise BadInput where a lab with keys cannot connect to a router with these settings.
 

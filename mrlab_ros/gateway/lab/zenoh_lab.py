@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import asyncio
+import json
 import logging
 from collections import deque
 from collections.abc import Callable, Mapping
@@ -13,7 +14,7 @@ from typing import Any
 
 import zenoh
 
-from mrlab_ros.adapters.zenoh_session import configuration
+from mrlab_ros.adapters.zenoh_session import LOOPBACK, configuration
 from mrlab_ros.core.bridge.latency import stamps
 from mrlab_ros.gateway.lab.connection import (
     CALL_TIMEOUT_S,
@@ -264,9 +265,13 @@ def _read(sample: zenoh.Sample, root: int) -> Sample:
 
 
 def lab_at(endpoint: str, file: Path | None, prefix: str) -> ZenohLab:
-    """Return a connection that is not open yet: to `endpoint`, or as a zenoh client `file` says.
+    """Return a connection that is not open yet: to `endpoint`, with the settings of `file`.
 
-    Raises BadInput where zenoh does not accept one of them.
+    file: a zenoh client's, which holds its key. endpoint: empty for that of the file, or without a
+    file for LOOPBACK. Raises BadInput where zenoh does not accept one of them.
     """
-    config = configuration(file, mode="client", listen=(), connect=(endpoint,))
+    connect = (endpoint,) if endpoint else LOOPBACK
+    config = configuration(file, mode="client", listen=(), connect=connect)
+    if file is not None and endpoint:
+        config.insert_json5("connect/endpoints", json.dumps([endpoint]))
     return ZenohLab(config, installed_definitions(), prefix)

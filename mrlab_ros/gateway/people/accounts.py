@@ -32,9 +32,12 @@ class Account:
 
 
 class Accounts:
-    """The people of a lab. Times are s since 1970."""
+    """The people of a lab. Times are s since 1970.
 
-    def __init__(self, database: Database, passwords: Passwords) -> None:
+    passwords: None where nobody's is set or checked.
+    """
+
+    def __init__(self, database: Database, passwords: Passwords | None = None) -> None:
         self._database = database
         self._passwords = passwords
 
@@ -49,6 +52,12 @@ class Accounts:
             raise NotFound(f"there is nobody called {name!r}; mrlab users list shows who there is")
         return _account(rows[0])
 
+    def check_new(self, name: str) -> None:
+        """Raise BadInput where `name` cannot be one, Misuse where somebody has it."""
+        check_name(name)
+        if self._database.rows("SELECT 1 FROM people WHERE name = ?", name):
+            raise _taken(name)
+
     def add(self, name: str, role: Role, subject: str | None = None) -> Account:
         """Add a person; subject: what the OpenID Connect provider calls the person."""
         check_name(name)
@@ -58,10 +67,7 @@ class Accounts:
                     "INSERT INTO people VALUES (?, ?, NULL, ?)", (name, role.value, subject)
                 )
         except sqlite3.IntegrityError:
-            raise Misuse(
-                f"there is somebody called {name!r} already; choose another name, or remove that "
-                f"one first with: mrlab users remove {name}"
-            ) from None
+            raise _taken(name) from None
         return Account(name, role, "oidc" if subject else "")
 
     def remove(self, name: str) -> None:
@@ -89,6 +95,7 @@ class Accounts:
     def accept(self, secret: str, password: str, now: float) -> Account:
         """Use up a link and set the password; earlier sign-ins of the person end."""
         self.invited(secret, now)
+        assert self._passwords is not None
         hashed = self._passwords.hash(password)
         with self._database.writing() as connection:
             row = connection.execute(
@@ -120,6 +127,7 @@ class Accounts:
         """Return the person with this name and password; None where there is none."""
         rows = self._database.rows("SELECT * FROM people WHERE name = ?", name)
         stored = rows[0]["password"] if rows else None
+        assert self._passwords is not None
         return _account(rows[0]) if self._passwords.matches(stored, password) else None
 
     def of_subject(self, subject: str) -> Account | None:
@@ -157,6 +165,13 @@ def check_name(name: str) -> None:
             f"{name[:60]!r} is no name for a person; expected up to 41 letters, digits, '_', '-' "
             f"and '.', beginning with a letter or digit, and none of {', '.join(RESERVED)}"
         )
+
+
+def _taken(name: str) -> Misuse:
+    return Misuse(
+        f"there is somebody called {name!r} already; choose another name, or remove that one "
+        f"first with: mrlab users remove {name}"
+    )
 
 
 def _account(row: sqlite3.Row) -> Account:

@@ -14,21 +14,29 @@ from typing import Any
 import mrlab_msgs.msg
 import pytest
 
+from mrlab_ros.adapters.keys.folder import Keys, now
+from mrlab_ros.commands.demo.lab import free_port
 from mrlab_ros.commands.up.command import COLOURS, folder_for_state
+from mrlab_ros.core.bridge.access import Login
 from mrlab_ros.core.errors import BadInput
+from mrlab_ros.gateway.__main__ import settings_of
 from mrlab_ros.processes import physics_support
 from mrlab_ros.processes.lab import (
     NODES,
     PROCESSES,
-    LabOptions,
     lab_nodes,
     lab_processes,
     parameter_file,
     robot_models,
 )
+from mrlab_ros.processes.options import LabOptions, WebOptions
+from mrlab_ros.processes.web import web_address, zenoh_endpoint
 
 ROOT = Path(__file__).parents[3]
 CONFIG = ROOT / "config" / "lab.yaml"
+
+
+WEB = WebOptions("127.0.0.1", 8123)
 
 
 def options(**changes: Any) -> LabOptions:
@@ -76,8 +84,10 @@ def test_every_process_has_a_colour() -> None:
 
 
 def test_physics_and_bridge_can_be_left_out() -> None:
-    everything = [process.name for process in lab_processes(options())]
+    everything = [process.name for process in lab_processes(options(web=WEB))]
     assert everything == [process.name for process in PROCESSES]
+    # Without a bridge the pages would have no lab.
+    assert "web" not in [process.name for process in lab_processes(options(web=WEB, bridge=False))]
     less = lab_processes(options(physics=False, bridge=False))
     assert [process.name for process in less] == ["lab", "playback", "recorder"]
     assert NODES["physics"] not in lab_nodes(options(physics=False))
@@ -105,6 +115,64 @@ def test_the_bridge_s_options_are_its_parameters(tmp_path: Path) -> None:
         "bridge:mode": "client",
         "bridge:keys": str(tmp_path / "12"),
     }
+
+
+def web_settings(**changes: Any) -> dict[str, str]:
+    given = arguments("web", **{"web": WEB, **changes})
+    return dict(zip(given[::2], given[1::2], strict=True))
+
+
+def test_the_gateway_gets_what_the_lab_and_its_bridge_are_started_with(tmp_path: Path) -> None:
+    assert web_settings() == {
+        "--http": "127.0.0.1:8123",
+        "--state-dir": "/state",
+        "--zenoh": "tcp/127.0.0.1:7447",
+    }
+    config = tmp_path / "lab.yaml"
+    config.write_text(
+        "bridge: {ros__parameters: {prefix: lab_1, listen: [tcp/127.0.0.1:7000]}}\n"
+        "/**: {ros__parameters: {prefix: other, allow_list: /rules.yaml}}\n"
+    )
+    found = web_settings(config=config)
+    assert found["--prefix"] == "lab_1"
+    assert found["--allow-list"] == "/rules.yaml"
+    assert found["--zenoh"] == "tcp/127.0.0.1:7000"
+
+
+def test_the_gateway_s_arguments_are_its_settings(tmp_path: Path) -> None:
+    web = WebOptions(
+        "::", 1, Path("/c.pem"), Path("/c.key"), "https://l.org", Path("/o"), "s3://b"
+    )
+    found = settings_of(list(arguments("web", web=web, keys=tmp_path, listen="tls/0.0.0.0:9")))
+    assert (found.host, found.port, found.keys) == ("::", 1, tmp_path)
+    assert found.zenoh == "tls/localhost:9"
+    assert found.zenoh_config == tmp_path / "gateway.json5"
+    assert (found.certificate, found.certificate_key) == (Path("/c.pem"), Path("/c.key"))
+    assert (found.public_url, found.oidc, found.store) == ("https://l.org", Path("/o"), "s3://b")
+    insecure = settings_of(list(arguments("web", web=WEB, insecure=True)))
+    assert insecure.insecure
+
+
+@pytest.mark.parametrize(
+    ("changes", "endpoint"),
+    [
+        ({}, "tcp/127.0.0.1:7447"),
+        ({"listen": "tcp/0.0.0.0:5"}, "tcp/127.0.0.1:5"),
+        ({"listen": "tls/[::]:5", "keys": Path("/k")}, "tls/localhost:5"),
+        ({"keys": Path("/k")}, "tls/localhost:7447"),
+        ({"keys": Path("/k"), "connect": "tls/router:7"}, "tls/router:7"),
+    ],
+)
+def test_the_gateway_finds_the_bridge_or_the_router(changes: Any, endpoint: str) -> None:
+    assert zenoh_endpoint(options(**changes)) == endpoint
+
+
+def test_the_pages_have_an_address_for_this_machine() -> None:
+    everywhere = WebOptions("0.0.0.0", 8123)
+    assert web_address(options(web=WEB)) == "http://127.0.0.1:8123"
+    assert web_address(options(web=everywhere)) == "http://127.0.0.1:8123"
+    assert web_address(options(web=everywhere, keys=Path("/k"))) == "https://localhost:8123"
+    assert web_address(options(web=WebOptions("::1", 1))) == "http://[::1]:1"
 
 
 def test_a_text_stays_a_text() -> None:
@@ -149,7 +217,7 @@ def launched(monkeypatch: pytest.MonkeyPatch) -> Callable[..., list[Recorded]]:
     """Return what makes the launch file's processes; ROS's launcher is not on PyPI."""
     for name, kinds in (
         ("launch", ("LaunchDescription",)),
-        ("launch.actions", ("DeclareLaunchArgument", "OpaqueFunction")),
+        ("launch.actions", ("DeclareLaunchArgument", "ExecuteProcess", "OpaqueFunction")),
         ("launch.substitutions", ()),
         ("launch_ros", ()),
         ("launch_ros.actions", ("Node",)),
@@ -178,20 +246,25 @@ def launched(monkeypatch: pytest.MonkeyPatch) -> Callable[..., list[Recorded]]:
 def test_the_launch_file_starts_the_same_processes_as_up(
     launched: Callable[..., list[Recorded]], tmp_path: Path
 ) -> None:
+    Keys.create(tmp_path / "keys", [], Login.CERTIFICATE, now())
+    port = free_port(0)
     chosen = options(
         config=parameter_file(None),
         state_dir=tmp_path,
         robots=("ur5e",),
-        listen="tcp/127.0.0.1:7000",
+        listen="tls/127.0.0.1:7000",
         keys=tmp_path / "keys",
+        web=WebOptions("127.0.0.1", port),
     )
-    nodes = launched(
+    *nodes, web = launched(
         state_dir=str(tmp_path),
         robots="ur5e",
-        listen="tcp/127.0.0.1:7000",
+        listen="tls/127.0.0.1:7000",
         keys=str(tmp_path / "keys"),
+        http=f"127.0.0.1:{port}",
     )
-    specs = [process.spec(chosen) for process in lab_processes(chosen)]
+    *specs, gateway = [process.spec(chosen) for process in lab_processes(chosen)]
+    assert (web.kwargs["name"], tuple(web.kwargs["cmd"])) == (gateway.name, gateway.argv)
     assert [node.kwargs["exec_name"] for node in nodes] == [spec.name for spec in specs]
     assert [tuple(node.kwargs["arguments"]) for node in nodes] == [spec.argv[3:] for spec in specs]
     for node in nodes:
@@ -203,7 +276,7 @@ def test_the_launch_file_starts_the_same_processes_as_up(
 def test_the_launch_file_starts_nothing_for_ever(
     launched: Callable[..., list[Recorded]],
 ) -> None:
-    for node in launched():
+    for node in launched(http="127.0.0.1:0"):
         assert node.kwargs["respawn"] is True
         assert node.kwargs["respawn_max_retries"] > 0
 
@@ -214,12 +287,12 @@ def test_the_launch_file_leaves_out_and_refuses_what_it_is_told_to(
     names = [node.kwargs["exec_name"] for node in launched(physics="false", bridge="false")]
     assert names == ["lab", "playback", "recorder"]
     with pytest.raises(BadInput, match="no robot 'ur6'"):
-        launched(robots="ur6")
+        launched(robots="ur6", web="false")
     with pytest.raises(BadInput, match="no parameter file"):
-        launched(config="/nowhere.yaml")
+        launched(config="/nowhere.yaml", web="false")
     monkeypatch.setattr(physics_support, "missing", lambda: "pybullet is not installed")
     with pytest.raises(BadInput, match="there is no physics"):
-        launched(physics="true")
+        launched(physics="true", web="false")
 
 
 def test_a_file_given_as_the_state_folder_is_refused(tmp_path):

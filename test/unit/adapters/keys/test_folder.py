@@ -24,15 +24,17 @@ from mrlab_ros.adapters.keys.folder import (
     SERVER_LIFETIME,
     Keys,
 )
-from mrlab_ros.adapters.keys.people import NOBODY, read_passwords
+from mrlab_ros.adapters.keys.people import GATEWAY, NOBODY, read_passwords
 from mrlab_ros.cli import app
 from mrlab_ros.commands.up import keys as up_keys
 from mrlab_ros.commands.up.keys import checked_listen, checked_router
+from mrlab_ros.commands.up.web import prepare_keys
 from mrlab_ros.core.bridge import rules
 from mrlab_ros.core.bridge.access import Login
 from mrlab_ros.core.bridge.rules import Role
 from mrlab_ros.core.errors import BadInput, LabError, Misuse
-from mrlab_ros.processes.lab import LabOptions, lab_processes
+from mrlab_ros.processes.lab import lab_processes
+from mrlab_ros.processes.options import LabOptions
 
 NOW = datetime(2026, 9, 1, 8, tzinfo=timezone.utc)
 ROOT = Path(__file__).parents[4]
@@ -126,6 +128,7 @@ def test_only_the_owner_can_read_the_files(keys):
         "ca.key",
         "ca.pem",
         "clients",
+        "gateway.json5",
         "passwords.txt",
         "people.json",
         "server.key",
@@ -151,7 +154,8 @@ def test_who_gets_a_name_anew_does_not_bring_the_old_certificate_back(keys):
     assert "anna" not in read_passwords(keys.folder / "passwords.txt")
     second = keys.add("anna", Role.DISPLAY, NOW).person.common_name
     subjects = keys.settings(RULES, "", NOW)["access_control"]["subjects"]
-    assert [subject["cert_common_names"] for subject in subjects] == [[second]]
+    names = {subject["id"]: subject["cert_common_names"] for subject in subjects}
+    assert names["anna"] == [second]
     assert first != second
     assert read_passwords(keys.folder / "passwords.txt")["anna"] != password
 
@@ -331,8 +335,8 @@ def test_the_router_s_file_is_for_its_owner_and_the_lab_keeps_its_name(tmp_path)
     assert document["adminspace"] == {"enabled": False}
     assert document["transport"]["link"]["protocols"] == ["tls", "quic"]
     names = [subject["id"] for subject in document["access_control"]["subjects"]]
-    assert names == ["anna", "the lab"]
-    assert document["access_control"]["subjects"][1]["cert_common_names"] == [name]
+    assert names == ["anna", "gateway", "the lab"]
+    assert document["access_control"]["subjects"][2]["cert_common_names"] == [name]
 
 
 def test_the_lab_s_certificate_for_its_router_is_made_anew_with_the_file(tmp_path):
@@ -348,6 +352,34 @@ def test_the_lab_s_certificate_for_its_router_is_made_anew_with_the_file(tmp_pat
     assert keys.lab_settings(later)["transport/link/tls/enable_mtls"] is True
 
 
+def test_the_gateway_s_key_is_made_anew_and_the_one_before_is_taken_back(keys):
+    def subject():
+        found = keys.settings(RULES, "", NOW)["access_control"]["subjects"]
+        return next(each for each in found if each["id"] == GATEWAY)
+
+    assert keys.has_gateway(NOW)
+    first, file = subject(), keys.gateway_file.read_text()
+    assert run("gateway", "--dir", keys.folder).exit_code == 0
+    assert Keys(keys.folder).gateway_file.read_text() != file
+    again = Keys(keys.folder)
+    found = again.settings(RULES, "", NOW)["access_control"]["subjects"]
+    assert next(each for each in found if each["id"] == GATEWAY) != first
+    assert not keys.has_gateway(NOW + SERVER_LIFETIME + DAY)
+    keys.gateway_file.unlink()
+    assert not keys.has_gateway(NOW)
+    assert GATEWAY not in [entry.person.name for entry in again.entries]
+
+
+def test_a_folder_of_before_the_gateway_is_read(keys):
+    document = json.loads((keys.folder / "people.json").read_text())
+    del document["gateway"]
+    (keys.folder / "people.json").write_text(json.dumps(document))
+    old = Keys(keys.folder)
+    assert not old.has_gateway(NOW)
+    prepare_keys(keys.folder)
+    assert Keys(keys.folder).has_gateway(datetime.now(timezone.utc))
+
+
 def test_commands_at_the_same_time_lose_nobody(tmp_path):
     folder = Keys.create(tmp_path / "keys", [], Login.BOTH, NOW).folder
     others = [Keys(folder) for _ in range(4)]
@@ -361,7 +393,7 @@ def test_commands_at_the_same_time_lose_nobody(tmp_path):
         thread.join()
     everybody = {f"person_{i}" for i in range(4)}
     assert {entry.person.name for entry in Keys(folder).entries} == everybody
-    assert set(read_passwords(folder / "passwords.txt")) == everybody | {NOBODY}
+    assert set(read_passwords(folder / "passwords.txt")) == everybody | {NOBODY, GATEWAY}
 
 
 def test_several_names_are_added_and_taken_back_all_or_none(keys):
@@ -414,7 +446,7 @@ def test_a_running_lab_follows_its_keys_and_never_into_a_broken_folder(tmp_path)
         keys.renew([], datetime.now(timezone.utc))
         yield
         yield
-        assert len(restarts) == 1
+        assert restarts.count("bridge") == 1
         assert "starts again" in said[-1]
         aside = keys.folder.rename(tmp_path / "aside")
         yield
@@ -423,10 +455,10 @@ def test_a_running_lab_follows_its_keys_and_never_into_a_broken_folder(tmp_path)
         assert len(said) == 3
         aside.rename(keys.folder)
         yield
-        assert len(restarts) == 1
+        assert restarts.count("bridge") == 1
         keys.add("ben", Role.DISPLAY, datetime.now(timezone.utc))
         yield
-        assert len(restarts) == 2
+        assert restarts.count("bridge") == 2
         assert "starts again" in said[-1]
         assert len(said) == 4
 
@@ -434,8 +466,8 @@ def test_a_running_lab_follows_its_keys_and_never_into_a_broken_folder(tmp_path)
         said.append(line)
 
     seen = up_keys.keys_changed_at(keys.folder)
-    up_keys.follow_keys(keys.folder, seen, Turns(steps()), say, lambda: restarts.append(1))
-    assert len(restarts) == 2
+    up_keys.follow_keys(keys.folder, seen, Turns(steps()), say, restarts.append)
+    assert restarts.count("bridge") == 2
 
 
 def test_keys_are_not_read_while_a_command_changes_them(tmp_path):
@@ -452,11 +484,12 @@ def test_keys_are_not_read_while_a_command_changes_them(tmp_path):
             assert said == []
             server.write_bytes(whole)
         yield
-        assert len(restarts) == 1
+        assert restarts.count("bridge") == 1
 
     def say(_, line):
         said.append(line)
 
     seen = up_keys.keys_changed_at(keys.folder)
-    up_keys.follow_keys(keys.folder, seen, Turns(steps()), say, lambda: restarts.append(1))
-    assert len(restarts) == len(said) == 1
+    up_keys.follow_keys(keys.folder, seen, Turns(steps()), say, restarts.append)
+    assert restarts == ["bridge", "web"]
+    assert len(said) == 1

@@ -9,6 +9,7 @@ import pytest
 
 from mrlab_ros.adapters.keys.folder import Keys
 from mrlab_ros.adapters.keys.people import (
+    GATEWAY,
     NOBODY,
     Entry,
     People,
@@ -72,7 +73,7 @@ def test_a_damaged_list_of_people_is_said(keys, text):
         Keys(keys.folder)
 
 
-@pytest.mark.parametrize("name", ["", "a b", "-a", "a:b", "ä", "a" * 42, "../a", NOBODY])
+@pytest.mark.parametrize("name", ["", "a b", "-a", "a:b", "ä", "a" * 42, "../a", NOBODY, GATEWAY])
 def test_a_name_that_cannot_be_one_is_refused(keys, name):
     with pytest.raises(BadInput, match="is no name for a key"):
         keys.add(name, Role.DISPLAY, NOW)
@@ -81,4 +82,4 @@ def test_a_name_that_cannot_be_one_is_refused(keys, name):
 def test_passwords_are_asked_for_even_where_nobody_has_one(keys):
     keys.add("anna", Role.DISPLAY, NOW)
     keys.revoke("anna")
-    assert list(read_passwords(keys.folder / "passwords.txt")) == [NOBODY]
+    assert list(read_passwords(keys.folder / "passwords.txt")) == [NOBODY, GATEWAY]

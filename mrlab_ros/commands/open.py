@@ -1,0 +1,46 @@
+"""`mrlab open`: the pages of the running lab in the browser."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Annotated, Any
+
+import typer
+
+from mrlab_ros.commands.up.web import open_in_browser, opening_url
+from mrlab_ros.core.errors import Misuse
+from mrlab_ros.processes.run_file import RunFile
+from mrlab_ros.ros.domain import domain_id
+
+
+def open_pages(
+    path: Annotated[str, typer.Argument(help="The page, such as /lab or /upload.")] = "/",
+    print_only: Annotated[
+        bool, typer.Option("--print", help="Print the address and open nothing.")
+    ] = False,
+) -> None:
+    """Open the pages of the lab that runs on this machine, signed in.
+
+    The printed address signs in one browser of this machine, once, within a day.
+    """
+    web = running_web()
+    url = opening_url(web["here"], Path(web["users"]), f"/{path.lstrip('/')}")
+    if print_only or not open_in_browser(url):
+        print(url)
+
+
+def running_web() -> dict[str, Any]:
+    """Return what the run file says of the pages; raises Misuse where there are none."""
+    domain = domain_id()
+    found = RunFile(domain).read()
+    if found is None:
+        raise Misuse(
+            f"no lab runs on ROS domain {domain}; start one with: mrlab up (or set ROS_DOMAIN_ID "
+            "to the domain of a running one)"
+        )
+    web: dict[str, Any] | None = found.get("web")
+    if web is None:
+        raise Misuse(
+            "the lab that runs serves no pages; start it without --no-web and --no-bridge"
+        )
+    return web

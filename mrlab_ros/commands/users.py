@@ -1,0 +1,187 @@
+"""`mrlab users`: who signs in to the pages of a lab with keys."""
+
+from __future__ import annotations
+
+import json
+import sys
+import time
+from collections.abc import Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+
+from mrlab_ros.commands.up.web import qr_lines
+from mrlab_ros.core.bridge.rules import Role
+from mrlab_ros.core.errors import BadInput, Misuse
+
+if TYPE_CHECKING:
+    from mrlab_ros.gateway.people.accounts import Accounts
+
+app = typer.Typer(no_args_is_help=True, help="Who signs in to the pages of a lab with keys.")
+
+Folder = Annotated[
+    Path | None,
+    typer.Option(
+        "--dir", help="Keys folder of the lab; not given: that of the running lab, or ./keys."
+    ),
+]
+Url = Annotated[
+    str, typer.Option(help="Address of the pages; not given: the running lab's, or port 8080.")
+]
+AsJson = Annotated[bool, typer.Option("--json", help="Print JSON.")]
+NewRole = Annotated[
+    Role,
+    typer.Option(
+        help="display: watch; student: upload and publish their own; operator: play robots too; "
+        "instructor: everything."
+    ),
+]
+
+
+@app.command()
+def add(
+    names: Annotated[list[str], typer.Argument(help="Who shall sign in; one or several names.")],
+    role: NewRole,
+    folder: Folder = None,
+    url: Url = "",
+    as_json: AsJson = False,
+) -> None:
+    """Let people sign in; print for each a link, good once, to choose a password."""
+    with opened(folder, url) as users:
+        for name in names:
+            users.accounts.check_new(name)
+        for name in dict.fromkeys(names):
+            users.accounts.add(name, role)
+        show_links(users, list(dict.fromkeys(names)), as_json)
+
+
+@app.command()
+def invite(
+    name: Annotated[str, typer.Argument(help="Who has lost the password or the link.")],
+    folder: Folder = None,
+    url: Url = "",
+    as_json: AsJson = False,
+) -> None:
+    """Print a new link for somebody; earlier ones are good no longer."""
+    with opened(folder, url) as users:
+        show_links(users, [name], as_json)
+
+
+@app.command("list")
+def list_users(folder: Folder = None, as_json: AsJson = False) -> None:
+    """List who may sign in, and as what."""
+    with opened(folder, "") as users:
+        found = users.accounts.all()
+    if as_json:
+        show([{"name": a.name, "role": a.role.value, "signs_in": a.signs_in} for a in found])
+        return
+    from rich.console import Console
+    from rich.table import Table
+
+    ways = {"": "has not used the link yet", "password": "password", "oidc": "OpenID Connect"}
+    table = Table("name", "role", "signs in by")
+    for account in found:
+        table.add_row(account.name, account.role.value, ways[account.signs_in])
+    Console().print(table)
+
+
+@app.command()
+def role(
+    name: Annotated[str, typer.Argument(help="Whose role.")],
+    new: Annotated[Role, typer.Argument(metavar="ROLE", help="The new role.")],
+    folder: Folder = None,
+) -> None:
+    """Give somebody another role; it counts at once."""
+    with opened(folder, "") as users:
+        users.accounts.set_role(name, new)
+    print(f"{name} is {new.value} now")
+
+
+@app.command()
+def remove(
+    names: Annotated[list[str], typer.Argument(help="Who may no longer sign in.")],
+    folder: Folder = None,
+) -> None:
+    """Remove people; their browsers and headsets are signed out within a second."""
+    with opened(folder, "") as users:
+        for name in names:
+            users.accounts.get(name)
+        for name in dict.fromkeys(names):
+            users.accounts.remove(name)
+    for name in dict.fromkeys(names):
+        print(f"{name} is removed and signed out everywhere")
+
+
+@dataclass(frozen=True)
+class Users:
+    """The people of a lab, and the address of its pages."""
+
+    accounts: Accounts
+    address: str
+
+
+@contextmanager
+def opened(folder: Path | None, url: str) -> Iterator[Users]:
+    """Open the users of a keys folder, or of the lab that runs here."""
+    from mrlab_ros.adapters.keys.folder import Keys
+    from mrlab_ros.commands.open import running_web
+    from mrlab_ros.gateway.people.accounts import Accounts
+    from mrlab_ros.gateway.people.database import FILE, Database
+
+    running = None
+    try:
+        running = running_web()
+    except Misuse:
+        if folder is None and Path("keys").is_dir():
+            folder = Path("keys")
+    if folder is not None:
+        keys = Keys(folder)
+        file = keys.folder / FILE
+        host = keys.hosts[0]
+        address = f"https://{f'[{host}]' if ':' in host else host}:8080"
+        if running is not None and Path(running["users"]) == file:
+            address = running["address"]
+    elif running is not None and running["signs_in"]:
+        file, address = Path(running["users"]), running["address"]
+    elif running is not None:
+        raise Misuse(
+            "the lab that runs has one local user and no sign-in; for more people start it with "
+            "keys: mrlab keys init, then mrlab up --keys keys"
+        )
+    else:
+        raise BadInput(
+            "there is no keys folder here and no lab runs; make one with mrlab keys init, or name "
+            "it with --dir"
+        )
+    database = Database(file)
+    try:
+        yield Users(Accounts(database), (url or address).rstrip("/"))
+    finally:
+        database.close()
+
+
+def show_links(users: Users, names: list[str], as_json: bool) -> None:
+    """Make a link for each of these people, and print it."""
+    links = {
+        name: f"{users.address}/invitation/{users.accounts.invite(name, time.time())}"
+        for name in names
+    }
+    if as_json:
+        roles = {name: users.accounts.get(name).role.value for name in names}
+        show([{"name": n, "role": roles[n], "url": link} for n, link in links.items()])
+        return
+    for name, link in links.items():
+        print(f"\n{name}: {link}")
+        if sys.stdout.isatty():
+            print("\n".join(qr_lines(link)))
+    print(
+        "\nEach link is for one person, and good once, for a week: whoever opens it first has it."
+    )
+
+
+def show(document: object) -> None:
+    """Print JSON."""
+    sys.stdout.write(json.dumps(document, indent=2) + "\n")

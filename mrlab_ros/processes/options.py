@@ -1,0 +1,47 @@
+"""What a lab is started with."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+
+
+@dataclass(frozen=True)
+class WebOptions:
+    """What the gateway of a lab is started with beside the lab's own options.
+
+    host, port: where it listens. certificate, certificate_key: for HTTPS in place of those of the
+    keys folder. public_url: the address of a reverse proxy before it. oidc: YAML file of an OpenID
+    Connect provider.
+    """
+
+    host: str
+    port: int
+    certificate: Path | None = None
+    certificate_key: Path | None = None
+    public_url: str = ""
+    oidc: Path | None = None
+
+
+@dataclass(frozen=True)
+class LabOptions:
+    """What a lab is started with.
+
+    config: a ROS parameter file. state_dir: the folder for scene and trajectories. robots: models
+    to begin with. listen: where zenoh clients connect; empty: the bridge's default. connect: a
+    router that clients connect to in place of the bridge. keys: a keys folder. insecure: listen
+    beyond this machine without keys. store: URL or folder of uploads and trajectories; empty: in
+    state_dir. web: the gateway; None: no pages.
+    """
+
+    config: Path
+    state_dir: Path
+    robots: tuple[str, ...] = ()
+    physics: bool = True
+    bridge: bool = True
+    listen: str = ""
+    connect: str = ""
+    keys: Path | None = None
+    insecure: bool = False
+    store: str = ""
+    web: WebOptions | None = None

@@ -1,0 +1,116 @@
+"""The gateway as a process of the lab: a program of its own, no ROS node."""
+
+from __future__ import annotations
+
+import ssl
+import sys
+import urllib.error
+import urllib.request
+from collections.abc import Callable
+from dataclasses import dataclass
+
+from mrlab_ros.core.bridge.links import from_here
+from mrlab_ros.processes.options import LabOptions
+from mrlab_ros.processes.parameter_file import parameter
+from mrlab_ros.processes.supervisor import ProcessSpec
+
+GATEWAY_MODULE = "mrlab_ros.gateway"
+ZENOH = "tcp/127.0.0.1:7447"
+ZENOH_WITH_KEYS = "tls/localhost:7447"
+# One request to a gateway of this machine, s.
+HEALTH_TIMEOUT_S = 2.0
+
+
+@dataclass(frozen=True)
+class GatewayProcess:
+    """The process that serves the pages."""
+
+    name: str = "web"
+    nodes: tuple[str, ...] = ()
+
+    def wanted(self, options: LabOptions) -> bool:
+        """Return whether a lab with these options has pages: without a bridge there is no lab."""
+        return options.web is not None and options.bridge
+
+    def arguments(self, options: LabOptions) -> tuple[str, ...]:
+        """Return the gateway's command line."""
+        web = options.web
+        assert web is not None
+        keys = options.keys.expanduser().resolve() if options.keys is not None else None
+        https = keys is not None or web.certificate is not None
+        host = f"[{web.host}]" if ":" in web.host else web.host
+        given: dict[str, object] = {
+            "http": f"{host}:{web.port}",
+            "state_dir": options.state_dir,
+            "zenoh": zenoh_endpoint(options),
+            "zenoh_config": keys / "gateway.json5" if keys is not None else None,
+            "keys": keys,
+            "prefix": parameter(options.config, "bridge", "prefix"),
+            "allow_list": parameter(options.config, "bridge", "allow_list"),
+            "certificate": web.certificate,
+            "certificate_key": web.certificate_key,
+            "public_url": web.public_url,
+            "oidc": web.oidc,
+            "store": options.store,
+        }
+        arguments = [
+            word
+            for name, value in given.items()
+            if value
+            for word in (f"--{name.replace('_', '-')}", str(value))
+        ]
+        if options.insecure and not (https or web.public_url):
+            arguments.append("--insecure")
+        return tuple(arguments)
+
+    def command(self, options: LabOptions) -> tuple[str, ...]:
+        """Return the program and its arguments."""
+        return (sys.executable, "-m", GATEWAY_MODULE, *self.arguments(options))
+
+    def spec(self, options: LabOptions) -> ProcessSpec:
+        """Return the process as the supervisor starts it."""
+        env = {"PYTHONUNBUFFERED": "1"}
+        return ProcessSpec(self.name, self.command(options), env, unblocks_sigint=True)
+
+
+def zenoh_endpoint(options: LabOptions) -> str:
+    """Return where the gateway reaches the lab's keys: the router, or the bridge itself."""
+    if options.connect:
+        return options.connect
+    listen = options.listen
+    if not listen:
+        listed = parameter(options.config, "bridge", "listen")
+        first = listed[0] if isinstance(listed, list) and listed else ""
+        listen = first if "/" in str(first) else ""
+    return from_here(listen or (ZENOH if options.keys is None else ZENOH_WITH_KEYS))
+
+
+def web_address(options: LabOptions) -> str:
+    """Return the address of the gateway as this machine reaches it, without a slash at its end."""
+    web = options.web
+    assert web is not None
+    https = options.keys is not None or web.certificate is not None
+    everywhere = web.host in ("0.0.0.0", "::")
+    # The name is in the certificate of a keys folder.
+    host = ("localhost" if https else "127.0.0.1") if everywhere else web.host
+    host = f"[{host}]" if ":" in host else host
+    return f"{'https' if https else 'http'}://{host}:{web.port}"
+
+
+def gateway_answers(address: str) -> Callable[[], bool]:
+    """Return a function that asks a gateway of this machine for its health."""
+    context = ssl.create_default_context()
+    # Its own authority, and it is only asked whether it is there.
+    context.check_hostname = False
+    context.verify_mode = ssl.CERT_NONE
+
+    def answers() -> bool:
+        try:
+            with urllib.request.urlopen(
+                f"{address}/healthz", timeout=HEALTH_TIMEOUT_S, context=context
+            ) as response:
+                return bool(response.status == 200)
+        except (urllib.error.URLError, OSError):
+            return False
+
+    return answers
