@@ -27,7 +27,7 @@ from std_srvs.srv import Trigger
 from mrlab_ros.adapters.robots.library import RobotLibrary
 from mrlab_ros.core.trajectory.trajectory import Channels, Source, Trajectory
 from mrlab_ros.messages import qos, trajectories
-from mrlab_ros.nodes.playback import PlaybackHostNode
+from mrlab_ros.nodes.playback.host import PlaybackHostNode
 from mrlab_ros.ros import share
 from mrlab_ros.ros.spinning import SpunNode
 

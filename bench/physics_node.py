@@ -30,7 +30,7 @@ from mrlab_ros.messages import qos
 from mrlab_ros.messages.time import time_from_message
 from mrlab_ros.messages.trajectories import trajectory_to_message
 from mrlab_ros.nodes.lab.node import LabNode
-from mrlab_ros.nodes.playback import PlaybackHostNode
+from mrlab_ros.nodes.playback.host import PlaybackHostNode
 from mrlab_ros.ros import share
 from mrlab_ros.ros.calls import call
 from mrlab_ros.ros.spinning import SpunNode

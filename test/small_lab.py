@@ -14,7 +14,7 @@ from mrlab_ros.core.trajectory.trajectory import Channels, Source, Trajectory
 from mrlab_ros.messages import qos, trajectories
 from mrlab_ros.nodes.coordinator.node import CoordinatorNode
 from mrlab_ros.nodes.lab.node import LabNode
-from mrlab_ros.nodes.playback import PlaybackHostNode
+from mrlab_ros.nodes.playback.host import PlaybackHostNode
 from mrlab_ros.ros import share
 
 LIBRARY = RobotLibrary(share.directory() / "robots")
@@ -110,3 +110,24 @@ def labels(inbox) -> list[str]:
 
 def listen_state(graph: Graph, robot: str):
     return graph.listen(msg.PlaybackState, f"/{robot}/playback_state", qos.EVENTS)
+
+
+def make_system(graph: Graph, members: dict[str, str], name: str = "cell", waits=None, mode=0):
+    return graph.call(
+        srv.CreateSystem,
+        "/coordinator/create_system",
+        name=name,
+        mode=mode,
+        members=[
+            msg.SystemMember(robot=r, trajectory_id=t, waits=(waits or {}).get(r, []))
+            for r, t in members.items()
+        ],
+    )
+
+
+def listen_systems(graph: Graph):
+    return graph.listen(msg.RobotSystems, "/systems", qos.LATCHED_EVENTS)
+
+
+def state_of(systems) -> msg.RobotSystem:
+    return systems[-1].systems[0]

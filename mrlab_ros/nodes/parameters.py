@@ -113,11 +113,17 @@ class LabParameters:
 
 @dataclass(frozen=True)
 class CoordinatorParameters:
-    pass
+    state_dir: str = _state_dir(
+        "Folder for the journal of systems; empty: they are lost when the node ends."
+    )
 
 
 @dataclass(frozen=True)
 class PlaybackParameters:
+    state_dir: str = _state_dir(
+        "Folder for the journal of what robots have loaded and where they stand; empty: it is "
+        "lost when the node ends."
+    )
     standing_rate: float = field(
         Number(between(0, 100), "Hz"),
         "How often a robot that does not move repeats its joint state; 0: never.",
@@ -163,6 +169,9 @@ class PhysicsParameters:
 
 @dataclass(frozen=True)
 class RecorderParameters:
+    state_dir: str = _state_dir(
+        "Folder for the journal of the recording; empty: a recorder that is killed does not go on."
+    )
     bag_dir: str = field(
         TEXT,
         "Folder of bags that are named without one; empty: ~/.local/share/mrlab/bags.",

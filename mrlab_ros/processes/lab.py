@@ -59,7 +59,7 @@ NODES = {
     ),
     "lab": NodeEntry("mrlab_ros.nodes.lab.node", "LabNode", "lab", ("/robots", "Robots")),
     "physics": NodeEntry("mrlab_ros.nodes.physics.node", "PhysicsNode", "physics"),
-    "playback": NodeEntry("mrlab_ros.nodes.playback", "PlaybackHostNode", "playback_host"),
+    "playback": NodeEntry("mrlab_ros.nodes.playback.host", "PlaybackHostNode", "playback_host"),
     "recorder": NodeEntry(
         "mrlab_ros.nodes.recorder.node", "RecorderNode", "recorder", in_replay=True
     ),

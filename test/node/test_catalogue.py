@@ -22,7 +22,7 @@ from mrlab_ros.messages import qos
 from mrlab_ros.nodes import catalogue
 from mrlab_ros.nodes.converter import ConverterNode
 from mrlab_ros.nodes.lab.node import LabNode
-from mrlab_ros.nodes.playback import PlaybackHostNode
+from mrlab_ros.nodes.playback.host import PlaybackHostNode
 
 LONG = 60.0  # s; far above what any of this takes
 

@@ -8,29 +8,24 @@ import pytest
 import small_lab
 from graph import Graph, wait_for
 from mrlab_msgs import msg, srv
-from small_lab import labels, listen_state, load, spawn
+from small_lab import (
+    labels,
+    listen_state,
+    listen_systems,
+    load,
+    make_system,
+    spawn,
+    state_of,
+)
 from std_srvs.srv import SetBool, Trigger
 
 from mrlab_ros.messages import qos
-from mrlab_ros.nodes.playback import PlaybackHostNode
+from mrlab_ros.nodes.playback.host import PlaybackHostNode
 
 
 @pytest.fixture
 def lab(graph: Graph):
     return small_lab.start(graph)
-
-
-def make_system(graph: Graph, members: dict[str, str], name: str = "cell", waits=None, mode=0):
-    return graph.call(
-        srv.CreateSystem,
-        "/coordinator/create_system",
-        name=name,
-        mode=mode,
-        members=[
-            msg.SystemMember(robot=r, trajectory_id=t, waits=(waits or {}).get(r, []))
-            for r, t in members.items()
-        ],
-    )
 
 
 def test_a_system_stages_its_members_and_starts_them_at_one_stamp(graph, lab):
@@ -157,14 +152,6 @@ def test_a_play_that_waits_when_its_system_is_dissolved_is_answered(graph, lab):
     wait_for(lambda: gone.done() and all(answer.done() for answer in waiting), "all answers")
     assert gone.result().success
     assert not any(answer.result().success for answer in waiting if not answer.result().message)
-
-
-def listen_systems(graph: Graph):
-    return graph.listen(msg.RobotSystems, "/systems", qos.LATCHED_EVENTS)
-
-
-def state_of(systems) -> msg.RobotSystem:
-    return systems[-1].systems[0]
 
 
 def test_a_sequential_system_shows_each_share_and_seeks_across_them(graph, lab):

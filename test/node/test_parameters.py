@@ -22,7 +22,7 @@ from mrlab_ros.nodes.bridge.node import BridgeNode
 from mrlab_ros.nodes.converter import ConverterNode
 from mrlab_ros.nodes.coordinator.node import CoordinatorNode
 from mrlab_ros.nodes.lab.node import LabNode
-from mrlab_ros.nodes.playback import PlaybackHostNode
+from mrlab_ros.nodes.playback.host import PlaybackHostNode
 from mrlab_ros.nodes.recorder.node import RecorderNode
 from mrlab_ros.processes.supervisor import WRONG_CONFIGURATION
 

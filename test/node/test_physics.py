@@ -20,7 +20,7 @@ from mrlab_ros.messages import qos, trajectories
 from mrlab_ros.nodes.coordinator.node import CoordinatorNode
 from mrlab_ros.nodes.lab.node import LabNode
 from mrlab_ros.nodes.physics.node import PhysicsNode
-from mrlab_ros.nodes.playback import PlaybackHostNode
+from mrlab_ros.nodes.playback.host import PlaybackHostNode
 from mrlab_ros.ros import share
 
 LIBRARY = RobotLibrary(share.directory() / "robots")

@@ -14,7 +14,7 @@ from mrlab_msgs import msg, srv
 from mrlab_ros.messages import qos
 from mrlab_ros.nodes.lab.node import LabNode
 from mrlab_ros.nodes.physics.node import PhysicsNode
-from mrlab_ros.nodes.playback import PlaybackHostNode
+from mrlab_ros.nodes.playback.host import PlaybackHostNode
 
 
 @pytest.fixture

@@ -16,7 +16,7 @@ from mrlab_ros.nodes.converter import ConverterNode
 from mrlab_ros.nodes.coordinator.node import CoordinatorNode
 from mrlab_ros.nodes.lab.node import LabNode
 from mrlab_ros.nodes.physics.node import PhysicsNode
-from mrlab_ros.nodes.playback import PlaybackHostNode
+from mrlab_ros.nodes.playback.host import PlaybackHostNode
 from mrlab_ros.ros import share
 
 EXAMPLES = share.directory() / "examples"

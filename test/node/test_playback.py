@@ -16,7 +16,7 @@ from mrlab_ros.messages import qos
 from mrlab_ros.messages.joint_states import JointStateEncoder
 from mrlab_ros.messages.time import make_header, time_from_message
 from mrlab_ros.nodes.lab.node import LabNode
-from mrlab_ros.nodes.playback import PlaybackHostNode
+from mrlab_ros.nodes.playback.host import PlaybackHostNode
 
 
 @pytest.fixture

@@ -16,7 +16,7 @@ from std_srvs.srv import SetBool, Trigger
 from mrlab_ros.messages import qos
 from mrlab_ros.nodes.coordinator.node import CoordinatorNode
 from mrlab_ros.nodes.lab.node import LabNode
-from mrlab_ros.nodes.playback import PlaybackHostNode
+from mrlab_ros.nodes.playback.host import PlaybackHostNode
 
 KUKA = "kuka_kr6_r900_sixx"
 

@@ -34,6 +34,23 @@ class PlaybackStatus:
     system: str
 
 
+@dataclass(frozen=True)
+class Kept:
+    """What a playback knows again after its process was restarted.
+
+    position: s on the trajectory. halted: it stood in COLLISION_HALT. begun: it does not stand
+    READY for the first frame. arm: (J,) rad, as last sent.
+    """
+
+    trajectory_id: str
+    position: float
+    rate: float
+    loop: bool
+    halted: bool
+    begun: bool
+    arm: Array
+
+
 class Playback:
     """Plays one trajectory at a time on one robot.
 
@@ -54,7 +71,8 @@ class Playback:
         self._machine = Machine(TABLE)
         self._stream = Stream(model.home, standing_rate)
         self._message = ""
-        self._touching = False
+        # None: physics has said nothing yet.
+        self._touching: bool | None = None
         self._play_on_arrival = False
         self._statuses: list[PlaybackStatus] = []
         self._announce("")
@@ -128,6 +146,49 @@ class Playback:
         self._check_fits(trajectory)
         self._stream.trajectory = trajectory
         self._stand(now_ns, Event.LOAD, 0.0, f"loaded {trajectory.id}")
+
+    def stand_at(self, now_ns: int, arm: Array) -> None:
+        """Stand at `arm`, (J,) rad, where the arm stood before its process was restarted."""
+        self._machine.check(Event.RETURNED_PAUSED)
+        self._stream.stand_at(now_ns, arm)
+
+    def come_back(self, now_ns: int, trajectory: Trajectory, kept: Kept, why: str) -> None:
+        """Stand where the arm stood before its process was restarted.
+
+        PAUSED, or READY where it had not begun; in COLLISION_HALT where it was halted, unless
+        physics has reported meanwhile that the arm is clear.
+        """
+        self._machine.check(Event.RETURNED_PAUSED)
+        self._check_fits(trajectory)
+        position = min(max(kept.position, 0.0), trajectory.duration)
+        if kept.halted and self._touching is not False:
+            event = Event.RETURNED_HALTED
+        else:
+            event = Event.RETURNED_PAUSED if kept.begun else Event.LOAD
+        self._machine.fire(event)
+        self._stream.trajectory = trajectory
+        self._stream.rate = checked_rate(kept.rate)
+        self.loop = kept.loop
+        if event is Event.LOAD:
+            self._stream.arm = kept.arm
+            self._stream.stand(now_ns, 0.0)
+        else:
+            self._stream.come_back(now_ns, position, kept.arm)
+        self._announce(why)
+
+    def kept(self) -> Kept | None:
+        """Return what a restart has to know again; None without a trajectory."""
+        if self.trajectory is None:
+            return None
+        return Kept(
+            self.trajectory.id,
+            self._stream.position,
+            self.rate,
+            self.loop,
+            halted=self.state is State.COLLISION_HALT,
+            begun=self.state not in (State.READY, State.COMPLETE),
+            arm=self.arm,
+        )
 
     def unload(self, now_ns: int, by: str = "") -> None:
         """Forget the trajectory; the arm stays where it is."""

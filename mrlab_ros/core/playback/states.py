@@ -45,12 +45,17 @@ class Event(Enum):
     RETURNED = "move back to the start"
     FINISHED = "finish"
     REARMED = "be ready again"
+    RETURNED_PAUSED = "come back"
+    RETURNED_HALTED = "come back in a halt"
 
 
 TABLE: Table[State, Event] = Table(
     initial=State.IDLE,
     transitions={
         (State.IDLE, Event.LOAD): State.READY,
+        # After a restart of the process.
+        (State.IDLE, Event.RETURNED_PAUSED): State.PAUSED,
+        (State.IDLE, Event.RETURNED_HALTED): State.COLLISION_HALT,
         (State.READY, Event.LOAD): State.READY,
         (State.READY, Event.UNLOAD): State.IDLE,
         (State.READY, Event.STAGE): State.ADJUSTING,

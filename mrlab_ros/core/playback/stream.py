@@ -102,6 +102,18 @@ class Stream:
         self.stand(now_ns, self.position)
         self.streamed = streamed
 
+    def stand_at(self, now_ns: int, arm: Array) -> None:
+        """Put the arm at `arm`, (J,) rad, and stand there."""
+        self.arm = arm
+        self.stand(now_ns, self.clock.position)
+
+    def come_back(self, now_ns: int, position: float, arm: Array) -> None:
+        """Stand at `arm` as after halt(): the joint state at `position` (s) was sent before."""
+        self.arm = arm
+        self.stand(now_ns, position)
+        if self.is_at(position):
+            self.streamed = position
+
     def approach(self, now_ns: int, motion: Motion, position: float) -> None:
         """Start `motion`, which brings the arm to `position` (s) of the trajectory."""
         self.stand(now_ns, position)

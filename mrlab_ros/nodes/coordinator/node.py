@@ -2,18 +2,22 @@
 
 from __future__ import annotations
 
+import threading
 from collections.abc import Callable
 from functools import partial
 from typing import Any
 
 from mrlab_msgs import msg, srv
 from rclpy.context import Context
+from rclpy.duration import Duration
 from rclpy.parameter import Parameter
 from rclpy.service import Service
 from std_srvs.srv import SetBool, Trigger
 
+from mrlab_ros.adapters.journal import Journal
 from mrlab_ros.core.errors import BadInput, LabError
 from mrlab_ros.core.playback.states import State
+from mrlab_ros.core.systems import journal as entries
 from mrlab_ros.core.systems.members import Command, Order
 from mrlab_ros.core.systems.registry import Systems
 from mrlab_ros.core.systems.robot_system import Policy, RobotSystem
@@ -38,6 +42,10 @@ from mrlab_ros.ros.worker import Worker
 
 # Period at which an active system is polled, s.
 POLL_PERIOD_S = 0.02
+# How often the systems are published again, s.
+RENEWAL_PERIOD_S = 1.0
+# How long a message about systems waits for subscribers that have not received the last one.
+ARRIVAL = Duration(seconds=0.05)
 
 
 class CoordinatorNode(ParameterNode[CoordinatorParameters]):
@@ -56,17 +64,19 @@ class CoordinatorNode(ParameterNode[CoordinatorParameters]):
             context=context,
             parameter_overrides=parameter_overrides,
         )
+        log = self.get_logger()
         self.caller = Caller(self)
         self._hosts = Hosts(self.caller.node)
         self._systems = Systems()
         self._members: dict[str, MemberClient] = {}
         self._fleets: dict[str, RosFleet] = {}
+        self._publishing = threading.Lock()
         self._offered: dict[str, list[Service]] = {}
         self._robots: dict[str, msg.Robot] = {}
         self._checks = MemberChecks(self.caller.node)
         # Every use of a system runs in this one thread, one after another.
         self.worker = Worker("coordinator", self._poll, self._poll_period)
-        self._topic = self.create_publisher(msg.RobotSystems, "/systems", qos.LATCHED_EVENTS)
+        self._topic = self.create_publisher(msg.RobotSystems, "/systems", qos.LATCHED)
         self.create_subscription(msg.Robots, "/robots", self._on_robots, qos.LATCHED)
         self.create_service(
             srv.CreateSystem, "~/create_system", self._create, qos_profile=qos.SERVICES
@@ -74,11 +84,16 @@ class CoordinatorNode(ParameterNode[CoordinatorParameters]):
         self.create_service(
             srv.Remove, "~/dissolve_system", self._dissolve, qos_profile=qos.SERVICES
         )
+        self._journal = Journal.of(self.parameters.state_dir, self.get_name(), log.error)
+        self.worker.do(self._restore)
         self._publish()
+        # Not in this node's thread, which waits for the worker: claims must not expire meanwhile.
+        self.caller.node.create_timer(RENEWAL_PERIOD_S, self._renew)
 
     def destroy_node(self) -> None:
         self.worker.close()
         self.caller.close()
+        self._journal.close()
         super().destroy_node()
 
     # services -------------------------------------------------------------------------------
@@ -275,5 +290,29 @@ class CoordinatorNode(ParameterNode[CoordinatorParameters]):
     def _now_ns(self) -> int:
         return int(self.get_clock().now().nanoseconds)
 
+    def _renew(self) -> None:
+        """Name the systems once a second: that keeps the claims on their robots."""
+        if any(self._systems):
+            self._publish()
+
+    def _restore(self) -> None:
+        """Bring back the systems of a coordinator that was killed, each where it stood."""
+        for name, robots, entry in entries.read(self._journal.load()):
+            clients = {robot: MemberClient(self.caller.node, robot, self) for robot in robots}
+            fleet = RosFleet(name, clients, self._hosts)
+            system = entries.restore(entry, fleet, self._publish, self._now_ns())
+            if system is None:
+                self.get_logger().error(f"the journal's entry of {name} is damaged; it is lost")
+                for client in clients.values():
+                    client.close()
+                continue
+            self._adopt(system, clients, fleet)
+            self.get_logger().info(f"the system {name} is back, {system.state.name}")
+
     def _publish(self) -> None:
-        self._topic.publish(systems_to_message(self._now_ns(), self._systems))
+        with self._publishing:
+            now_ns = self._now_ns()
+            # Only the newest is kept for late joiners; the others must have arrived before.
+            self._topic.wait_for_all_acked(ARRIVAL)
+            self._topic.publish(systems_to_message(now_ns, self._systems))
+            self._journal.save(entries.plain(self._systems, now_ns))

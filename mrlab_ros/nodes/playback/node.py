@@ -1,31 +1,28 @@
-"""Playback nodes, one for each robot, and the host that makes them."""
+"""The playback node of one robot."""
 
 from __future__ import annotations
 
-import threading
-import weakref
+import time
 from collections.abc import Callable
 from concurrent.futures import CancelledError, Future, InvalidStateError
 from contextlib import suppress
+from dataclasses import replace
 from typing import Any
 
 from mrlab_msgs import msg, srv
 from rclpy.context import Context
 from rclpy.node import Node
-from rclpy.parameter import Parameter
 from sensor_msgs.msg import JointState
 from std_srvs.srv import SetBool, Trigger
 
-from mrlab_ros.adapters.robots.library import RobotLibrary
-from mrlab_ros.adapters.robots.ruckig_planner import RuckigPlanner, StagingLimits
 from mrlab_ros.core.errors import LabError, Misuse
 from mrlab_ros.core.playback.planner import MotionPlanner
-from mrlab_ros.core.playback.playback import Playback, PlaybackStatus
+from mrlab_ros.core.playback.playback import Kept, Playback, PlaybackStatus
 from mrlab_ros.core.playback.states import State
 from mrlab_ros.core.playback.stream import Sample
 from mrlab_ros.core.robots.model import RobotModel
-from mrlab_ros.core.systems.members import NOT_PLAYED, Order
 from mrlab_ros.core.systems.members import Command as MemberCommand
+from mrlab_ros.core.systems.members import Order
 from mrlab_ros.core.trajectory.trajectory import Trajectory
 from mrlab_ros.messages import qos
 from mrlab_ros.messages.joint_states import JointStateEncoder
@@ -34,21 +31,13 @@ from mrlab_ros.messages.playback import (
     targets_to_message,
     telemetry_to_message,
 )
-from mrlab_ros.messages.systems import order_from_message, reply_to_message
-from mrlab_ros.messages.time import time_to_message
-from mrlab_ros.nodes import parameters
-from mrlab_ros.nodes.catalogue import CatalogueClient
-from mrlab_ros.nodes.parameters import PlaybackParameters
-from mrlab_ros.ros import share
 from mrlab_ros.ros.answers import answered, create_deferred_service
+from mrlab_ros.ros.calls import NoAnswer
 from mrlab_ros.ros.deadlines import Command, Player, Scheduler
-from mrlab_ros.ros.parameters import ParameterNode
-from mrlab_ros.ros.priority import REALTIME, take_precedence
-from mrlab_ros.ros.spinning import Caller, SpunNode
 from mrlab_ros.ros.worker import Worker
 
-# Trajectories that are fetched at the same time.
-MOST_LOADS = 4
+# For what a robot had before a restart, the catalogue is asked this long, s.
+RETURN_TIMEOUT_S = 60.0
 
 
 class PlaybackNode(Node):
@@ -68,10 +57,12 @@ class PlaybackNode(Node):
         standing_rate: float,
         *,
         host: str,
+        kept: Kept | None = None,
         context: Context | None = None,
     ) -> None:
         # A lab of fifty robots has fifty of these nodes: each does without rosout and the
         # services for parameters, of which it has none.
+        """kept: what the robot had before the process was restarted; come_back() loads it."""
         super().__init__(
             "playback",
             namespace=robot,
@@ -106,8 +97,60 @@ class PlaybackNode(Node):
         ):
             self.create_service(kind, name, callback, qos_profile=qos.SERVICES)
         create_deferred_service(self, srv.LoadTrajectory, "load", self._begin_load)
+        self._back = kept
+        self._announced = True
+        if kept is not None:
+            with scheduler.command() as now_ns:
+                self.playback.stand_at(now_ns, kept.arm)
         self.player = Player(self.playback, self._send, self._announce)
         scheduler.add(self.player)
+
+    def come_back(self, done: Callable[[str], None]) -> None:
+        """Load what the robot had before the restart, in its own thread, and stand there.
+
+        done: gets what was lost, in words; empty: nothing. A command that came before wins.
+        """
+        kept = self._back
+        if kept is not None:
+            self._loads.send(lambda: done(self._do_come_back(kept)))
+
+    def kept(self) -> Kept | None:
+        """Return what a restart has to know again; before it is back, what it was.
+
+        Takes no lock: place and pose of an arm that plays are those of one joint state.
+        """
+        kept, last = self.playback.kept(), self.player.last
+        if kept is None:
+            return self._back
+        if last is not None and last.sample.streamed and self.playback.state is State.PLAYING:
+            return replace(kept, position=last.sample.position, arm=last.sample.positions)
+        return kept
+
+    @property
+    def changed(self) -> bool:
+        """Whether it moves, or its state changed since this was asked last."""
+        announced, self._announced = self._announced, False
+        return announced or self.playback.moving
+
+    def _do_come_back(self, kept: Kept) -> str:
+        deadline = time.monotonic() + RETURN_TIMEOUT_S
+        while True:
+            try:
+                trajectory = self._fetch(kept.trajectory_id)
+                with self._command() as now_ns:
+                    if self.playback.state is State.IDLE:
+                        why = "its process was restarted; play goes on from here"
+                        self.playback.come_back(now_ns, trajectory, kept, why)
+                self._back = None
+                self._announce_targets(now_ns, trajectory)
+                return ""
+            except NoAnswer as error:
+                # The converter may be starting too.
+                if time.monotonic() > deadline or self._loads.ended:
+                    return f"{self.robot} has lost {kept.trajectory_id}: {error}"
+            except LabError as error:
+                self._back = None
+                return f"{self.robot} has lost {kept.trajectory_id}: {error}"
 
     def _command(self) -> Command:
         return self._scheduler.command(self.player)
@@ -157,6 +200,7 @@ class PlaybackNode(Node):
         )
 
     def _announce(self, now_ns: int, status: PlaybackStatus) -> None:
+        self._announced = True
         self._state.publish(status_to_message(now_ns, self.robot, status, self._host))
 
     def _announce_targets(self, now_ns: int, trajectory: Trajectory | None) -> None:
@@ -188,6 +232,7 @@ class PlaybackNode(Node):
                 self.playback.unload(now_ns)
             else:
                 self.playback.load(now_ns, trajectory)
+            self._back = None
         self._announce_targets(now_ns, trajectory)
         if trajectory is None:
             return "unloaded"
@@ -271,158 +316,3 @@ class PlaybackNode(Node):
                 self.playback.collide(now_ns, f"{contact.link} touches {contact.other}")
             else:
                 self.playback.clear(now_ns)
-
-
-class Fetches:
-    """Fetches trajectories for several robots at once, the same one only once at a time.
-
-    Robots that load the same trajectory one after another share its matrices.
-    """
-
-    def __init__(self, fetch: Callable[[str], Trajectory], most: int = MOST_LOADS) -> None:
-        self._fetch = fetch
-        self._slots = threading.BoundedSemaphore(most)
-        self._lock = threading.Lock()
-        self._same: weakref.WeakValueDictionary[str, _Turn] = weakref.WeakValueDictionary()
-
-    def __call__(self, trajectory_id: str) -> Trajectory:
-        with self._lock:
-            turn = self._same.setdefault(trajectory_id, _Turn())
-        with turn.lock, self._slots:
-            return self._fetch(trajectory_id)
-
-
-class _Turn:
-    """Whose turn it is to fetch a trajectory."""
-
-    def __init__(self) -> None:
-        self.lock = threading.Lock()
-
-
-class PlaybackHostNode(ParameterNode[PlaybackParameters]):
-    """Runs one playback node for each robot of the scene, all on one deadline thread.
-
-    The playback nodes and the orders of robot systems have an executor of their own, whose
-    callbacks neither load nor call anything. This node makes and removes playbacks and publishes
-    telemetry, in another thread.
-    """
-
-    def __init__(
-        self,
-        *,
-        context: Context | None = None,
-        parameter_overrides: list[Parameter] | None = None,
-    ) -> None:
-        super().__init__(
-            "playback_host",
-            PlaybackParameters,
-            parameters.ALL,
-            context=context,
-            parameter_overrides=parameter_overrides,
-        )
-        self._only = set(self.parameters.robots)
-        self._planner = RuckigPlanner(self._staging_limits())
-        self._library = RobotLibrary(share.directory() / "robots")
-        self.scheduler = Scheduler(self.context.ok)
-        self.nodes: dict[str, PlaybackNode] = {}
-        self._caller = Caller(self)
-        self._fetch = Fetches(CatalogueClient(self._caller.node).fetch)
-        orders = Node(
-            "_playback_host_orders",
-            context=context,
-            start_parameter_services=False,
-            enable_rosout=False,
-        )
-        self.create_subscription(msg.Robots, "/robots", self._on_robots, qos.LATCHED)
-        orders.create_service(
-            srv.CommandMembers,
-            f"{self.get_fully_qualified_name()}/command_members",
-            self._command_members,
-            qos_profile=qos.SERVICES,
-        )
-        self._telemetry_timer = self.create_timer(
-            1 / self.parameters.telemetry_rate, self._telemetry
-        )
-        self.create_timer(1.0, self._states)
-        self.scheduler.start()
-        self.get_logger().info(f"the deadline thread runs with {self.scheduler.precedence}")
-        self._safety = SpunNode(orders, lambda: take_precedence(REALTIME - 1))
-
-    def parameters_changed(self) -> None:
-        with self.scheduler.command() as now_ns:
-            for node in self.nodes.values():
-                node.playback.set_standing_rate(now_ns, self.parameters.standing_rate)
-        self._planner.limits = self._staging_limits()
-        self.destroy_timer(self._telemetry_timer)
-        self._telemetry_timer = self.create_timer(
-            1 / self.parameters.telemetry_rate, self._telemetry
-        )
-
-    def _staging_limits(self) -> StagingLimits:
-        values = self.parameters
-        return StagingLimits(values.velocity_share, values.acceleration, values.jerk)
-
-    def destroy_node(self) -> None:
-        self._caller.close()
-        self.scheduler.stop()
-        for robot in list(self.nodes):
-            self._remove(robot)
-        self._safety.close()
-        super().destroy_node()
-
-    def _on_robots(self, message: msg.Robots) -> None:
-        wanted = {r.name: r for r in message.robots if not self._only or r.name in self._only}
-        for robot, node in list(self.nodes.items()):
-            if robot not in wanted or wanted[robot].model != node.model.id:
-                self._remove(robot)
-        for robot in wanted.values():
-            if robot.name not in self.nodes:
-                self._add(robot.name, robot.model)
-            node = self.nodes[robot.name]
-            with self.scheduler.command(node.player):
-                node.playback.end_effector = robot.end_effector
-
-    def _add(self, robot: str, model: str) -> None:
-        node = PlaybackNode(
-            robot,
-            self._library.model(model),
-            self._planner,
-            self.scheduler,
-            self._fetch,
-            self.parameters.standing_rate,
-            host=self.get_fully_qualified_name(),
-            context=self.context,
-        )
-        self.nodes[robot] = node
-        self._safety.executor.add_node(node)
-        self.get_logger().info(f"added the playback of {robot} ({model})")
-
-    def _remove(self, robot: str) -> None:
-        node = self.nodes.pop(robot)
-        self._safety.executor.remove_node(node)
-        node.close()
-
-    @answered
-    def _command_members(self, request: Any, response: Any) -> str:
-        with self.scheduler.command() as now_ns:
-            response.stamp = time_to_message(now_ns)
-            for order in request.orders:
-                node = self.nodes.get(order.robot)
-                if node is None:
-                    raise Misuse(f"{order.robot}: {NOT_PLAYED}")
-                try:
-                    duration = node.drive(now_ns, request.system, order_from_message(order))
-                except LabError as error:
-                    raise Misuse(f"{order.robot}: {error}") from error
-                reply = reply_to_message(order.robot, node.playback, duration)
-                response.replies.append(reply)
-        return "done"
-
-    def _telemetry(self) -> None:
-        now_ns = self.scheduler.clock.now_ns()
-        for node in self.nodes.values():
-            node.publish_telemetry(now_ns)
-
-    def _states(self) -> None:
-        for node in self.nodes.values():
-            node.publish_state()

@@ -1,0 +1,1 @@
+"""The playback host, and the playback node of each robot."""

@@ -1,0 +1,264 @@
+"""The playback host: it makes and removes the playback nodes, and knows them after a restart."""
+
+from __future__ import annotations
+
+import threading
+import time
+import weakref
+from collections.abc import Callable
+from typing import Any
+
+from mrlab_msgs import msg, srv
+from rclpy.context import Context
+from rclpy.node import Node
+from rclpy.parameter import Parameter
+
+from mrlab_ros.adapters.journal import Journal
+from mrlab_ros.adapters.robots.library import RobotLibrary
+from mrlab_ros.adapters.robots.ruckig_planner import RuckigPlanner, StagingLimits
+from mrlab_ros.core.errors import LabError, Misuse
+from mrlab_ros.core.playback import journal as entries
+from mrlab_ros.core.playback.playback import Kept
+from mrlab_ros.core.systems.leases import Leases
+from mrlab_ros.core.systems.members import NOT_PLAYED
+from mrlab_ros.core.trajectory.trajectory import Trajectory
+from mrlab_ros.messages import qos
+from mrlab_ros.messages.systems import order_from_message, reply_to_message
+from mrlab_ros.messages.time import time_to_message
+from mrlab_ros.nodes import parameters
+from mrlab_ros.nodes.catalogue import CatalogueClient
+from mrlab_ros.nodes.parameters import PlaybackParameters
+from mrlab_ros.nodes.playback.node import PlaybackNode
+from mrlab_ros.ros import share
+from mrlab_ros.ros.answers import answered
+from mrlab_ros.ros.deadlines import Scheduler
+from mrlab_ros.ros.parameters import ParameterNode
+from mrlab_ros.ros.priority import REALTIME, take_precedence
+from mrlab_ros.ros.spinning import Caller, SpunNode
+
+# Trajectories that are fetched at the same time.
+MOST_LOADS = 4
+# What moves, and what has changed, is written into the journal this often, s: a robot whose
+# process was killed stands at most this much behind.
+JOURNAL_PERIOD_S = 0.05
+# How often the claims of robot systems are checked, s.
+LEASE_CHECK_S = 0.5
+
+
+class Fetches:
+    """Fetches trajectories for several robots at once, the same one only once at a time.
+
+    Robots that load the same trajectory one after another share its matrices.
+    """
+
+    def __init__(self, fetch: Callable[[str], Trajectory], most: int = MOST_LOADS) -> None:
+        self._fetch = fetch
+        self._slots = threading.BoundedSemaphore(most)
+        self._lock = threading.Lock()
+        self._same: weakref.WeakValueDictionary[str, _Turn] = weakref.WeakValueDictionary()
+
+    def __call__(self, trajectory_id: str) -> Trajectory:
+        with self._lock:
+            turn = self._same.setdefault(trajectory_id, _Turn())
+        with turn.lock, self._slots:
+            return self._fetch(trajectory_id)
+
+
+class _Turn:
+    """Whose turn it is to fetch a trajectory."""
+
+    def __init__(self) -> None:
+        self.lock = threading.Lock()
+
+
+class PlaybackHostNode(ParameterNode[PlaybackParameters]):
+    """Runs one playback node for each robot of the scene, all on one deadline thread.
+
+    The playback nodes and the orders of robot systems have an executor of their own, whose
+    callbacks neither load nor call anything. This node makes and removes playbacks and publishes
+    telemetry, in another thread.
+    """
+
+    def __init__(
+        self,
+        *,
+        context: Context | None = None,
+        parameter_overrides: list[Parameter] | None = None,
+    ) -> None:
+        super().__init__(
+            "playback_host",
+            PlaybackParameters,
+            parameters.ALL,
+            context=context,
+            parameter_overrides=parameter_overrides,
+        )
+        self._only = set(self.parameters.robots)
+        self._planner = RuckigPlanner(self._staging_limits())
+        self._library = RobotLibrary(share.directory() / "robots")
+        self.scheduler = Scheduler(self.context.ok)
+        self.nodes: dict[str, PlaybackNode] = {}
+        self._caller = Caller(self)
+        self._fetch = Fetches(CatalogueClient(self._caller.node).fetch)
+        self._journal = Journal.of(
+            self.parameters.state_dir, self.get_name(), self.get_logger().error
+        )
+        # What robots had before a restart, until they are in the scene again; None: all are.
+        self._kept: dict[str, tuple[str, Kept]] = entries.read(self._journal.load())
+        # By robot what is in the journal.
+        self._written: dict[str, dict[str, Any]] = {}
+        self._leases = Leases()
+        orders = Node(
+            "_playback_host_orders",
+            context=context,
+            start_parameter_services=False,
+            enable_rosout=False,
+        )
+        self.create_subscription(msg.Robots, "/robots", self._on_robots, qos.LATCHED)
+        orders.create_service(
+            srv.CommandMembers,
+            f"{self.get_fully_qualified_name()}/command_members",
+            self._command_members,
+            qos_profile=qos.SERVICES,
+        )
+        self._telemetry_timer = self.create_timer(
+            1 / self.parameters.telemetry_rate, self._telemetry
+        )
+        self.create_timer(1.0, self._states)
+        self.create_timer(JOURNAL_PERIOD_S, self._write_journal)
+        self.create_timer(LEASE_CHECK_S, self._check_leases)
+        self.create_subscription(msg.RobotSystems, "/systems", self._on_systems, qos.LATCHED)
+        self.scheduler.start()
+        self.get_logger().info(f"the deadline thread runs with {self.scheduler.precedence}")
+        self._safety = SpunNode(orders, lambda: take_precedence(REALTIME - 1))
+
+    def parameters_changed(self) -> None:
+        with self.scheduler.command() as now_ns:
+            for node in self.nodes.values():
+                node.playback.set_standing_rate(now_ns, self.parameters.standing_rate)
+        self._planner.limits = self._staging_limits()
+        self.destroy_timer(self._telemetry_timer)
+        self._telemetry_timer = self.create_timer(
+            1 / self.parameters.telemetry_rate, self._telemetry
+        )
+
+    def _staging_limits(self) -> StagingLimits:
+        values = self.parameters
+        return StagingLimits(values.velocity_share, values.acceleration, values.jerk)
+
+    def destroy_node(self) -> None:
+        self._write_journal()
+        self._journal.close()
+        self._caller.close()
+        self.scheduler.stop()
+        for robot in list(self.nodes):
+            self._remove(robot)
+        self._safety.close()
+        super().destroy_node()
+
+    def _on_robots(self, message: msg.Robots) -> None:
+        wanted = {r.name: r for r in message.robots if not self._only or r.name in self._only}
+        for robot, node in list(self.nodes.items()):
+            if robot not in wanted or wanted[robot].model != node.model.id:
+                self._remove(robot)
+        for robot in wanted.values():
+            if robot.name not in self.nodes:
+                self._add(robot.name, robot.model)
+            node = self.nodes[robot.name]
+            with self.scheduler.command(node.player):
+                node.playback.end_effector = robot.end_effector
+        for name in [name for name in self._kept if name in self.nodes]:
+            del self._kept[name]
+            self.nodes[name].come_back(self._came_back)
+        # The list is the lab's own from now on: what it does not name is gone.
+        self._kept.clear()
+
+    def _came_back(self, lost: str) -> None:
+        if lost and self.context.ok():
+            self.get_logger().warning(lost)
+
+    # after a restart ------------------------------------------------------------------------
+
+    def _write_journal(self) -> None:
+        nodes = list(self.nodes.items())
+        changed = [name for name, node in nodes if node.changed]
+        if self._kept or not (changed or self._written.keys() - self.nodes.keys()):
+            return
+        known = self._written
+        self._written = {
+            name: entries.plain(node.model.id, kept) if name in changed else known[name]
+            for name, node in nodes
+            if (name in changed or name in known) and (kept := node.kept()) is not None
+        }
+        self._journal.save({entries.ROBOTS: self._written})
+
+    # claims ---------------------------------------------------------------------------------
+
+    def _on_systems(self, message: msg.RobotSystems) -> None:
+        self._leases.renew([system.name for system in message.systems], time.monotonic())
+
+    def _check_leases(self) -> None:
+        """Let robots go whose system nobody keeps any more."""
+        claimed = {
+            name: system for name, node in self.nodes.items() if (system := node.playback.system)
+        }
+        for system in self._leases.expired(set(claimed.values()), time.monotonic()):
+            robots = [name for name, owner in claimed.items() if owner == system]
+            self.get_logger().warning(
+                f"nobody keeps the system {system} any more: {', '.join(robots)} stand, "
+                "independent again"
+            )
+            for name in robots:
+                node = self.nodes[name]
+                with self.scheduler.command(node.player) as now_ns:
+                    node.playback.release(now_ns, system)
+
+    def _kept_of(self, robot: str, model: str) -> Kept | None:
+        """Return what the robot had before a restart; None where it was another one."""
+        had, kept = self._kept.get(robot, ("", None))
+        return kept if had == model else None
+
+    def _add(self, robot: str, model: str) -> None:
+        node = PlaybackNode(
+            robot,
+            self._library.model(model),
+            self._planner,
+            self.scheduler,
+            self._fetch,
+            self.parameters.standing_rate,
+            host=self.get_fully_qualified_name(),
+            kept=self._kept_of(robot, model),
+            context=self.context,
+        )
+        self.nodes[robot] = node
+        self._safety.executor.add_node(node)
+        self.get_logger().info(f"added the playback of {robot} ({model})")
+
+    def _remove(self, robot: str) -> None:
+        node = self.nodes.pop(robot)
+        self._safety.executor.remove_node(node)
+        node.close()
+
+    @answered
+    def _command_members(self, request: Any, response: Any) -> str:
+        with self.scheduler.command() as now_ns:
+            response.stamp = time_to_message(now_ns)
+            for order in request.orders:
+                node = self.nodes.get(order.robot)
+                if node is None:
+                    raise Misuse(f"{order.robot}: {NOT_PLAYED}")
+                try:
+                    duration = node.drive(now_ns, request.system, order_from_message(order))
+                except LabError as error:
+                    raise Misuse(f"{order.robot}: {error}") from error
+                reply = reply_to_message(order.robot, node.playback, duration)
+                response.replies.append(reply)
+        return "done"
+
+    def _telemetry(self) -> None:
+        now_ns = self.scheduler.clock.now_ns()
+        for node in self.nodes.values():
+            node.publish_telemetry(now_ns)
+
+    def _states(self) -> None:
+        for node in self.nodes.values():
+            node.publish_state()
