@@ -11,6 +11,8 @@ export default defineConfig({
     // Fonts and pictures stay files: the content security policy allows no data: URL.
     assetsInlineLimit: 0,
     modulePreload: { polyfill: false },
+    // Which file imports which: the budgets of bytes are held from it.
+    manifest: true,
     reportCompressedSize: true,
   },
   resolve: {

@@ -99,7 +99,10 @@ export function trajectory(of: Partial<TrajectoryInfo>): TrajectoryInfo {
 /** A gateway of a lab with a few people, in memory. What a file's name holds decides what becomes
  * of it: "bad", "which"; every other file is accepted. */
 export class FakeApi implements Api {
-  user: Session['user'] = { name: 'ada', role: 'instructor' }
+  /** ?nobody in the address: not signed in. */
+  user: Session['user'] = location.search.includes('nobody')
+    ? null
+    : { name: 'ada', role: 'instructor' }
   readonly requests: ConversionRequest[] = []
   catalogue: TrajectoryInfo[] = [
     trajectory({}),
@@ -128,9 +131,9 @@ export class FakeApi implements Api {
   ]
   readonly #deleted = new Map<string, TrajectoryInfo>()
   #people: Person[] = [
-    { name: 'ada', role: 'instructor' },
-    { name: 'grace', role: 'student' },
-    { name: 'beamer', role: 'display' },
+    { name: 'ada', role: 'instructor', signs_in: 'password' },
+    { name: 'grace', role: 'student', signs_in: '' },
+    { name: 'beamer', role: 'display', signs_in: 'password' },
   ]
   #devices: Device[] = [
     {
@@ -140,6 +143,7 @@ export class FakeApi implements Api {
       approved_by: 'ada',
       created: 1.79e9,
       last_seen: 1.79e9 + 600,
+      this: false,
     },
   ]
   #pairing: PairingState = { state: 'waiting' }
@@ -168,6 +172,7 @@ export class FakeApi implements Api {
       robots: MODELS.map((model) => ({
         model,
         name: model === 'ur5e' ? 'UR5e' : model.slice(5).toUpperCase().replaceAll('_', ' '),
+        maker: model === 'ur5e' ? 'Universal Robots' : 'KUKA',
         joints: 6,
         thumbnail: `${GALLERY}/${model}.png`,
       })),
@@ -178,7 +183,11 @@ export class FakeApi implements Api {
       })),
     }
   }
-  async upload(file: File, onProgress: (share: number) => void): Promise<Upload> {
+  async upload(
+    file: File,
+    onProgress: (share: number) => void,
+    _signal: AbortSignal,
+  ): Promise<Upload> {
     const upload = `users/ada/uploads/${this.#names.size + 1}/${file.name}`
     this.#names.set(upload, file.name)
     onProgress(1)
@@ -285,8 +294,11 @@ export class FakeApi implements Api {
     return this.#people
   }
   async invite(person: NewPerson) {
-    this.#people = [...this.#people, person]
-    return { url: `${location.origin}/invitation/kxQ3zt81` }
+    this.#people = [...this.#people, { ...person, signs_in: '' }]
+    return this.inviteAgain(person.name)
+  }
+  async inviteAgain(name: string) {
+    return { name, url: `${location.origin}/invitation/kxQ3zt81`, expires_in: 86400 * 3 }
   }
   async removePerson(name: string): Promise<void> {
     this.#people = this.#people.filter((each) => each.name !== name)
@@ -304,13 +316,19 @@ export class FakeApi implements Api {
     this.#devices = this.#devices.filter((each) => each.id !== id)
   }
   async startPairing(): Promise<Pairing> {
-    return { code: 'BKWT-3917', secret: 's', expires_in: 120 }
+    return {
+      code: 'BKWT-XZRD',
+      secret: 's',
+      url: `${location.origin}/pair/BKWTXZRD`,
+      expires_in: 120,
+    }
   }
   async pairing(): Promise<PairingState> {
     return this.#pairing
   }
-  async approvePairing(code: string, _role: Role): Promise<void> {
+  async approvePairing(code: string, _role: Role): Promise<string> {
     if (!code) throw new ApiError(404, 'unknown_code', 'No headset shows this code now.')
     this.#pairing = { state: 'approved' }
+    return 'Quest 3'
   }
 }

@@ -40,6 +40,8 @@ export interface Api {
 
   people(): Promise<readonly Person[]>
   invite(person: NewPerson): Promise<InvitationLink>
+  /** A new link for somebody who lost the password. */
+  inviteAgain(name: string): Promise<InvitationLink>
   removePerson(name: string): Promise<void>
   invitation(token: string): Promise<Invitation>
   acceptInvitation(token: string, password: string): Promise<Session>
@@ -48,7 +50,8 @@ export interface Api {
   revokeDevice(id: string): Promise<void>
   startPairing(): Promise<Pairing>
   pairing(secret: string): Promise<PairingState>
-  approvePairing(code: string, role: Role): Promise<void>
+  /** Return what the device calls itself. */
+  approvePairing(code: string, role: Role): Promise<string>
 }
 
 export class ApiError extends Error {

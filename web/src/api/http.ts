@@ -18,6 +18,27 @@ import type {
   Version,
 } from './types'
 
+/** What pages need of assets/robots.json; thumbnails are keys of assets. */
+interface LibraryDocument {
+  readonly robots: readonly {
+    readonly id: string
+    readonly name: string
+    readonly maker: string
+    readonly product: string
+    readonly joints: readonly unknown[]
+    readonly thumbnail: string | null
+  }[]
+  readonly end_effectors: readonly {
+    readonly id: string
+    readonly name: string
+    readonly thumbnail: string | null
+  }[]
+}
+
+function address(key: string | null): string | null {
+  return key === null ? null : `/${key}`
+}
+
 type Method = 'GET' | 'POST' | 'PUT' | 'PATCH' | 'DELETE'
 
 /** The gateway, by fetch; uploads by XMLHttpRequest, which alone reports progress. */
@@ -39,8 +60,22 @@ export class HttpApi implements Api {
     await this.#ask('DELETE', '/api/session')
   }
 
-  robots(): Promise<RobotLibrary> {
-    return this.#ask('GET', '/assets/robots.json')
+  async robots(): Promise<RobotLibrary> {
+    const library = await this.#ask<LibraryDocument>('GET', '/assets/robots.json')
+    return {
+      robots: library.robots.map((robot) => ({
+        model: robot.id,
+        name: robot.product || robot.name,
+        maker: robot.maker,
+        joints: robot.joints.length,
+        thumbnail: address(robot.thumbnail),
+      })),
+      end_effectors: library.end_effectors.map((each) => ({
+        id: each.id,
+        name: each.name,
+        thumbnail: address(each.thumbnail),
+      })),
+    }
   }
 
   upload(file: File, onProgress: (share: number) => void, signal: AbortSignal): Promise<Upload> {
@@ -104,6 +139,9 @@ export class HttpApi implements Api {
   invite(person: NewPerson): Promise<InvitationLink> {
     return this.#ask('POST', '/api/people', person)
   }
+  inviteAgain(name: string): Promise<InvitationLink> {
+    return this.#ask('POST', `/api/people/${encodeURIComponent(name)}/invitation`)
+  }
   async removePerson(name: string): Promise<void> {
     await this.#ask('DELETE', `/api/people/${encodeURIComponent(name)}`)
   }
@@ -122,13 +160,15 @@ export class HttpApi implements Api {
     await this.#ask('DELETE', `/api/devices/${encodeURIComponent(id)}`)
   }
   startPairing(): Promise<Pairing> {
-    return this.#ask('POST', '/api/pairings')
+    return this.#ask('POST', '/api/pairings', { device: deviceName() })
   }
   pairing(secret: string): Promise<PairingState> {
     return this.#ask('GET', `/api/pairings/${encodeURIComponent(secret)}`)
   }
-  async approvePairing(code: string, role: Role): Promise<void> {
-    await this.#ask('POST', '/api/pairings/approve', { code, role })
+  async approvePairing(code: string, role: Role): Promise<string> {
+    const body = { code, role }
+    return (await this.#ask<{ user: { name: string } }>('POST', '/api/pairings/approve', body))
+      .user.name
   }
 
   #kept(session: Session): Session {
@@ -169,6 +209,12 @@ export class HttpApi implements Api {
       error?.message ?? `${status}: ${this.noAnswer()}`,
     )
   }
+}
+
+/** Return what a headset calls itself in the list of devices, as far as its browser says. */
+function deviceName(): string {
+  const agent = navigator.userAgent
+  return /Quest( \d)?|Pico[ \w]*|Vision|iPhone|iPad|Android/.exec(agent)?.[0].trim() ?? 'headset'
 }
 
 function parsed(text: string): unknown {

@@ -14,6 +14,7 @@ export interface Session {
 export interface Robot {
   readonly model: string
   readonly name: string
+  readonly maker: string
   readonly joints: number
   /** URL of a picture; null: none. */
   readonly thumbnail: string | null
@@ -151,32 +152,41 @@ export interface NewPerson {
 export interface Person {
   readonly name: string
   readonly role: Role
+  /** password or oidc; empty until the link was used. */
+  readonly signs_in: string
 }
 
-/** The link by which a new person chooses a password, once. */
+/** The link by which a person chooses a password, once. */
 export interface InvitationLink {
+  readonly name: string
   readonly url: string
+  /** s */
+  readonly expires_in: number
 }
 
 export interface Device {
   readonly id: string
   readonly name: string
   readonly role: Role
-  /** Who approved it. */
+  /** Whose it is. */
   readonly approved_by: string
   /** s since the epoch */
   readonly created: number
-  readonly last_seen: number | null
+  readonly last_seen: number
+  /** The one that asks. */
+  readonly this: boolean
 }
 
 export interface Pairing {
   /** To be typed at the phone. */
   readonly code: string
   readonly secret: string
+  /** Page at which the code is approved. */
+  readonly url: string
   /** s */
   readonly expires_in: number
 }
 
 export interface PairingState {
-  readonly state: 'waiting' | 'approved' | 'expired' | 'refused'
+  readonly state: 'waiting' | 'approved' | 'expired'
 }

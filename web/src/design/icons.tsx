@@ -88,7 +88,13 @@ const SHAPES = {
   close: <path d="m5 5 10 10M15 5 5 15" />,
   back: <path d="M12.5 4 6.5 10l6 6" />,
   next: <path d="M7.5 4l6 6-6 6" />,
-  more: <path d="M4.5 10h.1M10 10h.1M15.5 10h.1" />,
+  more: (
+    <>
+      <circle class="solid" cx="4" cy="10" r="1.6" />
+      <circle class="solid" cx="10" cy="10" r="1.6" />
+      <circle class="solid" cx="16" cy="10" r="1.6" />
+    </>
+  ),
   check: <path d="m4 10.5 4 4 8-9" />,
   wrench: (
     <path d="M16.7 5.3 13.9 8.100l-2-2 2.8-2.800a4.6 4.6 0 0 0-6 5.900L3 14.9 5.1 17l5.7-5.700a4.6 4.6 0 0 0 5.9-6z" />

@@ -1,3 +1,77 @@
+import { useState } from 'preact/hooks'
+import { sentence } from '../../api/api'
+import { Button, ButtonLink } from '../../design/button'
+import { Field } from '../../design/field'
+import { Notice } from '../../design/notice'
+import { words } from '../../words/words'
+import { navigate, path } from '../shell/router'
+import { session, useApi } from '../shell/session'
+import './account.css'
+
+/** Sign in with a password, at the university, or by pairing. */
 export function SignInPage() {
-  return <h1>MR-Lab</h1>
+  const api = useApi()
+  const [name, setName] = useState('')
+  const [password, setPassword] = useState('')
+  const [error, setError] = useState('')
+  const [busy, setBusy] = useState(false)
+  const w = words.value.signIn
+  const ways = session.value?.ways
+  const user = session.value?.user
+  const signIn = async (event: Event) => {
+    event.preventDefault()
+    setBusy(true)
+    setError('')
+    try {
+      session.value = await api.signIn(name.trim(), password)
+      if (path.value === '/sign-in') navigate('/', 'replace')
+    } catch (problem) {
+      setError(sentence(problem))
+      setPassword('')
+    } finally {
+      setBusy(false)
+    }
+  }
+  return (
+    <section class="card account-card stack">
+      <h1>{w.title}</h1>
+      {user && (
+        <Notice severity="info">
+          <p>{w.already(user.name)}</p>
+          <ButtonLink href="/">{words.value.nav.upload}</ButtonLink>
+        </Notice>
+      )}
+      {!ways?.password && !ways?.oidc && !user && (
+        <Notice severity="warning">
+          <p>{w.noWay}</p>
+        </Notice>
+      )}
+      {ways?.password && (
+        <form class="stack" onSubmit={(event) => void signIn(event)}>
+          <Field label={w.name} value={name} onInput={setName} autocomplete="username" required />
+          <Field
+            label={w.password}
+            value={password}
+            onInput={setPassword}
+            autocomplete="current-password"
+            error={error}
+            required
+            password
+          />
+          <Button look="primary" type="submit" disabled={busy}>
+            {w.submit}
+          </Button>
+        </form>
+      )}
+      {ways?.oidc && <ButtonLink href="/api/oidc/start">{w.university}</ButtonLink>}
+      {ways?.pairing && (
+        <div class="account-other">
+          <ButtonLink look="quiet" icon="headset" href="/pair">
+            {w.headset}
+          </ButtonLink>
+        </div>
+      )}
+      {ways?.password && <p class="second small">{w.lost}</p>}
+    </section>
+  )
 }

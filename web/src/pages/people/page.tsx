@@ -1,3 +1,17 @@
+import { words } from '../../words/words'
+import { mayAdmit, session } from '../shell/session'
+import { Devices } from './devices'
+import { PeopleList } from './people_list'
+import './people.css'
+
+/** Who is let in, and with which devices. */
 export function PeoplePage() {
-  return <h1>MR-Lab</h1>
+  const current = session.value
+  return (
+    <div class="people stack">
+      <h1>{mayAdmit(current) ? words.value.people.title : words.value.people.devices}</h1>
+      {mayAdmit(current) && <PeopleList />}
+      <Devices />
+    </div>
+  )
 }

@@ -45,7 +45,7 @@ const ROUTES: readonly Route[] = [
   },
   { path: /^\/sign-in$/, page: SignIn, members: false },
   {
-    path: /^\/pair$/,
+    path: /^\/pair(\/[^/]+)?$/,
     page: lazy(async () => (await import('../account/pair')).PairPage),
     members: false,
   },

@@ -4,18 +4,20 @@ import { sentence } from '../../api/api'
 import { Notice } from '../../design/notice'
 import { words } from '../../words/words'
 
-interface Pending {
-  page: ComponentType | null
+interface Pending<Props> {
+  page: ComponentType<Props> | null
   error: string
 }
 
 const LOADING_SHOWN_AFTER_MS = 300
 
 /** Return a component that loads its page when it is first shown, and says so after 300 ms. */
-export function lazy(load: () => Promise<ComponentType>): ComponentType {
-  let loaded: ComponentType | null = null
-  return function LazyPage() {
-    const [{ page, error }, set] = useState<Pending>({ page: loaded, error: '' })
+export function lazy<Props extends object>(
+  load: () => Promise<ComponentType<Props>>,
+): ComponentType<Props> {
+  let loaded: ComponentType<Props> | null = null
+  return function Lazy(props: Props) {
+    const [{ page, error }, set] = useState<Pending<Props>>({ page: loaded, error: '' })
     const [slow, setSlow] = useState(false)
     useEffect(() => {
       if (loaded) return
@@ -34,7 +36,7 @@ export function lazy(load: () => Promise<ComponentType>): ComponentType {
       }
     }, [])
     const Page = page
-    if (Page) return <Page />
+    if (Page) return <Page {...props} />
     if (error)
       return (
         <Notice severity="error">

@@ -65,7 +65,7 @@ export function Pickers({ flow }: { flow: UploadFlow }) {
         choices={library.robots.map((robot) => ({
           id: robot.model,
           name: robot.name,
-          note: w.joints(robot.joints),
+          note: robot.maker,
           picture: robot.thumbnail,
         }))}
         chosen={flow.robot.value}

@@ -5,7 +5,7 @@ import { Button, ButtonLink } from '../../design/button'
 import { Check, Field } from '../../design/field'
 import { Icon } from '../../design/icons'
 import { words } from '../../words/words'
-import { LinkWithCode } from '../motion/link_with_code'
+import { LinkWithCode } from '../motion/lazy'
 import { trajectoryPage } from '../trajectories/catalogue'
 import type { UploadFlow } from './flow'
 

@@ -1,0 +1,81 @@
+import { useState } from 'preact/hooks'
+import { sentence } from '../../api/api'
+import type { Role } from '../../api/types'
+import { Button, ButtonLink } from '../../design/button'
+import { Field, Select } from '../../design/field'
+import { Icon } from '../../design/icons'
+import { words } from '../../words/words'
+import { session, useApi } from '../shell/session'
+
+/** From the one that may least. */
+const ORDER: readonly Role[] = ['display', 'student', 'instructor', 'operator']
+
+/** Return the roles that somebody may give to a device: none above one's own. */
+export function rolesUpTo(own: Role): readonly Role[] {
+  return ORDER.slice(0, ORDER.indexOf(own) + 1)
+}
+
+/** A person who is signed in lets the device in that shows this code. */
+export function ApprovePage({ code: given }: { code: string }) {
+  const api = useApi()
+  const own = session.value?.user?.role ?? 'student'
+  const [code, setCode] = useState(given)
+  const [role, setRole] = useState<Role>(own === 'display' ? 'display' : 'student')
+  const [error, setError] = useState('')
+  const [device, setDevice] = useState('')
+  const [busy, setBusy] = useState(false)
+  const w = words.value.pairing
+  const approve = async (event: Event) => {
+    event.preventDefault()
+    setBusy(true)
+    setError('')
+    try {
+      setDevice(await api.approvePairing(code.trim(), role))
+    } catch (problem) {
+      setError(sentence(problem))
+    } finally {
+      setBusy(false)
+    }
+  }
+  if (device)
+    return (
+      <section class="card account-card stack" role="status">
+        <h1 class="row">
+          <Icon name="complete" />
+          {w.approved(device)}
+        </h1>
+        <p class="second">{w.whereToEnd}</p>
+        <p class="row">
+          <ButtonLink look="primary" href="/people">
+            {w.toDevices}
+          </ButtonLink>
+        </p>
+      </section>
+    )
+  return (
+    <section class="card account-card stack">
+      <h1>{w.approveTitle}</h1>
+      <p class="second">{w.approveExplanation}</p>
+      <form class="stack" onSubmit={(event) => void approve(event)}>
+        <Field
+          label={w.code}
+          value={code}
+          onInput={setCode}
+          error={error}
+          placeholder="BCDF-GHJK"
+          autocomplete="off"
+          required
+        />
+        <Select
+          label={w.as}
+          value={role}
+          onChange={(value) => setRole(value as Role)}
+          options={rolesUpTo(own).map((each) => [each, words.value.roles[each]] as const)}
+        />
+        <Button look="primary" type="submit" disabled={busy || code.trim() === ''}>
+          {w.approve}
+        </Button>
+      </form>
+    </section>
+  )
+}

@@ -1,0 +1,198 @@
+import { useEffect, useState } from 'preact/hooks'
+import { sentence } from '../../api/api'
+import type { InvitationLink, Person, Role } from '../../api/types'
+import { Button } from '../../design/button'
+import { Dialog } from '../../design/dialog'
+import { Field, Select } from '../../design/field'
+import { Menu } from '../../design/menu'
+import { Notice } from '../../design/notice'
+import { showToast } from '../../design/toast'
+import { number, words } from '../../words/words'
+import { rolesUpTo } from '../account/approve'
+import { LinkWithCode } from '../motion/lazy'
+import { session, useApi } from '../shell/session'
+
+const DAY_S = 86_400
+
+function LinkDialog({ link, onClose }: { link: InvitationLink; onClose: () => void }) {
+  const w = words.value.people
+  return (
+    <Dialog title={w.linkFor(link.name)} onClose={onClose}>
+      <div class="stack">
+        <p>{w.linkExplanation(number(link.expires_in / DAY_S, 0))}</p>
+        <LinkWithCode url={link.url} />
+      </div>
+    </Dialog>
+  )
+}
+
+function AddDialog(props: { onClose: () => void; onAdded: (link: InvitationLink) => void }) {
+  const api = useApi()
+  const [name, setName] = useState('')
+  const [role, setRole] = useState<Role>('student')
+  const [error, setError] = useState('')
+  const w = words.value.people
+  const own = session.value?.user?.role ?? 'student'
+  const add = async (event: Event) => {
+    event.preventDefault()
+    setError('')
+    try {
+      props.onAdded(await api.invite({ name: name.trim(), role }))
+    } catch (problem) {
+      setError(sentence(problem))
+    }
+  }
+  return (
+    <Dialog title={w.add} onClose={props.onClose}>
+      <form class="stack" onSubmit={(event) => void add(event)}>
+        <Field label={w.name} value={name} onInput={setName} error={error} autocomplete="off" />
+        <Select
+          label={w.role}
+          value={role}
+          onChange={(value) => setRole(value as Role)}
+          options={rolesUpTo(own).map((each) => [each, words.value.roles[each]] as const)}
+        />
+        <p class="second small">{w.roleNotes[role]}</p>
+        <div class="dialog-actions">
+          <Button onClick={props.onClose}>{words.value.cancel}</Button>
+          <Button look="primary" type="submit" disabled={name.trim() === ''}>
+            {w.makeLink}
+          </Button>
+        </div>
+      </form>
+    </Dialog>
+  )
+}
+
+function RemoveDialog(props: { name: string; onClose: () => void; onRemove: () => void }) {
+  const w = words.value.people
+  return (
+    <Dialog title={w.removeTitle(props.name)} onClose={props.onClose}>
+      <p>{w.removeExplanation}</p>
+      <div class="dialog-actions">
+        <Button onClick={props.onClose}>{words.value.cancel}</Button>
+        <Button look="danger" icon="trash" onClick={props.onRemove}>
+          {w.remove}
+        </Button>
+      </div>
+    </Dialog>
+  )
+}
+
+type Shown =
+  | { readonly kind: 'add' }
+  | { readonly kind: 'link'; readonly link: InvitationLink }
+  | { readonly kind: 'remove'; readonly name: string }
+
+/** The people of the lab; new ones come by a link that is good once. */
+export function PeopleList() {
+  const api = useApi()
+  const [people, setPeople] = useState<readonly Person[] | null>(null)
+  const [error, setError] = useState('')
+  const [shown, setShown] = useState<Shown | null>(null)
+  const w = words.value.people
+  const load = () => {
+    api
+      .people()
+      .then(setPeople)
+      .catch((problem: unknown) => setError(sentence(problem)))
+  }
+  useEffect(load, [api])
+  const showLink = (link: InvitationLink) => {
+    setShown({ kind: 'link', link })
+    load()
+  }
+  const remove = async (name: string) => {
+    setShown(null)
+    try {
+      await api.removePerson(name)
+      showToast(w.removed(name))
+    } catch (problem) {
+      showToast(sentence(problem))
+    }
+    load()
+  }
+  const inviteAgain = async (name: string) => {
+    try {
+      showLink(await api.inviteAgain(name))
+    } catch (problem) {
+      showToast(sentence(problem))
+    }
+  }
+  const close = () => setShown(null)
+  const local = session.value?.ways.password === false
+  return (
+    <section class="card stack" aria-labelledby="people">
+      <div class="row">
+        <h2 id="people" class="grow">
+          {w.list}
+        </h2>
+        {!local && (
+          <Button look="primary" icon="person" onClick={() => setShown({ kind: 'add' })}>
+            {w.add}
+          </Button>
+        )}
+      </div>
+      {error && (
+        <Notice severity="error">
+          <p>{error}</p>
+        </Notice>
+      )}
+      {local && (
+        <Notice severity="info">
+          <p>{w.local}</p>
+        </Notice>
+      )}
+      {people !== null && people.length > 0 && (
+        <table class="table">
+          <thead>
+            <tr>
+              <th>{w.name}</th>
+              <th>{w.role}</th>
+              <th class="people-state">{w.state}</th>
+              <th>
+                <span class="spoken">{w.actions}</span>
+              </th>
+            </tr>
+          </thead>
+          <tbody>
+            {people.map((person) => (
+              <tr key={person.name}>
+                <td>
+                  <strong>{person.name}</strong>
+                </td>
+                <td>{words.value.roles[person.role]}</td>
+                <td class="people-state second small">
+                  {person.signs_in === '' ? w.invited : w.member}
+                </td>
+                <td class="people-menu">
+                  <Menu label={w.actionsFor(person.name)} icon="more" look="quiet">
+                    <Button look="quiet" icon="link" onClick={() => void inviteAgain(person.name)}>
+                      {w.newLink}
+                    </Button>
+                    {person.name !== session.value?.user?.name && (
+                      <Button
+                        look="quiet"
+                        icon="trash"
+                        onClick={() => setShown({ kind: 'remove', name: person.name })}
+                      >
+                        {w.remove}
+                      </Button>
+                    )}
+                  </Menu>
+                </td>
+              </tr>
+            ))}
+          </tbody>
+        </table>
+      )}
+      {shown?.kind === 'add' && <AddDialog onClose={close} onAdded={showLink} />}
+      {shown?.kind === 'link' && (
+        <LinkDialog key={shown.link.url} link={shown.link} onClose={close} />
+      )}
+      {shown?.kind === 'remove' && (
+        <RemoveDialog name={shown.name} onClose={close} onRemove={() => void remove(shown.name)} />
+      )}
+    </section>
+  )
+}
