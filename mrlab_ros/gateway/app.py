@@ -9,6 +9,7 @@ from contextlib import asynccontextmanager, suppress
 from fastapi import APIRouter, Depends, FastAPI
 
 import mrlab_ros
+from mrlab_ros.adapters.store.objects import open_store
 from mrlab_ros.gateway import errors, pages
 from mrlab_ros.gateway.assets import routes as asset_routes
 from mrlab_ros.gateway.assets.cache import AssetCache
@@ -20,6 +21,10 @@ from mrlab_ros.gateway.people.people import People
 from mrlab_ros.gateway.policy import authorise, read_policy
 from mrlab_ros.gateway.ports import Ports
 from mrlab_ros.gateway.settings import Settings
+from mrlab_ros.gateway.store import routes as trajectory_routes
+from mrlab_ros.gateway.store.shelf import Shelf
+from mrlab_ros.gateway.uploads import routes as upload_routes
+from mrlab_ros.gateway.uploads.receive import Receiver
 
 # One module a subject; each has a `router`, and each route a line in policy.py. The pages come
 # last: they answer any path.
@@ -27,6 +32,8 @@ ROUTERS: tuple[APIRouter, ...] = (
     people_routes.router,
     pairing_routes.router,
     asset_routes.router,
+    upload_routes.router,
+    trajectory_routes.router,
     pages.router,
 )
 
@@ -70,6 +77,10 @@ def create_app(settings: Settings, ports: Ports) -> FastAPI:
     app.state.people = people
     app.state.policy = read_policy(settings.allow_list)
     app.state.assets = None if ports.lab is None else AssetCache(ports.lab)
+    store = ports.store or open_store(settings.store or str(settings.state_dir / "store"))
+    shelf = Shelf(store, settings.state_dir, app.state.policy, signs_in=settings.signs_in)
+    app.state.shelf = shelf
+    app.state.desk = upload_routes.Desk(Receiver(store, shelf.work))
     app.state.pages = settings.pages or pages.pages_folder()
     errors.install(app)
     app.add_api_route("/healthz", healthz, tags=["health"])

@@ -12,6 +12,8 @@ from fastapi.responses import JSONResponse
 from pydantic import BaseModel
 from starlette.exceptions import HTTPException
 
+from mrlab_ros.adapters.store.port import Missing, StoreFailure
+from mrlab_ros.adapters.trajectories.catalogue import NoTrajectory
 from mrlab_ros.core.errors import BadInput, LabError, Misuse, Unavailable
 from mrlab_ros.gateway.lab.connection import NoAnswer, Refused
 
@@ -83,6 +85,9 @@ class Problem(BaseModel):
 
 # The first class that fits decides.
 STATUS: tuple[tuple[type[LabError], int, str], ...] = (
+    (Missing, 404, "not_found"),
+    (NoTrajectory, 404, "not_found"),
+    (StoreFailure, 503, "store"),
     (NoAnswer, 504, "no_answer"),
     (Refused, 502, "refused"),
     (Unavailable, 503, "unavailable"),

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 from fastapi.requests import HTTPConnection
 
 if TYPE_CHECKING:
+    from mrlab_ros.adapters.store.port import ObjectStore
     from mrlab_ros.gateway.lab.connection import LabConnection
     from mrlab_ros.gateway.people.people import People
     from mrlab_ros.gateway.settings import Settings
@@ -17,11 +18,12 @@ if TYPE_CHECKING:
 class Ports:
     """The outside worlds of a gateway; what is None is not there, and its routes say so.
 
-    people: None for those of the settings.
+    people, store: None for those of the settings.
     """
 
     lab: LabConnection | None = None
     people: People | None = None
+    store: ObjectStore | None = None
 
 
 def real_ports(settings: Settings) -> Ports:

@@ -1,0 +1,1 @@
+"""Trajectories over HTTP: listing, publishing, versions, sharing, undo, downloads."""

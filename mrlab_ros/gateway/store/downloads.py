@@ -1,0 +1,43 @@
+"""A trajectory as a file to keep: JSON, MATLAB or CSV."""
+
+from __future__ import annotations
+
+import tempfile
+from collections.abc import Iterator
+from dataclasses import replace
+from pathlib import Path
+from typing import BinaryIO
+
+from mrlab_ros.adapters.store.port import StoreFailure
+from mrlab_ros.adapters.trajectories import export
+from mrlab_ros.core.trajectory.trajectory import Trajectory
+
+MEDIA_TYPES = {
+    "json": "application/json",
+    "mat": "application/x-matlab-data",
+    "csv": "text/csv; charset=utf-8",
+}
+BLOCK = 1 << 18
+
+
+def written(trajectory: Trajectory, name: str, form: str, work: Path) -> tuple[BinaryIO, int]:
+    """Return the open file, which has no name any more, and its size, bytes.
+
+    name: what the trajectory is called in it. Raises StoreFailure where there is no room.
+    """
+    try:
+        with tempfile.TemporaryDirectory(dir=work) as folder:
+            path = export.writer(form)(replace(trajectory, id=name), Path(folder))
+            size = path.stat().st_size
+            return path.open("rb"), size
+    except OSError as error:
+        raise StoreFailure(
+            f"the gateway has no room to write '{name}' ({error.strerror}); try again later"
+        ) from None
+
+
+def pieces(file: BinaryIO) -> Iterator[bytes]:
+    """Yield the bytes of an open file, and close it."""
+    with file:
+        while piece := file.read(BLOCK):
+            yield piece

@@ -1,0 +1,128 @@
+"""The store as one gateway sees it: its catalogue, its files, and who may see what."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+
+import orjson
+from fastapi.requests import HTTPConnection
+
+from mrlab_ros.adapters.robots.library import RobotLibrary
+from mrlab_ros.adapters.store.port import ObjectStore
+from mrlab_ros.adapters.trajectories.catalogue import Catalogue
+from mrlab_ros.adapters.trajectories.files import TrajectoryFiles
+from mrlab_ros.core.bridge.policy import Policy, Verb
+from mrlab_ros.core.diagnostics import Diagnostic
+from mrlab_ros.core.show.document import findings
+from mrlab_ros.core.trajectory.document import warnings_of
+from mrlab_ros.core.trajectory.record import Record, Version
+from mrlab_ros.gateway.people.person import LOCAL, Person
+from mrlab_ros.gateway.share import directory
+
+
+class Shelf:
+    """Answers what a person may see; every method may block, so call them in a thread."""
+
+    def __init__(
+        self, store: ObjectStore, state_dir: Path, policy: Policy, *, signs_in: bool
+    ) -> None:
+        self.store = store
+        self.catalogue = Catalogue(store)
+        self.files = TrajectoryFiles(store, state_dir / "fetched")
+        self.library = RobotLibrary(directory() / "robots")
+        # Where uploads and downloads lie for a moment.
+        self.work = state_dir / "work"
+        self.work.mkdir(parents=True, exist_ok=True)
+        self._policy = policy
+        self._signs_in = signs_in
+        self._texts: dict[str, tuple[Record, bytes]] = {}
+
+    def user(self, person: Person) -> str:
+        """Return whose things a person makes; empty: the lab's, where nobody signs in."""
+        return "" if person.name == LOCAL and not self._signs_in else person.name
+
+    def find(self, person: Person, text: str, *, deleted: bool = False) -> tuple[Record, Version]:
+        """Return what an id names; raise NoTrajectory where the person may not see it."""
+        self.catalogue.refresh()
+        return self.catalogue.find(
+            text, lambda record: self.may_see(person, record), deleted=deleted
+        )
+
+    def may_see(self, person: Person, record: Record) -> bool:
+        own = record.visible_to(self.user(person))
+        return own or self._policy.may(person.role, Verb.CALL, "converter/get_any")
+
+    def may_change(self, person: Person, record: Record, service: str) -> bool:
+        own = record.owner == self.user(person)
+        return self._policy.may(person.role, Verb.CALL, service, own=own)
+
+    def listing(self, person: Person, *, deleted: bool = False) -> bytes:
+        """Return the JSON of all trajectories that a person may see, or of the deleted ones."""
+        self.catalogue.refresh()
+        texts = [
+            self._text(record)
+            for record in self.catalogue.records()
+            if bool(record.deleted_ns) == deleted and self.may_see(person, record)
+        ]
+        return b'{"trajectories":[' + b",".join(texts) + b"]}"
+
+    def _text(self, record: Record) -> bytes:
+        known = self._texts.get(record.id)
+        if known is None or known[0] is not record:
+            known = self._texts[record.id] = record, orjson.dumps(trajectory(record))
+        return known[1]
+
+
+def shelf_of(connection: HTTPConnection) -> Shelf:
+    """Return the shelf of a gateway, as a dependency."""
+    found: Shelf = connection.app.state.shelf
+    return found
+
+
+def trajectory(record: Record, version: Version | None = None) -> dict[str, Any]:
+    """Return the fields of answers.Trajectory, of the newest version if none is named."""
+    chosen = version or record.newest
+    return of_head(
+        chosen.head,
+        id=record.id,
+        owner=record.owner,
+        version=chosen.number,
+        shared=record.shared,
+        deleted=record.deleted_ns * 1e-9 if record.deleted_ns else None,
+    )
+
+
+def of_head(head: Mapping[str, Any], **more: Any) -> dict[str, Any]:
+    """Return the fields of answers.Trajectory from the metadata of a file, and those of `more`."""
+    return {
+        "id": head["id"],
+        "robot_model": head["robot_model"],
+        "end_effector": head["end_effector"] or "",
+        "source_file": head["source"]["file"],
+        "source_variable": head["source"]["variable"],
+        "source_sha256": head["source"]["sha256"],
+        "created": head["created_ns"] * 1e-9,
+        "frame_rate": float(head["frame_rate"]),
+        "frame_count": head["frame_count"],
+        "duration": duration(head),
+        "has_gripper": head["has_gripper"],
+        "warnings": finding_fields(warnings_of(head)),
+        **more,
+    }
+
+
+def duration(head: Mapping[str, Any]) -> float:
+    """Return the time of the last frame, s."""
+    seconds = (head["frame_count"] - 1) / head["frame_rate"]
+    return float(seconds) if math.isfinite(seconds) else 0.0
+
+
+def finding_fields(diagnostics: tuple[Diagnostic, ...]) -> list[dict[str, Any]]:
+    """Return the fields of answers.Finding for each one."""
+    return [
+        {**fields, "where": diagnostic.where}
+        for fields, diagnostic in zip(findings(diagnostics), diagnostics, strict=True)
+    ]

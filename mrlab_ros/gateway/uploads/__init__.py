@@ -1,0 +1,1 @@
+"""Files that people send, and what becomes of them."""

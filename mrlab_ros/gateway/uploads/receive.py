@@ -1,0 +1,167 @@
+"""Takes a file from a request's body into the store, whole or not at all.
+
+The body is counted and hashed while it comes, into a file without a name: whatever is killed or
+breaks off in between leaves nothing.
+"""
+
+from __future__ import annotations
+
+import hashlib
+import tempfile
+from collections.abc import AsyncIterator, Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass
+from pathlib import Path
+from threading import Lock
+
+from fastapi.concurrency import run_in_threadpool
+
+from mrlab_ros.adapters.store import keys
+from mrlab_ros.adapters.store.port import ObjectStore, StoreFailure
+from mrlab_ros.core.errors import BadInput
+from mrlab_ros.gateway.errors import TooLarge
+
+MiB = 1 << 20
+BLOCK = MiB  # bytes that are hashed and written at once
+# What the converter reads; it looks into the file for what it really is.
+ENDINGS = (".mat", ".csv", ".txt", ".tsv", ".npz", ".json", ".mcap", ".db3", ".cdr", ".gz")
+LONGEST_NAME = 255
+
+
+@dataclass(frozen=True)
+class Bounds:
+    """largest: bytes of one file. quota: bytes that one person's uploads and drafts may take."""
+
+    largest: int = 1024 * MiB
+    quota: int = 2048 * MiB
+
+
+@dataclass(frozen=True)
+class Received:
+    """A file in the store. number: names it, to the person who sent it."""
+
+    number: str
+    file_name: str
+    size: int
+    sha256: str
+
+
+class Receiver:
+    """Receives files for the people of one gateway."""
+
+    def __init__(self, store: ObjectStore, work: Path, bounds: Bounds | None = None) -> None:
+        self.bounds = bounds or Bounds()
+        self._store, self._work = store, work
+        # Bytes of bodies that are coming, by person: two files at once share a quota.
+        self._coming: dict[str, int] = {}
+        self._lock = Lock()
+
+    async def receive(
+        self, user: str, file_name: str, announced: int | None, body: AsyncIterator[bytes]
+    ) -> Received:
+        """Store a body; announced: the bytes that its sender names, None: not said.
+
+        Raises TooLarge, BadInput, StoreFailure, or what reading the body raises.
+        """
+        checked_name(file_name)
+        self._check_size(announced or 0)
+        used = await run_in_threadpool(self._used, user)
+        with room():
+            opened = tempfile.TemporaryFile(dir=self._work)  # noqa: SIM115
+        with opened as file, self._counted(user) as coming:
+            digest, size, block = hashlib.sha256(), 0, bytearray()
+
+            def keep(data: bytes) -> None:
+                digest.update(data)
+                with room():
+                    file.write(data)
+                    file.flush()
+
+            self._check_quota(user, used, announced or 0)
+            async for chunk in body:
+                size += len(chunk)
+                self._check_size(size)
+                coming(len(chunk))
+                self._check_quota(user, used, 0)
+                block += chunk
+                if len(block) >= BLOCK:
+                    await run_in_threadpool(keep, bytes(block))
+                    block.clear()
+            await run_in_threadpool(keep, bytes(block))
+            if size == 0:
+                raise BadInput(f"'{file_name}' is empty; save it again and send it")
+            number = keys.unique()
+            key = keys.upload(user, number, file_name)
+            await run_in_threadpool(self._store.put_file, key, file)  # type: ignore[arg-type]
+        return Received(number, file_name, size, digest.hexdigest())
+
+    def _used(self, user: str) -> int:
+        return sum(entry.size for entry in self._store.list(keys.user(user)))
+
+    def _check_size(self, size: int) -> None:
+        if size > self.bounds.largest:
+            raise TooLarge(
+                f"the file has more than {self.bounds.largest / MiB:.0f} MiB, the limit; save the "
+                "trajectory alone, with save('file.mat', 'q', 't')"
+            )
+
+    def _check_quota(self, user: str, used: int, announced: int) -> None:
+        total = used + max(self._coming.get(user, 0), announced)
+        if total > self.bounds.quota:
+            raise TooLarge(
+                f"your files take {used / MiB:.0f} MiB of {self.bounds.quota / MiB:.0f} MiB and "
+                "this one does not fit; uploads go after some days by themselves"
+            )
+
+    @contextmanager
+    def _counted(self, user: str) -> Iterator[Coming]:
+        """Yield what counts bytes that come for a person; they stop to count at the end."""
+        coming = Coming(self._coming, self._lock, user)
+        try:
+            yield coming
+        finally:
+            coming(-coming.total)
+
+
+@contextmanager
+def room() -> Iterator[None]:
+    """Say in a sentence that the gateway's own disk is full."""
+    try:
+        yield
+    except OSError as error:
+        raise StoreFailure(
+            f"the gateway has no room for the file ({error.strerror}); nothing was kept: ask for "
+            "room on its disk, then send it again"
+        ) from None
+
+
+class Coming:
+    """Counts the bytes of one body among those of its person."""
+
+    def __init__(self, sums: dict[str, int], lock: Lock, user: str) -> None:
+        self._sums, self._lock, self._user = sums, lock, user
+        self.total = 0
+
+    def __call__(self, count: int) -> None:
+        with self._lock:
+            self.total += count
+            left = self._sums.get(self._user, 0) + count
+            if left:
+                self._sums[self._user] = left
+            else:
+                self._sums.pop(self._user, None)
+
+
+def checked_name(name: str) -> str:
+    """Return a file's name; raise BadInput for one that is too long or of another kind."""
+    if len(name) > LONGEST_NAME:
+        raise BadInput(
+            f"the name of the file has {len(name)} characters; expected {LONGEST_NAME} at most: "
+            "give it a shorter one"
+        )
+    if not name.lower().endswith(ENDINGS):
+        raise BadInput(
+            f"'{name}' is none of the files that are read; expected a name that ends with "
+            f"{', '.join(ENDINGS)}"
+        )
+    return name

@@ -1,0 +1,171 @@
+"""/api/uploads, /api/conversions, /api/motions: from a file to a motion that can be published."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable
+from typing import Annotated, Any
+
+from fastapi import APIRouter, Depends, Header, Path, Request, Response
+from fastapi.concurrency import run_in_threadpool
+from starlette.requests import ClientDisconnect
+
+from mrlab_ros.adapters.store import keys
+from mrlab_ros.core.errors import BadInput, Unavailable
+from mrlab_ros.gateway.errors import NotFound
+from mrlab_ros.gateway.people.person import CurrentPerson, Person
+from mrlab_ros.gateway.people.rate_limits import Limit, RateLimit
+from mrlab_ros.gateway.ports import Ports, ports
+from mrlab_ros.gateway.store.shelf import Shelf, finding_fields, of_head, shelf_of
+from mrlab_ros.gateway.uploads import answers, messages, motions
+from mrlab_ros.gateway.uploads.receive import Receiver
+
+TheShelf = Annotated[Shelf, Depends(shelf_of)]
+ThePorts = Annotated[Ports, Depends(ports)]
+# A class of fifty sends at once behind one name, too: the local user's.
+UPLOADS = Limit("uploads", burst=100, period=2.0)
+CONVERSIONS = Limit("conversions", burst=200, period=1.0)
+
+router = APIRouter(prefix="/api", tags=["uploads"])
+
+
+class Desk:
+    """Receives the uploads of one gateway and counts what each person asks for."""
+
+    def __init__(self, receiver: Receiver, steady: Callable[[], float] = time.monotonic) -> None:
+        self.receiver, self._steady = receiver, steady
+        self._limits = {limit.what: RateLimit(limit) for limit in (UPLOADS, CONVERSIONS)}
+
+    def count(self, person: Person, limit: Limit) -> None:
+        """Raise TooMany where a person asks too often."""
+        self._limits[limit.what].check(person.name, self._steady())
+
+
+def desk_of(request: Request) -> Desk:
+    """Return the desk of a gateway, as a dependency."""
+    found: Desk = request.app.state.desk
+    return found
+
+
+TheDesk = Annotated[Desk, Depends(desk_of)]
+
+
+@router.put(
+    "/uploads/{file_name}",
+    status_code=201,
+    openapi_extra={
+        "requestBody": {
+            "required": True,
+            "content": {"application/octet-stream": {"schema": {"type": "string"}}},
+        }
+    },
+)
+async def upload(
+    request: Request,
+    person: CurrentPerson,
+    shelf: TheShelf,
+    desk: TheDesk,
+    file_name: Annotated[str, Path(min_length=1, max_length=255)],
+    content_length: Annotated[int | None, Header(ge=0, include_in_schema=False)] = None,
+) -> answers.Upload:
+    """Receive a file, the raw body of the request; one that breaks off leaves nothing."""
+    desk.count(person, UPLOADS)
+    try:
+        received = await desk.receiver.receive(
+            shelf.user(person), file_name, content_length, request.stream()
+        )
+    except ClientDisconnect:
+        raise BadInput(f"'{file_name}' broke off and nothing was kept; send it again") from None
+    return answers.Upload(
+        upload=received.number,
+        file_name=received.file_name,
+        size=received.size,
+        sha256=received.sha256,
+    )
+
+
+@router.post("/conversions")
+async def convert(
+    person: CurrentPerson,
+    shelf: TheShelf,
+    there: ThePorts,
+    desk: TheDesk,
+    asked: answers.Conversion,
+) -> answers.Converted:
+    """Convert an upload of one's own into a draft, or say what is wrong with it."""
+    desk.count(person, CONVERSIONS)
+    if there.lab is None:
+        raise Unavailable("this gateway has no lab; start it with the endpoint of one")
+    user = shelf.user(person)
+    key = await run_in_threadpool(_uploaded, shelf, user, asked.upload)
+    draft = keys.unique()
+    request = asked.model_dump(exclude={"upload"})
+    request |= {"upload": key, "owner": user, "draft": keys.draft(user, draft)}
+    answer = await there.lab.call("converter/convert", "mrlab_msgs/srv/ConvertTrajectory", request)
+    if not answer.success and not len(answer.diagnostics):
+        raise BadInput(answer.message)
+    return await run_in_threadpool(_converted, shelf, user, key, draft, asked, answer)
+
+
+@router.get("/motions/{motion}", response_class=Response)
+async def motion(
+    person: CurrentPerson,
+    shelf: TheShelf,
+    motion: Annotated[str, Path(pattern="^[0-9a-f]{32}$")],
+) -> Response:
+    """Return the MotionDocument of a conversion of one's own, which pages draw."""
+    text = await run_in_threadpool(motions.motion, shelf, shelf.user(person), motion)
+    return Response(text, media_type="application/json")
+
+
+def _uploaded(shelf: Shelf, user: str, number: str) -> str:
+    found = shelf.store.list(keys.uploads(user, number))
+    if not found:
+        raise NotFound(f"the upload {number} is not there; send the file again")
+    return found[0].key
+
+
+def _converted(
+    shelf: Shelf, user: str, key: str, draft: str, asked: answers.Conversion, answer: Any
+) -> answers.Converted:
+    outcome = messages.OUTCOMES[answer.outcome]
+    diagnostics = messages.diagnostics_of(answer)
+    found: dict[str, Any] = {"trajectory": None, "draft": None}
+    number: str | None = None
+    if outcome == "accepted":
+        info = answer.trajectory
+        own = {"owner": info.owner, "version": int(info.version), "shared": bool(info.shared)}
+        found = {"trajectory": of_head(messages.head_of(info), **own), "draft": draft}
+        found["trajectory"]["warnings"] = [
+            fields for fields in finding_fields(diagnostics) if fields["severity"] == "warning"
+        ]
+        number = motions.keep_accepted(shelf, user, draft, answer.message, diagnostics)
+    else:
+        ambiguous = outcome == "ambiguous" and len(answer.candidates)
+        shown = answer.candidates[0].preview if ambiguous else answer.preview
+        preview = messages.preview_of(shown)
+        if preview is not None:
+            number = motions.keep_preview(
+                shelf,
+                user,
+                preview,
+                model=asked.robot_model,
+                end_effector=asked.end_effector,
+                file=keys.name_of(key.rsplit("/", 1)[1]),
+                message=answer.message,
+                verdict="ambiguous" if ambiguous else "refused",
+                frame_rate=asked.frame_rate,
+                diagnostics=diagnostics,
+            )
+    rows = messages.preview_of(answer.preview) is not None
+    return answers.Converted.model_validate(
+        {
+            "outcome": outcome,
+            "message": answer.message,
+            "diagnostics": finding_fields(diagnostics),
+            "candidates": [messages.candidate_fields(each) for each in answer.candidates],
+            "preview": messages.preview_fields(answer.preview) if rows else None,
+            "motion": None if number is None else f"/api/motions/{number}",
+            **found,
+        }
+    )
