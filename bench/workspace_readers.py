@@ -17,22 +17,15 @@ import report
 import scipy.io
 
 from mrlab_ros.adapters.workspaces import mat5, second_reader
+from mrlab_ros.adapters.workspaces.sink import Found
 
 
 class Last:
     """A sink that keeps the last matrix."""
 
-    def add(
-        self,
-        path: str,
-        kind: str,
-        shape: tuple[int, ...],
-        data: memoryview | bytes | None = None,
-        dtype: str = "",
-        **_: Any,
-    ) -> None:
-        if data is not None:
-            self.values = np.frombuffer(data, dtype).reshape(shape, order="F")
+    def add(self, found: Found) -> None:
+        if found.data is not None:
+            self.values = np.frombuffer(found.data, found.dtype).reshape(found.shape, order="F")
 
 
 def milliseconds(work: Callable[[], Any], repeats: int) -> float:

@@ -536,7 +536,9 @@ def tables() -> Iterator[File]:
         KUKA,
         csv("A1 [deg],A2 [deg],A3 [deg],A4 [deg],A5 [deg],A6 [deg]", np.degrees(k)),
         ".csv",
-        REFUSE,
+        ACCEPT,
+        None,
+        k,
     )
     yield File(
         "csv_joint",
@@ -981,7 +983,9 @@ def held_tables() -> Iterator[File]:
         "ur5e",
         csv(",".join(f"theta{i} (deg)" for i in range(1, 7)), np.degrees(q)),
         ".csv",
-        REFUSE,
+        ACCEPT,
+        None,
+        q,
     )
     yield File(
         "h_csv_gripper",

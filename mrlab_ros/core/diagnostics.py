@@ -89,12 +89,14 @@ KINDS: dict[str, Kind] = {
         "There is no such file.",
         "There is no file '{file}'.",
         "Check the folder and the name; the file ends in .mat.",
+        (("", "", "dir('*.mat')"),),
     ),
     "unsupported_format": Kind(
         ERROR,
         "The file is not a MATLAB workspace, and what it is instead.",
         "'{file}' is {found}, not a MATLAB workspace.",
         "In MATLAB: save('traj.mat', 'q') and convert traj.mat.",
+        SAVE_AGAIN,
     ),
     "unreadable": Kind(
         ERROR,

@@ -20,11 +20,12 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
-import numpy as np
+from found_matrices import matrix
 from fuzz import fuzz_matfile
 from numpy.typing import NDArray
 
 from mrlab_ros.adapters.workspaces import second_reader, worker
+from mrlab_ros.adapters.workspaces.sink import Found
 from mrlab_ros.core.diagnostics import Refused
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
@@ -34,17 +35,9 @@ BATCH = 50
 class Matrices(dict[str, NDArray[Any]]):
     """A sink that keeps the matrices, by path."""
 
-    def add(
-        self,
-        path: str,
-        kind: str,
-        shape: tuple[int, ...],
-        data: memoryview | bytes | None = None,
-        dtype: str = "",
-        **_: object,
-    ) -> None:
-        if data is not None and len(data) and len(shape) == 2:
-            self[path] = np.frombuffer(bytes(data), dtype).reshape(shape, order="F")
+    def add(self, found: Found) -> None:
+        if found.data is not None and len(found.data) and len(found.shape) == 2:
+            self[found.path] = matrix(found)
 
 
 @dataclass

@@ -24,6 +24,7 @@ import h5py
 import numpy as np
 import scipy.io
 from fakes import make_trajectory
+from found_matrices import matrix
 from rosbags.rosbag2 import Writer
 from rosbags.typesys import Stores, get_typestore
 
@@ -35,6 +36,7 @@ from mrlab_ros.adapters.workspaces import (
     worker,
 )
 from mrlab_ros.adapters.workspaces.mat5 import Damaged, NotAWorkspace, TooLarge
+from mrlab_ros.adapters.workspaces.sink import Found
 from mrlab_ros.core.conversion.workspace import JOINT_TRAJECTORY
 
 LIMIT = 1 << 24
@@ -45,17 +47,8 @@ EXPECTED = (Damaged, TooLarge, NotAWorkspace, MemoryError)
 class Discard:
     """A sink that keeps nothing but checks that each matrix has the bytes it says."""
 
-    def add(
-        self,
-        path: str,
-        kind: str,
-        shape: tuple[int, ...],
-        data: memoryview | bytes | None = None,
-        dtype: str = "",
-        **_: object,
-    ) -> None:
-        if data is not None:
-            np.frombuffer(data, dtype).reshape(shape, order="F")
+    def add(self, found: Found) -> None:
+        matrix(found)
 
 
 def seeds() -> list[tuple[str, bytes]]:

@@ -2,7 +2,10 @@
 
 import os
 
+import pytest
 from fuzz import differential
+
+pytestmark = pytest.mark.slow
 
 
 def test_what_we_read_of_damaged_files_scipy_and_h5py_read_alike():

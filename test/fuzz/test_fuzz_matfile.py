@@ -3,6 +3,8 @@
 import pytest
 from fuzz import fuzz_matfile
 
+pytestmark = pytest.mark.slow
+
 
 @pytest.mark.parametrize(("name", "data"), fuzz_matfile.seeds())
 def test_the_seeds_are_read(name, data):

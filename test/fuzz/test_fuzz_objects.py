@@ -8,6 +8,8 @@ pytest.importorskip("matio", reason="mat-io needs Python 3.11")
 
 from fuzz import fuzz_objects
 
+pytestmark = pytest.mark.slow
+
 
 def test_damaged_objects_are_read_or_refused_within_their_limits():
     ends = fuzz_objects.compare(150, seed=3)

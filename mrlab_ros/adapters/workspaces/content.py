@@ -149,7 +149,7 @@ def _variable(
     values = None
     if offset >= 0:
         flat = np.frombuffer(numbers, np.dtype(dtype), math.prod(shape), offset)
-        if kind in INTEGERS:
+        if kind in INTEGERS or kind == "logical":
             # times and rates: their differences must not wrap
             flat = flat.astype(np.float64)
         values = flat.reshape(tuple(shape), order="F")

@@ -15,6 +15,7 @@ DATES = (
     r"(?P<day>\d\d?)-(?P<name>[A-Za-z]{3})-(?P<year>\d{4})",  # datetime of MATLAB
 )
 PATTERNS = tuple(re.compile(f"(?:{date}[T ]\\s*)?{CLOCK}{ZONE}$") for date in DATES)
+DAYS = tuple(re.compile(f"{date}$") for date in DATES)
 MONTHS = ("jan", "feb", "mar", "apr", "may", "jun", "jul", "aug", "sep", "oct", "nov", "dec")
 DAY = 86_400.0
 
@@ -22,6 +23,11 @@ DAY = 86_400.0
 def is_instant(text: str) -> bool:
     """Say whether a text is a time of day, with or without a date before it."""
     return ":" in text and any(p.match(text) for p in PATTERNS)
+
+
+def is_day(text: str) -> bool:
+    """Say whether a text is a date alone."""
+    return any(day.match(text) for day in DAYS)
 
 
 def seconds(texts: Sequence[str]) -> list[float | None]:

@@ -18,9 +18,9 @@ import numpy as np
 from mrlab_ros.adapters.workspaces.mat5 import (
     Damaged,
     NotAWorkspace,
-    Sink,
     TooLarge,
 )
+from mrlab_ros.adapters.workspaces.sink import Found, Sink
 from mrlab_ros.core.conversion.named_columns import GRIPPER
 from mrlab_ros.core.conversion.workspace import JOINT_TRAJECTORY
 from mrlab_ros.core.trajectory.trajectory import Trajectory
@@ -73,7 +73,7 @@ def read_bag(data: memoryview, form: str, sink: Sink, limit: int) -> None:
             wanted = [c for c in bag.connections if c.msgtype == JOINT_TRAJECTORY]
             for other in bag.connections:
                 if other.msgtype != JOINT_TRAJECTORY:
-                    sink.add(other.topic, other.msgtype, ())
+                    sink.add(Found(other.topic, other.msgtype, ()))
             found: dict[str, list[bytes]] = {c.topic: [] for c in wanted}
             for connection, _, message in bag.messages(wanted) if wanted else ():
                 found[connection.topic].append(message)
@@ -86,7 +86,7 @@ def read_bag(data: memoryview, form: str, sink: Sink, limit: int) -> None:
         raise Damaged(f"the bag cannot be read ({error})") from None
     for topic, messages in found.items():
         if not messages:
-            sink.add(topic, JOINT_TRAJECTORY, ())
+            sink.add(Found(topic, JOINT_TRAJECTORY, ()))
         for number, message in enumerate(messages, 1):
             path = topic if len(messages) == 1 else f"{topic}({number})"
             _hand_over(path, message, types, sink)
@@ -110,16 +110,16 @@ def _hand_over(path: str, data: bytes, types: Any, sink: Sink) -> None:
     for number, point in enumerate(points, 1):
         if len(point.positions) != len(names):
             note = f"point {number} has {len(point.positions)} positions for {len(names)} joints"
-            sink.add(path, JOINT_TRAJECTORY, shape, note=note, columns=names)
+            sink.add(Found(path, JOINT_TRAJECTORY, shape, note=note, columns=names))
             return
     # bytes in the order of MATLAB's columns
     positions = np.array([p.positions for p in points], "<f8").reshape(shape)
-    sink.add(path, JOINT_TRAJECTORY, shape, positions.tobytes("F"), "<f8", columns=names)
+    sink.add(Found(path, JOINT_TRAJECTORY, shape, positions.tobytes("F"), "<f8", columns=names))
     times = np.array([_seconds(p.time_from_start) for p in points], "<f8")
-    sink.add(f"{path}.time_from_start", "double", (len(points), 1), times.tobytes(), "<f8")
+    sink.add(Found(f"{path}.time_from_start", "double", (len(points), 1), times.tobytes(), "<f8"))
     if points and all(len(p.velocities) == len(names) for p in points):
         velocities = np.array([p.velocities for p in points], "<f8")
-        sink.add(f"{path}.velocities", "double", shape, velocities.tobytes("F"), "<f8")
+        sink.add(Found(f"{path}.velocities", "double", shape, velocities.tobytes("F"), "<f8"))
 
 
 def _seconds(duration: Any) -> float:

@@ -9,7 +9,8 @@ from __future__ import annotations
 import math
 import struct
 import zlib
-from typing import Protocol
+
+from mrlab_ros.adapters.workspaces.sink import Found, Sink
 
 
 class Damaged(Exception):
@@ -26,36 +27,6 @@ class NotAWorkspace(Exception):
 
 class TooLarge(Exception):
     """The bytes declare more than the limit; the text completes 'the file is too large: ...'."""
-
-
-class Sink(Protocol):
-    """Takes what a reader finds, in the order of the file.
-
-    The arguments are the fields of `core.conversion.workspace.Variable`, with the numbers as
-    bytes.
-    """
-
-    def add(
-        self,
-        path: str,
-        kind: str,
-        shape: tuple[int, ...],
-        data: memoryview | bytes | None = None,
-        dtype: str = "",
-        *,
-        is_object: bool = False,
-        note: str = "",
-        columns: tuple[str, ...] = (),
-        units: tuple[str, ...] = (),
-        time: str = "",
-        label: str = "",
-        text: str = "",
-        within_object: bool = False,
-    ) -> None:
-        """Take one variable; `data` is column by column, of numpy type `dtype`.
-
-        within_object: it lies in a MATLAB object, so two readers have been compared already.
-        """
 
 
 # data types of the elements: numpy code of the numbers they hold
@@ -285,7 +256,7 @@ class Mat5Reader:
         if not len(body):
             if not path:
                 raise Damaged("a variable has no name")
-            self.sink.add(path, "double", (0, 0))
+            self.sink.add(Found(path, "double", (0, 0)))
             return path
         cursor = Cursor(body, self.order)
         kind, data = cursor.next()
@@ -298,7 +269,7 @@ class Mat5Reader:
             path = path or name
             if not path:
                 raise Damaged("an object has no name")
-            self.sink.add(path, class_name or "object", is_object=True, shape=())
+            self.sink.add(Found(path, class_name or "object", is_object=True, shape=()))
             if self.inside_objects:
                 self._child(cursor, path, depth)
             return path
@@ -311,7 +282,7 @@ class Mat5Reader:
             raise Damaged("a variable has no name")
         count = product(shape)
         if array_class == CELL:
-            self.sink.add(path, "cell", shape)
+            self.sink.add(Found(path, "cell", shape))
             for number in range(count):
                 self._child(cursor, f"{path}{{{index(shape, number)}}}", depth)
         elif array_class in (STRUCT, OBJECT):
@@ -336,10 +307,10 @@ class Mat5Reader:
         self, cursor: Cursor, array_class: int, path: str, shape: tuple[int, ...], depth: int
     ) -> None:
         if array_class == OBJECT:
-            self.sink.add(path, cursor.text() or "object", shape, is_object=True)
+            self.sink.add(Found(path, cursor.text() or "object", shape, is_object=True))
             if not self.inside_objects:
                 return
-        self.sink.add(path, "struct", shape)
+        self.sink.add(Found(path, "struct", shape))
         lengths = cursor.integers()
         length = lengths[0] if lengths else 0
         kind, names = cursor.next()
@@ -364,34 +335,35 @@ class Mat5Reader:
     ) -> None:
         kind = "logical" if flags & LOGICAL_FLAG else CLASSES[array_class]
         if array_class == FUNCTION:
-            self.sink.add(path, kind, shape, is_object=True)
+            self.sink.add(Found(path, kind, shape, is_object=True))
             return
         if array_class == SPARSE:
             rows, columns = self._element(cursor, path), self._element(cursor, path)
             if {rows[0], columns[0]} - {"i4", "u4"}:
                 raise Damaged(f"the sparse '{path}' has indices of another type than int32")
-            self.sink.add(path, "sparse", shape)
+            self.sink.add(Found(path, "sparse", shape))
             return
         if array_class == CHAR:
-            self.sink.add(path, kind, shape, text=self._text(cursor, path, shape))
+            self.sink.add(Found(path, kind, shape, text=self._text(cursor, path, shape)))
             return
         dtype, data = self._element(cursor, path, shape)
         if flags & COMPLEX_FLAG:
             imaginary, more = self._element(cursor, path, shape)
-            self.sink.add(path, kind, shape, note="complex")
+            self.sink.add(Found(path, kind, shape, note="complex"))
             if self.inside_objects:
-                self.sink.add(path, kind, shape, data, self.order + dtype)
-                self.sink.add(path, kind, shape, more, self.order + imaginary)
+                self.sink.add(Found(path, kind, shape, data, self.order + dtype))
+                self.sink.add(Found(path, kind, shape, more, self.order + imaginary))
         elif (
             kind in ("double", "single")
             or self.inside_objects
             or (kind in INTEGERS and is_vector(shape))
+            or (kind == "logical" and is_vector(shape) and max(shape) > 1)
         ):
-            self.sink.add(path, kind, shape, data, self.order + dtype)
+            self.sink.add(Found(path, kind, shape, data, self.order + dtype))
         else:
             truth = data[0] if kind == "logical" and len(data) == 1 else None
             said = "" if truth is None else "true" if truth else "false"
-            self.sink.add(path, kind, shape, text=said)
+            self.sink.add(Found(path, kind, shape, text=said))
 
     def _element(
         self, cursor: Cursor, path: str, shape: tuple[int, ...] | None = None
@@ -490,13 +462,15 @@ def read_mat4(data: memoryview, sink: Sink) -> None:
             if rows == 1 and columns <= LONGEST_TEXT:
                 codes = memoryview(data[begin : begin + one])
                 text = characters(codes, order, number)
-            sink.add(name, "char", (rows, columns), text=text)
+            sink.add(Found(name, "char", (rows, columns), text=text))
         elif kind % 10 == 2:
-            sink.add(name, "sparse", (rows, columns))
+            sink.add(Found(name, "sparse", (rows, columns)))
         elif imaginary:
-            sink.add(name, "double", (rows, columns), note="complex")
+            sink.add(Found(name, "double", (rows, columns), note="complex"))
         else:
-            sink.add(name, "double", (rows, columns), data[begin : begin + one], order + number)
+            sink.add(
+                Found(name, "double", (rows, columns), data[begin : begin + one], order + number)
+            )
 
 
 SIGNATURES: tuple[tuple[bytes, str], ...] = (

@@ -19,11 +19,11 @@ from mrlab_ros.adapters.workspaces.mat5 import (
     LONGEST_TEXT,
     Damaged,
     NotAWorkspace,
-    Sink,
     TooLarge,
     index,
     is_vector,
 )
+from mrlab_ros.adapters.workspaces.sink import Found, Sink
 
 
 def read_hdf5(file: Any, sink: Sink, limit: int) -> None:
@@ -103,9 +103,9 @@ class _Reader:
             raise Damaged(f"'{path}' is nested deeper than {DEEPEST} levels")
         kind = _word(item.attrs.get("MATLAB_class", ""))
         if "MATLAB_object_decode" in item.attrs:
-            self.sink.add(path, kind or "object", is_object=True, shape=())
+            self.sink.add(Found(path, kind or "object", is_object=True, shape=()))
         elif "MATLAB_sparse" in item.attrs:
-            self.sink.add(path, "sparse", (int(item.attrs["MATLAB_sparse"]), 0))
+            self.sink.add(Found(path, "sparse", (int(item.attrs["MATLAB_sparse"]), 0)))
         elif isinstance(item, h5py.Group):
             self._struct(item, path, depth)
         elif kind == "cell":
@@ -123,12 +123,12 @@ class _Reader:
         names = self.names(group)
         arrays = [n for n in names if self._is_references(group[n])]
         if not arrays:
-            self.sink.add(path, "struct", (1, 1))
+            self.sink.add(Found(path, "struct", (1, 1)))
             for name in names:
                 self.item(group[name], f"{path}.{name}", depth + 1)
             return
         shape = self._shape(group[arrays[0]])
-        self.sink.add(path, "struct", shape)
+        self.sink.add(Found(path, "struct", shape))
         columns = {name: group[name][()].reshape(-1) for name in arrays}
         for number in range(min(len(c) for c in columns.values())):
             for name, column in columns.items():
@@ -145,7 +145,7 @@ class _Reader:
 
     def cell(self, item: Any, path: str, depth: int) -> None:
         shape = self._shape(item)
-        self.sink.add(path, "cell", shape)
+        self.sink.add(Found(path, "cell", shape))
         if "MATLAB_empty" in item.attrs:
             return
         self._bounded(item, path)
@@ -175,30 +175,30 @@ class _Reader:
     def _numbers(self, item: Any, path: str, kind: str) -> None:
         shape = self._shape(item)
         if item.dtype.names:
-            self.sink.add(path, kind or "double", shape, note="complex")
+            self.sink.add(Found(path, kind or "double", shape, note="complex"))
             if self.inside_objects and "MATLAB_empty" not in item.attrs:
                 self._bounded(item, path)
                 for name in item.dtype.names:
                     values = item[()][name].copy()
                     data = memoryview(values).cast("B")
-                    self.sink.add(path, "double", shape, data, values.dtype.str)
+                    self.sink.add(Found(path, "double", shape, data, values.dtype.str))
             return
         kind = kind or {"f": "double", "i": "int64", "u": "uint64"}.get(item.dtype.kind, "unknown")
         if kind == "char" and "MATLAB_empty" not in item.attrs:
-            self.sink.add(path, kind, shape, text=self._text(item, shape))
+            self.sink.add(Found(path, kind, shape, text=self._text(item, shape)))
             return
         if kind == "logical" and item.size == 1 and not self.inside_objects:
             truth = bool(np.any(item[()])) and "MATLAB_empty" not in item.attrs
-            self.sink.add(path, kind, shape, text="true" if truth else "false")
+            self.sink.add(Found(path, kind, shape, text="true" if truth else "false"))
             return
         wanted = kind in ("double", "single") or (self.inside_objects and kind != "char")
-        wanted = wanted or (kind in INTEGERS and is_vector(shape))
+        wanted = wanted or (kind in (*INTEGERS, "logical") and is_vector(shape))
         if not wanted or item.dtype.kind not in "fiu":
-            self.sink.add(path, kind, shape)
+            self.sink.add(Found(path, kind, shape))
             return
         if "MATLAB_empty" in item.attrs:
-            self.sink.add(path, kind, shape)
+            self.sink.add(Found(path, kind, shape))
             return
         self._bounded(item, path)
         values = item[()]
-        self.sink.add(path, kind, shape, memoryview(values).cast("B"), values.dtype.str)
+        self.sink.add(Found(path, kind, shape, memoryview(values).cast("B"), values.dtype.str))

@@ -32,6 +32,7 @@ from mrlab_ros.adapters.workspaces.object_values import (
     texts,
     unit_of,
 )
+from mrlab_ros.adapters.workspaces.sink import Found
 
 MOST_PARTS = 50_000  # properties, fields and cells that are visited in one file
 # seconds in a unit of time, as a timeseries names it
@@ -98,7 +99,7 @@ class Opener:
         try:
             self._walk(name, value, inside=False)
         except TooMany:
-            self.sink.add(name, "object", (), note=f"it has more than {MOST_PARTS} parts")
+            self.sink.add(Found(name, "object", (), note=f"it has more than {MOST_PARTS} parts"))
 
     # every kind of value
 
@@ -116,7 +117,7 @@ class Opener:
             elif isinstance(value, np.ndarray):
                 self._array(path, value, inside=inside, label=label)
             elif inside:
-                self.sink.add(path, "sparse" if hasattr(value, "tocsc") else "unknown", ())
+                self.sink.add(Found(path, "sparse" if hasattr(value, "tocsc") else "unknown", ()))
         finally:
             self._above.discard(id(value))
 
@@ -125,13 +126,13 @@ class Opener:
         classname = getattr(value, "classname", None)
         if isinstance(value, self._function):
             if inside:
-                self.sink.add(path, "function_handle", shape, is_object=True)
+                self.sink.add(Found(path, "function_handle", shape, is_object=True))
         elif isinstance(value, self._old):
             fields = {name: value[name].flat[0] for name in value.dtype.names or () if value.size}
             self._object(path, str(classname), fields, label)
         elif value.dtype.names:
             if inside:
-                self.sink.add(path, "struct", shape)
+                self.sink.add(Found(path, "struct", shape))
             for number, place in enumerate(places(value)):
                 element = path if value.size == 1 else f"{path}({index(shape, number)})"
                 for name in value.dtype.names:
@@ -139,7 +140,7 @@ class Opener:
         elif value.dtype == object:
             is_cell = classname is None
             if inside and is_cell:
-                self.sink.add(path, "cell", shape)
+                self.sink.add(Found(path, "cell", shape))
             elif not is_cell:
                 self._opens(path, str(classname), shape)
                 if CLOSED.match(str(classname)):
@@ -156,30 +157,32 @@ class Opener:
         if value.dtype.kind in "US":
             text = str(value.flat[0]) if value.size == 1 else ""
             self.sink.add(
-                path, "char", (1, len(text)), text=text if len(text) <= LONGEST_TEXT else ""
+                Found(path, "char", (1, len(text)), text=text if len(text) <= LONGEST_TEXT else "")
             )
             return
         kind = {"f8": "double", "f4": "single", "b1": "logical", "c16": "double", "c8": "single"}
         name = kind.get(value.dtype.str[1:], value.dtype.name)
         if value.dtype.kind == "c":
-            self.sink.add(path, name, shape, note="complex")
+            self.sink.add(Found(path, name, shape, note="complex"))
         elif value.dtype.kind != "f" or value.ndim < 2:
             if name == "logical" and value.size == 1:
                 facts["text"] = "true" if value.flat[0] else "false"
-            self.sink.add(path, name, shape, **facts)
+            self.sink.add(Found(path, name, shape, **facts))
         elif value not in self.known:
-            self.sink.add(path, name, shape, note="two readers find different numbers in it")
+            self.sink.add(
+                Found(path, name, shape, note="two readers find different numbers in it")
+            )
         else:
             self._numbers(path, name, value, **facts)
 
     def _numbers(self, path: str, kind: str, values: NDArray[Any], **facts: Any) -> None:
         data = values.tobytes(order="F")
-        self.sink.add(path, kind, values.shape, data, values.dtype.str, **facts)
+        self.sink.add(Found(path, kind, values.shape, data, values.dtype.str, **facts))
 
     def _opens(self, path: str, kind: str, shape: tuple[int, ...] = (), **facts: Any) -> None:
         """Name an object whose parts follow."""
         self.opened.add(path)
-        self.sink.add(path, kind, shape, **facts)
+        self.sink.add(Found(path, kind, shape, **facts))
 
     # objects
 
@@ -191,7 +194,7 @@ class Opener:
             self._enumeration(path, kind, properties)
         elif not isinstance(properties, dict):
             if path not in self.closed:
-                self.sink.add(path, kind, (), is_object=True)
+                self.sink.add(Found(path, kind, (), is_object=True))
         elif kind in self._classes:
             self._classes[kind](path, properties, label)
         elif ROBOTS.match(kind):
@@ -370,7 +373,7 @@ class Opener:
         seconds = self._seconds(self._opaque(properties, kind))
         stored = properties.get("millis", properties.get("data"))
         if seconds is None or not seconds.size:
-            self.sink.add(path, kind, shape_of(stored))
+            self.sink.add(Found(path, kind, shape_of(stored)))
         else:
             shape = shape_of(stored)
             values = seconds.reshape(shape, order="F") if len(shape) == 2 else seconds

@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 import hashlib
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from mrlab_ros.adapters.workspaces.mat5 import Sink
+from mrlab_ros.adapters.workspaces.sink import Found, Sink
 
 
 class ObjectSink:
@@ -18,22 +19,12 @@ class ObjectSink:
         self.sink = sink
         self.closed: dict[str, str] = {}
 
-    def add(
-        self,
-        path: str,
-        kind: str,
-        shape: tuple[int, ...],
-        data: memoryview | bytes | None = None,
-        dtype: str = "",
-        *,
-        is_object: bool = False,
-        **facts: Any,
-    ) -> None:
-        """Take one variable; see `Sink`."""
-        if is_object and kind != "function_handle":
-            self.closed[path] = kind
+    def add(self, found: Found) -> None:
+        """Take one variable."""
+        if found.is_object and found.kind != "function_handle":
+            self.closed[found.path] = found.kind
         else:
-            self.sink.add(path, kind, shape, data, dtype, is_object=is_object, **facts)
+            self.sink.add(found)
 
 
 class WithinObjects:
@@ -42,9 +33,9 @@ class WithinObjects:
     def __init__(self, sink: Sink) -> None:
         self.sink = sink
 
-    def add(self, path: str, kind: str, shape: tuple[int, ...], *data: Any, **facts: Any) -> None:
-        """Take one variable; see `Sink`."""
-        self.sink.add(path, kind, shape, *data, within_object=True, **facts)
+    def add(self, found: Found) -> None:
+        """Take one variable."""
+        self.sink.add(replace(found, within_object=True))
 
 
 class Digests:
@@ -53,18 +44,11 @@ class Digests:
     def __init__(self) -> None:
         self._seen: set[bytes] = set()
 
-    def add(
-        self,
-        path: str,
-        kind: str,
-        shape: tuple[int, ...],
-        data: memoryview | bytes | None = None,
-        dtype: str = "",
-        **_: Any,
-    ) -> None:
-        """Remember one matrix; see `Sink`."""
-        if data is not None and len(data):
-            self._seen.add(digest(np.frombuffer(data, dtype).reshape(shape, order="F")))
+    def add(self, found: Found) -> None:
+        """Remember one matrix."""
+        if found.data is not None and len(found.data):
+            values = np.frombuffer(found.data, found.dtype).reshape(found.shape, order="F")
+            self._seen.add(digest(values))
 
     def __contains__(self, values: NDArray[Any]) -> bool:
         if not values.size:

@@ -23,6 +23,7 @@ from mrlab_ros.adapters.workspaces.mat73 import (
 )
 from mrlab_ros.adapters.workspaces.object_classes import Opener
 from mrlab_ros.adapters.workspaces.object_sinks import Digests, ObjectSink
+from mrlab_ros.adapters.workspaces.sink import Found
 from mrlab_ros.adapters.workspaces.view import View
 
 MISSING = (
@@ -74,7 +75,7 @@ def open_objects(data: memoryview, found: ObjectSink, limit: int) -> None:
 def _leave_closed(found: ObjectSink, opened: set[str], why: str) -> None:
     for path, kind in found.closed.items():
         if path not in opened:
-            found.sink.add(path, kind, (), is_object=True, note=why)
+            found.sink.add(Found(path, kind, (), is_object=True, note=why))
 
 
 def _loaded(data: memoryview, names: list[str]) -> dict[str, Any]:

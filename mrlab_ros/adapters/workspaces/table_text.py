@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from mrlab_ros.adapters.workspaces.instants import is_instant, seconds
+from mrlab_ros.adapters.workspaces.instants import is_day, is_instant, seconds
 from mrlab_ros.adapters.workspaces.mat5 import NotATable
 from mrlab_ros.core.conversion.unit_names import against
 
@@ -69,6 +69,7 @@ def parsed(data: bytes) -> TextTable:
     if headed and [c.lower() for c in cells][:1] == [LABVIEW_X]:
         units = [*units, *[""] * len(cells)]
         cells = ["t", *(_with_unit(h, u) for h, u in zip(cells[1:], units, strict=False))]
+    lines, cells = _with_days(lines, cells, separator, headed)
     if headed:
         lines, begin = lines[1:], begin + 1
         given = _cells(lines[0], separator) if lines else []
@@ -179,12 +180,14 @@ def _above(lines: list[str], separator: str | None, stated: dict[str, float]) ->
     width = widths.most_common(1)[0][0]
     for number, line in enumerate(lines[:MOST_ABOVE]):
         cells = _cells(line, separator)
-        if line.strip() and (
-            len(cells) == width or all(_is_value(c, separator) for c in cells if c)
+        titled = 2 * len([c for c in cells if c]) < len(cells)  # a title in the first cell
+        if any(cells) and (
+            (len(cells) == width and not titled)
+            or all(_is_value(c, separator) for c in cells if c)
         ):
             return number
         following = next((x for x in lines[number + 1 :] if x.strip()), "")
-        if line.strip() and all(_is_value(c, separator) for c in _cells(following, separator)):
+        if any(cells) and all(_is_value(c, separator) for c in _cells(following, separator)):
             # headings of another width say nothing, but the rows follow
             _state(line, stated)
             return number
@@ -236,6 +239,27 @@ def _with_unit(heading: str, unit: str) -> str:
     if bare in ("", "-") or (heading.lower() in TIMES and bare == "s"):
         return heading
     return f"{heading} [{bare}]"
+
+
+def _with_days(
+    lines: list[str], cells: list[str], separator: str | None, headed: bool
+) -> tuple[list[str], list[str]]:
+    """Return rows and headings with a column of days put before that of the times behind it."""
+    first = next((line for line in lines[headed:] if line.strip()), "")
+    given = _cells(first, separator)
+    column = next(
+        (i for i, c in enumerate(given[:-1]) if is_day(c) and is_instant(given[i + 1])), -1
+    )
+    if column < 0 or separator is None:
+        return lines, cells
+    joined = []
+    for line in lines[headed:]:
+        row = line.split(separator)
+        if len(row) > column + 1:
+            row[column : column + 2] = [f"{row[column].strip()} {row[column + 1].strip()}"]
+        joined.append(separator.join(row))
+    kept = cells[:column] + cells[column + 1 :] if len(cells) == len(given) else cells
+    return [*lines[:headed], *joined], kept
 
 
 def _without_comments(lines: list[str], separator: str | None, width: int) -> list[str]:

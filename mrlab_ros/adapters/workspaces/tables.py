@@ -9,7 +9,8 @@ from typing import Any
 import numpy as np
 
 from mrlab_ros.adapters.workspaces import table_text
-from mrlab_ros.adapters.workspaces.mat5 import INTEGERS, Damaged, Sink, TooLarge, is_vector
+from mrlab_ros.adapters.workspaces.mat5 import INTEGERS, Damaged, TooLarge, is_vector
+from mrlab_ros.adapters.workspaces.sink import Found, Sink
 from mrlab_ros.adapters.workspaces.view import View
 
 TIME_HEADINGS = ("t", "time", "time_from_start")
@@ -19,12 +20,18 @@ def _add(sink: Sink, name: str, values: Any, columns: tuple[str, ...] = ()) -> N
     kinds = {"f8": "double", "f4": "single"}
     kind = kinds.get(values.dtype.str[1:], values.dtype.name)
     if values.dtype.kind == "c":
-        sink.add(name, "double", values.shape, note="complex")
+        sink.add(Found(name, "double", values.shape, note="complex"))
         return
+    if values.dtype.kind == "b":
+        values, kind = values.astype(np.uint8), "logical"
     shape = values.shape if values.ndim >= 2 else (values.size, 1)
-    kept = kind in ("double", "single") or (kind in INTEGERS and is_vector(shape))
+    kept = kind in ("double", "single") or (
+        kind in (*INTEGERS, "logical")
+        and is_vector(shape)
+        and values.size > 1 - (kind != "logical")
+    )
     data = np.asfortranarray(values).tobytes(order="F") if kept else None
-    sink.add(name, kind, shape, data, values.dtype.str, columns=columns)
+    sink.add(Found(name, kind, shape, data, values.dtype.str, columns=columns))
 
 
 def read_csv(data: memoryview, sink: Sink) -> None:

@@ -47,6 +47,7 @@ from mrlab_ros.adapters.workspaces import (
 )
 from mrlab_ros.adapters.workspaces.mat73 import read_hdf5
 from mrlab_ros.adapters.workspaces.object_sinks import ObjectSink
+from mrlab_ros.adapters.workspaces.sink import Found, Sink
 from mrlab_ros.adapters.workspaces.view import View
 from mrlab_ros.core.conversion.dimensions import is_motion
 from mrlab_ros.core.conversion.options import Options
@@ -58,6 +59,8 @@ from mrlab_ros.core.trajectory.channels import ProxyCoefficients
 
 MOST_VARIABLES = 20_000
 MESSAGE_SIZE = 65_536
+# what the index says of a variable beside its numbers
+FACTS = ("note", "columns", "units", "time", "is_object", "label", "text")
 # what a table may look like before its rows are read
 TEXTS = ("a text file", "a file of an unknown kind")
 
@@ -72,28 +75,13 @@ class OutputFile:
         self.index: list[Any] = []
         self.omitted = 0
 
-    def add(
-        self,
-        path: str,
-        kind: str,
-        shape: tuple[int, ...],
-        data: memoryview | bytes | None = None,
-        dtype: str = "",
-        *,
-        is_object: bool = False,
-        note: str = "",
-        columns: tuple[str, ...] = (),
-        units: tuple[str, ...] = (),
-        time: str = "",
-        label: str = "",
-        text: str = "",
-        within_object: bool = False,
-    ) -> None:
+    def add(self, found: Found) -> None:
         if len(self.index) >= MOST_VARIABLES:
             self.omitted += 1
             return
+        shape, data = tuple(found.shape), found.data
         offset = -1
-        if data is not None and _is_kept(tuple(shape)) and len(data):
+        if data is not None and _is_kept(shape) and len(data):
             if self.at + len(data) > self.limit:
                 raise mat5.TooLarge(f"its matrices hold more than {self.limit / 2**20:.0f} MiB")
             offset = self.at
@@ -101,9 +89,9 @@ class OutputFile:
             padding = -len(data) % 8
             self.file.write(bytes(padding))
             self.at += len(data) + padding
-        facts: dict[str, Any] = {"note": note, "columns": columns, "units": units, "time": time}
-        facts |= {"is_object": is_object, "label": label, "text": text}
-        self.index.append([path, kind, shape, offset, dtype, within_object, facts])
+        facts = {name: getattr(found, name) for name in FACTS}
+        entry = [found.path, found.kind, shape, offset, found.dtype, found.within_object, facts]
+        self.index.append(entry)
 
     def finish(self, **words: Any) -> None:
         words |= {"variables": self.index, "omitted": self.omitted}
@@ -129,7 +117,7 @@ def inflate(data: memoryview, limit: int) -> bytes:
     return inflated
 
 
-def read(data: memoryview, name: str, sink: mat5.Sink, limit: int) -> str:
+def read(data: memoryview, name: str, sink: Sink, limit: int) -> str:
     """Hand the variables of a file of any known format to the sink; return the format's name."""
     form = mat5.recognise(data)
     if form == "gzip":

@@ -29,14 +29,14 @@ class Assessment:
     low, high: (C,) range of each column, NaN where it is not finite. clocks: columns that count
     time. fits: it has one column a joint, or one more with a gripper. unit: of its first J
     columns. unfilled: first and last row, from 1, of zeros that were never filled. coarse: its
-    rows are waypoints. poses: what speaks for poses. velocity_of: the matrix whose derivative it
-    is. rates: Hz, those at which other matrices are its derivatives, with their paths.
-    tool_of: the matrix at whose joint positions its points are the tool's. tool_path: the matrix
-    of poses that agrees with it. other_tool_path: one that claims to be the tool's path and does
-    not agree, with how far it is away. twin: the same motion, measured or commanded. copies: the
-    matrices with the same numbers.
-    objections: why it is no joint positions. doubts: what a person should check. reasons: what
-    its points were made from; points: 0 to about 1.5, larger is likelier.
+    rows are waypoints. between_zeros: it begins and ends at 0, as velocities do. poses: what
+    speaks for poses. velocity_of: the matrix whose derivative it is. rates: Hz, those at which
+    other matrices are its derivatives, with their paths. tool_of: the matrix at whose joint
+    positions its points are the tool's. tool_path: the matrix of poses that agrees with it.
+    other_tool_path: one that claims to be the tool's path and does not agree, with how far it is
+    away. twin: the same motion, measured or commanded. copies: the matrices with the same
+    numbers. objections: why it is no joint positions. doubts: what a person should check.
+    reasons: what its points were made from; points: 0 to about 1.5, larger is likelier.
     """
 
     variable: Variable
@@ -51,6 +51,7 @@ class Assessment:
     unfilled: tuple[int, int] | None = None
     coarse: bool = False
     still: bool = False
+    between_zeros: bool = False
     smooth: bool | None = None
     last_is_joint: bool = False
     poses: PoseEvidence = NO_POSES

@@ -54,6 +54,7 @@ DURATION_NAMES = words(
     "tf tfinal tend duration dauer totaltime ttotal ttot tmax movetime gesamtzeit endzeit simtime "
     "stoptime tstop tges motiontime t"
 )
+SPANS = words("tspan timespan tintervall zeitbereich")
 LIKELY_OF_DURATION = (5.0, 1000.0)  # Hz
 # structures whose steps and rates are not those of a trajectory
 FOREIGN = words("controller regler filter emg cam camera kamera force kraft ft imu audio plot")
@@ -66,6 +67,7 @@ RELATED = words(
     "joints arm ref reference state states"
 )
 COARSE_SINGLE = 1e5  # above it, single precision is no clock of a robot
+CONTAINERS = ("table", "timetable", "timeseries", "containers.Map", "dictionary")
 AGREES = 0.01  # relative; rates that differ by less are the same
 AGREES_WITH_MOTION = 0.05  # the same for a rate from a velocity
 MOST_NAMED = 5
@@ -131,6 +133,9 @@ def find(
     workspace = survey.workspace
     coarse = chosen is not None and chosen.coarse
     motion = chosen.rates if chosen is not None else ()
+    if not coarse:
+        # velocities a row, as jtraj gives them without times, say nothing of a second
+        motion = tuple((p, r) for p, r in motion if abs(r - 1) > AGREES_WITH_MOTION)
     scalars = _scalars(workspace, path, rows, coarse)
     likely = tuple(s.rate for s in scalars if s.sure) + tuple(r for _, r in motion)
     clocks = _clocks(workspace, path, rows, column, coarse, likely)
@@ -475,6 +480,8 @@ def _unused(
             continue
         words_of = parts(name)
         whole = re.sub(r"[^a-z]", "", "".join(words_of))
+        if v.kind in CONTAINERS:
+            continue
         of_rate = whole in RATE_NAMES | STEP_NAMES or words_of[0] in RATE_NAMES | STEP_NAMES
         count = int(np.prod([float(n) for n in v.shape]))
         problem = ""
@@ -595,10 +602,14 @@ def _of_duration(workspace: Workspace, path: str, rows: int) -> Scalar | None:
     for v in workspace.variables:
         number = workspace.scalar(v)
         name = _scalar_name(v.path)
+        if number is None and name and v.values is not None and v.values.size == 2:
+            # from the begin to the end, as ode45 takes it
+            begin, end = (float(x) for x in v.values.reshape(-1))
+            number = end - begin if "".join(parts(name)) in SPANS else None
         if number is None or not np.isfinite(number) or number <= 0 or not name:
             continue
         said = "".join(parts(name))
-        if said not in DURATION_NAMES or not _is_near(v.path, near):
+        if said not in DURATION_NAMES | SPANS or not _is_near(v.path, near):
             continue
         # T may be anything: it counts where it is the time of the last row, as in 0:dt:T
         for steps in (rows - 1,) if said == "t" else (rows - 1, rows):

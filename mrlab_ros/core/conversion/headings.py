@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 import re
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
@@ -16,6 +17,7 @@ from mrlab_ros.core.robots.model import RobotModel
 BRACKETS = re.compile(r"\s*[\[({]\s*([^\])}]*?)\s*[\])}]\s*$")
 POINT = (("x", "y", "z"), ("px", "py", "pz"), ("posx", "posy", "posz"), ("tcpx", "tcpy", "tcpz"))
 MOST_HEADINGS = 2000
+SECONDS, NANOSECONDS = ("sec", "secs", "s"), ("nsec", "nsecs", "nanosec", "nanosecs", "ns")
 
 
 @dataclass(frozen=True)
@@ -77,9 +79,9 @@ def describe_table(variable: Variable) -> Name | None:
     if is_whole(variable, runs):
         said = describe(plain_path(runs[0]))
         return replace(said, unit=unit or said.unit)
-    hints = {describe(n).hint for n in names}
-    if hints == {Hint.AGAINST}:
-        return Name(Hint.AGAINST, describe(names[0]).what)
+    said_of = [describe(n.replace(".", "_")) for n in names if not is_time_name(n)]
+    if said_of and {s.hint for s in said_of} == {Hint.AGAINST}:
+        return Name(Hint.AGAINST, said_of[0].what)
     return Name(Hint.NEUTRAL, "", unit)
 
 
@@ -108,6 +110,18 @@ def is_whole(table: Variable, runs: list[Group]) -> bool:
     )
 
 
+def _stamps(table: Variable) -> list[Variable]:
+    """Return the times of a table whose seconds and nanoseconds are two columns, as ROS has it."""
+    assert table.values is not None
+    words_of = [re.split(r"[^a-z]+", plain(h)[0].lower())[-1] for h in table.columns]
+    for c, (first, second) in enumerate(itertools.pairwise(words_of)):
+        if first in SECONDS and second in NANOSECONDS:
+            whole = table.values[:, c : c + 1].astype(float)
+            times = whole - whole[0] + table.values[:, c + 1 : c + 2] * 1e-9
+            return [Variable("stamp", table.kind, times.shape, times - times[0])]
+    return []
+
+
 def split_tables(workspace: Workspace, robot: RobotModel) -> Workspace:
     """Return the workspace with the groups and the single columns of its tables as variables.
 
@@ -122,10 +136,15 @@ def split_tables(workspace: Workspace, robot: RobotModel) -> Workspace:
         if not names_joints(v, robot) and not is_whole(v, runs):
             for run in runs:
                 values = v.values[:, run.columns[0] : run.columns[-1] + 1]
+                degrees = all(plain(h)[1] == "deg" for h in run.headings)
+                units = ("deg",) if degrees else ()
                 added.append(
-                    Variable(run.path, v.kind, values.shape, values, columns=run.headings)
+                    Variable(
+                        run.path, v.kind, values.shape, values, columns=run.headings, units=units
+                    )
                 )
         grouped = {c for run in runs for c in run.columns}
+        added += _stamps(v)
         for c, heading in enumerate(v.columns):
             if c not in grouped and (is_time_name(plain(heading)[0]) or len(v.columns) > 1):
                 column = v.values[:, c : c + 1]

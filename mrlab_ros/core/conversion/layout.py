@@ -37,7 +37,8 @@ from mrlab_ros.core.trajectory.trajectory import Array
 
 GRIPPER_NAMES = words(
     "gripper greifer grip grippers gripperstate gripperpos hand finger fingers jaw jaws claw "
-    "schliessen greiferzustand greiferposition zange vacuum suction saugnapf sauger robotiq"
+    "schliessen greiferzustand greiferposition zange vacuum suction saugnapf sauger robotiq "
+    "closed geschlossen"
 )
 
 

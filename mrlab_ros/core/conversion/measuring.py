@@ -22,6 +22,7 @@ from mrlab_ros.core.trajectory.trajectory import Array
 ROUGH = 0.15
 ENOUGH_ROWS = 20
 SMOOTH_ROWS = 20_000
+NEAR_ZERO = 0.02  # of the range of a column
 COARSE = 0.05  # rad from row to row: waypoints, not samples
 # Rows of zeros at an end were never filled where the step to them is so large: rad, usual steps.
 UNFILLED_LEAST, UNFILLED_FACTOR = 0.05, 5.0
@@ -79,9 +80,19 @@ def measured(
         coarse=bool(usual.max() > COARSE),
         still=not span.any(),
         smooth=smooth,
+        between_zeros=_between_zeros(arm, span),
         last_is_joint=last_is_joint,
         poses=cartesian.evidence(values, robot),
     )
+
+
+def _between_zeros(arm: NDArray[Any], span: Array) -> bool:
+    """Say whether a matrix begins and ends near 0 in all of several columns that move."""
+    moving = span > 1e-6
+    if moving.sum() < 2 or len(arm) < ENOUGH_ROWS:
+        return False
+    ends = np.abs(arm[[0, -1]][:, moving].astype(np.float64)).max(axis=0)
+    return bool((ends <= NEAR_ZERO * span[moving]).all() and not arm[0, ~moving].any())
 
 
 def _unfilled(arm: NDArray[Any], steps: Array) -> tuple[int, int] | None:

@@ -55,6 +55,9 @@ def judged(a: Assessment, robot: RobotModel) -> Assessment:
     if a.last_is_joint:
         points -= 0.1
         reasons.append("its last column is not a gripper's")
+    if a.between_zeros and hint in (Hint.NEUTRAL, Hint.TWO_FACED) and not (a.tool_path or a.rates):
+        points -= 0.25
+        reasons.append("it begins and ends at zero, as velocities do")
     may_be_poses = a.poses.possible and hint in (Hint.TWO_FACED, Hint.DOUBTFUL)
     if may_be_poses and a.poses.hints and not a.tool_path:
         points -= 0.25

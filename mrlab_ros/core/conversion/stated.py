@@ -9,6 +9,7 @@ from dataclasses import replace
 from mrlab_ros.core.conversion import joining
 from mrlab_ros.core.conversion.headings import MOST_HEADINGS, plain
 from mrlab_ros.core.conversion.named_columns import names_joints
+from mrlab_ros.core.conversion.time_vectors import is_time_name
 from mrlab_ros.core.conversion.unit_names import said_by_units
 from mrlab_ros.core.conversion.variable_names import Hint, describe
 from mrlab_ros.core.conversion.workspace import Variable, Workspace
@@ -30,10 +31,21 @@ def with_headings(workspace: Workspace, robot: RobotModel) -> Workspace:
     the robot's. Headings that name other quantities, such as velocity.elbow_joint, stay.
     """
     variables = tuple(
-        _named_as_joints(v, v.columns, robot) if v.columns and v.values is not None else v
+        _in_degrees(_named_as_joints(v, v.columns, robot), robot)
+        if v.columns and v.values is not None
+        else v
         for v in workspace.variables
     )
     return replace(workspace, variables=variables)
+
+
+def _in_degrees(table: Variable, robot: RobotModel) -> Variable:
+    """Return a table with degrees as its unit where the headings of all its joints say so."""
+    headings = [h for h in table.columns if not is_time_name(plain(h)[0])]
+    degrees = [h for h in headings if plain(h)[1] == "deg"]
+    if table.units or len(degrees) < len(robot.joints) or len(headings) - len(degrees) > 1:
+        return table
+    return replace(table, units=("deg",))
 
 
 def with_statements(workspace: Workspace, robot: RobotModel, join: str = "") -> Workspace:

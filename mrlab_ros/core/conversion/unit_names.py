@@ -8,6 +8,7 @@ from mrlab_ros.core.conversion.variable_names import (
     POSES,
     TEMPERATURES,
     TORQUES,
+    TURNS,
     VELOCITIES,
     Hint,
     Name,
@@ -15,7 +16,6 @@ from mrlab_ros.core.conversion.variable_names import (
 )
 
 VOLTAGES = "voltages"
-TURNS = "numbers of turns"
 UNITS_AGAINST = {
     VELOCITIES: words(
         "rad/s deg/s °/s grad/s rad/sec deg/sec degree/s degrees/s grad/sec m/s mm/s cm/s rpm "

@@ -47,6 +47,7 @@ def words(text: str) -> frozenset[str]:
 VELOCITIES, ACCELERATIONS = "velocities", "accelerations"
 TORQUES, CURRENTS, ERRORS = "torques or forces", "motor currents", "errors or differences"
 POSES, TIMES, PARAMETERS = "positions of the tool", "times", "parameters of a controller or model"
+TURNS = "numbers of turns"
 GRIPPERS, OBSTACLES, TEMPERATURES = "the state of a gripper", "obstacles", "temperatures"
 
 # Whole names, without case, separators and trailing digits.
@@ -100,7 +101,8 @@ WHOLE_AGAINST = {
 # Where one of these words is in a name, whatever else is in it.
 AGAINST_PARTS = {
     VELOCITIES: words(
-        "vel velocity velocities speed speeds dot d1 qd dq qp qv rate rates geschw omega w rpm"
+        "vel vels velocity velocities speed speeds dot d1 qd dq qp qv qdot rate rates geschw "
+        "omega w rpm drehrate velocidad velocidades vitesse velocita"
     ),
     ACCELERATIONS: words("acc accel accels acceleration accelerations ddot d2 qdd ddq qpp"),
     "third derivatives": words("jerk jerks d3 d4 ruck"),
@@ -160,9 +162,12 @@ UNIT_ENDINGS = (
     ),
     (ACCELERATIONS, ("rad s2", "deg s2", "grad s2", "m s2", "rad s 2", "deg s 2", "rad sec2")),
     (TORQUES, ("nm", "n m")),
+    (TURNS, ("turns", "umdrehungen", "umdr", "revs")),
 )
 DEGREE_PARTS = words("deg degs degree degrees grad")
 DEGREE_ENDINGS = ("deg", "degrees", "indeg", "ingrad", "grad")
+# what joints have beside positions: a struct of that name holds no positions
+OF_JOINTS = (VELOCITIES, ACCELERATIONS, TORQUES, CURRENTS, ERRORS)
 # what joints are called where each has a variable or a column of its own: A1 to A6, q1 to q6
 NUMBERED_JOINTS = words("q th theta j joint a axis achse gelenk winkel phi angle")
 # the symbols that a letter before or behind turns into another quantity
@@ -219,6 +224,12 @@ def describe(path: str) -> Name:
     if series and bare in NUMBERED_JOINTS:
         return Name(Hint.POSITIONS, "", unit)
     found = Name(*_said_by(bare, whole, [p.rstrip("0123456789") or p for p in said], said), unit)
+    if found.hint is Hint.POSITIONS and len(said) > 1 and said[-1] == "rev":
+        return Name(Hint.DOUBTFUL, f"{TURNS} or a reversed path")
+    if found.hint is Hint.POSITIONS:
+        of_struct = _said_by_struct(path)
+        if of_struct is not None and of_struct.what in OF_JOINTS:
+            return Name(Hint.DOUBTFUL, of_struct.what)
     if found.hint in (Hint.NEUTRAL, Hint.TWO_FACED):
         of_struct = _said_by_struct(path)
         return found if of_struct is None else Name(of_struct.hint, of_struct.what, unit)
@@ -282,7 +293,8 @@ def _said_by(bare: str, whole: str, said: list[str], numbered: list[str]) -> tup
     for what, names in AGAINST_PARTS.items():
         if names.intersection(said) or names.intersection(numbered[1:]):
             return Hint.AGAINST, what
-    if said[-1:] == ["current"] and len(said) > 1 and said[0] not in ("q", "config"):
+    counted = [p for p in said if not p.isdigit()]
+    if counted[-1:] == ["current"] and len(counted) > 1 and counted[0] not in ("q", "config"):
         # motor currents end in it, the present positions begin with it
         return Hint.AGAINST, CURRENTS
     for what, stems in AGAINST_STEMS.items():

@@ -29,6 +29,7 @@ def near(picture: Path, colour: tuple[float, float, float]) -> float:
     return float((pixels @ np.array(colour) > 0.985 * np.maximum(size, 1)).mean())
 
 
+@pytest.mark.slow
 def test_a_picture_shows_the_robot_in_its_colour(tmp_path: Path) -> None:
     robot = drawing.bodies(LIBRARY, "kuka_kr6_r900_sixx")
     drawing.write(robot, tmp_path / "new" / "kr6.png")

@@ -236,6 +236,7 @@ JSON = st.recursive(
 
 @settings(max_examples=150, deadline=None)
 @given(JSON, st.booleans())
+@pytest.mark.slow
 def test_no_content_raises(tmp_path_factory, content, whole):
     path = tmp_path_factory.mktemp("state") / "scene.json"
     path.write_text(json.dumps(content))

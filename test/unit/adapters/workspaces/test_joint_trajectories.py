@@ -5,6 +5,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from fakes import make_model
+from found_matrices import matrix
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from rosbags.rosbag2 import Reader, StoragePlugin, Writer
@@ -31,11 +32,10 @@ POINTS = [(0.0, [0.0, 0.1, 0.2]), (0.5, [0.5, 0.4, 0.3]), (1.0, [0.6, 0.4, 0.2])
 class Variables(list):
     """A sink that keeps what it is given, as the lab sees it."""
 
-    def add(self, path, kind, shape, data=None, dtype="", *, is_object=False, note="", columns=()):
-        values = None
-        if data is not None and len(data):
-            values = np.frombuffer(bytes(data), dtype).reshape(shape, order="F")
-        self.append(Variable(path, kind, tuple(shape), values, is_object, note, tuple(columns)))
+    def add(self, found):
+        values = matrix(found) if found.data else None
+        facts = found.is_object, found.note, tuple(found.columns)
+        self.append(Variable(found.path, found.kind, tuple(found.shape), values, *facts))
 
 
 def read(data, name="run.mcap", limit=1 << 24):

@@ -11,6 +11,7 @@ import h5py
 import numpy as np
 import pytest
 import scipy.io
+from found_matrices import matrix
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from hypothesis.extra import numpy as hnp
@@ -34,11 +35,9 @@ EXAMPLES = [
 class Collected(dict):
     """A sink: path -> (kind, shape, values or None, is_object, note, text)."""
 
-    def add(self, path, kind, shape, data=None, dtype="", *, is_object=False, note="", **facts):
-        values = None
-        if data is not None:
-            values = np.frombuffer(bytes(data), dtype).reshape(shape, order="F")
-        self[path] = kind, tuple(shape), values, is_object, note, facts.get("text", "")
+    def add(self, found):
+        facts = found.is_object, found.note, found.text
+        self[found.path] = found.kind, tuple(found.shape), matrix(found), *facts
 
     def kind(self, path):
         return self[path][0]

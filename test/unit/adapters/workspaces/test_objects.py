@@ -7,6 +7,7 @@ import h5py
 import numpy as np
 import pytest
 from fakes import make_model
+from found_matrices import matrix
 
 from mrlab_ros.adapters.trajectories.coefficients import load_coefficients
 from mrlab_ros.adapters.workspaces import object_classes, objects, worker
@@ -31,11 +32,8 @@ VERSIONS = ["v7", "v7.3"]
 class Collected(dict):
     """A sink: path -> the facts about it, `values` among them."""
 
-    def add(self, path, kind, shape, data=None, dtype="", **facts):
-        values = None
-        if data is not None:
-            values = np.frombuffer(bytes(data), dtype).reshape(shape, order="F")
-        self[path] = {"kind": kind, "shape": tuple(shape), "values": values} | facts
+    def add(self, found):
+        self[found.path] = vars(found) | {"shape": tuple(found.shape), "values": matrix(found)}
 
     def values(self, path):
         return self[path]["values"]
@@ -263,6 +261,7 @@ def test_what_leads_out_of_the_file_is_not_followed(tmp_path):
 
 
 @pytest.mark.parametrize("version", VERSIONS)
+@pytest.mark.slow
 def test_damage_among_objects_is_refused_or_named(version):
     data = matlab.saved(version, ts=matlab.timeseries(Q, TIMES), q=Q)
     good = read(data)

@@ -18,6 +18,8 @@ from graph import wait_for
 from mrlab_ros.adapters.workspaces.reader import Limits, MiB, WorkspaceReader
 from mrlab_ros.core.diagnostics import Refused
 
+pytestmark = pytest.mark.slow
+
 Q = np.arange(60.0).reshape(10, 6)
 
 

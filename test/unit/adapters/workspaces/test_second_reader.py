@@ -6,6 +6,7 @@ import h5py
 import numpy as np
 import pytest
 import scipy.io
+from found_matrices import matrix
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from hypothesis.extra import numpy as hnp
@@ -22,9 +23,9 @@ LIMIT = 1 << 26
 class Collected(dict):
     """A sink: path -> values."""
 
-    def add(self, path, kind, shape, data=None, dtype="", **_):
-        if data is not None:
-            self[path] = np.frombuffer(bytes(data), dtype).reshape(shape, order="F")
+    def add(self, found):
+        if found.data is not None:
+            self[found.path] = matrix(found)
 
 
 def content():

@@ -3,6 +3,7 @@
 from collections.abc import Iterator
 
 import converter_corpus as corpus
+import converter_corpus_third as third
 import numpy as np
 import pytest
 from converter_corpus import ACCEPT, NOT_SILENT, REFUSE, WARN, File
@@ -11,6 +12,8 @@ from mrlab_ros.adapters.trajectories.coefficients import load_coefficients
 from mrlab_ros.adapters.workspaces.reader import WorkspaceReader
 from mrlab_ros.core.conversion.convert import ConversionResult, Outcome, convert
 from mrlab_ros.core.conversion.options import Options
+
+pytestmark = pytest.mark.slow
 
 COEFFICIENTS = load_coefficients(corpus.ROOT / "config" / "torque_proxy.yaml")
 
@@ -46,7 +49,9 @@ def fault(file: File, result: ConversionResult) -> str:
     return ""
 
 
-@pytest.mark.parametrize(("files", "least"), [(corpus.build, 314), (corpus.held_out, 168)])
+@pytest.mark.parametrize(
+    ("files", "least"), [(corpus.build, 314), (corpus.held_out, 168), (third.build, 70)]
+)
 def test_every_file_is_judged_right(files, least, reader):
     faults = {}
     made = files()

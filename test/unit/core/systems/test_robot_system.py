@@ -609,6 +609,7 @@ step = st.tuples(
         ("rate", "a", 0.0),
     ],
 )
+@pytest.mark.slow
 def test_whatever_happens_no_member_moves_while_the_system_stands_and_play_recovers(
     mode, policy, steps
 ):
