@@ -532,6 +532,7 @@ KINDS: dict[str, Kind] = {
         "'{variable}' is a JointTrajectory that cannot be played: {problem}.",
         "Every point needs a position for each joint, and a time_from_start later than that of "
         "the point before it.",
+        SAVE_AGAIN,
     ),
     "too_long": Kind(
         ERROR,

@@ -107,7 +107,8 @@ def _ambiguous(offered: list[Assessment], survey: Survey, file: str) -> Diagnost
     paths = {a.path for a in offered}
     for found in joining.series(survey.workspace, len(survey.robot.joints)):
         if not found.beside and len(found.paths) > 1 and set(found.paths) <= paths:
-            fixes = (*fixes, Fix("join", found.text, f"q = [{'; '.join(found.paths[:8])}];"))
+            line = f"q = [{'; '.join(found.paths[:8])}]; save('traj.mat', 'q')"
+            fixes = (*fixes, Fix("join", found.text, line))
             break
     return finding(
         "ambiguous",

@@ -302,8 +302,14 @@ def _looks_like(a: Assessment) -> Diagnostic:
         variable=a.path,
         size=a.variable.size,
         why=a.objections[0],
-        fixes=(Fix("variable", a.path, saving(a.path)),),
+        fixes=(Fix("variable", a.path, _look(a.path)),),
     )
+
+
+def _look(path: str) -> str:
+    """Return the line of MATLAB that shows what moves like a point in space."""
+    name = matlab_name(path)
+    return f"plot3({name}(:, 1), {name}(:, 2), {name}(:, 3))"
 
 
 def _many_dimensions(variable: Variable, words: dict[str, Any], joints: int) -> Diagnostic | None:

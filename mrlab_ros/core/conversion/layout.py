@@ -362,7 +362,8 @@ def _gripper(
         )
     if low == high:
         code = "gripper_unmoved" if low else "gripper_constant"
-        notes.append(finding(code, first=low, value=low, **place))
+        alone = Fix("gripper", NO_GRIPPER, f"q = {matlab_name(path)}(:, 1:{joints});")
+        notes.append(finding(code, first=low, value=low, fixes=(alone,) if low else (), **place))
         return np.zeros(len(column), dtype=np.bool_)
     threshold = (low + high) / 2
     above = np.asarray(column > threshold)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from mrlab_ros.core.conversion.workspace import Variable
-from mrlab_ros.core.diagnostics import Diagnostic, Refused, finding
+from mrlab_ros.core.diagnostics import Diagnostic, Fix, Refused, finding
 from mrlab_ros.core.robots.model import RobotModel
 
 GRIPPER = "gripper"
@@ -32,8 +32,12 @@ def misnamed(variable: Variable, robot: RobotModel) -> Diagnostic | None:
         problems.append(f"it has {_listed(repeated)} more than once")
     if not problems:
         return None
+    # columns by number keep the names of a message: they mend no joint that it lacks
+    in_vain = variable.is_message and bool(missing or repeated)
+    more = {"fixes": (Fix(matlab="save('traj.mat', 'q')"),)} if in_vain else {}
     return finding(
         "joint_names",
+        **more,
         variable=variable.path,
         robot=robot.id,
         problem="; ".join(problems),

@@ -269,6 +269,8 @@ def _rounded(t: Array) -> tuple[float, float] | None:
         return None
     rows = np.arange(len(t))
     step, start = np.polyfit(rows, offset, 1)
+    if abs(step / unit - np.rint(step / unit)) * len(t) < 1:
+        return None  # such times need no rounding, so that is not why their steps differ
     left = offset - (start + step * rows)
     if step <= 0 or np.ptp(left) > 1.1 * unit or np.ptp(left) < 0.1 * unit:
         return None
