@@ -12,6 +12,7 @@ from fastapi.testclient import TestClient
 
 from mrlab_ros.core.bridge.rules import Role
 from mrlab_ros.gateway.app import create_app
+from mrlab_ros.gateway.people.oidc import Oidc
 from mrlab_ros.gateway.people.passwords import Passwords
 from mrlab_ros.gateway.people.people import People
 from mrlab_ros.gateway.ports import Ports
@@ -40,13 +41,18 @@ class Gateway:
 
     def __init__(self, folder: Path, **options: Any) -> None:
         ports = {name: options.pop(name) for name in ("lab", "store") if name in options}
+        provider = options.pop("provider", None)
         # Without a signing-in setting there is one local user.
         self.settings = Settings(state_dir=folder / "state", **options)
         self.clock = Clock()
         self.people = People(
             self.settings, passwords=quick_passwords(), clock=self.clock, steady=self.clock
         )
-        self.app: FastAPI = create_app(self.settings, Ports(people=self.people, **ports))
+        oidc = None
+        if provider is not None:
+            oidc = Oidc(provider[0], transport=provider[1], steady=self.clock)
+        made = Ports(people=self.people, oidc=oidc, **ports)
+        self.app: FastAPI = create_app(self.settings, made)
         self.url = self.settings.public_url or "http://localhost:8080"
         self._entered: list[TestClient] = []
         self.anyone = Browser(self)

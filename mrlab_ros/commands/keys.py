@@ -151,6 +151,7 @@ def list_people(folder: Folder = Path("keys"), as_json: AsJson = False) -> None:
                 "login": keys.login.value,
                 "hosts": keys.hosts,
                 "expires": expires.isoformat(),
+                "fingerprint": keys.fingerprint.replace("\n", ":"),
                 "people": [entry.record() for entry in keys.entries],
             }
         )
@@ -168,6 +169,7 @@ def list_people(folder: Folder = Path("keys"), as_json: AsJson = False) -> None:
         f"login by {keys.login.value}; the lab's certificate, for {', '.join(keys.hosts)}, "
         f"{'expired on' if late else 'holds until'} {expires:%d %B %Y}"
     )
+    console.print(f"SHA-256 of the authority, as the page /ca shows it:\n{keys.fingerprint}")
 
 
 @app.command()

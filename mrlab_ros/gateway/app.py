@@ -10,13 +10,14 @@ from fastapi import APIRouter, Depends, FastAPI
 
 import mrlab_ros
 from mrlab_ros.adapters.store.objects import open_store
-from mrlab_ros.gateway import errors, pages
+from mrlab_ros.gateway import authority, errors, pages
 from mrlab_ros.gateway.assets import routes as asset_routes
 from mrlab_ros.gateway.assets.cache import AssetCache
 from mrlab_ros.gateway.guard import Guard
 from mrlab_ros.gateway.hosts import Hosts
-from mrlab_ros.gateway.people import pairing_routes
+from mrlab_ros.gateway.people import oidc_routes, pairing_routes
 from mrlab_ros.gateway.people import routes as people_routes
+from mrlab_ros.gateway.people.oidc import Oidc, read_provider
 from mrlab_ros.gateway.people.people import People
 from mrlab_ros.gateway.policy import authorise, read_policy
 from mrlab_ros.gateway.ports import Ports
@@ -31,6 +32,8 @@ from mrlab_ros.gateway.uploads.receive import Receiver
 ROUTERS: tuple[APIRouter, ...] = (
     people_routes.router,
     pairing_routes.router,
+    oidc_routes.router,
+    authority.router,
     asset_routes.router,
     upload_routes.router,
     trajectory_routes.router,
@@ -44,6 +47,8 @@ def create_app(settings: Settings, ports: Ports) -> FastAPI:
     Raises BadInput where the settings cannot be served.
     """
     people = ports.people or People(settings)
+    if settings.oidc is not None and ports.oidc is None:
+        ports.oidc = Oidc(read_provider(settings.oidc))
 
     @asynccontextmanager
     async def lifespan(_: FastAPI) -> AsyncIterator[None]:
@@ -75,6 +80,7 @@ def create_app(settings: Settings, ports: Ports) -> FastAPI:
     app.state.settings = settings
     app.state.ports = ports
     app.state.people = people
+    app.state.oidc = ports.oidc
     app.state.policy = read_policy(settings.allow_list)
     app.state.assets = None if ports.lab is None else AssetCache(ports.lab)
     store = ports.store or open_store(settings.store or str(settings.state_dir / "store"))

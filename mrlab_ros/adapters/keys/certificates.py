@@ -133,6 +133,12 @@ def common_name(found: x509.Certificate) -> str:
     return str(name.value)
 
 
+def fingerprint(found: x509.Certificate) -> str:
+    """Return the SHA-256 fingerprint of a certificate as browsers show it, in two lines."""
+    pairs = [f"{byte:02X}" for byte in found.fingerprint(hashes.SHA256())]
+    return "\n".join(":".join(pairs[i : i + 16]) for i in (0, 16))
+
+
 def _bytes(path: Path) -> bytes:
     try:
         return path.read_bytes()

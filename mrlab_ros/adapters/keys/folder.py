@@ -93,6 +93,11 @@ class Keys:
         """Who may connect, by name."""
         return self._people.entries
 
+    @property
+    def fingerprint(self) -> str:
+        """The SHA-256 fingerprint of the authority, in two lines."""
+        return certificates.fingerprint(certificates.read_certificate(self.folder / "ca.pem"))
+
     def client_file(self, name: str) -> Path:
         """Return the file that lets `name` connect."""
         return self.folder / "clients" / f"{name}.json5"
