@@ -16,6 +16,7 @@ with what a second reader finds in the file. Four: the file, a memory file for t
 
 from __future__ import annotations
 
+import contextlib
 import gc
 import gzip
 import io
@@ -335,6 +336,13 @@ def main() -> None:
     gc.collect()
     gc.freeze()
     connection = socket.socket(fileno=int(sys.argv[1]))
+    # The lab was killed: there is nobody left to work for.
+    with contextlib.suppress(ConnectionError):
+        answer(connection)
+
+
+def answer(connection: socket.socket) -> None:
+    """Answer one request after another until the connection is closed."""
     connection.send(b"{}")
     while True:
         message, descriptors, _, _ = socket.recv_fds(connection, MESSAGE_SIZE, 4)
