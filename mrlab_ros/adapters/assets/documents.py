@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import asdict
 from typing import Any
 
 from mrlab_ros.adapters.assets.files import PACKAGE, THUMBNAIL, AssetFiles
@@ -71,7 +72,10 @@ def _end_effector(library: RobotLibrary, files: AssetFiles, tool: str) -> dict[s
         "stroke": float(facts["stroke"]),
         "force": float(facts["force"]),
         "joints": [
-            {**_joint(joint.limits(tool), joint.kind), "mimic": joint.mimic}
+            {
+                **_joint(joint.limits(tool), joint.kind),
+                "mimic": joint.mimic and asdict(joint.mimic),
+            }
             for joint in joints
             if joint.moves
         ],

@@ -1,7 +1,6 @@
 /** The gateway's JSON. Field names are those of mrlab_msgs. */
 
 export type Role = 'student' | 'instructor' | 'operator' | 'display'
-export const ROLES = ['student', 'instructor', 'operator', 'display'] as const satisfies Role[]
 
 export interface Session {
   readonly lab: { readonly id: string; readonly name: string; readonly version: string }

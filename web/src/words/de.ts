@@ -228,8 +228,8 @@ export const de: Words = {
       'Dieses Labor läuft nur für dich auf diesem Rechner. Mit Schlüsseln nimmt es weitere Personen auf: mrlab keys init.',
     roleNotes: {
       student: 'Lädt eigene Trajektorien hoch, veröffentlicht sie und sieht, was geteilt ist.',
-      instructor: 'Sieht alle Trajektorien, bewegt die Roboter des Labors, lässt Personen ein.',
-      operator: 'Darf alles.',
+      instructor: 'Darf alles und lässt Personen ein.',
+      operator: 'Bewegt außerdem die Roboter des Labors.',
       display: 'Sieht das Labor und ändert nichts: für Projektoren.',
     },
     devices: 'Angemeldete Geräte',

@@ -231,8 +231,8 @@ export const en = {
       'This lab runs for you alone on this machine. With keys it takes more people: mrlab keys init.',
     roleNotes: {
       student: 'Uploads and publishes own trajectories, sees what is shared.',
-      instructor: 'Sees all trajectories, moves the robots of the lab, lets people in.',
-      operator: 'May do everything.',
+      instructor: 'May do everything, and lets people in.',
+      operator: 'Moves the robots of the lab, too.',
       display: 'Sees the lab and changes nothing: for projectors.',
     },
     devices: 'Devices that are signed in',

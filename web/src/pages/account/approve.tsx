@@ -8,7 +8,7 @@ import { words } from '../../words/words'
 import { session, useApi } from '../shell/session'
 
 /** From the one that may least. */
-const ORDER: readonly Role[] = ['display', 'student', 'instructor', 'operator']
+const ORDER: readonly Role[] = ['display', 'student', 'operator', 'instructor']
 
 /** Return the roles that somebody may give to a device: none above one's own. */
 export function rolesUpTo(own: Role): readonly Role[] {

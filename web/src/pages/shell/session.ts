@@ -18,5 +18,5 @@ export function useApi(): Api {
 
 /** True where the person may see who else is here and let others in. */
 export function mayAdmit(current: Session | null): boolean {
-  return current?.user?.role === 'instructor' || current?.user?.role === 'operator'
+  return current?.user?.role === 'instructor'
 }

@@ -13,11 +13,11 @@ const FORMATS = [
   ['json', 'JSON'],
 ] as const satisfies readonly (readonly [FileFormat, string])[]
 
-/** Return whether the person may change it: one's own, and everything for who runs the lab. */
+/** Return whether the person may change it: one's own; an instructor all. */
 export function mayChange(info: TrajectoryInfo): boolean {
   const user = session.value?.user
   if (!user || user.role === 'display') return false
-  return info.owner === user.name || user.role !== 'student'
+  return info.owner === user.name || user.role === 'instructor'
 }
 
 export function Downloads({ id }: { id: string }) {

@@ -1,0 +1,153 @@
+"""A `mrlab up` with pages for browser tests and screenshots, and a gateway with people beside it."""
+
+from __future__ import annotations
+
+import json
+import os
+import signal
+import socket
+import subprocess
+import sys
+import time
+import urllib.error
+import urllib.request
+from collections.abc import Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass
+from pathlib import Path
+
+from child_process import start_child
+
+from mrlab_ros.commands.demo.lab import claim_free_domain
+from mrlab_ros.core.bridge.rules import Role
+
+MRLAB = (sys.executable, "-m", "mrlab_ros.cli")
+# For a start and for an end, s.
+DEADLINE = 90.0
+
+
+@dataclass(frozen=True)
+class ServedLab:
+    """A lab with pages. url: of the pages; environment: of commands that talk to it."""
+
+    url: str
+    zenoh: str
+    state: Path
+    environment: dict[str, str]
+
+    def signed_in_url(self, path: str = "/") -> str:
+        """Return an address that signs one browser in, once."""
+        return self.done("open", "--print", path).strip()
+
+    def done(self, *arguments: str) -> str:
+        """Run a command that has to succeed; return what it printed."""
+        answer = subprocess.run(
+            (*MRLAB, *arguments),
+            env=self.environment,
+            capture_output=True,
+            text=True,
+            timeout=DEADLINE,
+            check=False,
+        )
+        assert answer.returncode == 0, answer.stdout + answer.stderr
+        return answer.stdout
+
+
+@dataclass(frozen=True)
+class Gateway:
+    """A gateway at which people sign in."""
+
+    url: str
+    state: Path
+
+    def invite(self, name: str, role: Role) -> str:
+        """Let somebody in; return the one-time link."""
+        from mrlab_ros.gateway.people.accounts import Accounts
+        from mrlab_ros.gateway.people.database import Database
+
+        accounts = Accounts(Database(self.state / "users.sqlite"))
+        accounts.add(name, role)
+        return f"{self.url}/invitation/{accounts.invite(name, time.time())}"
+
+
+def free_port() -> int:
+    """Return a port that is free now."""
+    with socket.socket() as found:
+        found.bind(("127.0.0.1", 0))
+        port: int = found.getsockname()[1]
+        return port
+
+
+@contextmanager
+def process(log: Path, *argv: str, env: dict[str, str], ready: str) -> Iterator[None]:
+    """Run a process until the block ends; it is ready when its page `ready` answers."""
+    with log.open("wb") as output:
+        started = start_child(*argv, env=env, stdout=output, stderr=subprocess.STDOUT)
+    try:
+        end = time.monotonic() + DEADLINE
+        while not answers(ready):
+            assert started.poll() is None, log.read_text()
+            assert time.monotonic() < end, log.read_text()
+            time.sleep(0.1)
+        yield
+    finally:
+        started.send_signal(signal.SIGINT)
+        try:
+            started.wait(DEADLINE)
+        finally:
+            started.kill()
+            started.wait()
+
+
+def answers(url: str) -> bool:
+    """Return whether a page is there."""
+    try:
+        with urllib.request.urlopen(url, timeout=2) as answer:
+            return json.loads(answer.read()) is not None
+    except (OSError, urllib.error.URLError, json.JSONDecodeError):
+        return False
+
+
+@contextmanager
+def served_lab(folder: Path, *options: str) -> Iterator[ServedLab]:
+    """Run a lab with one UR5e and its pages on free ports."""
+    run_file, domain = claim_free_domain()
+    run_file.release()
+    environment = dict(
+        os.environ,
+        ROS_DOMAIN_ID=str(domain),
+        ROS_AUTOMATIC_DISCOVERY_RANGE="LOCALHOST",
+        XDG_RUNTIME_DIR=str(folder),
+    )
+    http, zenoh = free_port(), f"tcp/127.0.0.1:{free_port()}"
+    state = folder / "state"
+    url = f"http://127.0.0.1:{http}"
+    command = (
+        *(*MRLAB, "up", "--robots", "ur5e", "--http", f"127.0.0.1:{http}"),
+        *("--zenoh-listen", zenoh, "--state-dir", str(state), *options),
+    )
+    log = folder / "up.log"
+    with process(log, *command, env=environment, ready=f"{url}/api/session"):
+        end = time.monotonic() + DEADLINE
+        while "is ready" not in log.read_text():
+            assert time.monotonic() < end, log.read_text()
+            time.sleep(0.1)
+        yield ServedLab(url, zenoh, state, environment)
+
+
+@contextmanager
+def gateway_with_people(lab: ServedLab, folder: Path) -> Iterator[Gateway]:
+    """Run another gateway of a lab, with the lab's store and people of its own."""
+    port = free_port()
+    url = f"http://127.0.0.1:{port}"
+    state = folder / "state"
+    state.mkdir()
+    command = (
+        *(sys.executable, "-m", "mrlab_ros.gateway", "--http", f"127.0.0.1:{port}"),
+        *("--public-url", url, "--zenoh", lab.zenoh, "--state-dir", str(state)),
+        *("--store", str(lab.state / "store")),
+    )
+    with process(
+        folder / "gateway.log", *command, env=lab.environment, ready=f"{url}/api/session"
+    ):
+        yield Gateway(url, state)
