@@ -44,8 +44,9 @@ export interface MessageType<T> {
   /** Return a message of zeros and empty texts, with `values` in it. */
   create(values?: Partial<T>): T
   /** Return the message; `into` is filled and returned where it is given, and what it holds is
-   * reused. Numbers of a message without `into` may be views of the payload. */
-  decode(payload: Uint8Array, into?: T): T
+   * reused. Numbers of a message without `into` may be views of the payload. start, end: of the
+   * message in `payload`, where that holds more. */
+  decode(payload: Uint8Array, into?: T, start?: number, end?: number): T
   encode(message: T): Uint8Array
 }
 

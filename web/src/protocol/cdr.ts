@@ -13,8 +13,6 @@ const HEADER = 4
 const HOST_IS_LITTLE = new Uint8Array(new Uint16Array([1]).buffer)[0] === 1
 const utf8 = new TextDecoder()
 const toUtf8 = new TextEncoder()
-const NOTHING_BYTES = new Uint8Array(0)
-const NOTHING = new DataView(new ArrayBuffer(HEADER))
 
 type Numbers =
   | Float64Array
@@ -34,94 +32,85 @@ interface NumbersClass<T> {
   new (buffer: ArrayBufferLike, byteOffset: number, length: number): T
 }
 
-/** A cursor in a payload. One may read many payloads, one after another. */
+/** A cursor in a payload. One reads many payloads, one after another. */
 export class CdrReader {
-  private view: DataView = NOTHING
-  private bytes: Uint8Array = new Uint8Array(0)
+  /** Of the whole buffer that the payload lies in; payloads of one batch share it. */
+  private view: DataView = new DataView(new ArrayBuffer(0))
+  private bytes: Uint8Array = new Uint8Array(this.view.buffer)
   private little = true
-  /** Of the byte behind the header, in `view`: what alignment counts from. */
-  private at = HEADER
+  /** The byte behind the header, which alignment counts from. All three count in `view`. */
+  private origin = 0
+  private at = 0
+  private end = 0
 
-  /** Begin with another payload. */
-  open(payload: Uint8Array): this {
-    if (payload.byteLength < HEADER) {
-      throw new CdrError(`${payload.byteLength} bytes are no CDR: its header has ${HEADER}`)
+  /** Begin with another payload: the bytes from `start` to `end` of `batch`. */
+  open(batch: Uint8Array, start = 0, end = batch.byteLength): this {
+    if (end - start < HEADER) {
+      throw new CdrError(`${end - start} bytes are no CDR: its header has ${HEADER}`)
     }
-    const kind = payload[1] as number
-    if (payload[0] !== 0 || kind > 1) {
-      throw new CdrError(`the CDR header begins with ${payload[0]} ${kind}, not with 0 0 or 0 1`)
+    const kind = batch[start + 1] as number
+    if (batch[start] !== 0 || kind > 1) {
+      throw new CdrError(`the CDR header begins with ${batch[start]} ${kind}, not with 0 0 or 0 1`)
     }
-    this.bytes = payload
-    this.view = new DataView(payload.buffer, payload.byteOffset, payload.byteLength)
+    if (this.view.buffer !== batch.buffer) {
+      this.view = new DataView(batch.buffer)
+      this.bytes = new Uint8Array(batch.buffer)
+    }
     this.little = kind === 1
-    this.at = HEADER
+    this.origin = batch.byteOffset + start + HEADER
+    this.at = this.origin
+    this.end = batch.byteOffset + end
     return this
   }
 
-  /** Let go of the payload. */
-  close(): void {
-    this.view = NOTHING
-    this.bytes = NOTHING_BYTES
-  }
-
   bool(): boolean {
-    return this.view.getUint8(this.at++) !== 0
+    return this.view.getUint8(this.aligned(1)) !== 0
   }
 
   uint8(): number {
-    return this.view.getUint8(this.at++)
+    return this.view.getUint8(this.aligned(1))
   }
 
   int8(): number {
-    return this.view.getInt8(this.at++)
+    return this.view.getInt8(this.aligned(1))
   }
 
   uint16(): number {
-    const at = this.aligned(2)
-    return this.view.getUint16(at, this.little)
+    return this.view.getUint16(this.aligned(2), this.little)
   }
 
   int16(): number {
-    const at = this.aligned(2)
-    return this.view.getInt16(at, this.little)
+    return this.view.getInt16(this.aligned(2), this.little)
   }
 
   uint32(): number {
-    const at = this.aligned(4)
-    return this.view.getUint32(at, this.little)
+    return this.view.getUint32(this.aligned(4), this.little)
   }
 
   int32(): number {
-    const at = this.aligned(4)
-    return this.view.getInt32(at, this.little)
+    return this.view.getInt32(this.aligned(4), this.little)
   }
 
   float32(): number {
-    const at = this.aligned(4)
-    return this.view.getFloat32(at, this.little)
+    return this.view.getFloat32(this.aligned(4), this.little)
   }
 
   float64(): number {
-    const at = this.aligned(8)
-    return this.view.getFloat64(at, this.little)
+    return this.view.getFloat64(this.aligned(8), this.little)
   }
 
   uint64(): bigint {
-    const at = this.aligned(8)
-    return this.view.getBigUint64(at, this.little)
+    return this.view.getBigUint64(this.aligned(8), this.little)
   }
 
   int64(): bigint {
-    const at = this.aligned(8)
-    return this.view.getBigInt64(at, this.little)
+    return this.view.getBigInt64(this.aligned(8), this.little)
   }
 
   /** Return the next text: `known` itself where it is the same, so that nothing is allocated. */
   string(known: string): string {
     const size = this.uint32()
-    const from = this.at
-    this.need(size)
-    this.at = from + size
+    const from = this.aligned(1, size)
     // The last byte is a zero.
     const length = size === 0 ? 0 : size - 1
     return this.same(known, from, length) ? known : this.text(from, length)
@@ -208,10 +197,12 @@ export class CdrReader {
     return known
   }
 
+  /** Return where `count` values of `size` bytes begin, and go behind them. */
   private aligned(size: number, count = 1): number {
-    const from = this.at - HEADER
-    const at = from + ((size - (from % size)) % size) + HEADER
-    this.at = at + size * count
+    const at = this.at + ((this.origin - this.at) & (size - 1))
+    const behind = at + size * count
+    if (behind > this.end) this.fail(behind - at)
+    this.at = behind
     return at
   }
 
@@ -219,17 +210,15 @@ export class CdrReader {
   private count(fixed: number, least: number): number {
     if (fixed >= 0) return fixed
     const count = this.uint32()
-    this.need(count * least)
+    if (this.at + count * least > this.end) this.fail(count * least)
     return count
   }
 
-  private need(size: number): void {
-    if (this.at + size > this.view.byteLength) {
-      throw new CdrError(
-        `a value of ${size} bytes begins at byte ${this.at} of ${this.view.byteLength}: ` +
-          'the message is cut off, or of another type',
-      )
-    }
+  private fail(size: number): never {
+    throw new CdrError(
+      `a value of ${size} bytes begins ${this.at - this.origin} bytes behind the header, and ` +
+        `${this.end - this.at} are left: the message is cut off, or of another type`,
+    )
   }
 
   /** Read numbers: a view of the payload where none are kept and it is aligned, else a copy. */
@@ -242,23 +231,16 @@ export class CdrReader {
     // An empty sequence has no padding.
     if (count === 0) return known.length === 0 ? known : new kind(0)
     const size = kind.BYTES_PER_ELEMENT
-    const from = this.at - HEADER
-    const at = from + ((size - (from % size)) % size) + HEADER
-    this.at = at
-    this.need(size * count)
-    const offset = this.view.byteOffset + at
+    const at = this.aligned(size, count)
     const kept = known.length === count
-    if (kept && count < MANY) {
-      for (let i = 0; i < count; i++) known[i] = one.call(this)
-      return known
-    }
-    if (offset % size !== 0 || (!(HOST_IS_LITTLE && this.little) && size > 1)) {
+    const foreign = size > 1 && (at % size !== 0 || !HOST_IS_LITTLE || !this.little)
+    if (foreign || (kept && count < MANY)) {
       const copy = kept ? known : new kind(count)
+      this.at = at
       for (let i = 0; i < count; i++) copy[i] = one.call(this)
       return copy
     }
-    this.at = at + size * count
-    const view = new kind(this.view.buffer, offset, count)
+    const view = new kind(this.view.buffer, at, count)
     if (!kept) return view
     ;(known as { set(from: T): void }).set(view)
     return known
@@ -469,16 +451,12 @@ export function messageType<T extends object>(
   return {
     name,
     create: (values) => (values === undefined ? create() : Object.assign(create(), values)),
-    decode(payload, into = create()) {
+    decode(payload, into = create(), start = 0, end = payload.byteLength) {
       try {
-        read(reader.open(payload), into)
+        read(reader.open(payload, start, end), into)
       } catch (error) {
-        if (error instanceof CdrError || error instanceof RangeError) {
-          throw new CdrError(`${payload.byteLength} bytes are no ${name}: ${error.message}`)
-        }
-        throw error
-      } finally {
-        reader.close()
+        if (!(error instanceof CdrError)) throw error
+        throw new CdrError(`${end - start} bytes are no ${name}: ${error.message}`)
       }
       return into
     },
