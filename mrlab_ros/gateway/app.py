@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import asyncio
 from collections.abc import AsyncIterator
-from contextlib import asynccontextmanager, suppress
+from contextlib import asynccontextmanager
 
 from fastapi import APIRouter, Depends, FastAPI
 
@@ -15,6 +15,7 @@ from mrlab_ros.gateway.assets import routes as asset_routes
 from mrlab_ros.gateway.assets.cache import AssetCache
 from mrlab_ros.gateway.guard import Guard
 from mrlab_ros.gateway.hosts import Hosts
+from mrlab_ros.gateway.link import socket
 from mrlab_ros.gateway.people import oidc_routes, pairing_routes
 from mrlab_ros.gateway.people import routes as people_routes
 from mrlab_ros.gateway.people.oidc import Oidc, read_provider
@@ -37,6 +38,7 @@ ROUTERS: tuple[APIRouter, ...] = (
     asset_routes.router,
     upload_routes.router,
     trajectory_routes.router,
+    socket.router,
     pages.router,
 )
 
@@ -49,18 +51,23 @@ def create_app(settings: Settings, ports: Ports) -> FastAPI:
     people = ports.people or People(settings)
     if settings.oidc is not None and ports.oidc is None:
         ports.oidc = Oidc(read_provider(settings.oidc))
+    policy = read_policy(settings.allow_list)
+    link = None if ports.lab is None else socket.link_port(ports.lab, policy)
 
     @asynccontextmanager
     async def lifespan(_: FastAPI) -> AsyncIterator[None]:
-        following = asyncio.create_task(people.follow())
+        followed = [people.follow(), *([] if link is None else [link.clock.follow()])]
+        following = [asyncio.create_task(each) for each in followed]
         if ports.lab is not None:
             await ports.lab.open()
         try:
             yield
         finally:
-            following.cancel()
-            with suppress(asyncio.CancelledError):
-                await following
+            for task in following:
+                task.cancel()
+            await asyncio.gather(*following, return_exceptions=True)
+            if link is not None:
+                link.sessions.close()
             if ports.lab is not None:
                 await ports.lab.close()
             people.database.close()
@@ -81,7 +88,8 @@ def create_app(settings: Settings, ports: Ports) -> FastAPI:
     app.state.ports = ports
     app.state.people = people
     app.state.oidc = ports.oidc
-    app.state.policy = read_policy(settings.allow_list)
+    app.state.policy = policy
+    app.state.link = link
     app.state.assets = None if ports.lab is None else AssetCache(ports.lab)
     store = ports.store or open_store(settings.store or str(settings.state_dir / "store"))
     shelf = Shelf(store, settings.state_dir, app.state.policy, signs_in=settings.signs_in)

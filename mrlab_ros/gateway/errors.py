@@ -6,7 +6,7 @@ import logging
 from collections.abc import Mapping
 from typing import Any, ClassVar
 
-from fastapi import FastAPI, Request
+from fastapi import FastAPI, Request, WebSocket
 from fastapi.exceptions import RequestValidationError
 from fastapi.responses import JSONResponse
 from pydantic import BaseModel
@@ -95,6 +95,8 @@ STATUS: tuple[tuple[type[LabError], int, str], ...] = (
     (Misuse, 409, "misuse"),
     (LabError, 502, "lab"),
 )
+# The code with which a socket is closed whose person may not have it.
+SOCKET_REFUSED = 4003
 # What any route may answer, for the OpenAPI description.
 RESPONSES: dict[int | str, dict[str, Any]] = {
     status: {"model": Problem}
@@ -120,11 +122,22 @@ def of_lab_error(error: LabError) -> JSONResponse:
     raise AssertionError(error)
 
 
+async def refuse(websocket: WebSocket, error: LabError) -> None:
+    """Close a socket with the reason: a browser shows a page none for a refused handshake."""
+    offered = websocket.scope.get("subprotocols", [])
+    await websocket.accept(subprotocol=offered[0] if offered else None)
+    # A reason has 123 bytes at most.
+    await websocket.close(SOCKET_REFUSED, str(error).encode()[:120].decode(errors="ignore"))
+
+
 def install(app: FastAPI) -> None:
     """Have every error of `app` answered in the one form."""
 
     @app.exception_handler(LabError)
-    async def _(_: Request, error: LabError) -> JSONResponse:
+    async def _(connection: Request | WebSocket, error: LabError) -> JSONResponse | None:
+        if isinstance(connection, WebSocket):
+            await refuse(connection, error)
+            return None
         return of_lab_error(error)
 
     @app.exception_handler(HTTPException)

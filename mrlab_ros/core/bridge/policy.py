@@ -24,10 +24,13 @@ class Verb(Enum):
 
 
 class Policy:
-    """The role that each verb needs on each key; keys have no prefix: `ur5e_1/play`."""
+    """The role that each verb needs on each key; keys have no prefix: `ur5e_1/play`.
+
+    rules: the allow-list that it is read from.
+    """
 
     def __init__(self, rules: Rules) -> None:
-        self._rules = rules
+        self.rules = rules
 
     def may(self, role: Role, verb: Verb, key: str, *, own: bool = False) -> bool:
         """Return whether a role may do this; own: with what belongs to the person who asks.
@@ -41,9 +44,9 @@ class Policy:
         """Return the least role that may do this; None where nobody may."""
         name = f"/{key}"
         if verb is Verb.CALL:
-            services = list(_fitting(self._rules.services, name))
+            services = list(_fitting(self.rules.services, name))
             return _strictest(rule.needed(own=own) for rule in services)
-        topics = list(_fitting(self._rules.topics, name))
+        topics = list(_fitting(self.rules.topics, name))
         if verb is Verb.PUBLISH:
             if any(rule.direction is not Direction.IN for rule in topics):
                 return None

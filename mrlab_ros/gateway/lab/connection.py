@@ -20,6 +20,10 @@ class NoAnswer(LabError):
     """Nobody answered: no lab, no such service, or not in time."""
 
 
+class TimedOut(NoAnswer):
+    """Somebody was asked, but did not answer in time."""
+
+
 class Refused(LabError):
     """The bridge, or the owner of a key, answered that it does not do this; its words."""
 

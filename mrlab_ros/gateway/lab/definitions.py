@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
+from functools import cache
 from pathlib import Path
 from types import SimpleNamespace
 from typing import Any
@@ -121,6 +122,7 @@ class Definitions:
         return [self._part((inner, inner_detail), each) for each in value]
 
 
+@cache
 def installed_definitions() -> Definitions:
     """Return the types of the message package on this machine. Raises Unavailable without it."""
     try:

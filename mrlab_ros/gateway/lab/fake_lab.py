@@ -18,6 +18,7 @@ from mrlab_ros.gateway.lab.connection import (
     OnStatus,
     Phase,
     Sample,
+    TimedOut,
     Unsubscribe,
 )
 from mrlab_ros.gateway.lab.definitions import Definitions, installed_definitions
@@ -147,7 +148,7 @@ class FakeLab:
             try:
                 await asyncio.wait_for(self.held[key].wait(), timeout_s)
             except asyncio.TimeoutError:
-                raise NoAnswer(f"{key} did not answer within {timeout_s:g} s") from None
+                raise TimedOut(f"{key} did not answer within {timeout_s:g} s") from None
         return self.definitions.encode(f"{type_name}_Response", handler(request))
 
     async def get(self, key: str, timeout_s: float = GET_TIMEOUT_S) -> Sample | None:

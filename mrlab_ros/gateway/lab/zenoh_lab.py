@@ -26,6 +26,7 @@ from mrlab_ros.gateway.lab.connection import (
     Phase,
     Refused,
     Sample,
+    TimedOut,
     Unsubscribe,
 )
 from mrlab_ros.gateway.lab.definitions import Definitions, installed_definitions
@@ -223,7 +224,7 @@ class ZenohLab:
         await done.wait()
         if refusals and not answers:
             if refusals[0] == "Timeout":
-                raise NoAnswer(
+                raise TimedOut(
                     f"{key} did not answer within {timeout_s:g} s; check with `mrlab status` "
                     "whether its node runs, then try again"
                 )

@@ -3,8 +3,8 @@ export interface Link {
   readonly status: LinkStatus
   onStatus(listener: (status: LinkStatus) => void): Unsubscribe
   /** Receive the messages of a key, such as `ur5e_1/joint_states`; `*` stands for one part.
-   * A latched key delivers its newest message first. The message may be reused by the next one:
-   * copy what is kept. */
+   * A latched key delivers its newest message first. The message of a stream, such as joint states,
+   * is reused by the next one: copy what is kept. Those of latched keys and events are yours. */
   subscribe<T>(
     key: string,
     type: MessageType<T>,
@@ -17,6 +17,11 @@ export interface Link {
     request: Request,
     timeoutS?: number,
   ): Promise<Response>
+  /** Publish a message on a topic that comes in, such as `latency/clients`; dropped while lost. */
+  publish<T>(key: string, type: MessageType<T>, message: T): void
+  /** What the lab offers now; empty while it is not there. */
+  readonly offer: LabOffer
+  onOffer(listener: (offer: LabOffer) => void): Unsubscribe
   /** The lab's time now, s since the epoch, by the clock offset that the socket measures. */
   labTime(): number
   close(): void
@@ -30,6 +35,13 @@ export interface LinkStatus {
   readonly reason: string
   /** Round trip, s; NaN until measured. */
   readonly roundTrip: number
+}
+
+/** What the lab offers: key -> type. latched: topics that deliver their newest message first. */
+export interface LabOffer {
+  readonly topics: Readonly<Record<string, string>>
+  readonly services: Readonly<Record<string, string>>
+  readonly latched: ReadonlySet<string>
 }
 
 export interface Sample {

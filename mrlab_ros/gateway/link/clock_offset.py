@@ -1,0 +1,74 @@
+"""The offset between two clocks: the exchange with the least round trip of a sliding window.
+
+web/src/link/clock_offset.ts is the same for the browser; test vectors hold both together.
+"""
+
+from __future__ import annotations
+
+import math
+from collections import deque
+from dataclasses import dataclass
+
+# s: a round trip that is older says little about a clock that drifts.
+WINDOW_S = 30.0
+# s of correction a second: a clock that is read for motion must not jump.
+SLEW = 0.05
+# An error from which on it jumps, s.
+JUMP_S = 0.5
+
+
+@dataclass(frozen=True)
+class Exchange:
+    """One question and answer. at: s on the own clock; offset: s, theirs minus own."""
+
+    at: float
+    round_trip: float
+    offset: float
+
+
+def exchange(asked: float, came: float, answered: float, back: float) -> Exchange:
+    """Return the exchange of four times, s: own, theirs, theirs, own."""
+    offset = ((came - asked) + (answered - back)) / 2
+    return Exchange(back, (back - asked) - (answered - came), offset)
+
+
+class ClockOffset:
+    """Slews from one estimate to the next; `offset` at a time never runs backwards."""
+
+    def __init__(self) -> None:
+        self._window: deque[Exchange] = deque()
+        self._target = math.nan
+        self._held = math.nan
+        self._held_at = 0.0
+
+    @property
+    def known(self) -> bool:
+        return not math.isnan(self._held)
+
+    @property
+    def round_trip(self) -> float:
+        """The least of the window, s; NaN where there is none."""
+        return min((each.round_trip for each in self._window), default=math.nan)
+
+    def add(self, found: Exchange) -> None:
+        """Take another exchange into account."""
+        current = self.offset(found.at)
+        self._window.append(found)
+        while self._window[0].at < found.at - WINDOW_S:
+            self._window.popleft()
+        self._target = min(self._window, key=lambda each: each.round_trip).offset
+        jumps = math.isnan(current) or abs(self._target - current) > JUMP_S
+        self._held = self._target if jumps else current
+        self._held_at = found.at
+
+    def offset(self, at: float) -> float:
+        """Return the offset to add to the own clock at `at`, s; NaN before the first exchange."""
+        if math.isnan(self._held):
+            return math.nan
+        most = SLEW * max(0.0, at - self._held_at)
+        return self._held + max(-most, min(most, self._target - self._held))
+
+    def clear(self) -> None:
+        """Forget the exchanges: the other clock is another one now."""
+        self._window.clear()
+        self._target = self._held = math.nan

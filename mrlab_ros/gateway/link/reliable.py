@@ -1,0 +1,105 @@
+"""The lossless channel to a client: ordered, acknowledged, bounded, resumed after a reconnect."""
+
+from __future__ import annotations
+
+from collections import deque
+
+from mrlab_ros.core.errors import LabError
+from mrlab_ros.gateway.link.credit import ahead
+from mrlab_ros.gateway.link.frames import fragment
+
+# Bytes of a record in one frame: behind it on a slow link other frames wait.
+FRAGMENT = 8 * 1024
+# Bytes under way that are not acknowledged.
+WINDOW = 16 * 1024
+# Bytes and records that wait for a client, together with those under way.
+LARGEST = 8 * 1024 * 1024
+MOST = 2048
+
+
+class Overflow(LabError):
+    """More waits for a client than it is given room for."""
+
+
+class ReliableSender:
+    """Records for one client, cut into numbered fragments; the first has number 1.
+
+    A record larger than LARGEST passes where nothing else waits.
+    """
+
+    def __init__(self) -> None:
+        self._waiting: deque[bytes] = deque()
+        self._offset = 0
+        self._unacknowledged: deque[tuple[int, bytes]] = deque()
+        # How many of these were sent on the present socket, and their bytes.
+        self._sent = 0
+        self._under_way = 0
+        self._number = 0
+        self._size = 0
+
+    @property
+    def size(self) -> int:
+        """Bytes that wait or are not acknowledged."""
+        return self._size
+
+    @property
+    def idle(self) -> bool:
+        """Whether everything was sent."""
+        return not self._waiting and self._sent == len(self._unacknowledged)
+
+    def push(self, record: bytes) -> None:
+        """Append a record. Raises Overflow where too much waits; nothing is appended then."""
+        records = len(self._waiting) + len(self._unacknowledged)
+        if records and (records >= MOST or self._size + len(record) > LARGEST):
+            raise Overflow(
+                f"{records} messages of {self._size} bytes wait for this client, which does not "
+                "acknowledge them; reconnect, and fetch what was missed"
+            )
+        self._waiting.append(record)
+        self._size += len(record)
+
+    def next(self) -> bytes | None:
+        """Return the next frame to send, None where there is none or the window is full."""
+        if self._under_way >= WINDOW:
+            return None
+        if self._sent < len(self._unacknowledged):
+            _, frame = self._unacknowledged[self._sent]
+        elif self._waiting:
+            frame = self._cut()
+        else:
+            return None
+        self._sent += 1
+        self._under_way += len(frame)
+        return frame
+
+    def acknowledge(self, number: int) -> None:
+        """Drop the fragments up to `number`; one that was never sent changes nothing."""
+        if ahead(number, self._number) > 0:
+            return
+        kept = self._unacknowledged
+        while kept and ahead(number, kept[0][0]) >= 0:
+            _, frame = kept.popleft()
+            self._size -= len(frame)
+            if self._sent:
+                self._sent -= 1
+                self._under_way -= len(frame)
+
+    def rewind(self, number: int) -> None:
+        """Begin on a new socket: the client has everything up to `number`."""
+        self.acknowledge(number)
+        self._sent = 0
+        self._under_way = 0
+
+    def _cut(self) -> bytes:
+        record = self._waiting[0]
+        piece = memoryview(record)[self._offset : self._offset + FRAGMENT]
+        self._offset += len(piece)
+        last = self._offset == len(record)
+        if last:
+            self._waiting.popleft()
+            self._offset = 0
+        self._number = (self._number + 1) % (1 << 32)
+        frame = fragment(self._number, last, piece)
+        self._size += len(frame) - len(piece)
+        self._unacknowledged.append((self._number, frame))
+        return frame

@@ -1,0 +1,257 @@
+"""What the gateway keeps of one client, across its sockets: subscriptions, what waits, calls."""
+
+from __future__ import annotations
+
+from collections import OrderedDict
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from typing import Any
+
+import orjson
+
+from mrlab_ros.core.bridge.policy import Verb
+from mrlab_ros.gateway.lab.connection import Unsubscribe
+from mrlab_ros.gateway.link import frames
+from mrlab_ros.gateway.link.credit import Credit
+from mrlab_ros.gateway.link.frames import RecordKind
+from mrlab_ros.gateway.link.hub import Hub, Message, Topic
+from mrlab_ros.gateway.link.newest import Newest
+from mrlab_ros.gateway.link.reliable import Overflow, ReliableSender
+from mrlab_ros.gateway.link.visibility import Visibility
+from mrlab_ros.gateway.people.person import Person
+
+# Bytes of a batch. A larger message goes in pieces by the lossless channel, so that it delays
+# nothing else on a slow link.
+BATCH = 16 * 1024
+LARGE = 8 * 1024
+# Batches under way, at most, however much credit a client gives.
+BATCHES = 8
+SUBSCRIPTIONS = 256
+# Requests whose numbers are remembered, to do none twice.
+REQUESTS = 4096
+
+May = Callable[[Person, Verb, str], bool]
+
+
+@dataclass
+class Subscription:
+    """A client's subscription; end: undoes it."""
+
+    expression: str
+    end: Unsubscribe
+
+
+class LinkSession:
+    """One client. A new socket goes on with what the last one left.
+
+    wake: called when there may be something to send.
+    """
+
+    def __init__(
+        self,
+        token: str,
+        person: Person,
+        hub: Hub,
+        visibility: Visibility,
+        may: May,
+    ) -> None:
+        self.token = token
+        self.person = person
+        self.wake: Callable[[], None] = _nothing
+        self.failed = ""
+        self._hub = hub
+        self._visibility = visibility
+        self._may = may
+        self._subscriptions: dict[int, Subscription] = {}
+        self._newest = Newest()
+        self._large: dict[int, Message] = {}
+        self._reliable = ReliableSender()
+        self._credit = Credit(BATCHES)
+        self._texts: list[bytes] = []
+        self._announced: dict[int, Topic] = {}
+        self._lab = b""
+        self._requests: OrderedDict[int, None] = OrderedDict()
+        self._batch_is_next = True
+
+    @property
+    def size(self) -> int:
+        """Bytes of the lossless channel that wait."""
+        return self._reliable.size
+
+    def close(self) -> None:
+        """End all subscriptions."""
+        for subscription in self._subscriptions.values():
+            subscription.end()
+        self._subscriptions.clear()
+
+    # ---- a new socket ----
+
+    def attach(self, received: int, wanted: Mapping[int, str]) -> None:
+        """Begin on a new socket: the client has fragments up to `received`.
+
+        wanted: its subscriptions, number -> key expression; states that may have been lost on the
+        way are given again.
+        """
+        self._credit = Credit(BATCHES)
+        self._texts.clear()
+        for topic in self._announced.values():
+            self._announce(topic)
+        self._reliable.rewind(received)
+        for number in [n for n, s in self._subscriptions.items() if wanted.get(n) != s.expression]:
+            self.unsubscribe(number)
+        for subscription in self._subscriptions.values():
+            self._hub.replay(subscription.expression, self)
+        for number, expression in wanted.items():
+            if number not in self._subscriptions:
+                self.subscribe(number, expression)
+
+    # ---- from the client ----
+
+    def subscribe(self, number: int, expression: str) -> None:
+        """Subscribe, or send why not."""
+        if number in self._subscriptions:
+            self.unsubscribe(number)
+        why_not = self._why_not(expression)
+        if why_not:
+            self.text({"op": "refused", "id": number, "key": expression, **why_not})
+            return
+        # Before the first message: there may be one at once.
+        self._subscriptions[number] = Subscription(expression, _nothing)
+        self._subscriptions[number].end = self._hub.subscribe(expression, self)
+
+    def unsubscribe(self, number: int) -> None:
+        """End a subscription; nothing happens where there is none."""
+        subscription = self._subscriptions.pop(number, None)
+        if subscription is not None:
+            subscription.end()
+
+    def grant(self, batch: int) -> None:
+        """Let batches up to this number be sent."""
+        self._credit.grant(batch)
+        self.wake()
+
+    def acknowledge(self, fragment: int) -> None:
+        """Drop the fragments up to this number."""
+        self._reliable.acknowledge(fragment)
+        self.wake()
+
+    def is_new(self, request: int) -> bool:
+        """Note a request; return whether it is the first time that it comes."""
+        if request in self._requests:
+            return False
+        self._requests[request] = None
+        if len(self._requests) > REQUESTS:
+            self._requests.popitem(last=False)
+        return True
+
+    # ---- to the client ----
+
+    def take(self, message: Message) -> None:
+        """Let a message wait for the client."""
+        topic = message.topic
+        if self._visibility.concerns(topic.key):
+            limited = self._visibility.message(self.person, topic.key, message.sample.payload)
+            if limited is None:
+                return
+            if limited is not message.sample.payload:
+                message = message.with_payload(limited)
+        if topic.each:
+            self._push(topic, RecordKind.MESSAGE, message)
+        elif len(message.sample.payload) > LARGE:
+            self._large[topic.id] = message
+        else:
+            self._newest.offer(topic.id, topic.priority, message.encoded())
+        if topic.id not in self._announced:
+            self._announce(topic)
+        self.wake()
+
+    def respond(self, request: int, payload: bytes) -> None:
+        """Send a service's response."""
+        self._push_record(frames.record(RecordKind.RESPONSE, request, 0.0, payload))
+
+    def fail(self, request: int, code: str, message: str) -> None:
+        """Send why a request has no response."""
+        error = orjson.dumps({"code": code, "message": message})
+        self._push_record(frames.record(RecordKind.ERROR, request, 0.0, error))
+
+    def text(self, message: Mapping[str, Any]) -> None:
+        """Send a text frame; it is not repeated after a reconnect."""
+        self._texts.append(orjson.dumps(message))
+        self.wake()
+
+    def show_lab(self, state: bytes) -> None:
+        """Send how the lab is, as JSON; only the newest counts."""
+        self._lab = state
+        self.wake()
+
+    def next_frame(self) -> bytes | str | None:
+        """Return the next frame to send, None where nothing may be sent now.
+
+        Texts go first; batches and fragments take turns.
+        """
+        if self._texts:
+            return self._texts.pop(0).decode()
+        if self._lab:
+            state, self._lab = self._lab, b""
+            return state.decode()
+        for _ in range(2):
+            self._batch_is_next = not self._batch_is_next
+            frame = self._fragment() if self._batch_is_next else self._batch()
+            if frame is not None:
+                return frame
+        return None
+
+    def _batch(self) -> bytes | None:
+        if not self._credit.left or not self._newest:
+            return None
+        entries = self._newest.take(BATCH)
+        return frames.batch(self._credit.take(), entries)
+
+    def _fragment(self) -> bytes | None:
+        # One at a time: what waits behind it may be replaced by a newer one.
+        if self._large and self._reliable.idle:
+            topic, message = next(iter(self._large.items()))
+            del self._large[topic]
+            self._push(message.topic, RecordKind.VALUE, message)
+        return self._reliable.next()
+
+    def _push(self, topic: Topic, kind: RecordKind, message: Message) -> None:
+        self._push_record(frames.record(kind, topic.id, message.stamp, message.sample.payload))
+
+    def _push_record(self, record: bytes) -> None:
+        try:
+            self._reliable.push(record)
+        except Overflow as error:
+            self.failed = str(error)
+        self.wake()
+
+    def _announce(self, topic: Topic) -> None:
+        self._announced[topic.id] = topic
+        self.text(
+            {
+                "op": "topic",
+                "id": topic.id,
+                "key": topic.key,
+                "type": topic.type,
+                "latched": topic.latched,
+                "each": topic.each,
+            }
+        )
+
+    def _why_not(self, expression: str) -> dict[str, str]:
+        if len(self._subscriptions) >= SUBSCRIPTIONS:
+            return {
+                "code": "too_many",
+                "message": f"this client has {SUBSCRIPTIONS} subscriptions; end some first",
+            }
+        if not self._may(self.person, Verb.RECEIVE, expression):
+            return {
+                "code": "not_allowed",
+                "message": f"{expression} is no topic that the lab gives to pages; "
+                "docs/protocol.md lists them, with * for one part of a key",
+            }
+        return {}
+
+
+def _nothing() -> None:
+    """Do nothing."""

@@ -1,0 +1,115 @@
+"""The clients of a gateway: who is connected, and who may come back."""
+
+from __future__ import annotations
+
+import secrets
+from dataclasses import dataclass, field
+
+import orjson
+
+from mrlab_ros.core.bridge.rules import Rules
+from mrlab_ros.gateway.errors import TooMany
+from mrlab_ros.gateway.lab.connection import LabConnection, Phase
+from mrlab_ros.gateway.link.hub import Hub
+from mrlab_ros.gateway.link.session import LinkSession, May
+from mrlab_ros.gateway.link.visibility import Visibility
+from mrlab_ros.gateway.people.person import Person
+
+# s for which a client that lost its socket is waited for.
+RESUME_S = 30.0
+# Clients of one person and of all.
+OF_ONE = 64
+OF_ALL = 500
+
+
+@dataclass(eq=False)
+class Client:
+    """A session and the socket that serves it now. socket: None while there is none."""
+
+    session: LinkSession
+    socket: object | None = None
+    # When its last socket ended, s, monotonic.
+    left_at: float = field(default=0.0)
+
+
+class Sessions:
+    """All sessions; times are s, monotonic."""
+
+    def __init__(self, lab: LabConnection, rules: Rules, may: May) -> None:
+        self.lab = lab
+        self.hub = Hub(lab, rules)
+        self.visibility = Visibility(lab.definitions)
+        self._may = may
+        self._clients: dict[str, Client] = {}
+        self._stop = lab.on_change(self._on_change)
+
+    def close(self) -> None:
+        """End all sessions."""
+        self._stop()
+        for client in list(self._clients.values()):
+            self.end(client)
+        self.hub.close()
+
+    def open(self, person: Person, token: str, socket: object, now: float) -> tuple[Client, bool]:
+        """Return a client for a new socket, and whether it is the one that `token` names.
+
+        Only the same person and role may come back. The client's former socket loses it. Raises
+        TooMany.
+        """
+        self.expire(now)
+        client = self._clients.get(token)
+        if client is not None and client.session.person == person:
+            client.socket = socket
+            return client, True
+        own = sum(each.session.person.name == person.name for each in self._clients.values())
+        if own >= OF_ONE or len(self._clients) >= OF_ALL:
+            raise TooMany(
+                f"{own} pages of {person.name} and {len(self._clients)} of all are connected; "
+                "close some, then reload this one",
+                RESUME_S,
+            )
+        session = LinkSession(
+            secrets.token_urlsafe(18), person, self.hub, self.visibility, self._may
+        )
+        client = self._clients[session.token] = Client(session, socket)
+        return client, False
+
+    def leave(self, client: Client, socket: object, now: float) -> None:
+        """Let a client be without a socket; nothing happens where it has another one already."""
+        if client.socket is socket:
+            client.socket = None
+            client.left_at = now
+
+    def end(self, client: Client) -> None:
+        """Forget a client."""
+        if self._clients.pop(client.session.token, None) is not None:
+            client.session.close()
+
+    def expire(self, now: float) -> None:
+        """Forget clients that did not come back."""
+        for client in list(self._clients.values()):
+            gone = client.socket is None and now - client.left_at > RESUME_S
+            if gone or (client.session.failed and client.socket is None):
+                self.end(client)
+
+    def lab_state(self) -> bytes:
+        """Return how the lab is, as the text frame of its clients."""
+        keys = self.lab.keys
+        return orjson.dumps(
+            {
+                "op": "lab",
+                "phase": self.lab.phase.value,
+                "topics": dict(keys.topics),
+                "services": dict(keys.services),
+                "latched": sorted(keys.latched),
+            }
+        )
+
+    @property
+    def connected(self) -> bool:
+        return self.lab.phase is Phase.OPEN
+
+    def _on_change(self) -> None:
+        state = self.lab_state()
+        for client in self._clients.values():
+            client.session.show_lab(state)

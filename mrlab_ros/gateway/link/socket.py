@@ -1,0 +1,343 @@
+"""The WebSocket /link: one client's frames, both ways."""
+
+from __future__ import annotations
+
+import asyncio
+import logging
+import time
+from collections.abc import Mapping
+from contextlib import suppress
+from typing import Any
+
+import orjson
+from fastapi import APIRouter, WebSocket
+from starlette.websockets import WebSocketDisconnect
+
+from mrlab_ros.core.bridge.policy import Policy, Verb
+from mrlab_ros.core.errors import BadInput, LabError
+from mrlab_ros.gateway.errors import SOCKET_REFUSED, TooMany
+from mrlab_ros.gateway.lab.connection import CALL_TIMEOUT_S, LabConnection, NoAnswer, TimedOut
+from mrlab_ros.gateway.link import frames
+from mrlab_ros.gateway.link.frames import Call, Credit
+from mrlab_ros.gateway.link.lab_clock import LabClock
+from mrlab_ros.gateway.link.limits import Bucket
+from mrlab_ros.gateway.link.session import LinkSession, May
+from mrlab_ros.gateway.link.sessions import Client, Sessions
+from mrlab_ros.gateway.people.people import ThePeople
+from mrlab_ros.gateway.people.person import CurrentPerson, Person
+
+PROTOCOL = "mrlab.1"
+# Codes of a close; a client that gets one of the first three does not come back by itself.
+VERSION, SIGN_IN_ENDED, TOO_MANY = 4001, SOCKET_REFUSED, 4029
+BROKEN, BEHIND, SILENT = 4400, 4409, 4408
+# s for a client's first frame.
+HELLO_S = 5.0
+# s without a frame after which a client counts as gone: a page in view sends one every second.
+SILENCE_S = 5.0
+# The same of a hidden page, whose timers a browser slows down to one a minute.
+HIDDEN_SILENCE_S = 150.0
+HEARTBEAT_S = 1.0
+# Largest frame of a client, bytes. Files go by HTTP.
+LARGEST = 1024 * 1024
+# What a client may send: frames and bytes a second, calls a second, calls that wait.
+FRAMES = (2000.0, 4000.0)
+BYTES = (512.0 * 1024, 4.0 * LARGEST)
+CALLS = (50.0, 100.0)
+CALLS_WAITING = 32
+
+log = logging.getLogger("mrlab.gateway")
+router = APIRouter()
+
+
+class LinkPort:
+    """What the sockets of one gateway share."""
+
+    def __init__(self, sessions: Sessions, may: May) -> None:
+        self.sessions = sessions
+        self.may = may
+        self.clock = LabClock(sessions.lab)
+        self.calls: set[asyncio.Task[None]] = set()
+
+
+def link_port(lab: LabConnection, policy: Policy) -> LinkPort:
+    """Return what the sockets of a gateway share."""
+
+    def may(person: Person, verb: Verb, key: str) -> bool:
+        return policy.may(person.role, verb, key)
+
+    return LinkPort(Sessions(lab, policy.rules, may), may)
+
+
+@router.websocket("/link")
+async def link(websocket: WebSocket, person: CurrentPerson, people: ThePeople) -> None:
+    """Carry the lab's topics and services; docs/link.md describes the frames."""
+    offered = websocket.scope.get("subprotocols", [])
+    if PROTOCOL not in offered:
+        # Accepted first: a browser shows a page no reason for a refused handshake.
+        await websocket.accept(subprotocol=offered[0] if offered else None)
+        theirs = ", ".join(offered)[:40] or "no subprotocol"
+        await websocket.close(
+            VERSION, f"this gateway speaks {PROTOCOL}, the page {theirs}; reload the page"
+        )
+        return
+    await websocket.accept(subprotocol=PROTOCOL)
+    port: LinkPort | None = websocket.app.state.link
+    if port is None:
+        await websocket.close(1011, "this gateway was started without a lab")
+        return
+    with people.sign_ins.ending(person) as ended:
+        try:
+            hello = await asyncio.wait_for(websocket.receive_text(), HELLO_S)
+            token, received, wanted, hidden = _hello(hello)
+            client, resumed = port.sessions.open(person, token, websocket, time.monotonic())
+        except asyncio.TimeoutError:
+            await websocket.close(BROKEN, f"no hello within {HELLO_S:g} s")
+        except (WebSocketDisconnect, KeyError):
+            await _close(websocket, BROKEN, "the first frame is no hello; see docs/link.md")
+        except BadInput as error:
+            await _close(websocket, BROKEN, str(error))
+        except TooMany as error:
+            await _close(websocket, TOO_MANY, str(error))
+        else:
+            socket = _Socket(websocket, port, client, hidden)
+            await socket.serve(resumed, received if resumed else 0, wanted, ended)
+
+
+class _Socket:
+    """Serves a client until its socket or its sign-in ends."""
+
+    def __init__(self, websocket: WebSocket, port: LinkPort, client: Client, hidden: bool) -> None:
+        self._websocket = websocket
+        self._port = port
+        self._client = client
+        self._session: LinkSession = client.session
+        self._hidden = hidden
+        self._woken = asyncio.Event()
+        self._heard = time.monotonic()
+        self._waiting = 0
+        self._frames = Bucket(*FRAMES)
+        self._bytes = Bucket(*BYTES)
+        self._calls = Bucket(*CALLS)
+        self._close = (1000, "")
+
+    async def serve(
+        self, resumed: bool, received: int, wanted: Mapping[int, str], ended: asyncio.Event
+    ) -> None:
+        """Serve until one side ends it."""
+        session = self._session
+        session.wake = self._woken.set
+        session.attach(received, wanted)
+        welcome = {
+            "op": "welcome",
+            "token": session.token,
+            "resumed": resumed,
+            "heartbeat": HEARTBEAT_S,
+            "silence": SILENCE_S,
+        }
+        tasks = [
+            asyncio.create_task(each)
+            for each in (
+                self._send(orjson.dumps(welcome).decode()),
+                self._receive(),
+                self._watch(),
+                self._sign_in(ended),
+            )
+        ]
+        session.show_lab(self._port.sessions.lab_state())
+        try:
+            await asyncio.wait(tasks, return_when=asyncio.FIRST_COMPLETED)
+        finally:
+            for task in tasks:
+                task.cancel()
+            results = await asyncio.gather(*tasks, return_exceptions=True)
+            for result in results:
+                if isinstance(result, Exception) and not isinstance(result, WebSocketDisconnect):
+                    log.error("a socket of %s failed", session.person.name, exc_info=result)
+            self._leave()
+            await _close(self._websocket, *self._close)
+
+    def _leave(self) -> None:
+        sessions, client = self._port.sessions, self._client
+        if client.socket is self._websocket:
+            self._session.wake = _nothing
+        sessions.leave(client, self._websocket, time.monotonic())
+        if self._close[0] == SIGN_IN_ENDED:
+            sessions.end(client)
+        sessions.expire(time.monotonic())
+
+    async def _send(self, welcome: str) -> None:
+        session, websocket, woken = self._session, self._websocket, self._woken
+        await websocket.send_text(welcome)
+        while True:
+            await woken.wait()
+            woken.clear()
+            if session.failed:
+                self._close = BEHIND, session.failed
+                return
+            if self._client.socket is not websocket:
+                self._close = 1000, "this client has a newer socket"
+                return
+            while (frame := session.next_frame()) is not None:
+                if isinstance(frame, str):
+                    await websocket.send_text(frame)
+                else:
+                    await websocket.send_bytes(frame)
+
+    async def _receive(self) -> None:
+        websocket = self._websocket
+        while True:
+            message = await websocket.receive()
+            if message["type"] == "websocket.disconnect":
+                return
+            now = self._heard = time.monotonic()
+            data = message.get("bytes")
+            text = message.get("text")
+            size = len(data or text or "")
+            if size > LARGEST or not self._frames.take(1, now) or not self._bytes.take(size, now):
+                self._close = TOO_MANY, "this page sends too much; reload it"
+                return
+            try:
+                if data is not None:
+                    self._binary(data, now)
+                else:
+                    self._text(text or "")
+            except BadInput as error:
+                self._close = BROKEN, str(error)
+                return
+
+    def _binary(self, data: bytes, now: float) -> None:
+        frame = frames.from_client(data)
+        if isinstance(frame, Credit):
+            self._session.grant(frame.batch)
+        elif isinstance(frame, Call):
+            if frame.put:
+                self._put(frame)
+            else:
+                self._call(frame, now)
+        else:
+            self._session.acknowledge(frame.fragment)
+
+    def _text(self, text: str) -> None:
+        came = self._port.clock.now()
+        message = _mapping(text)
+        op = message.get("op")
+        if op == "ping":
+            answer = {"op": "pong", "asked": message.get("asked"), "came": came}
+            self._session.text({**answer, "answered": self._port.clock.now()})
+        elif op == "subscribe":
+            self._session.subscribe(_number(message, "id"), str(message.get("key", "")))
+        elif op == "unsubscribe":
+            self._session.unsubscribe(_number(message, "id"))
+        elif op in ("hidden", "visible"):
+            self._hidden = op == "hidden"
+        else:
+            raise BadInput(f"{str(op)[:40]!r} is no op of {PROTOCOL}; see docs/link.md")
+
+    def _put(self, frame: Call) -> None:
+        if self._port.may(self._session.person, Verb.PUBLISH, frame.key):
+            self._port.sessions.lab.put(frame.key, frame.payload)
+        else:
+            self._session.text(
+                {
+                    "op": "refused",
+                    "key": frame.key,
+                    "code": "not_allowed",
+                    "message": f"{self._session.person.role.value}s may not publish {frame.key}",
+                }
+            )
+
+    def _call(self, frame: Call, now: float) -> None:
+        session = self._session
+        if not session.is_new(frame.request):
+            return
+        if not self._port.may(session.person, Verb.CALL, frame.key):
+            role = session.person.role.value
+            session.fail(
+                frame.request,
+                "not_allowed",
+                f"your role, {role}, may not call {frame.key}; ask your instructor",
+            )
+        elif self._waiting >= CALLS_WAITING or not self._calls.take(1, now):
+            session.fail(
+                frame.request, "too_many", "too many calls at once; wait for their answers"
+            )
+        else:
+            self._waiting += 1
+            task = asyncio.create_task(self._ask(frame))
+            # It goes on where the socket ends: the answer waits for the next one.
+            self._port.calls.add(task)
+            task.add_done_callback(self._port.calls.discard)
+
+    async def _ask(self, frame: Call) -> None:
+        session, sessions = self._session, self._port.sessions
+        timeout = min(frame.timeout_s or CALL_TIMEOUT_S, CALL_TIMEOUT_S)
+        try:
+            payload = await sessions.lab.query(frame.key, frame.payload or None, timeout)
+            session.respond(
+                frame.request, sessions.visibility.response(session.person, frame.key, payload)
+            )
+        except TimedOut as error:
+            session.fail(frame.request, "timeout", str(error))
+        except NoAnswer as error:
+            session.fail(frame.request, "no_service", str(error))
+        except LabError as error:
+            session.fail(frame.request, "refused", str(error))
+        finally:
+            self._waiting -= 1
+
+    async def _watch(self) -> None:
+        while True:
+            longest = HIDDEN_SILENCE_S if self._hidden else SILENCE_S
+            left = self._heard + longest - time.monotonic()
+            if left <= 0:
+                self._close = SILENT, f"nothing came from this page for {longest:g} s"
+                return
+            await asyncio.sleep(min(left, 1.0) + 0.01)
+
+    async def _sign_in(self, ended: asyncio.Event) -> None:
+        await ended.wait()
+        self._close = SIGN_IN_ENDED, "your sign-in has ended, or your role has changed; sign in"
+
+
+def _hello(text: str) -> tuple[str, int, dict[int, str], bool]:
+    """Return token, number of the last fragment, subscriptions, and whether the page is hidden."""
+    message = _mapping(text)
+    if message.get("op") != "hello":
+        raise BadInput("the first frame is no hello; see docs/link.md")
+    wanted = message.get("subscriptions", {})
+    if not isinstance(wanted, dict) or not all(key.isdecimal() for key in wanted):
+        raise BadInput("subscriptions of a hello are {number: key expression}")
+    received = _number(message, "received") if "received" in message else 0
+    return (
+        str(message.get("token") or ""),
+        received,
+        {int(number): str(key) for number, key in wanted.items()},
+        bool(message.get("hidden")),
+    )
+
+
+def _mapping(text: str) -> dict[str, Any]:
+    try:
+        message = orjson.loads(text)
+    except orjson.JSONDecodeError as error:
+        raise BadInput(f"a text frame is no JSON: {error}") from error
+    if not isinstance(message, dict):
+        raise BadInput("a text frame is no JSON object; see docs/link.md")
+    return message
+
+
+def _number(message: Mapping[str, Any], name: str) -> int:
+    value = message.get(name)
+    if not isinstance(value, int) or not 0 <= value < 1 << 32:
+        raise BadInput(f"{name} is {str(value)[:40]!r}; expected a number from 0 to 2^32 - 1")
+    return value
+
+
+async def _close(websocket: WebSocket, code: int, reason: str) -> None:
+    # A reason has 123 bytes at most; the other side may have closed already.
+    with suppress(RuntimeError, WebSocketDisconnect):
+        await websocket.close(code, reason.encode()[:120].decode(errors="ignore"))
+
+
+def _nothing() -> None:
+    """Do nothing."""

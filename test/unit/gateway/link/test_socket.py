@@ -1,0 +1,428 @@
+from __future__ import annotations
+
+import asyncio
+from collections.abc import Awaitable, Callable, Coroutine
+from pathlib import Path
+from typing import Any
+
+import pytest
+from gateway_side import Gateway
+from link_side import Closed, LinkSide, error_of
+
+from mrlab_ros.core.bridge.rules import Role
+from mrlab_ros.gateway.lab.connection import NoAnswer, Phase, Refused
+from mrlab_ros.gateway.lab.fake_lab import FakeLab
+from mrlab_ros.gateway.link import socket
+from mrlab_ros.gateway.link.frames import RecordKind
+
+pytestmark = pytest.mark.fast
+TRIGGER = "std_srvs/srv/Trigger"
+JOINTS = "sensor_msgs/msg/JointState"
+
+
+class Stage:
+    """A gateway with a fake lab, and its clients."""
+
+    def __init__(self, gateway: Gateway, lab: FakeLab) -> None:
+        self.gateway = gateway
+        self.lab = lab
+        self.sides: list[LinkSide] = []
+
+    def cookie(self, name: str = "", role: Role = Role.STUDENT) -> str:
+        people = self.gateway.people
+        now = people.clock()
+        if name and all(account.name != name for account in people.accounts.all()):
+            people.accounts.add(name, role)
+        secret = people.sign_ins.begin(name or "local", role if name else Role.INSTRUCTOR, now)
+        return f"{people.cookie}={secret}"
+
+    def side(self, cookie: str | None = None, **options: Any) -> LinkSide:
+        cookie = self.cookie() if cookie is None else cookie
+        side = LinkSide(self.gateway.app, cookie, **options)
+        self.sides.append(side)
+        return side
+
+
+def played(scene: Callable[[Stage], Awaitable[None]]) -> Callable[[Path], None]:
+    """Return a test that plays a scene in an event loop."""
+
+    def test(tmp_path: Path) -> None:
+        async def play() -> None:
+            lab = FakeLab()
+            gateway = Gateway(tmp_path, lab=lab)
+            stage = Stage(gateway, lab)
+            try:
+                await scene(stage)
+            finally:
+                for side in stage.sides:
+                    side.leave()
+                    side.thaw.set()
+                await asyncio.gather(*(side.ended() for side in stage.sides))
+                gateway.app.state.link.sessions.close()
+
+        asyncio.run(play())
+
+    return test
+
+
+def trigger(lab: FakeLab, success: bool = True) -> bytes:
+    return lab.definitions.encode(f"{TRIGGER}_Response", {"success": success})
+
+
+def scene(
+    function: Callable[[Stage], Coroutine[Any, Any, None]],
+) -> Callable[[Path], None]:
+    test = played(function)
+    test.__name__ = function.__name__
+    return test
+
+
+def joints(lab: FakeLab, value: float) -> bytes:
+    return lab.definitions.encode(JOINTS, {"name": ["a"], "position": [value]})
+
+
+@scene
+async def test_a_stream_is_paced_by_credit_and_only_its_newest_message_counts(
+    stage: Stage,
+) -> None:
+    stage.lab.offer("ur5e_1/joint_states", JOINTS)
+    side = stage.side()
+    side.hello(_1="*/joint_states")
+    await side.welcome()
+    assert side.subprotocol == "mrlab.1"
+    for value in range(5):
+        stage.lab.publish("ur5e_1/joint_states", joints(stage.lab, value))
+    await side.settle()
+    assert not side.values
+    side.grant(1)
+    await side.until(lambda: side.values)
+    assert side.payloads("ur5e_1/joint_states") == [joints(stage.lab, 4)]
+    stage.lab.publish("ur5e_1/joint_states", joints(stage.lab, 5))
+    await side.settle()
+    assert side.batches == [1]
+    side.grant(2)
+    await side.until(lambda: len(side.values) == 2)
+
+
+@scene
+async def test_a_latched_topic_gives_its_newest_message_first(stage: Stage) -> None:
+    stage.lab.offer("robots", "mrlab_msgs/msg/Robots", latched=True)
+    stage.lab.publish("robots", {"robots": [{"name": "a"}]})
+    for number in range(2):
+        side = stage.side()
+        side.hello(_1="robots")
+        side.grant(1)
+        await side.until(lambda side=side: side.values)
+        (payload,) = side.payloads("robots")
+        read = stage.lab.definitions.decode("mrlab_msgs/msg/Robots", payload)
+        assert [robot.name for robot in read.robots] == ["a"], number
+
+
+@scene
+async def test_a_message_too_large_for_a_batch_comes_in_pieces(stage: Stage) -> None:
+    stage.lab.offer("ur5e_1/robot_description", "std_msgs/msg/String", latched=True)
+    text = "x" * 50_000
+    stage.lab.publish("ur5e_1/robot_description", {"data": text})
+    side = stage.side()
+    side.hello(_1="*/robot_description")
+
+    def whole() -> bool:
+        side.acknowledge()
+        return bool(side.records)
+
+    await side.until(whole)
+    kind, topic, payload = side.records[0]
+    assert (kind, side.topics[topic]["key"]) == (RecordKind.VALUE, "ur5e_1/robot_description")
+    assert stage.lab.definitions.decode("std_msgs/msg/String", payload).data == text
+
+
+@scene
+async def test_each_event_arrives_in_order_without_credit(stage: Stage) -> None:
+    stage.lab.offer("objects/removed", "mrlab_msgs/msg/ObjectRemoved")
+    side = stage.side()
+    side.hello(_1="objects/removed")
+    await side.welcome()
+    for number in range(30):
+        stage.lab.publish("objects/removed", {"name": f"cube_{number}"})
+    await side.until(lambda: len(side.records) == 30)
+    names = [
+        stage.lab.definitions.decode("mrlab_msgs/msg/ObjectRemoved", payload).name
+        for _, _, payload in side.records
+    ]
+    assert names == [f"cube_{number}" for number in range(30)]
+
+
+@scene
+async def test_what_was_not_acknowledged_comes_again_after_a_reconnect(stage: Stage) -> None:
+    stage.lab.offer("objects/removed", "mrlab_msgs/msg/ObjectRemoved")
+    cookie = stage.cookie()
+    first = stage.side(cookie)
+    first.hello(_1="objects/removed")
+    token = (await first.welcome())["token"]
+    stage.lab.publish("objects/removed", {"name": "a"})
+    await first.until(lambda: first.records)
+    first.leave()
+    await first.ended()
+    stage.lab.publish("objects/removed", {"name": "b"})
+
+    second = stage.side(cookie)
+    second.received = 1
+    second.hello(token, received=1, _1="objects/removed")
+    assert (await second.welcome())["resumed"]
+    await second.until(lambda: second.records)
+    assert len(second.records) == 1
+    assert b"b\0" in second.records[0][2]
+
+
+@scene
+async def test_a_late_close_of_an_old_socket_leaves_the_new_one(stage: Stage) -> None:
+    cookie = stage.cookie()
+    first = stage.side(cookie)
+    first.hello()
+    token = (await first.welcome())["token"]
+    second = stage.side(cookie)
+    second.hello(token)
+    assert (await second.welcome())["resumed"]
+    first.leave()
+    await first.ended()
+    second.text(op="ping", asked=1.5)
+    pong = await second.until(lambda: second.of("pong"))
+    assert pong[0]["asked"] == 1.5
+
+
+@scene
+async def test_a_token_of_somebody_else_resumes_nothing(stage: Stage) -> None:
+    first = stage.side(stage.cookie("anna"))
+    first.hello()
+    token = (await first.welcome())["token"]
+    second = stage.side(stage.cookie("ben"))
+    second.hello(token)
+    assert not (await second.welcome())["resumed"]
+
+
+@scene
+async def test_a_service_answers_by_request_and_is_called_once(stage: Stage) -> None:
+    stage.lab.serve("ur5e_1/play", TRIGGER, lambda request: {"success": True})
+    side = stage.side()
+    side.hello()
+    side.call("ur5e_1/play", 7)
+    side.call("ur5e_1/play", 7)
+    side.call("ur5e_1/play", 8)
+    await side.until(lambda: len(side.records) == 2)
+    assert [(kind, about) for kind, about, _ in side.records] == [
+        (RecordKind.RESPONSE, 7),
+        (RecordKind.RESPONSE, 8),
+    ]
+    assert side.records[0][2] == trigger(stage.lab)
+    assert len(stage.lab.calls) == 2
+
+
+@scene
+async def test_an_answer_waits_for_the_next_socket(stage: Stage) -> None:
+    stage.lab.serve("ur5e_1/play", TRIGGER, lambda request: {"success": True})
+    release = stage.lab.hold("ur5e_1/play")
+    cookie = stage.cookie()
+    first = stage.side(cookie)
+    first.hello()
+    token = (await first.welcome())["token"]
+    first.call("ur5e_1/play", 1)
+    while not stage.lab.calls:
+        await asyncio.sleep(0)
+    first.leave()
+    await first.ended()
+    release()
+    second = stage.side(cookie)
+    second.hello(token)
+    second.call("ur5e_1/play", 1)
+    await second.until(lambda: second.records)
+    assert second.records[0][:2] == (RecordKind.RESPONSE, 1)
+    assert len(stage.lab.calls) == 1
+
+
+@scene
+async def test_errors_of_services_say_what_they_are(stage: Stage) -> None:
+    def refuse(request: object) -> dict[str, Any]:
+        raise Refused("not now")
+
+    def nobody(request: object) -> dict[str, Any]:
+        raise NoAnswer("nobody is there")
+
+    stage.lab.serve("a/play", TRIGGER, refuse)
+    stage.lab.serve("b/play", TRIGGER, nobody)
+    stage.lab.serve("c/play", TRIGGER, lambda request: {"success": True})
+    stage.lab.hold("c/play")
+    side = stage.side()
+    side.hello()
+    side.call("a/play", 1)
+    side.call("b/play", 2)
+    side.call("c/play", 3, timeout=0.01)
+    side.call("ur5e_1/command_members", 4)
+    await side.until(lambda: len(side.records) == 4)
+    codes = {about: error_of((kind, about, data))["code"] for kind, about, data in side.records}
+    assert codes == {1: "refused", 2: "no_service", 3: "timeout", 4: "not_allowed"}
+
+
+@scene
+async def test_a_role_that_may_not_call_is_refused_and_the_lab_not_asked(stage: Stage) -> None:
+    stage.lab.serve("ur5e_1/play", TRIGGER, lambda request: {"success": True})
+    side = stage.side(stage.cookie("wall", Role.DISPLAY))
+    side.hello()
+    side.call("ur5e_1/play", 1)
+    await side.until(lambda: side.records)
+    error = error_of(side.records[0])
+    assert error["code"] == "not_allowed"
+    assert "your role, display, may not call ur5e_1/play" in error["message"]
+    assert not stage.lab.calls
+
+
+@scene
+async def test_only_what_comes_in_may_be_published(stage: Stage) -> None:
+    side = stage.side()
+    side.hello()
+    side.put("latency/clients", b"\0\1\0\0")
+    side.put("robots", b"\0\1\0\0")
+    await side.until(lambda: side.of("refused"))
+    assert stage.lab.sent == [("latency/clients", b"\0\1\0\0")]
+    assert side.of("refused")[0]["key"] == "robots"
+
+
+@scene
+async def test_only_topics_of_the_allow_list_are_given(stage: Stage) -> None:
+    side = stage.side()
+    side.hello(_1="rosout", _2="**", _3="robots")
+    await side.until(lambda: len(side.of("refused")) == 2)
+    assert {text["key"] for text in side.of("refused")} == {"rosout", "**"}
+
+
+@scene
+async def test_trajectories_of_others_are_not_seen(stage: Stage) -> None:
+    name = "mrlab_msgs/msg/TrajectoryCatalogue"
+    stage.lab.offer("trajectories", name, latched=True)
+    infos = [
+        {"id": "quintic"},
+        {"id": "anna/own", "owner": "anna"},
+        {"id": "ben/own", "owner": "ben"},
+        {"id": "ben/class", "owner": "ben", "shared": True},
+    ]
+    stage.lab.publish("trajectories", {"trajectories": infos})
+    seen = {}
+    for person, role in (("anna", Role.STUDENT), ("eva", Role.INSTRUCTOR)):
+        side = stage.side(stage.cookie(person, role))
+        side.hello(_1="trajectories")
+        side.grant(1)
+        await side.until(lambda side=side: side.values)
+        found = stage.lab.definitions.decode(name, side.payloads("trajectories")[0])
+        seen[person] = [info.id for info in found.trajectories]
+    assert seen == {
+        "anna": ["quintic", "anna/own", "ben/class"],
+        "eva": ["quintic", "anna/own", "ben/own", "ben/class"],
+    }
+
+
+@scene
+async def test_the_lab_that_goes_takes_its_keys_along(stage: Stage) -> None:
+    stage.lab.offer("robots", "mrlab_msgs/msg/Robots", latched=True)
+    side = stage.side()
+    side.hello()
+    await side.until(lambda: side.of("lab"))
+    assert side.of("lab")[-1]["topics"] == {"robots": "mrlab_msgs/msg/Robots"}
+    stage.lab.set_phase(Phase.LOST)
+    await side.until(lambda: side.of("lab")[-1]["phase"] == "lost")
+    assert side.of("lab")[-1]["topics"] == {}
+
+
+@scene
+async def test_a_client_that_does_not_read_costs_no_memory(stage: Stage) -> None:
+    stage.lab.offer("objects/removed", "mrlab_msgs/msg/ObjectRemoved")
+    stage.lab.offer("ur5e_1/joint_states", JOINTS)
+    side = stage.side()
+    side.hello(_1="objects/removed", _2="*/joint_states")
+    await side.welcome()
+    side.frozen = True
+    (client,) = stage.gateway.app.state.link.sessions._clients.values()
+    for number in range(20_000):
+        stage.lab.publish("ur5e_1/joint_states", joints(stage.lab, number))
+        if number % 4 == 0:
+            stage.lab.publish("objects/removed", {"name": "x" * 3000})
+    assert client.session.size < 9_000_000
+    assert "wait for this client" in client.session.failed
+    side.frozen = False
+    side.thaw.set()
+    with pytest.raises(Closed, match="4409"):
+        await side.until(lambda: False)
+
+
+@scene
+async def test_a_silent_client_is_closed(stage: Stage) -> None:
+    before, socket.SILENCE_S = socket.SILENCE_S, 0.05
+    try:
+        side = stage.side()
+        side.hello()
+        with pytest.raises(Closed, match="4408"):
+            await side.until(lambda: False)
+    finally:
+        socket.SILENCE_S = before
+
+
+@scene
+async def test_another_version_is_named(stage: Stage) -> None:
+    side = stage.side(protocols=("mrlab.2",))
+    with pytest.raises(Closed, match=r"4001.*speaks mrlab.1, the page mrlab.2"):
+        await side.until(lambda: False)
+    assert side.subprotocol == "mrlab.2"
+
+
+@scene
+async def test_nobody_who_is_not_signed_in_gets_a_socket(stage: Stage) -> None:
+    side = stage.side("")
+    with pytest.raises(Closed, match=r"4003.*sign in"):
+        await side.until(lambda: False)
+
+
+@scene
+async def test_a_foreign_origin_is_refused_at_the_door(stage: Stage) -> None:
+    side = stage.side(origin="https://evil.example")
+    with pytest.raises(Closed, match="1008"):
+        await side.until(lambda: False)
+
+
+@scene
+async def test_a_revoked_sign_in_ends_the_socket_and_the_session(stage: Stage) -> None:
+    side = stage.side(stage.cookie("anna"))
+    side.hello()
+    await side.welcome()
+    people = stage.gateway.people
+    (row,) = people.sign_ins.all(people.clock(), "anna")
+    people.sign_ins.end(row.id)
+    people.sign_ins.check(people.clock())
+    with pytest.raises(Closed, match=r"4003.*sign-in has ended"):
+        await side.until(lambda: False)
+    assert not stage.gateway.app.state.link.sessions._clients
+
+
+@scene
+async def test_a_flood_is_closed(stage: Stage) -> None:
+    before, socket.FRAMES = socket.FRAMES, (1.0, 20.0)
+    try:
+        side = stage.side()
+        side.hello()
+        for _ in range(100):
+            side.grant(1)
+        with pytest.raises(Closed, match="4029"):
+            await side.until(lambda: False)
+    finally:
+        socket.FRAMES = before
+
+
+@pytest.mark.parametrize(
+    "frame", [b"", b"\x09" * 8, b"\x03", b"\x01\0\xff\xff" + bytes(8), b"\x01\0\1\0" + bytes(6)]
+)
+def test_a_broken_frame_is_named(tmp_path: Path, frame: bytes) -> None:
+    async def broken(stage: Stage) -> None:
+        side = stage.side()
+        side.hello()
+        side.bytes(frame)
+        with pytest.raises(Closed, match="4400"):
+            await side.until(lambda: False)
+
+    played(broken)(tmp_path)

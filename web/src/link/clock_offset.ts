@@ -1,0 +1,70 @@
+/** The offset between two clocks: the exchange with the least round trip of a sliding window. The
+ * same as `mrlab_ros/gateway/link/clock_offset.py`. */
+
+/** s: a round trip that is older says little about a clock that drifts. */
+const WINDOW_S = 30
+/** s of correction a second: a clock that is read for motion must not jump. */
+const SLEW = 0.05
+/** An error from which on it jumps, s. */
+const JUMP_S = 0.5
+
+/** One question and answer. at: s on the own clock; offset: s, theirs minus own. */
+export interface Exchange {
+  readonly at: number
+  readonly roundTrip: number
+  readonly offset: number
+}
+
+/** Return the exchange of four times, s: own, theirs, theirs, own. */
+export function exchange(asked: number, came: number, answered: number, back: number): Exchange {
+  return {
+    at: back,
+    roundTrip: back - asked - (answered - came),
+    offset: (came - asked + (answered - back)) / 2,
+  }
+}
+
+/** Slews from one estimate to the next. */
+export class ClockOffset {
+  private window: Exchange[] = []
+  private target = Number.NaN
+  private held = Number.NaN
+  private heldAt = 0
+
+  /** The least of the window, s; NaN where there is none. */
+  get roundTrip(): number {
+    return this.best()?.roundTrip ?? Number.NaN
+  }
+
+  /** Take another exchange into account. */
+  add(found: Exchange): void {
+    const current = this.offset(found.at)
+    this.window = this.window.filter((each) => each.at >= found.at - WINDOW_S)
+    this.window.push(found)
+    this.target = this.best()?.offset ?? Number.NaN
+    const jumps = Number.isNaN(current) || Math.abs(this.target - current) > JUMP_S
+    this.held = jumps ? this.target : current
+    this.heldAt = found.at
+  }
+
+  /** Return the offset to add to the own clock at `at`, s; NaN before the first exchange. */
+  offset(at: number): number {
+    const most = SLEW * Math.max(0, at - this.heldAt)
+    return this.held + Math.max(-most, Math.min(most, this.target - this.held))
+  }
+
+  /** Forget the exchanges: the other clock is another one now. */
+  clear(): void {
+    this.window = []
+    this.target = Number.NaN
+    this.held = Number.NaN
+  }
+
+  private best(): Exchange | undefined {
+    let best: Exchange | undefined
+    for (const each of this.window) {
+      if (best === undefined || each.roundTrip < best.roundTrip) best = each
+    }
+    return best
+  }
+}

@@ -1,0 +1,119 @@
+import {
+  type LabOffer,
+  type Link,
+  LinkError,
+  type LinkStatus,
+  type MessageType,
+  type Sample,
+  type ServiceType,
+  type Unsubscribe,
+} from './link'
+import { patternOf } from './topics'
+
+type Answer = (request: unknown) => unknown
+
+/** A link without a gateway, for tests and demos: messages and answers are set by hand. Messages
+ * go through their codecs, so that a listener gets what it would get from a lab. */
+export class FakeLink implements Link {
+  status: LinkStatus = { phase: 'open', reason: '', roundTrip: 0.001 }
+  offer: LabOffer = { topics: {}, services: {}, latched: new Set() }
+  /** Lab time, s; null: this machine's. */
+  time: number | null = null
+  /** Every call so far. */
+  readonly calls: { service: string; request: unknown }[] = []
+  /** Every published message so far. */
+  readonly published: { key: string; message: unknown }[] = []
+  private readonly statusListeners = new Set<(status: LinkStatus) => void>()
+  private readonly offerListeners = new Set<(offer: LabOffer) => void>()
+  private readonly subscriptions = new Set<{
+    pattern: RegExp
+    listener: (payload: Uint8Array, sample: Sample) => void
+  }>()
+  private readonly newest = new Map<string, { payload: Uint8Array; stamp: number }>()
+  private readonly answers = new Map<string, Answer>()
+
+  onStatus(listener: (status: LinkStatus) => void): Unsubscribe {
+    this.statusListeners.add(listener)
+    return () => this.statusListeners.delete(listener)
+  }
+
+  onOffer(listener: (offer: LabOffer) => void): Unsubscribe {
+    this.offerListeners.add(listener)
+    return () => this.offerListeners.delete(listener)
+  }
+
+  subscribe<T>(
+    key: string,
+    type: MessageType<T>,
+    listener: (message: T, sample: Sample) => void,
+  ): Unsubscribe {
+    const subscription = {
+      pattern: patternOf(key),
+      listener: (payload: Uint8Array, sample: Sample) => listener(type.decode(payload), sample),
+    }
+    this.subscriptions.add(subscription)
+    for (const [each, { payload, stamp }] of this.newest) {
+      if (subscription.pattern.test(`/${each}`))
+        subscription.listener(payload, { key: each, stamp })
+    }
+    return () => this.subscriptions.delete(subscription)
+  }
+
+  async call<Request, Response>(
+    service: string,
+    type: ServiceType<Request, Response>,
+    request: Request,
+  ): Promise<Response> {
+    const answer = this.answers.get(service)
+    if (answer === undefined) throw new LinkError('no_service', `nobody answers ${service}`)
+    const arrived = type.request.decode(type.request.encode(request))
+    this.calls.push({ service, request: arrived })
+    const response = (await answer(arrived)) as Partial<Response>
+    return type.response.decode(type.response.encode(type.response.create(response)))
+  }
+
+  publish<T>(key: string, _type: MessageType<T>, message: T): void {
+    this.published.push({ key, message })
+  }
+
+  labTime(): number {
+    return this.time ?? Date.now() / 1000
+  }
+
+  close(): void {
+    this.setStatus('lost', 'closed')
+  }
+
+  /** Deliver a message to those who subscribed; `latched`: also to those who come later. */
+  deliver<T>(
+    key: string,
+    type: MessageType<T>,
+    message: Partial<T>,
+    { latched = false, stamp = this.labTime() } = {},
+  ): void {
+    const payload = type.encode(type.create(message))
+    if (latched) this.newest.set(key, { payload, stamp })
+    for (const { pattern, listener } of this.subscriptions) {
+      if (pattern.test(`/${key}`)) listener(payload, { key, stamp })
+    }
+  }
+
+  /** Answer a service: return the response's fields, or throw a LinkError. */
+  answer<Request, Response>(
+    service: string,
+    _type: ServiceType<Request, Response>,
+    answer: (request: Request) => Partial<Response> | Promise<Partial<Response>>,
+  ): void {
+    this.answers.set(service, answer as Answer)
+  }
+
+  setStatus(phase: LinkStatus['phase'], reason = ''): void {
+    this.status = { phase, reason, roundTrip: this.status.roundTrip }
+    for (const listener of this.statusListeners) listener(this.status)
+  }
+
+  setOffer(offer: Partial<LabOffer>): void {
+    this.offer = { ...this.offer, ...offer }
+    for (const listener of this.offerListeners) listener(this.offer)
+  }
+}

@@ -1,0 +1,96 @@
+import { callFrame } from './frames'
+import { LinkError, type MessageType } from './link'
+
+/** s that the page waits beyond the time-out, in which the gateway answers it itself. */
+const GRACE_S = 2
+const KINDS: Record<string, LinkError['kind']> = {
+  timeout: 'timeout',
+  no_service: 'no_service',
+  not_allowed: 'not_allowed',
+  refused: 'refused',
+  too_many: 'refused',
+}
+const text = new TextDecoder()
+
+interface PendingCall {
+  readonly frame: Uint8Array<ArrayBuffer>
+  sent: boolean
+  readonly timer: ReturnType<typeof setTimeout>
+  resolve(payload: Uint8Array): void
+  reject(error: LinkError): void
+}
+
+/** The requests that wait for their responses; they survive a reconnect. */
+export class Services {
+  private readonly pending = new Map<number, PendingCall>()
+  private next = 1
+
+  /** send: returns whether the frame went out. */
+  constructor(private readonly send: (frame: Uint8Array<ArrayBuffer>) => boolean) {}
+
+  /** Send a request and return its response. Rejects with a LinkError. */
+  call<Request, Response>(
+    service: string,
+    request: MessageType<Request>,
+    response: MessageType<Response>,
+    message: Request,
+    timeoutS: number,
+  ): Promise<Response> {
+    const number = this.next++
+    const frame = callFrame(service, request.encode(message), number, timeoutS)
+    const answer = new Promise<Response>((resolve, reject) => {
+      const timer = setTimeout(
+        () => {
+          this.pending.delete(number)
+          const sentence = `${service} did not answer within ${timeoutS} s`
+          reject(new LinkError('timeout', sentence))
+        },
+        (timeoutS + GRACE_S) * 1000,
+      )
+      this.pending.set(number, {
+        frame,
+        sent: this.send(frame),
+        timer,
+        reject,
+        resolve: (payload) => {
+          try {
+            resolve(response.decode(payload))
+          } catch (error) {
+            reject(new LinkError('refused', `${service}: ${(error as Error).message}`))
+          }
+        },
+      })
+    })
+    return answer
+  }
+
+  /** Take a response; one that nobody waits for any more is left out. */
+  respond(request: number, payload: Uint8Array): void {
+    this.take(request)?.resolve(payload)
+  }
+
+  /** Take why a request has no response. */
+  fail(request: number, payload: Uint8Array): void {
+    const { code, message } = JSON.parse(text.decode(payload)) as { code: string; message: string }
+    this.take(request)?.reject(new LinkError(KINDS[code] ?? 'refused', message))
+  }
+
+  /** Send again what has no response yet: the gateway does none of it twice. */
+  resend(): void {
+    for (const call of this.pending.values()) call.sent = this.send(call.frame) || call.sent
+  }
+
+  /** Reject what waits, or of that only what was sent. */
+  lose(message: string, { sentOnly = false } = {}): void {
+    for (const [number, { sent }] of [...this.pending]) {
+      if (sent || !sentOnly) this.take(number)?.reject(new LinkError('lost', message))
+    }
+  }
+
+  private take(request: number): PendingCall | undefined {
+    const call = this.pending.get(request)
+    this.pending.delete(request)
+    if (call !== undefined) clearTimeout(call.timer)
+    return call
+  }
+}
