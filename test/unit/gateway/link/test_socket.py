@@ -340,10 +340,11 @@ async def test_a_client_that_does_not_read_costs_no_memory(stage: Stage) -> None
     await side.welcome()
     side.frozen = True
     (client,) = stage.gateway.app.state.link.sessions._clients.values()
-    for number in range(20_000):
-        stage.lab.publish("ur5e_1/joint_states", joints(stage.lab, number))
-        if number % 4 == 0:
-            stage.lab.publish("objects/removed", {"name": "x" * 3000})
+    motion = joints(stage.lab, 1.0)
+    event = stage.lab.definitions.encode("mrlab_msgs/msg/ObjectRemoved", {"name": "x" * 3000})
+    for _ in range(3000):
+        stage.lab.publish("ur5e_1/joint_states", motion)
+        stage.lab.publish("objects/removed", event)
     assert client.session.size < 9_000_000
     assert "wait for this client" in client.session.failed
     side.frozen = False
