@@ -16,6 +16,7 @@ from mrlab_ros.commands.open import open_pages
 from mrlab_ros.commands.play import play
 from mrlab_ros.commands.record import record
 from mrlab_ros.commands.replay import replay
+from mrlab_ros.commands.show import show
 from mrlab_ros.commands.status import status
 from mrlab_ros.commands.up.command import up
 from mrlab_ros.core.errors import LabError
@@ -28,6 +29,8 @@ mrlab demo — see everything once: convert, two robots, play, zenoh
 mrlab up --robots ur5e — start a lab with a robot; stays until Ctrl-C
 
 mrlab convert run.mat --robot ur5e — what is in a file, and is it right for this robot?
+
+mrlab show run.mat --robot ur5e — see it move, as one HTML file
 
 mrlab play ur5e_1 run.mat — play it (in a second terminal, same ROS_DOMAIN_ID)
 
@@ -47,7 +50,7 @@ app = typer.Typer(
     rich_markup_mode="markdown",
     epilog=EPILOG,
 )
-for command in (up, demo, convert, play, record, replay, status):
+for command in (up, demo, convert, show, play, record, replay, status):
     app.command(command.__name__)(command)
 app.command("open")(open_pages)
 app.add_typer(bag.app, name="bag")

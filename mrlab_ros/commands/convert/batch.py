@@ -151,6 +151,29 @@ def _check(request: Request) -> None:
             )
 
 
+def convert_file(
+    path: Path, robot: RobotModel, options: Options, end_effector: str | None
+) -> ConversionResult:
+    """Convert one file in a walled-off process; a refusal is a result."""
+    source = Input(str(path), path.name, path.name, partial(opened, path))
+    if not path.is_file():
+        raise BadInput(f"there is no file {path}; check the folder and the name")
+    coefficients = load_coefficients(share.directory() / "config" / "torque_proxy.yaml")
+    task = Task(
+        file=path.name,
+        options=options,
+        robot=robot,
+        coefficients=coefficients,
+        end_effector=end_effector,
+        trajectory_id=id_from(path.name),
+        created_ns=time.time_ns(),
+        default_frame_rate=DEFAULT_FRAME_RATE,
+        read_as=path.name,
+    )
+    _, _, result = next(_converted([source], [task], Limits()))
+    return result
+
+
 def _converted(
     inputs: list[Input], tasks: list[Task], limits: Limits
 ) -> Iterator[tuple[Input, Task, ConversionResult]]:
@@ -281,13 +304,29 @@ def _unused(name: str, taken: set[str]) -> str:
 
 
 def _plot(result: ConversionResult, robot: RobotModel, path: Path) -> None:
-    """Draw what was converted, or the matrix that was refused, where one was found."""
+    """Draw what was converted, or the matrix that was refused, where one was found.
+
+    A path that ends in .html becomes a page that shows the motion in 3D.
+    """
+    if path.suffix == ".html":
+        _write_page(result, robot.id, path)
+        return
     if result.trajectory is not None:
         export.plot(result.trajectory, robot, path)
         return
     shown = result.preview or next((c.preview for c in result.candidates), None)
     if shown is not None:
         export.plot_refused(shown, result.diagnostics, result.file, robot, path)
+
+
+def _write_page(result: ConversionResult, robot: str, path: Path) -> None:
+    from mrlab_ros.adapters.pages.motion import motion_page  # trimesh, which plots do not need
+
+    tool = result.trajectory.end_effector if result.trajectory is not None else None
+    folder = share.directory()
+    text = motion_page(result, robot, tool, RobotLibrary(folder / "robots"), folder)
+    path.parent.mkdir(parents=True, exist_ok=True)
+    path.write_text(text, encoding="utf-8")
 
 
 def _plot_path(plot: Path, trajectory_id: str) -> Path:

@@ -42,7 +42,7 @@ def convert(
     out: Annotated[Path | None, typer.Option(help="Folder for what is written.")] = None,
     to: Annotated[str, typer.Option(help="json, csv, mat, npz or jointtrajectory.")] = "json",
     plot: Annotated[
-        Path | None, typer.Option(help="Write plots: a .png or .svg, or a folder.")
+        Path | None, typer.Option(help="Write plots: a .png, .svg or .html with 3D, or a folder.")
     ] = None,
     as_json: Annotated[bool, typer.Option("--json", help="One JSON object a file.")] = False,
     memory: Annotated[int, typer.Option(help="Memory limit for reading a file, MiB.")] = 1024,

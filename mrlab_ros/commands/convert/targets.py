@@ -11,7 +11,7 @@ from pathlib import Path
 
 from mrlab_ros.core.errors import BadInput, Misuse
 
-PICTURES = (".png", ".svg")
+PICTURES = (".png", ".svg", ".html")
 
 
 class Targets:

@@ -28,6 +28,7 @@ def motion_body(document: Mapping[str, Any], poster: str) -> str:
     verdict, robot = document["verdict"], document["robot"]
     tool = f" with {robot['end_effector']}" if robot["end_effector"] else ""
     times = times_of(document)
+    grave = any(one["severity"] != "info" for one in document["findings"])
     duration = float(times[-1])
     facts = f"{robot['model']}{tool} · {duration:.2f} s · {document['frame_rate']:g} Hz"
     return "\n".join(
@@ -39,7 +40,7 @@ def motion_body(document: Mapping[str, Any], poster: str) -> str:
             f'<path d="{ICONS[verdict]}"/></svg><b>{VERDICTS[verdict]}</b> '
             f"<span>{escape(document['message'])}</span></p>",
             "</header>",
-            f'<main class="{"with" if document["findings"] else "without"}-findings">',
+            f'<main class="{"with" if grave else "without"}-findings">',
             '<section id="view" aria-label="3D view"></section>',
             f'<figure class="poster"><img src="{poster}" alt="The robot '
             f'{escape(robot["model"])} at the first row"></figure>',

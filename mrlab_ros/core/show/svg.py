@@ -187,8 +187,9 @@ def _ticks(low: float, high: float, most: int = 3) -> list[float]:
 
 
 def _number(value: float) -> str:
-    text = f"{value:.4g}" if abs(value) < 1000 else f"{value:,.0f}"
-    return "0" if text == "-0" else text
+    """Return a number as a person reads it: four digits, and nothing below a ten-thousandth."""
+    value = round(value, 4) + 0.0  # no -0
+    return f"{value:.4g}" if abs(value) < 1000 else f"{value:,.0f}"
 
 
 def _words(strip: Strip) -> str:

@@ -14,6 +14,7 @@ import type { SceneWords } from './words'
 
 const LABEL = 0.019 // as a part of the distance to it
 const MARK = 0.024
+const SAME_PLACE = 0.02 // m, between labels that would hide each other
 const POSES = 7 // of the robot that the camera shows whole
 
 interface Marker {
@@ -71,7 +72,14 @@ export class PreviewScene {
     }
     this.path = new ToolPath(track, marked)
     stage.world.add(this.path.line)
-    this.ends = [this.endLabel(words.start, 0), this.endLabel(words.end, last)]
+    const first = this.endLabel(words.start, 0)
+    const final = this.endLabel(words.end, last)
+    this.ends = [first, final]
+    if (first.sprite.position.distanceTo(final.sprite.position) < SAME_PLACE) {
+      first.dispose()
+      final.dispose()
+      this.ends = [this.endLabel(`${words.start}, ${words.end}`, 0)]
+    }
     this.mark()
     this.undo.push(stage.onTheme((theme) => this.setTheme(theme)))
 

@@ -1,0 +1,47 @@
+"""A page about one motion: the document, the robot's meshes and a picture of it."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+
+from mrlab_ros.adapters.pages import ingredients
+from mrlab_ros.adapters.pages.poster import poster
+from mrlab_ros.adapters.robots.library import RobotLibrary
+from mrlab_ros.adapters.robots.shown import from_library
+from mrlab_ros.core.conversion.convert import ConversionResult
+from mrlab_ros.core.errors import BadInput
+from mrlab_ros.core.show import document
+from mrlab_ros.core.show.motion_body import motion_body
+from mrlab_ros.core.show.packed import unpacked
+from mrlab_ros.core.show.page import page
+
+
+def motion_page(
+    result: ConversionResult,
+    robot_model: str,
+    end_effector: str | None,
+    library: RobotLibrary,
+    share: Path,
+) -> str:
+    """Return one HTML file that shows what became of a file on a robot.
+
+    share: folder with the built pages. Raises BadInput where there is no motion to show: the file
+    was refused before a matrix was found.
+    """
+    robot = from_library(library, robot_model, end_effector)
+    shown = document.of_result(result, robot)
+    if shown is None:
+        raise BadInput(f"there is no motion to show: {result.message}")
+    first = np.nan_to_num(unpacked(shown["positions"])[0].astype(float))
+    names = [joint.name for joint in robot.joints]
+    picture = poster(library, robot, dict(zip(names, first.tolist(), strict=True)))
+    meshes = ingredients.meshes_of([robot.urdf], library.mesh_path)
+    return page(
+        f"{shown['title']} on {robot_model}",
+        motion_body(shown, picture),
+        shown,
+        meshes,
+        ingredients.code(share),
+    )

@@ -1,0 +1,107 @@
+"""`mrlab show`: one HTML file that shows a motion or a recorded session. Needs no running lab."""
+
+from __future__ import annotations
+
+import os
+import sys
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+
+from mrlab_ros.core.conversion.options import Options
+from mrlab_ros.core.errors import BadInput, Misuse
+
+if TYPE_CHECKING:
+    from mrlab_ros.core.conversion.convert import ConversionResult
+
+
+def show(
+    file: Annotated[
+        Path, typer.Argument(help="Workspace, table, trajectory file, or a recorded bag.")
+    ],
+    robot: Annotated[
+        str, typer.Option(help="Robot that a workspace or a table is for, such as ur5e.")
+    ] = "",
+    end_effector: Annotated[str, typer.Option(help="End effector; empty: none.")] = "",
+    output: Annotated[
+        Path | None,
+        typer.Option("--out", "--output", "-o", help="The page; none: FILE with .html, here."),
+    ] = None,
+    variable: Annotated[str, typer.Option(help="The matrix to take, as MATLAB writes it.")] = "",
+    columns: Annotated[str, typer.Option(help="Columns that hold the joints: 2:7.")] = "",
+    transpose: Annotated[bool, typer.Option("--transpose", help="Samples are columns.")] = False,
+    units: Annotated[
+        str, typer.Option(help="Unit of the joints: rad, deg, mm or counts:N a turn.")
+    ] = "",
+    unwrap: Annotated[bool, typer.Option("--unwrap", help="Remove jumps of 2*pi.")] = False,
+    gripper: Annotated[
+        str, typer.Option(help="Column or variable that holds the gripper, or none.")
+    ] = "",
+    rate: Annotated[float, typer.Option(help="Frames a second; 0: the file's, or 100.")] = 0.0,
+    opened: Annotated[
+        bool, typer.Option("--open/--no-open", help="Open the page where there is a desktop.")
+    ] = True,
+) -> None:
+    """Write a page that shows FILE in 3D: a motion, a file that was refused, or a session.
+
+    The page is one file without anything from outside: it opens from a disk, a stick or a mail.
+    """
+    path = output or Path(f"{file.name.split('.')[0] or 'motion'}.html")
+    if path.suffix.lower() not in (".html", ".htm"):
+        raise Misuse(f"the page is '{path.name}'; expected a name that ends in .html")
+    options = Options(
+        variable=variable,
+        columns=columns,
+        transpose=transpose,
+        unwrap=unwrap,
+        units=units,
+        gripper=gripper,
+        frame_rate=rate,
+    )
+    text = _page(file, robot, end_effector, options)
+    path.parent.mkdir(parents=True, exist_ok=True)
+    path.write_text(text, encoding="utf-8")
+    print(f"{path} ({len(text) / 1e6:.2f} MB)")
+    desktop = os.environ.get("DISPLAY") or os.environ.get("WAYLAND_DISPLAY")
+    if opened and desktop and sys.stdout.isatty():
+        typer.launch(str(path.resolve()))
+
+
+def _page(file: Path, robot: str, end_effector: str, options: Options) -> str:
+    from mrlab_ros.adapters.pages.motion import motion_page
+    from mrlab_ros.adapters.robots.library import RobotLibrary
+    from mrlab_ros.ros import share
+
+    folder = share.directory()
+    library = RobotLibrary(folder / "robots")
+    result = _of_trajectory_file(file)
+    if result is None:
+        if not robot:
+            raise Misuse(
+                f"'{file.name}' does not say which robot it is for; add --robot, one of: "
+                f"{', '.join(library.ids())}"
+            )
+        from mrlab_ros.commands.convert import batch
+
+        result = batch.convert_file(file, library.model(robot), options, end_effector or None)
+    if result.trajectory is not None:
+        robot = robot or result.trajectory.robot_model
+        end_effector = end_effector or result.trajectory.end_effector or ""
+    return motion_page(result, robot, end_effector or None, library, folder)
+
+
+def _of_trajectory_file(file: Path) -> ConversionResult | None:
+    """Return the trajectory in a file that the lab wrote as JSON, or None: it is another file."""
+    if file.suffix.lower() != ".json":
+        return None
+    from mrlab_ros.adapters.trajectories import json_file
+    from mrlab_ros.core.conversion.convert import ConversionResult, Outcome
+
+    try:
+        trajectory = json_file.parse(file.read_bytes(), file.name)
+    except OSError as error:
+        raise BadInput(f"{file} cannot be read: {error.strerror}") from None
+    return ConversionResult(
+        file.name, Outcome.ACCEPTED, trajectory, (), tuple(trajectory.warnings)
+    )
