@@ -85,7 +85,10 @@ def extract(
 def report(
     bag: BagArgument,
     out: Annotated[
-        Path | None, typer.Option(help="Folder for report.txt, report.json and report.png.")
+        Path | None,
+        typer.Option(
+            help="Folder for report.txt, .json, .png and .html, a page with the session in 3D."
+        ),
     ] = None,
     as_json: AsJson = False,
 ) -> None:
@@ -105,7 +108,12 @@ def report(
         (out / "report.txt").write_text(text)
         (out / "report.json").write_text(facts)
         draw(session, f"{found.path.name}, {_began(found)}", out / "report.png")
-        print(f"wrote report.txt, report.json and report.png to {out}", file=sys.stderr)
+        from mrlab_ros.adapters.pages.session import session_page
+        from mrlab_ros.ros import share
+
+        shown = session_page(found, share.directory(), session)
+        (out / "report.html").write_text(shown, encoding="utf-8")
+        print(f"wrote report.txt, .json, .png and .html to {out}", file=sys.stderr)
     sys.stdout.write(facts if as_json else text)
 
 

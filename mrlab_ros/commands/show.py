@@ -13,6 +13,7 @@ from mrlab_ros.core.conversion.options import Options
 from mrlab_ros.core.errors import BadInput, Misuse
 
 if TYPE_CHECKING:
+    from mrlab_ros.adapters.bags.reader import Bag
     from mrlab_ros.core.conversion.convert import ConversionResult
 
 
@@ -74,6 +75,11 @@ def _page(file: Path, robot: str, end_effector: str, options: Options) -> str:
     from mrlab_ros.ros import share
 
     folder = share.directory()
+    recorded = _recorded(file)
+    if recorded is not None:
+        from mrlab_ros.adapters.pages.session import session_page
+
+        return session_page(recorded, folder)
     library = RobotLibrary(folder / "robots")
     result = _of_trajectory_file(file)
     if result is None:
@@ -89,6 +95,21 @@ def _page(file: Path, robot: str, end_effector: str, options: Options) -> str:
         robot = robot or result.trajectory.robot_model
         end_effector = end_effector or result.trajectory.end_effector or ""
     return motion_page(result, robot, end_effector or None, library, folder)
+
+
+def _recorded(file: Path) -> Bag | None:
+    """Return the bag of a session, or None: it is another file, or a bag of a mere trajectory."""
+    from mrlab_ros.commands.bag import path_of
+
+    path = path_of(str(file))
+    if not path.is_dir() and path.suffix != ".mcap":
+        return None
+    from mrlab_ros.adapters.bags.reader import Bag
+
+    bag = Bag(path)
+    if path.is_dir() or any(t.type == "mrlab_msgs/msg/Robots" for t in bag.topics.values()):
+        return bag
+    return None
 
 
 def _of_trajectory_file(file: Path) -> ConversionResult | None:

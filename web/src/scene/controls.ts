@@ -1,3 +1,4 @@
+import './scene.css'
 import { type Player, RATES } from '../playback/player'
 import type { SceneWords } from './words'
 

@@ -1,4 +1,3 @@
-import './preview.css'
 import { courseOf } from '../playback/course'
 import type { MotionDocument, MotionFinding } from '../playback/motion'
 import { MotionPlayer } from '../playback/player'

@@ -1,3 +1,4 @@
+import './scene.css'
 import {
   Box3,
   DirectionalLight,
@@ -18,6 +19,12 @@ import { Floor } from './floor'
 import { onTheme, reducedMotion, type SceneTheme, themeNow } from './theme'
 
 const MOST_PIXEL_RATIO = 2
+// While it moves, a machine that draws slowly gets fewer pixels; the last picture is always sharp.
+const LEAST_SHARPNESS = 0.4
+const SLOW = 0.045 // s, until a picture is drawn
+const FAST = 0.022
+const LONGEST_WAIT = 0.3 // s
+const STANDS = 0.4 // s without a new picture
 // From the front right and a little above, in ROS axes: as the pictures of the robots are taken.
 const VIEW = new Vector3(1.05, -1.0, 0.62).normalize()
 const LIGHT = new Vector3(0.55, -0.75, 1.5).normalize()
@@ -55,6 +62,12 @@ export class Stage {
   private touched = false
   private request = 0
   private disposed = false
+  private sharpness = 1
+  /** s, from asking for a picture to drawing it */
+  private latency = FAST
+  private requested = 0
+  private waiting: ReturnType<typeof setTimeout> | undefined
+  private sharpening: ReturnType<typeof setTimeout> | undefined
 
   /** Throws NoWebGL where the browser has none. label: what the picture shows, for screen readers. */
   constructor(
@@ -108,7 +121,11 @@ export class Stage {
 
   /** Ask for a new picture. */
   invalidate(): void {
-    if (this.request === 0 && !this.disposed) this.request = requestAnimationFrame(this.draw)
+    if (this.request !== 0 || this.waiting !== undefined || this.disposed) return
+    this.requested = performance.now() / 1000
+    if (this.latency < SLOW) this.request = requestAnimationFrame(this.draw)
+    // leave a machine that cannot keep up as much time for the rest of the page as for pictures
+    else this.waiting = setTimeout(this.drawSoon, Math.min(this.latency, LONGEST_WAIT) * 1000)
   }
 
   onFrame(listener: FrameListener): () => void {
@@ -173,6 +190,8 @@ export class Stage {
   dispose(): void {
     this.disposed = true
     cancelAnimationFrame(this.request)
+    clearTimeout(this.sharpening)
+    clearTimeout(this.waiting)
     for (const undo of this.undo) undo()
     this.controls.dispose()
     this.floor.dispose()
@@ -189,9 +208,39 @@ export class Stage {
     let more = false
     for (const listener of this.listeners) more = listener(now) || more
     this.controls.update()
+    this.adapt(now)
     this.renderer.render(this.scene, this.camera)
     this.drawn++
     if (more) this.invalidate()
+  }
+
+  private readonly drawSoon = (): void => {
+    this.waiting = undefined
+    this.requested = performance.now() / 1000
+    this.request = requestAnimationFrame(this.draw)
+  }
+
+  /** Choose how many pixels this picture gets, by how long the last ones were waited for. */
+  private adapt(now: number): void {
+    clearTimeout(this.sharpening)
+    this.latency += 0.2 * (Math.min(now - this.requested, 1) - this.latency)
+    if (this.latency > SLOW) this.setSharpness(Math.max(this.sharpness * 0.85, LEAST_SHARPNESS))
+    else if (this.latency < FAST) this.setSharpness(Math.min(this.sharpness * 1.05, 1))
+    if (this.sharpness < 1) this.sharpening = setTimeout(this.sharpen, STANDS * 1000)
+  }
+
+  private readonly sharpen = (): void => {
+    if (this.disposed || this.request !== 0 || this.waiting !== undefined) return
+    const moving = this.sharpness
+    this.setSharpness(1)
+    this.renderer.render(this.scene, this.camera)
+    this.sharpness = moving
+  }
+
+  private setSharpness(sharpness: number): void {
+    this.sharpness = sharpness
+    const ratio = Math.min(devicePixelRatio, MOST_PIXEL_RATIO) * sharpness
+    if (this.renderer.getPixelRatio() !== ratio) this.renderer.setPixelRatio(ratio)
   }
 
   private readonly onKey = (event: KeyboardEvent): void => {
@@ -266,7 +315,7 @@ export class Stage {
     const width = this.container.clientWidth
     const height = this.container.clientHeight
     if (width === 0 || height === 0 || this.disposed) return
-    this.renderer.setPixelRatio(Math.min(devicePixelRatio, MOST_PIXEL_RATIO))
+    this.renderer.setPixelRatio(Math.min(devicePixelRatio, MOST_PIXEL_RATIO) * this.sharpness)
     this.renderer.setSize(width, height, false)
     this.camera.aspect = width / height
     this.camera.updateProjectionMatrix()

@@ -38,4 +38,7 @@ export function showMotion(view: HTMLElement, motion: MotionDocument, bytes: Mes
     preview.ready.then(() => preview.play())
   }
   document.documentElement.dataset.shown = 'true'
+  preview.ready.then(() => {
+    document.documentElement.dataset.ready = 'true'
+  })
 }

@@ -1,8 +1,10 @@
 import '../../design/tokens.css'
 import './show.css'
 import type { MotionDocument } from '../../playback/motion'
+import type { SessionDocument } from '../../playback/session'
 import { showMotion } from './motion_page'
 import { type ShownData, unpackData } from './packed_data'
+import { showSession } from './session_page'
 
 declare global {
   /** What the page's first script unpacked. */
@@ -12,7 +14,9 @@ declare global {
 function start(data: ShownData): void {
   const view = document.getElementById('view')
   if (view === null) return
-  showMotion(view, data.document as MotionDocument, data.meshes)
+  const shown = data.document as MotionDocument | SessionDocument
+  if (shown.schema === 'mrlab.session.1') showSession(view, shown, data.meshes)
+  else showMotion(view, shown, data.meshes)
 }
 
 if (globalThis.mrlabData !== undefined) start(unpackData(globalThis.mrlabData))

@@ -1,0 +1,153 @@
+"""A recorded session as a page reads it: SessionDocument of web/src/playback/session.ts.
+
+Times are s from the bag's first message; positions rad or m as float32; poses x, y, z, qx, qy,
+qz, qw in the frame world, m.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from typing import Any
+
+import numpy as np
+
+from mrlab_ros.core.recording.report import HOLDING, RobotReport, SessionReport
+from mrlab_ros.core.show.packed import packed
+
+SCHEMA = "mrlab.session.1"
+# Of one robot or object; of more samples every k-th is taken.
+MOST_SAMPLES = 6000
+
+
+@dataclass
+class Track:
+    """Samples over time: values one row a time."""
+
+    times: list[float] = field(default_factory=list)
+    values: list[list[float]] = field(default_factory=list)
+
+    def add(self, time: float, values: list[float]) -> None:
+        self.times.append(time)
+        self.values.append(values)
+
+    def document(self) -> dict[str, Any]:
+        """Return the samples, thinned; what stood still between two samples stays so."""
+        if not self.times:
+            return {
+                "times": packed(np.zeros(0), "float32"),
+                "values": packed(np.zeros((0, 0)), "float32"),
+            }
+        times, values = np.array(self.times), np.array(self.values)
+        step = -(-len(times) // MOST_SAMPLES)
+        moved = np.ones(len(times), dtype=bool)
+        moved[1:-1] = (values[1:-1] != values[:-2]).any(axis=1) | (values[1:-1] != values[2:]).any(
+            axis=1
+        )
+        kept = moved & (np.arange(len(times)) % step == 0)
+        kept[0] = kept[-1] = True
+        return {
+            "times": packed(times[kept], "float32"),
+            "values": packed(values[kept], "float32"),
+        }
+
+
+@dataclass
+class RecordedRobot:
+    """What was recorded of a robot; joints: names in the order of track's values."""
+
+    urdf: str = ""
+    model: str = ""
+    end_effector: str = ""
+    joints: list[str] = field(default_factory=list)
+    track: Track = field(default_factory=Track)
+    base: Track = field(default_factory=Track)
+
+
+@dataclass
+class RecordedObject:
+    """What was recorded of an object. shape: the fields of SceneObject that are drawn."""
+
+    shape: dict[str, Any]
+    first: float
+    last: float
+    track: Track = field(default_factory=Track)
+    # (time, robot), robot empty: free
+    holders: list[tuple[float, str]] = field(default_factory=list)
+
+
+@dataclass
+class RecordedMotion:
+    """Everything of a bag that moves."""
+
+    robots: dict[str, RecordedRobot] = field(default_factory=dict)
+    objects: dict[str, RecordedObject] = field(default_factory=dict)
+
+    def robot(self, name: str) -> RecordedRobot:
+        return self.robots.setdefault(name, RecordedRobot())
+
+
+def session(title: str, report: SessionReport, motion: RecordedMotion) -> dict[str, Any]:
+    """Return the document of a session: its robots, objects and events."""
+    return {
+        "schema": SCHEMA,
+        "title": title,
+        "duration": report.duration,
+        "robots": [
+            {
+                "name": name,
+                "model": robot.model,
+                "end_effector": robot.end_effector,
+                "urdf": robot.urdf,
+                "joints": robot.joints,
+                "track": robot.track.document(),
+                "base": robot.base.document(),
+                "states": [[span.start, span.label] for span in _states(report, name)],
+            }
+            for name, robot in motion.robots.items()
+            if robot.urdf
+        ],
+        "objects": [
+            {
+                "name": name,
+                **thing.shape,
+                "first": thing.first,
+                "last": thing.last,
+                "track": thing.track.document(),
+                "holders": [list(change) for change in thing.holders],
+            }
+            for name, thing in motion.objects.items()
+        ],
+        "events": events(report),
+    }
+
+
+def _states(report: SessionReport, name: str) -> list[Any]:
+    known = report.robots.get(name)
+    return [] if known is None else known.states.spans(report.duration)
+
+
+def events(report: SessionReport) -> list[dict[str, Any]]:
+    """Return what happened, in order: collisions, grasps, and when robots began to play."""
+    found: list[dict[str, Any]] = []
+    for robot in report.robots.values():
+        found += _events_of(robot, report.duration)
+    return sorted(found, key=lambda event: event["time"])
+
+
+def _events_of(robot: RobotReport, end: float) -> list[dict[str, Any]]:
+    def event(time: float, severity: str, text: str) -> dict[str, Any]:
+        return {"time": time, "robot": robot.name, "severity": severity, "text": text}
+
+    found = [
+        event(one.time, "error", f"{one.link} touched {one.other} at frame {one.frame}")
+        for one in robot.collisions
+    ]
+    for span in robot.grasps.spans(end):
+        if span.label == HOLDING:
+            found.append(event(span.start, "info", f"took {span.detail}"))
+            if span.end < end:
+                found.append(event(span.end, "info", f"let go of {span.detail}"))
+    for span in robot.states.spans(end):
+        if span.label == "PLAYING":
+            found.append(event(span.start, "info", f"played {span.detail}".strip()))
+    return found

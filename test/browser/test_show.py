@@ -1,0 +1,170 @@
+"""Pages of `mrlab show`, opened from the disk without any network."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from pathlib import Path
+
+import numpy as np
+import pytest
+from browser_side import DEADLINE_MS, Watched, difference, eventually, pixels
+from playwright.sync_api import Browser, expect
+
+from mrlab_ros.adapters.pages.motion import motion_page
+from mrlab_ros.adapters.robots.library import RobotLibrary
+from mrlab_ros.core.conversion.convert import ConversionResult, Outcome
+from mrlab_ros.core.conversion.preview import Preview
+from mrlab_ros.core.diagnostics import Diagnostic, Severity
+from mrlab_ros.core.trajectory.channels import ProxyCoefficients, derive
+from mrlab_ros.core.trajectory.trajectory import Source, Trajectory
+
+ROOT = Path(__file__).parents[2]
+LIBRARY = RobotLibrary(ROOT / "robots", ROOT / "robots" / "none")
+Open = Callable[..., Watched]
+
+
+def positions() -> np.ndarray:
+    t = np.linspace(0, 4, 401)
+    return LIBRARY.model("ur5e").home + np.outer(np.sin(t), [1.2, 0.4, 0.5, 0.4, 0.5, 1.0])
+
+
+def accepted() -> ConversionResult:
+    q = positions()
+    names = LIBRARY.model("ur5e").joint_names
+    channels = derive(q, 100.0, ProxyCoefficients((1.0,), (1.0,), (1.0,), (0.1,), 50.0))
+    source = Source("wave.mat", "q", "0" * 64)
+    moved = Trajectory("wave", "ur5e", None, names, 100.0, q, None, channels, source)
+    return ConversionResult("wave.mat", Outcome.ACCEPTED, moved, (), ())
+
+
+def refused() -> ConversionResult:
+    q = positions()
+    q[200:240, 2] = 5.0
+    found = Diagnostic(
+        "joint_limit", Severity.ERROR, "elbow_joint goes to 5 rad.", "Keep it below pi.", "q",
+        first_row=201, last_row=240, joint="elbow_joint", value=5.0, limit=3.14, unit="rad",
+    )  # fmt: skip
+    rows = np.arange(1, 402, 2, dtype=np.uint32)
+    shown = Preview("q", rows, q[rows - 1].astype(np.float32))
+    return ConversionResult("bad.mat", Outcome.REJECTED, None, (), (found,), shown)
+
+
+@pytest.fixture
+def shown(browser: Browser, tmp_path: Path) -> Iterator[Open]:
+    """Return what writes the page of a result and opens it, offline, without motion of its own."""
+    contexts = []
+
+    def open_page(
+        result: ConversionResult, *, change: Callable[[str], str] = str, script: str = "", **more
+    ) -> Watched:
+        text = motion_page(result, "ur5e", None, LIBRARY, ROOT)
+        assert len(text) < 1_000_000
+        path = tmp_path / "page.html"
+        path.write_text(change(text))
+        context = browser.new_context(
+            viewport={"width": 700, "height": 700},
+            offline=True,
+            reduced_motion="reduce",
+            color_scheme="light",
+            **more,
+        )
+        contexts.append(context)
+        if script:
+            context.add_init_script(script)
+        watched = Watched(context.new_page())
+        watched.page.goto(path.as_uri())
+        return watched
+
+    yield open_page
+    for context in contexts:
+        context.close()
+
+
+def test_a_motion_is_drawn_and_moves(shown: Open) -> None:
+    watched = shown(accepted())
+    canvas = watched.page.locator("canvas")
+    expect(canvas).to_be_visible(timeout=DEADLINE_MS)
+    expect(watched.page.locator("html[data-ready]")).to_have_count(1, timeout=DEADLINE_MS)
+    first = pixels(canvas)
+    # the robot is dark and blue on a light ground: a canvas that draws nothing is one colour
+    assert len(np.unique(first.reshape(-1, 3), axis=0)) > 200
+    slider = watched.page.get_by_role("slider")
+    slider.fill("1.6")
+    expect(slider).to_have_attribute("aria-valuetext", "1.60 s, row 161")
+    second = pixels(canvas)
+    assert difference(first, second) > 0.01
+    slider.fill("0")
+    expect(slider).to_have_attribute("aria-valuetext", "0.00 s, row 1")
+    # a slow machine draws coarsely at first
+    eventually(watched.page, lambda: difference(first, pixels(canvas)) < 0.004)
+    assert watched.errors == []
+    assert watched.foreign() == []
+
+
+def test_it_plays_by_keyboard_and_ends(shown: Open) -> None:
+    watched = shown(accepted())
+    watched.page.get_by_label("Speed").select_option("4")
+    watched.page.locator("canvas").focus()
+    watched.page.keyboard.press(" ")
+    slider = watched.page.get_by_role("slider")
+    expect(slider).to_have_attribute("aria-valuetext", "4.00 s, row 401", timeout=DEADLINE_MS)
+    expect(watched.page.get_by_role("button", name="Play")).to_be_visible()
+
+
+def test_a_refused_file_stands_at_its_fault_with_the_link_painted(shown: Open) -> None:
+    watched = shown(refused())
+    page = watched.page
+    expect(page.locator("html[data-ready]")).to_have_count(1, timeout=DEADLINE_MS)
+    slider = page.get_by_role("slider")
+    expect(slider).to_have_attribute("aria-valuetext", "2.00 s, row 201")
+    at_fault = red(pixels(page.locator("canvas")))
+    slider.fill("0")
+    expect(slider).to_have_attribute("aria-valuetext", "0.00 s, row 1")
+    assert at_fault > red(pixels(page.locator("canvas"))) + 200
+    page.get_by_role("button", name="error row 201-240").click()
+    expect(slider).to_have_attribute("aria-valuetext", "2.00 s, row 201")
+    assert page.locator(".strip .mark").count() == 1
+    assert watched.errors == []
+
+
+def red(picture: np.ndarray) -> int:
+    """Return how many pixels are clearly red."""
+    r, g, b = picture[..., 0], picture[..., 1], picture[..., 2]
+    return int(((r > 120) & (r > 2 * g) & (r > 2 * b)).sum())
+
+
+def test_a_missing_mesh_is_said(shown: Open, monkeypatch: pytest.MonkeyPatch) -> None:
+    whole = LIBRARY.mesh_path
+    monkeypatch.setattr(
+        LIBRARY,
+        "mesh_path",
+        lambda uri: ROOT / "none.glb" if "upper_arm" in uri and "hull" not in uri else whole(uri),
+    )
+    monkeypatch.setattr("mrlab_ros.adapters.pages.motion.poster", lambda *_: "data:,")
+    watched = shown(accepted())
+    note = watched.page.get_by_role("status").first
+    expect(note).to_contain_text("upper_arm_link.glb is not in this page", timeout=DEADLINE_MS)
+    assert watched.page.locator("canvas").is_visible()
+
+
+def test_without_webgl_a_picture_and_a_sentence_stand_there(shown: Open) -> None:
+    watched = shown(accepted(), script="HTMLCanvasElement.prototype.getContext = () => null")
+    expect(watched.page.get_by_text("cannot draw in 3D")).to_be_visible()
+    assert watched.page.locator("#view img").is_visible()
+    watched.page.get_by_role("slider").fill("2")
+    cursor = watched.page.locator(".strip .cursor").first
+    expect(cursor).to_have_attribute("x1", "300")
+
+
+def test_without_scripts_plots_and_picture_stand_there(shown: Open) -> None:
+    watched = shown(accepted(), java_script_enabled=False)
+    assert watched.page.locator(".poster img").is_visible()
+    assert watched.page.locator("svg.strip").first.is_visible()
+    assert watched.page.get_by_text("Accepted").is_visible()
+
+
+def test_nothing_added_to_the_page_runs(shown: Open) -> None:
+    evil = "<script>document.title = 'evil'</script><img src=x onerror=\"document.title='evil'\">"
+    watched = shown(accepted(), change=lambda text: text.replace("<header", f"{evil}<header"))
+    expect(watched.page.locator("canvas")).to_be_visible(timeout=DEADLINE_MS)
+    assert watched.page.title() != "evil"

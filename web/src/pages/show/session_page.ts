@@ -1,0 +1,142 @@
+import { STATE_NAMES, THEMES } from '../../design/tokens'
+import { MotionPlayer } from '../../playback/player'
+import type { SessionDocument, SessionObject } from '../../playback/session'
+import { changeAt, Track } from '../../playback/track'
+import { Controls } from '../../scene/controls'
+import type { ShownObject } from '../../scene/lab_objects'
+import { LabScene } from '../../scene/lab_scene'
+import { type MeshBytes, MeshLibrary } from '../../scene/meshes'
+import { NoWebGL, Stage } from '../../scene/stage'
+import { themeNow } from '../../scene/theme'
+import { ENGLISH, GERMAN } from '../../scene/words'
+import { attachCursors } from './plots'
+
+const POSE = 7
+
+/** Put a recorded session into its page: the scene, the timeline, the events. */
+export function showSession(view: HTMLElement, session: SessionDocument, bytes: MeshBytes): void {
+  const words = navigator.language.startsWith('de') ? GERMAN : ENGLISH
+  const player = new MotionPlayer(session.duration, () => performance.now() / 1000)
+  const element = document.createElement('div')
+  element.className = 'scene-preview'
+  const picture = document.createElement('div')
+  picture.className = 'scene-view'
+  const note = document.createElement('p')
+  note.className = 'scene-note'
+  note.setAttribute('role', 'status')
+  note.hidden = true
+  element.append(picture, note)
+  view.append(element)
+  document.documentElement.dataset.shown = 'true'
+  const say = (text: string) => {
+    note.textContent = text
+    note.hidden = text === ''
+  }
+  const controls = new Controls(player, words, 0.1, (time) => Math.floor(time * 100) + 1, [])
+  element.append(controls.element)
+  const setCursors = attachCursors(session.duration, (time) => player.seek(time))
+  for (const entry of document.querySelectorAll<HTMLElement>('[data-time]')) {
+    entry.addEventListener('click', () => {
+      player.pause()
+      player.seek(Number(entry.dataset.time))
+    })
+  }
+
+  let draw: (time: number) => void = () => undefined
+  let stage: Stage | null = null
+  try {
+    stage = new Stage(picture, words.view)
+    draw = drawing(stage, session, new MeshLibrary(bytes), (troubles) => {
+      say(words.missing(troubles))
+    })
+  } catch (error) {
+    if (!(error instanceof NoWebGL)) throw error
+    picture.hidden = true
+    say(words.noWebGL)
+  }
+  let last = -1
+  const step = (): boolean => {
+    const time = player.position()
+    if (time !== last) {
+      last = time
+      draw(time)
+      controls.show(time)
+      setCursors(time)
+      if (!player.playing) controls.showState()
+    }
+    return player.playing
+  }
+  if (stage === null) {
+    player.onChange(function frame() {
+      if (step()) requestAnimationFrame(frame)
+    })
+    step()
+    return
+  }
+  const shown = stage
+  shown.onFrame(step)
+  player.onChange(() => shown.invalidate())
+}
+
+/** Return what puts the whole scene to a time, s. */
+function drawing(
+  stage: Stage,
+  session: SessionDocument,
+  meshes: MeshLibrary,
+  say: (troubles: string) => void,
+): (time: number) => void {
+  const scene = new LabScene(stage, meshes, () => say([...scene.troubles].join('; ')))
+  const pose = new Float64Array(POSE)
+  const bases = session.robots.map((robot) => new Track(robot.base))
+  scene.setRobots(
+    session.robots.map((robot, i) => {
+      pose.fill(0)
+      pose[POSE - 1] = 1
+      bases[i]?.sample(0, pose)
+      return { name: robot.name, urdf: robot.urdf, pose: poseOf(pose), joint_names: robot.joints }
+    }),
+  )
+  const robots = session.robots.map((robot) => {
+    const track = new Track(robot.track)
+    return { robot, track, values: new Float64Array(track.columns) }
+  })
+  const objects = session.objects.map((object) => ({ object, track: new Track(object.track) }))
+  let present = ''
+  return (time) => {
+    for (const [i, { robot, track, values }] of robots.entries()) {
+      track.sample(time, values)
+      scene.robot(robot.name)?.setPositions(values)
+      bases[i]?.sample(time, pose)
+      scene.placeRobot(robot.name, poseOf(pose))
+      const name = STATE_NAMES.find((known) => known === changeAt(robot.states, time)) ?? 'IDLE'
+      const colour = THEMES[themeNow().name].states[name]
+      const halted = name === 'COLLISION_HALT'
+      scene.setState(robot.name, name.toLowerCase().replace('_', ' '), colour, halted)
+    }
+    const there = objects.filter(({ object }) => object.first <= time && time <= object.last + 0.1)
+    const names = there.map(({ object }) => object.name).join()
+    const shown: ShownObject[] = []
+    for (const { object, track } of there) {
+      track.sample(time, pose)
+      const holder = changeAt(object.holders, time)
+      if (names === present) scene.moveObject(object.name, poseOf(pose), holder)
+      else shown.push(objectAt(object, poseOf(pose), holder))
+    }
+    if (names !== present) scene.setObjects(shown)
+    present = names
+  }
+}
+
+function objectAt(object: SessionObject, pose: ShownObject['pose'], holder: string): ShownObject {
+  const { name, mesh, size, color, primitive } = object
+  return { name, mesh, size, color, primitive, pose, held_by: holder }
+}
+
+function poseOf(values: Float64Array): ShownObject['pose'] {
+  const [x = 0, y = 0, z = 0, qx = 0, qy = 0, qz = 0, qw = 1] = values
+  const length = Math.hypot(qx, qy, qz, qw) || 1
+  return {
+    position: { x, y, z },
+    orientation: { x: qx / length, y: qy / length, z: qz / length, w: qw / length },
+  }
+}

@@ -1,0 +1,156 @@
+import { Group, Matrix4, type Object3D, Quaternion, Vector3 } from 'three'
+import { type MeshSource, release } from './meshes'
+import { primitiveOf, type Shape } from './shapes'
+import type { Stage } from './stage'
+
+export interface Pose {
+  readonly position: { readonly x: number; readonly y: number; readonly z: number }
+  readonly orientation: {
+    readonly x: number
+    readonly y: number
+    readonly z: number
+    readonly w: number
+  }
+}
+
+/** An object of the scene: the fields of mrlab_msgs/msg/SceneObject that are drawn. */
+export interface ShownObject extends Shape {
+  readonly name: string
+  readonly pose: Pose
+  readonly held_by: string
+}
+
+/** Write a pose into an object's own position and quaternion. */
+export function place(object: Object3D, pose: Pose): void {
+  const { position: p, orientation: q } = pose
+  object.position.set(p.x, p.y, p.z)
+  object.quaternion.set(q.x, q.y, q.z, q.w)
+}
+
+interface Entry {
+  readonly root: Group
+  heldBy: string
+  /** Of the object in the frame that holds it. */
+  readonly grip: Matrix4
+  look: string
+  seen: boolean
+}
+
+/** The objects of the scene. One that is held moves with the hand between two messages. */
+export class LabObjects {
+  private readonly known = new Map<string, Entry>()
+  private readonly scratch = new Matrix4()
+  private readonly scale = new Vector3()
+  private readonly quaternion = new Quaternion()
+
+  /** tipOf: the frame by which a robot holds things; undefined where it is not there. */
+  constructor(
+    private readonly stage: Stage,
+    private readonly meshes: MeshSource,
+    private readonly tipOf: (robot: string) => Object3D | undefined,
+    private readonly trouble: (sentence: string) => void,
+  ) {}
+
+  /** Take over what is there; what is not among it disappears. */
+  set(objects: readonly ShownObject[]): void {
+    for (const entry of this.known.values()) entry.seen = false
+    for (const object of objects) {
+      const entry = this.known.get(object.name) ?? this.add(object)
+      entry.seen = true
+      this.dress(entry, object)
+      place(entry.root, object.pose)
+      this.hold(entry, object.held_by)
+    }
+    for (const [name, entry] of this.known) {
+      if (entry.seen) continue
+      this.known.delete(name)
+      entry.root.removeFromParent()
+      release(entry.root)
+    }
+    this.stage.invalidate()
+  }
+
+  /** Move one object; false: there is none of that name. */
+  move(name: string, pose: Pose, heldBy: string): boolean {
+    const entry = this.known.get(name)
+    if (entry === undefined) return false
+    place(entry.root, pose)
+    this.hold(entry, heldBy)
+    return true
+  }
+
+  /** Put what is held where the hands are now. */
+  follow(): void {
+    for (const entry of this.known.values()) {
+      const tip = entry.heldBy === '' ? undefined : this.tipOf(entry.heldBy)
+      if (tip === undefined) continue
+      this.worldOf(tip).multiply(entry.grip)
+      this.scratch.decompose(entry.root.position, this.quaternion, this.scale)
+      entry.root.quaternion.copy(this.quaternion)
+    }
+  }
+
+  dispose(): void {
+    for (const { root } of this.known.values()) {
+      root.removeFromParent()
+      release(root)
+    }
+    this.known.clear()
+  }
+
+  private add(object: ShownObject): Entry {
+    const root = new Group()
+    root.name = object.name
+    const entry = { root, heldBy: '', grip: new Matrix4(), look: '', seen: true }
+    this.known.set(object.name, entry)
+    this.stage.world.add(root)
+    return entry
+  }
+
+  /** Return the pose of a frame in the world, in the scratch matrix. */
+  private worldOf(frame: Object3D): Matrix4 {
+    frame.updateWorldMatrix(true, false)
+    this.scratch.copy(this.stage.world.matrixWorld).invert()
+    return this.scratch.multiply(frame.matrixWorld)
+  }
+
+  private hold(entry: Entry, by: string): void {
+    const tip = by === '' ? undefined : this.tipOf(by)
+    if (tip === undefined) {
+      entry.heldBy = ''
+    } else if (entry.heldBy !== by) {
+      entry.heldBy = by
+      entry.root.updateMatrix()
+      entry.grip.copy(this.worldOf(tip).invert()).multiply(entry.root.matrix)
+    }
+  }
+
+  private dress(entry: Entry, object: ShownObject): void {
+    const { size, color, mesh, primitive } = object
+    const dimensions = Array.from(primitive.dimensions).join()
+    const look = `${mesh} ${primitive.type} ${dimensions} ${size.x} ${size.y} ${size.z} ${color.r} ${color.g} ${color.b} ${color.a}`
+    if (entry.look === look) return
+    entry.look = look
+    release(entry.root)
+    entry.root.clear()
+    if (mesh === '') {
+      entry.root.add(primitiveOf(object))
+      return
+    }
+    this.meshes
+      .load(mesh)
+      .catch((error: unknown) => {
+        this.trouble(`${mesh}: ${error instanceof Error ? error.message : String(error)}`)
+        return primitiveOf(object)
+      })
+      .then((loaded) => {
+        if (entry.look !== look) return
+        loaded.traverse((node) => {
+          node.castShadow = true
+          node.receiveShadow = true
+        })
+        entry.root.add(loaded)
+        this.stage.invalidate()
+      })
+  }
+}

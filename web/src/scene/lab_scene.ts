@@ -1,0 +1,233 @@
+import {
+  Group,
+  type Mesh,
+  type Object3D,
+  type PlaneGeometry,
+  type ShaderMaterial,
+  type Vector3,
+} from 'three'
+import { Contacts } from './contacts'
+import { pushCorners } from './corners'
+import { contactPatch } from './floor'
+import { LabObjects, type Pose, place, type ShownObject } from './lab_objects'
+import { Label } from './labels'
+import { Looks } from './looks'
+import type { MeshSource } from './meshes'
+import { SceneRobot } from './robot'
+import type { Stage } from './stage'
+import type { SceneTheme } from './theme'
+
+const NAME = 0.021 // of a label, as a part of the distance to it
+const NAME_PROJECTED = 0.036 // readable at 8 m
+const ABOVE = 0.12 // m, of a label over the robot
+const PATCH = 0.42 // m
+
+/** A robot of the scene: the fields of mrlab_msgs/msg/Robot that are drawn, and its URDF. */
+export interface ShownRobot {
+  readonly name: string
+  readonly urdf: string
+  readonly pose: Pose
+  readonly joint_names: readonly string[]
+}
+
+interface Entry {
+  readonly base: Group
+  robot: SceneRobot
+  urdf: string
+  readonly patch: Mesh<PlaneGeometry, ShaderMaterial>
+  label: Label | null
+  state: string
+  colour: string
+  filled: boolean
+  top: number
+}
+
+/** Robots, objects and contacts of a lab, live or out of a bag. */
+export class LabScene {
+  /** Meshes that could not be read, a sentence each. */
+  readonly troubles = new Set<string>()
+  private readonly robots = new Map<string, Entry>()
+  private readonly objects: LabObjects
+  private readonly contacts = new Contacts()
+  private readonly looks = new Looks()
+  private readonly undo: (() => void)[] = []
+  private nameHeight = NAME
+
+  constructor(
+    private readonly stage: Stage,
+    private readonly meshes: MeshSource,
+    private readonly onTrouble: () => void = () => undefined,
+  ) {
+    const trouble = (sentence: string) => {
+      this.troubles.add(sentence)
+      this.onTrouble()
+    }
+    this.objects = new LabObjects(stage, meshes, (name) => this.tipOf(name), trouble)
+    stage.world.add(this.contacts.mesh)
+    this.undo.push(stage.onTheme((theme) => this.setTheme(theme)))
+  }
+
+  /** Take over which robots there are, and where; those without a URDF yet are left out. */
+  setRobots(robots: readonly ShownRobot[]): void {
+    let fresh = false
+    for (const shown of robots) {
+      if (shown.urdf === '') continue
+      let entry = this.robots.get(shown.name)
+      if (entry !== undefined && entry.urdf !== shown.urdf) {
+        this.remove(shown.name, entry)
+        entry = undefined
+      }
+      if (entry === undefined) {
+        entry = this.add(shown)
+        fresh = true
+      }
+      place(entry.base, shown.pose)
+    }
+    for (const [name, entry] of this.robots) {
+      if (!robots.some((shown) => shown.name === name)) this.remove(name, entry)
+    }
+    if (fresh) this.frame()
+    this.stage.invalidate()
+  }
+
+  /** Return the joints of a robot in the order in which setJoints wants them. */
+  robot(name: string): SceneRobot | undefined {
+    return this.robots.get(name)?.robot
+  }
+
+  /** Move a robot's base. */
+  placeRobot(name: string, pose: Pose): void {
+    const entry = this.robots.get(name)
+    if (entry !== undefined) place(entry.base, pose)
+  }
+
+  /** Say what a robot does: the word is drawn above it, in the state's colour. */
+  setState(name: string, word: string, colour: string, filled = false): void {
+    const entry = this.robots.get(name)
+    if (entry === undefined) return
+    if (entry.state === word && entry.colour === colour) return
+    entry.state = word
+    entry.colour = colour
+    entry.filled = filled
+    this.paintLabel(name, entry)
+    this.stage.invalidate()
+  }
+
+  /** Grey a robot and paint the link that collides; empty: it does not. */
+  setCollision(name: string, link: string): void {
+    this.robots.get(name)?.robot.setLook(link === '' ? 'own' : 'grey', link)
+  }
+
+  setObjects(objects: readonly ShownObject[]): void {
+    this.objects.set(objects)
+  }
+
+  moveObject(name: string, pose: Pose, heldBy: string): void {
+    this.objects.move(name, pose, heldBy)
+  }
+
+  setContacts(contacts: Parameters<Contacts['set']>[0]): void {
+    this.contacts.set(contacts)
+    this.stage.invalidate()
+  }
+
+  /** Large names for a projector. */
+  setProjected(on: boolean): void {
+    this.nameHeight = on ? NAME_PROJECTED : NAME
+    for (const [name, entry] of this.robots) {
+      entry.label?.dispose()
+      entry.label = null
+      this.paintLabel(name, entry)
+    }
+    this.stage.invalidate()
+  }
+
+  /** Before each picture: what is held follows the hands. */
+  update(): void {
+    this.objects.follow()
+  }
+
+  /** Show everything whole. */
+  frame(again = false): void {
+    const points: Vector3[] = []
+    for (const { base, top } of this.robots.values()) {
+      points.push(base.position.clone())
+      points.push(base.position.clone().setZ(base.position.z + top + 2 * ABOVE))
+      pushCorners(base, this.stage.world, points)
+    }
+    this.stage.frame(points, again)
+  }
+
+  dispose(): void {
+    for (const undo of this.undo) undo()
+    for (const [name, entry] of this.robots) this.remove(name, entry)
+    this.objects.dispose()
+    this.contacts.dispose()
+    this.looks.dispose()
+  }
+
+  private tipOf(name: string): Object3D | undefined {
+    return this.robots.get(name)?.robot.tip
+  }
+
+  private add(shown: ShownRobot): Entry {
+    const changed = () => this.stage.invalidate()
+    const robot = new SceneRobot(shown.urdf, shown.joint_names, this.meshes, this.looks, changed)
+    const base = new Group()
+    const patch = contactPatch(PATCH)
+    base.add(robot.root, patch)
+    this.stage.world.add(base)
+    const entry: Entry = {
+      base,
+      robot,
+      urdf: shown.urdf,
+      patch,
+      label: null,
+      state: '',
+      colour: '',
+      filled: false,
+      top: 1,
+    }
+    this.robots.set(shown.name, entry)
+    this.paintLabel(shown.name, entry)
+    robot.ready.then(() => {
+      if (this.robots.get(shown.name) !== entry) return
+      for (const sentence of robot.troubles) this.troubles.add(sentence)
+      if (robot.troubles.length > 0) this.onTrouble()
+      const points: Vector3[] = []
+      pushCorners(base, this.stage.world, points)
+      entry.top = Math.max(...points.map((point) => point.z), 0.3) - base.position.z
+      this.paintLabel(shown.name, entry)
+      this.frame()
+    })
+    return entry
+  }
+
+  private remove(name: string, entry: Entry): void {
+    this.robots.delete(name)
+    entry.robot.dispose()
+    entry.label?.dispose()
+    entry.patch.geometry.dispose()
+    entry.patch.material.dispose()
+    entry.base.removeFromParent()
+  }
+
+  private paintLabel(name: string, entry: Entry): void {
+    const text = entry.state === '' ? name : `${name} · ${entry.state}`
+    if (entry.label === null || entry.label.text !== text) {
+      entry.label?.dispose()
+      entry.label = new Label(text, this.nameHeight)
+      entry.base.add(entry.label.sprite)
+    }
+    const { theme } = this.stage
+    const colour = entry.colour === '' ? theme.second : entry.colour
+    entry.label.paint(entry.filled ? colour : theme.card, entry.filled ? theme.card : colour)
+    entry.label.sprite.position.set(0, 0, entry.top + ABOVE)
+  }
+
+  private setTheme(theme: SceneTheme): void {
+    this.looks.setTheme(theme)
+    this.contacts.setTheme(theme)
+    for (const [name, entry] of this.robots) this.paintLabel(name, entry)
+  }
+}
