@@ -1,0 +1,79 @@
+"""`mrlab show` as a student runs it."""
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+import scipy.io
+from typer.testing import CliRunner
+
+from mrlab_ros.cli import app
+from mrlab_ros.core.errors import BadInput, Misuse
+
+ROOT = Path(__file__).parents[2]
+QUINTIC = ROOT / "examples" / "quintic_ur5e.mat"
+
+
+def run(*arguments: object) -> str:
+    done = CliRunner().invoke(app, ["show", *map(str, arguments)], catch_exceptions=False)
+    assert done.exit_code == 0, done.output
+    return done.output
+
+
+def test_a_workspace_becomes_one_file(tmp_path):
+    page = tmp_path / "deep" / "page.html"
+    said = run(QUINTIC, "--robot", "ur5e", "--end-effector", "vacuum_cup", "-o", page)
+    text = page.read_text()
+    assert str(page) in said
+    assert "Accepted" in text
+    assert "ur5e with vacuum_cup" in text
+    assert len(text) < 1_000_000
+
+
+def test_a_refused_file_is_shown_with_its_findings(tmp_path):
+    file, page = tmp_path / "bad.mat", tmp_path / "page.html"
+    q = np.zeros((200, 6))
+    q[100:, 2] = 5.0
+    scipy.io.savemat(file, {"q": q, "fs": 100.0})
+    run(file, "--robot", "ur5e", "-o", page)
+    text = page.read_text()
+    assert "Not accepted" in text
+    assert 'data-finding="1"' in text
+    assert "elbow_joint" in text
+
+
+def test_a_trajectory_file_knows_its_robot(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    convert = ["convert", str(QUINTIC), "--robot", "ur5e", "--out", str(tmp_path)]
+    assert CliRunner().invoke(app, convert).exit_code == 0
+    run(tmp_path / "quintic_ur5e.json")
+    assert "Accepted" in (tmp_path / "quintic_ur5e.html").read_text()
+
+
+def test_plot_writes_the_page(tmp_path):
+    page = tmp_path / "page.html"
+    convert = ["convert", str(QUINTIC), "--robot", "ur5e", "--plot", str(page)]
+    assert CliRunner().invoke(app, convert).exit_code == 0
+    assert "Accepted" in page.read_text()
+
+
+@pytest.mark.parametrize(
+    ("arguments", "kind", "words"),
+    [
+        ((QUINTIC,), Misuse, "add --robot"),
+        ((QUINTIC, "--robot", "ur5e", "-o", "page.pdf"), Misuse, "ends in .html"),
+        ((QUINTIC, "--robot", "ur55e"), BadInput, "ur5e"),
+        (("none.mat", "--robot", "ur5e"), BadInput, "no file none.mat"),
+        (("none.json",), BadInput, "none.json"),
+    ],
+)
+def test_what_is_wrong_is_said(arguments, kind, words):
+    with pytest.raises(kind, match=words):
+        run(*arguments)
+
+
+def test_a_file_without_a_matrix_is_refused_with_its_reason(tmp_path):
+    file = tmp_path / "words.mat"
+    scipy.io.savemat(file, {"note": "hello"})
+    with pytest.raises(BadInput, match="no motion to show"):
+        run(file, "--robot", "ur5e", "-o", tmp_path / "page.html")
