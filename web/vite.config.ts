@@ -1,10 +1,29 @@
+import { createReadStream } from 'node:fs'
 import { fileURLToPath } from 'node:url'
+import type { Plugin } from 'vite'
 import { defineConfig } from 'vitest/config'
 
 const noLoader = fileURLToPath(new URL('src/scene/no_loader.ts', import.meta.url))
 
 // The gateway serves the pages below /; hashed names below /static/ are cached for ever.
+/** Serve the package's own files where the gateway does, for `npm run dev -- --mode fake`. */
+const serveAssets: Plugin = {
+  name: 'assets',
+  configureServer(server) {
+    server.middlewares.use('/assets/mrlab_ros', (request, response) => {
+      const place = new URL(`../.${request.url ?? ''}`, new URL(import.meta.url))
+      createReadStream(fileURLToPath(place))
+        .on('error', () => {
+          response.statusCode = 404
+          response.end()
+        })
+        .pipe(response)
+    })
+  },
+}
+
 export default defineConfig({
+  plugins: [serveAssets],
   build: {
     target: 'es2022',
     assetsDir: 'static',

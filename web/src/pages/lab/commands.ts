@@ -1,0 +1,42 @@
+import { showToast } from '../../design/toast'
+import { type Link, LinkError, type ServiceType } from '../../link/link'
+import type { Commands } from '../../playback/player'
+import { seekType, setRateType } from '../../protocol/mrlab_msgs'
+import { type TriggerResponse, triggerType } from '../../protocol/std_srvs'
+
+interface Answer {
+  readonly success: boolean
+  readonly message: string
+}
+
+/** Call a service and say what came of it where it was refused. */
+export async function order<Request, Response extends Answer>(
+  link: Link,
+  service: string,
+  type: ServiceType<Request, Response>,
+  request: Request,
+): Promise<boolean> {
+  try {
+    const answer = await link.call(service, type, request)
+    if (!answer.success) showToast(answer.message)
+    return answer.success
+  } catch (error) {
+    showToast(error instanceof LinkError ? error.message : String(error))
+    return false
+  }
+}
+
+export function trigger(link: Link, service: string): Promise<boolean> {
+  return order<Record<string, never>, TriggerResponse>(link, service, triggerType, {})
+}
+
+/** Return what a robot, a robot system or the recorder's replay is told. */
+export function commandsOf(link: Link, name: string): Commands {
+  const play = name === 'recorder' ? 'resume' : 'play'
+  return {
+    play: () => void trigger(link, `${name}/${play}`),
+    pause: () => void trigger(link, `${name}/pause`),
+    seek: (position) => void order(link, `${name}/seek`, seekType, { position }),
+    setRate: (rate) => void order(link, `${name}/set_rate`, setRateType, { rate }),
+  }
+}

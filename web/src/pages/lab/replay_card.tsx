@@ -1,0 +1,52 @@
+import { useState } from 'preact/hooks'
+import { Button } from '../../design/button'
+import { RecorderState, replayType } from '../../protocol/mrlab_msgs'
+import { words } from '../../words/words'
+import { order, trigger } from './commands'
+import type { LabFollower } from './follow'
+import { Timeline } from './timeline'
+
+/** Play a recorded bag in this view, and say what the recorder does. */
+export function ReplayCard({ follower }: { follower: LabFollower }) {
+  const [bag, setBag] = useState('')
+  const w = words.value.lab
+  const { link } = follower
+  const state = follower.recorder.value
+  const replaying =
+    state?.state === RecorderState.REPLAYING || state?.state === RecorderState.PAUSED
+  const start = (event: Event) => {
+    event.preventDefault()
+    const request = { bag: bag.trim(), rate: 1, start: 0, loop: false }
+    if (request.bag) order(link, 'recorder/replay', replayType, request)
+  }
+  return (
+    <article class="lab-card">
+      <h3>{w.recordings}</h3>
+      {state?.message && <p class="small">{state.message}</p>}
+      {state?.state === RecorderState.RECORDING && <p class="small">{w.recording(state.bag)}</p>}
+      {replaying && state ? (
+        <>
+          <p class="small">{w.replaying(state.bag)}</p>
+          <Timeline player={follower.replay} rate={100} />
+          <Button onClick={() => trigger(link, 'recorder/stop')}>{w.endReplay}</Button>
+        </>
+      ) : (
+        <form class="lab-replay" onSubmit={start}>
+          <label class="small" for="lab-bag">
+            {w.bag}
+          </label>
+          <input
+            id="lab-bag"
+            class="input"
+            value={bag}
+            placeholder="class.bag"
+            onInput={(event) => setBag(event.currentTarget.value)}
+          />
+          <Button type="submit" disabled={!bag.trim()}>
+            {w.replay}
+          </Button>
+        </form>
+      )}
+    </article>
+  )
+}

@@ -1,0 +1,39 @@
+import { useEffect, useRef } from 'preact/hooks'
+import type { RemotePlayer } from '../../playback/player'
+import { Controls } from '../../scene/controls'
+import { ENGLISH, GERMAN } from '../../scene/words'
+import { language } from '../../words/words'
+
+interface TimelineProps {
+  readonly player: RemotePlayer
+  /** Hz, of the frames */
+  readonly rate: number
+}
+
+/** Play, timeline and speed of something that the lab plays. */
+export function Timeline({ player, rate }: TimelineProps) {
+  const host = useRef<HTMLDivElement>(null)
+  const german = language.value === 'de'
+  useEffect(() => {
+    const words = german ? GERMAN : ENGLISH
+    const row = (time: number) => Math.floor(time * rate + 1e-6) + 1
+    const controls = new Controls(player, words, rate > 0 ? 1 / rate : 0.01, row, [])
+    host.current?.append(controls.element)
+    let request = 0
+    const frame = () => {
+      controls.show(player.position())
+      request = player.playing ? requestAnimationFrame(frame) : 0
+    }
+    const stir = () => {
+      if (request === 0) request = requestAnimationFrame(frame)
+    }
+    const stop = player.onChange(stir)
+    stir()
+    return () => {
+      stop()
+      cancelAnimationFrame(request)
+      controls.dispose()
+    }
+  }, [player, rate, german])
+  return <div class="lab-timeline" ref={host} />
+}

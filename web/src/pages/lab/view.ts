@@ -1,0 +1,37 @@
+import { LabScene } from '../../scene/lab_scene'
+import { MeshLibrary } from '../../scene/meshes'
+import { Stage } from '../../scene/stage'
+
+/** The picture of the lab, in code that is loaded only when it is shown. */
+export class LabView {
+  readonly scene: LabScene
+  private readonly stage: Stage
+  private readonly meshes = new MeshLibrary()
+
+  /** Throws NoWebGL where the browser has none. say: is told what could not be drawn. */
+  constructor(container: HTMLElement, label: string, say: (text: string) => void) {
+    this.stage = new Stage(container, label)
+    this.scene = new LabScene(this.stage, this.meshes, () => {
+      say([...this.scene.troubles].join('; '))
+    })
+    this.stage.onFrame(() => {
+      this.scene.update()
+      return false
+    })
+  }
+
+  /** Ask for a new picture. */
+  stir(): void {
+    this.stage.invalidate()
+  }
+
+  setProjected(on: boolean): void {
+    this.scene.setProjected(on)
+  }
+
+  dispose(): void {
+    this.scene.dispose()
+    this.stage.dispose()
+    this.meshes.dispose()
+  }
+}
