@@ -35,6 +35,8 @@ class Catalogue:
         self.store = store
         self._log = log
         self._records: dict[tuple[str, str], Record] = {}
+        self._ordered: list[Record] | None = None
+        self._table = threading.Lock()
         self._reading = threading.Lock()
         self._epoch, self._number = "", -1
 
@@ -46,7 +48,7 @@ class Catalogue:
                 return False
             names = [(owner, name) for n, owner, name in recent if n > self._number]
             if epoch != self._epoch or len(names) < number - self._number:
-                self._records = self._read_all()
+                self._replace(self._read_all())
             else:
                 for name in dict.fromkeys(names):
                     self._read_one(*name)
@@ -55,11 +57,14 @@ class Catalogue:
 
     def records(self) -> list[Record]:
         """Return every record, ordered by id, the deleted ones too."""
-        return sorted(self._records.copy().values(), key=lambda record: record.id)
+        with self._table:
+            if self._ordered is None:
+                self._ordered = sorted(self._records.values(), key=lambda record: record.id)
+            return self._ordered.copy()
 
     def usage(self, owner: str) -> int:
         """Return how many bytes a user's trajectories take, the deleted ones too."""
-        return sum(r.size for r in self._records.copy().values() if r.owner == owner)
+        return sum(record.size for record in self.records() if record.owner == owner)
 
     def find(
         self,
@@ -87,6 +92,19 @@ class Catalogue:
             )
         return record, record.version(name.version)
 
+    def _put(self, place: tuple[str, str], record: Record | None) -> None:
+        """Take note of a record; None: it is gone."""
+        with self._table:
+            if record is None:
+                self._records.pop(place, None)
+            else:
+                self._records[place] = record
+            self._ordered = None
+
+    def _replace(self, found: dict[tuple[str, str], Record]) -> None:
+        with self._table:
+            self._records, self._ordered = found, None
+
     def _read_all(self) -> dict[tuple[str, str], Record]:
         found = [entry.key for entry in self.store.list(keys.RECORDS)]
         with ThreadPoolExecutor(READERS) as pool:
@@ -97,11 +115,7 @@ class Catalogue:
         return self.store.path(keys.CHANGES) is not None
 
     def _read_one(self, owner: str, name: str) -> None:
-        record = self._read(keys.record(owner, name))
-        if record is None:
-            self._records.pop((owner, name), None)
-        else:
-            self._records[owner, name] = record
+        self._put((owner, name), self._read(keys.record(owner, name)))
 
     def _read(self, key: str) -> Record | None:
         """Return the record under a key; None where it is gone, or none."""

@@ -62,7 +62,7 @@ class CatalogueWriter(Catalogue):
     def open(self) -> None:
         """Read the whole catalogue and begin to count its changes anew; raise StoreFailure."""
         with self._changing:
-            self._records = self._read_all()
+            self._replace(self._read_all())
             self._epoch, self._number = keys.unique(), 0
             self.store.put(keys.CHANGES, changes_document(self._epoch, self._number, ()))
 
@@ -176,7 +176,7 @@ class CatalogueWriter(Catalogue):
         return record
 
     def _check_quota(self, owner: str, size: int) -> None:
-        used = self.usage(owner)
+        used = self.usage(owner) if owner and self.quota else 0
         if owner and self.quota and used + size > self.quota:
             raise BadInput(
                 f"the trajectories of {owner} take {used / 1e6:.0f} MB and this one "
@@ -213,10 +213,7 @@ class CatalogueWriter(Catalogue):
             except StoreFailure:
                 self._uncertain.add(place)
                 raise
-            if after is not None:
-                self._records[place] = after
-            else:
-                self._records.pop(place, None)
+            self._put(place, after)
             self._number += 1
             self._recent.append((self._number, *place))
             self._announce()

@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import asdict, dataclass, fields, replace
+from functools import cached_property
 from typing import Any
 
 from mrlab_ros.core.errors import BadInput
@@ -45,7 +46,7 @@ class Record:
     versions: tuple[Version, ...]
     deleted_ns: int = 0
 
-    @property
+    @cached_property
     def id(self) -> str:
         return TrajectoryName(self.owner, self.name).id
 
