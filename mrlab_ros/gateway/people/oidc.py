@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import fnmatch
+import importlib
 import re
 import secrets
 import time
@@ -17,7 +18,9 @@ from joserfc import jwk, jwt
 from joserfc.errors import JoseError
 
 with warnings.catch_warnings():
-    # It asks for the successor of httpx.
+    # It asks for the successor of httpx, at each start of a gateway. This module of it has its
+    # warnings shown, so it must not be imported after the next line.
+    importlib.import_module("authlib.deprecate")
     warnings.simplefilter("ignore")
     from authlib.integrations.httpx_client import AsyncOAuth2Client, OAuthError
 

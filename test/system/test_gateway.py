@@ -1,0 +1,203 @@
+"""The gateway as a process of its own: HTTPS, guard, cookies, `mrlab users` beside it, its end.
+
+There is no lab behind it: that is in test/node.
+"""
+
+from __future__ import annotations
+
+import json
+import re
+import signal
+import socket
+import ssl
+import subprocess
+import sys
+import time
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+import httpx
+import pytest
+from child_process import start_child
+from launched_lab import done, mrlab
+
+from mrlab_ros.commands.demo.lab import free_port
+from mrlab_ros.commands.up.web import opening_url
+from mrlab_ros.gateway.people.database import FILE
+
+DEADLINE = 60.0
+PASSWORD = "correct horse battery"
+FOREIGN = "https://evil.example"
+
+
+class Gateway:
+    """A gateway on a free port, and what it prints."""
+
+    def __init__(self, folder: Path, *options: str | Path) -> None:
+        self._log = folder / "gateway.log"
+        with self._log.open("wb") as output:
+            self.process = start_child(
+                *(sys.executable, "-m", "mrlab_ros.gateway", "--http", "127.0.0.1:0"),
+                *("--state-dir", str(folder), "--zenoh", f"tcp/127.0.0.1:{free_port(0)}"),
+                *map(str, options),
+                stdout=output,
+                stderr=subprocess.STDOUT,
+            )
+        self.url = ""
+
+    @property
+    def said(self) -> str:
+        return self._log.read_text()
+
+    def wait(self) -> None:
+        end = time.monotonic() + DEADLINE
+        while not (found := re.search(r"serves the pages on (\S+)", self.said)):
+            assert self.process.poll() is None, self.said
+            assert time.monotonic() < end, self.said
+            time.sleep(0.05)
+        self.url = found[1]
+        while True:
+            with socket.socket() as probe:
+                if probe.connect_ex(("127.0.0.1", int(self.url.rpartition(":")[2]))) == 0:
+                    return
+            assert time.monotonic() < end, self.said
+
+    def send(
+        self, browser: httpx.Client, method: str, path: str, **options: Any
+    ) -> httpx.Response:
+        """Send what a page of this gateway sends."""
+        csrf = browser.get("/api/session").json()["csrf"]
+        headers = {"origin": str(browser.base_url).rstrip("/"), "x-csrf-token": csrf}
+        return browser.request(
+            method, path, headers=headers | options.pop("headers", {}), **options
+        )
+
+
+@pytest.fixture
+def local(tmp_path: Path) -> Iterator[Gateway]:
+    gateway = Gateway(tmp_path)
+    try:
+        gateway.wait()
+        yield gateway
+    finally:
+        gateway.process.kill()
+        gateway.process.wait()
+
+
+@pytest.fixture(scope="module")
+def keys(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    folder = tmp_path_factory.mktemp("lab") / "keys"
+    done("keys", "init", "--dir", folder)
+    return folder
+
+
+@pytest.fixture
+def secured(tmp_path: Path, keys: Path) -> Iterator[Gateway]:
+    gateway = Gateway(tmp_path, "--keys", keys)
+    try:
+        gateway.wait()
+        gateway.url = gateway.url.replace("127.0.0.1", "localhost")
+        yield gateway
+    finally:
+        gateway.process.kill()
+        gateway.process.wait()
+
+
+def browser_of(gateway: Gateway, keys: Path) -> httpx.Client:
+    """Return a client that trusts the lab's authority and nobody else."""
+    context = ssl.create_default_context(cafile=str(keys / "ca.pem"))
+    return httpx.Client(base_url=gateway.url, verify=context, follow_redirects=True)
+
+
+def refusal(response: httpx.Response) -> tuple[int, str]:
+    return response.status_code, response.json()["error"]["code"]
+
+
+def test_only_the_opened_browser_reaches_a_local_lab(local: Gateway, tmp_path: Path) -> None:
+    with httpx.Client(base_url=local.url, follow_redirects=True) as browser:
+        assert refusal(browser.get("/api/devices")) == (401, "not_signed_in")
+        browser.get(opening_url(local.url, tmp_path / FILE))
+        assert browser.get("/api/session").json()["user"]["name"] == "local"
+        # A name that was made to point here, and a page of another site.
+        for path in ("/", "/api/devices"):
+            assert refusal(browser.get(path, headers={"host": "evil.example"})) == (403, "host")
+        foreign = local.send(browser, "DELETE", "/api/session", headers={"origin": FOREIGN})
+        assert refusal(foreign) == (403, "origin")
+        without = browser.delete("/api/session", headers={"origin": local.url})
+        assert refusal(without) == (403, "csrf")
+        assert local.send(browser, "DELETE", "/api/session").status_code == 204
+        assert browser.get("/api/session").json()["user"] is None
+
+
+def test_people_sign_in_over_https_until_they_are_removed(secured: Gateway, keys: Path) -> None:
+    (made,) = json.loads(
+        done("users", "add", "anna", "--role", "student", "--dir", keys, "--json")
+    )
+    token = made["url"].rpartition("/")[2]
+    assert made["url"].startswith("https://")
+    with browser_of(secured, keys) as browser:
+        answer = secured.send(
+            browser, "POST", f"/api/invitations/{token}", json={"password": PASSWORD}
+        )
+        assert answer.json()["user"] == {"name": "anna", "role": "student"}
+        cookie = answer.headers["set-cookie"]
+        assert cookie.startswith("__Host-mrlab-")
+        assert {"HttpOnly", "Secure", "SameSite=strict"} <= set(cookie.split("; "))
+        done("users", "role", "anna", "operator", "--dir", keys)
+        assert browser.get("/api/session").json()["user"]["role"] == "operator"
+        assert "operator" in done("users", "list", "--dir", keys)
+        done("users", "remove", "anna", "--dir", keys)
+        assert browser.get("/api/session").json()["user"] is None
+        again = secured.send(
+            browser, "POST", "/api/session", json={"name": "anna", "password": PASSWORD}
+        )
+        assert refusal(again) == (401, "not_signed_in")
+    for name, words in (("anna", "nobody called 'anna'"), ("ben", "nobody called 'ben'")):
+        assert words in mrlab("users", "remove", name, "--dir", keys).stderr
+
+
+def test_who_does_not_trust_the_authority_does_not_connect(secured: Gateway) -> None:
+    with pytest.raises(httpx.ConnectError, match="CERTIFICATE_VERIFY_FAILED"):
+        httpx.get(secured.url)
+
+
+@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
+def test_it_ends_when_it_is_asked_to(local: Gateway, number: signal.Signals) -> None:
+    with httpx.Client(base_url=local.url) as browser:
+        browser.get("/healthz")
+        local.process.send_signal(number)
+        assert local.process.wait(DEADLINE) in (0, -number)
+    assert "Traceback" not in local.said
+    assert "ERROR" not in local.said
+
+
+@pytest.mark.parametrize(
+    ("options", "code", "words"),
+    [
+        (("--http", "0.0.0.0:0"), 78, "give the lab keys"),
+        (("--http", "127.0.0.1:port"), 78, "expected HOST:PORT"),
+        (("--allow-list", "/nowhere.yaml"), 78, "the allow-list /nowhere.yaml cannot be read"),
+        (("--keys", "/nowhere"), 78, "there is no file /nowhere/server.pem"),
+        (("--oidc", "/nowhere.yaml"), 78, "/nowhere.yaml cannot be read"),
+    ],
+)
+def test_a_wrong_configuration_is_one_sentence(
+    tmp_path: Path, options: tuple[str, ...], code: int, words: str
+) -> None:
+    gateway = Gateway(tmp_path, *options)
+    assert gateway.process.wait(DEADLINE) == code
+    assert words in gateway.said
+    assert gateway.said.count("\n") == 1
+
+
+def test_a_port_in_use_says_what_to_do(local: Gateway, tmp_path: Path) -> None:
+    where = local.url.removeprefix("http://")
+    (tmp_path / "other").mkdir()
+    other = Gateway(tmp_path / "other", "--http", where)
+    # Not lasting: the other program may end.
+    assert other.process.wait(DEADLINE) == 1
+    assert "choose another one with --http" in other.said
+    refused = mrlab("up", "--http", where)
+    assert refused.returncode == 1
+    assert "choose another one with --http" in refused.stderr
