@@ -1,4 +1,4 @@
-"""A `mrlab up` with pages for browser tests and screenshots, and a gateway with people beside it."""
+"""A `mrlab up` with pages for browser tests and screenshots; beside it a gateway with people."""
 
 from __future__ import annotations
 

@@ -23,4 +23,5 @@ def test_every_shipped_robot_and_end_effector_is_in_the_document() -> None:
         for joint in each["joints"]
         if joint["mimic"] is not None
     ]
-    assert followers and all(set(each) == {"joint", "multiplier", "offset"} for each in followers)
+    assert followers
+    assert all(set(each) == {"joint", "multiplier", "offset"} for each in followers)
