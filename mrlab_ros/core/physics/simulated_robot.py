@@ -139,6 +139,8 @@ class Robot:
                 # Physics restarted during a halt: announce the collision again so that its end
                 # is announced too.
                 self.raise_again = True
+                # What the arm stands in is what halted it.
+                self.tolerated.clear()
             yield before
 
     def _update_stream(self) -> None:

@@ -26,6 +26,7 @@ from mrlab_ros.core.physics.settings import Settings
 from mrlab_ros.core.physics.simulated_robot import GripperProgram, Playing, Robot
 from mrlab_ros.core.physics.surfaces import Surface
 from mrlab_ros.core.physics.world_state import SceneObject, WorldState
+from mrlab_ros.core.playback.states import State
 
 # Clearance and snapshots run every SLOW_STEPS steps.
 SLOW_STEPS = 12
@@ -293,7 +294,7 @@ class World:
                 self._grippers.carry(robot)
                 if robot.pending is not None:
                     robot.pending = (now_ns, robot.pending[1])
-                if before is None:
+                if before is None and robot.playing.state is not State.COLLISION_HALT:
                     self._collisions.tolerate(robot)
             elif before is not None and not same:
                 moved.append((robot, before, placed.positions, placed.velocities))

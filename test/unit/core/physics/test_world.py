@@ -436,6 +436,26 @@ def test_a_mesh_is_made_of_the_vertices_its_triangles_name():
     assert np.array_equal(part.vertices[part.triangles], vertices[triangles])
 
 
+@pytest.mark.parametrize("state_first", [True, False])
+def test_a_world_that_begins_in_a_halt_keeps_it_while_the_arm_is_in_the_wall(state_first):
+    lab = Lab()
+    lab.world = World(lab.engine, catalogue.parse({"objects": TYPES}), Settings())
+    lab.world.set_surfaces([wall(0.4)])
+    lab.world.add_robot("a", "<robot/>", ("j1", "j2"), Pose(), Gripper.NONE)
+    lab.at = np.array([0.45, 0.0])
+    if state_first:
+        lab.play(state=State.COLLISION_HALT)
+        lab.go(0.45, 100 * MS)
+    else:
+        lab.go(0.45, 100 * MS)
+        lab.play(state=State.COLLISION_HALT)
+    lab.go(0.45, 800 * MS)
+    assert [event.colliding for event in lab.of(CollisionChanged)] == [True]
+    lab.go(0.2, 200 * MS)
+    lab.go(0.2, 600 * MS)
+    assert [event.colliding for event in lab.of(CollisionChanged)] == [True, False]
+
+
 def test_surfaces_that_are_none_are_refused_and_the_old_ones_stay():
     world = Lab().world
     world.set_surfaces([wall(3.0)])
