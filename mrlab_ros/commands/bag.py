@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import sys
+from dataclasses import asdict
 from datetime import datetime
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
@@ -130,6 +131,7 @@ def _facts(bag: Bag) -> dict[str, Any]:
         "bytes": bag.size,
         "files": [file.path.name for file in bag.files],
         "troubles": bag.troubles,
+        "gaps": [asdict(gap) for gap in bag.gaps()],
         "versions": bag.versions(),
         "topics": [
             {
@@ -158,6 +160,8 @@ def _print(bag: Bag) -> None:
     )
     for trouble in bag.troubles:
         console.print(f"{trouble}; mrlab bag repair mends it", soft_wrap=True)
+    for gap in bag.gaps():
+        console.print(gap.describe(bag.start_ns), soft_wrap=True)
     table = Table("topic", "type", box=box.SIMPLE_HEAD)
     for column in table.columns:
         column.overflow = "fold"

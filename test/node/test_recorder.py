@@ -250,6 +250,63 @@ def test_a_killed_recorder_loses_less_than_a_second(graph, counter, launch, stat
     assert Bag(folder).troubles == []
 
 
+def test_a_killed_recorder_goes_on_in_the_same_bag_and_states_the_gap(
+    graph, counter, tmp_path, states
+):
+    folder = tmp_path / "bags"
+    journal = tmp_path / "state"
+
+    def launch() -> subprocess.Popen[bytes]:
+        parameters = {"bag_dir": folder, "state_dir": journal, "topics": "['/counted']"}
+        given = [a for name, value in parameters.items() for a in ("-p", f"{name}:={value}")]
+        return start_child(*HOST, "recorder", "--ros-args", *given)
+
+    process = launch()
+    try:
+        bag = start(graph, "class")
+        wait_for(lambda: states and states.last().messages > 500, "messages in the bag")
+        process.send_signal(signal.SIGKILL)
+        process.wait()
+        states.clear()
+        process = launch()
+        wait_for(
+            lambda: states and states.last().state == State.RECORDING and states.last().messages,
+            "the recording again",
+        )
+        assert Path(states.last().bag) == bag
+        assert "the recorder was restarted" in states.last().message
+        wait_for(lambda: states.last().messages > 500, "more messages")
+        order(graph, "stop")
+        assert states.last() is not None
+    finally:
+        process.send_signal(signal.SIGINT)
+        process.wait()
+    found = Bag(bag)
+    assert [file.path.name for file in found.files] == ["class_0.mcap", "class_1.mcap"]
+    (gap,) = found.gaps()
+    assert gap.duration > 0.1
+    assert "s are missing from" in gap.describe(found.start_ns)
+    numbers = [int(word.split()[0]) for word in words(bag, "/counted")]
+    assert sum(b != a + 1 for a, b in itertools.pairwise(numbers)) == 1
+    with AnyReader([bag]) as reader:
+        assert len(list(reader.messages())) == len(numbers)
+    assert found.versions()
+
+
+def test_what_a_topic_said_before_is_recorded_as_its_newest_value_alone(
+    graph, recorder, states, tmp_path
+):
+    said = publisher(graph, "/systems", qos.LATCHED_EVENTS)
+    for number in range(5):
+        said(f"old {number}")
+    bag = start(graph, "class", ("/systems",))
+    wait_for(lambda: states.last() and states.last().messages == 1, "the present value")
+    said("new")
+    wait_for(lambda: states.last().messages == 2, "the new value")
+    order(graph, "stop")
+    assert words(bag, "/systems") == ["old 4", "new"]
+
+
 def test_a_disk_that_refuses_is_told_at_once_and_the_recorder_lives_on(
     graph, counter, launch, states, tmp_path
 ):

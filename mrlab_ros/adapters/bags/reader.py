@@ -18,8 +18,10 @@ from mrlab_ros.adapters.bags.mcap_file import (
 )
 from mrlab_ros.core.errors import BadInput
 from mrlab_ros.core.recording.metadata import (
+    GAP,
     BagFacts,
     FileInformation,
+    Gap,
     Topic,
     paths_in,
     quality_from,
@@ -83,6 +85,15 @@ class Bag:
                 if note.name == "mrlab":
                     return dict(note.metadata)
         return {}
+
+    def gaps(self) -> list[Gap]:
+        """Return when the recorder did not run, oldest first."""
+        return [
+            Gap.read(note.metadata)
+            for file in self.files
+            for note in file.notes
+            if note.name == GAP
+        ]
 
     def batches(
         self, start_ns: int = 0, topics: Collection[str] | None = None

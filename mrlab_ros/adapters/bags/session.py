@@ -79,7 +79,10 @@ class _Reader:
         ]
         step = math.ceil(max(counts, default=0) / COMPARED) or 1
         self.report = SessionReport(
-            bag.duration, bag.start_ns, step=step, troubles=list(bag.troubles)
+            bag.duration,
+            bag.start_ns,
+            step=step,
+            troubles=[*bag.troubles, *(gap.describe(bag.start_ns) for gap in bag.gaps())],
         )
         self._readers: dict[str, Callable[[float, RobotReport, Any], None]] = {
             "mrlab_msgs/msg/PlaybackState": self._state,

@@ -111,17 +111,19 @@ class BagWriter:
         definition: Callable[[str], str],
         custom: dict[str, str] | None = None,
         open_file: Callable[[Path], WholeFile] = WholeFile,
+        after: BagFacts | None = None,
     ) -> None:
+        """after: what the folder holds already; the bag goes on in a new file of it."""
         self.folder = folder
-        self.facts = BagFacts(custom=dict(custom or {}))
+        self.facts = after or BagFacts(custom=dict(custom or {}))
         self._definition = definition
         self._open_file = open_file
-        self._topics: dict[str, Topic] = {}
+        self._topics = {topic.name: topic for topic in self.facts.topics}
         self._channels: dict[str, int] = {}
         self._earlier_bytes = 0
-        self._last_ns = 0
+        self._last_ns = self.facts.end_ns
         try:
-            folder.mkdir(parents=True)
+            folder.mkdir(parents=True, exist_ok=after is not None)
         except FileExistsError:
             raise BadInput(
                 f"{folder} exists already; a recording makes a new folder: name another"

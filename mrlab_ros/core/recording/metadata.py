@@ -11,6 +11,8 @@ from mrlab_ros.core.errors import BadInput
 
 VERSION = 9
 ROOT = "rosbag2_bagfile_information"
+# The metadata record in a file that the recorder began after a time in which it did not run.
+GAP = "mrlab_gap"
 # What rosbag2 writes for the start of a bag without messages.
 NEVER_NS = 2**63 - 1
 POLICIES = {
@@ -68,6 +70,35 @@ def quality_from(document: Mapping[str, Any]) -> QosProfile:
         liveliness=policy("liveliness"),
         lease_ns=_nanoseconds(document.get("liveliness_lease_duration")),
     )
+
+
+@dataclass(frozen=True)
+class Gap:
+    """A time in which the recorder did not run, ns since the epoch."""
+
+    from_ns: int
+    until_ns: int
+
+    @property
+    def duration(self) -> float:
+        """How long it lasted, s."""
+        return (self.until_ns - self.from_ns) / SECOND
+
+    def describe(self, start_ns: int) -> str:
+        """Return a sentence about it. start_ns: of the bag."""
+        return (
+            f"{self.duration:.1f} s are missing from {(self.from_ns - start_ns) / SECOND:.1f} s "
+            "on: the recorder was restarted"
+        )
+
+    def note(self) -> dict[str, str]:
+        """Return the metadata record of it."""
+        return {"from_ns": str(self.from_ns), "until_ns": str(self.until_ns)}
+
+    @classmethod
+    def read(cls, note: Mapping[str, str]) -> Gap:
+        """Return what note() was made of."""
+        return cls(int(note["from_ns"]), int(note["until_ns"]))
 
 
 @dataclass

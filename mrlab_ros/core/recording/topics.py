@@ -52,7 +52,8 @@ class Topics:
     """A set of topics, given by patterns: `*` is one part of a name, `**` any parts."""
 
     def __init__(self, patterns: Iterable[str]) -> None:
-        self._expressions = [_expression(pattern) for pattern in patterns]
+        self.patterns = tuple(patterns)
+        self._expressions = [_expression(pattern) for pattern in self.patterns]
 
     def __contains__(self, name: str) -> bool:
         return any(expression.fullmatch(name) for expression in self._expressions)

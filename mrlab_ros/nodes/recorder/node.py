@@ -16,7 +16,10 @@ from std_srvs.srv import SetBool, Trigger
 
 from mrlab_ros.adapters.bags.reader import Bag, default_folder
 from mrlab_ros.adapters.bags.writer import BagWriter
+from mrlab_ros.adapters.journal import Journal
 from mrlab_ros.core.errors import LabError
+from mrlab_ros.core.recording import journal as entries
+from mrlab_ros.core.recording.metadata import GAP, Gap
 from mrlab_ros.core.recording.states import TABLE, RecorderEvent, RecorderState, reason
 from mrlab_ros.core.recording.timeline import ReplayTimeline
 from mrlab_ros.core.recording.topics import Split, Topics
@@ -87,6 +90,10 @@ class RecorderNode(ParameterNode[RecorderParameters]):
             self.create_service(kind, f"~/{name}", callback, qos_profile=qos.SERVICES)
         self.create_timer(1.0, self._publish_while_working)
         self.create_timer(0.25, self._discover)
+        self._journal = Journal.of(
+            self.parameters.state_dir, self.get_name(), self.get_logger().error
+        )
+        self._go_on()
         self._publish_state()
 
     @property
@@ -100,6 +107,7 @@ class RecorderNode(ParameterNode[RecorderParameters]):
             self._end(RecorderEvent.CLOSE)
         except LabError as error:
             self.get_logger().error(str(error))
+        self._journal.close()
         self._caller.close()
         self._streams.destroy_node()
         super().destroy_node()
@@ -114,6 +122,14 @@ class RecorderNode(ParameterNode[RecorderParameters]):
         name = request.bag or time.strftime("session_%Y-%m-%d_%H-%M-%S")
         writer = BagWriter(self._folder / Path(name).expanduser(), definition, versions())
         writer.note("mrlab", writer.facts.custom)
+        self._record(writer, topics, split, "")
+        self._journal.save(entries.plain(writer.folder, topics.patterns, request.split_duration))
+        response.bag = str(writer.folder)
+        self.get_logger().info(f"records into {writer.folder}")
+        return f"records into {writer.folder}"
+
+    def _record(self, writer: BagWriter, topics: Topics, split: Split, gap: str) -> None:
+        """Start a recording. gap: what the state says of it; may be empty."""
         recording = Recording(
             self._streams,
             writer,
@@ -126,13 +142,36 @@ class RecorderNode(ParameterNode[RecorderParameters]):
         content = SessionContent(self._caller, recording.attach, self.get_logger().warning)
         with self._lock:
             self._machine.fire(RecorderEvent.START)
-            self._trouble = ""
+            self._trouble = gap
             self._recording, self._content = recording, content
         recording.start()
         self._publish_state()
-        response.bag = str(writer.folder)
-        self.get_logger().info(f"records into {writer.folder}")
-        return f"records into {writer.folder}"
+
+    def _go_on(self) -> None:
+        """Go on with the recording of a recorder that was killed, in a new file of its bag."""
+        entry = entries.read(self._journal.load())
+        if entry is None:
+            return
+        try:
+            bag = Bag(entry.folder)
+            facts = bag.facts()
+            gap = Gap(facts.end_ns, time.time_ns())
+            writer = BagWriter(entry.folder, definition, after=facts)
+            writer.note(GAP, gap.note())
+            split = Split(entry.split_duration, self.parameters.split_size * MEGABYTE)
+            said = (
+                f"the recorder was restarted: {gap.duration:.1f} s are missing"
+                if facts.messages
+                else "the recorder was restarted before it had received anything"
+            )
+            self._record(writer, Topics(entry.topics), split, said)
+        except LabError as error:
+            with self._lock:
+                self._trouble = f"the recording {entry.folder} ended with the recorder: {error}"
+            self.get_logger().error(self._trouble)
+            self._journal.save({})
+            return
+        self.get_logger().warning(f"{said}; goes on in {entry.folder}")
 
     @answered
     def _split(self, request: Any, response: Any) -> str:
@@ -166,6 +205,7 @@ class RecorderNode(ParameterNode[RecorderParameters]):
             self._trouble = str(error)
             self._recording = None
             content, self._content = self._content, None
+        self._journal.save({})
         self._publish_state()
         if content is not None:
             content.close()
@@ -284,10 +324,12 @@ class RecorderNode(ParameterNode[RecorderParameters]):
     def _end(self, event: RecorderEvent) -> str:
         with self._lock:
             self._machine.fire(event)
+            self._trouble = ""
             recording, self._recording = self._recording, None
             content, self._content = self._content, None
             replaying, self._replaying = self._replaying, None
             self._preparing = None
+        self._journal.save({})
         try:
             if content is not None:
                 content.close()

@@ -25,6 +25,8 @@ PUBLISHER_CHECK_EVERY = 8
 FLUSH_NS = 400_000_000
 # How often metadata.yaml is brought up to date while recording, ns.
 METADATA_NS = 10 * SECOND
+# What a latched topic said before it was followed has arrived within this time, ns.
+PRESENT_NS = SECOND // 2
 # Messages kept for the recorder while a disk or the machine stalls: 10 s at 100 Hz.
 DEPTH = 1000
 
@@ -36,6 +38,26 @@ class Followed:
         self.subscription = subscription
         self.topic = topic
         self.publishers = publishers
+        self.since_ns = time.time_ns()
+        # The newest of what was published before: a latched topic keeps several values, and the
+        # older ones are no events of this recording.
+        self.before: Received | None = None
+
+    def takes(self, message: Received) -> bool:
+        """Return whether to write `message` now; keep back what was published before."""
+        alone = self.topic.latched and self.publishers == 1
+        if not alone or message.published_ns >= self.since_ns:
+            return True
+        if self.before is None or message.published_ns >= self.before.published_ns:
+            self.before = message
+        return False
+
+    def take_before(self, now_ns: int, *, at_once: bool = False) -> Received | None:
+        """Return the value from before once it is certain to be the newest."""
+        if self.before is None or not (at_once or now_ns - self.since_ns >= PRESENT_NS):
+            return None
+        taken, self.before = self.before, None
+        return taken
 
 
 class Recording:
@@ -139,6 +161,8 @@ class Recording:
         with self._lock:
             if self._closed:
                 return
+            for message in self._present([], last=True):
+                self._write(message)
             self._closed = True
         self._leave()
         self._writer.close()
@@ -181,14 +205,34 @@ class Recording:
         with self._lock:
             if self._closed:
                 return False
-            write = self._writer.write
+            messages = self._present(messages, last=False)
             for message in messages:
-                received_ns, topic, data, published_ns, sequence = message
-                write(topic, received_ns, data, published_ns, sequence & 0xFFFFFFFF)
-            self.messages += len(messages)
+                self._write(message)
         for message in messages:
             self._observe(message, self._kinds[message.topic])
         return self._guarded(self._do_due)
+
+    def _write(self, message: Received) -> None:
+        received_ns, topic, data, published_ns, sequence = message
+        self._writer.write(topic, received_ns, data, published_ns, sequence & 0xFFFFFFFF)
+        self.messages += 1
+
+    def _present(self, messages: list[Received], *, last: bool) -> list[Received]:
+        """Return what to write: of what latched topics said before, the newest alone."""
+        now_ns = time.time_ns()
+        wanted: list[Received] = []
+        for message in messages:
+            followed = self._followed.get(message.topic)
+            if followed is not None:
+                if not followed.takes(message):
+                    continue
+                if (before := followed.take_before(now_ns, at_once=True)) is not None:
+                    wanted.append(before)
+            wanted.append(message)
+        for followed in list(self._followed.values()):
+            if (before := followed.take_before(now_ns, at_once=last)) is not None:
+                wanted.append(before)
+        return wanted
 
     def _do_due(self) -> None:
         now_ns = time.monotonic_ns()
