@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
+from mrlab_ros.core.watch import SILENT_AFTER_S
 from mrlab_ros.processes.lab import NODES, PROCESSES
 from mrlab_ros.processes.run_file import RunFile
 from mrlab_ros.processes.web import gateway_answers
@@ -129,6 +130,7 @@ class View:
     """Everything `mrlab status` shows, kept up to date by the graph."""
 
     def __init__(self, graph: Graph) -> None:
+        from diagnostic_msgs.msg import DiagnosticArray
         from mrlab_msgs import msg
 
         from mrlab_ros.messages import qos
@@ -143,6 +145,9 @@ class View:
         # The newest report of each observer, by what it is called here.
         self._latencies: dict[str, Any] = {}
         self._answers, self._asked = False, -math.inf
+        # By process when it was heard last, and what is amiss with it; empty: nothing.
+        self._troubles: dict[str, tuple[float, str]] = {}
+        graph.subscribe(DiagnosticArray, "/diagnostics", self._on_diagnostics, qos.LATCHED_EVENTS)
         graph.subscribe(msg.Latency, "/latency", self._on_latency, qos.LATCHED)
         graph.subscribe(msg.Latency, "/latency/clients", self._on_client, qos.LATCHED_EVENTS)
 
@@ -169,6 +174,21 @@ class View:
             elif now - since > LATCHED_BURST_S:
                 return
             time.sleep(0.02)
+
+    def _on_diagnostics(self, message: Any) -> None:
+        from mrlab_ros.messages.diagnostics import troubles_in
+
+        now = time.monotonic()
+        self._troubles |= {name: (now, text) for name, text in troubles_in(message).items()}
+
+    def troubles(self) -> dict[str, str]:
+        """Return what is amiss with processes, by process."""
+        now = time.monotonic()
+        return {
+            name: text
+            for name, (heard, text) in sorted(self._troubles.items())
+            if text and now - heard < SILENT_AFTER_S
+        }
 
     def _on_latency(self, report: Any) -> None:
         self._latencies[report.observer] = report
@@ -234,6 +254,7 @@ class View:
             ],
             "latency": [_latency_facts(name, report) for name, report in self.latencies()],
             "recorder": _recorder_facts(self._recorder.value),
+            "trouble": self.troubles(),
         }
 
     def _web(self, supervisor: Mapping[str, Any] | None) -> dict[str, Any] | None:
@@ -260,6 +281,7 @@ class View:
         if web := facts["web"]:
             how = "" if web["answers"] else ", which do not answer"
             parts.append(Text(f"Pages at {web['address']}{how}; open them with: mrlab open"))
+        parts += [Text(f"{name}: {text}") for name, text in facts["trouble"].items()]
         if recorder := _recorder_line(facts["recorder"]):
             parts.append(Text(recorder))
         sections: tuple[tuple[str, tuple[str, ...], list[tuple[str, ...]]], ...] = (

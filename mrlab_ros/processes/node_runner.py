@@ -14,9 +14,10 @@ import rclpy.utilities
 from rclpy.node import Node
 
 from mrlab_ros.core.errors import BadInput, LabError, Unavailable
-from mrlab_ros.processes.lab import NODES
+from mrlab_ros.processes.lab import NODES, PROCESSES
 from mrlab_ros.processes.stand_aside import StandAside
 from mrlab_ros.processes.supervisor import RESTARTS, WRONG_CONFIGURATION
+from mrlab_ros.processes.watcher import Watcher
 from mrlab_ros.ros.parameters import WrongParameters
 from mrlab_ros.ros.spinning import SpunNode, shut_down, start_up
 
@@ -32,6 +33,12 @@ def maker(name: str) -> Callable[[], Node]:
     entry = NODES[name]
     made: Callable[[], Node] = getattr(importlib.import_module(entry.module), entry.kind)
     return made
+
+
+def process_of(names: list[str]) -> str:
+    """Return the name of the lab's process that runs these nodes."""
+    known = (process.name for process in PROCESSES if process.nodes == tuple(names))
+    return next(known, "_".join(names))
 
 
 def run(names: list[str]) -> int:
@@ -50,11 +57,13 @@ def run(names: list[str]) -> int:
         return WRONG_CONFIGURATION
     running = rclpy.utilities.get_default_context().ok
     aside: StandAside | None = None
+    watcher: Watcher | None = None
     spun: dict[str, SpunNode] = {}
     name = ""
     try:
         if not all(NODES[name].in_replay for name in names):
             aside = StandAside()
+        watcher = Watcher(process_of(names))
         makers = {name: maker(name) for name in names}
         if aside is not None:
             aside.wait_for_recorder(
@@ -75,6 +84,10 @@ def run(names: list[str]) -> int:
                         mistakes.append(str(error))
             if mistakes:
                 raise WrongParameters("\n".join(mistakes))
+            # What its nodes could not bring back after a restart.
+            watcher.lost = [
+                text for node in spun.values() for text in getattr(node.node, "lost", ())
+            ]
             time.sleep(POLL_PERIOD_S)
         return 0
     except WrongParameters as error:
@@ -97,5 +110,7 @@ def run(names: list[str]) -> int:
             node.close()
         if aside is not None:
             aside.close()
+        if watcher is not None:
+            watcher.close()
         sys.stdout.flush()
         sys.stderr.flush()

@@ -67,6 +67,8 @@ class ProcessSpec:
 
 # The environment variable with the number of restarts of a process so far.
 RESTARTS = "MRLAB_RESTARTS"
+# That with how it ended the last time; empty before the first end.
+LAST_EXIT = "MRLAB_LAST_EXIT"
 # EX_CONFIG of sysexits.h: the configuration is wrong, so a restart would end the same way.
 WRONG_CONFIGURATION = 78
 
@@ -230,7 +232,12 @@ class Child:
             try:
                 process = subprocess.Popen(
                     command,
-                    env={**os.environ, **self.spec.env, RESTARTS: str(self._restarts)},
+                    env={
+                        **os.environ,
+                        **self.spec.env,
+                        RESTARTS: str(self._restarts),
+                        LAST_EXIT: self._last_exit,
+                    },
                     stdin=subprocess.DEVNULL,
                     stdout=subprocess.PIPE,
                     stderr=subprocess.STDOUT,

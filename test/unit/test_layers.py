@@ -36,6 +36,7 @@ INSIDES = re.compile(r"rclpy\.impl|rclpy\.experimental|\.handle\b")
 # The graph. Not ament_index_python: it finds installed files and knows no node.
 GRAPH = {
     "builtin_interfaces",
+    "diagnostic_msgs",
     "geometry_msgs",
     "launch",
     "launch_ros",

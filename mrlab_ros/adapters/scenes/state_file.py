@@ -2,15 +2,19 @@
 
 from __future__ import annotations
 
+import contextlib
 import os
 from collections.abc import Callable
 from pathlib import Path
 
 from mrlab_ros.adapters.scenes import files
 from mrlab_ros.adapters.set_aside import set_aside
-from mrlab_ros.core.errors import BadInput
+from mrlab_ros.core.errors import BadInput, LabError
 from mrlab_ros.core.scene import document
 from mrlab_ros.core.scene.document import SceneDocument
+
+# What one change may add to a state file, bytes.
+ROOM = 65_536
 
 
 class StateFile:
@@ -50,6 +54,26 @@ class StateFile:
         """Log why a part of the file is left out; copy it, as the next save() replaces it."""
         if self._path is not None:
             self._log(f"{why}. {set_aside(self._path, copy=True)}")
+
+    def check_room(self) -> None:
+        """Raise LabError where the folder cannot take the next save(); nothing is changed."""
+        path = self._path
+        if path is None:
+            return
+        probe = path.with_name(f"{path.name}.probe")
+        try:
+            size = path.stat().st_size if path.exists() else 0
+            path.parent.mkdir(parents=True, exist_ok=True)
+            with open(probe, "wb") as file:
+                os.posix_fallocate(file.fileno(), 0, 2 * size + ROOM)
+        except OSError as error:
+            raise LabError(
+                f"{path.parent} cannot be written ({error.strerror}), so nothing was changed; "
+                "make room there, or check that folder, then try again"
+            ) from None
+        finally:
+            with contextlib.suppress(OSError):
+                probe.unlink()
 
     def save(self, scene: SceneDocument) -> bool:
         """Write the document where it differs from the last one; return whether it is kept.

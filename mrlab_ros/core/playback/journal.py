@@ -17,6 +17,7 @@ def plain(model: str, kept: Kept) -> dict[str, Any]:
     return {
         "model": model,
         "trajectory": kept.trajectory_id,
+        "version": kept.version,
         "position": kept.position,
         "rate": kept.rate,
         "loop": kept.loop,
@@ -33,6 +34,7 @@ def read(content: Mapping[str, Any]) -> dict[str, tuple[str, Kept]]:
         try:
             kept = Kept(
                 str(entry["trajectory"]),
+                int(entry["version"]),
                 float(entry["position"]),
                 float(entry["rate"]),
                 bool(entry["loop"]),
@@ -40,7 +42,8 @@ def read(content: Mapping[str, Any]) -> dict[str, tuple[str, Kept]]:
                 begun=bool(entry["begun"]),
                 arm=np.array(entry["arm"], dtype=float),
             )
-            found[str(name)] = str(entry["model"]), kept
+            if kept.arm.ndim == 1 and np.isfinite(kept.arm).all():
+                found[str(name)] = str(entry["model"]), kept
         except (KeyError, TypeError, ValueError):
             continue
     return found

@@ -43,6 +43,7 @@ class Kept:
     """
 
     trajectory_id: str
+    version: int
     position: float
     rate: float
     loop: bool
@@ -182,6 +183,7 @@ class Playback:
             return None
         return Kept(
             self.trajectory.id,
+            self.trajectory.version,
             self._stream.position,
             self.rate,
             self.loop,

@@ -31,7 +31,7 @@ class MemberChecks:
 
     def __init__(self, node: Node) -> None:
         self._get = node.create_client(
-            srv.GetTrajectory, "/converter/get", qos_profile=qos.SERVICES
+            srv.GetTrajectory, "/converter/get_any", qos_profile=qos.SERVICES
         )
 
     def check(

@@ -71,6 +71,8 @@ class CoordinatorNode(ParameterNode[CoordinatorParameters]):
         self._members: dict[str, MemberClient] = {}
         self._fleets: dict[str, RosFleet] = {}
         self._publishing = threading.Lock()
+        # What could not be brought back, a sentence each.
+        self.lost: list[str] = []
         self._offered: dict[str, list[Service]] = {}
         self._robots: dict[str, msg.Robot] = {}
         self._checks = MemberChecks(self.caller.node)
@@ -302,7 +304,8 @@ class CoordinatorNode(ParameterNode[CoordinatorParameters]):
             fleet = RosFleet(name, clients, self._hosts)
             system = entries.restore(entry, fleet, self._publish, self._now_ns())
             if system is None:
-                self.get_logger().error(f"the journal's entry of {name} is damaged; it is lost")
+                self.lost.append(f"the system {name}: its entry in the journal is damaged")
+                self.get_logger().error(self.lost[-1])
                 for client in clients.values():
                     client.close()
                 continue

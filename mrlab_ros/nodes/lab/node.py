@@ -66,6 +66,8 @@ class LabNode(ParameterNode[LabParameters]):
         log = self.get_logger()
         file = Path(state_dir) / FILE if state_dir else None
         self._file = StateFile(file, log.error, whole=True)
+        # What could not be brought back, a sentence each.
+        self.lost: list[str] = []
         self._library = RobotLibrary(share.directory() / "robots")
         self._scene = Scene()
         self._descriptions: dict[str, Publisher] = {}
@@ -96,7 +98,7 @@ class LabNode(ParameterNode[LabParameters]):
             self._restore,
             self._observer,
             log.warning,
-            self._file.keep_copy,
+            self._lose,
         )
         self._announce()
         for kind, name, callback in (
@@ -195,6 +197,11 @@ class LabNode(ParameterNode[LabParameters]):
     def _save(self) -> None:
         self._file.save(self._document())
 
+    def _lose(self, why: str) -> None:
+        """Keep a copy of the state file, and say what could not be brought back."""
+        self.lost.append(why)
+        self._file.keep_copy(why)
+
     def _restore_robots(self, last: SceneDocument) -> SceneDocument:
         """Spawn the robots of the last run; return the document without those that cannot be."""
         restored, mistakes = [], []
@@ -212,7 +219,7 @@ class LabNode(ParameterNode[LabParameters]):
             if system not in intact.systems
         ]
         if mistakes:
-            self._file.keep_copy(f"left out of the last run: {'; '.join(mistakes)}")
+            self._lose(f"left out of the last run: {'; '.join(mistakes)}")
         if restored:
             self.get_logger().info(f"the scene is back: {counted(restored, 'robot')}")
         return intact
@@ -227,6 +234,7 @@ class LabNode(ParameterNode[LabParameters]):
                 "floor, or give a pose"
             )
         pose = None if request.automatic else pose_from_message(request.pose)
+        self._file.check_room()
         robot = self._spawn(request.model, request.end_effector or None, request.name, pose)
         self._announce()
         response.robot = robot_to_message(robot)
@@ -235,6 +243,7 @@ class LabNode(ParameterNode[LabParameters]):
 
     @answered
     def _on_place(self, request: Any, response: Any) -> str:
+        self._file.check_room()
         self._scene.place(request.robot, pose_from_message(request.pose))
         self._announce()
         return f"{request.robot} is placed"
@@ -244,6 +253,7 @@ class LabNode(ParameterNode[LabParameters]):
         robot = self._scene.robot(request.robot)
         end_effector = request.end_effector or None
         description = self._library.description(robot.model, end_effector)
+        self._file.check_room()
         self._scene.set_end_effector(robot.name, end_effector)
         self._describe(robot.name, description)
         self._announce()
@@ -260,6 +270,7 @@ class LabNode(ParameterNode[LabParameters]):
 
     @answered
     def _on_load_scene(self, request: Any, response: Any) -> str:
+        self._file.check_room()
         self._return.finish()
         return self._scenes.load(request.name, [robot.name for robot in self._scene.robots])
 

@@ -106,6 +106,8 @@ class PlaybackHostNode(ParameterNode[PlaybackParameters]):
         self._kept: dict[str, tuple[str, Kept]] = entries.read(self._journal.load())
         # By robot what is in the journal.
         self._written: dict[str, dict[str, Any]] = {}
+        # What could not be brought back, a sentence each.
+        self.lost: list[str] = []
         self._leases = Leases()
         orders = Node(
             "_playback_host_orders",
@@ -175,6 +177,7 @@ class PlaybackHostNode(ParameterNode[PlaybackParameters]):
     def _came_back(self, lost: str) -> None:
         if lost and self.context.ok():
             self.get_logger().warning(lost)
+            self.lost.append(lost)
 
     # after a restart ------------------------------------------------------------------------
 
@@ -215,7 +218,8 @@ class PlaybackHostNode(ParameterNode[PlaybackParameters]):
     def _kept_of(self, robot: str, model: str) -> Kept | None:
         """Return what the robot had before a restart; None where it was another one."""
         had, kept = self._kept.get(robot, ("", None))
-        return kept if had == model else None
+        fits = kept is not None and len(kept.arm) == len(self._library.model(model).joints)
+        return kept if fits and had == model else None
 
     def _add(self, robot: str, model: str) -> None:
         node = PlaybackNode(

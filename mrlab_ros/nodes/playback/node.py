@@ -137,6 +137,8 @@ class PlaybackNode(Node):
         while True:
             try:
                 trajectory = self._fetch(kept.trajectory_id)
+                if trajectory.version != kept.version:
+                    trajectory = self._fetch(f"{kept.trajectory_id}@{kept.version}")
                 with self._command() as now_ns:
                     if self.playback.state is State.IDLE:
                         why = "its process was restarted; play goes on from here"

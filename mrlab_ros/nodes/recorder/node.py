@@ -75,6 +75,8 @@ class RecorderNode(ParameterNode[RecorderParameters]):
         # A bag that is replayed once the live nodes have left; its state is published before.
         self._preparing: Bag | None = None
         self._trouble = ""
+        # What was not recorded because of a restart, a sentence each.
+        self.lost: list[str] = []
         self._state = self.create_publisher(msg.RecorderState, "~/state", qos.LATCHED)
         for kind, name, callback in (
             (srv.StartRecording, "start", self._start),
@@ -169,8 +171,10 @@ class RecorderNode(ParameterNode[RecorderParameters]):
             with self._lock:
                 self._trouble = f"the recording {entry.folder} ended with the recorder: {error}"
             self.get_logger().error(self._trouble)
+            self.lost.append(self._trouble)
             self._journal.save({})
             return
+        self.lost.append(f"the recording {entry.folder}: {said}")
         self.get_logger().warning(f"{said}; goes on in {entry.folder}")
 
     @answered

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import errno
 import json
 import os
 import re
@@ -13,6 +14,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from mrlab_ros.adapters.scenes.state_file import StateFile
+from mrlab_ros.core.errors import LabError
 from mrlab_ros.core.geometry import Pose
 from mrlab_ros.core.physics.surfaces import Surface
 from mrlab_ros.core.scene.document import (
@@ -194,6 +196,21 @@ def test_a_folder_that_cannot_be_written_is_logged_once(tmp_path):
     assert not file.save(SCENE)
     (said,) = log
     assert "cannot be written, a restart will not know" in said
+
+
+def test_a_disk_without_room_is_found_before_anything_changes(tmp_path, monkeypatch):
+    file = StateFile(tmp_path / "state" / "scene.json", lambda said: None, whole=True)
+    file.check_room()
+    assert list((tmp_path / "state").iterdir()) == []
+
+    def full(*arguments):
+        raise OSError(errno.ENOSPC, "No space left on device")
+
+    monkeypatch.setattr(os, "posix_fallocate", full)
+    with pytest.raises(LabError, match="No space left on device.*nothing was changed"):
+        file.check_room()
+    assert list((tmp_path / "state").iterdir()) == []
+    StateFile(None, lambda said: None, whole=True).check_room()
 
 
 @settings(max_examples=150, deadline=None)

@@ -1,0 +1,74 @@
+"""Gives a process's sign of life on /diagnostics, and reports processes that give none."""
+
+from __future__ import annotations
+
+import os
+import time
+from collections.abc import Iterable
+
+from diagnostic_msgs.msg import DiagnosticArray
+from rclpy.context import Context
+from rclpy.node import Node
+
+from mrlab_ros.core.watch import PERIOD_S, Sign, Watch
+from mrlab_ros.messages import qos
+from mrlab_ros.messages.diagnostics import living_in, signs_to_message
+from mrlab_ros.processes.supervisor import LAST_EXIT, RESTARTS
+from mrlab_ros.ros.spinning import SpunNode
+
+TOPIC = "/diagnostics"
+
+
+class Watcher:
+    """A hidden node with a thread of its own: a busy node is no dead process.
+
+    lost: what could not be brought back after a restart, a sentence each.
+    """
+
+    def __init__(
+        self,
+        process: str,
+        *,
+        restarts: int | None = None,
+        last_exit: str | None = None,
+        context: Context | None = None,
+    ) -> None:
+        """restarts, last_exit: as the supervisor says in the environment."""
+        environment = os.environ
+        self._sign = Sign(
+            process,
+            int(environment.get(RESTARTS, "0")) if restarts is None else restarts,
+            environment.get(LAST_EXIT, "") if last_exit is None else last_exit,
+        )
+        self.lost: Iterable[str] = ()
+        self._watch = Watch(process)
+        self._began = time.monotonic()
+        self._node = Node(
+            f"_watcher_{process}_{os.getpid()}",
+            context=context,
+            start_parameter_services=False,
+            enable_rosout=False,
+            use_global_arguments=False,
+        )
+        self._topic = self._node.create_publisher(DiagnosticArray, TOPIC, qos.LATCHED)
+        self._node.create_subscription(DiagnosticArray, TOPIC, self._hear, qos.LATCHED_EVENTS)
+        self._node.create_timer(PERIOD_S, self._give_sign)
+        self._spun = SpunNode(self._node)
+
+    def close(self) -> None:
+        self._spun.close()
+
+    def _hear(self, message: DiagnosticArray) -> None:
+        now = time.monotonic()
+        for process in living_in(message):
+            self._watch.hear(process, now)
+
+    def _give_sign(self) -> None:
+        now = time.monotonic()
+        sign = Sign(
+            self._sign.process, self._sign.restarts, self._sign.last_exit, tuple(self.lost)
+        )
+        message = signs_to_message(
+            time.time_ns(), sign, now - self._began, self._watch.silent(now)
+        )
+        self._topic.publish(message)

@@ -1,0 +1,37 @@
+"""Who is silent, who reports it, and what a restarted process says."""
+
+from __future__ import annotations
+
+from mrlab_ros.core.watch import Sign, Watch
+
+
+def heard(watch: Watch, **ages: float) -> Watch:
+    for process, age in ages.items():
+        watch.hear(process, 100.0 - age)
+    return watch
+
+
+def test_a_silent_process_is_named_with_its_age():
+    watch = heard(Watch("bridge"), lab=0.5, playback=3.5)
+    assert watch.silent(100.0) == {"playback": 3.5}
+    assert heard(watch, playback=0.0).silent(100.0) == {}
+
+
+def test_only_the_first_of_the_living_reports():
+    assert heard(Watch("playback"), lab=0.5, physics=9.0).silent(100.0) == {}
+    assert heard(Watch("lab"), playback=0.5, physics=9.0).silent(100.0) == {"physics": 9.0}
+    assert heard(Watch("physics"), lab=4.0, playback=0.1).silent(100.0) == {"lab": 4.0}
+
+
+def test_what_is_long_gone_is_forgotten():
+    assert heard(Watch("lab"), playback=61.0).silent(100.0) == {}
+
+
+def test_a_restarted_process_says_how_it_ended_and_what_was_lost():
+    assert Sign("lab").sentence(5.0) == ""
+    sign = Sign("lab", 1, "SIGKILL")
+    assert sign.sentence(5.0) == ("it died (SIGKILL) and was restarted 5 s ago; nothing was lost")
+    assert sign.sentence(61.0) == ""
+    sign = Sign("lab", 1, "SIGKILL", ("the system cell",))
+    assert sign.sentence(5.0).endswith("lost: the system cell")
+    assert sign.sentence(61.0) == "the system cell"
