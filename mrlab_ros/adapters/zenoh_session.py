@@ -101,6 +101,10 @@ class Query(Protocol):
 
     def refuse(self, reason: str) -> None: ...
 
+    def ignore(self) -> None:
+        """End the caller's wait without a reply."""
+        ...
+
 
 class Session(Protocol):
     """What the bridge needs of zenoh. Callbacks run in the session's threads."""
@@ -325,6 +329,9 @@ class _Query:
 
     def refuse(self, reason: str) -> None:
         self._query.reply_err(reason.encode(), encoding=zenoh.Encoding.TEXT_PLAIN)
+        self._query.drop()
+
+    def ignore(self) -> None:
         self._query.drop()
 
 

@@ -30,10 +30,11 @@ def surfaces(
     if positions is not None:
         names = library.model(robot_id).joint_names
         at = dict(zip(names, map(float, positions), strict=True))
-    return [_surface(mesh) for mesh in drawing.bodies(library, robot_id, end_effector, at)]
+    return [surface(mesh) for mesh in drawing.bodies(library, robot_id, end_effector, at)]
 
 
-def _surface(mesh: trimesh.Trimesh) -> Surface:
+def surface(mesh: trimesh.Trimesh) -> Surface:
+    """Return a mesh with the colour and roughness of its material."""
     material = getattr(mesh.visual, "material", None)
     if material is None:
         mesh.unmerge_vertices()  # flat faces: a shape has edges
@@ -65,7 +66,7 @@ def take(
         person = trimesh.load_scene(library.folder / "figure.glb")
         edge = min(float((part.vertices @ right).min()) for part in robot)
         person.apply_translation(right * (edge - 0.38))
-        robot += [_surface(mesh) for mesh in person.dump()]
+        robot += [surface(mesh) for mesh in person.dump()]
     low, high = bounds(robot)
     draw(robot, _camera(low, high), size, samples, path)
 

@@ -11,6 +11,7 @@ from embreex.mesh_construction import TriangleMesh
 from embreex.rtcore_scene import EmbreeScene
 from numpy.typing import NDArray
 from PIL import Image
+from scipy.ndimage import gaussian_filter
 
 from mrlab_ros.core.geometry import Array
 
@@ -20,6 +21,12 @@ SUN = np.array([0.45, -0.62, 0.95]) / np.linalg.norm([0.45, -0.62, 0.95])
 SUN_SIZE = 0.06
 OCCLUSION_RAYS = 6
 CHUNK = 400_000
+# What is further away than this keeps no light of the sky off, m.
+REACH = 1.2
+# How dark the shadow below a cut-out is at most.
+SHADOW = 0.55
+# Share of the picture's width over which that shadow fades out towards the edges.
+FADE = 0.14
 
 
 @dataclass(frozen=True, eq=False)
@@ -50,10 +57,59 @@ def draw(
     surfaces: Sequence[Surface], camera: Camera, size: tuple[int, int], samples: int, path: Path
 ) -> None:
     """Write the picture, `size` (width, height) in pixels, with `samples` rays a pixel."""
-    tables = _Tables(surfaces)
+    width, height = size
+    linear = _render(_Tables(surfaces), camera, size, samples)[:, :3]
+    pixels = np.clip(_to_srgb(linear), 0, 1).reshape(height, width, 3)
+    path.parent.mkdir(parents=True, exist_ok=True)
+    image = Image.fromarray((pixels * 255 + 0.5).astype(np.uint8))
+    # A palette takes a third of the bytes, and the grain of the rays hides its steps.
+    image.quantize(256, dither=Image.Dither.NONE).save(path, optimize=True)
+
+
+def cut_out(
+    surfaces: Sequence[Surface], camera: Camera, size: tuple[int, int], samples: int, near: float
+) -> Image.Image:
+    """Return the picture without floor and sky, but with the shadow on the floor: RGBA.
+
+    near: what is further away than this casts no shadow, m. The floor lies below the lowest point.
+    """
+    width, height = size
+    lowest = min(float(part.vertices[:, 2].min()) for part in surfaces)
+    found = _render(_Tables(surfaces, lowest), camera, size, samples, near)
+    light, solid = found[:, :3], found[:, 3:4]
+    alpha = solid + SHADOW * _soft(found[:, 4], solid[:, 0], size)
+    # The shadow is black: of what is there, the share that is solid is bright.
+    colour = np.clip(_to_srgb(light / np.maximum(solid, 1e-6)), 0, 1) * solid
+    pixels = np.concatenate([colour / np.maximum(alpha, 1e-6), alpha], axis=1)
+    return Image.fromarray((pixels.reshape(height, width, 4) * 255 + 0.5).astype(np.uint8))
+
+
+def _soft(shadow: Array, solid: Array, size: tuple[int, int]) -> Array:
+    """Return the shadow without its grain, (pixels, 1); it ends before the picture does."""
+    width, height = size
+    of_floor = 1 - solid
+
+    def blurred(values: Array) -> Array:
+        soft: Array = gaussian_filter(values.reshape(height, width), width / 80)
+        return soft.ravel()
+
+    smooth = blurred(shadow) / np.maximum(blurred(of_floor), 1e-3) * of_floor
+    y, x = np.mgrid[0:height, 0:width]
+    edge = np.minimum.reduce([x, y, width - 1 - x, height - 1 - y]).ravel() / (FADE * width)
+    result: Array = (smooth * np.clip(edge, 0, 1) ** 2)[:, None]
+    return result
+
+
+def _render(
+    tables: _Tables, camera: Camera, size: tuple[int, int], samples: int, near: float = REACH
+) -> Array:
+    """Return (pixels, 5), row by row: light of all or of what is solid, its share, the shadow's.
+
+    See _shade for the columns.
+    """
     width, height = size
     rng = np.random.default_rng(0)
-    total = np.zeros((width * height, 3))
+    total = np.zeros((width * height, 5))
     rows, columns = np.divmod(np.arange(width * height), width)
     for _ in range(samples):
         x = (columns + rng.random(len(columns))) / width * 2 - 1
@@ -61,13 +117,8 @@ def draw(
         directions = _directions(camera, x * width / height, y)
         for start in range(0, len(directions), CHUNK):
             part = slice(start, start + CHUNK)
-            total[part] += _shade(tables, np.array(camera.eye), directions[part], rng)
-    linear = total / samples
-    pixels = np.clip(_to_srgb(linear), 0, 1).reshape(height, width, 3)
-    path.parent.mkdir(parents=True, exist_ok=True)
-    image = Image.fromarray((pixels * 255 + 0.5).astype(np.uint8))
-    # A palette takes a third of the bytes, and the grain of the rays hides its steps.
-    image.quantize(256, dither=Image.Dither.NONE).save(path, optimize=True)
+            total[part] += _shade(tables, np.array(camera.eye), directions[part], rng, near)
+    return total / samples
 
 
 def to_linear(srgb: Sequence[float] | Array) -> Array:
@@ -95,10 +146,15 @@ def _directions(camera: Camera, x: Array, y: Array) -> Array:
 
 
 class _Tables:
-    """All surfaces as one scene, with a row of material for each triangle; the floor is last."""
+    """All surfaces as one scene, with a row of material for each triangle; the floor is last.
 
-    def __init__(self, surfaces: Sequence[Surface]) -> None:
-        floor = np.array([[-60.0, -60, 0], [60, -60, 0], [60, 60, 0], [-60, 60, 0]])
+    floor_at: height of the floor, m, of a picture that shows only the shadow on it.
+    """
+
+    def __init__(self, surfaces: Sequence[Surface], floor_at: float | None = None) -> None:
+        self.alone = floor_at is not None
+        at = floor_at or 0.0
+        floor = np.array([[-60.0, -60, at], [60, -60, at], [60, 60, at], [-60, 60, at]])
         ground = Surface(
             floor,
             np.tile([0.0, 0, 1], (4, 1)),
@@ -120,6 +176,9 @@ class _Tables:
             for part in parts
         ]
         self.material = np.concatenate(rows)
+        a, b, c = np.swapaxes(vertices[self.faces], 0, 1)
+        flat = np.cross(b - a, c - a)
+        self.flat = flat / np.maximum(np.linalg.norm(flat, axis=1, keepdims=True), 1e-12)
         self.scene = EmbreeScene()
         TriangleMesh(self.scene, vertices[self.faces].astype(np.float32))
 
@@ -150,11 +209,16 @@ def _sky(directions: Array) -> Array:
     return strip
 
 
-def _shade(tables: _Tables, eye: Array, directions: Array, rng: np.random.Generator) -> Array:
+def _shade(
+    tables: _Tables, eye: Array, directions: Array, rng: np.random.Generator, near: float
+) -> Array:
+    """Return (rays, 5): the light; where the floor is left out 1 for a surface; the shadow."""
     count = len(directions)
     answer = tables.hit(np.tile(eye, (count, 1)), directions)
     seen = np.flatnonzero(answer["primID"] >= 0)
-    result = np.tile(to_linear(SKY_COLOUR), (count, 1))
+    result = np.zeros((count, 5))
+    if not tables.alone:
+        result[:, :3] = to_linear(SKY_COLOUR)
     if not len(seen):
         return result
     triangle = answer["primID"][seen]
@@ -163,9 +227,12 @@ def _shade(tables: _Tables, eye: Array, directions: Array, rng: np.random.Genera
     normal = (1 - u - v) * corners[:, 0] + u * corners[:, 1] + v * corners[:, 2]
     normal /= np.maximum(np.linalg.norm(normal, axis=1, keepdims=True), 1e-9)
     view = -directions[seen]
-    normal = np.where((normal * view).sum(axis=1, keepdims=True) < 0, -normal, normal)
+    # Both towards the viewer; a smoothed normal alone may lean away where a face does not.
+    flat = tables.flat[triangle]
+    flat = np.where((flat * view).sum(axis=1, keepdims=True) < 0, -flat, flat)
+    normal = np.where((normal * flat).sum(axis=1, keepdims=True) < 0, -normal, normal)
     distance = answer["tfar"][seen]
-    point = eye + directions[seen] * distance[:, None] + normal * 1e-4
+    point = eye + directions[seen] * distance[:, None] + flat * 1e-4
     material = tables.material[triangle]
     colour, metal, rough = material[:, :3], material[:, 3:4], material[:, 4:5]
 
@@ -174,7 +241,7 @@ def _shade(tables: _Tables, eye: Array, directions: Array, rng: np.random.Genera
         around = rng.normal(size=(len(seen), 3))
         around = normal + around / np.linalg.norm(around, axis=1, keepdims=True)
         around /= np.maximum(np.linalg.norm(around, axis=1, keepdims=True), 1e-9)
-        open_sky += ~tables.blocked(point, around, 1.2)[:, None]
+        open_sky += ~tables.blocked(point, around, near)[:, None]
     open_sky /= OCCLUSION_RAYS
     toward = SUN + rng.normal(scale=SUN_SIZE, size=(len(seen), 3))
     toward /= np.linalg.norm(toward, axis=1, keepdims=True)
@@ -193,6 +260,10 @@ def _shade(tables: _Tables, eye: Array, directions: Array, rng: np.random.Genera
     glint = (power + 2) / 8 * np.clip((normal * half).sum(axis=1, keepdims=True), 0, 1) ** power
     shine = fresnel * (blurred * (0.35 + 0.65 * open_sky) + np.minimum(glint, 12) * sun)
     shaded = diffuse + shine
+    if tables.alone:
+        solid = (triangle < len(tables.faces) - 2)[:, None]
+        result[seen] = np.hstack([shaded * solid, solid, (1 - open_sky) * ~solid])
+        return result
     far = np.clip((distance[:, None] - 14) / 30, 0, 1)
-    result[seen] = shaded * (1 - far) + to_linear(SKY_COLOUR) * far
+    result[seen, :3] = shaded * (1 - far) + to_linear(SKY_COLOUR) * far
     return result

@@ -89,12 +89,13 @@ def test_a_late_joiner_gets_the_newest_state_and_only_that(graph, bridge, sessio
     late.undeclare()
 
 
-def test_a_stock_client_reads_a_state_with_the_msg_files_alone(graph, bridge, session, endpoint):
+@pytest.mark.parametrize("given", [(), ("--definitions", str(ROOT / "msg_schemas"))])
+def test_a_stock_client_reads_a_state(graph, bridge, session, endpoint, given):
     publisher = graph.client.create_publisher(Robots, "robots", qos.LATCHED)
     publisher.publish(Robots(robots=[Robot(name="ur5e_1", joint_names=["shoulder"])]))
     wait_for(lambda: list(session.get("robots")), "the state on zenoh")
-    definitions = ("--definitions", str(ROOT / "msg_schemas"), "--latched", "--count", "1")
-    watcher = client(endpoint, "watch", "robots", "mrlab_msgs/msg/Robots", *definitions)
+    options = (*given, "--latched", "--count", "1")
+    watcher = client(endpoint, "watch", "robots", "mrlab_msgs/msg/Robots", *options)
     out, err = watcher.communicate(timeout=30)
     assert watcher.returncode == 0, err
     assert "ur5e_1" in out

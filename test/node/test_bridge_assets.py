@@ -9,9 +9,10 @@ from pathlib import Path
 from xml.etree import ElementTree
 
 import pytest
+import yourdfpy
 import zenoh
 from graph import wait_for
-from zenoh_side import connect
+from zenoh_side import connect, start_client
 
 from mrlab_ros.core.bridge.assets import (
     LARGEST_PIECE,
@@ -124,6 +125,11 @@ def test_what_is_no_asset_is_refused_in_words(bridge, session, key):
     assert len(reason) > 30
 
 
+@pytest.mark.parametrize("key", ["**", "*", "*/robots.json", "*/*/robots/ur5e/*/x.glb"])
+def test_a_pattern_that_means_others_is_not_answered(bridge, session, key):
+    assert not list(session.get(key, timeout=10.0))
+
+
 def test_a_link_that_leads_out_of_the_folder_is_no_asset(imported, bridge, session):
     secret = imported.parents[2] / "secret.glb"
     secret.write_bytes(b"glTF secret")
@@ -233,3 +239,25 @@ def test_the_schema_has_every_type_that_crosses(bridge, session):
     assert {"mrlab_msgs/srv/Seek", "std_srvs/srv/Trigger"} <= set(services)
     assert bundle["hashes"].keys() >= {*messages, *services, "std_srvs/srv/Trigger_Request"}
     assert all(value.startswith("RIHS01_") for value in bundle["hashes"].values())
+
+
+def test_the_python_client_draws_a_robot_from_the_lab_alone(bridge, endpoint, tmp_path):
+    path = "robots/ur5e+parallel_gripper.urdf"
+    client = start_client("mrlab_assets.py", "--connect", endpoint, path, str(tmp_path))
+    out, err = client.communicate(timeout=60)
+    assert client.returncode == 0, err
+    urdf = Path(out.strip())
+    model = yourdfpy.URDF.load(
+        str(urdf), filename_handler=lambda fname: str(tmp_path / fname), load_collision_meshes=True
+    )
+    assert len(model.scene.geometry) >= 8
+    assert "gripper_left_finger_joint" in model.joint_names
+    listing = start_client("mrlab_assets.py", "--connect", endpoint)
+    out, err = listing.communicate(timeout=60)
+    assert listing.returncode == 0, err
+    assert "Universal Robots UR5e, 6 joints, 5 kg" in out
+    assert "a tennis ball" in out
+    missing = start_client("mrlab_assets.py", "--connect", endpoint, "robots/ur6.urdf")
+    _, err = missing.communicate(timeout=60)
+    assert missing.returncode == 1
+    assert "did you mean 'ur5e'" in err

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import struct
 import time
-from pathlib import Path
 
 from graph import wait_for
 from mrlab_msgs.msg import Latency, LatencyHop, Robots
@@ -14,8 +13,6 @@ from zenoh_side import JOINTS, ask, connect, heard, joints, start_client
 
 from mrlab_ros.core.bridge.latency import stamps
 from mrlab_ros.messages import qos
-
-DEFINITIONS = Path(__file__).parents[2] / "msg_schemas"
 
 
 def attached(sample):
@@ -87,9 +84,7 @@ def test_the_bridge_tells_the_time(bridge, session):
 def test_a_client_measures_and_the_graph_hears_of_it(graph, bridge, session, endpoint):
     reports = graph.listen(Latency, "latency/clients", qos.LATCHED_EVENTS)
     publisher = graph.client.create_publisher(JointState, JOINTS, qos.STREAM)
-    client = start_client(
-        "mrlab_latency.py", "--connect", endpoint, "--definitions", DEFINITIONS, "--name", "quest"
-    )
+    client = start_client("mrlab_latency.py", "--connect", endpoint, "--name", "quest")
     try:
         wait_for(lambda: heard(session, JOINTS), "the bridge to hear of the client")
         sent = 0

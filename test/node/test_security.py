@@ -217,6 +217,21 @@ def test_whoever_may_connect_receives_streams_states_and_who_is_there(graph, peo
 
 
 @pytest.mark.parametrize("prefix", ["", "campus/lab_1/"])
+def test_whoever_may_connect_draws_and_decodes_the_lab(keys, start, connect, prefix):
+    start(keys, prefix=prefix.rstrip("/"))
+    mesh = "assets/mrlab_ros/robots/ur5e/meshes/base_link_inertia.glb"
+    for role in Role:
+        session = connect(keys.client_file(role.value))
+        answers, reasons = ask(session, f"{prefix}{mesh}")
+        assert (answers[0][:4], reasons) == (b"glTF", []), role
+        assert json.loads(ask(session, f"{prefix}assets/robots.json")[0][0])["robots"]
+        assert json.loads(ask(session, f"{prefix}schema")[0][0])["messages"]
+        foreign, why = ask(session, f"{prefix}assets/mrlab_ros/config/bridge.yaml")
+        assert foreign == []
+        assert "there is no asset" in why[0]
+
+
+@pytest.mark.parametrize("prefix", ["", "campus/lab_1/"])
 def test_each_role_calls_what_it_may_and_nothing_else(graph, keys, start, connect, prefix):
     start(keys, prefix=prefix.rstrip("/"))
     people = {role: connect(keys.client_file(role.value)) for role in Role}
@@ -472,7 +487,7 @@ def test_the_example_client_connects_with_its_file_and_says_why_not(
     publisher = graph.client.create_publisher(Robots, "robots", qos.LATCHED)
     publisher.publish(Robots(robots=[Robot(name="ur5e_1")]))
     watch = ("watch", "robots", "mrlab_msgs/msg/Robots", "--latched", "--count", "1")
-    known = (*watch, "--definitions", ROOT / "msg_schemas", "--connect", endpoint)
+    known = (*watch, "--connect", endpoint)
     done = stock_client(*known, "--config", keys.client_file("display"))
     assert done.returncode == 0, done.stderr
     assert "ur5e_1" in done.stdout

@@ -1,12 +1,11 @@
 #!/usr/bin/env python3
-"""A client of the lab that needs nothing of the lab but its .msg and .srv files.
+"""A client of the lab that needs nothing of it: the lab delivers its definitions itself.
 
     pip install eclipse-zenoh rosbags
     python mrlab_client.py watch ur5e_1/joint_states sensor_msgs/msg/JointState
-    python mrlab_client.py watch robots mrlab_msgs/msg/Robots --latched --definitions msg_schemas
+    python mrlab_client.py watch robots mrlab_msgs/msg/Robots --latched
     python mrlab_client.py call ur5e_1/play std_srvs/srv/Trigger
-    python mrlab_client.py call ur5e_1/seek mrlab_msgs/srv/Seek position=1.5 \\
-        --definitions msg_schemas
+    python mrlab_client.py call ur5e_1/seek mrlab_msgs/srv/Seek position=1.5
 
 A key is the topic's or service's name without its leading slash; a payload is CDR.
 """
@@ -38,6 +37,7 @@ HEALING = {
         "period_increase_factor": 1.5,
     },
 }
+SCHEMA = "schema"
 STD_SRVS = {
     "std_srvs/srv/Empty": "---\n",
     "std_srvs/srv/SetBool": "bool data\n---\nbool success\nstring message\n",
@@ -45,23 +45,43 @@ STD_SRVS = {
 }
 
 
-def typestore(definitions: Path | None, package: str = "mrlab_msgs") -> Typestore:
-    """Return the standard types and those of `definitions`, a folder with msg/ and srv/."""
+def schema(session: zenoh.Session, prefix: str = "") -> tuple[dict[str, str], dict[str, str]]:
+    """Return the lab's definitions, messages and services: type -> text; exit without them."""
+    for reply in session.get(f"{prefix}{SCHEMA}", timeout=10.0):
+        if reply.ok is not None:
+            found = json.loads(reply.ok.payload.to_bytes())
+            return found["messages"], found["services"]
+    sys.exit(
+        f"no lab answers {prefix}{SCHEMA}: check --connect and --prefix; behind the stock bridge "
+        "give the folder with the lab's msg/ and srv/ with --definitions"
+    )
+
+
+def folder(
+    definitions: Path, package: str = "mrlab_msgs"
+) -> tuple[dict[str, str], dict[str, str]]:
+    """Return the definitions in a folder with msg/ and srv/."""
+    messages, services = (
+        {f"{package}/{kind}/{f.stem}": f.read_text() for f in definitions.glob(f"{kind}/*.{kind}")}
+        for kind in ("msg", "srv")
+    )
+    return messages, {**STD_SRVS, **services}
+
+
+def typestore(messages: dict[str, str], services: dict[str, str]) -> Typestore:
+    """Return the standard types and those with the given texts."""
     store = get_typestore(Stores.ROS2_JAZZY)
-    services = dict(STD_SRVS)
     found: dict[str, Any] = {}
-    if definitions is not None:
-        for file in sorted(definitions.glob("msg/*.msg")):
-            found |= get_types_from_msg(file.read_text(), f"{package}/msg/{file.stem}")
-        for file in sorted(definitions.glob("srv/*.srv")):
-            services[f"{package}/srv/{file.stem}"] = file.read_text()
+    for name, text in messages.items():
+        found |= get_types_from_msg(text, name)
     for name, text in services.items():
         request, _, response = text.partition("---\n")
         for half, part in (("Request", request), ("Response", response)):
             # A message without fields has no CDR of its own: nothing is sent for it.
             if any(line.split("#")[0].strip() for line in part.splitlines()):
                 found |= get_types_from_msg(part, f"{name}_{half}".replace("/srv/", "/msg/"))
-    store.register(found)
+    # Those that the store has already are the same there.
+    store.register({name: fields for name, fields in found.items() if name not in store.types})
     return store
 
 
@@ -175,15 +195,19 @@ def main() -> int:
     parser.add_argument("values", nargs="*", help="fields of a request, such as position=1.5")
     parser.add_argument("--connect", default="", help=f"endpoint; {LOOPBACK} if not given")
     parser.add_argument("--config", type=Path, help="file for a lab with keys: NAME.json5")
-    parser.add_argument("--definitions", type=Path, help="folder with msg/ and srv/")
+    parser.add_argument("--prefix", default="", help="of the lab's keys, such as lab_1")
+    parser.add_argument("--definitions", type=Path, help="folder with msg/ and srv/, not schema")
     parser.add_argument("--latched", action="store_true", help="ask for the newest state first")
     parser.add_argument("--count", type=int, default=0, help="messages to watch; 0: no end")
     arguments = parser.parse_intermixed_args()
-    store = typestore(arguments.definitions)
+    prefix = f"{arguments.prefix}/" if arguments.prefix else ""
+    key = f"{prefix}{arguments.key}"
     with connect(arguments.connect, arguments.config) as session:
+        given = arguments.definitions
+        store = typestore(*(folder(given) if given else schema(session, prefix)))
         if arguments.action == "watch":
             kind, latched, count = arguments.type, arguments.latched, arguments.count
-            return watch(session, store, arguments.key, kind, latched, count)
+            return watch(session, store, key, kind, latched, count)
         values = {}
         for text in arguments.values:
             name, _, value = text.partition("=")
@@ -191,7 +215,7 @@ def main() -> int:
                 values[name] = json.loads(value)
             except ValueError:
                 values[name] = value
-        return call(session, store, arguments.key, arguments.type, values)
+        return call(session, store, key, arguments.type, values)
 
 
 if __name__ == "__main__":

@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 """Measures how long the lab's messages take to this machine, and reports it to the lab.
 
-    python mrlab_latency.py --definitions msg_schemas --name my_laptop
-    python mrlab_latency.py --definitions msg_schemas '*/joint_states' contacts
+    python mrlab_latency.py --name my_laptop
+    python mrlab_latency.py '*/joint_states' contacts
 
 Once a second it prints the delays and sends them on latency/clients; `mrlab status` shows them
 and a recording keeps them. The bridge attaches to every message its sequence number, when it was
@@ -23,7 +23,7 @@ from pathlib import Path
 from typing import Any
 
 import zenoh
-from mrlab_client import connect, typestore
+from mrlab_client import connect, schema, typestore
 from rosbags.typesys.store import Typestore
 
 LATENCY = "mrlab_msgs/msg/Latency"
@@ -152,16 +152,15 @@ def report(store: Typestore, observer: str, clock: Clock, window: float, measure
 def main() -> int:
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("keys", nargs="*", default=["*/joint_states"])
-    parser.add_argument("--definitions", type=Path, required=True, help="folder with msg/, srv/")
     parser.add_argument("--name", default=socket.gethostname(), help="what the lab calls this")
     parser.add_argument("--prefix", default="", help="of the lab's keys, such as lab_1")
     parser.add_argument("--connect", default="", help="endpoint of the lab")
     parser.add_argument("--config", type=Path, help="file for a lab with keys: NAME.json5")
     parser.add_argument("--count", type=int, default=0, help="reports to send; 0: no end")
     arguments = parser.parse_args()
-    store = typestore(arguments.definitions)
     prefix = f"{arguments.prefix}/" if arguments.prefix else ""
     with connect(arguments.connect, arguments.config) as session:
+        store = typestore(*schema(session, prefix))
         clock = Clock(session, f"{prefix}@mrlab/bridge/clock")
         arrivals = Arrivals()
         for key in arguments.keys:

@@ -58,7 +58,13 @@ class AssetRoutes:
         self._threads.shutdown(cancel_futures=True)
 
     def _on_query(self, count: Count) -> Callable[[Query], None]:
+        own = (self._bridge.key(f"/{ASSETS}/"), self._bridge.key(f"/{SCHEMA}"))
+
         def on_query(query: Query) -> None:
+            if not query.key.startswith(own):
+                # A pattern such as */playback_state, which does not ask for assets.
+                query.ignore()
+                return
             if not self._free.acquire(blocking=False):
                 count.refused += 1
                 query.refuse(f"{WAITING} queries for assets wait already; ask again later")
