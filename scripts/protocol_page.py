@@ -25,6 +25,24 @@ may send a topic that comes in or call a service, where the lab has [keys](secur
 is generated; `make docs` writes it anew.
 """
 
+ASSETS = """
+## Assets and definitions
+
+Queryables beside the graph, for everybody who may connect. Their payloads are no CDR; the encoding
+of a reply is its media type, and its attachment is JSON with `size`, `sha256`, `media_type` and
+`offset`. [Details](bridge.md#assets).
+
+| key | parameters | reply |
+|---|---|---|
+| `assets/<package>/<path>` | `offset`, `length`: bytes, 1 MiB at most | a mesh, a picture |
+| `assets/robots/<model>[+<end effector>].urdf` | the same | the composed URDF |
+| `assets/robots.json` | the same | all models and end effectors |
+| `assets/objects.json` | the same | all types of objects |
+| `schema` | the same | all definitions: `messages`, `services`, `hashes` |
+| `@mrlab/bridge/clock` | none | 16 bytes, see [stamps](#stamps) |
+| `@mrlab/bridge/statistics` | none | JSON: traffic by key |
+"""
+
 STAMPS = """
 ## Stamps
 
@@ -58,6 +76,7 @@ def page(rules: Rules, schemas: Path) -> str:
             "| key | type | role | what it does | time-out, s |",
             "|---|---|---|---|---|",
             *map(_service, rules.services),
+            ASSETS,
             STAMPS,
             "## Messages",
             *(_definition(file, "msg") for file in sorted(schemas.glob("msg/*.msg"))),

@@ -56,7 +56,9 @@ def _robot(
         "joints": [_joint(joint, kinds[joint.name]) for joint in model.joints],
         "home": model.home.tolist(),
         "tip_link": facts.get("tip_link", TIP),
-        "end_effectors": list(tools),
+        # A robot with a hand of its own takes no end effector.
+        "end_effectors": [] if library.hand(robot_id) else list(tools),
+        "hand": sorted(library.hand(robot_id)),
         "thumbnail": _thumbnail(files, f"robots/{robot_id}/{THUMBNAIL}"),
         "urdf": asset_key(f"robots/{robot_id}.urdf"),
     }
