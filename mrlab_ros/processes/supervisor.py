@@ -23,7 +23,7 @@ from typing import IO
 
 FIRST_DELAY_S = 0.5
 LONGEST_DELAY_S = 10.0
-STABLE_AFTER_S = 30.0
+STABLE_AFTER_S = 10.0
 # From SIGINT to SIGKILL, s; a clean stop of a process takes well under 1 s.
 STOP_TIMEOUT_S = 1.5
 # The last lines of an ended process are read in this time, s.
