@@ -10,11 +10,16 @@ import pytest
 from browser_side import DEADLINE_MS, Watched, difference, eventually, pixels
 from playwright.sync_api import Browser, expect
 
+from mrlab_ros.adapters.pages import ingredients
 from mrlab_ros.adapters.pages.motion import motion_page
 from mrlab_ros.adapters.robots.library import RobotLibrary
 from mrlab_ros.core.conversion.convert import ConversionResult, Outcome
 from mrlab_ros.core.conversion.preview import Preview
 from mrlab_ros.core.diagnostics import Diagnostic, Severity
+from mrlab_ros.core.recording.report import Contact, SessionReport
+from mrlab_ros.core.show.page import page
+from mrlab_ros.core.show.session import RecordedMotion, RecordedObject, session
+from mrlab_ros.core.show.session_body import session_body
 from mrlab_ros.core.trajectory.channels import ProxyCoefficients, derive
 from mrlab_ros.core.trajectory.trajectory import Source, Trajectory
 
@@ -55,9 +60,15 @@ def shown(browser: Browser, tmp_path: Path) -> Iterator[Open]:
     contexts = []
 
     def open_page(
-        result: ConversionResult, *, change: Callable[[str], str] = str, script: str = "", **more
+        result: ConversionResult | str,
+        *,
+        change: Callable[[str], str] = str,
+        script: str = "",
+        **more,
     ) -> Watched:
-        text = motion_page(result, "ur5e", None, LIBRARY, ROOT)
+        text = result
+        if not isinstance(result, str):
+            text = motion_page(result, "ur5e", None, LIBRARY, ROOT)
         assert len(text) < 1_000_000
         path = tmp_path / "page.html"
         path.write_text(change(text))
@@ -168,3 +179,49 @@ def test_nothing_added_to_the_page_runs(shown: Open) -> None:
     watched = shown(accepted(), change=lambda text: text.replace("<header", f"{evil}<header"))
     expect(watched.page.locator("canvas")).to_be_visible(timeout=DEADLINE_MS)
     assert watched.page.title() != "evil"
+
+
+def recorded() -> str:
+    """Return the page of a session: an arm that takes a cube, carries it, and hits a table."""
+    report = SessionReport(duration=4.0, start_ns=0)
+    told = report.robot("ur5e_1")
+    told.states.add(0.0, "PLAYING", "wave")
+    told.states.add(3.0, "COLLISION_HALT", "wave")
+    told.grasps.add(1.0, "HOLDING", "cube_1")
+    told.collisions.append(Contact(3.0, "forearm_link", "table", 301))
+    motion = RecordedMotion()
+    robot = motion.robot("ur5e_1")
+    robot.urdf = LIBRARY.description("ur5e")
+    robot.joints = list(LIBRARY.model("ur5e").joint_names)
+    robot.base.add(0.0, [0, 0, 0, 0, 0, 0, 1])
+    shape = {
+        "mesh": "",
+        "size": {"x": 0.2, "y": 0.2, "z": 0.2},
+        "color": {"r": 0.0, "g": 0.7, "b": 0.0, "a": 1.0},
+        "primitive": {"type": 1, "dimensions": [0.2, 0.2, 0.2]},
+    }
+    cube = motion.objects["cube_1"] = RecordedObject(shape, 0.0, 4.0)
+    cube.holders = [(0.0, ""), (1.0, "ur5e_1")]
+    for time, q in zip(np.linspace(0, 4, 401), positions(), strict=True):
+        robot.track.add(float(time), q.tolist())
+    # what physics sent last before the arm took it; then it moves with the hand
+    cube.track.add(0.0, [0.5, -0.3, 0.1, 0, 0, 0, 1])
+    document = session("class", report, motion)
+    meshes = ingredients.meshes_of([robot.urdf], LIBRARY.mesh_path)
+    body = session_body("class", document, report, "2026-01-01 08:00:00")
+    return page("class", body, document, meshes, ingredients.code(ROOT))
+
+
+def test_a_session_is_drawn_and_its_events_lead_there(shown: Open) -> None:
+    watched = shown(recorded())
+    expect(watched.page.locator("html[data-ready]")).to_have_count(1, timeout=DEADLINE_MS)
+    canvas = watched.page.locator("canvas")
+    first = pixels(canvas)
+    green = (first[..., 1] > first[..., 0] + 60) & (first[..., 1] > first[..., 2] + 60)
+    assert green.sum() > 200
+    watched.page.get_by_role("button", name="touched table").click()
+    slider = watched.page.get_by_role("slider")
+    expect(slider).to_have_attribute("aria-valuetext", "3.00 s, row 301")
+    assert difference(first, pixels(canvas)) > 0.01
+    assert watched.errors == []
+    assert watched.foreign() == []

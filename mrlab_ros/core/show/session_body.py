@@ -7,8 +7,9 @@ from html import escape
 from typing import Any
 
 from mrlab_ros.core.recording.report import HOLDING, RobotReport, SessionReport, report_lines
-from mrlab_ros.core.show.svg import LEFT, RIGHT, WIDTH, time_axis_svg
+from mrlab_ros.core.show.svg import LEFT, RIGHT, time_axis_svg
 
+WIDTH = 1280.0  # of a row: it is as wide as the page
 ROW, BAR = 34.0, 20.0  # heights in the strip's own units
 LETTER = 7.0  # width of a letter in a bar
 MOST_EVENTS = 200
@@ -33,7 +34,7 @@ def session_body(
             '<section class="plots" aria-label="Timeline"><details open>'
             "<summary><h2>Robots</h2></summary>",
             *(_row(robot, report.duration) for robot in report.robots.values()),
-            time_axis_svg(report.duration),
+            time_axis_svg(report.duration, WIDTH),
             "</details><details><summary><h2>Report</h2></summary>",
             f"<pre>{escape(chr(10).join(report_lines(report)))}</pre>",
             "</details></section>",

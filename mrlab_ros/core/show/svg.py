@@ -80,10 +80,10 @@ def strip_svg(strip: Strip, times: Array, duration: float) -> str:
     return "".join(parts) + "</svg>"
 
 
-def time_axis_svg(duration: float) -> str:
-    """Return the axis of time that stands below the strips."""
-    place = _Place(duration, 0.0, 1.0)
-    parts = [f'<svg class="axis" viewBox="0 0 {WIDTH:g} 24" aria-hidden="true">']
+def time_axis_svg(duration: float, width: float = WIDTH) -> str:
+    """Return the axis of time that stands below strips of this width."""
+    place = _Place(duration, 0.0, 1.0, width)
+    parts = [f'<svg class="axis" viewBox="0 0 {width:g} 24" aria-hidden="true">']
     parts += [
         f'<text x="{place.x(t):.1f}" y="15">{_number(t)}{" s" * (t == 0)}</text>'
         for t in _ticks(0.0, duration, 8)
@@ -97,10 +97,11 @@ class _Place:
     duration: float
     low: float
     high: float
+    width: float = WIDTH
 
     def x(self, time: float) -> float:
         share = time / self.duration if self.duration else 0.0
-        return LEFT + share * (WIDTH - LEFT - RIGHT)
+        return LEFT + share * (self.width - LEFT - RIGHT)
 
     def y(self, value: float) -> float:
         share = (value - self.low) / (self.high - self.low)

@@ -19,7 +19,7 @@ import type { SceneTheme } from './theme'
 
 const NAME = 0.021 // of a label, as a part of the distance to it
 const NAME_PROJECTED = 0.036 // readable at 8 m
-const ABOVE = 0.12 // m, of a label over the robot
+const ABOVE = 0.16 // m, of a label over the highest joint
 const PATCH = 0.42 // m
 
 /** A robot of the scene: the fields of mrlab_msgs/msg/Robot that are drawn, and its URDF. */
@@ -39,7 +39,6 @@ interface Entry {
   state: string
   colour: string
   filled: boolean
-  top: number
 }
 
 /** Robots, objects and contacts of a lab, live or out of a bag. */
@@ -142,20 +141,35 @@ export class LabScene {
     this.stage.invalidate()
   }
 
+  /** Resolves when every mesh of the robots that are there now is read, or its placeholder. */
+  get ready(): Promise<unknown> {
+    return Promise.all([...this.robots.values()].map(({ robot }) => robot.ready))
+  }
+
   /** Before each picture: what is held follows the hands. */
   update(): void {
+    this.stage.world.updateMatrixWorld(true)
     this.objects.follow()
+    for (const { robot, label } of this.robots.values()) {
+      if (label !== null) label.sprite.position.z = robot.height() + ABOVE
+    }
   }
 
   /** Show everything whole. */
   frame(again = false): void {
     const points: Vector3[] = []
-    for (const { base, top } of this.robots.values()) {
-      points.push(base.position.clone())
-      points.push(base.position.clone().setZ(base.position.z + top + 2 * ABOVE))
-      pushCorners(base, this.stage.world, points)
-    }
+    this.reach(points)
     this.stage.frame(points, again)
+  }
+
+  /** Add points to `into` between which the robots stand now, in the world's frame. */
+  reach(into: Vector3[]): void {
+    this.stage.world.updateMatrixWorld(true)
+    for (const { base, robot } of this.robots.values()) {
+      into.push(base.position.clone())
+      into.push(base.position.clone().setZ(base.position.z + robot.height() + 2 * ABOVE))
+      pushCorners(base, this.stage.world, into)
+    }
   }
 
   dispose(): void {
@@ -186,7 +200,6 @@ export class LabScene {
       state: '',
       colour: '',
       filled: false,
-      top: 1,
     }
     this.robots.set(shown.name, entry)
     this.paintLabel(shown.name, entry)
@@ -194,10 +207,6 @@ export class LabScene {
       if (this.robots.get(shown.name) !== entry) return
       for (const sentence of robot.troubles) this.troubles.add(sentence)
       if (robot.troubles.length > 0) this.onTrouble()
-      const points: Vector3[] = []
-      pushCorners(base, this.stage.world, points)
-      entry.top = Math.max(...points.map((point) => point.z), 0.3) - base.position.z
-      this.paintLabel(shown.name, entry)
       this.frame()
     })
     return entry
@@ -222,7 +231,7 @@ export class LabScene {
     const { theme } = this.stage
     const colour = entry.colour === '' ? theme.second : entry.colour
     entry.label.paint(entry.filled ? colour : theme.card, entry.filled ? theme.card : colour)
-    entry.label.sprite.position.set(0, 0, entry.top + ABOVE)
+    entry.label.sprite.position.z = entry.robot.height() + ABOVE
   }
 
   private setTheme(theme: SceneTheme): void {

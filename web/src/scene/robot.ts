@@ -131,6 +131,17 @@ export class SceneRobot {
     for (const finger of this.fingers) this.move(finger, closed ? finger.upper : finger.lower)
   }
 
+  /** Return how high above its base the highest joint is, m, as it was last drawn. */
+  height(): number {
+    let highest = 0
+    const base = this.root.matrixWorld.elements[13] as number
+    for (const { joint } of this.movables.values()) {
+      // the scene's y is the world's z
+      highest = Math.max(highest, (joint.matrixWorld.elements[13] as number) - base)
+    }
+    return highest
+  }
+
   /** Return the link that a joint moves; empty where there is no such joint. */
   linkOf(joint: string): string {
     const found = this.root.joints[joint]

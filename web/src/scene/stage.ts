@@ -182,11 +182,6 @@ export class Stage {
     this.invalidate()
   }
 
-  /** Draw at once, as a picture is wanted that is not waited for. */
-  drawNow(): void {
-    this.draw()
-  }
-
   dispose(): void {
     this.disposed = true
     cancelAnimationFrame(this.request)

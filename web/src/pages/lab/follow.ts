@@ -55,6 +55,8 @@ interface Kept {
   playback: PlaybackState | null
   holding: string
   collision: Collision | null
+  /** Whether it stands in a pose of the lab, rather than in that of its URDF. */
+  posed: boolean
   readonly player: RemotePlayer
 }
 
@@ -101,6 +103,11 @@ export class LabFollower {
         if (robot === undefined) return
         for (let i = 0; i < message.name.length; i++) {
           robot.setJoint(message.name[i] as string, message.position[i] as number)
+        }
+        const kept = this.of(owner(key))
+        if (!kept.posed) {
+          kept.posed = true
+          this.scene?.frame()
         }
         this.stir()
       }),
@@ -163,7 +170,15 @@ export class LabFollower {
     let kept = this.kept.get(name)
     if (kept === undefined) {
       const player = new RemotePlayer('live', () => this.link.labTime(), this.commands(name))
-      kept = { robot: null, urdf: '', playback: null, holding: '', collision: null, player }
+      kept = {
+        robot: null,
+        urdf: '',
+        playback: null,
+        holding: '',
+        collision: null,
+        posed: false,
+        player,
+      }
       this.kept.set(name, kept)
     }
     return kept

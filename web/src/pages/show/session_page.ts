@@ -1,3 +1,4 @@
+import type { Vector3 } from 'three'
 import { STATE_NAMES, THEMES } from '../../design/tokens'
 import { MotionPlayer } from '../../playback/player'
 import type { SessionDocument, SessionObject } from '../../playback/session'
@@ -12,6 +13,7 @@ import { ENGLISH, GERMAN } from '../../scene/words'
 import { attachCursors } from './plots'
 
 const POSE = 7
+const POSES = 9 // times at which the robots are taken into the picture
 
 /** Put a recorded session into its page: the scene, the timeline, the events. */
 export function showSession(view: HTMLElement, session: SessionDocument, bytes: MeshBytes): void {
@@ -46,9 +48,13 @@ export function showSession(view: HTMLElement, session: SessionDocument, bytes: 
   let stage: Stage | null = null
   try {
     stage = new Stage(picture, words.view)
-    draw = drawing(stage, session, new MeshLibrary(bytes), (troubles) => {
-      say(words.missing(troubles))
-    })
+    draw = drawing(
+      stage,
+      session,
+      new MeshLibrary(bytes),
+      () => player.position(),
+      (troubles) => say(words.missing(troubles)),
+    )
   } catch (error) {
     if (!(error instanceof NoWebGL)) throw error
     picture.hidden = true
@@ -83,6 +89,7 @@ function drawing(
   stage: Stage,
   session: SessionDocument,
   meshes: MeshLibrary,
+  now: () => number,
   say: (troubles: string) => void,
 ): (time: number) => void {
   const scene = new LabScene(stage, meshes, () => say([...scene.troubles].join('; ')))
@@ -102,7 +109,7 @@ function drawing(
   })
   const objects = session.objects.map((object) => ({ object, track: new Track(object.track) }))
   let present = ''
-  return (time) => {
+  const draw = (time: number): void => {
     for (const [i, { robot, track, values }] of robots.entries()) {
       track.sample(time, values)
       scene.robot(robot.name)?.setPositions(values)
@@ -125,6 +132,22 @@ function drawing(
     if (names !== present) scene.setObjects(shown)
     present = names
   }
+  scene.ready.then(() => {
+    // what the robots reach in the whole session is in the picture
+    const points: Vector3[] = []
+    for (let i = 0; i < POSES; i++) {
+      draw((i / (POSES - 1)) * session.duration)
+      scene.reach(points)
+    }
+    draw(now())
+    stage.frame(points, true)
+    document.documentElement.dataset.ready = 'true'
+  })
+  stage.onFrame(() => {
+    scene.update()
+    return false
+  })
+  return draw
 }
 
 function objectAt(object: SessionObject, pose: ShownObject['pose'], holder: string): ShownObject {

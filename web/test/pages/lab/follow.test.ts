@@ -1,0 +1,147 @@
+import { expect, test, vi } from 'vitest'
+import { FakeLink } from '../../../src/link/fake'
+import { commandsOf } from '../../../src/pages/lab/commands'
+import { LabFollower } from '../../../src/pages/lab/follow'
+import {
+  collisionType,
+  Grasp,
+  graspType,
+  PlaybackState,
+  playbackStateType,
+  recorderStateType,
+  robotSystemsType,
+  robotSystemType,
+  robotsType,
+  robotType,
+} from '../../../src/protocol/mrlab_msgs'
+import { jointStateType } from '../../../src/protocol/sensor_msgs'
+import { stringType } from '../../../src/protocol/std_msgs'
+import { triggerType } from '../../../src/protocol/std_srvs'
+import type { LabScene } from '../../../src/scene/lab_scene'
+
+function lab() {
+  const link = new FakeLink()
+  link.time = 1000
+  const joints = { setJoint: vi.fn() }
+  const scene = {
+    setRobots: vi.fn(),
+    setState: vi.fn(),
+    setCollision: vi.fn(),
+    setObjects: vi.fn(),
+    setContacts: vi.fn(),
+    frame: vi.fn(),
+    robot: vi.fn(() => joints),
+  }
+  const stir = vi.fn()
+  const follower = new LabFollower(
+    link,
+    (name) => commandsOf(link, name),
+    (state) => state.toLowerCase(),
+    () => '#123456',
+    stir,
+  )
+  follower.attach(scene as unknown as LabScene)
+  const robot = robotType.create({ name: 'ur5e_1', model: 'ur5e' })
+  return { link, scene, joints, stir, follower, robot }
+}
+
+test('a robot is drawn with its URDF, whichever comes first', () => {
+  const { link, scene, follower, robot } = lab()
+  expect(follower.known.value).toBe(false)
+  link.deliver('ur5e_1/robot_description', stringType, { data: '<robot/>' })
+  link.deliver('robots', robotsType, { robots: [robot] })
+  expect(follower.known.value).toBe(true)
+  expect(scene.setRobots.mock.lastCall?.[0]).toMatchObject([{ name: 'ur5e_1', urdf: '<robot/>' }])
+  link.deliver('robots', robotsType, { robots: [] })
+  expect(scene.setRobots.mock.lastCall?.[0]).toEqual([])
+  expect(follower.robots.value).toEqual([])
+})
+
+test('a state moves the timeline and the word above the robot', () => {
+  const { link, scene, follower, robot } = lab()
+  link.deliver('robots', robotsType, { robots: [robot] })
+  link.deliver('ur5e_1/playback_state', playbackStateType, {
+    state: PlaybackState.PLAYING,
+    clock: { stamp: { sec: 998, nanosec: 500_000_000 }, position: 1, rate: 2 },
+    duration: 10,
+    rate: 2,
+  })
+  const [view] = follower.robots.value
+  expect(view?.state).toBe('PLAYING')
+  expect(view?.player.position()).toBeCloseTo(4)
+  expect(scene.setState).toHaveBeenLastCalledWith('ur5e_1', 'playing', '#123456', false)
+})
+
+test('joint states go to the picture by name, and ask for a new one', () => {
+  const { link, joints, stir } = lab()
+  link.deliver('ur5e_1/joint_states', jointStateType, {
+    name: ['a', 'b'],
+    position: Float64Array.of(1, 2),
+  })
+  expect(joints.setJoint.mock.calls).toEqual([
+    ['a', 1],
+    ['b', 2],
+  ])
+  expect(stir).toHaveBeenCalled()
+})
+
+test('what is held and what is touched is said', () => {
+  const { link, scene, follower, robot } = lab()
+  link.deliver('robots', robotsType, { robots: [robot] })
+  link.deliver('ur5e_1/grasp', graspType, { state: Grasp.HOLDING, object: 'rod_1' })
+  const collision = collisionType.create({ colliding: true })
+  collision.contact.link = 'forearm_link'
+  collision.contact.other = 'table'
+  link.deliver('ur5e_1/collision', collisionType, collision)
+  expect(follower.robots.value[0]).toMatchObject({
+    holding: 'rod_1',
+    touching: 'forearm_link ↔ table',
+  })
+  expect(scene.setCollision).toHaveBeenLastCalledWith('ur5e_1', 'forearm_link')
+  link.deliver('ur5e_1/grasp', graspType, { state: Grasp.OPEN, object: '' })
+  link.deliver('ur5e_1/collision', collisionType, { colliding: false })
+  expect(follower.robots.value[0]).toMatchObject({ holding: '', touching: '' })
+  expect(scene.setCollision).toHaveBeenLastCalledWith('ur5e_1', '')
+})
+
+test('a timeline commands its robot', async () => {
+  const { link, follower, robot } = lab()
+  link.answer('ur5e_1/pause', triggerType, () => ({ success: true, message: '' }))
+  link.deliver('robots', robotsType, { robots: [robot] })
+  follower.robots.value[0]?.player.pause()
+  await vi.waitFor(() => expect(link.calls.map((call) => call.service)).toEqual(['ur5e_1/pause']))
+})
+
+test('a replay goes on between the recorder’s messages and stands when it is paused', () => {
+  const { link, follower } = lab()
+  const header = { stamp: { sec: 999, nanosec: 0 }, frame_id: '' }
+  const state = { header, bag: 'class.bag', position: 3, duration: 20, rate: 2 }
+  link.deliver('recorder/state', recorderStateType, { ...state, state: 2 })
+  expect(follower.replay.position()).toBeCloseTo(5)
+  link.deliver('recorder/state', recorderStateType, { ...state, state: 3 })
+  expect(follower.replay.position()).toBeCloseTo(3)
+})
+
+test('a system keeps its timeline from message to message', () => {
+  const { link, follower } = lab()
+  const system = robotSystemType.create({ name: 'cell', duration: 8, rate: 1 })
+  link.deliver('systems', robotSystemsType, { systems: [system] })
+  const player = follower.systems.value[0]?.player
+  link.deliver('systems', robotSystemsType, { systems: [system] })
+  expect(follower.systems.value[0]?.player).toBe(player)
+  expect(player?.duration).toBe(8)
+})
+
+test('each key is counted, and nothing is heard after the end', () => {
+  const { link, follower, robot } = lab()
+  link.deliver('robots', robotsType, { robots: [robot] })
+  link.deliver('robots', robotsType, { robots: [robot] })
+  expect(follower.activity.get('robots')).toMatchObject({
+    type: 'mrlab_msgs/msg/Robots',
+    count: 2,
+    newest: 1000,
+  })
+  follower.dispose()
+  link.deliver('robots', robotsType, { robots: [] })
+  expect(follower.robots.value).toHaveLength(1)
+})
