@@ -22,7 +22,7 @@ from mrlab_msgs.msg import TrajectoryCatalogue
 from rclpy.serialization import deserialize_message
 from zenoh_side import connect, free_endpoint
 
-LONG = 60.0
+LONG = 90.0
 
 
 def workspace(scale=1.0, rows=120):
@@ -83,6 +83,7 @@ def web_process():
     return psutil.Process(web["pid"])
 
 
+@pytest.mark.timeout(400)  # a call that a killed converter owes is given up after a minute
 def test_a_headset_sees_a_new_version_and_whoever_is_killed_loses_nothing(lab):
     browser, session, state = lab
     seen = []
@@ -95,6 +96,19 @@ def test_a_headset_sees_a_new_version_and_whoever_is_killed_loses_nothing(lab):
     for version in (1, 2):
         assert browser.publish("wave", workspace(version / 2)).status_code == 200
         wait_for(lambda v=version: seen and seen[-1].get("wave") == v, "the headset", LONG)
+    assert browser.ids() == ["wave@2"]
+
+    # a refused file is drawn, and leaves the catalogue alone
+    sent = browser.send("PUT", "/api/uploads/far.mat", content=workspace(20.0)).json()
+    asked = {"upload": sent["upload"], "robot_model": "ur5e"}
+    refused = browser.send("POST", "/api/conversions", json=asked).json()
+    assert (refused["outcome"], refused["draft"]) == ("rejected", None)
+    (fix, *_) = refused["diagnostics"][0]["fixes"]
+    assert (fix["option"], fix["value"]) == ("units", "deg")
+    drawn = browser.http.get(refused["motion"]).json()
+    assert (drawn["verdict"], drawn["source"]["file"]) == ("refused", "far.mat")
+    mended = browser.send("POST", "/api/conversions", json={**asked, "units": "deg"}).json()
+    assert mended["outcome"] == "accepted"
     assert browser.ids() == ["wave@2"]
 
     # fifty at once, all answered

@@ -9,7 +9,6 @@ from pathlib import Path
 from typing import BinaryIO
 
 from mrlab_ros.adapters.store.port import StoreFailure
-from mrlab_ros.adapters.trajectories import export
 from mrlab_ros.core.trajectory.trajectory import Trajectory
 
 MEDIA_TYPES = {
@@ -25,6 +24,9 @@ def written(trajectory: Trajectory, name: str, form: str, work: Path) -> tuple[B
 
     name: what the trajectory is called in it. Raises StoreFailure where there is no room.
     """
+    # scipy and rosbags, which the first download can wait for, not the start of the gateway
+    from mrlab_ros.adapters.trajectories import export
+
     try:
         with tempfile.TemporaryDirectory(dir=work) as folder:
             path = export.writer(form)(replace(trajectory, id=name), Path(folder))
