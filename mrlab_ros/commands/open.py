@@ -24,7 +24,7 @@ def open_pages(
     The printed address signs in one browser of this machine, once, within a day.
     """
     web = running_web()
-    url = opening_url(web["here"], Path(web["users"]), f"/{path.lstrip('/')}")
+    url = opening_url(web["open"], Path(web["users"]), f"/{path.lstrip('/')}")
     if print_only or not open_in_browser(url):
         print(url)
 

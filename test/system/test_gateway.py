@@ -21,6 +21,8 @@ import httpx
 import pytest
 from child_process import start_child
 from launched_lab import done, mrlab
+from websockets.exceptions import ConnectionClosed, InvalidStatus
+from websockets.sync.client import ClientConnection, connect
 
 from mrlab_ros.commands.demo.lab import free_port
 from mrlab_ros.commands.up.web import opening_url
@@ -155,6 +157,47 @@ def test_people_sign_in_over_https_until_they_are_removed(secured: Gateway, keys
         assert refusal(again) == (401, "not_signed_in")
     for name, words in (("anna", "nobody called 'anna'"), ("ben", "nobody called 'ben'")):
         assert words in mrlab("users", "remove", name, "--dir", keys).stderr
+
+
+def handshake(gateway: Gateway, browser: httpx.Client) -> dict[str, Any]:
+    """Return the arguments of websockets' connect for a socket of this browser."""
+    cookies = "; ".join(f"{cookie.name}={cookie.value}" for cookie in browser.cookies.jar)
+    return {
+        "uri": f"{gateway.url.replace('http', 'ws', 1)}/link",
+        "subprotocols": ["mrlab.1"],
+        "additional_headers": {"Cookie": cookies},
+    }
+
+
+def reason_of_end(link: ClientConnection) -> str:
+    """Return with which sentence the gateway ends a socket."""
+    try:
+        while True:
+            link.recv(DEADLINE)
+    except ConnectionClosed as ended:
+        return ended.rcvd.reason if ended.rcvd is not None else ""
+
+
+def test_a_sign_in_that_ends_closes_its_socket(local: Gateway, tmp_path: Path) -> None:
+    with httpx.Client(base_url=local.url, follow_redirects=True) as browser:
+        browser.get(opening_url(local.url, tmp_path / FILE))
+        with (
+            pytest.raises(InvalidStatus, match="403"),
+            connect(**handshake(local, browser), origin=FOREIGN),
+        ):
+            pass
+        own = handshake(local, browser) | {"origin": local.url}
+        with connect(**own) as one, connect(**own) as two:
+            for link in (one, two):
+                # Compression was offered.
+                assert link.protocol.extensions == []
+                link.send(json.dumps({"op": "hello"}))
+                assert json.loads(link.recv(DEADLINE))["op"] == "welcome"
+            assert local.send(browser, "DELETE", "/api/session").status_code == 204
+            for link in (one, two):
+                assert "your sign-in has ended" in reason_of_end(link)
+        with connect(**own) as late:
+            assert "nobody is signed in" in reason_of_end(late)
 
 
 def test_who_does_not_trust_the_authority_does_not_connect(secured: Gateway) -> None:

@@ -18,13 +18,13 @@ from mrlab_ros.commands.up.command import (
     folder_for_state,
     stay_on_this_machine,
 )
-from mrlab_ros.commands.up.web import open_in_browser, opening_url, users_file
+from mrlab_ros.commands.up.web import open_in_browser, opening_url, run_facts
 from mrlab_ros.core.errors import LabError, Misuse
 from mrlab_ros.processes.lab import lab_processes, parameter_file
 from mrlab_ros.processes.options import LabOptions, WebOptions
 from mrlab_ros.processes.run_file import RunFile
 from mrlab_ros.processes.supervisor import Supervisor
-from mrlab_ros.processes.web import gateway_answers, web_address
+from mrlab_ros.processes.web import gateway_answers
 from mrlab_ros.ros.domain import domain_id
 
 if TYPE_CHECKING:
@@ -99,12 +99,11 @@ def running_lab(console: Console, config: Path | None) -> Iterator[Stage]:
             listen=endpoint,
             web=WebOptions("127.0.0.1", free_port(HTTP_PORT)),
         )
-        here = web_address(options)
-        users = users_file(folder, None)
+        web = run_facts(options)
         run_file, domain = claim_free_domain(
             state_dir=str(folder),
             zenoh=endpoint,
-            web={"here": here, "address": here, "users": str(users), "signs_in": False},
+            web=web,
         )
         os.environ["ROS_DOMAIN_ID"] = str(domain)
         log = Log(console)
@@ -113,7 +112,9 @@ def running_lab(console: Console, config: Path | None) -> Iterator[Stage]:
             with Supervisor(specs, log, run_file.write):
                 console.print(f"Lab on ROS domain {domain}, zenoh at {endpoint}", style="bold")
                 try:
-                    yield Stage(options, domain, endpoint, here, users, log, begin)
+                    yield Stage(
+                        options, domain, endpoint, web["here"], Path(web["users"]), log, begin
+                    )
                 finally:
                     log.stopping = True
         finally:

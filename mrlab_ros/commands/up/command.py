@@ -25,9 +25,8 @@ from mrlab_ros.commands.up.keys import (
 from mrlab_ros.commands.up.web import (
     checked_web,
     prepare_keys,
-    public_address,
+    run_facts,
     say_where,
-    users_file,
 )
 from mrlab_ros.core.errors import BadInput
 from mrlab_ros.processes import physics_support
@@ -42,7 +41,7 @@ from mrlab_ros.processes.options import LabOptions
 from mrlab_ros.processes.readiness import READY_TIMEOUT_S, wait_until_complete
 from mrlab_ros.processes.run_file import RunFile
 from mrlab_ros.processes.supervisor import SELF, Phase, ProcessState, Supervisor
-from mrlab_ros.processes.web import gateway_answers, web_address
+from mrlab_ros.processes.web import gateway_answers
 from mrlab_ros.ros.domain import domain_id
 
 if TYPE_CHECKING:
@@ -190,15 +189,9 @@ def up(
             web=pages,
         )
         facts: dict[str, object] = {"state_dir": str(folder), "zenoh": listen}
-        here, where = "", {}
-        if pages is not None:
-            here = web_address(options)
-            facts["web"] = where = {
-                "here": here,
-                "address": public_address(pages, keys, here),
-                "users": str(users_file(folder, keys)),
-                "signs_in": here.startswith("https") or bool(public_url),
-            }
+        where = run_facts(options) if pages is not None else {}
+        if where:
+            facts["web"] = where
         specs = [process.spec(options) for process in lab_processes(options)]
         seen = keys_changed_at(keys) if keys is not None and bridge else ()
         run_file.claim(**facts)
@@ -218,7 +211,7 @@ def up(
                     tell_when_keys_expire(keys, say, router=bool(zenoh_connect))
                 if no_physics:
                     say(SELF, no_physics)
-                answers = gateway_answers(here) if here else None
+                answers = gateway_answers(where["here"]) if where else None
                 missing = wait_until_complete(stop, lab_nodes(options), len(models), answers)
                 refusals.raise_any()
                 if missing:

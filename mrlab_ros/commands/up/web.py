@@ -12,8 +12,9 @@ from pathlib import Path
 from typing import Any
 
 from mrlab_ros.core.errors import BadInput
-from mrlab_ros.processes.options import WebOptions
+from mrlab_ros.processes.options import LabOptions, WebOptions
 from mrlab_ros.processes.supervisor import SELF
+from mrlab_ros.processes.web import web_address
 
 HTTP = "127.0.0.1:8080"
 HTTP_WITH_KEYS = "0.0.0.0:8080"
@@ -87,16 +88,42 @@ def prepare_keys(folder: Path) -> None:
 
 def public_address(web: WebOptions, keys: Path | None, here: str) -> str:
     """Return the address by which people reach the pages; here: that for this machine."""
+    from mrlab_ros.adapters.keys import certificates
     from mrlab_ros.adapters.keys.folder import Keys
     from mrlab_ros.gateway.settings import is_loopback
 
     if web.public_url:
         return web.public_url
+    scheme = here.partition(":")[0]
+    if web.certificate is not None:
+        # Browsers accept it for its own names alone.
+        named = certificates.hosts(certificates.read_certificate(web.certificate))
+        whole = [host for host in named if not host.startswith("*")]
+        if whole:
+            return f"{scheme}://{whole[0]}:{web.port}"
     if is_loopback(web.host) or web.host not in ("0.0.0.0", "::"):
         return here
     host = Keys(keys).hosts[0] if keys is not None else socket.gethostname()
-    scheme = here.partition(":")[0]
     return f"{scheme}://{f'[{host}]' if ':' in host else host}:{web.port}"
+
+
+def run_facts(options: LabOptions) -> dict[str, Any]:
+    """Return what the run file says of the pages.
+
+    here: their address for this machine, without regard to certificates. open: that for its
+    browser. address: that for everybody.
+    """
+    web, keys = options.web, options.keys
+    assert web is not None
+    here = web_address(options)
+    address = public_address(web, keys, here)
+    return {
+        "here": here,
+        "open": address if web.certificate is not None or web.public_url else here,
+        "address": address,
+        "users": str(users_file(options.state_dir, keys)),
+        "signs_in": here.startswith("https") or bool(web.public_url),
+    }
 
 
 def users_file(state_dir: Path, keys: Path | None) -> Path:
@@ -120,7 +147,7 @@ def opening_url(address: str, users: Path, path: str = "/") -> str:
 
 def say_where(web: Mapping[str, Any], say: Callable[[str, str], None]) -> None:
     """Say by which addresses the pages are opened; web: that part of the run file."""
-    say(SELF, f"open the pages on this machine: {opening_url(web['here'], Path(web['users']))}")
+    say(SELF, f"open the pages on this machine: {opening_url(web['open'], Path(web['users']))}")
     if web["address"] == web["here"]:
         return
     say(SELF, f"everybody else: {web['address']}")
