@@ -5,7 +5,7 @@ import { createInterface } from 'node:readline'
 import type { LinkError, ServiceType } from '../../src/link/link'
 import { openLink } from '../../src/link/socket'
 import {
-  listTrajectoriesType,
+  convertTrajectoryType,
   loadTrajectoryType,
   playbackStateType,
   robotsType,
@@ -16,7 +16,7 @@ import { setBoolType, triggerType } from '../../src/protocol/std_srvs'
 const [url = '', cookie = ''] = process.argv.slice(2)
 const origin = url.replace(/^ws/, 'http').replace(/\/link$/, '')
 const services = new Map(
-  [listTrajectoriesType, loadTrajectoryType, setBoolType, triggerType].map((type) => [
+  [convertTrajectoryType, loadTrajectoryType, setBoolType, triggerType].map((type) => [
     type.name as string,
     type as unknown as ServiceType<object, object>,
   ]),
