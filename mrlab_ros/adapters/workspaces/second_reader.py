@@ -11,7 +11,7 @@ import io
 import re
 import warnings
 from collections.abc import Iterator
-from typing import Any
+from typing import Any, Literal
 
 import h5py
 import numpy as np
@@ -22,6 +22,7 @@ from mrlab_ros.adapters.workspaces.view import View
 from mrlab_ros.core.diagnostics import Refused, finding
 
 STEP = re.compile(r"\.(?P<field>[^.({]+)|\((?P<element>[\d,]+)\)|\{(?P<cell>[\d,]+)\}")
+BLOCK = 1 << 16  # elements that are compared at once
 ROOT = re.compile(r"[^.({]+")
 
 
@@ -79,17 +80,35 @@ def difference(first: NDArray[Any], second: NDArray[Any]) -> str:
         return f"finds values of the type {second.dtype}"
     if first.shape != second.shape:
         return f"finds {'x'.join(map(str, second.shape))} values"
-    same = np.asarray(first, "<f8").view(np.uint64) == np.asarray(second, "<f8").view(np.uint64)
-    wrong = np.argwhere(~same)
-    if not len(wrong):
+    count, place = _first_difference(first, second)
+    if place is None:
         return ""
-    place = tuple(int(n) for n in wrong[0])
     names = ("row", "column", *("page" for _ in place[2:]))
     where = ", ".join(f"{name} {n + 1}" for name, n in zip(names, place, strict=True))
     return (
         f"finds {float(second[place])!r} where {float(first[place])!r} was read "
-        f"({where}; {len(wrong)} of {first.size} values differ)"
+        f"({where}; {count} of {first.size} values differ)"
     )
+
+
+def _first_difference(
+    first: NDArray[Any], second: NDArray[Any]
+) -> tuple[int, tuple[int, ...] | None]:
+    """Return how many elements of two arrays differ, and where the first of them is, or None.
+
+    Blocks of one flat order are compared, so that no copy of the arrays is needed.
+    """
+    order: Literal["C", "F"] = "F" if first.flags.f_contiguous else "C"
+    one, other = first.reshape(-1, order=order), second.reshape(-1, order=order)
+    count, place = 0, None
+    for begin in range(0, one.size, BLOCK):
+        a, b = (np.asarray(x[begin : begin + BLOCK], "<f8").view(np.uint64) for x in (one, other))
+        wrong = np.flatnonzero(a != b)
+        if len(wrong) and place is None:
+            at = np.unravel_index(begin + int(wrong[0]), first.shape, order=order)
+            place = tuple(int(n) for n in at)
+        count += len(wrong)
+    return count, place
 
 
 def steps(path: str) -> Iterator[tuple[str, Any]]:

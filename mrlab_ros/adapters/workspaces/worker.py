@@ -31,6 +31,7 @@ import socket
 import sys
 import tempfile
 import traceback
+import weakref
 import zlib
 from collections.abc import Callable
 from typing import Any
@@ -243,7 +244,10 @@ def work(descriptors: list[int], request: dict[str, Any]) -> None:
             raise Refused(finding("unreadable", file=name, problem=problem))
         numbers = os.memfd_create("variables", os.MFD_CLOEXEC)
         serve(copy, os.dup(numbers), None, request)
-        return content.collect(numbers, name, lambda places: again(copy, numbers, places))
+        workspace = content.collect(numbers, name, lambda places: again(copy, numbers, places))
+        # the memory file goes with the last who may read it again
+        weakref.finalize(workspace.confirm, os.close, numbers)
+        return workspace
 
     def again(source: int, numbers: int, places: list[content.Place]) -> None:
         answer = os.memfd_create("second", os.MFD_CLOEXEC)

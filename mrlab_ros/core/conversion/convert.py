@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from enum import Enum
 from typing import Any
 
@@ -113,47 +113,23 @@ def convert(
     most_rows: a matrix with more samples is refused.
     """
     trajectory_id = checked_id(trajectory_id or id_from(file))
-    notes: list[Diagnostic] = []
-    variable: Variable | None = None
-    squeezed: dict[str, dimensions.Squeezed] = {}
+    found = _Found()
     try:
         options.checked_rate()
         options.factor()
-        stored, squeezed = dimensions.flattened(read(), robot)
-        workspace, wanted = _prepared(stored, options, robot, file)
-        pieces = joining.expanded(options.join) if options.join else []
-        if len(set(pieces)) < len(pieces):
-            why = f"{options.join} names a variable more than once"
-            notes.append(finding("doubtful_values", variable=options.join, why=why))
-        chosen, survey, offered = _find(workspace, wanted, options, robot, file, notes)
-        if chosen is None:
-            if not offered:
-                found = survey.workspace.find(notes[-1].variable)
-                return _rejected(file, dimensions.with_lines(notes, squeezed), found)
-            notes = dimensions.with_lines(notes, squeezed)
-            candidates = tuple(a.candidate() for a in offered)
-            return ConversionResult(file, Outcome.AMBIGUOUS, None, candidates, _worst_first(notes))
-        variable = chosen.variable
-        rows = variable.shape[0] if variable.shape else 0
-        if rows > most_rows:
-            words: dict[str, Any] = {"rows": rows, "most": most_rows}
-            raise Refused(finding("too_many_rows", variable=variable.path, **words))
-        for path in joining.sources(variable.path, options.join):
-            matrix = stored.find(path)
-            if path in squeezed and matrix is not None:
-                notes.append(dimensions.squeezed_finding(path, squeezed[path], matrix))
-        if options.columns and not options.transpose and not variable.is_message:
-            notes += left_out_columns.doubts(chosen, robot)
-        layout = lay_out(chosen, survey, options, notes)
-        layout, rate = _at_a_rate(survey, chosen, layout, options, default_frame_rate, file, notes)
-        arm = layout.arm
-        notes += limits.against_robot(arm, rate, robot.joints, variable.path, robot.id)
-        notes += kinematics_match.findings(workspace, robot)
-        notes = dimensions.with_lines(notes, squeezed)
-        if any(n.severity is Severity.ERROR for n in notes):
-            return _rejected(file, notes, variable)
-        if workspace.confirm is not None:
-            workspace.confirm(joining.sources(variable.path, options.join))
+        checked = _checked(
+            found,
+            file,
+            read,
+            options,
+            robot,
+            default_frame_rate=default_frame_rate,
+            rows=most_rows,
+        )
+        if isinstance(checked, ConversionResult):
+            return checked
+        found.variable = None  # its numbers are not needed any more, and may be many
+        arm, rate = checked.layout.arm, checked.rate
         trajectory = Trajectory(
             id=trajectory_id,
             robot_model=robot.id,
@@ -161,16 +137,86 @@ def convert(
             joint_names=robot.joint_names,
             frame_rate=rate,
             positions=arm,
-            gripper=layout.gripper,
+            gripper=checked.layout.gripper,
             channels=channels.derive(arm, rate, coefficients),
-            source=Source(file, variable.path, workspace.sha256),
+            source=checked.source,
             created_ns=created_ns,
-            warnings=_worst_first([n for n in notes if n.severity is Severity.WARNING]),
+            warnings=_worst_first([n for n in found.notes if n.severity is Severity.WARNING]),
         )
     except Refused as refused:
-        notes.append(refused.finding)
-        return _rejected(file, dimensions.with_lines(notes, squeezed), variable)
-    return ConversionResult(file, Outcome.ACCEPTED, trajectory, (), _worst_first(notes))
+        found.notes.append(refused.finding)
+        notes = dimensions.with_lines(found.notes, found.squeezed)
+        return _rejected(file, notes, found.variable)
+    return ConversionResult(file, Outcome.ACCEPTED, trajectory, (), _worst_first(found.notes))
+
+
+@dataclass(eq=False)
+class _Found:
+    """What a conversion has found until it ends: what to say, and the matrix it is about."""
+
+    notes: list[Diagnostic] = field(default_factory=list)
+    variable: Variable | None = None
+    squeezed: dict[str, dimensions.Squeezed] = field(default_factory=dict)
+
+
+@dataclass(frozen=True, eq=False)
+class _Checked:
+    """A matrix that can be played."""
+
+    layout: Layout
+    rate: float
+    source: Source
+
+
+def _checked(
+    found: _Found,
+    file: str,
+    read: Callable[[], Workspace],
+    options: Options,
+    robot: RobotModel,
+    *,
+    default_frame_rate: float,
+    rows: int,
+) -> _Checked | ConversionResult:
+    """Find the matrix and check it; return it, or the result where there is none to play."""
+    notes = found.notes
+    stored, squeezed = dimensions.flattened(read(), robot)
+    found.squeezed = squeezed
+    workspace, wanted = _prepared(stored, options, robot, file)
+    pieces = joining.expanded(options.join) if options.join else []
+    if len(set(pieces)) < len(pieces):
+        why = f"{options.join} names a variable more than once"
+        notes.append(finding("doubtful_values", variable=options.join, why=why))
+    chosen, survey, offered = _find(workspace, wanted, options, robot, file, notes)
+    if chosen is None:
+        said = dimensions.with_lines(notes, squeezed)
+        if not offered:
+            return _rejected(file, said, survey.workspace.find(notes[-1].variable))
+        candidates = tuple(a.candidate() for a in offered)
+        return ConversionResult(file, Outcome.AMBIGUOUS, None, candidates, _worst_first(said))
+    variable = found.variable = chosen.variable
+    count = variable.shape[0] if variable.shape else 0
+    if count > rows:
+        words: dict[str, Any] = {"rows": count, "most": rows}
+        raise Refused(finding("too_many_rows", variable=variable.path, **words))
+    sources = joining.sources(variable.path, options.join)
+    for path in sources:
+        matrix = stored.find(path)
+        if path in squeezed and matrix is not None:
+            notes.append(dimensions.squeezed_finding(path, squeezed[path], matrix))
+    if options.columns and not options.transpose and not variable.is_message:
+        notes += left_out_columns.doubts(chosen, robot)
+    if workspace.confirm is not None and variable.values is not None:
+        # before the joints are copied, as the second reader needs memory as well
+        workspace.confirm(sources)
+    layout = lay_out(chosen, survey, options, notes)
+    layout, rate = _at_a_rate(survey, chosen, layout, options, default_frame_rate, file, notes)
+    notes += limits.against_robot(layout.arm, rate, robot.joints, variable.path, robot.id)
+    notes += kinematics_match.findings(workspace, robot)
+    found.notes = notes = dimensions.with_lines(notes, squeezed)
+    if any(n.severity is Severity.ERROR for n in notes):
+        return _rejected(file, notes, variable)
+    return _Checked(layout, rate, Source(file, variable.path, workspace.sha256))
 
 
 def _rejected(file: str, notes: list[Diagnostic], variable: Variable | None) -> ConversionResult:

@@ -16,6 +16,7 @@ from mrlab_ros.core.conversion.convert import Outcome
 from mrlab_ros.core.conversion.options import Options
 from mrlab_ros.core.conversion.workspace import Variable, Workspace
 from mrlab_ros.core.diagnostics import KINDS, Fix, Refused, Severity
+from mrlab_ros.core.errors import BadInput
 
 COEFFICIENTS = load_coefficients(corpus.ROOT / "config" / "torque_proxy.yaml")
 ARM = make_model(6)  # 6 joints, -3 to 3 rad, 2 rad/s
@@ -301,7 +302,7 @@ def test_columns_that_are_not_there_are_the_reason_given():
 
 @pytest.mark.parametrize("name", ["run\n", "a\nb"])
 def test_a_name_with_a_newline_is_refused(name):
-    with pytest.raises(conversion_convert.BadInput, match="cannot be used"):
+    with pytest.raises(BadInput, match="cannot be used"):
         conversion_convert.convert(
             "q.mat", lambda: None, Options(), ARM, COEFFICIENTS, trajectory_id=name
         )
