@@ -8,7 +8,7 @@ import math
 import mmap
 import os
 import signal
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from typing import Any
 
 import numpy as np
@@ -62,17 +62,23 @@ class _Confirmation:
 
     def __call__(self, paths: Sequence[str]) -> None:
         places = [self._places[p] for p in dict.fromkeys(paths) if p in self._places]
-        batch: list[Place] = []
-        size = 0
-        for place in places:
-            length = len(json.dumps(place))
-            if batch and size + length > MOST_ASKED:
-                self._again(batch)
-                batch, size = [], 0
-            batch.append(place)
-            size += length
-        if batch:
-            self._again(batch)
+        if places:
+            self._again(places)
+
+
+def batches(places: list[Place]) -> Iterator[list[Place]]:
+    """Yield places in as many requests as the messages to the second reader need."""
+    batch: list[Place] = []
+    size = 0
+    for place in places:
+        length = len(json.dumps(place))
+        if batch and size + length > MOST_ASKED:
+            yield batch
+            batch, size = [], 0
+        batch.append(place)
+        size += length
+    if batch:
+        yield batch
 
 
 def compare(status: int | None, target: int, name: str, places: list[Place], limit: float) -> None:

@@ -114,12 +114,13 @@ class WorkspaceReader:
         source, numbers = os.dup(source), os.dup(numbers)
 
         def again(places: list[content.Place]) -> None:
-            target = os.memfd_create("second", os.MFD_CLOEXEC)
-            try:
-                status = self._ask([source, target, numbers], name, again=places)
-                content.compare(status, target, name, places, self.limits.time)
-            finally:
-                os.close(target)
+            for batch in content.batches(places):
+                target = os.memfd_create("second", os.MFD_CLOEXEC)
+                try:
+                    status = self._ask([source, target, numbers], name, again=batch)
+                    content.compare(status, target, name, batch, self.limits.time)
+                finally:
+                    os.close(target)
 
         for descriptor in (source, numbers):
             weakref.finalize(again, os.close, descriptor)

@@ -22,6 +22,7 @@ from mrlab_ros.adapters.workspaces.view import View
 from mrlab_ros.core.diagnostics import Refused, finding
 
 STEP = re.compile(r"\.(?P<field>[^.({]+)|\((?P<element>[\d,]+)\)|\{(?P<cell>[\d,]+)\}")
+H5_FILE = "#file"  # no variable has this name
 BLOCK = 1 << 16  # elements that are compared at once
 ROOT = re.compile(r"[^.({]+")
 
@@ -51,15 +52,17 @@ def disagreement(
     data: the whole file, not compressed with gzip. path: as the own reader gave it, such as
     `out.q.signals.values`. values: what the own reader found, of two dimensions or more, of
     any byte order and of the type that is stored. loaded: variables of v4 to v7 by their names,
-    which calls for one file share. Formats with one reader only (CSV, npz, bags)
-    pass. Raises MemoryError where the memory does not suffice.
+    or the open file of v7.3, which calls for one file share. Formats with one reader only (CSV,
+    npz, bags) pass. Raises MemoryError where the memory does not suffice.
     """
     form = recognise(data)
     if form not in ("mat4", "mat5", "hdf5"):
         return ""
     second = "h5py" if form == "hdf5" else "scipy"
     try:
-        found = _with_h5py(data, path) if form == "hdf5" else _with_scipy(data, path, loaded)
+        found = (
+            _with_h5py(data, path, loaded) if form == "hdf5" else _with_scipy(data, path, loaded)
+        )
     except _Opaque:
         return ""
     except MemoryError:
@@ -171,8 +174,13 @@ def _with_scipy(data: memoryview, path: str, loaded: dict[str, Any] | None = Non
     return value
 
 
-def _with_h5py(data: memoryview, path: str) -> NDArray[Any]:
-    with h5py.File(io.BufferedReader(View(data)), "r") as file:
+def _with_h5py(data: memoryview, path: str, loaded: dict[str, Any] | None = None) -> NDArray[Any]:
+    # many pieces of one file are read through one opening of it
+    known = {} if loaded is None else loaded
+    if H5_FILE not in known:
+        known[H5_FILE] = h5py.File(io.BufferedReader(View(data)), "r")
+    file = known[H5_FILE]
+    try:
         item = file
         number: int | None = None
         followed = steps(path)
@@ -188,11 +196,23 @@ def _with_h5py(data: memoryview, path: str) -> NDArray[Any]:
             elif kind in ("field", "variable"):
                 item = item[where]
                 if number is not None:
-                    item, number = file[item[()].reshape(-1)[number]], None
+                    item, number = file[_references(item, known)[number]], None
             else:
-                item = file[item[()].reshape(-1)[_number(item.shape, where)]]
+                item = file[_references(item, known)[_number(item.shape, where)]]
         values = np.asarray(item[...]).T
         return values.reshape(values.shape + (1,) * (2 - values.ndim))
+    finally:
+        if loaded is None:
+            file.close()
+
+
+def _references(item: Any, known: dict[str, Any]) -> NDArray[Any]:
+    """Return the references of a cell or a field; those of one item are read once."""
+    key = f"#{item.name}"
+    if key not in known:
+        known[key] = item[()].reshape(-1)
+    found: NDArray[Any] = known[key]
+    return found
 
 
 def _number(shape: tuple[int, ...], where: tuple[int, ...]) -> int:

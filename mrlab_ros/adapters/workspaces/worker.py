@@ -59,7 +59,7 @@ from mrlab_ros.core.robots.kinematics import KinematicChain, Segment
 from mrlab_ros.core.robots.model import Joint, RobotModel
 from mrlab_ros.core.trajectory.channels import ProxyCoefficients
 
-MOST_VARIABLES = 20_000
+MOST_VARIABLES = 50_000
 MESSAGE_SIZE = 65_536
 # what the index says of a variable beside its numbers
 FACTS = ("note", "columns", "units", "time", "is_object", "label", "text")

@@ -4,12 +4,13 @@ from __future__ import annotations
 
 import re
 from dataclasses import dataclass
+from functools import lru_cache
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from mrlab_ros.core.conversion.variable_names import leaf, parts, words
+from mrlab_ros.core.conversion.variable_names import leaf, parts, without_numbers, words
 from mrlab_ros.core.trajectory.trajectory import Array
 
 SECONDS = {"s": 1.0, "ms": 1e-3, "us": 1e-6, "ns": 1e-9, "days": 86_400.0}
@@ -115,6 +116,11 @@ def unit_named(name: str) -> str:
 
 def is_time_name(path: str) -> bool:
     """Say whether the name of the variable at `path`, or a heading, says time."""
+    return _is_time_name(without_numbers(path))
+
+
+@lru_cache(maxsize=4096)
+def _is_time_name(path: str) -> bool:
     name = re.sub(r"[({\[].*$", "", leaf(path))
     said = parts(name)
     for names in UNIT_WORDS.values():

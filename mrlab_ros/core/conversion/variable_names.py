@@ -10,6 +10,7 @@ from __future__ import annotations
 import re
 from dataclasses import dataclass
 from enum import Enum
+from functools import lru_cache
 
 
 class Hint(Enum):
@@ -181,6 +182,7 @@ BEFORE_SYMBOL = {
 # q_punkt and q_p are how German lectures write a derivative; q_2p is the second one
 DOTTED = re.compile(r"(q|th|theta|phi|gelenk|winkel)(?P<two>2|zwei|doppel)?(punkt|p|pkt)$")
 UMLAUTS = str.maketrans({"ä": "ae", "ö": "oe", "ü": "ue", "ß": "ss"})
+SUBSCRIPTS = re.compile(r"([({])[\d,]+([)}])")
 # fields that only say "the values are in here"
 CONTAINER_TAIL = re.compile(
     r"(\.(signals|values|data|Data|Values|Value|q_?data)(\(\d+\))?)+(\([\d:, end]+\))?$"
@@ -201,11 +203,21 @@ def parts(name: str) -> list[str]:
     return [p.translate(UMLAUTS) for p in found if p]
 
 
+def without_numbers(path: str) -> str:
+    """Return a path with 1 for every subscript: all elements of an array are named alike."""
+    return SUBSCRIPTS.sub(r"\g<1>1\2", path)
+
+
 def describe(path: str) -> Name:
     """Return what the name of the variable at `path` says.
 
     Of a series such as q1..q6, or a list, the first name speaks.
     """
+    return _describe(without_numbers(path))
+
+
+@lru_cache(maxsize=4096)
+def _describe(path: str) -> Name:
     first = re.split(r"\.\.|,(?![^(]*\))", path)[0].strip("[] ")
     series = first != path
     path = first
