@@ -41,6 +41,7 @@ def test_without_pybullet_physics_is_refused_or_left_out_in_words(monkeypatch):
     assert why.startswith("runs without physics: pybullet")
 
 
+@pytest.mark.slow
 def test_the_node_and_the_command_end_with_the_same_sentence():
     node = "from mrlab_ros.processes import host\nhost.main(['physics'])"
     command = (

@@ -131,6 +131,7 @@ def test_in_every_shipped_scene_the_robots_stand_free_and_the_objects_rest(stage
         assert np.abs(stage.place(name) - place).max() < 0.003, name
 
 
+@pytest.mark.slow
 def test_a_cube_is_picked_carried_and_put_down_as_the_script_says(stages):
     stage = stages("pick_and_place", {"ur5e_1": "pick_and_place_ur5e"})
     start = stage.place("cube_1")
@@ -149,6 +150,7 @@ def test_a_cube_is_picked_carried_and_put_down_as_the_script_says(stages):
     )
 
 
+@pytest.mark.slow
 def test_scrubbing_a_run_puts_the_cube_back_where_it_was(stages):
     stage = stages("pick_and_place", {"ur5e_1": "pick_and_place_ur5e"})
     start = stage.place("cube_1")
@@ -181,6 +183,7 @@ HANDOVER = {
 }
 
 
+@pytest.mark.slow
 def test_a_rod_is_handed_from_one_gripper_to_the_other(stages):
     giver, taker = HANDOVER
     stage = stages("handover", HANDOVER)

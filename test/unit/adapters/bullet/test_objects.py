@@ -44,6 +44,7 @@ def test_a_shipped_mesh_is_small_and_as_large_as_what_it_collides_with(path):
     assert vertices.max(axis=0) == pytest.approx(kind.high, abs=0.002)
 
 
+@pytest.mark.slow
 def test_the_script_makes_every_shipped_mesh(tmp_path, monkeypatch):
     monkeypatch.syspath_prepend(ROOT / "scripts" / "robots")
     path = ROOT / "scripts" / "robots" / "objects.py"

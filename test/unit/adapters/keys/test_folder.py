@@ -251,6 +251,7 @@ def run(*arguments):
     return CliRunner().invoke(app, ["keys", *map(str, arguments)])
 
 
+@pytest.mark.slow
 def test_the_command_makes_lists_and_takes_back_keys(tmp_path):
     folder = tmp_path / "keys"
     made = json.loads(run("init", "--dir", folder, "--host", "lab.example.org", "--json").stdout)

@@ -140,6 +140,7 @@ def test_hulls_follow_what_is_seen(folder: Path) -> None:
         assert 0 <= fit.larger <= robots_hulls.MOST_LARGER, fit
 
 
+@pytest.mark.slow
 def test_both_sides_of_a_fit_are_measured() -> None:
     body = trimesh.creation.box((1.0, 0.4, 0.2)).triangles
     grown = trimesh.creation.box((1.06, 0.4, 0.2)).triangles
@@ -280,6 +281,7 @@ def test_the_generator_makes_what_is_shipped(tmp_path: Path) -> None:
         assert fit.larger <= robots_hulls.MOST_LARGER, fit
 
 
+@pytest.mark.slow
 def test_an_unknown_body_is_refused_and_nothing_is_written(tmp_path: Path) -> None:
     command = [sys.executable, GENERATOR / "generate.py", "--out", tmp_path, "vacuum_cup", "ur5"]
     done = subprocess.run(command, capture_output=True, text=True, timeout=100, check=False)

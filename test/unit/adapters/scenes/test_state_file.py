@@ -215,6 +215,7 @@ def test_a_disk_without_room_is_found_before_anything_changes(tmp_path, monkeypa
 
 @settings(max_examples=150, deadline=None)
 @given(st.data())
+@pytest.mark.slow
 def test_no_mutation_of_the_bytes_raises_or_is_lost(tmp_path_factory, data):
     folder = tmp_path_factory.mktemp("state")
     path = folder / "scene.json"

@@ -21,6 +21,7 @@ def test_a_peak_of_one_frame_stays_in_the_picture(rows):
     assert abs(places[drawn[:, 1].argmax()] - rows // 2) <= rows / export.DOWNSAMPLED
 
 
+@pytest.mark.slow
 def test_a_picture_does_not_depend_on_what_was_drawn_before(tmp_path):
     robot = make_model(2)
     long = make_trajectory(np.linspace(0, 40, 5000).reshape(-1, 2))

@@ -288,6 +288,7 @@ def test_no_cut_file_is_taken(data):
 
 @settings(deadline=None, max_examples=300)
 @given(st.data(), st.sampled_from([GOOD, SMALL, saved(q=np.ones((4, 6)), form="4")]))
+@pytest.mark.slow
 def test_damage_is_refused_or_read_but_never_anything_else(data, good):
     damaged = bytearray(good)
     for _ in range(data.draw(st.integers(1, 4))):

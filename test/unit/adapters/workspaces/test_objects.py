@@ -321,6 +321,7 @@ def reader():
 
 @pytest.mark.parametrize("version", VERSIONS)
 @pytest.mark.parametrize("path", FOUND)
+@pytest.mark.slow
 def test_a_motion_in_an_object_is_converted(reader, version, path):
     data = matlab.saved(version, **FOUND[path])
     result = convert(

@@ -132,6 +132,7 @@ MATRICES = hnp.arrays(
 
 
 @given(MATRICES)
+@pytest.mark.slow
 def test_a_matrix_equals_itself_in_any_type(matrix):
     assert not difference(matrix, matrix.astype("<f8") if matrix.dtype.kind == "f" else matrix)
 
