@@ -6,13 +6,21 @@ import shutil
 from collections.abc import Iterator
 
 import pytest
-from playwright.sync_api import Browser, BrowserContext, Page, sync_playwright
+from playwright.sync_api import (
+    Browser,
+    BrowserContext,
+    Page,
+    StorageState,
+    expect,
+    sync_playwright,
+)
 from served_lab import Gateway, ServedLab, gateway_with_people, served_lab
 
 # Without the second one headless Chromium has no WebGL, and a page without 3D would pass.
 FLAGS = ("--no-sandbox", "--enable-unsafe-swiftshader", "--use-angle=swiftshader")
 # Of a page that waits for something, ms; software draws the 3D view on few cores.
 PATIENCE_MS = 30_000
+expect.set_options(timeout=PATIENCE_MS)
 CHROMIUM = ("chromium", "chromium-browser", "google-chrome", "google-chrome-stable")
 
 
@@ -57,10 +65,24 @@ def troubles() -> Troubles:
     return Troubles()
 
 
+@pytest.fixture(scope="session")
+def signed_in(browser: Browser, lab: ServedLab) -> StorageState:
+    """Return the cookies of the browser that the link of `mrlab open` signs in, once."""
+    context = browser.new_context()
+    page = context.new_page()
+    page.goto(lab.signed_in_url())
+    page.get_by_role("navigation", name="Main").wait_for()
+    state = context.storage_state()
+    context.close()
+    return state
+
+
 @pytest.fixture
-def context(browser: Browser) -> Iterator[BrowserContext]:
-    """A browser of one's own: no cookies, English."""
-    made = browser.new_context(locale="en-GB", viewport={"width": 1280, "height": 900})
+def context(browser: Browser, signed_in: StorageState) -> Iterator[BrowserContext]:
+    """A browser of the local user, in English."""
+    made = browser.new_context(
+        locale="en-GB", viewport={"width": 1100, "height": 700}, storage_state=signed_in
+    )
     made.set_default_timeout(PATIENCE_MS)
     yield made
     made.close()
@@ -68,10 +90,9 @@ def context(browser: Browser) -> Iterator[BrowserContext]:
 
 @pytest.fixture
 def page(context: BrowserContext, lab: ServedLab, troubles: Troubles) -> Iterator[Page]:
-    """The upload page, signed in by the link that `mrlab open` prints; without complaints."""
+    """The upload page of the local user, which must not complain of anything."""
     page = context.new_page()
-    page.set_default_timeout(PATIENCE_MS)
     troubles.watch(page)
-    page.goto(lab.signed_in_url())
+    page.goto(lab.url)
     yield page
     assert troubles == []

@@ -85,6 +85,8 @@ export const de: Words = {
     otherFile: 'Andere Datei',
     checkedFor: 'Geprüft für',
     change: 'ändern',
+    several: (count) => `${count} Matrizen dieser Datei könnten die Bewegung sein`,
+    refused: (robot) => `Noch nicht angenommen für ${robot}: das ist zu beheben`,
     which: 'Welche ist die Bewegung?',
     take: (variable) => `${variable} nehmen`,
     range: (low, high) => `von ${low} bis ${high}`,

@@ -84,6 +84,8 @@ export const en = {
     otherFile: 'Another file',
     checkedFor: 'Checked for',
     change: 'change',
+    several: (count: number) => `${count} matrices of this file could be the motion`,
+    refused: (robot: string) => `Not taken for ${robot} yet: here is what to mend`,
     which: 'Which one is the motion?',
     take: (variable: string) => `Take ${variable}`,
     range: (low: string, high: string) => `from ${low} to ${high}`,

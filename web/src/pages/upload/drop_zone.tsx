@@ -91,11 +91,9 @@ export function DropZone({ over, onFile }: DropZoneProps) {
       </div>
       <input
         ref={input}
-        class="spoken"
+        hidden
         type="file"
         accept={ACCEPTED}
-        aria-label={w.chooseFile}
-        tabIndex={-1}
         onChange={(event) => {
           const file = event.currentTarget.files?.[0]
           // The same file can be chosen again once it was changed.

@@ -20,6 +20,14 @@ function robotName(flow: UploadFlow, model: string): string {
   return flow.library.value?.robots.find((robot) => robot.model === model)?.name ?? model
 }
 
+/** An accepted file says what was found; of another one the findings do. */
+function title(flow: UploadFlow, { conversion, choice }: Result): string {
+  const w = words.value.upload
+  if (conversion.outcome === 'accepted') return conversion.message
+  if (conversion.outcome === 'ambiguous') return w.several(conversion.candidates.length)
+  return w.refused(robotName(flow, choice.robot))
+}
+
 /** What became of a file: evidence, motion, findings, and what to do next. */
 export function Verdict({ flow, result, file }: VerdictProps) {
   const w = words.value
@@ -36,7 +44,7 @@ export function Verdict({ flow, result, file }: VerdictProps) {
             <OutcomeChip outcome={conversion.outcome} />
             <span class="second small verdict-file">{file.name}</span>
           </div>
-          <h1 class="verdict-message">{conversion.message}</h1>
+          <h1 class="verdict-message">{title(flow, result)}</h1>
           {labels.length > 0 && (
             <p class="row small">
               {labels.map((label) => (

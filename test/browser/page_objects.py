@@ -1,0 +1,82 @@
+"""What a person sees and does on each page, by roles and names as a screen reader has them."""
+
+from __future__ import annotations
+
+import io
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+from PIL import Image
+from playwright.sync_api import Locator, Page, expect
+
+
+class UploadPage:
+    """`/`: from a file to a motion that is published."""
+
+    def __init__(self, page: Page) -> None:
+        self.page = page
+        self.verdict = page.get_by_role("article")
+        self.canvas = page.locator(".motion-scene canvas.scene-canvas")
+        self.findings = page.locator(".finding")
+        self.strips = page.locator(".strip")
+
+    def send(self, file: Path) -> None:
+        """Choose a file; wait for its verdict."""
+        self.page.get_by_role("radio", name="UR5e").wait_for(state="attached")
+        self.page.locator("input[type=file]").set_input_files(file)
+        self.verdict.wait_for()
+
+    def outcome(self, word: str) -> Locator:
+        """Return the chip that says what became of the file."""
+        return self.verdict.locator(".chip", has_text=word)
+
+    def finding(self, code: str) -> Locator:
+        return self.page.locator(f".finding[data-code={code}]")
+
+    def wait_for_robot(self) -> None:
+        """Wait until every mesh of the robot is there: the picture is whole and stands still."""
+        self.canvas.wait_for()
+        expect(self.page.locator(".scene-note")).to_be_hidden()
+        self.page.wait_for_load_state("networkidle")
+
+    def picture(self) -> NDArray[np.uint8]:
+        """Return the pixels of the 3D view, (height, width, 3)."""
+        png = self.canvas.screenshot()
+        return np.asarray(Image.open(io.BytesIO(png)).convert("RGB"))
+
+    def publish(self, name: str, *, shared: bool = False) -> None:
+        """Publish under a name; wait until it is done."""
+        self.page.get_by_label("Name", exact=True).fill(name)
+        if shared:
+            self.page.get_by_label("Everybody in the class may see it").check()
+        self.page.get_by_role("button", name="Publish").click()
+        expect(self.page.get_by_role("heading", name="Published as")).to_be_visible()
+
+
+class SignInPage:
+    """`/sign-in` and `/invitation/...`"""
+
+    def __init__(self, page: Page) -> None:
+        self.page = page
+
+    def accept(self, link: str, password: str) -> None:
+        """Choose a password with a one-time link."""
+        self.page.goto(link)
+        self.page.get_by_label("Password", exact=True).fill(password)
+        self.page.get_by_label("The same again").fill(password)
+        self.page.get_by_role("button", name="Save and go in").click()
+        expect(self.page.get_by_role("navigation", name="Main")).to_be_visible()
+
+    def sign_in(self, url: str, name: str, password: str) -> None:
+        """Sign in with name and password."""
+        self.page.goto(f"{url}/sign-in")
+        self.page.get_by_label("Name").fill(name)
+        self.page.get_by_label("Password").fill(password)
+        self.page.get_by_role("button", name="Sign in", exact=True).click()
+
+
+def differ(before: NDArray[np.uint8], after: NDArray[np.uint8]) -> float:
+    """Return the share of pixels that changed clearly."""
+    change = np.abs(before.astype(int) - after.astype(int)).max(axis=2)
+    return float((change > 24).mean())
