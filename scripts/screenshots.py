@@ -1,0 +1,212 @@
+#!/usr/bin/env python3
+"""Take the pictures of docs/pages.md: every page of a lab that runs, phone and desktop, both themes.
+
+python scripts/screenshots.py             all
+python scripts/screenshots.py upload lab  these pages
+"""
+
+from __future__ import annotations
+
+import argparse
+import io
+import shutil
+import sys
+import tempfile
+import time
+from collections.abc import Callable
+from dataclasses import dataclass
+from pathlib import Path
+
+from PIL import Image
+from playwright.sync_api import Browser, Page, sync_playwright
+
+ROOT = Path(__file__).resolve().parent.parent
+sys.path[:0] = [str(ROOT / "test"), str(ROOT / "test" / "browser")]
+
+import workspaces  # noqa: E402
+from page_objects import SignInPage, UploadPage  # noqa: E402
+from served_lab import Gateway, ServedLab, gateway_with_people, served_lab  # noqa: E402
+
+from mrlab_ros.core.bridge.rules import Role  # noqa: E402
+
+IMAGES = ROOT / "docs" / "images" / "pages"
+FLAGS = ("--no-sandbox", "--enable-unsafe-swiftshader", "--use-angle=swiftshader")
+# Width and height of the window, px, and how many pixels of the picture one of them is.
+SIZES = {"desktop": (1280, 860, 1.0), "phone": (390, 844, 1.5)}
+THEMES = ("light", "dark")
+QUALITY = 82
+PASSWORD = "long enough to be one"
+# Software draws slowly on few cores, ms.
+PATIENCE_MS = 90_000
+# Until what moves stands still, ms.
+SETTLE_MS = 700
+
+
+@dataclass(frozen=True)
+class Stage:
+    """What the pages are taken of; files: a folder of workspaces."""
+
+    lab: ServedLab
+    gateway: Gateway
+    files: Path
+
+
+def start(page: Page, stage: Stage) -> None:
+    page.goto(stage.gateway.url)
+    page.locator(".picker-choice").first.wait_for()
+    page.wait_for_load_state("networkidle")
+
+
+def sent(page: Page, stage: Stage, file: Path) -> UploadPage:
+    start(page, stage)
+    upload = UploadPage(page)
+    upload.send(file)
+    return upload
+
+
+def accepted(page: Page, stage: Stage) -> None:
+    sent(page, stage, ROOT / "examples" / "quintic_ur5e.mat").wait_for_robot()
+    page.get_by_label("Time").fill("2.4")
+
+
+def refused(page: Page, stage: Stage) -> None:
+    upload = sent(page, stage, workspaces.beyond(stage.files))
+    upload.wait_for_robot()
+    upload.finding("joint_limit").get_by_role("button", name="rows").click()
+
+
+def chooser(page: Page, stage: Stage) -> None:
+    sent(page, stage, workspaces.ambiguous(stage.files))
+
+
+def published(page: Page, stage: Stage) -> None:
+    upload = sent(page, stage, ROOT / "examples" / "quintic_ur5e.mat")
+    upload.wait_for_robot()
+    upload.publish("quintic", shared=True)
+    page.evaluate("scrollTo(0, 0)")
+
+
+def trajectories(page: Page, stage: Stage) -> None:
+    page.goto(f"{stage.gateway.url}/trajectories")
+    page.locator(".trajectory").first.wait_for()
+
+
+def comparison(page: Page, stage: Stage) -> None:
+    page.goto(f"{stage.gateway.url}/trajectories/ada/wide?with=ada%2Fnarrow")
+    page.locator(".comparison-result").wait_for()
+    UploadPage(page).wait_for_robot()
+    page.get_by_label("Time").fill("1")
+
+
+def lab(page: Page, stage: Stage) -> None:
+    page.goto(f"{stage.gateway.url}/lab")
+    page.locator("canvas").first.wait_for()
+    page.wait_for_load_state("networkidle")
+    page.wait_for_timeout(5 * SETTLE_MS)
+
+
+def people(page: Page, stage: Stage) -> None:
+    page.goto(f"{stage.gateway.url}/people")
+    page.locator("[data-device]").first.wait_for()
+
+
+def sign_in(page: Page, stage: Stage) -> None:
+    page.context.clear_cookies()
+    page.goto(f"{stage.gateway.url}/sign-in")
+    page.get_by_label("Password").wait_for()
+
+
+def pair(page: Page, stage: Stage) -> None:
+    page.context.clear_cookies()
+    page.goto(f"{stage.gateway.url}/pair")
+    page.locator(".qr").wait_for()
+
+
+def invitation(page: Page, stage: Stage) -> None:
+    link = stage.gateway.invite(f"grace{time.monotonic_ns() % 10**6}", Role.STUDENT)
+    page.context.clear_cookies()
+    page.goto(link)
+    page.get_by_label("The same again").wait_for()
+
+
+PAGES: dict[str, Callable[[Page, Stage], None]] = {
+    "upload": start,
+    "accepted": accepted,
+    "refused": refused,
+    "chooser": chooser,
+    "published": published,
+    "trajectories": trajectories,
+    "comparison": comparison,
+    "lab": lab,
+    "people": people,
+    "sign-in": sign_in,
+    "pair": pair,
+    "invitation": invitation,
+}
+
+
+def prepare(page: Page, stage: Stage) -> None:
+    """Let the teacher in whose pages are shown, with a few trajectories and people."""
+    page.set_default_timeout(PATIENCE_MS)
+    SignInPage(page).accept(stage.gateway.invite("ada", Role.INSTRUCTOR), PASSWORD)
+    for name, role in (
+        ("grace", Role.STUDENT),
+        ("alan", Role.STUDENT),
+        ("projector", Role.DISPLAY),
+    ):
+        stage.gateway.invite(name, role)
+    for name, size in (("narrow", 0.4), ("wide", 0.6), ("wide", 0.7)):
+        upload = sent(page, stage, workspaces.good(stage.files, f"{name}.mat", size))
+        upload.publish(name, shared=name == "wide")
+
+
+def take(browser: Browser, stage: Stage, cookies: Path, names: list[str]) -> None:
+    """Write the pictures of the pages `names`."""
+    IMAGES.mkdir(parents=True, exist_ok=True)
+    for size, (width, height, scale) in SIZES.items():
+        for theme in THEMES:
+            for name in names:
+                context = browser.new_context(
+                    viewport={"width": width, "height": height},
+                    device_scale_factor=scale,
+                    color_scheme=theme,  # type: ignore[arg-type]
+                    locale="en-GB",
+                    reduced_motion="reduce",
+                    storage_state=cookies,
+                )
+                page = context.new_page()
+                page.set_default_timeout(PATIENCE_MS)
+                PAGES[name](page, stage)
+                page.wait_for_timeout(SETTLE_MS)
+                image = Image.open(io.BytesIO(page.screenshot(timeout=PATIENCE_MS)))
+                file = IMAGES / f"{name}-{size}-{theme}.webp"
+                image.convert("RGB").save(file, quality=QUALITY, method=6)
+                context.close()
+                print(file.relative_to(ROOT), flush=True)
+
+
+def main() -> None:
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("pages", nargs="*", metavar="page", help=", ".join(PAGES))
+    names = parser.parse_args().pages or list(PAGES)
+    with tempfile.TemporaryDirectory() as folder, sync_playwright() as playwright:
+        place = Path(folder)
+        for part in ("lab", "gateway", "files"):
+            (place / part).mkdir()
+        browser = playwright.chromium.launch(executable_path=shutil.which("chromium"), args=FLAGS)
+        with (
+            served_lab(place / "lab") as there,
+            gateway_with_people(there, place / "gateway") as gateway,
+        ):
+            stage = Stage(there, gateway, place / "files")
+            context = browser.new_context(locale="en-GB")
+            prepare(context.new_page(), stage)
+            cookies = place / "cookies.json"
+            context.storage_state(path=cookies)
+            context.close()
+            take(browser, stage, cookies, names)
+        browser.close()
+
+
+if __name__ == "__main__":
+    main()
