@@ -358,7 +358,6 @@ class Setup:
 # What only the tests use; the lab itself runs without.
 TEST_TOOLS = (
     ("octave-cli", "octave", "runs the MATLAB examples"),
-    ("chromium", "chromium", "opens the pages"),
     ("check_urdf", "liburdfdom-tools", "checks the robot descriptions"),
     ("chromium", "chromium", "shows the pages"),
 )

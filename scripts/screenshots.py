@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Take the pictures of docs/pages.md: every page of a lab that runs, phone and desktop, both themes.
+"""Take the pictures of docs/pages.md: every page of a lab, phone and desktop, both themes.
 
 python scripts/screenshots.py             all
 python scripts/screenshots.py upload lab  these pages
@@ -21,9 +21,9 @@ from PIL import Image
 from playwright.sync_api import Browser, Page, sync_playwright
 
 ROOT = Path(__file__).resolve().parent.parent
-sys.path[:0] = [str(ROOT / "test"), str(ROOT / "test" / "browser")]
+sys.path[:0] = [str(ROOT / "test")]
 
-import workspaces  # noqa: E402
+import student_files  # noqa: E402
 from page_objects import SignInPage, UploadPage  # noqa: E402
 from served_lab import Gateway, ServedLab, gateway_with_people, served_lab  # noqa: E402
 
@@ -44,7 +44,7 @@ SETTLE_MS = 700
 
 @dataclass(frozen=True)
 class Stage:
-    """What the pages are taken of; files: a folder of workspaces."""
+    """What the pages are taken of; files: a folder of student_files."""
 
     lab: ServedLab
     gateway: Gateway
@@ -70,13 +70,13 @@ def accepted(page: Page, stage: Stage) -> None:
 
 
 def refused(page: Page, stage: Stage) -> None:
-    upload = sent(page, stage, workspaces.beyond(stage.files))
+    upload = sent(page, stage, student_files.beyond(stage.files))
     upload.wait_for_robot()
     upload.finding("joint_limit").get_by_role("button", name="rows").click()
 
 
 def chooser(page: Page, stage: Stage) -> None:
-    sent(page, stage, workspaces.ambiguous(stage.files))
+    sent(page, stage, student_files.ambiguous(stage.files))
 
 
 def published(page: Page, stage: Stage) -> None:
@@ -156,7 +156,7 @@ def prepare(page: Page, stage: Stage) -> None:
     ):
         stage.gateway.invite(name, role)
     for name, size in (("narrow", 0.4), ("wide", 0.6), ("wide", 0.7)):
-        upload = sent(page, stage, workspaces.good(stage.files, f"{name}.mat", size))
+        upload = sent(page, stage, student_files.good(stage.files, f"{name}.mat", size))
         upload.publish(name, shared=name == "wide")
 
 

@@ -9,7 +9,7 @@ from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
-import workspaces
+import student_files
 from page_objects import SignInPage, UploadPage
 from playwright.sync_api import Browser, BrowserContext, Page, expect
 from served_lab import Gateway
@@ -42,10 +42,10 @@ def test_two_people_see_nothing_of_each_other(
     anna = member(browsers[0], gateway, "anna", Role.STUDENT)
     ben = member(browsers[1], gateway, "ben", Role.STUDENT)
     upload = UploadPage(anna)
-    upload.send(workspaces.good(tmp_path))
+    upload.send(student_files.good(tmp_path))
     upload.publish("secret")
     upload.page.get_by_role("button", name="Another file").click()
-    upload.send(workspaces.good(tmp_path, "other.mat", 0.3))
+    upload.send(student_files.good(tmp_path, "other.mat", 0.3))
     upload.publish("open", shared=True)
     ben.goto(f"{gateway.url}/trajectories")
     expect(ben.get_by_role("link", name=re.compile("^open"))).to_be_visible()

@@ -7,7 +7,7 @@ import re
 from pathlib import Path
 
 import scipy.io
-import workspaces
+import student_files
 from page_objects import UploadPage
 from playwright.sync_api import Page, expect
 from served_lab import ServedLab
@@ -16,7 +16,7 @@ from served_lab import ServedLab
 def published(page: Page, lab: ServedLab, tmp_path: Path, name: str, size: float) -> None:
     upload = UploadPage(page)
     page.goto(lab.url)
-    upload.send(workspaces.good(tmp_path, f"{name}.mat", size))
+    upload.send(student_files.good(tmp_path, f"{name}.mat", size))
     upload.publish(name)
 
 

@@ -5,14 +5,15 @@ from __future__ import annotations
 from pathlib import Path
 
 import numpy as np
-import workspaces
-from page_objects import UploadPage, differ
+import student_files
+from browser_side import difference
+from page_objects import UploadPage
 from playwright.sync_api import Page, expect
 
 
 def test_a_good_file_moves_after_two_clicks_and_is_published(page: Page, tmp_path: Path) -> None:
     upload = UploadPage(page)
-    upload.send(workspaces.good(tmp_path))
+    upload.send(student_files.good(tmp_path))
     expect(upload.outcome("accepted")).to_be_visible()
     expect(upload.strips).to_have_count(6)
     upload.wait_for_robot()
@@ -23,7 +24,7 @@ def test_a_good_file_moves_after_two_clicks_and_is_published(page: Page, tmp_pat
     expect(page.locator(".scene-clock")).not_to_contain_text("0.00 /")
     expect(page.get_by_role("button", name="Play")).to_be_visible()
     page.get_by_label("Time").fill("1")
-    assert differ(first, upload.picture()) > 0.01
+    assert difference(first, upload.picture()) > 0.01
     upload.publish("wave")
     expect(page.get_by_role("img", name="QR code of")).to_be_visible()
     page.get_by_role("link", name="See the trajectory").click()
@@ -38,7 +39,7 @@ def test_the_example_is_one_click(page: Page) -> None:
 
 def test_of_several_matrices_one_is_chosen(page: Page, tmp_path: Path) -> None:
     upload = UploadPage(page)
-    upload.send(workspaces.ambiguous(tmp_path))
+    upload.send(student_files.ambiguous(tmp_path))
     expect(upload.outcome("your choice")).to_be_visible()
     expect(page.locator(".candidate .sparkline path")).to_have_count(12)
     expect(page.locator(".candidate").nth(1)).to_contain_text("201 \N{MULTIPLICATION SIGN} 6")
@@ -50,7 +51,7 @@ def test_of_several_matrices_one_is_chosen(page: Page, tmp_path: Path) -> None:
 
 def test_a_fix_is_applied_by_its_button_and_taken_back(page: Page, tmp_path: Path) -> None:
     upload = UploadPage(page)
-    upload.send(workspaces.jumping(tmp_path))
+    upload.send(student_files.jumping(tmp_path))
     expect(upload.outcome("refused")).to_be_visible()
     finding = upload.finding("jump_2pi")
     expect(finding).to_contain_text("unwrap")
@@ -62,7 +63,7 @@ def test_a_fix_is_applied_by_its_button_and_taken_back(page: Page, tmp_path: Pat
 
 def test_a_refused_file_is_shown_with_the_failing_frame(page: Page, tmp_path: Path) -> None:
     upload = UploadPage(page)
-    upload.send(workspaces.beyond(tmp_path))
+    upload.send(student_files.beyond(tmp_path))
     expect(upload.outcome("refused")).to_be_visible()
     upload.wait_for_robot()
     first = upload.picture()
@@ -72,7 +73,7 @@ def test_a_refused_file_is_shown_with_the_failing_frame(page: Page, tmp_path: Pa
     assert number == "2"
     finding.get_by_role("button", name="rows 91 to 111").click()
     expect(page.locator(".scene-clock")).to_contain_text("0.90")
-    assert differ(first, upload.picture()) > 0.01
+    assert difference(first, upload.picture()) > 0.01
 
 
 def test_a_file_that_is_none_says_what_to_do(page: Page, tmp_path: Path) -> None:

@@ -2,12 +2,10 @@
 
 from __future__ import annotations
 
-import io
 from pathlib import Path
 
 import numpy as np
-from numpy.typing import NDArray
-from PIL import Image
+from browser_side import pixels
 from playwright.sync_api import Locator, Page, expect
 
 
@@ -40,10 +38,9 @@ class UploadPage:
         expect(self.page.locator(".scene-note")).to_be_hidden()
         self.page.wait_for_load_state("networkidle")
 
-    def picture(self) -> NDArray[np.uint8]:
+    def picture(self) -> np.ndarray:
         """Return the pixels of the 3D view, (height, width, 3)."""
-        png = self.canvas.screenshot()
-        return np.asarray(Image.open(io.BytesIO(png)).convert("RGB"))
+        return pixels(self.canvas)
 
     def publish(self, name: str, *, shared: bool = False) -> None:
         """Publish under a name; wait until it is done."""
@@ -74,9 +71,3 @@ class SignInPage:
         self.page.get_by_label("Name").fill(name)
         self.page.get_by_label("Password").fill(password)
         self.page.get_by_role("button", name="Sign in", exact=True).click()
-
-
-def differ(before: NDArray[np.uint8], after: NDArray[np.uint8]) -> float:
-    """Return the share of pixels that changed clearly."""
-    change = np.abs(before.astype(int) - after.astype(int)).max(axis=2)
-    return float((change > 24).mean())
