@@ -3,10 +3,13 @@
 from __future__ import annotations
 
 import json
+import threading
 from pathlib import Path
 from xml.etree import ElementTree
 
+import httpx
 import pytest
+import uvicorn
 from gateway_side import Gateway
 from graph import wait_for
 
@@ -18,11 +21,26 @@ ROOT = Path(__file__).parents[2]
 @pytest.fixture
 def browser(bridge, endpoint, tmp_path):
     """A browser of a gateway whose lab is the bridge."""
-    with Gateway(tmp_path, lab=lab_at(endpoint, None, "")) as gateway:
-        # The gateway's session opens in the background.
-        local = gateway.local()
-        wait_for(lambda: local.get("/assets/robots.json").status_code == 200, "the lab")
-        yield local
+    gateway = Gateway(tmp_path, lab=lab_at(endpoint, None, ""))
+    # A server of its own: the connection to the lab belongs to one event loop.
+    config = uvicorn.Config(gateway.app, port=0, log_level="warning")
+    server = uvicorn.Server(config)
+    thread = threading.Thread(target=server.run)
+    thread.start()
+    try:
+        wait_for(lambda: server.started, "the server", timeout=60)
+        port = server.servers[0].sockets[0].getsockname()[1]
+        url = f"http://127.0.0.1:{port}"
+        with httpx.Client(base_url=url, follow_redirects=True, timeout=60) as client:
+            client.get(f"/?token={gateway.people.accounts.open(gateway.clock())}")
+            # The gateway's session opens in the background.
+            wait_for(
+                lambda: client.get("/assets/robots.json").status_code == 200, "the lab", timeout=60
+            )
+            yield client
+    finally:
+        server.should_exit = True
+        thread.join(60)
 
 
 def test_a_browser_draws_a_robot_from_the_gateway_alone(browser):

@@ -14,9 +14,10 @@ from mrlab_ros.core.bridge.assets import (
     LARGEST_PIECE,
     Described,
     asset_key,
+    path_of_key,
     read_attachment,
 )
-from mrlab_ros.core.errors import LabError, Unavailable
+from mrlab_ros.core.errors import BadInput, LabError, Unavailable
 from mrlab_ros.gateway.errors import NotFound
 from mrlab_ros.gateway.lab.connection import LabConnection, NoAnswer, Refused, Sample
 from mrlab_ros.gateway.pages import Page
@@ -73,6 +74,10 @@ class AssetCache:
         Requests for one asset share one fetch. An asset that is kept is served while the lab is
         away. Raises NotFound, Unavailable or NoAnswer.
         """
+        try:
+            path_of_key(asset_key(path))
+        except BadInput as error:
+            raise NotFound(str(error)) from None
         entry = self._entries.get(path)
         if entry is not None and self._now() - entry.checked < FRESH_S:
             self._entries.move_to_end(path)

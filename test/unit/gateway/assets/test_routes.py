@@ -8,24 +8,20 @@ from gateway_side import Gateway, code_of
 from mrlab_ros.core.bridge.assets import LARGEST_PIECE, Described
 from mrlab_ros.core.bridge.rules import Role
 from mrlab_ros.gateway.lab.connection import Refused, Sample
+from mrlab_ros.gateway.lab.fake_lab import FakeLab
 
 MESH = "/assets/mrlab_ros/robots/ur5e/meshes/link.glb"
 BODY = b"glTF" + bytes(2000)
 LARGE = b"glTF" + bytes(40 * LARGEST_PIECE)
 
 
-class Lab:
+class Lab(FakeLab):
     """A lab with two meshes; `asked`: the queries for them."""
 
-    connected = True
-
     def __init__(self) -> None:
+        super().__init__()
         self.files = {MESH[1:]: BODY, "assets/large.glb": LARGE}
         self.asked: list[str] = []
-
-    async def open(self) -> None: ...
-
-    async def close(self) -> None: ...
 
     async def get(self, selector: str, timeout_s: float = 5.0) -> Sample | None:
         self.asked.append(selector)
@@ -75,7 +71,13 @@ def test_what_is_not_there_is_said_in_the_lab_s_words(gateway):
     response = browser.get("/assets/mrlab_ros/robots/nothing.glb")
     assert code_of(response) == (404, "not_found")
     assert "robots.json says what there is" in response.text
-    for path in ("/assets/%2e%2e/%2e%2e/etc/passwd", "/assets/a%00b", "/assets/**", "/assets/"):
+    for path in (
+        "/assets/%2e%2e/%2e%2e/etc/passwd",
+        "/assets/a%00b",
+        "/assets/**",
+        "/assets/",
+        "/assets//x",
+    ):
         assert browser.get(path).status_code == 404
 
 
