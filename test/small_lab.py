@@ -62,7 +62,8 @@ class Catalogue(Node):
         self.create_service(srv.ListTrajectories, "~/list_any", self._list)
 
     def _get(self, request, response):
-        trajectory = None if request.id in UNREADABLE else TRAJECTORIES.get(request.id)
+        name = request.id.partition("@")[0]
+        trajectory = None if name in UNREADABLE else TRAJECTORIES.get(name)
         response.success = trajectory is not None
         response.message = f"there is no trajectory '{request.id}'"
         if trajectory is not None:

@@ -17,6 +17,7 @@ MEDIA_TYPES = {
     "csv": "text/csv; charset=utf-8",
 }
 BLOCK = 1 << 18
+FOLDER = "download-"
 
 
 def written(trajectory: Trajectory, name: str, form: str, work: Path) -> tuple[BinaryIO, int]:
@@ -28,7 +29,7 @@ def written(trajectory: Trajectory, name: str, form: str, work: Path) -> tuple[B
     from mrlab_ros.adapters.trajectories import export
 
     try:
-        with tempfile.TemporaryDirectory(dir=work) as folder:
+        with tempfile.TemporaryDirectory(dir=work, prefix=FOLDER) as folder:
             path = export.writer(form)(replace(trajectory, id=name), Path(folder))
             size = path.stat().st_size
             return path.open("rb"), size

@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import math
+import shutil
+import time
 from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
@@ -21,6 +23,9 @@ from mrlab_ros.core.trajectory.document import warnings_of
 from mrlab_ros.core.trajectory.record import Record, Version
 from mrlab_ros.gateway.people.person import LOCAL, Person
 from mrlab_ros.gateway.share import directory
+from mrlab_ros.gateway.store import downloads
+
+STALE_AFTER_S = 3600.0  # a download this old was of a gateway that was killed
 
 
 class Shelf:
@@ -36,6 +41,9 @@ class Shelf:
         # Where uploads and downloads lie for a moment.
         self.work = state_dir / "work"
         self.work.mkdir(parents=True, exist_ok=True)
+        for path in self.work.glob(f"{downloads.FOLDER}*"):
+            if path.stat().st_mtime < time.time() - STALE_AFTER_S:
+                shutil.rmtree(path, ignore_errors=True)
         self._policy = policy
         self._signs_in = signs_in
         self._texts: dict[tuple[str, str], tuple[Record, bytes]] = {}

@@ -50,6 +50,9 @@ class SessionContent:
         self._attach = attach
         self._complain = warn_once
         self._there: set[str] = set()
+        # Trajectories that robots play, and by attachment the version that it holds.
+        self._asked: set[str] = set()
+        self._versions: dict[str, str] = {}
         # The last published scene, unless it is in the bag already.
         self._scene: bytes | None = None
         self._worker = Worker("recorder_content")
@@ -116,19 +119,24 @@ class SessionContent:
         self._attach(name, media_type, (folder / path).read_bytes())
 
     def _take_state(self, topic: str, state: Any) -> None:
-        trajectory = state.trajectory_id
-        if not trajectory or trajectory_name(trajectory) in self._there:
+        version = f"{state.trajectory_id}@{state.trajectory_version}"
+        if not state.trajectory_id or version in self._asked:
             return
         # Asked for once: the state comes every second, and the converter may be gone.
-        self._there.add(trajectory_name(trajectory))
-        self._attach_trajectory(self._trajectories.fetch(trajectory))
+        self._asked.add(version)
+        if version not in self._versions.values():
+            self._attach_trajectory(self._trajectories.fetch(version))
 
     def _take_trajectory(self, topic: str, message: Any) -> None:
         self._attach_trajectory(trajectories.trajectory_from_message(message))
 
     def _attach_trajectory(self, trajectory: Trajectory) -> None:
+        # The first version has the id alone for a name.
+        version = f"{trajectory.id}@{trajectory.version}"
         name = trajectory_name(trajectory.id)
-        self._there.add(name)
+        if self._versions.get(name, version) != version:
+            name = trajectory_name(version)
+        self._versions[name] = version
         self._attach(name, "application/json", b"".join(map(bytes, chunks(trajectory))))
 
     def _take_scene(self, topic: str, message: Any) -> None:

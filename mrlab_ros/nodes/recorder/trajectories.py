@@ -9,6 +9,7 @@ from rclpy.node import Node
 
 from mrlab_ros.adapters.bags.reader import Bag
 from mrlab_ros.adapters.trajectories.json_file import parse
+from mrlab_ros.core.errors import BadInput
 from mrlab_ros.messages import qos, trajectories
 from mrlab_ros.nodes.recorder.attachments import trajectory_name
 from mrlab_ros.ros.answers import answered
@@ -33,7 +34,15 @@ class ReplayedTrajectories:
     @answered
     def _get(self, request: Any, response: Any) -> str:
         name = trajectory_name(request.id)
-        trajectory = parse(self._bag.attachment(name).data, name)
+        try:
+            found = self._bag.attachment(name)
+        except BadInput:
+            # the only version that was recorded has the id alone for a name
+            whole, at, _ = request.id.rpartition("@")
+            if not at:
+                raise
+            found = self._bag.attachment(trajectory_name(whole))
+        trajectory = parse(found.data, name)
         response.trajectory = trajectories.trajectory_to_message(
             trajectory, request.begin, request.count
         )

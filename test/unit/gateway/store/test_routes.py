@@ -1,6 +1,7 @@
 """Uploads and trajectories over HTTP: what each person may see and do, and nothing else."""
 
 import asyncio
+import errno
 import json
 from functools import cache
 
@@ -16,6 +17,7 @@ from mrlab_ros.core.bridge.rules import Role
 from mrlab_ros.core.show.packed import unpacked
 from mrlab_ros.gateway.lab.definitions import installed_definitions
 from mrlab_ros.gateway.lab.fake_lab import FakeLab
+from mrlab_ros.gateway.uploads import receive
 from mrlab_ros.gateway.uploads.receive import Bounds, Receiver
 from mrlab_ros.gateway.uploads.routes import Desk
 
@@ -353,3 +355,14 @@ def test_keys_of_an_upload_keep_any_name(school, anna):
     anna.upload(name="ä ?#☃.mat".replace("?", "%3F").replace("#", "%23"))
     (entry,) = school.store.list("users/anna/uploads")
     assert keys.name_of(entry.key.rsplit("/", 1)[1]) == "ä ?#☃.mat"
+
+
+def test_a_full_disk_is_a_sentence(school, anna, monkeypatch):
+    def full(**_):
+        raise OSError(errno.ENOSPC, "No space left on device")
+
+    monkeypatch.setattr(receive.tempfile, "TemporaryFile", full)
+    answer = anna.upload()
+    assert code_of(answer) == (503, "store")
+    assert "no room for the file (No space left on device)" in answer.json()["error"]["message"]
+    assert school.store.list("users") == []
