@@ -18,7 +18,7 @@ from mrlab_ros.processes.lab import (
     parameter_file,
     robot_models,
 )
-from mrlab_ros.processes.options import LabOptions
+from mrlab_ros.processes.options import LabOptions, new_lab_id
 
 # A process that ends is started again after this time, s, and at most so many times: the launcher
 # cannot know that a process refuses its configuration and would start it for ever.
@@ -115,6 +115,7 @@ def processes(context):
             prepare_keys(keys)
     physics, _ = physics_support.wanted(value("physics") == "true")
     options = LabOptions(
+        lab_id=new_lab_id(),
         config=parameter_file(path("config")),
         state_dir=path("state_dir") or Path(tempfile.mkdtemp(prefix="mrlab-")),
         robots=robot_models(value("robots")),

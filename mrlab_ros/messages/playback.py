@@ -22,9 +22,9 @@ def clock_to_message(clock: PlaybackClock) -> msg.PlaybackClock:
 
 
 def status_to_message(
-    now_ns: int, robot: str, status: PlaybackStatus, host: str = ""
+    now_ns: int, robot: str, status: PlaybackStatus, host: str = "", lab: str = ""
 ) -> msg.PlaybackState:
-    """host: the node that plays the robot."""
+    """host: the node that plays the robot. lab: the id of its lab; empty: unknown."""
     trajectory = status.trajectory
     return msg.PlaybackState(
         header=make_header(now_ns, robot),
@@ -42,6 +42,7 @@ def status_to_message(
         loop=status.loop,
         system=status.system,
         host=host,
+        lab=lab,
     )
 
 

@@ -22,9 +22,12 @@ def robot_to_message(robot: PlacedRobot) -> msg.Robot:
     )
 
 
-def robots_to_message(now_ns: int, robots: Iterable[PlacedRobot]) -> msg.Robots:
+def robots_to_message(now_ns: int, robots: Iterable[PlacedRobot], lab: str = "") -> msg.Robots:
+    """lab: the id of the lab they stand in; empty: unknown."""
     return msg.Robots(
-        header=make_header(now_ns, "world"), robots=[robot_to_message(robot) for robot in robots]
+        header=make_header(now_ns, "world"),
+        robots=[robot_to_message(robot) for robot in robots],
+        lab=lab,
     )
 
 

@@ -48,9 +48,15 @@ def system_to_message(system: RobotSystem) -> msg.RobotSystem:
     )
 
 
-def systems_to_message(now_ns: int, systems: Iterable[RobotSystem]) -> msg.RobotSystems:
+def systems_to_message(
+    now_ns: int, systems: Iterable[RobotSystem], lab: str = "", holder: str = ""
+) -> msg.RobotSystems:
+    """lab: the id of the lab; holder: the coordinator that holds the claims."""
     return msg.RobotSystems(
-        header=make_header(now_ns), systems=[system_to_message(system) for system in systems]
+        header=make_header(now_ns),
+        systems=[system_to_message(system) for system in systems],
+        lab=lab,
+        holder=holder,
     )
 
 

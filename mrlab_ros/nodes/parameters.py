@@ -41,6 +41,12 @@ def _state_dir(about: str) -> Any:
     return field(TEXT, about, "")
 
 
+def _lab_id() -> Any:
+    return field(
+        TEXT, "Id of this lab, which mrlab up chooses: messages of another one are ignored.", ""
+    )
+
+
 @dataclass(frozen=True)
 class ConverterParameters:
     state_dir: str = _state_dir(
@@ -103,6 +109,7 @@ class LabParameters:
     state_dir: str = _state_dir(
         "Folder for the scene; empty: the scene is lost when the node ends."
     )
+    lab_id: str = _lab_id()
     robots: tuple[str, ...] = field(
         ROBOTS,
         "Models of the robots to spawn at the start, such as [ur5e, kuka_kr3_r540], where no "
@@ -116,6 +123,7 @@ class CoordinatorParameters:
     state_dir: str = _state_dir(
         "Folder for the journal of systems; empty: they are lost when the node ends."
     )
+    lab_id: str = _lab_id()
 
 
 @dataclass(frozen=True)
@@ -124,6 +132,7 @@ class PlaybackParameters:
         "Folder for the journal of what robots have loaded and where they stand; empty: it is "
         "lost when the node ends."
     )
+    lab_id: str = _lab_id()
     standing_rate: float = field(
         Number(between(0, 100), "Hz"),
         "How often a robot that does not move repeats its joint state; 0: never.",
@@ -165,6 +174,7 @@ class PhysicsParameters:
         "Folder for objects and surfaces; empty: they are lost when the node ends. Saved scenes "
         "belong to the node lab."
     )
+    lab_id: str = _lab_id()
 
 
 @dataclass(frozen=True)

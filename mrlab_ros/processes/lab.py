@@ -104,7 +104,11 @@ class LabProcess:
 
     def arguments(self, options: LabOptions) -> tuple[str, ...]:
         """Return the host's command line: the nodes, then their ROS arguments."""
-        parameters = {"state_dir": str(options.state_dir), **self.parameters(options)}
+        parameters = {
+            "state_dir": str(options.state_dir),
+            **({"lab_id": options.lab_id} if options.lab_id else {}),
+            **self.parameters(options),
+        }
         # A value is YAML, and JSON is YAML in which a text stays a text.
         given = [a for n, v in parameters.items() for a in ("-p", f"{n}:={json.dumps(v)}")]
         return (*self.nodes, "--ros-args", "--params-file", str(options.config), *given)

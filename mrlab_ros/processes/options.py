@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import secrets
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -31,7 +32,8 @@ class LabOptions:
     to begin with. listen: where zenoh clients connect; empty: the bridge's default. connect: a
     router that clients connect to in place of the bridge. keys: a keys folder. insecure: listen
     beyond this machine without keys. store: URL or folder of uploads and trajectories; empty: in
-    state_dir. web: the gateway; None: no pages.
+    state_dir. web: the gateway; None: no pages. lab_id: distinguishes this lab from others on the
+    same ROS domain; empty: nothing is ignored.
     """
 
     config: Path
@@ -45,3 +47,9 @@ class LabOptions:
     insecure: bool = False
     store: str = ""
     web: WebOptions | None = None
+    lab_id: str = ""
+
+
+def new_lab_id() -> str:
+    """Return an id that no other lab has."""
+    return secrets.token_hex(4)

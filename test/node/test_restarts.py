@@ -168,3 +168,24 @@ def test_a_late_joiner_gets_the_newest_list_of_systems_alone(graph, lab):
     systems = listen_systems(graph)
     wait_for(lambda: systems, "the systems")
     assert state_of(systems[:1]).label == "READY"
+
+
+def test_a_second_lab_on_the_domain_is_ignored_and_both_keep_their_robots(graph, tmp_path):
+    graph.add(Catalogue)
+    first = small_lab.SimpleNamespace(
+        lab=graph.add(LabNode, lab_id="a1"),
+        host=graph.add(PlaybackHostNode, lab_id="a1"),
+        coordinator=graph.add(CoordinatorNode, lab_id="a1"),
+    )
+    robot = spawn(graph)
+    wait_for(lambda: robot in first.host.nodes, "the playback")
+    robots = graph.listen(msg.Robots, "/robots", qos.LATCHED_EVENTS)
+    wait_for(lambda: robots, "the robots")
+    second = graph.add(LabNode, lab_id="b2")
+    wait_for(lambda: {m.lab for m in robots} == {"a1", "b2"}, "the other lab")
+    wait_for(lambda: first.lab.lost, "a word on it")
+    assert "another lab (b2)" in first.lab.lost[0]
+    assert "another lab (a1)" in wait_for(lambda: second.lost, "a word there too")[0]
+    load(graph, robot, "wave")
+    assert list(first.host.nodes) == [robot]
+    assert make_system(graph, {robot: "wave"}).success

@@ -21,7 +21,7 @@ from mrlab_ros.commands.up.command import (
 from mrlab_ros.commands.up.web import open_in_browser, opening_url, run_facts
 from mrlab_ros.core.errors import LabError, Misuse
 from mrlab_ros.processes.lab import lab_processes, parameter_file
-from mrlab_ros.processes.options import LabOptions, WebOptions
+from mrlab_ros.processes.options import LabOptions, WebOptions, new_lab_id
 from mrlab_ros.processes.run_file import RunFile
 from mrlab_ros.processes.supervisor import Supervisor
 from mrlab_ros.processes.web import gateway_answers
@@ -93,6 +93,7 @@ def running_lab(console: Console, config: Path | None) -> Iterator[Stage]:
     with folder_for_state(None) as folder:
         endpoint = f"tcp/127.0.0.1:{free_port(ZENOH_PORT)}"
         options = LabOptions(
+            lab_id=new_lab_id(),
             config=parameter_file(config),
             state_dir=folder,
             physics=False,

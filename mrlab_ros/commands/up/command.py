@@ -37,7 +37,7 @@ from mrlab_ros.processes.lab import (
     parameter_file,
     robot_models,
 )
-from mrlab_ros.processes.options import LabOptions
+from mrlab_ros.processes.options import LabOptions, new_lab_id
 from mrlab_ros.processes.readiness import READY_TIMEOUT_S, wait_until_complete
 from mrlab_ros.processes.run_file import RunFile
 from mrlab_ros.processes.supervisor import SELF, Phase, ProcessState, Supervisor
@@ -176,6 +176,7 @@ def up(
     say = Speaker()
     with folder_for_state(state_dir) as folder, stop_signals() as stop:
         options = LabOptions(
+            lab_id=new_lab_id(),
             config=parameter_file(config),
             state_dir=folder,
             robots=models,

@@ -34,6 +34,8 @@ RETRY_PERIOD_S = 0.1
 class Reports(Protocol):
     """Takes what members publish, in the thread that receives it."""
 
+    def accepts(self, lab: str) -> bool: ...
+
     def on_state(self, client: MemberClient, message: msg.PlaybackState) -> None: ...
 
     def on_grasp(self, robot: str, held: str | None) -> None: ...
@@ -79,6 +81,8 @@ class MemberClient:
         return "" if self.state is None else str(self.state.host)
 
     def _on_state(self, message: msg.PlaybackState) -> None:
+        if not self._reports.accepts(message.lab):
+            return
         self.state = message
         self._known.set()
         self._reports.on_state(self, message)

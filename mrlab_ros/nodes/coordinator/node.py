@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import secrets
 import threading
 from collections.abc import Callable
 from functools import partial
@@ -16,6 +17,7 @@ from std_srvs.srv import SetBool, Trigger
 
 from mrlab_ros.adapters.journal import Journal
 from mrlab_ros.core.errors import BadInput, LabError
+from mrlab_ros.core.identity import Identity
 from mrlab_ros.core.playback.states import State
 from mrlab_ros.core.systems import journal as entries
 from mrlab_ros.core.systems.members import Command, Order
@@ -66,6 +68,9 @@ class CoordinatorNode(ParameterNode[CoordinatorParameters]):
         )
         log = self.get_logger()
         self.caller = Caller(self)
+        self._identity = Identity(self.parameters.lab_id, log.warning)
+        # After a restart another one.
+        self._holder = secrets.token_hex(4)
         self._hosts = Hosts(self.caller.node)
         self._systems = Systems()
         self._members: dict[str, MemberClient] = {}
@@ -235,6 +240,10 @@ class CoordinatorNode(ParameterNode[CoordinatorParameters]):
 
     # reports --------------------------------------------------------------------------------
 
+    def accepts(self, lab: str) -> bool:
+        """Return whether a message that names `lab` is of this one."""
+        return self._identity.accepts(lab)
+
     def on_state(self, client: MemberClient, message: msg.PlaybackState) -> None:
         """Pass a member's published state on to its system, in the worker's thread."""
         self.worker.later(lambda: self._member_changed(client, message))
@@ -279,6 +288,8 @@ class CoordinatorNode(ParameterNode[CoordinatorParameters]):
             self.get_logger().warning(str(error))
 
     def _on_robots(self, message: msg.Robots) -> None:
+        if not self._identity.accepts(message.lab):
+            return
         robots = {robot.name: robot for robot in message.robots}
         self.worker.later(lambda: self._set_robots(robots))
 
@@ -317,5 +328,7 @@ class CoordinatorNode(ParameterNode[CoordinatorParameters]):
             now_ns = self._now_ns()
             # Only the newest is kept for late joiners; the others must have arrived before.
             self._topic.wait_for_all_acked(ARRIVAL)
-            self._topic.publish(systems_to_message(now_ns, self._systems))
+            self._topic.publish(
+                systems_to_message(now_ns, self._systems, self._identity.lab, self._holder)
+            )
             self._journal.save(entries.plain(self._systems, now_ns))

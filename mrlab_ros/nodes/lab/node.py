@@ -19,6 +19,7 @@ from mrlab_ros.adapters.scenes.files import SceneFiles
 from mrlab_ros.adapters.scenes.state_file import StateFile
 from mrlab_ros.core.errors import BadInput, LabError
 from mrlab_ros.core.geometry import Pose
+from mrlab_ros.core.identity import Identity
 from mrlab_ros.core.scene.document import RobotEntry, SceneDocument
 from mrlab_ros.core.scene.restore import counted, self_contained, with_pending
 from mrlab_ros.core.scene.robots import PlacedRobot, Scene
@@ -77,7 +78,9 @@ class LabNode(ParameterNode[LabParameters]):
         )
         # Service responses need a second executor thread: load_scene waits for them.
         self._caller = Caller(self)
-        self._observer = Observer(self._caller.node)
+        self._identity = Identity(self.parameters.lab_id, self._meet)
+        self._caller.node.create_subscription(msg.Robots, "/robots", self._on_robots, qos.LATCHED)
+        self._observer = Observer(self._caller.node, self._identity)
         self._restore = LabRestore(self._caller.node, self._observer, self)
         folder = Path(state_dir) if state_dir else Path.home() / ".local" / "share" / "mrlab"
         self._scenes = Scenes(
@@ -149,7 +152,7 @@ class LabNode(ParameterNode[LabParameters]):
 
     def _announce(self) -> None:
         now_ns = self.get_clock().now().nanoseconds
-        message = robots_to_message(now_ns, self._scene.robots)
+        message = robots_to_message(now_ns, self._scene.robots, self._identity.lab)
         self._robots.publish(message)
         if self._transforms is not None:
             self._transforms.publish(transforms_to_message(now_ns, TFMessage, message.robots))
@@ -196,6 +199,14 @@ class LabNode(ParameterNode[LabParameters]):
 
     def _save(self) -> None:
         self._file.save(self._document())
+
+    def _on_robots(self, message: msg.Robots) -> None:
+        self._identity.accepts(message.lab)
+
+    def _meet(self, said: str) -> None:
+        """Name another lab, also on /diagnostics."""
+        self.lost.append(said)
+        self.get_logger().warning(said)
 
     def _lose(self, why: str) -> None:
         """Keep a copy of the state file, and say what could not be brought back."""

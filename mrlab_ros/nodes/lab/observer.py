@@ -11,6 +11,7 @@ from mrlab_msgs import msg
 from rclpy.node import Node
 from rclpy.subscription import Subscription
 
+from mrlab_ros.core.identity import Identity
 from mrlab_ros.messages import qos
 
 POLL_PERIOD_S = 0.02
@@ -19,10 +20,12 @@ POLL_PERIOD_S = 0.02
 class Observer:
     """Keeps the newest playback state of each robot and the newest list of systems.
 
-    node: is spun by another thread than the one that asks.
+    node: is spun by another thread than the one that asks. identity: which messages are of this
+    lab.
     """
 
-    def __init__(self, node: Node) -> None:
+    def __init__(self, node: Node, identity: Identity) -> None:
+        self._identity = identity
         self._node = node
         self._lock = threading.Lock()
         self._states: dict[str, msg.PlaybackState] = {}
@@ -73,6 +76,8 @@ class Observer:
         return True
 
     def _on_state(self, robot: str, message: msg.PlaybackState) -> None:
+        if not self._identity.accepts(message.lab):
+            return
         with self._lock:
             # A message of a robot that was just removed may still be on its way.
             if robot in self._subscriptions:
@@ -80,6 +85,8 @@ class Observer:
                 self.received += 1
 
     def _on_systems(self, message: msg.RobotSystems) -> None:
+        if not self._identity.accepts(message.lab):
+            return
         with self._lock:
             self._systems = message
             self.received += 1

@@ -18,6 +18,7 @@ from std_msgs.msg import String
 from mrlab_ros.adapters.robots.library import END_EFFECTORS
 from mrlab_ros.adapters.yaml_files import read_yaml
 from mrlab_ros.core.errors import LabError
+from mrlab_ros.core.identity import Identity
 from mrlab_ros.core.physics.engine import LinkPairs
 from mrlab_ros.core.physics.grasp import Gripper
 from mrlab_ros.core.physics.simulated_robot import GripperProgram, Playing
@@ -47,7 +48,7 @@ class GraphListener:
 
     Joint states arrive a thousand times a second, so they bypass the executor. turn: advances
     the world and returns how long to wait at most, ns. never_touch: returns the pairs of links
-    of a model that never touch.
+    of a model that never touch. lab: the id of this lab.
     """
 
     def __init__(
@@ -58,12 +59,14 @@ class GraphListener:
         lock: threading.Lock,
         turn: Callable[[], int],
         never_touch: Callable[[str], LinkPairs],
+        lab: str = "",
     ) -> None:
         self._world = world
         self._never_touch = never_touch
         self._publishers = publishers
         self._lock = lock
         self._log = node.get_logger()
+        self._identity = Identity(lab, self._log.warning)
         self.robots: dict[str, Followed] = {}
         # The names in the newest /robots; None before the first one.
         self.known_robots: frozenset[str] | None = None
@@ -103,6 +106,8 @@ class GraphListener:
         self._log.error(f"physics: {said}", throttle_duration_sec=1.0)
 
     def _on_robots(self, message: msg.Robots) -> None:
+        if not self._identity.accepts(message.lab):
+            return
         wanted = {robot.name: robot for robot in message.robots}
         self.known_robots = frozenset(wanted)
         for name, known in list(self.robots.items()):
@@ -190,7 +195,7 @@ class GraphListener:
                 self._world.joint_state(name, stamp_ns, positions, velocities)
 
     def _on_playback(self, name: str, message: msg.PlaybackState) -> None:
-        if name not in self.robots:
+        if name not in self.robots or not self._identity.accepts(message.lab):
             return
         playing = messages.playing_from_message(message)
         self.robots[name].playing = playing

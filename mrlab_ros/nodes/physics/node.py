@@ -95,7 +95,13 @@ class PhysicsNode(ParameterNode[PhysicsParameters]):
         self._contents.restore()
         self._world_publishers.publish_surfaces(self._lab_clock.now_ns(), self._world.surfaces)
         self._listener = GraphListener(
-            self, self._world, self._world_publishers, self._lock, self._turn, library.never_touch
+            self,
+            self._world,
+            self._world_publishers,
+            self._lock,
+            self._turn,
+            library.never_touch,
+            self.parameters.lab_id,
         )
         for kind, name, callback in (
             (srv.SpawnObject, "spawn_object", self._on_spawn),

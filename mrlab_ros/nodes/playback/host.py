@@ -17,6 +17,7 @@ from mrlab_ros.adapters.journal import Journal
 from mrlab_ros.adapters.robots.library import RobotLibrary
 from mrlab_ros.adapters.robots.ruckig_planner import RuckigPlanner, StagingLimits
 from mrlab_ros.core.errors import LabError, Misuse
+from mrlab_ros.core.identity import Identity
 from mrlab_ros.core.playback import journal as entries
 from mrlab_ros.core.playback.playback import Kept
 from mrlab_ros.core.systems.leases import Leases
@@ -92,6 +93,7 @@ class PlaybackHostNode(ParameterNode[PlaybackParameters]):
             context=context,
             parameter_overrides=parameter_overrides,
         )
+        self._identity = Identity(self.parameters.lab_id, self.get_logger().warning)
         self._only = set(self.parameters.robots)
         self._planner = RuckigPlanner(self._staging_limits())
         self._library = RobotLibrary(share.directory() / "robots")
@@ -158,6 +160,8 @@ class PlaybackHostNode(ParameterNode[PlaybackParameters]):
         super().destroy_node()
 
     def _on_robots(self, message: msg.Robots) -> None:
+        if not self._identity.accepts(message.lab):
+            return
         wanted = {r.name: r for r in message.robots if not self._only or r.name in self._only}
         for robot, node in list(self.nodes.items()):
             if robot not in wanted or wanted[robot].model != node.model.id:
@@ -197,6 +201,8 @@ class PlaybackHostNode(ParameterNode[PlaybackParameters]):
     # claims ---------------------------------------------------------------------------------
 
     def _on_systems(self, message: msg.RobotSystems) -> None:
+        if not self._identity.accepts(message.lab):
+            return
         self._leases.renew([system.name for system in message.systems], time.monotonic())
 
     def _check_leases(self) -> None:
@@ -230,6 +236,7 @@ class PlaybackHostNode(ParameterNode[PlaybackParameters]):
             self._fetch,
             self.parameters.standing_rate,
             host=self.get_fully_qualified_name(),
+            lab=self._identity.lab,
             kept=self._kept_of(robot, model),
             context=self.context,
         )

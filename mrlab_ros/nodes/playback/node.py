@@ -57,12 +57,17 @@ class PlaybackNode(Node):
         standing_rate: float,
         *,
         host: str,
+        lab: str = "",
         kept: Kept | None = None,
         context: Context | None = None,
     ) -> None:
+        """Make the node; the scheduler serves its playback from now on.
+
+        host, lab: the node that plays the robot, and the id of its lab. kept: what the robot had
+        before the process was restarted; come_back() loads it.
+        """
         # A lab of fifty robots has fifty of these nodes: each does without rosout and the
         # services for parameters, of which it has none.
-        """kept: what the robot had before the process was restarted; come_back() loads it."""
         super().__init__(
             "playback",
             namespace=robot,
@@ -77,6 +82,7 @@ class PlaybackNode(Node):
         self._loads = Worker(f"load {robot}")
         self._loading: set[Future[Any]] = set()
         self._host = host
+        self._lab = lab
         self.playback = Playback(model, planner, standing_rate)
         self._encoder = JointStateEncoder(robot, model.joint_names)
         self._joint_states = self.create_publisher(JointState, "joint_states", qos.STREAM)
@@ -203,7 +209,7 @@ class PlaybackNode(Node):
 
     def _announce(self, now_ns: int, status: PlaybackStatus) -> None:
         self._announced = True
-        self._state.publish(status_to_message(now_ns, self.robot, status, self._host))
+        self._state.publish(status_to_message(now_ns, self.robot, status, self._host, self._lab))
 
     def _announce_targets(self, now_ns: int, trajectory: Trajectory | None) -> None:
         tool0 = self.model.chain.tool0

@@ -5,6 +5,7 @@ from __future__ import annotations
 import ast
 import importlib.util
 import json
+import secrets
 import sys
 import types
 from collections.abc import Callable
@@ -243,7 +244,7 @@ def launched(monkeypatch: pytest.MonkeyPatch) -> Callable[..., list[Recorded]]:
 
 
 def test_the_launch_file_starts_the_same_processes_as_up(
-    launched: Callable[..., list[Recorded]], tmp_path: Path
+    launched: Callable[..., list[Recorded]], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     Keys.create(tmp_path / "keys", [], Login.CERTIFICATE, now())
     port = free_port(0)
@@ -254,7 +255,9 @@ def test_the_launch_file_starts_the_same_processes_as_up(
         listen="tls/127.0.0.1:7000",
         keys=tmp_path / "keys",
         web=WebOptions("127.0.0.1", port),
+        lab_id="0a1b",
     )
+    monkeypatch.setattr(secrets, "token_hex", lambda count: "0a1b")
     *nodes, web = launched(
         state_dir=str(tmp_path),
         robots="ur5e",
