@@ -112,7 +112,7 @@ class Hub:
         feeds = [self._feed(rule) for rule in self._fitting(expression)]
         for feed in feeds:
             feed.wanted += 1
-        self.replay(expression, target)
+        self.replay(expression, target, each=True)
 
         def unsubscribe() -> None:
             del self._targets[entry]
@@ -124,10 +124,14 @@ class Hub:
 
         return unsubscribe
 
-    def replay(self, expression: str, target: Target) -> None:
-        """Give the newest messages of latched topics of an expression once more."""
+    def replay(self, expression: str, target: Target, *, each: bool) -> None:
+        """Give the newest messages of latched topics of an expression once more.
+
+        each: also those of topics of which each message counts, such as tf_static.
+        """
         for topic in list(self._topics.values()):
-            if topic.latched and not topic.each and matches(expression, topic.key):
+            wanted = topic.latched and (each or not topic.each)
+            if wanted and matches(expression, topic.key):
                 for message in topic.history:
                     target.take(message)
 

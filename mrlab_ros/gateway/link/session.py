@@ -100,7 +100,7 @@ class LinkSession:
         for number in [n for n, s in self._subscriptions.items() if wanted.get(n) != s.expression]:
             self.unsubscribe(number)
         for subscription in self._subscriptions.values():
-            self._hub.replay(subscription.expression, self)
+            self._hub.replay(subscription.expression, self, each=False)
         for number, expression in wanted.items():
             if number not in self._subscriptions:
                 self.subscribe(number, expression)

@@ -119,6 +119,21 @@ async def test_a_latched_topic_gives_its_newest_message_first(stage: Stage) -> N
 
 
 @scene
+async def test_a_late_client_gets_every_message_of_a_latched_history(stage: Stage) -> None:
+    stage.lab.offer("tf_static", "tf2_msgs/msg/TFMessage", latched=True)
+    first = stage.side()
+    first.hello(_1="tf_static")
+    await first.welcome()
+    for name in ("a", "b"):
+        stage.lab.publish("tf_static", {"transforms": [{"child_frame_id": name}]})
+    await first.until(lambda: len(first.records) == 2)
+    second = stage.side()
+    second.hello(_1="tf_static")
+    await second.until(lambda: len(second.records) == 2)
+    assert second.records == first.records
+
+
+@scene
 async def test_a_message_too_large_for_a_batch_comes_in_pieces(stage: Stage) -> None:
     stage.lab.offer("ur5e_1/robot_description", "std_msgs/msg/String", latched=True)
     text = "x" * 50_000
