@@ -2,15 +2,18 @@
 
 from __future__ import annotations
 
+import json
+import ssl
 import time
 from collections.abc import Callable, Iterator
 from contextlib import suppress
 from pathlib import Path
 from typing import Any
 
+import httpx
 import pytest
 import zenoh
-from launched_lab import DEADLINE, launched_lab, mrlab
+from launched_lab import DEADLINE, done, launched_lab, mrlab
 
 from mrlab_ros.commands.demo.lab import free_port
 
@@ -70,12 +73,36 @@ def test_keys_are_given_and_taken_back_while_the_lab_runs(keys: Path, endpoint: 
         assert not any(reply.ok for reply in anna.get("robots", timeout=5.0))
 
 
+def test_people_reach_a_lab_with_keys_by_its_pages(
+    keys: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """The gateway has its own key, and people of its own sign in over HTTPS."""
+    listen, http = f"tls/127.0.0.1:{free_port(0)}", f"127.0.0.1:{free_port(0)}"
+    options = ("--keys", keys, "--zenoh-listen", listen, "--http", http, "--robots", "ur5e")
+    trusted = ssl.create_default_context(cafile=str(keys / "ca.pem"))
+    with (
+        launched_lab(tmp_path, monkeypatch, *options),
+        httpx.Client(verify=trusted, follow_redirects=True) as browser,
+    ):
+        assert browser.get(f"https://{http}/assets/robots.json").status_code == 401
+        browser.get(done("open", "--print").strip())
+        assert browser.get(f"https://{http}/api/session").json()["user"]["name"] == "local"
+
+        def robots_file() -> httpx.Response | None:
+            answer = browser.get(f"https://{http}/assets/robots.json")
+            return answer if answer.status_code == 200 else None
+
+        assert "ur5e" in patiently(robots_file, "the assets").text
+        (link,) = json.loads(done("users", "add", "ben", "--role", "student", "--json"))
+        assert link["url"].startswith(f"https://{http}/invitation/")
+
+
 def test_a_lab_that_may_not_listen_so_does_not_start(keys: Path) -> None:
     for arguments, words in (
         (("--zenoh-listen", "tcp/0.0.0.0:7447"), "--insecure"),
         (("--zenoh-listen", "tcp/127.0.0.1:7447", "--keys", str(keys)), "leave the keys out"),
         (("--keys", str(keys / "clients")), "mrlab keys init"),
     ):
-        done = mrlab("up", *arguments)
-        assert done.returncode == 1
-        assert words in done.stderr
+        refused = mrlab("up", *arguments)
+        assert refused.returncode == 1
+        assert words in refused.stderr
