@@ -20,11 +20,25 @@ export interface ShownObject extends Shape {
   readonly held_by: string
 }
 
-/** Write a pose into an object's own position and quaternion. */
-export function place(object: Object3D, pose: Pose): void {
+/** Smaller changes are not seen: m, and of a quaternion's numbers. */
+const STILL = 1e-5
+
+/** Write a pose into an object's own position and quaternion; return whether that changes it. */
+export function place(object: Object3D, pose: Pose): boolean {
   const { position: p, orientation: q } = pose
-  object.position.set(p.x, p.y, p.z)
-  object.quaternion.set(q.x, q.y, q.z, q.w)
+  const { position, quaternion } = object
+  const change =
+    Math.abs(position.x - p.x) +
+    Math.abs(position.y - p.y) +
+    Math.abs(position.z - p.z) +
+    Math.abs(quaternion.x - q.x) +
+    Math.abs(quaternion.y - q.y) +
+    Math.abs(quaternion.z - q.z) +
+    Math.abs(quaternion.w - q.w)
+  if (change < STILL) return false
+  position.set(p.x, p.y, p.z)
+  quaternion.set(q.x, q.y, q.z, q.w)
+  return true
 }
 
 interface Entry {
@@ -53,21 +67,26 @@ export class LabObjects {
 
   /** Take over what is there; what is not among it disappears. */
   set(objects: readonly ShownObject[]): void {
+    let changed = false
     for (const entry of this.known.values()) entry.seen = false
     for (const object of objects) {
       const entry = this.known.get(object.name) ?? this.add(object)
       entry.seen = true
-      this.dress(entry, object)
-      place(entry.root, object.pose)
+      changed = this.dress(entry, object) || changed
+      // one that is held goes with the hand
+      if (entry.heldBy === '' || entry.heldBy !== object.held_by) {
+        changed = place(entry.root, object.pose) || changed
+      }
       this.hold(entry, object.held_by)
     }
     for (const [name, entry] of this.known) {
       if (entry.seen) continue
+      changed = true
       this.known.delete(name)
       entry.root.removeFromParent()
       release(entry.root)
     }
-    this.stage.invalidate()
+    if (changed) this.stage.invalidate()
   }
 
   /** Move one object; false: there is none of that name. */
@@ -125,17 +144,18 @@ export class LabObjects {
     }
   }
 
-  private dress(entry: Entry, object: ShownObject): void {
+  /** Give an object its look; return whether it is another one than before. */
+  private dress(entry: Entry, object: ShownObject): boolean {
     const { size, color, mesh, primitive } = object
     const dimensions = Array.from(primitive.dimensions).join()
     const look = `${mesh} ${primitive.type} ${dimensions} ${size.x} ${size.y} ${size.z} ${color.r} ${color.g} ${color.b} ${color.a}`
-    if (entry.look === look) return
+    if (entry.look === look) return false
     entry.look = look
     release(entry.root)
     entry.root.clear()
     if (mesh === '') {
       entry.root.add(primitiveOf(object))
-      return
+      return true
     }
     this.meshes
       .load(mesh)
@@ -152,5 +172,6 @@ export class LabObjects {
         entry.root.add(loaded)
         this.stage.invalidate()
       })
+    return true
   }
 }

@@ -126,6 +126,7 @@ export class LabScene {
   }
 
   setContacts(contacts: Parameters<Contacts['set']>[0]): void {
+    if (contacts.length === 0 && this.contacts.mesh.count === 0) return
     this.contacts.set(contacts)
     this.stage.invalidate()
   }

@@ -24,6 +24,7 @@ interface Movable {
   readonly followers: readonly { movable: Movable; multiplier: number; offset: number }[]
   readonly upper: number
   readonly lower: number
+  value: number
 }
 
 export type Look = 'own' | 'grey' | 'ghost'
@@ -120,10 +121,12 @@ export class SceneRobot {
     }
   }
 
-  /** Move one joint by its name, rad or m; a name that is not there is ignored. */
-  setJoint(name: string, value: number): void {
+  /** Move one joint by its name, rad or m; return whether there is one and it moves. */
+  setJoint(name: string, value: number): boolean {
     const found = this.movables.get(name)
-    if (found !== undefined) this.move(found, value)
+    if (found === undefined || found.value === value) return false
+    this.move(found, value)
+    return true
   }
 
   /** Move the fingers of the end effector: 0 is open, their upper limit closed. */
@@ -165,6 +168,7 @@ export class SceneRobot {
 
   private move(found: Movable, value: number): void {
     const { joint, axis } = found
+    found.value = value
     if (found.prismatic) {
       joint.position.copy(axis).applyQuaternion(found.restTurn).multiplyScalar(value)
       joint.position.add(found.restPosition)
@@ -219,6 +223,7 @@ function movable(joint: URDFJoint): Movable {
     followers: [],
     upper: joint.limit.upper,
     lower: joint.limit.lower,
+    value: 0,
   }
 }
 

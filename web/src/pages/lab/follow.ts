@@ -101,15 +101,16 @@ export class LabFollower {
       this.on('*/joint_states', jointStateType, (message, { key }) => {
         const robot = this.scene?.robot(owner(key))
         if (robot === undefined) return
+        let moved = false
         for (let i = 0; i < message.name.length; i++) {
-          robot.setJoint(message.name[i] as string, message.position[i] as number)
+          moved = robot.setJoint(message.name[i] as string, message.position[i] as number) || moved
         }
         const kept = this.of(owner(key))
         if (!kept.posed) {
           kept.posed = true
           this.scene?.frame()
         }
-        this.stir()
+        if (moved) this.stir()
       }),
       this.on('*/playback_state', playbackStateType, (message, { key }) => {
         const kept = this.of(owner(key))

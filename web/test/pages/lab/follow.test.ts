@@ -22,7 +22,7 @@ import type { LabScene } from '../../../src/scene/lab_scene'
 function lab() {
   const link = new FakeLink()
   link.time = 1000
-  const joints = { setJoint: vi.fn() }
+  const joints = { setJoint: vi.fn(() => true) }
   const scene = {
     setRobots: vi.fn(),
     setState: vi.fn(),
