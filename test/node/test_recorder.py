@@ -160,6 +160,22 @@ def test_a_session_of_the_lab_is_complete_in_itself(graph, recorder):
     assert recorded[begin : begin + 40] == heard[10:50]
 
 
+def test_the_meshes_of_an_imported_robot_are_in_the_bag(graph, recorder, monkeypatch, tmp_path):
+    monkeypatch.setenv("MRLAB_ROBOTS", str(tmp_path / "robots"))
+    mesh = tmp_path / "robots" / "mine" / "meshes" / "link.glb"
+    mesh.parent.mkdir(parents=True)
+    mesh.write_bytes(b"glTF mine")
+    describe = publisher(graph, "/mine_1/robot_description")
+    folder = start(graph, "imported", ("/*/robot_description",))
+    wait_for(lambda: graph.client.count_subscribers("/mine_1/robot_description"), "the recorder")
+    uri = "package://mrlab_ros/robots/mine/meshes/link.glb"
+    describe(f'<robot><link><visual><mesh filename="{uri}"/></visual></link></robot>')
+    wait_for(lambda: Bag(folder).message_count, "the message on the disk")
+    order(graph, "stop")
+    attached = Bag(folder).attachment("meshes/mrlab_ros/robots/mine/meshes/link.glb")
+    assert (attached.media_type, attached.data) == ("model/gltf-binary", b"glTF mine")
+
+
 def test_one_thing_at_a_time_and_each_refusal_says_why(graph, recorder, tmp_path):
     def refused(kind: Any, service: str, **fields: Any) -> str:
         answer = graph.call(kind, f"/recorder/{service}", **fields)

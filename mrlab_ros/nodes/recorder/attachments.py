@@ -13,14 +13,16 @@ from typing import Any
 from xml.etree import ElementTree
 
 import yaml
-from ament_index_python.packages import PackageNotFoundError, get_package_share_directory
+from ament_index_python.packages import get_package_share_directory
 from mrlab_msgs import msg
 from rcl_interfaces.srv import GetParameters, ListParameters
 from rclpy.parameter import parameter_value_to_python
 from rclpy.serialization import deserialize_message
 from std_msgs.msg import String
 
+from mrlab_ros.adapters.robots.library import MESH_PREFIX, RobotLibrary
 from mrlab_ros.adapters.trajectories.json_file import chunks
+from mrlab_ros.core.bridge.assets import media_type
 from mrlab_ros.core.errors import LabError
 from mrlab_ros.core.trajectory.trajectory import Trajectory
 from mrlab_ros.messages import qos, trajectories
@@ -32,7 +34,6 @@ from mrlab_ros.ros.spinning import Caller
 from mrlab_ros.ros.worker import Worker
 
 Attach = Callable[[str, str, bytes], None]
-MESH_TYPES = {".glb": "model/gltf-binary", ".stl": "model/stl", ".dae": "model/vnd.collada+xml"}
 PACKAGE = re.compile(r"package://([^/]+)/(.+)")
 SCENE = "scene.json"
 PARAMETERS_TIMEOUT_S = 2.0
@@ -49,6 +50,7 @@ class SessionContent:
         self._caller = caller
         self._attach = attach
         self._complain = warn_once
+        self._library = RobotLibrary(share.directory() / "robots")
         self._there: set[str] = set()
         # Trajectories that robots play, and by attachment the version that it holds.
         self._asked: set[str] = set()
@@ -111,12 +113,13 @@ class SessionContent:
         if name in self._there:
             return
         self._there.add(name)
-        try:
-            folder = Path(get_package_share_directory(package))
-        except PackageNotFoundError:
-            folder = share.directory()
-        media_type = MESH_TYPES.get(Path(path).suffix.lower(), "application/octet-stream")
-        self._attach(name, media_type, (folder / path).read_bytes())
+        uri = f"package://{package}/{path}"
+        if uri.startswith(MESH_PREFIX):
+            file = self._library.mesh_path(uri)
+        else:
+            file = Path(get_package_share_directory(package)) / path
+        kind = media_type(path) or "application/octet-stream"
+        self._attach(name, kind, file.read_bytes())
 
     def _take_state(self, topic: str, state: Any) -> None:
         version = f"{state.trajectory_id}@{state.trajectory_version}"
