@@ -20,6 +20,7 @@ from graph import wait_for
 from launched_lab import done, launched_lab
 from mrlab_msgs.msg import TrajectoryCatalogue
 from rclpy.serialization import deserialize_message
+from s3_server import BUCKET, s3_server
 from zenoh_side import connect, free_endpoint
 
 LONG = 90.0
@@ -157,6 +158,30 @@ def test_a_headset_sees_a_new_version_and_whoever_is_killed_loses_nothing(lab):
     for name in sorted(listed - {f"run{i}" for i in range(50)}):
         motion = browser.http.get(f"/api/trajectories/{name}/motion")
         assert motion.status_code == 200, name
+
+
+def test_a_lab_with_an_s3_server_that_goes_away_and_comes_back(tmp_path, monkeypatch):
+    options = ("--http", "127.0.0.1:0", "--zenoh-listen", free_endpoint(), "--no-physics",
+               "--state-dir", tmp_path / "state", "--store", f"s3://{BUCKET}/class")  # fmt: skip
+    with s3_server() as server, launched_lab(tmp_path, monkeypatch, *options):
+        log = tmp_path / "up.log"
+        wait_for(lambda: "?token=" in log.read_text(), "the URL", LONG)
+        (url,) = re.findall(r"(http://\S+token=\S+)", log.read_text())
+        browser = Browser(url)
+        assert browser.publish("wave", workspace()).json()["id"] == "wave"
+        for part in ("motion", "file?format=csv"):
+            assert browser.http.get(f"/api/trajectories/wave/{part}").status_code == 200
+        assert not (tmp_path / "state" / "store").exists()
+        server.kill()
+        for answer in (
+            browser.http.get("/api/trajectories"),
+            browser.send("PUT", "/api/uploads/a.mat", content=workspace()),
+        ):
+            assert answer.status_code == 503
+            assert "does not answer" in answer.json()["error"]["message"]
+        server.start()
+        assert browser.publish("two", workspace()).json()["version"] == 1
+        assert browser.http.get("/api/trajectories/two/motion").status_code == 200
 
 
 def attempt(browser, name):
