@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import ipaddress
 import json
 import socket
 import sys
@@ -36,6 +37,8 @@ Prefix = Annotated[str, typer.Option(help="What the lab's keys begin with.")]
 AllowList = Annotated[
     Path | None, typer.Option(help="The bridge's YAML file, if not the shipped one.")
 ]
+# An address of RFC 5737, which no machine has, and a port: what is beyond this network.
+ROUTED = ("192.0.2.1", 9)
 RUNNING = (
     "A lab that runs under mrlab up takes this over within seconds: its bridge starts again, and "
     "clients come back by themselves. Any other bridge reads its keys only when it is started."
@@ -53,8 +56,8 @@ def init(
 ) -> None:
     """Make a keys folder: an authority of your own and the lab's certificate.
 
-    The certificate names localhost, this machine's host name, and each --host. Nothing that
-    exists is overwritten.
+    The certificate names each --host, this machine's address and host name, and localhost.
+    Nothing that exists is overwritten.
     """
     from mrlab_ros.adapters.keys.folder import Keys, now
 
@@ -275,11 +278,26 @@ def rules_of(allow_list: Path | None) -> Rules:
 
 
 def this_machine() -> list[str]:
-    """Return this machine's host name, where a certificate can hold it."""
+    """Return this machine's address in its network and its host name, as far as it has them.
+
+    The address comes first: many networks, and older Android devices, do not resolve names.
+    """
     from mrlab_ros.adapters.keys.certificates import is_host
 
     name = socket.gethostname()
-    return [name] if is_host(name) else []
+    return [*own_address(), *([name] if is_host(name) else [])]
+
+
+def own_address() -> list[str]:
+    """Return the address with which this machine reaches others; none where it is on its own."""
+    with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as probe:
+        try:
+            # Asks the routing table; a datagram's connect sends nothing.
+            probe.connect(ROUTED)
+        except OSError:
+            return []
+        address = str(probe.getsockname()[0])
+    return [] if ipaddress.ip_address(address).is_loopback else [address]
 
 
 def until(entry: Entry) -> str:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import base64
 import json
 import os
+import socket
 import ssl
 import stat
 import threading
@@ -249,6 +250,26 @@ def test_a_host_that_cannot_be_one_is_refused_and_nothing_is_made(tmp_path, host
 
 def run(*arguments):
     return CliRunner().invoke(app, ["keys", *map(str, arguments)])
+
+
+def test_a_certificate_names_the_address_and_the_host_name_of_its_machine(tmp_path, monkeypatch):
+    class Probe(socket.socket):
+        def connect(self, _address):
+            if ours is None:
+                raise OSError("Network is unreachable")
+
+        def getsockname(self):
+            return (ours, 1)
+
+    monkeypatch.setattr(socket, "socket", Probe)
+    monkeypatch.setattr(socket, "gethostname", lambda: "lab-pc")
+    for ours, hosts in (
+        ("192.168.1.20", ["x.org", "192.168.1.20", "lab-pc", "localhost", "127.0.0.1"]),
+        ("127.0.0.1", ["x.org", "lab-pc", "localhost", "127.0.0.1"]),
+        (None, ["x.org", "lab-pc", "localhost", "127.0.0.1"]),
+    ):
+        made = run("init", "--dir", tmp_path / str(ours), "--host", "x.org", "--json")
+        assert json.loads(made.stdout)["hosts"] == hosts
 
 
 @pytest.mark.slow
