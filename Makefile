@@ -1,6 +1,6 @@
 # make demo   set up and run the lab on a shipped MATLAB file   (ARGS=--once ends by itself)
 # make test   set up and run every test          (ARGS passes options to pytest: ARGS='-m fast'
-#             runs those that need no graph, in about two minutes)
+#             runs those that need no graph, in about a minute)
 # make bench  run every benchmark                               (ARGS=--quick for a minute each)
 # make robots  generate the robots' bodies anew from their descriptions (tens of minutes)
 # make objects generate the meshes of config/objects anew       (seconds)

@@ -106,7 +106,8 @@ def _ambiguous(offered: list[Assessment], survey: Survey, file: str) -> Diagnost
     fixes = _choices(offered)
     paths = {a.path for a in offered}
     for found in joining.series(survey.workspace, len(survey.robot.joints)):
-        if not found.beside and len(found.paths) > 1 and set(found.paths) <= paths:
+        whole = not survey.workspace.omitted
+        if whole and not found.beside and len(found.paths) > 1 and set(found.paths) <= paths:
             line = f"q = [{'; '.join(found.paths[:8])}]; save('traj.mat', 'q')"
             fixes = (*fixes, Fix("join", found.text, line))
             break

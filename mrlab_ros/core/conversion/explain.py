@@ -419,6 +419,11 @@ def _in_pieces(found: Series, workspace: Workspace) -> Diagnostic:
         what = "segments" if min(first.shape) > 1 else "samples, one by one,"
         kind = f"it is kept in {what} as '{paths[0]}' to '{paths[-1]}'"
     code += " save('traj.mat', 'q')"
+    fixes = (Fix("join", found.text, code),)
+    if workspace.omitted:
+        # joining what is listed would leave the end of the motion out
+        kind += f", and {workspace.omitted} more that are too many to list"
+        fixes = (Fix(matlab=code),)
     return finding(
         "inside_container",
         variable=paths[0],
@@ -426,5 +431,5 @@ def _in_pieces(found: Series, workspace: Workspace) -> Diagnostic:
         join=found.text,
         code=code,
         value=float(len(paths)),
-        fixes=(Fix("join", found.text, code),),
+        fixes=fixes,
     )

@@ -16,7 +16,7 @@ from mrlab_ros.core.conversion.workspace import Variable, Workspace
 from mrlab_ros.core.diagnostics import Diagnostic, Fix, Refused, finding
 
 NUMBER = re.compile(r"\d+(?=\D*$)")
-MOST_PIECES = 20_000
+MOST_PIECES = 50_000
 MOST_LISTED = 6
 COUNTED = re.compile(r"(?P<begin>\d+)\s*:\s*(?:(?P<step>\d+)\s*:\s*)?(?:\d+|end)")
 PART = re.compile(r"(?P<path>.+)\((?P<rows>[^(),]+),(?P<columns>[^(),]+)\)$")

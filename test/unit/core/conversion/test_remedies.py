@@ -222,3 +222,15 @@ def test_waypoints_become_a_motion_once_their_times_are_known():
 
 def test_waypoints_at_a_rate_that_was_asked_for_are_named_too():
     assert "waypoints" in codes(convert(var("q", Q[::40]), frame_rate=1.0))
+
+
+def test_pieces_that_were_not_all_listed_are_not_joined_by_an_option():
+    pieces = tuple(var(f"c{{{i + 1}}}", Q[i]) for i in range(ROWS))
+    workspace = Workspace("fake", pieces, 40, "0" * 64)
+    result = conversion_convert.convert(
+        "traj.mat", lambda: workspace, Options(), ARM, COEFFICIENTS, created_ns=1
+    )
+    worst = result.diagnostics[0]
+    assert worst.code == "inside_container"
+    assert "40 more" in worst.message
+    assert [f.option for f in worst.fixes] == [""]
