@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import csv
 import re
-from collections import Counter
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -13,21 +12,20 @@ from numpy.typing import NDArray
 
 from mrlab_ros.adapters.workspaces.instants import is_day, is_instant, seconds
 from mrlab_ros.adapters.workspaces.mat5 import NotATable
+from mrlab_ros.adapters.workspaces.table_cells import (
+    cells_of,
+    decoded,
+    is_number,
+    is_value,
+    separator_of,
+)
+from mrlab_ros.adapters.workspaces.table_preamble import above_table, labview, marked
 from mrlab_ros.core.conversion.unit_names import against
 
 KNOWN_UNITS = {"", "-", "rad", "deg", "grad", "°", "degree", "degrees", "radian", "radians"}
 KNOWN_UNITS |= {"s", "sec", "ms", "us", "bool"}
 TIMES = ("t", "time", "time_from_start")
-SEPARATOR = re.compile(r"[\"']?sep=(.)[\"']?", re.I)
-SEPARATORS = (";", "\t", ",")
-END_OF_HEADER = "***End_of_Header***"  # of LabVIEW's measurement files
 LABVIEW_X, LABVIEW_COMMENT = "x_value", "comment"
-STATED = re.compile(
-    r"\s*(?P<name>[A-Za-z][\w .-]{0,40}?)\s*(\[[^\]]*\]|\([^)]*\))?\s*[:=;,\t]\s*"
-    r"(?P<number>[-+]?\d+(?:[.,]\d+)?(?:[eE][-+]?\d+)?)\s*[A-Za-z]{0,3}[;,\t\s]*$"
-)
-MOST_ABOVE = 200  # lines above a table
-DAY_AND_TIME = re.compile(r"(\d{4}-\d\d-\d\d|\d\d\.\d\d\.\d{4}) (?=\d\d?:\d\d)")
 
 
 @dataclass(frozen=True, eq=False)
@@ -54,25 +52,25 @@ def parsed(data: bytes) -> TextTable:
     text = decoded(data).replace("\r\n", "\n").replace("\r", "\n")
     lines = text.split("\n")
     stated: dict[str, float] = {}
-    begin, asked, units = _labview(lines, stated)
+    begin, asked, units = labview(lines, stated)
     if not begin:
-        begin, asked = _marked(lines, stated)
+        begin, asked = marked(lines, stated)
     lines = lines[begin:]
-    separator = _separator(lines, asked)
-    above = _above(lines, separator, stated)
+    separator = separator_of(lines, asked)
+    above = above_table(lines, separator, stated)
     lines, begin = lines[above:], begin + above
     if separator and _all_end_with(lines, separator):
         lines = [line.rstrip().removesuffix(separator) for line in lines]
     first = next(iter(lines), "")
-    cells = _cells(first, separator)
-    headed = not all(_is_value(c, separator) for c in cells)
+    cells = cells_of(first, separator)
+    headed = not all(is_value(c, separator) for c in cells)
     if headed and [c.lower() for c in cells][:1] == [LABVIEW_X]:
         units = [*units, *[""] * len(cells)]
         cells = ["t", *(_with_unit(h, u) for h, u in zip(cells[1:], units, strict=False))]
     lines, cells = _with_days(lines, cells, separator, headed)
     if headed:
         lines, begin = lines[1:], begin + 1
-        given = _cells(lines[0], separator) if lines else []
+        given = cells_of(lines[0], separator) if lines else []
         if len(given) == len(cells) and _are_units(given):
             cells = _with_units(cells, given)
             lines, begin = lines[1:], begin + 1
@@ -87,133 +85,9 @@ def parsed(data: bytes) -> TextTable:
     return TextTable(values, tuple(headings), instants, stated)
 
 
-def decoded(data: bytes) -> str:
-    """Return a table's text: UTF-8, UTF-16 with its mark, or Windows-1252 as Excel writes it."""
-    if data.startswith((b"\xff\xfe", b"\xfe\xff")):
-        try:
-            return data.decode("utf-16")
-        except UnicodeDecodeError as error:
-            raise NotATable(f"byte {error.start} is not UTF-16 text") from None
-    try:
-        return data.decode("utf-8-sig")
-    except UnicodeDecodeError as error:
-        start = error.start
-    if not any(b < 9 or 14 <= b < 32 for b in data[:65_536]):
-        try:
-            return data.decode("cp1252")
-        except UnicodeDecodeError:
-            pass
-    raise NotATable(f"byte {start} is not UTF-8 text")
-
-
-def _labview(lines: list[str], stated: dict[str, float]) -> tuple[int, str, list[str]]:
-    """Return where the table of a LabVIEW file begins, its separator, and its units; else 0."""
-    if not lines[0].startswith("LabVIEW Measurement"):
-        return 0, "", []
-    ends = [i for i, line in enumerate(lines) if line.startswith(END_OF_HEADER)]
-    if len(ends) != 2:
-        raise NotATable(
-            f"its LabVIEW header ends {len(ends)} times where a file of one segment has 2; "
-            "export one segment"
-        )
-    units: list[str] = []
-    separator = "\t"
-    for line in lines[: ends[1]]:
-        key, *given = line.rstrip().split("\t" if "\t" in line else ",")
-        if key == "Separator":
-            separator = "," if given[:1] == ["Comma"] else "\t"
-        elif key == "Y_Unit_Label":
-            units = given
-        elif key == "Delta_X" and given and _is_number(given[0].replace(",", ".")):
-            stated["dt"] = float(given[0].replace(",", "."))
-    return ends[1] + 1, separator, units
-
-
-def _marked(lines: list[str], stated: dict[str, float]) -> tuple[int, str]:
-    """Return how many lines are comments or name the separator, and that separator."""
-    asked = ""
-    for number, line in enumerate(map(str.strip, lines)):
-        match = SEPARATOR.fullmatch(line)
-        if match:
-            asked = match[1]
-        elif line.startswith(("#", "%")) and not _is_as_wide(line, lines):
-            _state(line.lstrip("#% "), stated)
-        else:
-            return number, asked
-    return 0, asked
-
-
-def _is_as_wide(line: str, lines: list[str]) -> bool:
-    """Say whether a line with a mark of comments is the headings, as rostopic writes them."""
-    last = next((x for x in reversed(lines) if x.strip()), "")
-    return any(s in line and line.count(s) == last.count(s) for s in SEPARATORS)
-
-
-def _state(line: str, stated: dict[str, float]) -> None:
-    match = STATED.match(line)
-    if match:
-        name = re.sub(r"\W+", "_", match["name"].strip()).strip("_")
-        stated.setdefault(name, float(match["number"].replace(",", ".")))
-
-
-def _separator(lines: list[str], asked: str) -> str | None:
-    """Return what separates the columns, None for blanks: what rows have in common."""
-    filled = [line for line in lines[:1000] if line.strip()]
-    decimal = set()
-    for separator in filter(None, (asked, *SEPARATORS)):
-        if filled and all(separator in line for line in filled[-min(20, len(filled) // 2 + 1) :]):
-            cells = _cells(filled[-1], separator)
-            # blanks may separate numbers with decimal commas
-            if separator != "," or 2 * sum(_is_value(c, separator) for c in cells) > len(cells):
-                return separator
-            decimal.add(separator)
-    first = filled[0] if filled else ""
-    return next((s for s in (asked, *SEPARATORS) if s and s in first and s not in decimal), None)
-
-
-def _above(lines: list[str], separator: str | None, stated: dict[str, float]) -> int:
-    """Return how many lines stand above the table: texts that have another number of cells."""
-    filled = [line for line in lines[:1000] if line.strip()]
-    if len(filled) < 3:
-        return next((i for i, line in enumerate(lines) if line.strip()), 0)
-    widths = Counter(len(_cells(line, separator)) for line in filled[-50:])
-    width = widths.most_common(1)[0][0]
-    for number, line in enumerate(lines[:MOST_ABOVE]):
-        cells = _cells(line, separator)
-        titled = 2 * len([c for c in cells if c]) < len(cells)  # a title in the first cell
-        if any(cells) and (
-            (len(cells) == width and not titled)
-            or all(_is_value(c, separator) for c in cells if c)
-        ):
-            return number
-        following = next((x for x in lines[number + 1 :] if x.strip()), "")
-        if any(cells) and all(_is_value(c, separator) for c in _cells(following, separator)):
-            # headings of another width say nothing, but the rows follow
-            _state(line, stated)
-            return number
-        _state(line, stated)
-    return 0
-
-
-def _cells(line: str, separator: str | None) -> list[str]:
-    if separator is None:
-        return DAY_AND_TIME.sub(r"\1T", line).split()
-    try:
-        row = next(csv.reader([line], delimiter=separator), [])
-    except csv.Error as error:
-        raise NotATable(f"its first row cannot be read ({error})") from None
-    return [cell.strip() for cell in row]
-
-
 def _all_end_with(lines: list[str], separator: str) -> bool:
     filled = [stripped for line in lines if (stripped := line.rstrip(" "))]
     return len(filled) > 1 and all(line.endswith(separator) for line in filled)
-
-
-def _is_value(cell: str, separator: str | None) -> bool:
-    """Say whether a cell is a number, which may have a decimal comma, or an instant."""
-    number = cell if separator == "," and "," not in cell else cell.replace(",", ".")
-    return _is_number(number) or is_instant(cell)
 
 
 def _are_units(cells: list[str]) -> bool:
@@ -221,7 +95,7 @@ def _are_units(cells: list[str]) -> bool:
     return (
         any(cells)
         and all(len(c) <= 12 for c in cells)
-        and not any(_is_number(c.replace(",", ".")) or is_instant(c) for c in cells)
+        and not any(is_number(c.replace(",", ".")) or is_instant(c) for c in cells)
     )
 
 
@@ -246,7 +120,7 @@ def _with_days(
 ) -> tuple[list[str], list[str]]:
     """Return rows and headings with a column of days put before that of the times behind it."""
     first = next((line for line in lines[headed:] if line.strip()), "")
-    given = _cells(first, separator)
+    given = cells_of(first, separator)
     column = next(
         (i for i, c in enumerate(given[:-1]) if is_day(c) and is_instant(given[i + 1])), -1
     )
@@ -298,7 +172,7 @@ def _plain(
             raise NotATable(f"its quoted cells cannot be read ({error})") from None
         lines, separator = ["\t".join(c.strip() for c in row) for row in rows], "\t"
     first = next((line for line in lines if line.strip()), "")
-    columns = [i for i, c in enumerate(_cells(first, separator)) if is_instant(c)]
+    columns = [i for i, c in enumerate(cells_of(first, separator)) if is_instant(c)]
     if separator != "," and any("," in line for line in lines):
         lines = [line.replace(",", ".") for line in lines]
     if not columns:
@@ -306,7 +180,7 @@ def _plain(
     if len(columns) > 1:
         raise NotATable(f"it has dates in {len(columns)} columns; keep one of them")
     column = columns[0]
-    rows = [_cells(line, separator) if line.strip() else [] for line in lines]
+    rows = [cells_of(line, separator) if line.strip() else [] for line in lines]
     elapsed = iter(seconds([row[column] if column < len(row) else "" for row in rows if row]))
     joined = []
     for number, row in enumerate(rows):
@@ -351,17 +225,9 @@ def _misfit(lines: list[str], separator: str | None, first_line: int) -> NotATab
         if not any(cells):
             continue
         width = width or len(cells)
-        wrong = next((c for c in cells if not _is_number(c)), None)
+        wrong = next((c for c in cells if not is_number(c)), None)
         if wrong is not None:
             return NotATable(f"line {number} has '{wrong[:40]}' where a number is expected")
         if len(cells) != width:
             return NotATable(f"line {number} has {len(cells)} values and the first {width}")
     return NotATable("it holds no table of numbers")
-
-
-def _is_number(text: str) -> bool:
-    try:
-        float(text)
-    except ValueError:
-        return False
-    return True
