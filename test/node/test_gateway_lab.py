@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import asyncio
+import json
 from collections.abc import Callable
 
 import pytest
@@ -19,7 +20,7 @@ from mrlab_ros.core.bridge.rules import (
     topic_token,
 )
 from mrlab_ros.gateway.lab.connection import NoAnswer, Phase, Refused, Sample
-from mrlab_ros.gateway.lab.definitions import installed_definitions
+from mrlab_ros.gateway.lab.definitions import Definitions, installed_definitions
 from mrlab_ros.gateway.lab.zenoh_lab import ZenohLab
 
 LATCHED = TopicQos(reliable=True, latched=True, depth=1)
@@ -39,6 +40,11 @@ class Bridge:
             self.session.token(topic_token(zid, Direction.OUT, key, type_name, LATCHED))
         )
         return self.session.publisher(key, TopicRule(name=f"/{key}"), 1)
+
+    def schema(self, messages: dict[str, str]) -> None:
+        document = json.dumps({"messages": messages, "services": {}}).encode()
+        key = f"{self.prefix}/schema"
+        self.held.append(self.session.queryable(key, lambda query: query.reply(document)))
 
     def service(self, key: str, type_name: str, answer: Callable[[Query], None]) -> None:
         key, zid = f"{self.prefix}/{key}", self.session.zid
@@ -60,7 +66,7 @@ def test_topics_services_and_presence() -> None:
     async def scenario() -> None:
         endpoint, definitions = free_endpoint(), installed_definitions()
         config = configuration(mode="client", listen=(), connect=(endpoint,))
-        lab = ZenohLab(config, definitions, prefix)
+        lab = ZenohLab(config, Definitions({}), prefix)
         got: list[Sample] = []
         lab.subscribe("robots", got.append)
         await lab.open()
@@ -70,12 +76,14 @@ def test_topics_services_and_presence() -> None:
 
         bridge = Bridge(endpoint, prefix)
         try:
+            bridge.schema({"mrlab_msgs/msg/Fix": "string option\nstring value\n"})
             robots = bridge.topic("robots", "mrlab_msgs/msg/Robots")
             done = definitions.encode("std_srvs/srv/Trigger_Response", {"success": True})
             bridge.service("a/play", "std_srvs/srv/Trigger", lambda query: query.reply(done))
             bridge.service("b/play", "std_srvs/srv/Trigger", lambda query: query.refuse("not now"))
             await until(lambda: lab.phase is Phase.OPEN and "b/play" in lab.keys.services)
             assert lab.keys.latched == {"robots"}
+            await until(lambda: "mrlab_msgs/msg/Fix" in lab.definitions.store.fielddefs)
 
             assert (await lab.call("a/play", "std_srvs/srv/Trigger")).success
             with pytest.raises(Refused, match="not now"):

@@ -37,8 +37,12 @@ class Definitions:
 
     def __init__(self, texts: Mapping[str, str]) -> None:
         self.store = get_typestore(Stores.ROS2_JAZZY)
+        self.learn(STD_SRVS | dict(texts))
+
+    def learn(self, texts: Mapping[str, str]) -> list[str]:
+        """Add the types that are not known yet; return those that are known otherwise."""
         found: dict[str, Any] = {}
-        for name, text in (STD_SRVS | dict(texts)).items():
+        for name, text in texts.items():
             package, folder, kind = name.split("/")
             if folder == "srv":
                 # Halves of services are registered as messages: they find their own package.
@@ -49,6 +53,8 @@ class Definitions:
                 found |= _parsed(text, name)
         known = self.store.fielddefs
         self.store.register({name: entry for name, entry in found.items() if name not in known})
+        # Fields alone: constants may be added without harm.
+        return [name for name, entry in found.items() if known[name][1] != entry[1]]
 
     def encode(self, type_name: str, values: object) -> bytes:
         """Return the CDR, with its header, of a message or of a mapping: field -> value.
@@ -122,6 +128,17 @@ class Definitions:
         return [self._part((inner, inner_detail), each) for each in value]
 
 
+def learning_definitions() -> Definitions:
+    """Return the types of this machine's message package, none of them where it is not here.
+
+    The lab's key `schema` has the others.
+    """
+    try:
+        return Definitions(texts_of(Path(get_package_share_directory(PACKAGE))))
+    except PackageNotFoundError:
+        return Definitions({})
+
+
 @cache
 def installed_definitions() -> Definitions:
     """Return the types of the message package on this machine. Raises Unavailable without it."""
@@ -129,8 +146,8 @@ def installed_definitions() -> Definitions:
         folder = Path(get_package_share_directory(PACKAGE))
     except PackageNotFoundError as error:
         raise Unavailable(
-            f"the package {PACKAGE} is not installed here; build it, or take the definitions from "
-            "the lab's key schema"
+            f"the package {PACKAGE} is not installed here; build it with `make`, or with "
+            "colcon on a ROS machine"
         ) from error
     return Definitions(texts_of(folder))
 

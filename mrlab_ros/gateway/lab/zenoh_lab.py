@@ -16,6 +16,7 @@ import zenoh
 
 from mrlab_ros.adapters.zenoh_session import LOOPBACK, configuration
 from mrlab_ros.core.bridge.latency import stamps
+from mrlab_ros.core.errors import LabError
 from mrlab_ros.gateway.lab.connection import (
     CALL_TIMEOUT_S,
     GET_TIMEOUT_S,
@@ -29,9 +30,10 @@ from mrlab_ros.gateway.lab.connection import (
     TimedOut,
     Unsubscribe,
 )
-from mrlab_ros.gateway.lab.definitions import Definitions, installed_definitions
+from mrlab_ros.gateway.lab.definitions import Definitions, learning_definitions
 from mrlab_ros.gateway.lab.tokens import TokenTable
 
+SCHEMA = "schema"
 TOKENS = "@/*/@ros2_lv/**"
 # s between two attempts to open the session.
 RETRY_S = 0.5
@@ -59,6 +61,7 @@ class ZenohLab:
         self._session: zenoh.Session | None = None
         self._loop: asyncio.AbstractEventLoop | None = None
         self._opening: asyncio.Task[None] | None = None
+        self._learning: asyncio.Task[None] | None = None
         self._arrived: deque[Callable[[], None]] = deque()
         self._woken = False
         self._changed = False
@@ -87,10 +90,11 @@ class ZenohLab:
 
     async def close(self) -> None:
         """Close the session."""
-        if self._opening is not None:
-            self._opening.cancel()
-            with suppress(asyncio.CancelledError):
-                await self._opening
+        for task in (self._opening, self._learning):
+            if task is not None:
+                task.cancel()
+                with suppress(asyncio.CancelledError):
+                    await task
         session, self._session = self._session, None
         if session is not None:
             await asyncio.to_thread(session.close)
@@ -191,9 +195,29 @@ class ZenohLab:
         self._set_phase()
 
     def _set_phase(self) -> None:
+        before = self._phase
         self._phase = Phase.OPEN if self._tokens.has_bridge else Phase.LOST
+        if self._phase is Phase.OPEN and before is not Phase.OPEN:
+            self._learning = asyncio.create_task(self._learn())
         for listener in list(self._listeners.values()):
             listener()
+
+    async def _learn(self) -> None:
+        """Take the definitions from the lab that this machine does not have."""
+        try:
+            answer = await self.get(SCHEMA)
+            document = json.loads(answer.payload) if answer is not None else {}
+            others = self.definitions.learn(
+                {**document.get("messages", {}), **document.get("services", {})}
+            )
+        except (LabError, ValueError) as error:
+            log.warning("the lab's definitions are not known: %s", error)
+            return
+        if others:
+            log.warning(
+                "the lab defines %s otherwise than this machine; install the same version on both",
+                ", ".join(others),
+            )
 
     async def _ask(self, key: str, payload: bytes | None, timeout_s: float) -> list[Sample]:
         """Return the answers of a query; raise Refused where all are errors."""
@@ -275,4 +299,4 @@ def lab_at(endpoint: str, file: Path | None, prefix: str) -> ZenohLab:
     config = configuration(file, mode="client", listen=(), connect=connect)
     if file is not None and endpoint:
         config.insert_json5("connect/endpoints", json.dumps([endpoint]))
-    return ZenohLab(config, installed_definitions(), prefix)
+    return ZenohLab(config, learning_definitions(), prefix)

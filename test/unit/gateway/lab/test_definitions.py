@@ -60,6 +60,19 @@ def test_plain_is_what_json_holds(definitions: Definitions) -> None:
     assert plain(np.float64(1.0)) == 1.0
 
 
+def test_types_are_learned_and_others_of_the_same_name_told(definitions: Definitions) -> None:
+    fresh = Definitions({})
+    texts = {
+        "mrlab_msgs/srv/Seek": "float64 position\n---\nbool success\nstring message\n",
+        "std_msgs/msg/Header": "builtin_interfaces/Time stamp\nstring frame_id\n",
+        "geometry_msgs/msg/Point": "float64 x\nfloat64 y\n",
+    }
+    assert fresh.learn(texts) == ["geometry_msgs/msg/Point"]
+    name = "mrlab_msgs/srv/Seek_Request"
+    assert fresh.encode(name, {"position": 2.0}) == definitions.encode(name, {"position": 2.0})
+    assert fresh.learn(texts) == ["geometry_msgs/msg/Point"]
+
+
 def test_an_unknown_type_field_or_payload_is_named(definitions: Definitions) -> None:
     with pytest.raises(BadInput, match="mrlab_msgs/msg/Robotz is no known message type"):
         definitions.encode("mrlab_msgs/msg/Robotz", {})
