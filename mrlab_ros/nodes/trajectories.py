@@ -228,7 +228,12 @@ class TrajectoryServices:
             yield Path(file.name)
 
     def _find(self, text: str, *, private: bool) -> tuple[Record, Version]:
-        return self.catalogue.find(text, lambda record: private or record.visible_to(""))
+        # What get_any says reaches whoever loads a robot: private names are not for everybody.
+        return self.catalogue.find(
+            text,
+            lambda record: private or record.visible_to(""),
+            named=lambda record: record.visible_to(""),
+        )
 
     @contextmanager
     def _damage(self, record: Record, version: Version) -> Iterator[None]:

@@ -71,12 +71,14 @@ class Catalogue:
         text: str,
         visible: Callable[[Record], bool] = lambda record: True,
         *,
+        named: Callable[[Record], bool] | None = None,
         deleted: bool = False,
     ) -> tuple[Record, Version]:
         """Return the trajectory and the version that an id such as `anna/pick@3` names.
 
-        visible: whether who asks may see a record; one that is not visible is not there. deleted:
-        a deleted one counts too. Raises NoTrajectory, and BadInput for a version that is gone.
+        visible: whether who asks may see a record; one that is not visible is not there. named:
+        which ones the error may name; None: the visible ones. deleted: a deleted one counts too.
+        Raises NoTrajectory, and BadInput for a version that is gone.
         """
         try:
             name = parse(text)
@@ -84,7 +86,8 @@ class Catalogue:
             name = TrajectoryName("", "")
         record = self._records.get((name.owner, name.name))
         if record is None or (record.deleted_ns and not deleted) or not visible(record):
-            ids = [r.id for r in self.records() if not r.deleted_ns and visible(r)]
+            shown = named or visible
+            ids = [r.id for r in self.records() if not r.deleted_ns and shown(r)]
             raise NoTrajectory(
                 f"there is no trajectory '{text}'; there are: "
                 f"{', '.join(ids[:MOST_NAMED]) or 'none'}; convert a file or take one of these"

@@ -134,6 +134,9 @@ def test_who_may_not_see_it_is_told_nothing_of_it(writer):
         writer.find("anna/secre", lambda r: r.visible_to("ben"))
     assert "anna/secret'" not in str(said.value)
     assert writer.find("anna/secret", lambda r: r.visible_to("anna"))[1].number == 1
+    with pytest.raises(NoTrajectory) as said:
+        writer.find("anna/secre", named=lambda r: r.visible_to(""))
+    assert "anna/secret'" not in str(said.value)
     for text in ("", "/", "../x", "a@0", "x\x00"):
         with pytest.raises(NoTrajectory):
             writer.find(text)
