@@ -30,6 +30,8 @@ SETTLE_TIMEOUT_S = 6.0
 # that is the longest wait.
 ONCE_TIMEOUT_S = 4.0
 MISSING_AFTER_S = 5.0
+# Once the lab's robots are known the publishers of all topics are, after this time at most, s.
+DISCOVERY_S = 1.5
 # Who measures reports once a second; one that has been silent for longer has gone, s.
 LATENCY_AGE_S = 5.0
 # How often the gateway is asked whether it is there, s.
@@ -159,17 +161,24 @@ class View:
         """
         from mrlab_ros.ros.graph import LATCHED_BURST_S
 
-        deadline = time.monotonic() + SETTLE_TIMEOUT_S
+        begun = time.monotonic()
+        deadline = begun + SETTLE_TIMEOUT_S
         watches = (self._robots, self._catalogue, self._systems)
         received: list[Any] = []
         since = time.monotonic()
         while (now := time.monotonic()) < deadline:
             followers = [follower for _, follower in self.robots()]
             before = received
-            received = [w.value for w in (*watches, *(f.watch for f in followers))]
+            watched = (*watches, *(f.watch for f in followers))
+            received = [w.value for w in watched]
             same = len(received) == len(before) and all(map(operator.is_, received, before))
             measured = self._latencies or "bridge" not in self._graph.node.get_node_names()
-            if not same or any(value is None for value in received) or not measured:
+            # What nobody publishes once discovery is over will not come.
+            discovered = now - begun > DISCOVERY_S
+            awaited = [w for w in watched if w.value is None]
+            if discovered:
+                awaited = [w for w in awaited if self._graph.node.count_publishers(w.topic)]
+            if not same or awaited or not measured:
                 since = now
             elif now - since > LATCHED_BURST_S:
                 return
