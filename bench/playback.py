@@ -1,8 +1,9 @@
 """Punctuality of playback: how late joint states leave, how many are lost, what it costs.
 
-The lab's deadline thread beside what it replaces, a plain rclpy timer per robot that fills a
-message, in the same run. Each case has a process of its own; deadline error is the time from a
-joint state's deadline to the moment its publish call has returned.
+The lab's deadline thread, with real-time priority where that is permitted and without, beside what
+it replaces, a plain rclpy timer per robot that fills a message, in the same run. Each case has a
+process of its own; deadline error is the time from a joint state's deadline to the moment its
+publish call has returned.
 """
 
 from __future__ import annotations
@@ -30,7 +31,7 @@ from mrlab_ros.core.trajectory.trajectory import Channels, Source, Trajectory
 from mrlab_ros.messages import qos
 from mrlab_ros.messages.joint_states import JointStateEncoder
 from mrlab_ros.messages.time import time_to_message
-from mrlab_ros.ros import share
+from mrlab_ros.ros import deadlines, share
 from mrlab_ros.ros.deadlines import Player, Scheduler
 
 
@@ -131,7 +132,17 @@ def plain_timers(robots: int, rate: float, seconds: float) -> dict[str, Any]:
     }
 
 
-METHODS = {"deadline thread": deadline_thread, "rclpy timers": plain_timers}
+def ordinary_thread(robots: int, rate: float, seconds: float) -> dict[str, Any]:
+    """Play as deadline_thread() does, in a thread without precedence over other work."""
+    deadlines.take_precedence = lambda: ""
+    return deadline_thread(robots, rate, seconds)
+
+
+METHODS = {
+    "deadline thread": deadline_thread,
+    "without priority": ordinary_thread,
+    "rclpy timers": plain_timers,
+}
 
 
 def run_case(method: str, robots: int, rate: float, seconds: float) -> dict[str, Any]:

@@ -11,8 +11,8 @@ from rclpy.client import Client
 
 from mrlab_ros.core.errors import LabError
 
-# How often a call that waits checks whether its service is still there, s.
-PRESENCE_PERIOD_S = 0.1
+# How often a call that waits checks whether its service is there, s.
+PRESENCE_PERIOD_S = 0.05
 
 
 class NoAnswer(LabError):
@@ -39,41 +39,48 @@ def call_all(calls: Sequence[tuple[Client, Any]], timeout: float = 5.0) -> list[
 def call_each(calls: Sequence[tuple[Client, Any]], timeout: float = 5.0) -> list[Any]:
     """Send every request at once; return the answers in order, a NoAnswer where there is none.
 
-    All of it takes `timeout` s at most. A service that leaves the graph before it answers is
-    noticed at once.
+    All of it takes `timeout` s at most. A service that is not there yet gets its request when it
+    comes, one that leaves the graph before it answers is noticed at once; neither delays others.
     """
     deadline = time.monotonic() + timeout
-    pending = [_begin(client, request, deadline) for client, request in calls]
-    return [
-        begun if isinstance(begun, NoAnswer) else _finish(*begun, deadline, timeout)
-        for begun in pending
-    ]
+    changed = threading.Event()
+    pending = [_Call(client, request, changed) for client, request in calls]
+    while True:
+        changed.clear()
+        waiting = [one for one in pending if one.waits()]
+        left = deadline - time.monotonic()
+        if not waiting or left <= 0:
+            return [one.answer(timeout) for one in pending]
+        changed.wait(min(left, PRESENCE_PERIOD_S))
 
 
-def _begin(
-    client: Client, request: Any, deadline: float
-) -> NoAnswer | tuple[Client, Any, threading.Event]:
-    left = max(deadline - time.monotonic(), 0.0)
-    if not client.service_is_ready() and not client.wait_for_service(timeout_sec=left):
-        return NoAnswer(f"nobody offers {client.srv_name}; is that part of the lab running?")
-    done = threading.Event()
-    future = client.call_async(request)
-    future.add_done_callback(lambda _: done.set())
-    return client, future, done
+class _Call:
+    """One request and what became of it."""
 
+    def __init__(self, client: Client, request: Any, changed: threading.Event) -> None:
+        self._client, self._request, self._changed = client, request, changed
+        self._future: Any = None
+        self._gone = False
 
-def _finish(
-    client: Client, future: Any, done: threading.Event, deadline: float, timeout: float
-) -> Any:
-    while not done.wait(min(max(deadline - time.monotonic(), 0.0), PRESENCE_PERIOD_S)):
-        gone = not client.service_is_ready()
-        if not gone and time.monotonic() < deadline:
-            continue
-        # The answer may have come in this moment.
-        if done.is_set():
-            break
-        client.remove_pending_request(future)
-        if gone:
-            return NoAnswer(f"{client.srv_name} ended before it answered; try again")
-        return NoAnswer(f"{client.srv_name} did not answer within {timeout:g} s; try again")
-    return future.result()
+    def waits(self) -> bool:
+        """Send the request where its service is there; return whether an answer may come."""
+        ready = self._client.service_is_ready()
+        if self._future is None:
+            if ready:
+                self._future = self._client.call_async(self._request)
+                self._future.add_done_callback(lambda _: self._changed.set())
+        elif not ready and not self._future.done():
+            self._gone = True
+        return not self._gone and (self._future is None or not self._future.done())
+
+    def answer(self, timeout: float) -> Any:
+        """Return the answer, or the NoAnswer that says why there is none."""
+        name = self._client.srv_name
+        if self._future is None:
+            return NoAnswer(f"nobody offers {name}; is that part of the lab running?")
+        if self._future.done():
+            return self._future.result()
+        self._client.remove_pending_request(self._future)
+        if self._gone:
+            return NoAnswer(f"{name} ended before it answered; try again")
+        return NoAnswer(f"{name} did not answer within {timeout:g} s; try again")

@@ -1,0 +1,67 @@
+"""Calls of services that are not there, do not answer, or end before they answer."""
+
+from __future__ import annotations
+
+import threading
+
+from graph import wait_for
+from rclpy.node import Node
+from std_srvs.srv import Trigger
+
+from mrlab_ros.messages import qos
+from mrlab_ros.ros.calls import NoAnswer, call, call_each
+
+
+def answer(request, response):
+    response.success = True
+    return response
+
+
+def test_one_that_is_not_there_costs_the_others_nothing(graph):
+    other = graph.add(lambda parameter_overrides, **kwargs: Node("server", **kwargs))
+    other.create_service(Trigger, "/third", answer, qos_profile=qos.SERVICES)
+    names = ("/third", "/nowhere", "/third")
+    clients = [graph.client.create_client(Trigger, name) for name in names]
+    assert clients[0].wait_for_service(15.0)
+    first, nowhere, last = call_each([(client, Trigger.Request()) for client in clients], 1.0)
+    assert isinstance(nowhere, NoAnswer)
+    assert "nobody offers /nowhere" in str(nowhere)
+    assert isinstance(first, Trigger.Response)
+    assert isinstance(last, Trigger.Response)
+
+
+def test_a_service_that_ends_before_it_answers_is_noticed_before_the_time_out(graph):
+    # Nobody spins it, so it never answers.
+    server = Node("server", context=graph.context)
+    server.create_service(Trigger, "/slow", answer, qos_profile=qos.SERVICES)
+    client = graph.client.create_client(Trigger, "/slow")
+    assert client.wait_for_service(15.0)
+    raised: list[NoAnswer] = []
+
+    def ask() -> None:
+        try:
+            call(client, Trigger.Request(), 600.0)
+        except NoAnswer as error:
+            raised.append(error)
+
+    thread = threading.Thread(target=ask, daemon=True)
+    thread.start()
+    wait_for(lambda: client._pending_requests, "the request")
+    server.destroy_node()
+    wait_for(lambda: raised, "the end of the call")
+    assert "/slow ended before it answered" in str(raised[0])
+    thread.join()
+
+
+def test_a_service_that_comes_late_is_asked_when_it_comes(graph):
+    server = graph.add(lambda parameter_overrides, **kwargs: Node("server", **kwargs))
+    client = graph.client.create_client(Trigger, "/late")
+    answers: list[Trigger.Response] = []
+    thread = threading.Thread(
+        target=lambda: answers.append(call(client, Trigger.Request(), 15.0)), daemon=True
+    )
+    thread.start()
+    server.create_service(Trigger, "/late", answer, qos_profile=qos.SERVICES)
+    wait_for(lambda: answers, "the answer")
+    assert answers[0].success
+    thread.join()
