@@ -81,6 +81,11 @@ def generate_launch_description():
                 description="folder for scene and trajectories; empty: a temporary one",
             ),
             DeclareLaunchArgument(
+                "store",
+                default_value="",
+                description="uploads and trajectories: a folder or URL; empty: in state_dir",
+            ),
+            DeclareLaunchArgument(
                 "web",
                 default_value="true",
                 choices=flags,
@@ -119,6 +124,7 @@ def processes(context):
         config=parameter_file(path("config")),
         state_dir=path("state_dir") or Path(tempfile.mkdtemp(prefix="mrlab-")),
         robots=robot_models(value("robots")),
+        store=value("store"),
         physics=physics,
         bridge=bridge,
         listen=value("listen"),
