@@ -18,6 +18,7 @@ from mrlab_ros.adapters.bags.writer import BagWriter
 from mrlab_ros.cli import app
 from mrlab_ros.commands.replay import Keyboard, next_rate
 from mrlab_ros.commands.status import _recorder_facts, _recorder_line
+from mrlab_ros.core.design import STATES
 from mrlab_ros.core.errors import BadInput
 from mrlab_ros.core.recording.metadata import QosProfile, Topic
 from mrlab_ros.messages.definitions import definition
@@ -94,8 +95,11 @@ def test_the_report_tells_states_contacts_grasps_errors_and_latency(bag, tmp_pat
     with Image.open(tmp_path / "out" / "report.png") as picture:
         # The halt's mark and the colour of playing are there.
         colours = {colour for _, colour in picture.convert("RGB").getcolors(1 << 24)}
-        assert (0x3A, 0x7C, 0xA5) in colours
+        assert tuple(bytes.fromhex(STATES["PLAYING"][1:])) in colours
         assert picture.width > 1000
+    page = (tmp_path / "out" / "report.html").read_text()
+    assert "wrist_3_link touched table at frame 2" in page
+    assert 'class="state playing"' in page
 
 
 def test_info_says_what_is_in_the_bag(bag):
