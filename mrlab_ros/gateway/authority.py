@@ -20,6 +20,8 @@ PAGE = """<!doctype html>
 <meta charset="utf-8">
 <meta name="viewport" content="width=device-width, initial-scale=1">
 <title>MR-Lab: certificate</title>
+<link rel="icon" href="/favicon.svg">
+<link rel="stylesheet" href="/ca.css">
 <main>
 <h1>The certificate of this lab</h1>
 <p>This lab has an authority of its own, so browsers warn before they open its pages. You can go
@@ -27,8 +29,8 @@ on past the warning, or install the authority's certificate once.</p>
 <p>First compare this fingerprint (SHA-256) with the one that your instructor shows you, which
 <code>mrlab keys list</code> prints on the lab's machine:</p>
 <pre>{fingerprint}</pre>
-<p><a href="/ca.pem" download="mrlab-{name}.pem">Download the certificate</a> of {subject}, valid
-until {end}.</p>
+<p><a class="button" href="/ca.pem" download="mrlab-{name}.pem">Download the certificate</a></p>
+<p class="second">{subject}, valid until {end}</p>
 <h2>Where it goes</h2>
 <ul>
 <li>Windows: open the file, <i>Install Certificate</i>, <i>Trusted Root Certification
@@ -44,6 +46,26 @@ lab's documentation says how.</li>
 </ul>
 </main>
 </html>
+"""
+
+# The look of the pages, whose own style sheet has another name after each build.
+STYLE = """:root { color-scheme: light dark; --page: #F7F8FA; --card: #FFFFFF; --ink: #16202B;
+  --second: #4A5766; --border: #7B8896; --accent: #0B5CAD; --on-accent: #FFFFFF }
+@media (prefers-color-scheme: dark) { :root { --page: #12161C; --card: #1B2129; --ink: #E8EDF2;
+  --second: #A9B5C2; --border: #74818F; --accent: #6CB6FF; --on-accent: #12161C } }
+body { margin: 0; padding: 24px 16px; background: var(--page); color: var(--ink);
+  font: 16px/1.5 system-ui, sans-serif }
+main { max-width: 640px; margin: 0 auto; padding: 24px; background: var(--card);
+  border-radius: 12px; box-shadow: 0 1px 4px #0002 }
+h1 { margin: 0 0 16px; font-size: 25px; line-height: 1.2 }
+h2 { margin: 24px 0 8px; font-size: 20px }
+pre { padding: 12px; border: 1px solid var(--border); border-radius: 8px; font-size: 14px;
+  white-space: pre-wrap; overflow-wrap: anywhere; font-variant-numeric: tabular-nums }
+li { margin: 8px 0 }
+a { color: var(--accent) }
+.button { display: inline-block; padding: 10px 16px; border-radius: 8px; min-height: 24px;
+  background: var(--accent); color: var(--on-accent); text-decoration: none; font-weight: 600 }
+.second { color: var(--second); font-size: 14px }
 """
 
 
@@ -66,6 +88,12 @@ def page(request: Request) -> Response:
         end=f"{certificates.validity(found)[1]:%d %B %Y}",
     )
     return Response(text, media_type="text/html; charset=utf-8")
+
+
+@router.get("/ca.css")
+def style() -> Response:
+    """Send the page's style sheet: the policy allows none inside the page."""
+    return Response(STYLE, media_type="text/css; charset=utf-8")
 
 
 @router.get("/ca.pem")

@@ -49,6 +49,7 @@ SOCKET = "WEBSOCKET"
 ROUTES: Mapping[tuple[str, str], Everybody | Role | Need] = {
     ("GET", "/healthz"): EVERYBODY,
     ("GET", "/ca"): EVERYBODY,
+    ("GET", "/ca.css"): EVERYBODY,
     ("GET", "/ca.pem"): EVERYBODY,
     ("GET", "/{path:path}"): EVERYBODY,
     ("HEAD", "/{path:path}"): EVERYBODY,

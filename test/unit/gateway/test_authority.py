@@ -28,6 +28,8 @@ def test_anybody_can_read_the_authority_and_compare_it(tmp_path: Path, keys: Key
         page = stranger.get("/ca")
         assert keys.fingerprint in page.text
         assert "<script" not in page.text
+        assert "<style" not in page.text
+        assert stranger.get("/ca.css").headers["content-type"].startswith("text/css")
         sent = stranger.get("/ca.pem")
         assert sent.headers["content-type"] == "application/x-x509-ca-cert"
         assert b"PRIVATE" not in sent.content
