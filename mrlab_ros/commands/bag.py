@@ -101,7 +101,8 @@ def report(
     found = Bag(path_of(bag))
     session = read_session(found)
     text = "\n".join(report_lines(session)) + "\n"
-    facts = json.dumps(session.facts(), indent=2) + "\n"
+    said = {"bag": str(found.path.resolve()), **session.facts()}
+    facts = json.dumps(said, indent=2) + "\n"
     if out is not None:
         from mrlab_ros.adapters.bags.plot import draw
 

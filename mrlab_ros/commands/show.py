@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import os
 import sys
 from pathlib import Path
@@ -19,7 +20,8 @@ if TYPE_CHECKING:
 
 def show(
     file: Annotated[
-        Path, typer.Argument(help="Workspace, table, trajectory file, or a recorded bag.")
+        Path,
+        typer.Argument(help="Workspace, table, trajectory file, recorded bag, or its report."),
     ],
     robot: Annotated[
         str, typer.Option(help="Robot that a workspace or a table is for, such as ur5e.")
@@ -101,7 +103,7 @@ def _recorded(file: Path) -> Bag | None:
     """Return the bag of a session, or None: it is another file, or a bag of a mere trajectory."""
     from mrlab_ros.commands.bag import path_of
 
-    path = path_of(str(file))
+    path = _bag_of_report(file) or path_of(str(file))
     if not path.is_dir() and path.suffix != ".mcap":
         return None
     from mrlab_ros.adapters.bags.reader import Bag
@@ -110,6 +112,20 @@ def _recorded(file: Path) -> Bag | None:
     if path.is_dir() or any(t.type == "mrlab_msgs/msg/Robots" for t in bag.topics.values()):
         return bag
     return None
+
+
+def _bag_of_report(file: Path) -> Path | None:
+    """Return the bag of what `mrlab bag report --out` wrote: a folder or its report.json."""
+    path = file / "report.json" if file.is_dir() else file
+    if path.name != "report.json" or not path.is_file():
+        return None
+    try:
+        bag = Path(json.loads(path.read_bytes())["bag"])
+    except (ValueError, KeyError, TypeError):
+        raise BadInput(f"{path} does not say which bag it is of; name the bag itself") from None
+    if not bag.exists():
+        raise BadInput(f"{path} is of the bag {bag}, which is not there; name the bag itself")
+    return bag
 
 
 def _of_trajectory_file(file: Path) -> ConversionResult | None:

@@ -100,6 +100,9 @@ def test_the_report_tells_states_contacts_grasps_errors_and_latency(bag, tmp_pat
     page = (tmp_path / "out" / "report.html").read_text()
     assert "wrist_3_link touched table at frame 2" in page
     assert 'class="state playing"' in page
+    shown = tmp_path / "shown.html"
+    run("show", tmp_path / "out", "--out", shown)
+    assert "wrist_3_link touched table at frame 2" in shown.read_text()
 
 
 def test_info_says_what_is_in_the_bag(bag):
