@@ -11,6 +11,8 @@ export interface PreviewOptions {
   /** Where meshes come from; the gateway's /assets/ where none is given. */
   readonly meshes?: MeshSource
   readonly words?: SceneWords
+  /** A second motion of a robot with the same joints, which goes along as a ghost. */
+  readonly compared?: MotionDocument | null
   /** Ghosts of the first and last pose at first; true where not given. */
   readonly ghosts?: boolean
   /** The tool's path at first; true where not given. */
@@ -75,7 +77,8 @@ export function createMotionPreview(
   let scene: PreviewScene | null = null
   try {
     stage = new Stage(view, words.view)
-    scene = new PreviewScene(stage, motion, course, meshes, words)
+    const compared = options.compared ? courseOf(options.compared) : null
+    scene = new PreviewScene(stage, motion, course, meshes, words, compared)
   } catch (error) {
     stage?.dispose()
     stage = null
@@ -101,7 +104,7 @@ export function createMotionPreview(
         ? []
         : [
             {
-              label: words.ghosts,
+              label: options.compared ? words.compared : words.ghosts,
               on: options.ghosts !== false,
               set: scene.setGhosts.bind(scene),
             },

@@ -22,7 +22,8 @@ interface Marker {
   readonly finding: MotionFinding
 }
 
-/** A motion on the stage: the robot, its first and last pose, the tool's path, the findings. */
+/** A motion on the stage: the robot, its first and last pose, the tool's path, the findings. In place of
+ * the two poses a second motion of the same robot may go along as a ghost. */
 export class PreviewScene {
   readonly robot: SceneRobot
   readonly ready: Promise<void>
@@ -44,6 +45,7 @@ export class PreviewScene {
     private readonly course: Course,
     meshes: MeshSource,
     words: SceneWords,
+    private readonly compared: Course | null = null,
   ) {
     const { urdf, joints } = motion.robot
     const names = joints.map((joint) => joint.name)
@@ -52,7 +54,7 @@ export class PreviewScene {
     this.positions = new Float64Array(course.jointCount)
     this.robot = make()
     const track = trackOf(this.robot, course)
-    this.ghosts = [make(), make()]
+    this.ghosts = compared === null ? [make(), make()] : [make()]
     const last = course.duration
     for (const [i, ghost] of this.ghosts.entries()) {
       ghost.setLook('ghost')
@@ -98,8 +100,17 @@ export class PreviewScene {
     robot.setPositions(this.positions)
     const closed = course.gripperAt(time)
     if (closed !== null) robot.setGripper(closed)
+    this.showCompared(time)
     this.paint()
     this.stage.invalidate()
+  }
+
+  private showCompared(time: number): void {
+    const [ghost] = this.ghosts
+    if (this.compared === null || ghost === undefined) return
+    this.compared.sample(time, this.positions)
+    ghost.setPositions(this.positions)
+    ghost.setGripper(this.compared.gripperAt(time) === true)
   }
 
   /** Choose a finding by its number, from 1; 0: none. Return its time, s, or null without rows. */

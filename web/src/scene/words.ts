@@ -6,6 +6,7 @@ export interface SceneWords {
   readonly time: string
   readonly speed: string
   readonly ghosts: string
+  readonly compared: string
   readonly path: string
   readonly start: string
   readonly end: string
@@ -23,6 +24,7 @@ export const ENGLISH: SceneWords = {
   time: 'Time',
   speed: 'Speed',
   ghosts: 'First and last pose',
+  compared: 'The other motion',
   path: 'Tool path',
   start: 'start',
   end: 'end',
@@ -41,6 +43,7 @@ export const GERMAN: SceneWords = {
   time: 'Zeit',
   speed: 'Tempo',
   ghosts: 'Erste und letzte Stellung',
+  compared: 'Die andere Bewegung',
   path: 'Werkzeugbahn',
   start: 'Anfang',
   end: 'Ende',

@@ -20,10 +20,15 @@ import './motion.css'
 
 interface MotionViewProps {
   motion: MotionDocument
-  /** A second motion of the same robot: dashed in the plots. */
+  /** A second motion of the same robot: dashed in the plots, a ghost in 3D. */
   compared?: MotionDocument | null
   /** Number of the finding that is shown, from 1; 0: none. */
   selected: Signal<number>
+}
+
+/** Return whether two motions have the same joints. */
+function comparable(motion: MotionDocument, other: MotionDocument | null): boolean {
+  return motion.robot.joints.length === other?.robot.joints.length
 }
 
 /** A motion in 3D and as plots, at the same time and with the same numbers of findings. */
@@ -38,7 +43,10 @@ export function MotionView({ motion, compared = null, selected }: MotionViewProp
   const channels = useMemo(() => channelsOf(motion), [motion])
   const times = useMemo(() => timesOf(course), [course])
   const strips = useMemo(() => {
-    const other = compared && channel === 'angles' ? positionsAt(course, courseOf(compared)) : null
+    const other =
+      compared && channel === 'angles' && comparable(motion, compared)
+        ? positionsAt(course, courseOf(compared))
+        : null
     return stripsOf(motion, channel, other)
   }, [motion, compared, channel, course])
   const marks = useMemo(
@@ -56,6 +64,7 @@ export function MotionView({ motion, compared = null, selected }: MotionViewProp
         if (!here || element === null) return
         const made = createMotionPreview(element, motion, {
           words: language.value === 'de' ? GERMAN : ENGLISH,
+          compared: comparable(motion, compared) ? compared : null,
         })
         const stopTime = made.onTime((now) => {
           time.value = now
@@ -76,7 +85,7 @@ export function MotionView({ motion, compared = null, selected }: MotionViewProp
       here = false
       dispose()
     }
-  }, [motion, language.value])
+  }, [motion, compared, language.value])
 
   const seek = (to: number) => {
     if (preview.current) preview.current.seek(to)
