@@ -18,7 +18,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from PIL import Image
-from playwright.sync_api import Browser, Page, sync_playwright
+from playwright.sync_api import Browser, Page, expect, sync_playwright
 
 ROOT = Path(__file__).resolve().parent.parent
 sys.path[:0] = [str(ROOT / "test")]
@@ -30,6 +30,8 @@ from served_lab import Gateway, ServedLab, gateway_with_people, served_lab  # no
 from mrlab_ros.core.bridge.rules import Role  # noqa: E402
 
 IMAGES = ROOT / "docs" / "images" / "pages"
+# Pages without 3D are drawn faster without a GPU of software.
+PLAIN = ("--no-sandbox", "--disable-gpu")
 FLAGS = ("--no-sandbox", "--enable-unsafe-swiftshader", "--use-angle=swiftshader")
 # Width and height of the window, px, and how many pixels of the picture one of them is.
 SIZES = {"desktop": (1280, 860, 1.0), "phone": (390, 844, 1.5)}
@@ -76,7 +78,7 @@ def refused(page: Page, stage: Stage) -> None:
 
 
 def chooser(page: Page, stage: Stage) -> None:
-    sent(page, stage, student_files.ambiguous(stage.files))
+    sent(page, stage, student_files.ambiguous(stage.files)).wait_for_robot()
 
 
 def published(page: Page, stage: Stage) -> None:
@@ -129,6 +131,7 @@ def invitation(page: Page, stage: Stage) -> None:
     page.get_by_label("The same again").wait_for()
 
 
+WITH_3D = ("accepted", "refused", "chooser", "published", "comparison", "lab")
 PAGES: dict[str, Callable[[Page, Stage], None]] = {
     "upload": start,
     "accepted": accepted,
@@ -160,52 +163,57 @@ def prepare(page: Page, stage: Stage) -> None:
         upload.publish(name, shared=name == "wide")
 
 
-def take(browser: Browser, stage: Stage, cookies: Path, names: list[str]) -> None:
-    """Write the pictures of the pages `names`."""
+def take(browsers: tuple[Browser, Browser], stage: Stage, cookies: Path, names: list[str]) -> None:
+    """Write the pictures of the pages `names`; browsers: for pages without and with 3D."""
     IMAGES.mkdir(parents=True, exist_ok=True)
-    for size, (width, height, scale) in SIZES.items():
-        for theme in THEMES:
-            for name in names:
-                context = browser.new_context(
-                    viewport={"width": width, "height": height},
-                    device_scale_factor=scale,
-                    color_scheme=theme,  # type: ignore[arg-type]
-                    locale="en-GB",
-                    reduced_motion="reduce",
-                    storage_state=cookies,
-                )
-                page = context.new_page()
-                page.set_default_timeout(PATIENCE_MS)
-                PAGES[name](page, stage)
+    for name in names:
+        for size, (width, height, scale) in SIZES.items():
+            context = browsers[name in WITH_3D].new_context(
+                viewport={"width": width, "height": height},
+                device_scale_factor=scale,
+                color_scheme="light",
+                locale="en-GB",
+                reduced_motion="reduce",
+                storage_state=cookies,
+            )
+            page = context.new_page()
+            page.set_default_timeout(PATIENCE_MS)
+            PAGES[name](page, stage)
+            for theme in THEMES:
+                page.emulate_media(color_scheme=theme)  # type: ignore[arg-type]
                 page.wait_for_timeout(SETTLE_MS)
                 image = Image.open(io.BytesIO(page.screenshot(timeout=PATIENCE_MS)))
                 file = IMAGES / f"{name}-{size}-{theme}.webp"
                 image.convert("RGB").save(file, quality=QUALITY, method=6)
-                context.close()
                 print(file.relative_to(ROOT), flush=True)
+            context.close()
 
 
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("pages", nargs="*", metavar="page", help=", ".join(PAGES))
     names = parser.parse_args().pages or list(PAGES)
+    expect.set_options(timeout=PATIENCE_MS)
     with tempfile.TemporaryDirectory() as folder, sync_playwright() as playwright:
         place = Path(folder)
         for part in ("lab", "gateway", "files"):
             (place / part).mkdir()
-        browser = playwright.chromium.launch(executable_path=shutil.which("chromium"), args=FLAGS)
+        chromium = shutil.which("chromium")
+        plain = playwright.chromium.launch(executable_path=chromium, args=PLAIN)
+        drawing = playwright.chromium.launch(executable_path=chromium, args=FLAGS)
         with (
             served_lab(place / "lab") as there,
             gateway_with_people(there, place / "gateway") as gateway,
         ):
             stage = Stage(there, gateway, place / "files")
-            context = browser.new_context(locale="en-GB")
+            context = plain.new_context(locale="en-GB")
             prepare(context.new_page(), stage)
             cookies = place / "cookies.json"
             context.storage_state(path=cookies)
             context.close()
-            take(browser, stage, cookies, names)
-        browser.close()
+            take((plain, drawing), stage, cookies, names)
+        plain.close()
+        drawing.close()
 
 
 if __name__ == "__main__":
