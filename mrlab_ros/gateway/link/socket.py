@@ -32,8 +32,9 @@ VERSION, SIGN_IN_ENDED, TOO_MANY = 4001, SOCKET_REFUSED, 4029
 BROKEN, BEHIND, SILENT = 4400, 4409, 4408
 # s for a client's first frame.
 HELLO_S = 5.0
-# s without a frame after which a client counts as gone: a page in view sends one every second.
-SILENCE_S = 5.0
+# s without a frame after which a client counts as gone. A page in view sends one every second, but
+# stands still while it builds a scene; what waits for it is bounded meanwhile.
+SILENCE_S = 15.0
 # The same of a hidden page, whose timers a browser slows down to one a minute.
 HIDDEN_SILENCE_S = 150.0
 HEARTBEAT_S = 1.0

@@ -30,6 +30,8 @@ const TIMEOUT_S = 10
 /** s: the gateway answers a ping at once; this long without a frame means that the way is broken. */
 const SILENCE_S = 4
 const PING_S = 1
+/** s between two pings from which on the page itself stood still, as while it builds a scene. */
+const STALL_S = 2.5
 /** s until the first and between later attempts to connect; each is drawn from its upper half. */
 const RETRY_S = [0.25, 0.5, 1, 2, 4, 8]
 const NOTHING: LabOffer = { topics: {}, services: {}, latched: new Set() }
@@ -73,6 +75,7 @@ class SocketLink implements Link {
   private attempts = 0
   private batchNumber = 0
   private heardAt = 0
+  private beatAt = 0
   private retry: ReturnType<typeof setTimeout> | undefined
   private beat: ReturnType<typeof setInterval> | undefined
   private readonly unwatch: () => void
@@ -158,7 +161,7 @@ class SocketLink implements Link {
     this.socket = socket
     this.welcomed = false
     this.batchNumber = 0
-    this.heardAt = ownTime()
+    this.heardAt = this.beatAt = ownTime()
     // What comes late of a former socket concerns nobody.
     const own = (act: () => void) => () => {
       if (this.socket === socket) act()
@@ -261,7 +264,11 @@ class SocketLink implements Link {
   }
 
   private onBeat(): void {
-    if (!isHidden() && ownTime() - this.heardAt > SILENCE_S) {
+    const now = ownTime()
+    // What came while the page stood still is read after this.
+    if (now - this.beatAt > STALL_S) this.heardAt = now
+    this.beatAt = now
+    if (!isHidden() && now - this.heardAt > SILENCE_S) {
       this.lose(`the gateway has sent nothing for ${SILENCE_S} s`)
     } else this.ping()
   }

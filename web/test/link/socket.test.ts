@@ -228,6 +228,19 @@ describe('the connection', () => {
     expect(side.closedByPage).toBe(true)
   })
 
+  test('a page that stood still itself does not take that for silence', () => {
+    const side = GatewaySide.last.open()
+    vi.advanceTimersByTime(3000)
+    const { now } = performance
+    vi.spyOn(performance, 'now').mockImplementation(() => now.call(performance) + 6000)
+    vi.advanceTimersByTime(1000)
+    expect(link.status.phase).toBe('open')
+    expect(side.closedByPage).toBe(false)
+    vi.advanceTimersByTime(5000)
+    expect(link.status.phase).toBe('lost')
+    vi.restoreAllMocks()
+  })
+
   test('pongs keep it alive and give the lab time', () => {
     const side = GatewaySide.last.open()
     for (let i = 0; i < 20; i++) {
