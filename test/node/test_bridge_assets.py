@@ -11,6 +11,7 @@ from xml.etree import ElementTree
 import pytest
 import yourdfpy
 import zenoh
+from child_process import HOST, start_child
 from graph import wait_for
 from zenoh_side import connect, start_client
 
@@ -220,6 +221,25 @@ def test_a_bridge_that_was_started_again_serves_assets(graph, bridge, session, e
     graph.add(BridgeNode, listen=[endpoint])
     wait_for(lambda: list(session.get(BASE, timeout=1.0)), "the bridge to be back")
     assert isinstance(get(session, BASE), zenoh.Sample)
+
+
+def test_a_killed_bridge_comes_back_with_its_assets(endpoint):
+    def start():
+        arguments = ("bridge", "--ros-args", "-p", f"listen:=['{endpoint}']")
+        return start_child(*HOST, *arguments, cwd=ROOT)
+
+    bridge = start()
+    with connect(endpoint, connect__exit_on_failure=False, connect__timeout_ms=-1) as session:
+        try:
+            wait_for(lambda: list(session.get(BASE, timeout=1.0)), "the bridge", timeout=60)
+            bridge.kill()
+            bridge.wait(20)
+            assert not list(session.get(BASE, timeout=1.0))
+            bridge = start()
+            wait_for(lambda: list(session.get(BASE, timeout=1.0)), "the new bridge", timeout=60)
+        finally:
+            bridge.kill()
+            bridge.wait(20)
 
 
 def test_the_schema_has_every_type_that_crosses(bridge, session):
