@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from typing import Any
 
 import numpy as np
 from geometry_msgs.msg import Point, Twist, Vector3
 from mrlab_msgs import msg
+from sensor_msgs.msg import JointState
 from shape_msgs.msg import SolidPrimitive
 from std_msgs.msg import ColorRGBA
 
@@ -114,6 +115,13 @@ def grasp_to_message(event: GraspChanged, fingers: list[str]) -> msg.Grasp:
         fingers=fingers,
         finger_positions=event.positions,
         finger_forces=event.forces,
+    )
+
+
+def fingers_to_message(now_ns: int, robot: str, positions: Mapping[str, float]) -> JointState:
+    """positions: of the finger joints by name, m or rad."""
+    return JointState(
+        header=make_header(now_ns, robot), name=list(positions), position=list(positions.values())
     )
 
 

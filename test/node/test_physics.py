@@ -188,6 +188,10 @@ def test_a_gripper_picks_carries_and_releases_and_the_timeline_can_be_scrubbed(g
     objects = graph.listen(msg.SceneObjects, "/objects", qos.LATCHED)
     states = graph.listen(msg.PlaybackState, f"/{robot}/playback_state", qos.EVENTS)
     wait_for(lambda: grasp.last() and len(grasp.last().fingers) == 2, "the gripper")
+    fingers = graph.listen(JointState, f"/{robot}/finger_states", qos.LATCHED)
+    wait_for(lambda: fingers, "the fingers")
+    assert list(fingers.last().name) == list(grasp.last().fingers)
+    opened = fingers.last().position[0]
     # 12 mm of adapter plate, then 154 mm to the tool centre point. A cube on a pedestal.
     center = tool(0, 0.012 + 0.150)
     pedestal = place(graph, "pedestal", center - [0, 0, 0.2251])
@@ -197,6 +201,7 @@ def test_a_gripper_picks_carries_and_releases_and_the_timeline_can_be_scrubbed(g
     assert graph.call(Trigger, f"/{robot}/play").success
     wait_for(lambda: grasp.last().state == msg.Grasp.HOLDING, "the grasp")
     assert grasp.last().object == cube
+    wait_for(lambda: fingers.last().position[0] > opened + 0.005, "fingers that closed")
     start = where(objects, cube)
     wait_for(lambda: states.last().label == "PLAYING" and states.last().frame > 350, "the way")
     wait_for(lambda: grasp.last().state == msg.Grasp.OPEN, "the release")

@@ -88,6 +88,13 @@ class World:
         """Return an object's pose and velocity."""
         return self._engine.object(self.object(name).name)
 
+    def fingers(self, name: str) -> dict[str, float]:
+        """Return the positions, m or rad, of a robot's finger joints by name; empty: none."""
+        robot = self.robot(name)
+        states = self._engine.fingers(name)
+        joints = [finger.joint for finger in robot.arm.fingers]
+        return {joint: state.position for joint, state in zip(joints, states, strict=True)}
+
     def hand(self, name: str) -> BodyState:
         """Return pose and velocity of the link that a robot's objects are fixed to."""
         return self._world_state.hand(self.robot(name))

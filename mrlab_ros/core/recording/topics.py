@@ -32,6 +32,7 @@ LAB_TOPICS = (
     "/*/targets",
     "/*/collision",
     "/*/grasp",
+    "/*/finger_states",
     "/*/robot_description",
 )
 # About the live processes, not the session; never replayed.

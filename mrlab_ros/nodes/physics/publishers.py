@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 
 from mrlab_msgs import msg
 from rclpy.node import Node
 from rclpy.publisher import Publisher
+from sensor_msgs.msg import JointState
 
 from mrlab_ros.core.clock import SECOND
 from mrlab_ros.core.physics.engine import BodyState
@@ -52,6 +54,9 @@ class WorldPublishers:
         self._world = world
         self._collisions: dict[str, Publisher] = {}
         self._grasps: dict[str, Publisher] = {}
+        self._fingers: dict[str, Publisher] = {}
+        # By robot the positions that were published last.
+        self._finger_positions: dict[str, dict[str, float]] = {}
         self._published: dict[str, PublishedObject] | None = None
         self._next_contacts_ns = self._next_objects_ns = self._repeat_ns = 0
         self._contacts = node.create_publisher(msg.Contacts, "/contacts", qos.EVENTS)
@@ -64,10 +69,16 @@ class WorldPublishers:
             msg.Collision, f"/{name}/collision", qos.LATCHED
         )
         self._grasps[name] = self._node.create_publisher(msg.Grasp, f"/{name}/grasp", qos.LATCHED)
+        # Apart from the arm's frames, which are exactly those of its trajectory.
+        self._fingers[name] = self._node.create_publisher(
+            JointState, f"/{name}/finger_states", qos.LATCHED
+        )
 
     def remove_robot(self, name: str) -> None:
         self._node.destroy_publisher(self._collisions.pop(name))
         self._node.destroy_publisher(self._grasps.pop(name))
+        self._node.destroy_publisher(self._fingers.pop(name))
+        self._finger_positions.pop(name, None)
 
     def publish_due(self, now_ns: int) -> bool:
         """Publish what is due; return whether an object was added, removed or moved."""
@@ -81,6 +92,7 @@ class WorldPublishers:
         if now_ns < self._next_objects_ns:
             return False
         self._next_objects_ns = now_ns + OBJECTS_NS
+        self._publish_fingers(now_ns)
         return self._publish_objects(now_ns)
 
     def _publish_event(self, event: Event) -> None:
@@ -93,6 +105,22 @@ class WorldPublishers:
         elif event.robot in self._grasps and event.robot in self._world.robots:
             fingers = [finger.joint for finger in self._world.robot(event.robot).arm.fingers]
             self._grasps[event.robot].publish(messages.grasp_to_message(event, fingers))
+
+    def _publish_fingers(self, now_ns: int) -> None:
+        """Publish the fingers of each gripper where they moved; else once a second."""
+        again = now_ns >= self._repeat_ns
+        for name in self._world.robots:
+            positions = self._world.fingers(name)
+            before = self._finger_positions.get(name)
+            if not positions or name not in self._fingers:
+                continue
+            moved = before is None or any(
+                abs(position - before.get(joint, math.inf)) >= STILL
+                for joint, position in positions.items()
+            )
+            if moved or again:
+                self._finger_positions[name] = positions
+                self._fingers[name].publish(messages.fingers_to_message(now_ns, name, positions))
 
     def _publish_objects(self, now_ns: int) -> bool:
         """Publish all objects where one was added, removed or moved; else once a second."""
