@@ -30,14 +30,19 @@ export async function setLanguage(next: Language, keep = true): Promise<void> {
   loaded.value = { language: next, words: chosen }
 }
 
+/** The person's own kind of the language, such as en-GB: dates and numbers differ. */
+const locale = computed(
+  () => navigator.languages.find((tag) => tag.startsWith(language.value)) ?? language.value,
+)
+
 /** Return a number in the language's own way, with at most `digits` behind the comma. */
 export function number(value: number, digits = 2): string {
-  return value.toLocaleString(language.value, { maximumFractionDigits: digits })
+  return value.toLocaleString(locale.value, { maximumFractionDigits: digits })
 }
 
 /** Return a date and time, s since the epoch, in the language's own way. */
 export function dateTime(seconds: number): string {
-  return new Date(seconds * 1000).toLocaleString(language.value, {
+  return new Date(seconds * 1000).toLocaleString(locale.value, {
     dateStyle: 'medium',
     timeStyle: 'short',
   })
