@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import contextlib
+import errno
 import os
 from collections.abc import Callable
 from pathlib import Path
@@ -13,6 +14,7 @@ from mrlab_ros.core.errors import BadInput, LabError
 from mrlab_ros.core.scene import document
 from mrlab_ros.core.scene.document import SceneDocument
 
+FULL = (errno.ENOSPC, errno.EDQUOT)
 # What one change may add to a state file, bytes.
 ROOM = 65_536
 
@@ -56,7 +58,10 @@ class StateFile:
             self._log(f"{why}. {set_aside(self._path, copy=True)}")
 
     def check_room(self) -> None:
-        """Raise LabError where the folder cannot take the next save(); nothing is changed."""
+        """Raise LabError where the disk has no room for the next save(); nothing is changed.
+
+        A folder that cannot be written at all does not stop a lab: save() says so.
+        """
         path = self._path
         if path is None:
             return
@@ -67,10 +72,11 @@ class StateFile:
             with open(probe, "wb") as file:
                 os.posix_fallocate(file.fileno(), 0, 2 * size + ROOM)
         except OSError as error:
-            raise LabError(
-                f"{path.parent} cannot be written ({error.strerror}), so nothing was changed; "
-                "make room there, or check that folder, then try again"
-            ) from None
+            if error.errno in FULL:
+                raise LabError(
+                    f"{path.parent} cannot be written ({error.strerror}), so nothing was "
+                    "changed; make room there, then try again"
+                ) from None
         finally:
             with contextlib.suppress(OSError):
                 probe.unlink()
