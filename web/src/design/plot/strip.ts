@@ -195,6 +195,12 @@ export function createStrip(parent: HTMLElement, width: number, options: StripOp
     data.push(strip.compared)
   }
   const height = options.height + (axis ? AXIS_HEIGHT : 0)
+  const playhead = document.createElement('div')
+  playhead.className = 'strip-playhead'
+  let now = 0
+  const place = (drawn: uPlot) => {
+    playhead.style.transform = `translateX(${drawn.valToPos(now, 'x')}px)`
+  }
   const plot = new uPlot(
     {
       width,
@@ -231,15 +237,14 @@ export function createStrip(parent: HTMLElement, width: number, options: StripOp
       series,
       hooks: {
         drawClear: [(drawn) => drawForbidden(drawn, options)],
-        draw: [(drawn) => drawMarks(drawn, options)],
+        // A new or resized plot has its scales when it is drawn, not before.
+        draw: [(drawn) => drawMarks(drawn, options), place],
         setCursor: [(drawn) => options.onCursor(drawn.cursor.idx ?? null)],
       },
     },
     data,
     parent,
   )
-  const playhead = document.createElement('div')
-  playhead.className = 'strip-playhead'
   plot.over.append(playhead)
   const seek = (event: MouseEvent) => {
     const box = plot.over.getBoundingClientRect()
@@ -249,7 +254,8 @@ export function createStrip(parent: HTMLElement, width: number, options: StripOp
   return {
     resize: (next) => plot.setSize({ width: next, height }),
     setTime: (time) => {
-      playhead.style.transform = `translateX(${plot.valToPos(time, 'x')}px)`
+      now = time
+      place(plot)
     },
     dispose: () => plot.destroy(),
   }
