@@ -135,6 +135,8 @@ class WaitSetThread(_RawThread[Callable[[bytes], None]]):
             for handle, _, _ in found:
                 wait_set.add_subscription(handle)
             wait_set.wait(min(wait_ns, MAX_WAIT_NS))
+            if self._changed:
+                break  # what was removed meanwhile gets nothing more; the rest is still there
             for pointer in wait_set.get_ready_entities("subscription"):
                 self._drain(*takers[pointer])
         return True

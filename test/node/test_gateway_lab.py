@@ -82,7 +82,7 @@ def test_topics_services_and_presence() -> None:
             bridge.service("a/play", "std_srvs/srv/Trigger", lambda query: query.reply(done))
             bridge.service("b/play", "std_srvs/srv/Trigger", lambda query: query.refuse("not now"))
             await until(lambda: lab.phase is Phase.OPEN and "b/play" in lab.keys.services)
-            assert lab.keys.latched == {"robots"}
+            await until(lambda: lab.keys.latched == {"robots"})
             await until(lambda: "mrlab_msgs/msg/Fix" in lab.definitions.store.fielddefs)
 
             assert (await lab.call("a/play", "std_srvs/srv/Trigger")).success

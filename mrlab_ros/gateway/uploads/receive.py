@@ -90,6 +90,9 @@ class Receiver:
             await run_in_threadpool(keep, bytes(block))
             if size == 0:
                 raise BadInput(f"'{file_name}' is empty; save it again and send it")
+            # What came beside it meanwhile is in the store now.
+            used = await run_in_threadpool(self._used, user)
+            self._check_quota(user, used, 0)
             number = keys.unique()
             key = keys.upload(user, number, file_name)
             await run_in_threadpool(self._store.put_file, key, file)  # type: ignore[arg-type]
