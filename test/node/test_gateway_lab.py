@@ -34,6 +34,10 @@ class Bridge:
         self.prefix = prefix
         self.held = [self.session.token(bridge_token(self.session.zid))]
 
+    def close(self) -> None:
+        """End the session: left open, it would keep the whole test run from ending."""
+        self.session.close()
+
     def topic(self, key: str, type_name: str) -> Publisher:
         key, zid = f"{self.prefix}/{key}", self.session.zid
         self.held.append(
@@ -98,10 +102,11 @@ def test_topics_services_and_presence() -> None:
             assert newest is not None
             assert newest.sequence == 7
 
-            bridge.session.close()
+            bridge.close()
             await until(lambda: lab.phase is Phase.LOST)
             assert not lab.keys.services
         finally:
             await lab.close()
+            bridge.close()
 
     asyncio.run(scenario())
