@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import shutil
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator, Sequence
 
 import pytest
 from playwright.sync_api import (
@@ -18,6 +18,7 @@ from served_lab import Gateway, ServedLab, gateway_with_people, served_lab
 
 # Without the second one headless Chromium has no WebGL, and a page without 3D would pass.
 FLAGS = ("--no-sandbox", "--enable-unsafe-swiftshader", "--use-angle=swiftshader")
+PLAIN = ("--no-sandbox", "--disable-gpu", "--disable-3d-apis")
 # Of a page that waits for something, ms; software draws the 3D view on few cores.
 PATIENCE_MS = 30_000
 expect.set_options(timeout=PATIENCE_MS)
@@ -25,13 +26,27 @@ CHROMIUM = ("chromium", "chromium-browser", "google-chrome", "google-chrome-stab
 
 
 @pytest.fixture(scope="session")
-def browser() -> Iterator[Browser]:
-    """The system's Chromium, else the one that `playwright install chromium` put here."""
+def chromium() -> Iterator[Callable[[Sequence[str]], Browser]]:
+    """Start the system's Chromium, else the one that `playwright install chromium` put here."""
     found = next((path for name in CHROMIUM if (path := shutil.which(name))), None)
     with sync_playwright() as playwright:
-        started = playwright.chromium.launch(executable_path=found, args=FLAGS)
-        yield started
-        started.close()
+        yield lambda flags: playwright.chromium.launch(executable_path=found, args=flags)
+
+
+@pytest.fixture(scope="session")
+def browser(chromium: Callable[[Sequence[str]], Browser]) -> Iterator[Browser]:
+    """A browser that draws in 3D."""
+    started = chromium(FLAGS)
+    yield started
+    started.close()
+
+
+@pytest.fixture(scope="session")
+def plain_browser(chromium: Callable[[Sequence[str]], Browser]) -> Iterator[Browser]:
+    """A browser without WebGL: where 3D does not matter, no click waits for its drawing."""
+    started = chromium(PLAIN)
+    yield started
+    started.close()
 
 
 @pytest.fixture(scope="session")
@@ -66,9 +81,9 @@ def troubles() -> Troubles:
 
 
 @pytest.fixture(scope="session")
-def signed_in(browser: Browser, lab: ServedLab) -> StorageState:
+def signed_in(plain_browser: Browser, lab: ServedLab) -> StorageState:
     """Return the cookies of the browser that the link of `mrlab open` signs in, once."""
-    context = browser.new_context()
+    context = plain_browser.new_context()
     page = context.new_page()
     page.goto(lab.signed_in_url())
     page.get_by_role("navigation", name="Main").wait_for()
@@ -77,22 +92,38 @@ def signed_in(browser: Browser, lab: ServedLab) -> StorageState:
     return state
 
 
-@pytest.fixture
-def context(browser: Browser, signed_in: StorageState) -> Iterator[BrowserContext]:
-    """A browser of the local user, in English."""
+def opened(browser: Browser, signed_in: StorageState) -> BrowserContext:
+    """Return a window of the local user, in English."""
     made = browser.new_context(
         locale="en-GB", viewport={"width": 1100, "height": 700}, storage_state=signed_in
     )
     made.set_default_timeout(PATIENCE_MS)
-    yield made
-    made.close()
+    return made
 
 
 @pytest.fixture
-def page(context: BrowserContext, lab: ServedLab, troubles: Troubles) -> Iterator[Page]:
-    """The upload page of the local user, which must not complain of anything."""
+def page(
+    plain_browser: Browser, signed_in: StorageState, lab: ServedLab, troubles: Troubles
+) -> Iterator[Page]:
+    """The upload page of the local user without 3D, which must not complain of anything."""
+    context = opened(plain_browser, signed_in)
     page = context.new_page()
     troubles.watch(page)
     page.goto(lab.url)
     yield page
+    context.close()
+    assert troubles == []
+
+
+@pytest.fixture
+def drawn_page(
+    browser: Browser, signed_in: StorageState, lab: ServedLab, troubles: Troubles
+) -> Iterator[Page]:
+    """The upload page of the local user with 3D, which must not complain of anything."""
+    context = opened(browser, signed_in)
+    page = context.new_page()
+    troubles.watch(page)
+    page.goto(lab.url)
+    yield page
+    context.close()
     assert troubles == []

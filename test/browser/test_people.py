@@ -20,9 +20,9 @@ PASSWORD = "long enough to be one"
 
 
 @pytest.fixture
-def browsers(browser: Browser) -> Iterator[list[BrowserContext]]:
+def browsers(plain_browser: Browser) -> Iterator[list[BrowserContext]]:
     """Browsers of different people: nothing is shared between them."""
-    made = [browser.new_context(locale="en-GB") for _ in range(2)]
+    made = [plain_browser.new_context(locale="en-GB") for _ in range(2)]
     yield made
     for context in made:
         context.close()

@@ -11,7 +11,10 @@ from page_objects import UploadPage
 from playwright.sync_api import Page, expect
 
 
-def test_a_good_file_moves_after_two_clicks_and_is_published(page: Page, tmp_path: Path) -> None:
+def test_a_good_file_moves_after_two_clicks_and_is_published(
+    drawn_page: Page, tmp_path: Path
+) -> None:
+    page = drawn_page
     upload = UploadPage(page)
     upload.send(student_files.good(tmp_path))
     expect(upload.outcome("accepted")).to_be_visible()
@@ -61,7 +64,8 @@ def test_a_fix_is_applied_by_its_button_and_taken_back(page: Page, tmp_path: Pat
     expect(upload.outcome("refused")).to_be_visible()
 
 
-def test_a_refused_file_is_shown_with_the_failing_frame(page: Page, tmp_path: Path) -> None:
+def test_a_refused_file_is_shown_with_the_failing_frame(drawn_page: Page, tmp_path: Path) -> None:
+    page = drawn_page
     upload = UploadPage(page)
     upload.send(student_files.beyond(tmp_path))
     expect(upload.outcome("refused")).to_be_visible()
