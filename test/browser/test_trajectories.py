@@ -25,7 +25,7 @@ def test_trajectories_are_found_compared_downloaded_and_brought_back(
 ) -> None:
     published(page, lab, tmp_path, "small", 0.4)
     published(page, lab, tmp_path, "large", 0.5)
-    page.get_by_role("link", name="Trajectories").click()
+    page.get_by_role("link", name="Trajectories", exact=True).click()
     search = page.get_by_role("searchbox")
     search.fill("small")
     expect(page.locator(".trajectory")).to_have_count(1)
