@@ -81,7 +81,9 @@ def init(
         f"  mrlab keys add anna ben --role operator{where}\n"
         f"      makes keys for people; hand each the file {folder}/clients/NAME.json5\n"
         f"  mrlab up --keys {folder}\n"
-        "      starts the lab; clients connect with TLS to port 7447\n\n"
+        "      starts the lab; clients connect with TLS to port 7447, browsers to its pages\n"
+        "  mrlab users add anna --role student\n"
+        "      lets a person sign in to the pages: prints a link for once, and its QR code\n\n"
         f"Who has {folder}/ca.key can make a key for anybody: it belongs on this machine alone."
     )
     if not host:

@@ -6,6 +6,7 @@ made to point here (DNS rebinding) is no Host of this gateway.
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable
 
 from starlette.datastructures import Headers, MutableHeaders
@@ -13,6 +14,8 @@ from starlette.types import ASGIApp, Message, Receive, Scope, Send
 
 from mrlab_ros.gateway.errors import problem
 
+# A name or an address, IPv6 in brackets, and maybe a port.
+HOST = re.compile(r"(?:\[(?P<address>[0-9A-Fa-f:.%]+)\]|(?P<name>[^\s:@/\[\]]+))(?::\d+)?")
 SAFE = ("GET", "HEAD", "OPTIONS")
 CSRF_HEADER = "x-csrf-token"
 # wasm-unsafe-eval: meshes are unpacked by WebAssembly. blob: textures of glTF files.
@@ -120,7 +123,9 @@ class Guard:
 
 
 def without_port(host: str) -> str:
-    """Return the name or address of a Host header, in lower case and without brackets."""
-    if host.startswith("["):
-        return host[1:].partition("]")[0]
-    return host.partition(":")[0].lower()
+    """Return the name or address of a Host header, in lower case and without brackets.
+
+    Empty for what is no host and port.
+    """
+    found = HOST.fullmatch(host)
+    return "" if found is None else (found["address"] or found["name"]).lower()

@@ -253,6 +253,9 @@ class StuckSession:
     def token(self, key):
         return self.Publisher(self, False)
 
+    def subscriber(self, key, on_sample, history):
+        return self.Publisher(self, False)
+
     def close(self):
         pass
 

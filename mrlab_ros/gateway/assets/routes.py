@@ -15,9 +15,8 @@ CACHE = "private, no-cache"
 router = APIRouter(tags=["assets"])
 
 
-@router.api_route(
-    "/assets/{path:path}", methods=["GET", "HEAD"], operation_id="asset", response_class=Response
-)
+@router.head("/assets/{path:path}", include_in_schema=False, response_class=Response)
+@router.get("/assets/{path:path}", operation_id="asset", response_class=Response)
 async def asset(request: Request, path: str) -> Response:
     """Return an asset of the lab, such as robots.json or a mesh.
 

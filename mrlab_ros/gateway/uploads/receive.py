@@ -162,6 +162,11 @@ def checked_name(name: str) -> str:
             f"the name of the file has {len(name)} characters; expected {LONGEST_NAME} at most: "
             "give it a shorter one"
         )
+    if not name.isprintable():
+        raise BadInput(
+            f"the name of the file is {name!r}, with characters that cannot be printed; expected "
+            "letters, digits and signs: give it another one"
+        )
     if not name.lower().endswith(ENDINGS):
         raise BadInput(
             f"'{name}' is none of the files that are read; expected a name that ends with "

@@ -13,7 +13,16 @@ OWN = "http://localhost:8080"
 
 @pytest.mark.parametrize(
     "host",
-    ["evil.example", "localhost.evil.example", "lab", "", "192.168.1.20", "127.0.0.1.nip.io"],
+    [
+        "evil.example",
+        "localhost.evil.example",
+        "lab",
+        "",
+        "192.168.1.20",
+        "127.0.0.1.nip.io",
+        "127.0.0.1:8080@evil.example",
+        "127.0.0.1:eighty",
+    ],
 )
 def test_a_foreign_host_is_refused_everywhere(local_lab: Gateway, host: str) -> None:
     local = local_lab.local()
