@@ -46,7 +46,7 @@ class MemberChecks:
         wanted: dict[str, str] = {}
         for member in system.members.values():
             robot, state = member.robot, states[member.robot]
-            _check_free(robot, state)
+            _check_free(robot, state, system.name)
             if member.trajectory_id not in ("", state.trajectory_id):
                 wanted[robot] = member.trajectory_id
             elif state.trajectory_id:
@@ -78,7 +78,10 @@ class MemberChecks:
         return found
 
 
-def _check_free(robot: str, state: msg.PlaybackState) -> None:
+def _check_free(robot: str, state: msg.PlaybackState, system: str) -> None:
+    if state.system == system:
+        # This coordinator has no system of that name: it died, and its claim has not run out yet.
+        return
     if state.system:
         raise Misuse(
             f"'{robot}' is a member of system '{state.system}' already; dissolve that one first"
