@@ -1,6 +1,6 @@
 # make demo   set up and run the lab on a shipped MATLAB file   (ARGS=--once ends by itself)
-# make test   set up and run every test          (ARGS passes options to pytest: ARGS='-m fast'
-#             runs those that need no graph, in about a minute)
+# make test   set up and run every test, in two processes   (ARGS passes options to pytest: ARGS='-m fast'
+#             runs those that need no graph; ARGS='-n 0' runs all in one process, as --pdb needs)
 # make bench  run every benchmark                               (ARGS=--quick for a minute each)
 # make robots  generate the robots' bodies anew from their descriptions (tens of minutes)
 # make objects generate the meshes of config/objects anew       (seconds)
@@ -23,7 +23,7 @@ demo: setup
 
 test:
 	@python3 scripts/bootstrap.py --dev --test-tools
-	@$(ENV) exec python -m pytest $(ARGS)
+	@$(ENV) exec python -m pytest -n 2 --dist loadgroup $(ARGS)
 
 lint:
 	@python3 scripts/bootstrap.py --dev

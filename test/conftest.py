@@ -19,13 +19,24 @@ settings.load_profile("lab")
 FAST_FOLDERS = ("unit", "fuzz")
 
 
+# What runs in one process when several share the work: a folder with a lab for all of its files,
+# else a file. The labs come last, so that none runs beside tests that do not need it.
+ORDER = ("node", "fuzz", "unit", "browser", "system")
+
+
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
-    """Mark every test of FAST_FOLDERS as `fast`, except those that are marked `slow`."""
+    """Mark the `fast` tests, put the folders in ORDER, and say what runs in one process."""
     root = Path(__file__).parent
+
+    def folder(item: pytest.Item) -> str:
+        return item.path.relative_to(root).parts[0]
+
+    items.sort(key=lambda item: ORDER.index(folder(item)))
     for item in items:
-        folder = item.path.relative_to(root).parts[0]
-        if folder in FAST_FOLDERS and item.get_closest_marker("slow") is None:
+        if folder(item) in FAST_FOLDERS and item.get_closest_marker("slow") is None:
             item.add_marker(pytest.mark.fast)
+        together = "browser" if folder(item) == "browser" else item.path.relative_to(root)
+        item.add_marker(pytest.mark.xdist_group(str(together)))
 
 
 @pytest.fixture(scope="session", autouse=True)

@@ -25,7 +25,9 @@ expect.set_options(timeout=PATIENCE_MS)
 CHROMIUM = ("chromium", "chromium-browser", "google-chrome", "google-chrome-stable")
 
 
-@pytest.fixture(scope="session")
+# Playwright keeps an event loop running in the thread that started it, in which no other test could
+# run one: so it ends with its file.
+@pytest.fixture(scope="module")
 def chromium() -> Iterator[Callable[[Sequence[str]], Browser]]:
     """Start the system's Chromium, else the one that `playwright install chromium` put here."""
     found = next((path for name in CHROMIUM if (path := shutil.which(name))), None)
@@ -33,7 +35,7 @@ def chromium() -> Iterator[Callable[[Sequence[str]], Browser]]:
         yield lambda flags: playwright.chromium.launch(executable_path=found, args=flags)
 
 
-@pytest.fixture(scope="session")
+@pytest.fixture(scope="module")
 def browser(chromium: Callable[[Sequence[str]], Browser]) -> Iterator[Browser]:
     """A browser that draws in 3D."""
     started = chromium(FLAGS)
@@ -41,7 +43,7 @@ def browser(chromium: Callable[[Sequence[str]], Browser]) -> Iterator[Browser]:
     started.close()
 
 
-@pytest.fixture(scope="session")
+@pytest.fixture(scope="module")
 def plain_browser(chromium: Callable[[Sequence[str]], Browser]) -> Iterator[Browser]:
     """A browser without WebGL: where 3D does not matter, no click waits for its drawing."""
     started = chromium(PLAIN)
@@ -80,7 +82,7 @@ def troubles() -> Troubles:
     return Troubles()
 
 
-@pytest.fixture(scope="session")
+@pytest.fixture(scope="module")
 def signed_in(plain_browser: Browser, lab: ServedLab) -> StorageState:
     """Return the cookies of the browser that the link of `mrlab open` signs in, once."""
     context = plain_browser.new_context()
