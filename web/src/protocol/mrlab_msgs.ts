@@ -250,8 +250,10 @@ export interface Contact {
   stamp: Time
   /** name of the robot */
   robot: string
-  /** its link that touches */
+  /** its link that touches, a finger too */
   link: string
+  /** the object in its gripper that touches; empty: the robot itself */
+  held: string
   /** what it touches: one of the constants above */
   kind: number
   /** name of the object, surface or robot */
@@ -286,6 +288,7 @@ export function createContact(): Contact {
     stamp: createTime(),
     robot: '',
     link: '',
+    held: '',
     kind: 0,
     other: '',
     other_link: '',
@@ -301,6 +304,7 @@ export function readContact(from: CdrReader, into: Contact): void {
   readTime(from, into.stamp)
   into.robot = from.string(into.robot)
   into.link = from.string(into.link)
+  into.held = from.string(into.held)
   into.kind = from.uint8()
   into.other = from.string(into.other)
   into.other_link = from.string(into.other_link)
@@ -315,6 +319,7 @@ export function writeContact(to: CdrWriter, message: Contact): void {
   writeTime(to, message.stamp)
   to.string(message.robot)
   to.string(message.link)
+  to.string(message.held)
   to.uint8(message.kind)
   to.string(message.other)
   to.string(message.other_link)
@@ -1105,6 +1110,20 @@ export interface Grasp {
   finger_positions: Float64Array
   /** N or N*m, in the order of fingers */
   finger_forces: Float64Array
+  /** why nothing is held, why it slips or was lost; empty: nothing to say */
+  reason: string
+  /** kg of the held object */
+  mass: number
+  /** kg that the robot with this end effector may carry; 0: not stated */
+  payload: number
+  /** coefficient between the fingers or the cup and the object */
+  friction: number
+  /** coefficient that the load on it needs now */
+  friction_needed: number
+  /** friction / friction_needed - 1; negative: it slips */
+  slip_margin: number
+  /** N*m of its weight about the origin of tool0 */
+  wrist_moment: number
 }
 
 export const Grasp = {
@@ -1126,6 +1145,13 @@ export function createGrasp(): Grasp {
     fingers: [],
     finger_positions: new Float64Array(0),
     finger_forces: new Float64Array(0),
+    reason: '',
+    mass: 0,
+    payload: 0,
+    friction: 0,
+    friction_needed: 0,
+    slip_margin: 0,
+    wrist_moment: 0,
   }
 }
 
@@ -1136,6 +1162,13 @@ export function readGrasp(from: CdrReader, into: Grasp): void {
   into.fingers = from.strings(into.fingers)
   into.finger_positions = from.float64s(into.finger_positions)
   into.finger_forces = from.float64s(into.finger_forces)
+  into.reason = from.string(into.reason)
+  into.mass = from.float64()
+  into.payload = from.float64()
+  into.friction = from.float64()
+  into.friction_needed = from.float64()
+  into.slip_margin = from.float64()
+  into.wrist_moment = from.float64()
 }
 
 export function writeGrasp(to: CdrWriter, message: Grasp): void {
@@ -1145,6 +1178,13 @@ export function writeGrasp(to: CdrWriter, message: Grasp): void {
   to.strings(message.fingers)
   to.float64s(message.finger_positions)
   to.float64s(message.finger_forces)
+  to.string(message.reason)
+  to.float64(message.mass)
+  to.float64(message.payload)
+  to.float64(message.friction)
+  to.float64(message.friction_needed)
+  to.float64(message.slip_margin)
+  to.float64(message.wrist_moment)
 }
 
 export const graspType: MessageType<Grasp> = /* @__PURE__ */ messageType(
@@ -1920,7 +1960,7 @@ export interface PlaybackState {
   frame_rate: number
   /** s; 0 in IDLE */
   duration: number
-  /** the speed it plays at when it plays, 0.1 to 4 */
+  /** the speed it plays at when it plays, 0.1 to 4; negative: backwards */
   rate: number
   /** true: starts over after the last frame */
   loop: boolean
@@ -2013,6 +2053,86 @@ export const playbackStateType: MessageType<PlaybackState> = /* @__PURE__ */ mes
   createPlaybackState,
   readPlaybackState,
   writePlaybackState,
+)
+
+/** mrlab_msgs/msg/Presence: Where somebody in the room is. A display sends it at most 20 times a second while it is in the lab. */
+export interface Presence {
+  /** when it was measured, lab time; frame_id is world */
+  header: Header
+  /** of the display, unique in the lab */
+  id: string
+  /** of the person; the gateway fills it in from the sign-in */
+  name: string
+  /** one of the constants above */
+  part: number
+  /** of their eyes in world, x forwards, m */
+  head: Pose
+  /** true: the left hand or controller is tracked */
+  has_left: boolean
+  /** in world, m */
+  left: Pose
+  has_right: boolean
+  /** in world, m */
+  right: Pose
+  /** true: takes the headset off, or leaves; the avatar is removed */
+  away: boolean
+}
+
+export const Presence = {
+  /** sees the lab and commands nothing */
+  WATCHES: 0,
+  /** commands robots */
+  DRIVES: 1,
+  /** may pause all */
+  TEACHES: 2,
+} as const
+
+export function createPresence(): Presence {
+  return {
+    header: createHeader(),
+    id: '',
+    name: '',
+    part: 0,
+    head: createPose(),
+    has_left: false,
+    left: createPose(),
+    has_right: false,
+    right: createPose(),
+    away: false,
+  }
+}
+
+export function readPresence(from: CdrReader, into: Presence): void {
+  readHeader(from, into.header)
+  into.id = from.string(into.id)
+  into.name = from.string(into.name)
+  into.part = from.uint8()
+  readPose(from, into.head)
+  into.has_left = from.bool()
+  readPose(from, into.left)
+  into.has_right = from.bool()
+  readPose(from, into.right)
+  into.away = from.bool()
+}
+
+export function writePresence(to: CdrWriter, message: Presence): void {
+  writeHeader(to, message.header)
+  to.string(message.id)
+  to.string(message.name)
+  to.uint8(message.part)
+  writePose(to, message.head)
+  to.bool(message.has_left)
+  writePose(to, message.left)
+  to.bool(message.has_right)
+  writePose(to, message.right)
+  to.bool(message.away)
+}
+
+export const presenceType: MessageType<Presence> = /* @__PURE__ */ messageType(
+  'mrlab_msgs/msg/Presence',
+  createPresence,
+  readPresence,
+  writePresence,
 )
 
 /** mrlab_msgs/msg/Preview: Some rows of a matrix, for a picture of it: at most 400, evenly chosen, the first, the last and the rows that findings name among them. */
@@ -2710,6 +2830,8 @@ export interface SceneObject {
   primitive: SolidPrimitive
   /** robot that holds it, or "hand"; empty: free */
   held_by: string
+  /** only where a robot holds it: its pose in that robot's tool0, m */
+  in_tool: Pose
 }
 
 export function createSceneObject(): SceneObject {
@@ -2724,6 +2846,7 @@ export function createSceneObject(): SceneObject {
     mesh: '',
     primitive: createSolidPrimitive(),
     held_by: '',
+    in_tool: createPose(),
   }
 }
 
@@ -2738,6 +2861,7 @@ export function readSceneObject(from: CdrReader, into: SceneObject): void {
   into.mesh = from.string(into.mesh)
   readSolidPrimitive(from, into.primitive)
   into.held_by = from.string(into.held_by)
+  readPose(from, into.in_tool)
 }
 
 export function writeSceneObject(to: CdrWriter, message: SceneObject): void {
@@ -2751,6 +2875,7 @@ export function writeSceneObject(to: CdrWriter, message: SceneObject): void {
   to.string(message.mesh)
   writeSolidPrimitive(to, message.primitive)
   to.string(message.held_by)
+  writePose(to, message.in_tool)
 }
 
 export const sceneObjectType: MessageType<SceneObject> = /* @__PURE__ */ messageType(
@@ -3048,7 +3173,7 @@ export const setObjectsResponseType: MessageType<SetObjectsResponse> = /* @__PUR
 
 /** mrlab_msgs/srv/SetRate_Request: Set the speed of playback. */
 export interface SetRateRequest {
-  /** 0.1 to 4; 1 is the declared speed */
+  /** 0.1 to 4, or -0.1 to -4: backwards; 1 is the declared speed */
   rate: number
 }
 
@@ -3317,8 +3442,12 @@ export interface SpawnRobotRequest {
   automatic: boolean
   /** base_link in world, m */
   pose: Pose
-  /** where to look for a free place; empty: the floor */
+  /** what it stands on, by name; empty: the floor */
   surface: string
+  /** true: the free place is in front of the viewer, and the robot faces them */
+  has_viewer: boolean
+  /** of their eyes in world, x forwards, m; meaningful only with has_viewer */
+  viewer: Pose
 }
 
 export function createSpawnRobotRequest(): SpawnRobotRequest {
@@ -3329,6 +3458,8 @@ export function createSpawnRobotRequest(): SpawnRobotRequest {
     automatic: false,
     pose: createPose(),
     surface: '',
+    has_viewer: false,
+    viewer: createPose(),
   }
 }
 
@@ -3339,6 +3470,8 @@ export function readSpawnRobotRequest(from: CdrReader, into: SpawnRobotRequest):
   into.automatic = from.bool()
   readPose(from, into.pose)
   into.surface = from.string(into.surface)
+  into.has_viewer = from.bool()
+  readPose(from, into.viewer)
 }
 
 export function writeSpawnRobotRequest(to: CdrWriter, message: SpawnRobotRequest): void {
@@ -3348,6 +3481,8 @@ export function writeSpawnRobotRequest(to: CdrWriter, message: SpawnRobotRequest
   to.bool(message.automatic)
   writePose(to, message.pose)
   to.string(message.surface)
+  to.bool(message.has_viewer)
+  writePose(to, message.viewer)
 }
 
 export const spawnRobotRequestType: MessageType<SpawnRobotRequest> = /* @__PURE__ */ messageType(
