@@ -80,6 +80,7 @@ export async function fakeLab(): Promise<Link> {
     mesh: '',
     primitive: { type: 1, dimensions: Float64Array.of(0.05, 0.05, 0.05), polygon: { points: [] } },
     held_by: '',
+    in_tool: { position: { x: 0, y: 0, z: 0 }, orientation: upright },
   })
   setInterval(() => {
     const time = link.labTime() - began
