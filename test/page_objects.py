@@ -71,3 +71,33 @@ class SignInPage:
         self.page.get_by_label("Name").fill(name)
         self.page.get_by_label("Password").fill(password)
         self.page.get_by_role("button", name="Sign in", exact=True).click()
+
+
+class LabPage:
+    """`/lab`: the robots of a running lab."""
+
+    def __init__(self, page: Page) -> None:
+        self.page = page
+        self.link = page.locator(".lab-link")
+
+    def open(self, url: str) -> LabPage:
+        """Open the page; wait until the first robot is there."""
+        self.page.goto(f"{url}/lab")
+        self.page.locator(".lab-panel article h3").first.wait_for()
+        return self
+
+    def robot(self, name: str) -> Locator:
+        return self.page.get_by_role("article", name=name)
+
+    def load(self, robot: str, trajectory: str) -> None:
+        """Load a trajectory; where there is none for the robot, the example."""
+        card = self.robot(robot)
+        listed = card.get_by_role("button", name=trajectory)
+        example = card.get_by_role("button", name="Load the example")
+        another = card.get_by_role("button", name="Load another")
+        expect(listed.or_(example).or_(another).first).to_be_visible()
+        if another.is_visible():
+            another.click()
+        expect(listed.or_(example).first).to_be_visible()
+        (example if example.is_visible() else listed.first).click()
+        expect(card.get_by_role("button", name="Play")).to_be_enabled()

@@ -136,12 +136,15 @@ def served_lab(folder: Path, *options: str) -> Iterator[ServedLab]:
 
 
 @contextmanager
-def gateway_with_people(lab: ServedLab, folder: Path) -> Iterator[Gateway]:
-    """Run another gateway of a lab, with the lab's store and people of its own."""
-    port = free_port()
+def gateway_with_people(lab: ServedLab, folder: Path, port: int = 0) -> Iterator[Gateway]:
+    """Run another gateway of a lab, with the lab's store and people of its own.
+
+    port: 0: a free one. The same folder and port bring a gateway back that ended.
+    """
+    port = port or free_port()
     url = f"http://127.0.0.1:{port}"
     state = folder / "state"
-    state.mkdir()
+    state.mkdir(exist_ok=True)
     command = (
         *(sys.executable, "-m", "mrlab_ros.gateway", "--http", f"127.0.0.1:{port}"),
         *("--public-url", url, "--zenoh", lab.zenoh, "--state-dir", str(state)),

@@ -25,8 +25,8 @@ expect.set_options(timeout=PATIENCE_MS)
 CHROMIUM = ("chromium", "chromium-browser", "google-chrome", "google-chrome-stable")
 
 
-# Playwright keeps an event loop running in the thread that started it, in which no other test could
-# run one: so it ends with its file.
+# Playwright keeps an event loop running in the thread that started it, in which no other test
+# could run one: so it ends with its file.
 @pytest.fixture(scope="module")
 def chromium() -> Iterator[Callable[[Sequence[str]], Browser]]:
     """Start the system's Chromium, else the one that `playwright install chromium` put here."""

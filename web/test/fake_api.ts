@@ -154,6 +154,7 @@ export class FakeApi implements Api {
     return {
       lab: { id: 'lab', name: 'MR-Lab', version: '0.1.0' },
       user: this.user,
+      may: { commands: true, scene: true, replay: true },
       csrf: 'token',
       ways: { password: true, oidc: true, pairing: true },
     }

@@ -37,11 +37,24 @@ class Ways(BaseModel):
     pairing: bool
 
 
+class Rights(BaseModel):
+    """What the pages offer to somebody; the socket checks each call by the same policy.
+
+    commands: loads and plays robots. scene: puts robots there and takes them away. replay: plays
+    bags.
+    """
+
+    commands: bool
+    scene: bool
+    replay: bool
+
+
 class Session(BaseModel):
     """What a page needs to know first. csrf: for the header X-CSRF-Token of unsafe requests."""
 
     lab: Lab
     user: User | None
+    may: Rights
     csrf: str
     ways: Ways
 

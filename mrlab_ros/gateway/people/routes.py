@@ -10,6 +10,7 @@ import io
 import segno
 from fastapi import APIRouter, Request, Response
 
+from mrlab_ros.core.bridge.policy import Policy, Verb
 from mrlab_ros.core.bridge.rules import Role
 from mrlab_ros.gateway.errors import NotAllowed, NotFound, NotSignedIn
 from mrlab_ros.gateway.people import answers
@@ -158,10 +159,26 @@ def session_answer(
             id=people.database.lab_id, name=settings.lab_name, version=request.app.version
         ),
         user=None if person is None else answers.User(name=person.name, role=person.role),
+        may=rights(request.app.state.policy, person),
         csrf=csrf,
         ways=answers.Ways(
             password=settings.signs_in, oidc=settings.oidc is not None, pairing=settings.signs_in
         ),
+    )
+
+
+def rights(policy: Policy, person: Person | None) -> answers.Rights:
+    """Return what the pages offer to a person."""
+
+    def calls(*services: str) -> bool:
+        return person is not None and all(
+            policy.may(person.role, Verb.CALL, service) for service in services
+        )
+
+    return answers.Rights(
+        commands=calls("robot/load", "robot/play"),
+        scene=calls("lab/spawn_robot", "lab/remove_robot"),
+        replay=calls("recorder/replay", "recorder/stop"),
     )
 
 

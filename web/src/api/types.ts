@@ -2,9 +2,20 @@
 
 export type Role = 'student' | 'instructor' | 'operator' | 'display'
 
+/** What the pages offer to a person; the gateway checks each call. */
+export interface Rights {
+  /** Loads and plays robots. */
+  readonly commands: boolean
+  /** Puts robots there and takes them away. */
+  readonly scene: boolean
+  /** Plays bags. */
+  readonly replay: boolean
+}
+
 export interface Session {
   readonly lab: { readonly id: string; readonly name: string; readonly version: string }
   readonly user: { readonly name: string; readonly role: Role } | null
+  readonly may: Rights
   /** To be sent with every request that changes something. */
   readonly csrf: string
   readonly ways: { readonly password: boolean; readonly oidc: boolean; readonly pairing: boolean }

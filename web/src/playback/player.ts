@@ -117,11 +117,22 @@ export class RemotePlayer implements Player {
   ) {}
 
   get playing(): boolean {
-    return this.clock.rate !== 0 && this.position() < this.duration
+    const { rate } = this.clock
+    return rate < 0 ? this.position() > 0 : rate > 0 && this.position() < this.duration
+  }
+
+  /** Lab time at which the clock was set, s. */
+  get since(): number {
+    return this.clock.stamp
   }
 
   position(): number {
-    return within(positionAt(this.clock, this.labTime()), this.duration)
+    return this.positionAt(this.labTime())
+  }
+
+  /** Return the place on the timeline at a lab time, s, by the clock as it is set now. */
+  positionAt(labTime: number): number {
+    return within(positionAt(this.clock, labTime), this.duration)
   }
 
   /** Take over what the lab announced: its clock, duration, s, and chosen rate. */

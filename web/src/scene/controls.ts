@@ -76,6 +76,11 @@ export class Controls {
     this.show(player.position())
   }
 
+  /** Let it be used or only be looked at. */
+  setEnabled(on: boolean): void {
+    for (const each of [this.button, this.slider, this.speed]) each.disabled = !on
+  }
+
   /** Show a time; the text changes ten times a second at most. */
   show(time: number): void {
     if (!this.scrubbing) this.slider.value = String(time)

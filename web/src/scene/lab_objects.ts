@@ -18,6 +18,8 @@ export interface ShownObject extends Shape {
   readonly name: string
   readonly pose: Pose
   readonly held_by: string
+  /** Its pose in the tool0 of the robot that holds it; a quaternion of zeros: not said. */
+  readonly in_tool?: Pose
 }
 
 /** Smaller changes are not seen: m, and of a quaternion's numbers. */
@@ -44,7 +46,7 @@ export function place(object: Object3D, pose: Pose): boolean {
 interface Entry {
   readonly root: Group
   heldBy: string
-  /** Of the object in the frame that holds it. */
+  /** Of the object in the tool0 that holds it. */
   readonly grip: Matrix4
   look: string
   seen: boolean
@@ -55,13 +57,14 @@ export class LabObjects {
   private readonly known = new Map<string, Entry>()
   private readonly scratch = new Matrix4()
   private readonly scale = new Vector3()
+  private readonly unit = new Vector3(1, 1, 1)
   private readonly quaternion = new Quaternion()
 
-  /** tipOf: the frame by which a robot holds things; undefined where it is not there. */
+  /** toolOf: the tool0 of a robot; undefined where it is not there. */
   constructor(
     private readonly stage: Stage,
     private readonly meshes: MeshSource,
-    private readonly tipOf: (robot: string) => Object3D | undefined,
+    private readonly toolOf: (robot: string) => Object3D | undefined,
     private readonly trouble: (sentence: string) => void,
   ) {}
 
@@ -78,6 +81,7 @@ export class LabObjects {
         changed = place(entry.root, object.pose) || changed
       }
       this.hold(entry, object.held_by)
+      changed = this.fit(entry, object.in_tool) || changed
     }
     for (const [name, entry] of this.known) {
       if (entry.seen) continue
@@ -101,7 +105,7 @@ export class LabObjects {
   /** Put what is held where the hands are now. */
   follow(): void {
     for (const entry of this.known.values()) {
-      const tip = entry.heldBy === '' ? undefined : this.tipOf(entry.heldBy)
+      const tip = entry.heldBy === '' ? undefined : this.toolOf(entry.heldBy)
       if (tip === undefined) continue
       this.worldOf(tip).multiply(entry.grip)
       this.scratch.decompose(entry.root.position, this.quaternion, this.scale)
@@ -134,7 +138,7 @@ export class LabObjects {
   }
 
   private hold(entry: Entry, by: string): void {
-    const tip = by === '' ? undefined : this.tipOf(by)
+    const tip = by === '' ? undefined : this.toolOf(by)
     if (tip === undefined) {
       entry.heldBy = ''
     } else if (entry.heldBy !== by) {
@@ -142,6 +146,18 @@ export class LabObjects {
       entry.root.updateMatrix()
       entry.grip.copy(this.worldOf(tip).invert()).multiply(entry.root.matrix)
     }
+  }
+
+  /** Put what is held where the lab says that it sits in the hand; return whether that is new. */
+  private fit(entry: Entry, inTool: Pose | undefined): boolean {
+    if (entry.heldBy === '' || inTool === undefined) return false
+    const { position: p, orientation: q } = inTool
+    if (q.x === 0 && q.y === 0 && q.z === 0 && q.w === 0) return false
+    this.quaternion.set(q.x, q.y, q.z, q.w)
+    this.scratch.compose(this.scale.set(p.x, p.y, p.z), this.quaternion, this.unit)
+    if (this.scratch.equals(entry.grip)) return false
+    entry.grip.copy(this.scratch)
+    return true
   }
 
   /** Give an object its look; return whether it is another one than before. */

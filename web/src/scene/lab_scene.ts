@@ -9,12 +9,14 @@ import {
 import { Contacts } from './contacts'
 import { pushCorners } from './corners'
 import { contactPatch } from './floor'
+import { GraspMarks, type ShownTarget } from './grasp_marks'
 import { LabObjects, type Pose, place, type ShownObject } from './lab_objects'
 import { Label } from './labels'
 import { Looks } from './looks'
 import type { MeshSource } from './meshes'
 import { SceneRobot } from './robot'
 import type { Stage } from './stage'
+import { LabSurfaces, type ShownSurface } from './surfaces'
 import type { SceneTheme } from './theme'
 
 const NAME = 0.021 // of a label, as a part of the distance to it
@@ -35,19 +37,22 @@ interface Entry {
   robot: SceneRobot
   urdf: string
   readonly patch: Mesh<PlaneGeometry, ShaderMaterial>
+  readonly marks: GraspMarks
+  targets: readonly ShownTarget[]
   label: Label | null
   state: string
   colour: string
   filled: boolean
 }
 
-/** Robots, objects and contacts of a lab, live or out of a bag. */
+/** Robots, objects, contacts and the room of a lab, live or out of a bag. */
 export class LabScene {
   /** Meshes that could not be read, a sentence each. */
   readonly troubles = new Set<string>()
   private readonly robots = new Map<string, Entry>()
   private readonly objects: LabObjects
   private readonly contacts = new Contacts()
+  private readonly surfaces = new LabSurfaces()
   private readonly looks = new Looks()
   private readonly undo: (() => void)[] = []
   private nameHeight = NAME
@@ -61,8 +66,8 @@ export class LabScene {
       this.troubles.add(sentence)
       this.onTrouble()
     }
-    this.objects = new LabObjects(stage, meshes, (name) => this.tipOf(name), trouble)
-    stage.world.add(this.contacts.mesh)
+    this.objects = new LabObjects(stage, meshes, (name) => this.toolOf(name), trouble)
+    stage.world.add(this.contacts.mesh, this.surfaces.group)
     this.undo.push(stage.onTheme((theme) => this.setTheme(theme)))
   }
 
@@ -119,6 +124,20 @@ export class LabScene {
 
   setObjects(objects: readonly ShownObject[]): void {
     this.objects.set(objects)
+  }
+
+  setSurfaces(surfaces: readonly ShownSurface[]): void {
+    this.surfaces.set(surfaces)
+    this.stage.invalidate()
+  }
+
+  /** Mark where the trajectory that a robot has loaded grasps and releases. */
+  setTargets(name: string, targets: readonly ShownTarget[]): void {
+    const entry = this.robots.get(name)
+    if (entry === undefined || entry.targets === targets) return
+    entry.targets = targets
+    entry.marks.set(targets, this.stage.theme)
+    this.stage.invalidate()
   }
 
   moveObject(name: string, pose: Pose, heldBy: string): void {
@@ -178,11 +197,12 @@ export class LabScene {
     for (const [name, entry] of this.robots) this.remove(name, entry)
     this.objects.dispose()
     this.contacts.dispose()
+    this.surfaces.dispose()
     this.looks.dispose()
   }
 
-  private tipOf(name: string): Object3D | undefined {
-    return this.robots.get(name)?.robot.tip
+  private toolOf(name: string): Object3D | undefined {
+    return this.robots.get(name)?.robot.tool
   }
 
   private add(shown: ShownRobot): Entry {
@@ -190,13 +210,16 @@ export class LabScene {
     const robot = new SceneRobot(shown.urdf, shown.joint_names, this.meshes, this.looks, changed)
     const base = new Group()
     const patch = contactPatch(PATCH)
-    base.add(robot.root, patch)
+    const marks = new GraspMarks()
+    base.add(robot.root, patch, marks.group)
     this.stage.world.add(base)
     const entry: Entry = {
       base,
       robot,
       urdf: shown.urdf,
       patch,
+      marks,
+      targets: [],
       label: null,
       state: '',
       colour: '',
@@ -217,6 +240,7 @@ export class LabScene {
     this.robots.delete(name)
     entry.robot.dispose()
     entry.label?.dispose()
+    entry.marks.dispose()
     entry.patch.geometry.dispose()
     entry.patch.material.dispose()
     entry.base.removeFromParent()
@@ -238,6 +262,10 @@ export class LabScene {
   private setTheme(theme: SceneTheme): void {
     this.looks.setTheme(theme)
     this.contacts.setTheme(theme)
-    for (const [name, entry] of this.robots) this.paintLabel(name, entry)
+    this.surfaces.setTheme(theme)
+    for (const [name, entry] of this.robots) {
+      entry.marks.setTheme(theme)
+      this.paintLabel(name, entry)
+    }
   }
 }

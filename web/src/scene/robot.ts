@@ -41,6 +41,8 @@ export class SceneRobot {
   meshesHere = 0
   /** The frame that works: the end effector's tcp, else tool0, else the last link. */
   readonly tip: Object3D
+  /** The flange's frame, in which what is held is placed. */
+  readonly tool: Object3D
   private readonly movables = new Map<string, Movable>()
   private readonly ordered: (Movable | undefined)[]
   private readonly fingers: Movable[] = []
@@ -102,6 +104,7 @@ export class SceneRobot {
     }
     const last = this.root.joints[jointNames[jointNames.length - 1] ?? '']
     this.tip = this.root.links.tcp ?? this.root.links.tool0 ?? last ?? this.root
+    this.tool = this.root.links.tool0 ?? this.tip
     this.root.traverse((node) => {
       if (node instanceof Mesh) this.adopt(node)
     })

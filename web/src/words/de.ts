@@ -263,9 +263,41 @@ export const de: Words = {
       lost: 'Verbindung verloren',
       refused: 'nicht erlaubt',
     },
-    empty:
-      'Noch steht kein Roboter in der Szene. Eine Lehrkraft stellt einen auf, oder diese Zeile:',
-    nothingLoaded: 'Keine Bahn ist geladen.',
+    empty: 'Noch steht kein Roboter in der Szene.',
+    emptyForOthers: 'Noch steht kein Roboter in der Szene. Eine Lehrkraft stellt einen auf.',
+    addRobot: 'Roboter aufstellen',
+    addIt: 'Aufstellen',
+    removeRobot: 'Roboter entfernen',
+    actionsFor: (name) => `Was mit ${name} geschehen soll`,
+    load: 'Laden',
+    loadingIt: 'Lädt …',
+    another: 'Andere laden',
+    playableBy: (robot) => `Trajektorien, die ${robot} abspielen kann`,
+    searchFor: (robot) => `Trajektorien für ${robot} suchen`,
+    searchTrajectory: 'Suche nach Name oder Datei',
+    moreToFind: (count) =>
+      count === 1 ? 'Eine weitere findet die Suche.' : `${count} weitere findet die Suche.`,
+    noneLike: (text) => `Keine hat „${text}“ in Name oder Datei.`,
+    nonePlayable: (model) => `Für ${model} gibt es noch keine Trajektorie.`,
+    takeExample: 'Beispiel laden',
+    otherEffector: (count) =>
+      count === 1
+        ? 'Eine weitere ist für ein anderes Werkzeug gemacht.'
+        : `${count} weitere sind für andere Werkzeuge gemacht.`,
+    onlyWatch: (role) =>
+      `Mit der Rolle ${role} siehst du zu. Betrieb und Lehrende laden und spielen ab.`,
+    grasps: 'Wo er greift und loslässt',
+    closesAt: (time) => `schließt bei ${time} s`,
+    opensAt: (time) => `öffnet bei ${time} s`,
+    fromTo: (start, end) => `${start} bis ${end} s`,
+    segment: (robot, start, end) => `${robot} von ${start} bis ${end} s`,
+    join: 'Mit dem Handy dazu',
+    joinSignIn: 'Scanne das mit einem Handy oder öffne die Adresse im Headset und melde dich an.',
+    joinOpen: 'Scanne das mit einem Handy oder öffne die Adresse im Headset.',
+    joinNot: (host) =>
+      `Diese Seite wurde unter ${host} geöffnet, das ist dieser Rechner selbst: Auf einem Handy ist dieselbe Adresse das Handy.`,
+    joinHow:
+      'Ist das Labor schon im Netz erreichbar, öffne die Adresse, die mrlab up ausgegeben hat. Sonst beende das Labor und starte es für das Netz; Personen melden sich dann an (mrlab users add).',
     holds: (object) => `Hält ${object}`,
     inSystem: (system) => `in ${system}`,
     clearHalt: 'Halt aufheben',

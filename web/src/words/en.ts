@@ -260,8 +260,41 @@ export const en = {
     connected: 'connected',
     roundTrip: (ms: string) => `round trip ${ms} ms`,
     phases: { connecting: 'connecting', lost: 'connection lost', refused: 'not allowed' },
-    empty: 'There is no robot in the scene yet. An instructor puts one there, or this line does:',
-    nothingLoaded: 'No trajectory is loaded.',
+    empty: 'There is no robot in the scene yet.',
+    emptyForOthers: 'There is no robot in the scene yet. An instructor puts one there.',
+    addRobot: 'Add a robot',
+    addIt: 'Put it there',
+    removeRobot: 'Remove the robot',
+    actionsFor: (name: string) => `What to do with ${name}`,
+    load: 'Load',
+    loadingIt: 'Loading…',
+    another: 'Load another',
+    playableBy: (robot: string) => `Trajectories that ${robot} can play`,
+    searchFor: (robot: string) => `Search trajectories for ${robot}`,
+    searchTrajectory: 'Search by name or file',
+    moreToFind: (count: number) =>
+      count === 1 ? 'One more is found by the search.' : `${count} more are found by the search.`,
+    noneLike: (text: string) => `None has “${text}” in its name or file.`,
+    nonePlayable: (model: string) => `There is no trajectory for ${model} yet.`,
+    takeExample: 'Load the example',
+    otherEffector: (count: number) =>
+      count === 1
+        ? 'One more is made for another end effector.'
+        : `${count} more are made for other end effectors.`,
+    onlyWatch: (role: string) =>
+      `Your role, ${role.toLowerCase()}, may watch. Operators and instructors load and play.`,
+    grasps: 'Where it grasps and releases',
+    closesAt: (time: string) => `closes at ${time} s`,
+    opensAt: (time: string) => `opens at ${time} s`,
+    fromTo: (start: string, end: string) => `${start} to ${end} s`,
+    segment: (robot: string, start: string, end: string) => `${robot} from ${start} to ${end} s`,
+    join: 'Join on your phone',
+    joinSignIn: 'Scan this with a phone or open the address on a headset, then sign in.',
+    joinOpen: 'Scan this with a phone, or open the address on a headset.',
+    joinNot: (host: string) =>
+      `This page was opened at ${host}, which is this machine itself: on a phone the same address is the phone.`,
+    joinHow:
+      'If the lab serves its network already, open the address that mrlab up printed. Otherwise end the lab and start it for the network; people then sign in (mrlab users add).',
     holds: (object: string) => `Holds ${object}`,
     inSystem: (system: string) => `in ${system}`,
     clearHalt: 'Clear the halt',

@@ -64,6 +64,21 @@ test('what is held goes with the hand between two messages', () => {
   expect(shown?.position.x).toBeCloseTo(9)
 })
 
+test('what a robot holds sits in its hand where the lab says', () => {
+  const { world, hand, objects } = scene()
+  hand.position.x = 3
+  const inTool = { position: { x: 0, y: 0, z: 0.1 }, orientation: upright }
+  const unsaid = { position: { x: 7, y: 7, z: 7 }, orientation: { x: 0, y: 0, z: 0, w: 0 } }
+  // the lab's pose is an old one of a hand that moved on
+  objects.set([{ ...cube(1, 'arm'), in_tool: inTool }])
+  objects.follow()
+  const shown = world.getObjectByName('cube')
+  expect(shown?.position.toArray()).toEqual([3, 0, 0.1])
+  objects.set([{ ...cube(1, 'arm'), in_tool: unsaid }])
+  objects.follow()
+  expect(shown?.position.toArray()).toEqual([3, 0, 0.1])
+})
+
 test('a mesh that is missing is said, and its primitive drawn', async () => {
   const { world, objects, said } = scene()
   objects.set([{ ...cube(1), mesh: 'package://p/cup.glb' }])

@@ -129,6 +129,13 @@ def test_the_link_does_not_lead_away_and_expires(local_lab: Gateway) -> None:
     assert late.user is None
 
 
+def test_the_pages_know_what_a_person_may(class_lab: Gateway, local_lab: Gateway) -> None:
+    student = class_lab.browser("anna").get("/api/session").json()["may"]
+    assert student == {"commands": False, "scene": False, "replay": False}
+    assert class_lab.browser().get("/api/session").json()["may"] == student
+    assert all(local_lab.local().get("/api/session").json()["may"].values())
+
+
 def test_without_keys_nobody_else_can_be_let_in(local_lab: Gateway) -> None:
     local = local_lab.local()
     assert local.get("/api/session").json()["ways"] == {

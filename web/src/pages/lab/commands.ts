@@ -9,6 +9,21 @@ interface Answer {
   readonly message: string
 }
 
+/** Call a service; return why it was refused, empty where it was done. */
+export async function ask<Request, Response extends Answer>(
+  link: Link,
+  service: string,
+  type: ServiceType<Request, Response>,
+  request: Request,
+): Promise<string> {
+  try {
+    const answer = await link.call(service, type, request)
+    return answer.success ? '' : answer.message || service
+  } catch (error) {
+    return error instanceof LinkError ? error.message : String(error)
+  }
+}
+
 /** Call a service and say what came of it where it was refused. */
 export async function order<Request, Response extends Answer>(
   link: Link,
@@ -16,14 +31,9 @@ export async function order<Request, Response extends Answer>(
   type: ServiceType<Request, Response>,
   request: Request,
 ): Promise<boolean> {
-  try {
-    const answer = await link.call(service, type, request)
-    if (!answer.success) showToast(answer.message)
-    return answer.success
-  } catch (error) {
-    showToast(error instanceof LinkError ? error.message : String(error))
-    return false
-  }
+  const refusal = await ask(link, service, type, request)
+  if (refusal !== '') showToast(refusal)
+  return refusal === ''
 }
 
 export function trigger(link: Link, service: string): Promise<boolean> {

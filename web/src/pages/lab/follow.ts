@@ -1,16 +1,14 @@
 import { signal } from '@preact/signals'
-import { STATE_NAMES, type StateName } from '../../design/tokens'
+import type { StateName } from '../../design/tokens'
 import type { Link, LinkStatus, MessageType, Sample } from '../../link/link'
 import type { Commands } from '../../playback/player'
 import { RemotePlayer } from '../../playback/player'
-import type { Time } from '../../protocol/builtin_interfaces'
 import {
-  type Collision,
   collisionType,
   contactsType,
   Grasp,
+  graspTargetsType,
   graspType,
-  type PlaybackState,
   playbackStateType,
   type RecorderState,
   type Robot,
@@ -18,23 +16,14 @@ import {
   recorderStateType,
   robotSystemsType,
   robotsType,
+  type Surface,
   sceneObjectsType,
+  surfacesType,
 } from '../../protocol/mrlab_msgs'
 import { jointStateType } from '../../protocol/sensor_msgs'
 import { stringType } from '../../protocol/std_msgs'
 import type { LabScene } from '../../scene/lab_scene'
-
-/** How one robot stands, for the panel beside the picture. */
-export interface RobotView {
-  readonly robot: Robot
-  readonly state: StateName
-  readonly playback: PlaybackState | null
-  /** What it holds; empty: nothing. */
-  readonly holding: string
-  /** What its arm touches; empty: nothing. */
-  readonly touching: string
-  readonly player: RemotePlayer
-}
+import { type CourseOf, FollowedRobot, type RobotView, seconds, setJoints } from './followed_robot'
 
 export interface SystemView {
   readonly system: RobotSystem
@@ -49,18 +38,16 @@ export interface KeyActivity {
   newest: number
 }
 
-interface Kept {
-  robot: Robot | null
-  urdf: string
-  playback: PlaybackState | null
-  holding: string
-  collision: Collision | null
-  /** Whether it stands in a pose of the lab, rather than in that of its URDF. */
-  posed: boolean
-  readonly player: RemotePlayer
+/** What a follower needs of the page that it serves. */
+export interface FollowerOptions {
+  /** Return the commands of a robot or a system, by name; of the recorder's replay, by 'recorder'. */
+  commands(name: string): Commands
+  word(state: StateName): string
+  colour(state: StateName): string
+  /** A picture is due. */
+  stir(): void
+  courseOf: CourseOf
 }
-
-const seconds = (time: Time): number => time.sec + time.nanosec * 1e-9
 
 /** Follows a lab over its link: the scene gets what moves, the signals what a panel shows. */
 export class LabFollower {
@@ -73,21 +60,17 @@ export class LabFollower {
   readonly known = signal(false)
   readonly activity = new Map<string, KeyActivity>()
   scene: LabScene | null = null
-  private readonly kept = new Map<string, Kept>()
+  private readonly kept = new Map<string, FollowedRobot>()
   private readonly systemPlayers = new Map<string, RemotePlayer>()
+  private surfaces: readonly Surface[] = []
   private readonly undo: (() => void)[]
 
-  /** commands: of a robot or a system, by name; of the recorder's replay, by 'recorder'. stir: a
-   * picture is due. */
   constructor(
     readonly link: Link,
-    private readonly commands: (name: string) => Commands,
-    private readonly word: (state: StateName) => string,
-    private readonly colour: (state: StateName) => string,
-    private readonly stir: () => void,
+    private readonly options: FollowerOptions,
   ) {
     const labTime = () => link.labTime()
-    this.replay = new RemotePlayer('bag', labTime, commands('recorder'))
+    this.replay = new RemotePlayer('bag', labTime, options.commands('recorder'))
     this.status.value = link.status
     this.undo = [
       link.onStatus((status) => {
@@ -99,32 +82,29 @@ export class LabFollower {
         this.show()
       }),
       this.on('*/joint_states', jointStateType, (message, { key }) => {
-        const robot = this.scene?.robot(owner(key))
-        if (robot === undefined) return
-        let moved = false
-        for (let i = 0; i < message.name.length; i++) {
-          moved = robot.setJoint(message.name[i] as string, message.position[i] as number) || moved
-        }
-        const kept = this.of(owner(key))
-        if (!kept.posed) {
-          kept.posed = true
-          this.scene?.frame()
-        }
-        if (moved) this.stir()
+        const name = owner(key)
+        const moved = this.of(name).takeJoints(message, this.scene?.robot(name))
+        if (moved === 'first') this.scene?.frame()
+        if (moved) options.stir()
+      }),
+      this.on('*/finger_states', jointStateType, (message, { key }) => {
+        const drawn = this.scene?.robot(owner(key))
+        if (drawn !== undefined && setJoints(drawn, message)) options.stir()
       }),
       this.on('*/playback_state', playbackStateType, (message, { key }) => {
-        const kept = this.of(owner(key))
-        kept.playback = message
-        const { clock, duration, rate } = message
-        const stamp = seconds(clock.stamp)
-        kept.player.follow({ stamp, position: clock.position, rate: clock.rate }, duration, rate)
+        this.of(owner(key)).takePlayback(message)
+        options.stir()
+        this.show()
+      }),
+      this.on('*/targets', graspTargetsType, (message, { key }) => {
+        this.of(owner(key)).targets = message.targets
         this.show()
       }),
       this.on('*/grasp', graspType, (message, { key }) => {
         const name = owner(key)
-        const robot = this.scene?.robot(name)
+        const drawn = this.scene?.robot(name)
         for (let i = 0; i < message.fingers.length; i++) {
-          robot?.setJoint(message.fingers[i] as string, message.finger_positions[i] as number)
+          drawn?.setJoint(message.fingers[i] as string, message.finger_positions[i] as number)
         }
         this.of(name).holding = message.state === Grasp.HOLDING ? message.object : ''
         this.show()
@@ -134,6 +114,10 @@ export class LabFollower {
         this.show()
       }),
       this.on('objects', sceneObjectsType, (message) => this.scene?.setObjects(message.objects)),
+      this.on('surfaces', surfacesType, (message) => {
+        this.surfaces = message.surfaces
+        this.scene?.setSurfaces(message.surfaces)
+      }),
       this.on('contacts', contactsType, (message) => this.scene?.setContacts(message.contacts)),
       this.on('systems', robotSystemsType, (message) => this.takeSystems(message.systems)),
       this.on('recorder/state', recorderStateType, (message) => this.takeRecorder(message)),
@@ -143,7 +127,17 @@ export class LabFollower {
   /** Give the scene what is known; call it when the scene is there. */
   attach(scene: LabScene): void {
     this.scene = scene
+    scene.setSurfaces(this.surfaces)
     this.show()
+  }
+
+  /** Before each picture: pose what moves by its clock; return whether something does. */
+  pose(): boolean {
+    let more = false
+    for (const [name, followed] of this.kept) {
+      more = followed.draw(this.scene?.robot(name)) || more
+    }
+    return more
   }
 
   dispose(): void {
@@ -167,27 +161,20 @@ export class LabFollower {
     })
   }
 
-  private of(name: string): Kept {
-    let kept = this.kept.get(name)
-    if (kept === undefined) {
-      const player = new RemotePlayer('live', () => this.link.labTime(), this.commands(name))
-      kept = {
-        robot: null,
-        urdf: '',
-        playback: null,
-        holding: '',
-        collision: null,
-        posed: false,
-        player,
-      }
-      this.kept.set(name, kept)
+  private of(name: string): FollowedRobot {
+    let followed = this.kept.get(name)
+    if (followed === undefined) {
+      const { commands, courseOf } = this.options
+      const player = new RemotePlayer('live', () => this.link.labTime(), commands(name))
+      followed = new FollowedRobot(player, courseOf)
+      this.kept.set(name, followed)
     }
-    return kept
+    return followed
   }
 
   private takeRobots(robots: readonly Robot[]): void {
-    for (const kept of this.kept.values()) kept.robot = null
-    for (const robot of robots) this.of(robot.name).robot = robot
+    for (const followed of this.kept.values()) followed.robot = null
+    for (const robot of robots) this.of(robot.name).enter(robot)
     this.known.value = true
     this.show()
   }
@@ -196,7 +183,11 @@ export class LabFollower {
     this.systems.value = systems.map((system) => {
       let player = this.systemPlayers.get(system.name)
       if (player === undefined) {
-        player = new RemotePlayer('live', () => this.link.labTime(), this.commands(system.name))
+        player = new RemotePlayer(
+          'live',
+          () => this.link.labTime(),
+          this.options.commands(system.name),
+        )
         this.systemPlayers.set(system.name, player)
       }
       const { clock, duration, rate } = system
@@ -223,14 +214,7 @@ export class LabFollower {
 
   private show(): void {
     const views: RobotView[] = []
-    for (const { robot, playback, holding, collision, player } of this.kept.values()) {
-      if (robot === null) continue
-      const state = STATE_NAMES[playback?.state ?? 0] ?? 'IDLE'
-      const touching = collision?.colliding
-        ? `${collision.contact.link} ↔ ${collision.contact.other}`
-        : ''
-      views.push({ robot, state, playback, holding, touching, player })
-    }
+    for (const { view } of this.kept.values()) if (view !== null) views.push(view)
     this.robots.value = views
     const { scene } = this
     if (scene === null) return
@@ -242,9 +226,11 @@ export class LabFollower {
         joint_names: robot.joint_names,
       })),
     )
-    for (const { robot, state } of views) {
+    for (const { robot, state, targets } of views) {
       const collision = this.kept.get(robot.name)?.collision
-      scene.setState(robot.name, this.word(state), this.colour(state), state === 'COLLISION_HALT')
+      const { word, colour } = this.options
+      scene.setState(robot.name, word(state), colour(state), state === 'COLLISION_HALT')
+      scene.setTargets(robot.name, targets)
       scene.setCollision(robot.name, collision?.colliding ? collision.contact.link : '')
     }
   }

@@ -1,46 +1,73 @@
 import { useSignal } from '@preact/signals'
 import { useEffect, useMemo, useRef } from 'preact/hooks'
+import { trajectoryUrl } from '../../api/api'
+import type { Rights } from '../../api/types'
 import './lab.css'
 import { Button } from '../../design/button'
 import { StateChip } from '../../design/chip'
 import { theme } from '../../design/theme'
 import type { StateName } from '../../design/tokens'
 import type { Link } from '../../link/link'
+import { courseOf } from '../../playback/course'
+import { trajectoryCatalogueType } from '../../protocol/mrlab_msgs'
 import { words } from '../../words/words'
+import { session, useApi } from '../shell/session'
+import { AddRobot } from './add_robot'
+import { LabCatalogue } from './catalogue'
 import { commandsOf, trigger } from './commands'
+import { LabProvider } from './context'
 import { LabFollower } from './follow'
+import { Join } from './join'
 import { KeyTable } from './key_table'
 import { ReplayCard } from './replay_card'
 import { RobotCard } from './robot_card'
 import { SystemCard } from './system_card'
 import type { LabView } from './view'
 
+const NOTHING: Rights = { commands: false, scene: false, replay: false }
+
 /** The running lab: its scene, its robots and systems. link: opened by who shows the page. */
 export function Lab({ link }: { link: Link }) {
+  const api = useApi()
   const host = useRef<HTMLDivElement>(null)
   const view = useRef<LabView | null>(null)
   const projected = useSignal(false)
   const keys = useSignal(false)
+  const adding = useSignal(false)
+  const joining = useSignal(false)
   const trouble = useSignal('')
+  const may = session.value?.may ?? NOTHING
+  const lab = useMemo(() => ({ link, may }), [link, may])
   const follower = useMemo(
     () =>
-      new LabFollower(
-        link,
-        (name) => commandsOf(link, name),
-        (state: StateName) => words.value.states[state],
-        (state: StateName) => theme.value.states[state],
-        () => view.current?.stir(),
-      ),
-    [link],
+      new LabFollower(link, {
+        commands: (name) => commandsOf(link, name),
+        word: (state: StateName) => words.value.states[state],
+        colour: (state: StateName) => theme.value.states[state],
+        stir: () => view.current?.stir(),
+        courseOf: async (id) => courseOf(await api.motion(trajectoryUrl(id, 'motion'))),
+      }),
+    [link, api],
   )
+  const catalogue = useMemo(() => new LabCatalogue(api), [api])
+  useEffect(() => {
+    void catalogue.load()
+    // others publish while this page is open
+    return link.subscribe('trajectories', trajectoryCatalogueType, () => void catalogue.load())
+  }, [link, catalogue])
   useEffect(() => {
     let here = true
     import('./view')
       .then(({ LabView }) => {
         if (!here || host.current === null) return
-        view.current = new LabView(host.current, words.value.lab.picture, (text) => {
-          trouble.value = text
-        })
+        view.current = new LabView(
+          host.current,
+          words.value.lab.picture,
+          (text) => {
+            trouble.value = text
+          },
+          () => follower.pose(),
+        )
         follower.attach(view.current.scene)
       })
       .catch((error: unknown) => {
@@ -69,71 +96,121 @@ export function Lab({ link }: { link: Link }) {
     projected.value = !projected.value
     view.current?.setProjected(projected.value)
   }
+  const toggle = (what: typeof keys) => () => {
+    what.value = !what.value
+  }
+  const status =
+    phase !== 'open'
+      ? `${w.phases[phase]}${reason ? `: ${reason}` : ''}`
+      : Number.isNaN(roundTrip)
+        ? w.connected
+        : w.roundTrip((roundTrip * 1000).toFixed(roundTrip < 0.01 ? 1 : 0))
   return (
-    <div class={`lab${projected.value ? ' lab-projected' : ''}`}>
-      <section class="lab-scene" aria-label={w.scene}>
-        <div class="lab-view" ref={host} />
-        <div class="lab-bar">
-          <Button look="primary" icon="pause" disabled={moving.length === 0} onClick={pauseAll}>
-            {w.pauseAll}
-          </Button>
-          <Button onClick={() => view.current?.scene.frame(true)}>{w.showAll}</Button>
-          <Button aria-pressed={projected.value} onClick={project}>
-            {w.project}
-          </Button>
-          <Button
-            aria-pressed={keys.value}
-            onClick={() => {
-              keys.value = !keys.value
-            }}
-          >
-            {w.keys}
-          </Button>
-          <span class="lab-link small" role="status">
-            {phase === 'open'
-              ? Number.isNaN(roundTrip)
-                ? w.connected
-                : w.roundTrip((roundTrip * 1000).toFixed(roundTrip < 0.01 ? 1 : 0))
-              : `${w.phases[phase]}${reason ? `: ${reason}` : ''}`}
-          </span>
-        </div>
-        {trouble.value && (
-          <p class="lab-note small" role="status">
-            {trouble.value}
-          </p>
-        )}
-        {follower.known.value && robots.length === 0 && (
-          <div class="lab-empty">
-            <p>{w.empty}</p>
-            <code>
-              ros2 service call /lab/spawn_robot mrlab_msgs/srv/SpawnRobot "&#123;model:
-              ur5e&#125;"
-            </code>
+    <LabProvider value={lab}>
+      <div class={`lab${projected.value ? ' lab-projected' : ''}`}>
+        <h1 class="spoken">{words.value.nav.lab}</h1>
+        <section class="lab-scene" aria-label={w.scene}>
+          <div class="lab-bar">
+            {may.commands && (
+              <Button
+                look="primary"
+                icon="pause"
+                disabled={moving.length === 0}
+                onClick={pauseAll}
+              >
+                {w.pauseAll}
+              </Button>
+            )}
+            <Button onClick={() => view.current?.scene.frame(true)}>{w.showAll}</Button>
+            <Button aria-pressed={projected.value} onClick={project}>
+              {w.project}
+            </Button>
+            <Button onClick={toggle(joining)}>{w.join}</Button>
+            <Button aria-pressed={keys.value} onClick={toggle(keys)}>
+              {w.keys}
+            </Button>
+            <span class={`lab-link lab-link-${phase} small`} role="status">
+              {status}
+            </span>
           </div>
-        )}
-        {projected.value && (
-          <ul class="lab-names">
-            {robots.map((one) => (
-              <li key={one.robot.name}>
-                <b>{one.robot.name}</b> <StateChip state={one.state} />
-              </li>
+          <div class="lab-stage">
+            <div class="lab-view" ref={host} />
+            {trouble.value && (
+              <p class="lab-note small" role="status">
+                {trouble.value}
+              </p>
+            )}
+            {phase === 'refused' && (
+              <div class="lab-empty stack-8" role="alert">
+                <p>{reason}</p>
+                <Button look="primary" onClick={() => location.reload()}>
+                  {words.value.crashed.reload}
+                </Button>
+              </div>
+            )}
+            {phase !== 'refused' && follower.known.value && robots.length === 0 && (
+              <div class="lab-empty stack-8">
+                {may.scene ? (
+                  <>
+                    <p>{w.empty}</p>
+                    <Button look="primary" icon="robot" onClick={toggle(adding)}>
+                      {w.addRobot}
+                    </Button>
+                  </>
+                ) : (
+                  <p>{w.emptyForOthers}</p>
+                )}
+              </div>
+            )}
+            {projected.value && (
+              <ul class="lab-names">
+                {robots.map((one) => (
+                  <li key={one.robot.name}>
+                    <b>{one.robot.name}</b> <StateChip state={one.state} />
+                  </li>
+                ))}
+              </ul>
+            )}
+            {keys.value && <KeyTable follower={follower} />}
+          </div>
+        </section>
+        {!projected.value && (
+          <aside class="lab-panel" aria-label={w.panel}>
+            {!may.commands && session.value?.user && (
+              <p class="lab-only-watch small">
+                {w.onlyWatch(words.value.roles[session.value.user.role])}
+              </p>
+            )}
+            {follower.systems.value.map((each) => (
+              <SystemCard key={each.system.name} view={each} />
             ))}
-          </ul>
+            {robots.map((each) => (
+              <RobotCard key={each.robot.name} view={each} catalogue={catalogue} />
+            ))}
+            {may.scene && robots.length > 0 && (
+              <Button icon="robot" onClick={toggle(adding)}>
+                {w.addRobot}
+              </Button>
+            )}
+            <ReplayCard follower={follower} />
+          </aside>
         )}
-        {keys.value && <KeyTable follower={follower} />}
-      </section>
-      {!projected.value && (
-        <aside class="lab-panel" aria-label={w.panel}>
-          {follower.systems.value.map((each) => (
-            <SystemCard key={each.system.name} view={each} />
-          ))}
-          {robots.map((each) => (
-            <RobotCard key={each.robot.name} view={each} link={link} />
-          ))}
-          <ReplayCard follower={follower} />
-        </aside>
-      )}
-    </div>
+        {adding.value && (
+          <AddRobot
+            onClose={() => {
+              adding.value = false
+            }}
+          />
+        )}
+        {joining.value && (
+          <Join
+            onClose={() => {
+              joining.value = false
+            }}
+          />
+        )}
+      </div>
+    </LabProvider>
   )
 }
 

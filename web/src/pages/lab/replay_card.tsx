@@ -3,6 +3,7 @@ import { Button } from '../../design/button'
 import { RecorderState, replayType } from '../../protocol/mrlab_msgs'
 import { words } from '../../words/words'
 import { order, trigger } from './commands'
+import { useLab } from './context'
 import type { LabFollower } from './follow'
 import { Timeline } from './timeline'
 
@@ -10,10 +11,11 @@ import { Timeline } from './timeline'
 export function ReplayCard({ follower }: { follower: LabFollower }) {
   const [bag, setBag] = useState('')
   const w = words.value.lab
-  const { link } = follower
+  const { link, may } = useLab()
   const state = follower.recorder.value
   const replaying =
     state?.state === RecorderState.REPLAYING || state?.state === RecorderState.PAUSED
+  if (!may.replay && !replaying && state?.state !== RecorderState.RECORDING) return null
   const start = (event: Event) => {
     event.preventDefault()
     const request = { bag: bag.trim(), rate: 1, start: 0, loop: false }
@@ -27,25 +29,29 @@ export function ReplayCard({ follower }: { follower: LabFollower }) {
       {replaying && state ? (
         <>
           <p class="small">{w.replaying(state.bag)}</p>
-          <Timeline player={follower.replay} rate={100} />
-          <Button onClick={() => trigger(link, 'recorder/stop')}>{w.endReplay}</Button>
+          <Timeline player={follower.replay} rate={100} enabled={may.replay} />
+          {may.replay && (
+            <Button onClick={() => trigger(link, 'recorder/stop')}>{w.endReplay}</Button>
+          )}
         </>
       ) : (
-        <form class="lab-replay" onSubmit={start}>
-          <label class="small" for="lab-bag">
-            {w.bag}
-          </label>
-          <input
-            id="lab-bag"
-            class="input"
-            value={bag}
-            placeholder="class.bag"
-            onInput={(event) => setBag(event.currentTarget.value)}
-          />
-          <Button type="submit" disabled={!bag.trim()}>
-            {w.replay}
-          </Button>
-        </form>
+        may.replay && (
+          <form class="lab-replay" onSubmit={start}>
+            <label class="small" for="lab-bag">
+              {w.bag}
+            </label>
+            <input
+              id="lab-bag"
+              class="input"
+              value={bag}
+              placeholder="class.bag"
+              onInput={(event) => setBag(event.currentTarget.value)}
+            />
+            <Button type="submit" disabled={!bag.trim()}>
+              {w.replay}
+            </Button>
+          </form>
+        )
       )}
     </article>
   )

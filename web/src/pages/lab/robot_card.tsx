@@ -1,38 +1,111 @@
+import { useState } from 'preact/hooks'
 import { Button } from '../../design/button'
 import { StateChip } from '../../design/chip'
-import type { Link } from '../../link/link'
-import { words } from '../../words/words'
-import { trigger } from './commands'
-import type { RobotView } from './follow'
+import { Menu } from '../../design/menu'
+import { removeType } from '../../protocol/mrlab_msgs'
+import { number, words } from '../../words/words'
+import type { LabCatalogue } from './catalogue'
+import { order, trigger } from './commands'
+import { useLab } from './context'
+import type { RobotView } from './followed_robot'
+import { LoadList } from './load_list'
 import { Timeline } from './timeline'
 
-/** One robot: what it does, what it holds, and its timeline. */
-export function RobotCard({ view, link }: { view: RobotView; link: Link }) {
+/** Targets that have a button each; a longer list would push the next robot away. */
+const MOST_TARGETS = 12
+
+interface RobotCardProps {
+  readonly view: RobotView
+  readonly catalogue: LabCatalogue
+}
+
+/** Where the trajectory grasps and releases; a click goes there. The numbers are those in 3D. */
+function Targets({ view }: { view: RobotView }) {
+  const { may } = useLab()
+  const w = words.value.lab
+  if (view.targets.length === 0) return null
+  return (
+    <ol class="lab-targets" aria-label={w.grasps}>
+      {view.targets.slice(0, MOST_TARGETS).map(({ time, close, frame }, index) => (
+        <li key={frame}>
+          <button
+            type="button"
+            class="lab-target tiny"
+            disabled={!may.commands || view.playback?.system !== ''}
+            onClick={() => view.player.seek(time)}
+          >
+            <b class="lab-target-number">{index + 1}</b>
+            {close ? w.closesAt(number(time, 2)) : w.opensAt(number(time, 2))}
+          </button>
+        </li>
+      ))}
+    </ol>
+  )
+}
+
+/** One robot: what it does, what it holds, its timeline, and what it can play. */
+export function RobotCard({ view, catalogue }: RobotCardProps) {
+  const { link, may } = useLab()
+  const [choosing, setChoosing] = useState(false)
   const { robot, state, playback, holding, touching, player } = view
   const w = words.value.lab
   const loaded = playback !== null && playback.frame_count > 0
+  const independent = !playback?.system
   return (
     <article class="lab-card" aria-label={robot.name}>
       <header class="lab-card-head">
         <h3>{robot.name}</h3>
         <StateChip state={state} />
+        {may.scene && (
+          <Menu label={w.actionsFor(robot.name)} icon="more" look="quiet">
+            <Button
+              look="quiet"
+              icon="trash"
+              onClick={() =>
+                void order(link, 'lab/remove_robot', removeType, { name: robot.name })
+              }
+            >
+              {w.removeRobot}
+            </Button>
+          </Menu>
+        )}
       </header>
       <p class="second small">
         {robot.model}
         {robot.end_effector && ` + ${robot.end_effector}`}
-        {playback?.trajectory_id && ` · ${playback.trajectory_id}`}
         {playback?.system && ` · ${w.inSystem(playback.system)}`}
       </p>
       {playback?.message && <p class="small">{playback.message}</p>}
       {touching && <p class="lab-halt small">{touching}</p>}
       {holding && <p class="small">{w.holds(holding)}</p>}
-      {loaded ? (
-        <Timeline player={player} rate={playback.frame_rate} />
-      ) : (
-        <p class="second small">{w.nothingLoaded}</p>
-      )}
-      {state === 'COLLISION_HALT' && (
+      {state === 'COLLISION_HALT' && may.commands && (
         <Button onClick={() => trigger(link, `${robot.name}/clear_halt`)}>{w.clearHalt}</Button>
+      )}
+      {loaded && (
+        <>
+          <div class="lab-loaded">
+            <strong class="grow small">{playback.trajectory_id}</strong>
+            {independent && may.commands && (
+              <Button look="quiet" aria-expanded={choosing} onClick={() => setChoosing(!choosing)}>
+                {w.another}
+              </Button>
+            )}
+          </div>
+          <Timeline
+            player={player}
+            rate={playback.frame_rate}
+            enabled={may.commands && independent}
+          />
+          <Targets view={view} />
+        </>
+      )}
+      {(choosing || (!loaded && independent)) && (
+        <LoadList
+          robot={robot}
+          catalogue={catalogue}
+          loaded={playback?.trajectory_id ?? ''}
+          onLoaded={() => setChoosing(false)}
+        />
       )}
     </article>
   )

@@ -8,16 +8,19 @@ interface TimelineProps {
   readonly player: RemotePlayer
   /** Hz, of the frames */
   readonly rate: number
+  /** Whether the person may play, seek and set the speed. */
+  readonly enabled: boolean
 }
 
 /** Play, timeline and speed of something that the lab plays. */
-export function Timeline({ player, rate }: TimelineProps) {
+export function Timeline({ player, rate, enabled }: TimelineProps) {
   const host = useRef<HTMLDivElement>(null)
   const german = language.value === 'de'
   useEffect(() => {
     const words = german ? GERMAN : ENGLISH
     const row = (time: number) => Math.floor(time * rate + 1e-6) + 1
     const controls = new Controls(player, words, rate > 0 ? 1 / rate : 0.01, row, [])
+    controls.setEnabled(enabled)
     host.current?.append(controls.element)
     let request = 0
     const frame = () => {
@@ -34,6 +37,6 @@ export function Timeline({ player, rate }: TimelineProps) {
       cancelAnimationFrame(request)
       controls.dispose()
     }
-  }, [player, rate, german])
+  }, [player, rate, german, enabled])
   return <div class="lab-timeline" ref={host} />
 }

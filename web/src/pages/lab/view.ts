@@ -8,15 +8,22 @@ export class LabView {
   private readonly stage: Stage
   private readonly meshes = new MeshLibrary()
 
-  /** Throws NoWebGL where the browser has none. say: is told what could not be drawn. */
-  constructor(container: HTMLElement, label: string, say: (text: string) => void) {
+  /** Throws NoWebGL where the browser has none. say: is told what could not be drawn. pose: called
+   * before each picture; true asks for another one. */
+  constructor(
+    container: HTMLElement,
+    label: string,
+    say: (text: string) => void,
+    pose: () => boolean,
+  ) {
     this.stage = new Stage(container, label)
     this.scene = new LabScene(this.stage, this.meshes, () => {
       say([...this.scene.troubles].join('; '))
     })
     this.stage.onFrame(() => {
+      const more = pose()
       this.scene.update()
-      return false
+      return more
     })
   }
 

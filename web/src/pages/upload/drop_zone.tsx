@@ -1,12 +1,11 @@
 import { useEffect, useRef, useState } from 'preact/hooks'
-import example from '../../../../examples/quintic_ur5e.mat?url'
 import { sentence } from '../../api/api'
 import { Button } from '../../design/button'
 import { Icon } from '../../design/icons'
 import { showToast } from '../../design/toast'
 import { words } from '../../words/words'
+import { exampleFile } from '../motion/example'
 
-const EXAMPLE_NAME = 'quintic_ur5e.mat'
 const ACCEPTED = '.mat,.csv,.txt,.npz,.mcap,.db3,.cdr,.gz'
 
 /** Take files that are dropped anywhere on the page; return whether one is over it now. */
@@ -65,8 +64,7 @@ export function DropZone({ over, onFile }: DropZoneProps) {
   const w = words.value.upload
   const tryExample = async () => {
     try {
-      const answer = await fetch(example)
-      onFile(new File([await answer.blob()], EXAMPLE_NAME))
+      onFile(await exampleFile())
     } catch (error) {
       showToast(sentence(error))
     }

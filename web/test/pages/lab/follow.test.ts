@@ -2,6 +2,7 @@ import { expect, test, vi } from 'vitest'
 import { FakeLink } from '../../../src/link/fake'
 import { commandsOf } from '../../../src/pages/lab/commands'
 import { LabFollower } from '../../../src/pages/lab/follow'
+import { Course } from '../../../src/playback/course'
 import {
   collisionType,
   Grasp,
@@ -22,27 +23,30 @@ import type { LabScene } from '../../../src/scene/lab_scene'
 function lab() {
   const link = new FakeLink()
   link.time = 1000
-  const joints = { setJoint: vi.fn(() => true) }
+  const joints = { setJoint: vi.fn(() => true), setPositions: vi.fn() }
   const scene = {
     setRobots: vi.fn(),
     setState: vi.fn(),
     setCollision: vi.fn(),
     setObjects: vi.fn(),
     setContacts: vi.fn(),
+    setSurfaces: vi.fn(),
+    setTargets: vi.fn(),
     frame: vi.fn(),
     robot: vi.fn(() => joints),
   }
   const stir = vi.fn()
-  const follower = new LabFollower(
-    link,
-    (name) => commandsOf(link, name),
-    (state) => state.toLowerCase(),
-    () => '#123456',
+  const courseOf = vi.fn(() => Promise.resolve(new Course(10, 2, Float64Array.of(0, 0, 1, 2))))
+  const follower = new LabFollower(link, {
+    commands: (name) => commandsOf(link, name),
+    word: (state) => state.toLowerCase(),
+    colour: () => '#123456',
     stir,
-  )
+    courseOf,
+  })
   follower.attach(scene as unknown as LabScene)
   const robot = robotType.create({ name: 'ur5e_1', model: 'ur5e' })
-  return { link, scene, joints, stir, follower, robot }
+  return { link, scene, joints, stir, follower, robot, courseOf }
 }
 
 test('a robot is drawn with its URDF, whichever comes first', () => {
@@ -144,4 +148,57 @@ test('each key is counted, and nothing is heard after the end', () => {
   follower.dispose()
   link.deliver('robots', robotsType, { robots: [] })
   expect(follower.robots.value).toHaveLength(1)
+})
+
+test('a playing robot is drawn by its clock, once the joint states bear it out', async () => {
+  const { link, joints, follower, robot, courseOf } = lab()
+  link.deliver('robots', robotsType, { robots: [{ ...robot, joint_names: ['a', 'b'] }] })
+  const clock = { stamp: { sec: 1000, nanosec: 0 }, position: 0, rate: 1 }
+  const playing = {
+    state: PlaybackState.PLAYING,
+    trajectory_id: 'wave',
+    trajectory_version: 3,
+    clock,
+    duration: 0.1,
+    rate: 1,
+  }
+  link.deliver('ur5e_1/playback_state', playbackStateType, playing)
+  expect(courseOf).toHaveBeenCalledExactlyOnceWith('wave@3')
+  await vi.waitFor(() => expect(courseOf.mock.results).toHaveLength(1))
+  await courseOf.mock.results[0]?.value
+  const states = (nanosec: number, a: number) =>
+    link.deliver('ur5e_1/joint_states', jointStateType, {
+      header: { stamp: { sec: 1000, nanosec }, frame_id: '' },
+      name: ['a', 'b'],
+      position: Float64Array.of(a, 2 * a),
+    })
+  link.time = 1000.05
+  states(20_000_000, 0.2)
+  expect(follower.pose()).toBe(true)
+  const drawn = joints.setPositions.mock.lastCall as unknown as [Float64Array]
+  expect([...drawn[0]]).toEqual([expect.closeTo(0.5), expect.closeTo(1)])
+  // it stands elsewhere than the clock says: the joint states are right
+  states(30_000_000, 0.9)
+  expect(follower.pose()).toBe(false)
+  const corrected = joints.setPositions.mock.lastCall as unknown as [Float64Array]
+  expect([...corrected[0]]).toEqual([0.9, 1.8])
+})
+
+test('where a trajectory cannot be had, the joint states pose the robot', async () => {
+  const { link, joints, follower, robot, courseOf } = lab()
+  courseOf.mockRejectedValue(new Error('404'))
+  link.deliver('robots', robotsType, { robots: [{ ...robot, joint_names: ['a'] }] })
+  link.deliver('ur5e_1/playback_state', playbackStateType, {
+    state: PlaybackState.PLAYING,
+    trajectory_id: 'secret',
+    clock: { stamp: { sec: 999, nanosec: 0 }, position: 0, rate: 1 },
+    duration: 10,
+  })
+  await courseOf.mock.results[0]?.value.catch(() => undefined)
+  link.deliver('ur5e_1/joint_states', jointStateType, {
+    name: ['a'],
+    position: Float64Array.of(1),
+  })
+  expect(joints.setJoint).toHaveBeenLastCalledWith('a', 1)
+  expect(follower.pose()).toBe(false)
 })
