@@ -97,6 +97,31 @@ def generate_launch_description():
                 description="where the pages are served, HOST:PORT; empty: 127.0.0.1:8080, with "
                 "keys 0.0.0.0:8080",
             ),
+            DeclareLaunchArgument(
+                "https_cert",
+                default_value="",
+                description="certificate for HTTPS (PEM, whole chain), if not that of keys",
+            ),
+            DeclareLaunchArgument(
+                "https_key",
+                default_value="",
+                description="the private key of https_cert (PEM)",
+            ),
+            DeclareLaunchArgument(
+                "public_url",
+                default_value="",
+                description="address of a reverse proxy that offers the pages; people sign in",
+            ),
+            DeclareLaunchArgument(
+                "oidc",
+                default_value="",
+                description="YAML file of an OpenID Connect provider by which people sign in",
+            ),
+            DeclareLaunchArgument(
+                "web_limits",
+                default_value="",
+                description="YAML file of how many pages there may be and what each may send",
+            ),
             OpaqueFunction(function=processes),
         ]
     )
@@ -115,7 +140,16 @@ def processes(context):
     bridge = value("bridge") == "true"
     web = None
     if bridge and value("web") == "true":
-        web = checked_web(value("http"), keys=keys, insecure=insecure)
+        web = checked_web(
+            value("http"),
+            keys=keys,
+            insecure=insecure,
+            certificate=path("https_cert"),
+            certificate_key=path("https_key"),
+            public_url=value("public_url").rstrip("/"),
+            oidc=path("oidc"),
+            limits=path("web_limits"),
+        )
         if keys is not None:
             prepare_keys(keys)
     physics, _ = physics_support.wanted(value("physics") == "true")

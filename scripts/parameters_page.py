@@ -10,6 +10,7 @@ from mrlab_ros.core import records
 from mrlab_ros.core.bridge.rules import ServiceRule, TopicRule
 from mrlab_ros.core.physics.settings import Settings
 from mrlab_ros.core.trajectory.channels import ProxyCoefficients
+from mrlab_ros.gateway.link.limits import LinkLimits
 from mrlab_ros.nodes.parameters import NODES
 from mrlab_ros.ros.parameters import to_ros
 
@@ -53,6 +54,11 @@ FILES: tuple[tuple[str, type[Any], str], ...] = (
         "the bridge starts.",
     ),
     ("`config/bridge.yaml`: services", ServiceRule, "The fields of a rule for services."),
+    (
+        "`mrlab up --web-limits FILE`",
+        LinkLimits,
+        "What the pages may take of the [gateway](gateway.md). Read when it starts.",
+    ),
 )
 
 

@@ -59,6 +59,9 @@ def _scalar(base: str, chance: random.Random) -> Any:
         # Representable in 32 bits too.
         return chance.randrange(-(1 << 20), 1 << 20) / 1024
     half = WIDTHS["8" if base in ("octet", "byte", "char") else base.lstrip("uint")]
+    if base == "byte":
+        # rosbags takes it for a signed one, the pages for an unsigned one.
+        return chance.randrange(half)
     return chance.randrange(-half, half) if base.startswith("int") else chance.randrange(2 * half)
 
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+from collections import deque
 from collections.abc import Callable, Mapping
 from pathlib import Path
 from typing import Any, Protocol
@@ -10,6 +11,7 @@ from typing import Any, Protocol
 import zenoh
 from zenoh import ext
 
+from mrlab_ros.core.bridge.guests import Link
 from mrlab_ros.core.bridge.links import (
     LEASE_BEYOND,
     LEASE_WITHIN,
@@ -91,6 +93,11 @@ class Query(Protocol):
     def parameters(self) -> Mapping[str, str]: ...
 
     @property
+    def size(self) -> int:
+        """Bytes of the payload, which is not copied for it."""
+        ...
+
+    @property
     def payload(self) -> bytes | None: ...
 
     def reply(self, payload: bytes) -> None: ...
@@ -116,14 +123,27 @@ class Session(Protocol):
         """Declare a publisher that keeps the newest `cache` messages for late joiners."""
         ...
 
-    def subscriber(self, key: str, on_payload: Callable[[bytes], None], late: bool) -> Declared:
-        """Declare a subscriber to other sessions; `late`: it also gets their cached messages."""
+    def subscriber(
+        self,
+        key: str,
+        admit: Callable[[int], bool],
+        on_payload: Callable[[bytes], None],
+        late: bool,
+    ) -> Declared:
+        """Declare a subscriber to other sessions; `late`: it also gets their cached messages.
+
+        admit: gets a message's size, bytes, and says whether it is to be read at all.
+        """
         ...
 
     def queryable(self, key: str, on_query: Callable[[Query], None]) -> Declared: ...
 
     def token(self, key: str) -> Declared:
         """Declare a liveliness token."""
+        ...
+
+    def follow_links(self, on_link: Callable[[Link, bool], None]) -> Declared:
+        """Call `on_link` with every link that is opened (True) or closed (False)."""
         ...
 
     def close(self) -> None: ...
@@ -202,9 +222,15 @@ class ZenohSession:
             return _LatchedPublisher(self._session, key, rule, cache)
         return _Publisher(self._session, key, rule)
 
-    def subscriber(self, key: str, on_payload: Callable[[bytes], None], late: bool) -> Declared:
+    def subscriber(
+        self,
+        key: str,
+        admit: Callable[[int], bool],
+        on_payload: Callable[[bytes], None],
+        late: bool,
+    ) -> Declared:
         def on_sample(sample: zenoh.Sample) -> None:
-            if sample.kind == zenoh.SampleKind.PUT:
+            if sample.kind == zenoh.SampleKind.PUT and admit(len(sample.payload)):
                 on_payload(sample.payload.to_bytes())
 
         # Only from other sessions: the bridge must not receive its own messages.
@@ -221,6 +247,14 @@ class ZenohSession:
 
     def token(self, key: str) -> Declared:
         return self._session.liveliness().declare_token(key)
+
+    def follow_links(self, on_link: Callable[[Link, bool], None]) -> Declared:
+        def on_event(event: zenoh.LinkEvent) -> None:
+            link = event.link
+            found = Link(link.src, link.dst, link.auth_identifier or "")
+            on_link(found, event.kind == zenoh.SampleKind.PUT)
+
+        return self._session.info.declare_link_events_listener(on_event)
 
     def close(self) -> None:
         self._session.close()
@@ -256,12 +290,14 @@ class _Publisher:
 class _LatchedPublisher:
     """Publishes a state: late joiners get the newest messages from an advanced publisher's cache.
 
-    A plain `get` on the key, without an advanced subscriber, returns the newest message.
+    A plain `get` on the key, without an advanced subscriber, returns the newest message, and with
+    consolidation NONE all that are kept: of tf_static each publisher's state counts.
     """
 
     def __init__(self, session: zenoh.Session, key: str, rule: TopicRule, cache: int) -> None:
         self._key = key
-        self._newest: tuple[bytes, bytes] | None = None
+        self._kept: deque[tuple[bytes, bytes, zenoh.Timestamp]] = deque(maxlen=cache)
+        self._now = session.new_timestamp
         # An advanced publisher does not report whether it has subscribers; this plain one does.
         self._probe = _Publisher(session, key, rule)
         self._publisher = ext.declare_advanced_publisher(
@@ -277,16 +313,17 @@ class _LatchedPublisher:
         self._queryable = session.declare_queryable(key, self._answer)
 
     def put(self, payload: bytes, attachment: bytes) -> None:
-        self._newest = (payload, attachment)
-        self._publisher.put(payload, attachment=attachment)
+        stamp = self._now()
+        self._kept.append((payload, attachment, stamp))
+        self._publisher.put(payload, attachment=attachment, timestamp=stamp)
 
     def has_subscriber(self) -> bool:
         return self._probe.has_subscriber()
 
     def _answer(self, query: zenoh.Query) -> None:
-        if self._newest is not None:
-            payload, attachment = self._newest
-            query.reply(self._key, payload, attachment=attachment)
+        # By their timestamps zenoh consolidates the replies of one key to the newest.
+        for payload, attachment, stamp in tuple(self._kept):
+            query.reply(self._key, payload, attachment=attachment, timestamp=stamp)
 
     def undeclare(self) -> None:
         self._queryable.undeclare()
@@ -307,6 +344,11 @@ class _Query:
     def parameters(self) -> Mapping[str, str]:
         found: dict[str, str] = dict(self._query.parameters)  # type: ignore[call-overload]
         return found
+
+    @property
+    def size(self) -> int:
+        payload = self._query.payload
+        return 0 if payload is None else len(payload)
 
     @property
     def payload(self) -> bytes | None:

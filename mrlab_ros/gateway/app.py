@@ -16,6 +16,7 @@ from mrlab_ros.gateway.assets.cache import AssetCache
 from mrlab_ros.gateway.guard import Guard
 from mrlab_ros.gateway.hosts import Hosts
 from mrlab_ros.gateway.link import socket
+from mrlab_ros.gateway.link.limits import read_limits
 from mrlab_ros.gateway.people import oidc_routes, pairing_routes
 from mrlab_ros.gateway.people import routes as people_routes
 from mrlab_ros.gateway.people.oidc import Oidc, read_provider
@@ -52,7 +53,8 @@ def create_app(settings: Settings, ports: Ports) -> FastAPI:
     if settings.oidc is not None and ports.oidc is None:
         ports.oidc = Oidc(read_provider(settings.oidc))
     policy = read_policy(settings.allow_list)
-    link = None if ports.lab is None else socket.link_port(ports.lab, policy)
+    limits = read_limits(settings.limits)
+    link = None if ports.lab is None else socket.link_port(ports.lab, policy, limits)
 
     @asynccontextmanager
     async def lifespan(_: FastAPI) -> AsyncIterator[None]:

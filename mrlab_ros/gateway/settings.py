@@ -26,7 +26,8 @@ class Settings:
     public_url: the address by which a reverse proxy offers this gateway. insecure: listen beyond
     this machine without keys. allow_list: the bridge's YAML file, the shipped one if None. store:
     URL or folder of the object store; empty: in state_dir. oidc: YAML file of an OpenID Connect
-    provider. pages: folder of the built pages; None: the installed ones.
+    provider. limits: YAML file of what pages may take. pages: folder of the built pages; None: the
+    installed ones.
     """
 
     state_dir: Path
@@ -43,6 +44,7 @@ class Settings:
     allow_list: Path | None = None
     store: str = ""
     oidc: Path | None = None
+    limits: Path | None = None
     pages: Path | None = None
     lab_name: str = field(default="MR-Lab")
 

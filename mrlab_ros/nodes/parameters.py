@@ -229,6 +229,22 @@ class BridgeParameters:
         "Time after which a silent link counts as broken; 0: 1.5 beyond this machine, 10 within.",
         0.0,
     )
+    sessions_each: int = field(
+        Integer(between(1, 1000), "sessions"),
+        "With keys: sessions that one person may have at a time.",
+        10,
+    )
+    guest_rate: float = field(
+        Number(between(1, 1e9), "B/s"),
+        "With keys: bytes a second that a person who is no instructor may send, all sessions "
+        "together; who sends more is disconnected for 30 s.",
+        65_536.0,
+    )
+    guest_burst: float = field(
+        Number(between(65_536, 1e9), "bytes"),
+        "With keys: bytes that such a person may send at once.",
+        1_048_576.0,
+    )
     insecure: bool = field(FLAG, "Allow listening beyond this machine without encryption.", False)
     zenoh_config: str = field(
         TEXT,

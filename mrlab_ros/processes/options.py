@@ -13,7 +13,7 @@ class WebOptions:
 
     host, port: where it listens. certificate, certificate_key: for HTTPS in place of those of the
     keys folder. public_url: the address of a reverse proxy before it. oidc: YAML file of an OpenID
-    Connect provider.
+    Connect provider. limits: YAML file of what pages may take.
     """
 
     host: str
@@ -22,6 +22,7 @@ class WebOptions:
     certificate_key: Path | None = None
     public_url: str = ""
     oidc: Path | None = None
+    limits: Path | None = None
 
 
 @dataclass(frozen=True)

@@ -21,6 +21,8 @@ from enum import Enum
 from types import TracebackType
 from typing import IO
 
+from mrlab_ros.core.repeated_lines import RepeatedLines
+
 FIRST_DELAY_S = 0.5
 LONGEST_DELAY_S = 10.0
 STABLE_AFTER_S = 10.0
@@ -30,6 +32,8 @@ STOP_TIMEOUT_S = 1.5
 READ_TIMEOUT_S = 1.0
 # The name of the supervisor's own lines.
 SELF = "mrlab"
+# What zenoh's own lines contain.
+ZENOH = "zenoh"
 
 # Runs as: python -I -S -c GUARDED <pid of the supervisor> <1: unblock SIGINT> program argument...
 # It starts with SIGINT blocked: a stop at this moment must not print a traceback. The death signal
@@ -263,9 +267,15 @@ class Child:
         return code, describe_exit(code)
 
     def _read(self, stream: IO[bytes]) -> None:
+        repeated = RepeatedLines()
         with stream:
-            for line in stream:
-                self._emit(self.spec.name, line.decode(errors="replace").rstrip())
+            for raw in stream:
+                line: str | None = raw.decode(errors="replace").rstrip()
+                # zenoh logs each refused handshake, however many a guest tries.
+                if line and ZENOH in line:
+                    line = repeated.passed(line, time.monotonic())
+                if line is not None:
+                    self._emit(self.spec.name, line)
 
 
 def _signal_group(leader: int, number: signal.Signals) -> None:

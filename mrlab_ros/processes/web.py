@@ -51,6 +51,7 @@ class GatewayProcess:
             "certificate_key": web.certificate_key,
             "public_url": web.public_url,
             "oidc": web.oidc,
+            "limits": web.limits,
             "store": options.store or parameter(options.config, "converter", "store"),
         }
         arguments = [

@@ -253,7 +253,7 @@ class StuckSession:
     def token(self, key):
         return self.Publisher(self, False)
 
-    def subscriber(self, key, on_payload, late):
+    def subscriber(self, key, admit, on_payload, late):
         return self.Publisher(self, False)
 
     def close(self):

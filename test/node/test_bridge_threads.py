@@ -81,6 +81,7 @@ class Query:
     """A question whose asker takes the answer once `takes` is set."""
 
     payload = None
+    size = 0
 
     def __init__(self, key, takes):
         self.key = key

@@ -93,6 +93,10 @@ class Keys:
         """Who may connect, by name."""
         return self._people.entries
 
+    def people(self, now: datetime) -> list[Person]:
+        """Return who may connect at `now`, the gateway too."""
+        return self._people.at(now)
+
     @property
     def fingerprint(self) -> str:
         """The SHA-256 fingerprint of the authority, in two lines."""

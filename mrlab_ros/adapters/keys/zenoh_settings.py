@@ -14,7 +14,7 @@ from typing import Any
 
 from mrlab_ros.adapters.keys.certificates import Signed
 from mrlab_ros.adapters.keys.people import Entry, People
-from mrlab_ros.core.bridge.access import access_control
+from mrlab_ros.core.bridge.access import access_control, bounds
 from mrlab_ros.core.bridge.links import LEASE_BEYOND, healing, nested
 from mrlab_ros.core.bridge.rules import Rules
 
@@ -82,6 +82,7 @@ def router_document(
             "close_link_on_expiration": True,
         },
         "access_control": access_control(rules, people.at(now), people.login, prefix, lab),
+        **bounds(rules, prefix),
     }
     return json.dumps(nested({**settings, **limits, **healing(LEASE_BEYOND)}), indent=2)
 

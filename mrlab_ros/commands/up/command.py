@@ -141,6 +141,10 @@ def up(
         Path | None,
         typer.Option(help="YAML file of an OpenID Connect provider by which people sign in."),
     ] = None,
+    web_limits: Annotated[
+        Path | None,
+        typer.Option(help="YAML file of how many pages there may be and what each may send."),
+    ] = None,
 ) -> None:
     """Start the lab and keep it running until Ctrl-C.
 
@@ -166,6 +170,7 @@ def up(
             certificate_key=https_key,
             public_url=public_url.rstrip("/"),
             oidc=oidc,
+            limits=web_limits,
         )
         if keys is not None:
             prepare_keys(keys)

@@ -29,13 +29,16 @@ def checked_web(
     certificate_key: Path | None = None,
     public_url: str = "",
     oidc: Path | None = None,
+    limits: Path | None = None,
 ) -> WebOptions:
     """Return where the pages are served; raises BadInput where they may not or cannot be.
 
     http: HOST:PORT; empty: 8080, on this machine alone unless there is HTTPS. Port 0: a free one.
     """
+    from mrlab_ros.gateway.link.limits import read_limits
     from mrlab_ros.gateway.settings import Settings, parsed_address
 
+    read_limits(limits)
     https = keys is not None or certificate is not None
     host, port = parsed_address(http or (HTTP_WITH_KEYS if https else HTTP))
     Settings(
@@ -57,6 +60,7 @@ def checked_web(
         _absolute(certificate_key),
         public_url,
         _absolute(oidc),
+        _absolute(limits),
     )
 
 

@@ -35,6 +35,8 @@ MESSAGES = (
     "declare_liveliness_subscriber",
     "liveliness_query",
 )
+# Bytes that an attachment, such as stamps, may add to a message of the largest size.
+ATTACHED = 1024
 # The lab's own subject at a router; a person's name cannot contain a space.
 LAB = "the lab"
 
@@ -100,6 +102,35 @@ def access_control(
         "subjects": subjects,
         "policies": policies,
     }
+
+
+def bounds(rules: Rules, prefix: str = "") -> dict[str, list[dict[str, Any]]]:
+    """Return zenoh's settings, path -> value, that bound what clients publish.
+
+    zenoh drops what is too large or comes too often from one session before the bridge receives
+    it. Its rules have no order: where patterns overlap, all have the largest of their bounds, and
+    the bridge checks the bound of the rule that decides.
+    """
+    topics = [rule for rule in rules.topics if rule.direction is Direction.IN]
+    sizes, rates = [], []
+    for topic in topics:
+        alike = [one for one in topics if overlap(_parts(one.name), _parts(topic.name))]
+        key = _key(topic.name, prefix)
+        sizes.append(
+            {
+                "messages": ["put", "reply"],
+                "flows": ["ingress"],
+                "key_exprs": [key, f"{key}/@adv/**"],
+                "size_limit": max(one.max_size for one in alike) + ATTACHED,
+            }
+        )
+        if all(one.max_rate for one in alike):
+            rates.append({"key_expr": key, "freq": max(one.max_rate for one in alike)})
+    found = {"low_pass_filter": sizes} if sizes else {}
+    if rates:
+        limited = {"messages": ["put"], "flows": ["ingress"], "rules": rates}
+        found["downsampling"] = [limited]
+    return found
 
 
 def role_rules(rules: Rules, role: Role, prefix: str = "") -> list[dict[str, Any]]:

@@ -31,6 +31,9 @@ from mrlab_ros.core.records import (
 )
 
 SECOND = 1_000_000_000
+# Bytes of the largest message that a rule can allow; zenoh refuses larger ones of any client
+# (max_message_size in config/zenoh/lab.json5).
+LARGEST = 16 * 1024 * 1024
 PLACE = "the bridge's allow-list"
 FULL_NAME = Text(
     re.compile(r"(?:/(?:[A-Za-z_][A-Za-z0-9_]*|\*{1,2}))+"),
@@ -104,7 +107,15 @@ class TopicRule:
         Direction.OUT,
     )
     max_rate: float = field(
-        Number(between(0, 100_000), "Hz"), "Largest rate; 0: every message.", 0.0
+        Number(between(0, 100_000), "Hz"),
+        "Largest rate; 0: every message. Of a topic that comes in: from one session, and of all "
+        "together.",
+        0.0,
+    )
+    max_size: int = field(
+        Integer(between(1, LARGEST), "bytes"),
+        "Largest message of a topic that comes in.",
+        65_536,
     )
     priority: int = field(Integer(between(1, 7)), "zenoh's priority; 1 goes first.", 5)
     reliability: Reliability = field(
@@ -118,8 +129,8 @@ class TopicRule:
         Integer(between(1, 10_000), "messages"), "Queue of the bridge's subscription.", 10
     )
     history: int = field(
-        Integer(between(1, 10_000), "messages"),
-        "Messages of a latched topic that late joiners get.",
+        Integer(between(0, 10_000), "messages"),
+        "Messages of a latched topic that late joiners get; 0: none.",
         1,
     )
     role: Role = field(
@@ -154,6 +165,9 @@ class ServiceRule:
         Integer(between(1, 10_000), "calls"),
         "Calls that may wait for the ones before them; more are refused.",
         64,
+    )
+    max_size: int = field(
+        Integer(between(1, LARGEST), "bytes"), "Largest request; a larger one is refused.", 262_144
     )
     role: Role = field(enum_values(Role), "Who may call the service.", Role.INSTRUCTOR)
     own: Role = field(

@@ -23,6 +23,7 @@ LAB_TOPICS = (
     "/contacts",
     "/latency",
     "/latency/clients",
+    "/diagnostics",
     "/tf",
     "/tf_static",
     "/rosout",
@@ -36,7 +37,14 @@ LAB_TOPICS = (
     "/*/robot_description",
 )
 # About the live processes, not the session; never replayed.
-OF_THE_PRESENT = ("/rosout", "/parameter_events", "/latency", "/latency/clients", "/recorder/**")
+OF_THE_PRESENT = (
+    "/rosout",
+    "/parameter_events",
+    "/latency",
+    "/latency/clients",
+    "/diagnostics",
+    "/recorder/**",
+)
 
 
 def _expression(pattern: str) -> re.Pattern[str]:

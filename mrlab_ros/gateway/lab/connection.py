@@ -119,7 +119,10 @@ class LabConnection(Protocol):
         ...
 
     async def get_all(self, key: str, timeout_s: float = GET_TIMEOUT_S) -> list[Sample]:
-        """Return every answer for a key expression such as `*/playback_state`."""
+        """Return every answer for a key expression such as `*/playback_state`.
+
+        Of each key the oldest comes first: a latched topic may keep several messages.
+        """
         ...
 
     def subscribe(self, key: str, on_sample: OnSample) -> Unsubscribe:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import asyncio
+from collections import deque
 from collections.abc import Callable, Mapping
 from dataclasses import replace
 from functools import partial
@@ -43,7 +44,7 @@ class FakeLab:
         self._phase = Phase.OPEN
         self._keys = LabKeys()
         self._handlers: dict[str, tuple[str, Handler]] = {}
-        self._newest: dict[str, Sample] = {}
+        self._newest: dict[str, deque[Sample]] = {}
         self._sequence: dict[str, int] = {}
         self._listeners: dict[object, OnStatus] = {}
         self._subscribers: dict[object, tuple[str, OnSample]] = {}
@@ -76,8 +77,9 @@ class FakeLab:
             self._keys = LabKeys()
         self._tell()
 
-    def offer(self, key: str, type_name: str, *, latched: bool = False) -> None:
-        """Announce a topic."""
+    def offer(self, key: str, type_name: str, *, latched: bool = False, history: int = 1) -> None:
+        """Announce a topic; history: messages that a latched one keeps."""
+        self._newest[key] = deque(maxlen=history)
         topics = {**self._keys.topics, key: type_name}
         held = self._keys.latched | {key} if latched else self._keys.latched - {key}
         self._keys = replace(self._keys, topics=MappingProxyType(topics), latched=held)
@@ -115,14 +117,14 @@ class FakeLab:
         self._sequence[key] = self._sequence.get(key, 0) + 1
         sample = Sample(key, message, self._sequence[key], published_ns)
         if key in self._keys.latched:
-            self._newest[key] = sample
+            self._newest[key].append(sample)
         for pattern, on_sample in list(self._subscribers.values()):
             if matches(pattern, key):
                 on_sample(sample)
 
     def put_value(self, key: str, payload: bytes, attachment: bytes = b"") -> None:
         """Let a get on a key that is no topic, such as schema, return this."""
-        self._newest[key] = Sample(key, payload, attachment=attachment)
+        self._newest[key] = deque([Sample(key, payload, attachment=attachment)])
 
     async def call(
         self,
@@ -152,11 +154,16 @@ class FakeLab:
         return self.definitions.encode(f"{type_name}_Response", handler(request))
 
     async def get(self, key: str, timeout_s: float = GET_TIMEOUT_S) -> Sample | None:
-        return next(iter(await self.get_all(key, timeout_s)), None)
+        return next(reversed(await self.get_all(key, timeout_s)), None)
 
     async def get_all(self, key: str, timeout_s: float = GET_TIMEOUT_S) -> list[Sample]:
         pattern = key.partition("?")[0]
-        return [sample for name, sample in self._newest.items() if matches(pattern, name)]
+        return [
+            sample
+            for name, kept in self._newest.items()
+            if matches(pattern, name)
+            for sample in kept
+        ]
 
     def subscribe(self, key: str, on_sample: OnSample) -> Unsubscribe:
         entry = object()

@@ -126,7 +126,8 @@ class ZenohLab:
         return replies[0] if replies else None
 
     async def get_all(self, key: str, timeout_s: float = GET_TIMEOUT_S) -> list[Sample]:
-        return await self._ask(key, None, timeout_s)
+        found = await self._ask(key, None, timeout_s, consolidation=zenoh.ConsolidationMode.NONE)
+        return sorted(found, key=lambda sample: (sample.key, sample.sequence))
 
     def subscribe(self, key: str, on_sample: OnSample) -> Unsubscribe:
         entry = object()
@@ -219,7 +220,13 @@ class ZenohLab:
                 ", ".join(others),
             )
 
-    async def _ask(self, key: str, payload: bytes | None, timeout_s: float) -> list[Sample]:
+    async def _ask(
+        self,
+        key: str,
+        payload: bytes | None,
+        timeout_s: float,
+        consolidation: zenoh.ConsolidationMode = zenoh.ConsolidationMode.AUTO,
+    ) -> list[Sample]:
         """Return the answers of a query; raise Refused where all are errors."""
         if self._session is None or self._loop is None:
             raise NoAnswer(
@@ -244,7 +251,13 @@ class ZenohLab:
                 loop.call_soon_threadsafe(done.set)
 
         handler = zenoh.handlers.Callback(on_reply, on_end, indirect=False)
-        self._session.get(f"{self._root}{key}", handler, payload=payload, timeout=timeout_s)
+        self._session.get(
+            f"{self._root}{key}",
+            handler,
+            payload=payload,
+            timeout=timeout_s,
+            consolidation=consolidation,
+        )
         await done.wait()
         if refusals and not answers:
             if refusals[0] == "Timeout":

@@ -8,7 +8,9 @@ from collections import deque
 from collections.abc import Iterator
 from dataclasses import dataclass, field, replace
 from functools import partial
+from itertools import groupby
 from math import nan
+from operator import attrgetter
 from typing import Protocol
 
 from mrlab_ros.core.bridge.rules import Congestion, Direction, Rules, TopicRule
@@ -197,16 +199,28 @@ class Hub:
             except LabError as error:
                 log.warning("the newest messages of %s are missing: %s", expression, error)
                 return
-            for sample in samples:
-                topic = self._topics.get(sample.key)
-                known = topic.history[-1] if topic is not None and topic.history else None
-                newer = known is None or sample.sequence > known.sample.sequence
-                if expression in self._feeds and newer:
-                    self._on_sample(rule, sample)
+            if expression in self._feeds:
+                for key, kept in groupby(samples, key=attrgetter("key")):
+                    self._on_history(rule, key, list(kept))
 
         task = asyncio.get_running_loop().create_task(fetch())
         self._tasks.add(task)
         task.add_done_callback(self._tasks.discard)
+
+    def _on_history(self, rule: TopicRule, key: str, kept: list[Sample]) -> None:
+        """Take what a latched topic keeps, oldest first; newer messages may be here already."""
+        topic = self._topics.get(key)
+        known = {message.sample.sequence for message in topic.history} if topic else set()
+        missed = [sample for sample in kept if sample.sequence not in known]
+        if topic is not None and known and rule.history > 1:
+            # All once more in their order: an older message must not replace a newer one.
+            missed += [message.sample for message in topic.history]
+            missed.sort(key=attrgetter("sequence"))
+            topic.history.clear()
+        elif known:
+            missed = [sample for sample in missed if sample.sequence > max(known)]
+        for sample in missed:
+            self._on_sample(rule, sample)
 
     def _on_change(self) -> None:
         """Forget topics that have gone; fetch what latched ones say that are new."""

@@ -1,26 +1,74 @@
-"""How much one client may send; time is an argument, s, monotonic."""
+"""What one page may take of the gateway, and how many pages there may be."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass
+from pathlib import Path
+
+from mrlab_ros.adapters.yaml_files import read_yaml
+from mrlab_ros.core.bucket import Bucket
+from mrlab_ros.core.records import Integer, Number, between, field, read
+
+KIB = 1024
+LARGEST_BURST = 1024 * 1024 * KIB
 
 
-@dataclass
-class Bucket:
-    """Holds `burst` tokens at most and gets `rate` a second."""
+@dataclass(frozen=True)
+class LinkLimits:
+    """Limits of the WebSocket /link, as the file of `--limits` names them."""
 
-    rate: float
-    burst: float
+    pages: int = field(
+        Integer(between(1, 100_000), "pages"),
+        "Pages that may be connected; an instructor's come in beyond that.",
+        500,
+    )
+    pages_each: int = field(
+        Integer(between(1, 100_000), "pages"), "Pages that one person may have open.", 64
+    )
+    frame_rate: float = field(
+        Number(between(1, 1e6), "frames/s"), "Frames a second that a page may send.", 2000.0
+    )
+    frame_burst: float = field(
+        Number(between(1, 1e6), "frames"), "Frames that a page may send at once.", 4000.0
+    )
+    byte_rate: float = field(
+        Number(between(1, 1e9), "B/s"),
+        "Bytes a second that a page may send, as over zenoh (the bridge's guest_rate).",
+        64.0 * KIB,
+    )
+    byte_burst: float = field(
+        Number(between(1, LARGEST_BURST), "bytes"),
+        "Bytes that a page may send at once.",
+        2048.0 * KIB,
+    )
+    largest_frame: int = field(
+        Integer(between(1, 4096 * KIB), "bytes"),
+        "Largest frame of a page; files go by HTTP.",
+        1024 * KIB,
+    )
+    call_rate: float = field(
+        Number(between(0.1, 1e5), "calls/s"), "Calls a second that a page may make.", 50.0
+    )
+    call_burst: float = field(
+        Number(between(1, 1e5), "calls"), "Calls that a page may make at once.", 100.0
+    )
+    calls_waiting: int = field(
+        Integer(between(1, 10_000), "calls"), "Calls of a page that may wait for responses.", 32
+    )
 
-    def __post_init__(self) -> None:
-        self._tokens = self.burst
-        self._at = 0.0
+    @property
+    def frames(self) -> Bucket:
+        return Bucket(self.frame_rate, self.frame_burst)
 
-    def take(self, count: float, now: float) -> bool:
-        """Take tokens where there are enough; return whether there were."""
-        self._tokens = min(self.burst, self._tokens + (now - self._at) * self.rate)
-        self._at = now
-        if count > self._tokens:
-            return False
-        self._tokens -= count
-        return True
+    @property
+    def bytes(self) -> Bucket:
+        return Bucket(self.byte_rate, self.byte_burst)
+
+    @property
+    def calls(self) -> Bucket:
+        return Bucket(self.call_rate, self.call_burst)
+
+
+def read_limits(path: Path | None) -> LinkLimits:
+    """Read the file of `--limits`, the defaults without one; BadInput names all mistakes."""
+    return LinkLimits() if path is None else read(LinkLimits, read_yaml(path), str(path))

@@ -7,19 +7,17 @@ from dataclasses import dataclass, field
 
 import orjson
 
-from mrlab_ros.core.bridge.rules import Rules
+from mrlab_ros.core.bridge.rules import Role, Rules
 from mrlab_ros.gateway.errors import TooMany
 from mrlab_ros.gateway.lab.connection import LabConnection, Phase
 from mrlab_ros.gateway.link.hub import Hub
+from mrlab_ros.gateway.link.limits import LinkLimits
 from mrlab_ros.gateway.link.session import LinkSession, May
 from mrlab_ros.gateway.link.visibility import Visibility
 from mrlab_ros.gateway.people.person import Person
 
 # s for which a client that lost its socket is waited for.
 RESUME_S = 30.0
-# Clients of one person and of all.
-OF_ONE = 64
-OF_ALL = 500
 
 
 @dataclass(eq=False)
@@ -35,11 +33,12 @@ class Client:
 class Sessions:
     """All sessions; times are s, monotonic."""
 
-    def __init__(self, lab: LabConnection, rules: Rules, may: May) -> None:
+    def __init__(self, lab: LabConnection, rules: Rules, may: May, limits: LinkLimits) -> None:
         self.lab = lab
         self.hub = Hub(lab, rules)
         self.visibility = Visibility(lab.definitions)
         self._may = may
+        self._limits = limits
         self._clients: dict[str, Client] = {}
         self._stop = lab.on_change(self._on_change)
 
@@ -62,7 +61,9 @@ class Sessions:
             client.socket = socket
             return client, True
         own = sum(each.session.person.name == person.name for each in self._clients.values())
-        if own >= OF_ONE or len(self._clients) >= OF_ALL:
+        # Nobody can keep an instructor out by taking all places.
+        full = len(self._clients) >= self._limits.pages and not person.role.may(Role.INSTRUCTOR)
+        if own >= self._limits.pages_each or full:
             raise TooMany(
                 f"{own} pages of {person.name} and {len(self._clients)} of all are connected; "
                 "close some, then reload this one",

@@ -20,7 +20,7 @@ from mrlab_ros.gateway.lab.connection import CALL_TIMEOUT_S, LabConnection, NoAn
 from mrlab_ros.gateway.link import frames
 from mrlab_ros.gateway.link.frames import Call, Credit
 from mrlab_ros.gateway.link.lab_clock import LabClock
-from mrlab_ros.gateway.link.limits import Bucket
+from mrlab_ros.gateway.link.limits import LinkLimits
 from mrlab_ros.gateway.link.session import LinkSession, May
 from mrlab_ros.gateway.link.sessions import Client, Sessions
 from mrlab_ros.gateway.people.people import ThePeople
@@ -38,13 +38,6 @@ SILENCE_S = 15.0
 # The same of a hidden page, whose timers a browser slows down to one a minute.
 HIDDEN_SILENCE_S = 150.0
 HEARTBEAT_S = 1.0
-# Largest frame of a client, bytes. Files go by HTTP.
-LARGEST = 1024 * 1024
-# What a client may send: frames and bytes a second, calls a second, calls that wait.
-FRAMES = (2000.0, 4000.0)
-BYTES = (512.0 * 1024, 4.0 * LARGEST)
-CALLS = (50.0, 100.0)
-CALLS_WAITING = 32
 
 log = logging.getLogger("mrlab.gateway")
 router = APIRouter()
@@ -53,20 +46,21 @@ router = APIRouter()
 class LinkPort:
     """What the sockets of one gateway share."""
 
-    def __init__(self, sessions: Sessions, may: May) -> None:
+    def __init__(self, sessions: Sessions, may: May, limits: LinkLimits) -> None:
         self.sessions = sessions
+        self.limits = limits
         self.may = may
         self.clock = LabClock(sessions.lab)
         self.calls: set[asyncio.Task[None]] = set()
 
 
-def link_port(lab: LabConnection, policy: Policy) -> LinkPort:
+def link_port(lab: LabConnection, policy: Policy, limits: LinkLimits) -> LinkPort:
     """Return what the sockets of a gateway share."""
 
     def may(person: Person, verb: Verb, key: str) -> bool:
         return policy.may(person.role, verb, key)
 
-    return LinkPort(Sessions(lab, policy.rules, may), may)
+    return LinkPort(Sessions(lab, policy.rules, may, limits), may, limits)
 
 
 @router.websocket("/link")
@@ -116,9 +110,10 @@ class _Socket:
         self._woken = asyncio.Event()
         self._heard = time.monotonic()
         self._waiting = 0
-        self._frames = Bucket(*FRAMES)
-        self._bytes = Bucket(*BYTES)
-        self._calls = Bucket(*CALLS)
+        self._limits = port.limits
+        self._frames = port.limits.frames
+        self._bytes = port.limits.bytes
+        self._calls = port.limits.calls
         self._close = (1000, "")
 
     async def serve(
@@ -194,7 +189,8 @@ class _Socket:
             data = message.get("bytes")
             text = message.get("text")
             size = len(data or text or "")
-            if size > LARGEST or not self._frames.take(1, now) or not self._bytes.take(size, now):
+            fits = size <= self._limits.largest_frame
+            if not (fits and self._frames.take(1, now) and self._bytes.take(size, now)):
                 self._close = TOO_MANY, "this page sends too much; reload it"
                 return
             try:
@@ -258,7 +254,7 @@ class _Socket:
                 "not_allowed",
                 f"your role, {role}, may not call {frame.key}; ask your instructor",
             )
-        elif self._waiting >= CALLS_WAITING or not self._calls.take(1, now):
+        elif self._waiting >= self._limits.calls_waiting or not self._calls.take(1, now):
             session.fail(
                 frame.request, "too_many", "too many calls at once; wait for their answers"
             )

@@ -47,6 +47,18 @@ TIMEOUT_S = 10.0
 CLOCK_SLACK_S = 60
 
 
+class NotBegun(NotAllowed):
+    """Somebody comes back who did not begin here, or took too long."""
+
+    code = "not_begun"
+
+
+class NotConfirmed(NotAllowed):
+    """The provider does not confirm who somebody is."""
+
+    code = "not_confirmed"
+
+
 @dataclass(frozen=True)
 class Provider:
     """A provider, as the file of `--oidc` names it."""
@@ -124,11 +136,12 @@ class Oidc:
     async def finish(self, url: str, state: str) -> Mapping[str, Any]:
         """Return the claims about who came back; url: with the provider's code.
 
-        Raises NotAllowed where this is no answer to a sign-in that was begun here.
+        Raises NotBegun where this is no answer to a sign-in that was begun here, NotConfirmed
+        where the provider does not say who it is, Unavailable where it does not answer.
         """
         pending = self._pending.pop(state, None)
         if pending is None or pending.expires <= self._steady():
-            raise NotAllowed("this sign-in took too long, or was not begun here; begin again")
+            raise NotBegun("this sign-in took too long, or was not begun here; begin again")
         metadata = await self._discover()
         try:
             async with self._client(pending.redirect) as client:
@@ -149,7 +162,7 @@ class Oidc:
                 nonce={"essential": True, "value": pending.nonce},
             ).validate(claims)
         except (OAuthError, JoseError, KeyError, ValueError) as error:
-            raise NotAllowed(
+            raise NotConfirmed(
                 f"the provider did not confirm who you are ({type(error).__name__}: {error}); "
                 "begin again"
             ) from error

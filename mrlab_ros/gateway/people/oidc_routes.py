@@ -1,7 +1,12 @@
-"""Sign-in by an OpenID Connect provider over HTTP."""
+"""Sign-in by an OpenID Connect provider over HTTP.
+
+A person sees these addresses in the browser, so what fails leads to the page of signing in, which
+says it in the person's language; the log has the details.
+"""
 
 from __future__ import annotations
 
+import logging
 import secrets
 from typing import Annotated
 
@@ -9,12 +14,14 @@ from anyio import to_thread
 from fastapi import APIRouter, Depends, Request, Response
 from fastapi.responses import RedirectResponse
 
-from mrlab_ros.gateway.errors import NotAllowed, NotFound
-from mrlab_ros.gateway.people.oidc import PENDING_LIFETIME_S, Oidc
+from mrlab_ros.core.errors import LabError
+from mrlab_ros.gateway.errors import GatewayError, NotFound
+from mrlab_ros.gateway.people.oidc import PENDING_LIFETIME_S, NotBegun, Oidc
 from mrlab_ros.gateway.people.people import People, ThePeople, address_of
 from mrlab_ros.gateway.people.routes import base_url
 
 PATH = "/api/oidc"
+logger = logging.getLogger("mrlab.gateway")
 router = APIRouter(prefix=PATH, include_in_schema=False)
 
 
@@ -32,8 +39,11 @@ TheOidc = Annotated[Oidc, Depends(oidc_of)]
 @router.get("/start")
 async def start(request: Request, people: ThePeople, oidc: TheOidc) -> Response:
     """Send somebody to the provider."""
-    people.sign_ins_by_address.check(address_of(request), people.steady())
-    url, state = await oidc.begin(f"{base_url(request, people)}{PATH}/callback")
+    try:
+        people.sign_ins_by_address.check(address_of(request), people.steady())
+        url, state = await oidc.begin(f"{base_url(request, people)}{PATH}/callback")
+    except LabError as error:
+        return _back_to_sign_in(error)
     response = RedirectResponse(url, 303)
     # Lax: the provider's page leads back here. It proves that this browser began.
     response.set_cookie(
@@ -53,14 +63,24 @@ async def callback(request: Request, people: ThePeople, oidc: TheOidc) -> Respon
     """Sign in whom the provider sends back."""
     state = request.query_params.get("state", "")
     begun = request.cookies.get(state_cookie(people), "")
-    if not state or not secrets.compare_digest(state.encode(), begun.encode()):
-        raise NotAllowed("this sign-in was not begun in this browser; begin again")
-    claims = await oidc.finish(str(request.url), state)
-    account = await to_thread.run_sync(oidc.account, claims, people.accounts)
+    try:
+        if not state or not secrets.compare_digest(state.encode(), begun.encode()):
+            raise NotBegun("this sign-in was not begun in this browser; begin again")
+        claims = await oidc.finish(str(request.url), state)
+        account = await to_thread.run_sync(oidc.account, claims, people.accounts)
+    except LabError as error:
+        return _back_to_sign_in(error)
     response = RedirectResponse("/", 303)
     response.delete_cookie(state_cookie(people), path=PATH)
     await to_thread.run_sync(people.sign_in, response, account.name, account.role)
     return response
+
+
+def _back_to_sign_in(error: LabError) -> Response:
+    """Lead to the page of signing in, which knows a sentence for each of these words."""
+    logger.warning("nobody was signed in by the provider: %s", error)
+    word = error.code if isinstance(error, GatewayError) else "unavailable"
+    return RedirectResponse(f"/sign-in?problem={word}", 303)
 
 
 def state_cookie(people: People) -> str:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import time
 from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
@@ -13,6 +14,7 @@ from rclpy.serialization import deserialize_message
 from mrlab_ros.adapters.zenoh_session import Declared
 from mrlab_ros.core.bridge import rules
 from mrlab_ros.core.bridge.rules import Direction, TopicQos, TopicRule
+from mrlab_ros.core.bucket import Bucket
 from mrlab_ros.nodes.bridge.context import BridgeContext, Count, profile
 
 
@@ -57,7 +59,10 @@ class Inward:
         publisher = bridge.streams.create_publisher(kind, name, profile(qos))
         count = bridge.count(key, type_name, Direction.IN.value)
         subscriber = session.subscriber(
-            key, self._receiver(key, kind, publisher, count), qos.latched
+            key,
+            self._admission(key, rule, count),
+            self._receiver(key, kind, publisher, count),
+            qos.latched and rule.history > 0,
         )
         token = session.token(rules.topic_token(session.zid, Direction.IN, key, type_name, qos))
         self._routes[name] = InRoute(type_name, qos, publisher, subscriber, token)
@@ -67,6 +72,33 @@ class Inward:
         route.token.undeclare()
         route.subscriber.undeclare()
         self._bridge.streams.destroy_publisher(route.publisher)
+
+    def _admission(self, key: str, rule: TopicRule, count: Count) -> Callable[[int], bool]:
+        """Return what says whether a message of so many bytes may be read.
+
+        zenoh has dropped most of what may not: see core.bridge.access.bounds().
+        """
+        largest, warn_once = rule.max_size, self._bridge.warn_once
+        # A second of messages at once: many clients send at the same instant.
+        bucket = Bucket(rule.max_rate, max(rule.max_rate, 1.0)) if rule.max_rate else None
+
+        def admit(size: int) -> bool:
+            if size > largest:
+                warn_once(
+                    f"a client published a message of more than {largest} bytes on {key}; such "
+                    "messages are dropped (max_size in the allow-list)"
+                )
+            elif bucket is not None and not bucket.take(1, time.monotonic()):
+                warn_once(
+                    f"clients publish more than {rule.max_rate:g} messages a second on {key}; "
+                    "further ones are dropped (max_rate in the allow-list)"
+                )
+            else:
+                return True
+            count.refused += 1
+            return False
+
+        return admit
 
     def _receiver(
         self, key: str, kind: Any, publisher: Publisher, count: Count

@@ -25,6 +25,8 @@ from mrlab_ros.adapters.zenoh_session import (
     log_logins,
 )
 from mrlab_ros.core.bridge import rules
+from mrlab_ros.core.bridge.access import bounds
+from mrlab_ros.core.bridge.guests import Guests, Share
 from mrlab_ros.core.bridge.latency import Ledger, clock_answer
 from mrlab_ros.core.bridge.links import check_endpoints, check_router
 from mrlab_ros.core.bridge.rules import Direction, ServiceRule, TopicRule
@@ -34,6 +36,7 @@ from mrlab_ros.messages.latency import latency_to_message
 from mrlab_ros.nodes import parameters
 from mrlab_ros.nodes.bridge.assets import AssetRoutes
 from mrlab_ros.nodes.bridge.context import BridgeContext
+from mrlab_ros.nodes.bridge.guests import GuestWatch
 from mrlab_ros.nodes.bridge.inward import Inward
 from mrlab_ros.nodes.bridge.outward import Outward
 from mrlab_ros.nodes.bridge.services import Services
@@ -45,6 +48,9 @@ from mrlab_ros.ros.spinning import SpunNode
 STATISTICS = "/@mrlab/bridge/statistics"
 CLOCK = "/@mrlab/bridge/clock"
 REPORT_PERIOD_S = 1.0
+# zenoh's setting of the sessions of all people together, and its least value.
+MAX_SESSIONS = "transport/unicast/max_sessions"
+LEAST_SESSIONS = 200
 # At every nth check of the graph the QoS of each publisher is read too.
 THOROUGH = 10
 # How long the forwarding thread may wait for another Python thread, s; Python's own is 5 ms.
@@ -70,6 +76,7 @@ class BridgeNode(ParameterNode[BridgeParameters]):
         )
         self._rules = _rules(Path(self.parameters.allow_list))
         prefix = self.parameters.prefix
+        self._guests: Guests | None = None
         settings = self._zenoh_settings(prefix)
         self._session: Session = session or ZenohSession(settings)
         self._started = time.monotonic()
@@ -97,6 +104,10 @@ class BridgeNode(ParameterNode[BridgeParameters]):
             self._session.queryable(self._bridge.key(STATISTICS), self._answer_statistics),
             self._session.queryable(self._bridge.key(CLOCK), _answer_clock),
         ]
+        self._watch: GuestWatch | None = None
+        if self._guests is not None:
+            self._watch = GuestWatch(self._guests, self.get_logger().warning)
+            self._declared.append(self._session.follow_links(self._watch.on_link))
         self._reports = self.create_publisher(Latency, "latency", qos.LATCHED)
         # Keeps the newest reports of clients in the graph for late joiners.
         self.create_subscription(Latency, "latency/clients", lambda _: None, qos.LATCHED_EVENTS)
@@ -131,15 +142,23 @@ class BridgeNode(ParameterNode[BridgeParameters]):
         if file:
             return configuration(Path(file))
         check_endpoints(listen, values.insecure, bool(folder))
+        limits = bounds(self._rules, prefix)
         if not folder:
-            return configuration(mode=mode, listen=listen, connect=connect, lease=lease)
+            return configuration(
+                mode=mode, listen=listen, connect=connect, lease=lease, security=limits
+            )
         keys = Keys(Path(folder))
         keys.check(now())
         if connect:
             check_router(mode, listen, connect)
             security = keys.lab_settings(now())
         else:
-            security = keys.settings(self._rules, prefix, now())
+            security = keys.settings(self._rules, prefix, now()) | limits
+            share_of_each = Share(values.sessions_each, values.guest_rate, values.guest_burst)
+            self._guests = Guests(
+                keys.people(now()), share_of_each, by_certificate=keys.login.by_certificate
+            )
+            security[MAX_SESSIONS] = max(LEAST_SESSIONS, self._guests.room)
         log_logins(passwords=keys.login.by_password)
         return configuration(
             mode=mode,
@@ -212,6 +231,8 @@ class BridgeNode(ParameterNode[BridgeParameters]):
         total = self.statistics()
         for declared in self._declared:
             declared.undeclare()
+        if self._watch is not None:
+            self._watch.stop()
         self._assets.stop()
         self._service_routes.stop()
         self._outward.stop()

@@ -121,6 +121,13 @@ class Services:
                 words = f"the service {route.name} is called by its key {key}, not as {query.key}"
                 self._refuse(route, query, words)
                 return
+            if query.size > route.rule.max_size:
+                words = (
+                    f"a request of {route.name} has {query.size} bytes; expected at most "
+                    f"{route.rule.max_size} (max_size in the allow-list)"
+                )
+                self._refuse(route, query, words)
+                return
             request, why_not = read(query.payload)
             if why_not:
                 self._refuse(route, query, why_not)

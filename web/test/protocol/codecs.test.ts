@@ -1,6 +1,7 @@
 import { describe, expect, test } from 'vitest'
 import type { MessageType } from '../../src/link/link'
 import * as builtinInterfaces from '../../src/protocol/builtin_interfaces'
+import * as diagnosticMsgs from '../../src/protocol/diagnostic_msgs'
 import * as geometryMsgs from '../../src/protocol/geometry_msgs'
 import * as mrlabMsgs from '../../src/protocol/mrlab_msgs'
 import * as sensorMsgs from '../../src/protocol/sensor_msgs'
@@ -17,6 +18,7 @@ interface Vector {
 
 const packages = [
   builtinInterfaces,
+  diagnosticMsgs,
   geometryMsgs,
   mrlabMsgs,
   sensorMsgs,

@@ -14,6 +14,7 @@ from mrlab_ros.gateway.lab.connection import NoAnswer, Phase, Refused
 from mrlab_ros.gateway.lab.fake_lab import FakeLab
 from mrlab_ros.gateway.link import socket
 from mrlab_ros.gateway.link.frames import RecordKind
+from mrlab_ros.gateway.link.limits import LinkLimits
 
 pytestmark = pytest.mark.fast
 TRIGGER = "std_srvs/srv/Trigger"
@@ -418,16 +419,40 @@ async def test_a_revoked_sign_in_ends_the_socket_and_the_session(stage: Stage) -
 
 @scene
 async def test_a_flood_is_closed(stage: Stage) -> None:
-    before, socket.FRAMES = socket.FRAMES, (1.0, 20.0)
-    try:
-        side = stage.side()
-        side.hello()
-        for _ in range(100):
-            side.grant(1)
-        with pytest.raises(Closed, match="4029"):
-            await side.until(lambda: False)
-    finally:
-        socket.FRAMES = before
+    stage.gateway.app.state.link.limits = LinkLimits(frame_rate=1.0, frame_burst=20.0)
+    side = stage.side()
+    side.hello()
+    for _ in range(100):
+        side.grant(1)
+    with pytest.raises(Closed, match="4029"):
+        await side.until(lambda: False)
+
+
+@scene
+async def test_the_first_client_of_a_gateway_gets_every_message_of_a_latched_history(
+    stage: Stage,
+) -> None:
+    stage.lab.offer("tf_static", "tf2_msgs/msg/TFMessage", latched=True, history=100)
+    for name in ("base_1", "base_2", "base_3"):
+        stage.lab.publish("tf_static", {"transforms": [{"child_frame_id": name}]})
+    side = stage.side()
+    side.hello(_1="tf_static")
+    await side.until(lambda: len(side.records) == 3)
+
+
+@scene
+async def test_an_instructor_comes_in_where_others_took_all_places(stage: Stage) -> None:
+    stage.gateway.app.state.link.sessions._limits = LinkLimits(pages=1)
+    first = stage.side(stage.cookie("anna"))
+    first.hello()
+    await first.welcome()
+    second = stage.side(stage.cookie("ben"))
+    second.hello()
+    with pytest.raises(Closed, match="4029"):
+        await second.until(lambda: False)
+    teacher = stage.side(stage.cookie("teacher", Role.INSTRUCTOR))
+    teacher.hello()
+    await teacher.welcome()
 
 
 @pytest.mark.parametrize(

@@ -16,14 +16,18 @@ from gateway_side import Browser, Gateway, code_of
 from joserfc import jwk, jwt
 
 from mrlab_ros.core.bridge.rules import Role
-from mrlab_ros.core.errors import BadInput
+from mrlab_ros.core.errors import BadInput, Unavailable
+from mrlab_ros.gateway.errors import NotAllowed, TooMany
 from mrlab_ros.gateway.people.oidc import (
     PENDING_LIFETIME_S,
+    NotBegun,
+    NotConfirmed,
     Provider,
     plain_name,
     read_provider,
 )
 
+ROOT = Path(__file__).parents[4]
 ISSUER = "https://id.uni.example"
 
 
@@ -85,6 +89,15 @@ def lab(tmp_path: Path, provider: FakeProvider) -> Iterator[Gateway]:
         yield gateway
 
 
+def problem_of(browser: Browser, url: str) -> str:
+    """Return with which word a browser is led back to the page of signing in."""
+    response = browser.get(url, follow_redirects=False)
+    assert response.status_code == 303, response.text
+    page, _, problem = response.headers["location"].partition("?problem=")
+    assert page == "/sign-in"
+    return problem
+
+
 def begin(browser: Browser, provider: FakeProvider) -> str:
     response = browser.get("/api/oidc/start", follow_redirects=False)
     assert response.status_code == 303, response.text
@@ -124,8 +137,7 @@ def test_who_has_the_name_already_keeps_it(lab, provider) -> None:
 def test_a_token_that_is_not_for_here_signs_nobody_in(lab, provider, claims) -> None:
     provider.claims = claims
     browser = lab.browser()
-    response = browser.get(begin(browser, provider))
-    assert code_of(response) == (403, "not_allowed")
+    assert problem_of(browser, begin(browser, provider)) in ("not_confirmed", "not_allowed")
     assert browser.user is None
     assert lab.people.accounts.all() == []
 
@@ -133,25 +145,30 @@ def test_a_token_that_is_not_for_here_signs_nobody_in(lab, provider, claims) -> 
 def test_a_token_of_a_foreign_key_signs_nobody_in(lab, provider) -> None:
     provider.signs_with = jwk.ECKey.generate_key("P-256", {"kid": "one"})
     browser = lab.browser()
-    assert code_of(browser.get(begin(browser, provider))) == (403, "not_allowed")
+    assert problem_of(browser, begin(browser, provider)) == "not_confirmed"
 
 
 def test_only_the_browser_that_began_comes_back_in_time_and_once(lab, provider) -> None:
     mine, other = lab.browser(), lab.browser()
     back = begin(mine, provider)
-    assert code_of(other.get(back)) == (403, "not_allowed")
+    assert problem_of(other, back) == "not_begun"
     assert mine.get(back, follow_redirects=False).status_code == 303
-    assert code_of(mine.get(back)) == (403, "not_allowed")
+    assert problem_of(mine, back) == "not_begun"
     late = begin(mine, provider)
     lab.clock.now += PENDING_LIFETIME_S + 1
-    assert code_of(mine.get(late)) == (403, "not_allowed")
+    assert problem_of(mine, late) == "not_begun"
 
 
-def test_a_provider_that_is_down_is_named(lab, provider) -> None:
+def test_a_provider_that_is_down_is_named_in_the_log(lab, provider, caplog) -> None:
     provider.down = True
-    response = lab.browser().get("/api/oidc/start")
-    assert code_of(response) == (503, "unavailable")
-    assert ISSUER in response.text
+    assert problem_of(lab.browser(), "/api/oidc/start") == "unavailable"
+    assert ISSUER in caplog.text
+
+
+def test_each_problem_has_a_sentence_on_the_page() -> None:
+    words = (ROOT / "web" / "src" / "words" / "en.ts").read_text()
+    for kind in (NotBegun, NotConfirmed, NotAllowed, TooMany, Unavailable):
+        assert f"      {getattr(kind, 'code', 'unavailable')}: '" in words
 
 
 def test_without_a_provider_there_is_nothing_to_begin(class_lab: Gateway) -> None:

@@ -4,7 +4,7 @@ import { Button, ButtonLink } from '../../design/button'
 import { Field } from '../../design/field'
 import { Notice } from '../../design/notice'
 import { words } from '../../words/words'
-import { navigate, path } from '../shell/router'
+import { navigate, path, search } from '../shell/router'
 import { session, useApi } from '../shell/session'
 import './account.css'
 
@@ -16,6 +16,7 @@ export function SignInPage() {
   const [error, setError] = useState('')
   const [busy, setBusy] = useState(false)
   const w = words.value.signIn
+  const problem = new URLSearchParams(search.value).get('problem')
   const ways = session.value?.ways
   const user = session.value?.user
   const signIn = async (event: Event) => {
@@ -35,6 +36,11 @@ export function SignInPage() {
   return (
     <section class="card account-card stack">
       <h1>{w.title}</h1>
+      {problem !== null && !user && (
+        <Notice severity="warning">
+          <p>{w.problems[problem] ?? w.otherProblem}</p>
+        </Notice>
+      )}
       {user && (
         <Notice severity="info">
           <p>{w.already(user.name)}</p>

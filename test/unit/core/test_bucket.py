@@ -2,7 +2,7 @@ from __future__ import annotations
 
 import pytest
 
-from mrlab_ros.gateway.link.limits import Bucket
+from mrlab_ros.core.bucket import Bucket
 
 pytestmark = pytest.mark.fast
 

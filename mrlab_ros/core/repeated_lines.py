@@ -1,0 +1,43 @@
+"""Thins out lines of a log that repeat without end; time is an argument, s, monotonic."""
+
+from __future__ import annotations
+
+import re
+from collections import OrderedDict
+from dataclasses import dataclass, field
+
+from mrlab_ros.core.bucket import Bucket
+
+# Lines of one kind at once, and then one in so many seconds.
+BURST = 10
+PERIOD_S = 5.0
+# Kinds that are remembered, the newest ones.
+KINDS = 256
+# What differs between lines of one kind: numbers, addresses, identifiers.
+DIFFERS = re.compile(r"[0-9a-f]{6,}|[0-9]+")
+
+
+@dataclass
+class _Kind:
+    bucket: Bucket = field(default_factory=lambda: Bucket(1 / PERIOD_S, BURST))
+    left_out: int = 0
+
+
+class RepeatedLines:
+    """Passes the first lines of each kind, then a few; each says how many were left out."""
+
+    def __init__(self) -> None:
+        self._kinds: OrderedDict[str, _Kind] = OrderedDict()
+
+    def passed(self, line: str, now: float) -> str | None:
+        """Return the line as it is to be shown, or None where it is to be left out."""
+        name = DIFFERS.sub("#", line)
+        kind = self._kinds.setdefault(name, _Kind())
+        self._kinds.move_to_end(name)
+        if len(self._kinds) > KINDS:
+            self._kinds.popitem(last=False)
+        if not kind.bucket.take(1, now):
+            kind.left_out += 1
+            return None
+        left_out, kind.left_out = kind.left_out, 0
+        return f"{line} ({left_out} lines like this one were left out)" if left_out else line
