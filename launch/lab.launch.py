@@ -86,6 +86,12 @@ def generate_launch_description():
                 description="uploads and trajectories: a folder or URL; empty: in state_dir",
             ),
             DeclareLaunchArgument(
+                "use_sim_time",
+                default_value="false",
+                choices=flags,
+                description="the topic /clock gives the time",
+            ),
+            DeclareLaunchArgument(
                 "web",
                 default_value="true",
                 choices=flags,
@@ -166,6 +172,7 @@ def processes(context):
         keys=keys,
         insecure=insecure,
         web=web,
+        sim_time=value("use_sim_time") == "true",
     )
     found = lab_processes(options)
     nodes = [

@@ -25,7 +25,7 @@ def _clocks() -> list[dict[str, Any]]:
     found = []
     for stamp in (0.0, 12.5):
         for position in (0.0, 3.25):
-            for rate in (0.0, 0.25, 1.0, 4.0):
+            for rate in (-4.0, -0.5, 0.0, 0.25, 1.0, 4.0):
                 clock = PlaybackClock(round(stamp * SECOND), position, rate)
                 for now in (0.0, 12.5, 13.75):
                     at = clock.at(round(now * SECOND))

@@ -80,13 +80,13 @@ class Catalogue(Node):
         return response
 
 
-def start(graph: Graph) -> SimpleNamespace:
+def start(graph: Graph, **parameters) -> SimpleNamespace:
     """Start the catalogue, the lab, the playback host and the coordinator."""
     graph.add(Catalogue)
     return SimpleNamespace(
-        lab=graph.add(LabNode),
-        host=graph.add(PlaybackHostNode),
-        coordinator=graph.add(CoordinatorNode),
+        lab=graph.add(LabNode, **parameters),
+        host=graph.add(PlaybackHostNode, **parameters),
+        coordinator=graph.add(CoordinatorNode, **parameters),
     )
 
 

@@ -23,7 +23,9 @@ def play(
     trajectory: Annotated[
         str, typer.Argument(help="A trajectory of the catalogue, or a workspace file.")
     ],
-    rate: Annotated[float, typer.Option(help="Speed, 0.1 to 4; 1 is the declared one.")] = 1.0,
+    rate: Annotated[
+        float, typer.Option(help="Speed, 0.1 to 4; 1 is the declared one, -1 the same backwards.")
+    ] = 1.0,
     loop: Annotated[
         bool, typer.Option("--loop", help="Begin again after the last frame.")
     ] = False,

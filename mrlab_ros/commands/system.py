@@ -20,6 +20,8 @@ app = typer.Typer(
     no_args_is_help=True,
     help="Robots that play as one: create from a YAML file, play, pause, seek, dissolve.",
 )
+# A negative number is no option.
+NEGATIVE = {"ignore_unknown_options": True}
 Name = Annotated[str, typer.Argument(help="A system of the lab; mrlab system list shows them.")]
 
 
@@ -195,7 +197,7 @@ def seek(
     _order(name, "seek", srv.Seek, srv.Seek.Request(position=position))
 
 
-@app.command()
+@app.command(context_settings=NEGATIVE)
 def step(
     name: Name, frames: Annotated[int, typer.Argument(help="Frames; negative: backwards.")] = 1
 ) -> None:
@@ -205,9 +207,12 @@ def step(
     _order(name, "step", srv.Step, srv.Step.Request(frames=frames))
 
 
-@app.command()
+@app.command(context_settings=NEGATIVE)
 def rate(
-    name: Name, rate: Annotated[float, typer.Argument(help="0.1 to 4; 1 is the declared speed.")]
+    name: Name,
+    rate: Annotated[
+        float, typer.Argument(help="0.1 to 4; 1 is the declared speed, -1 the same backwards.")
+    ],
 ) -> None:
     """Set the speed of the timeline."""
     from mrlab_msgs import srv

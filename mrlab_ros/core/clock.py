@@ -12,14 +12,18 @@ from dataclasses import dataclass
 from mrlab_ros.core.errors import BadInput
 
 SECOND = 1_000_000_000
+# Of the speed, either way.
 RATE_RANGE = (0.1, 4.0)
 
 
 def checked_rate(rate: float) -> float:
-    """Return `rate` where it lies in RATE_RANGE; raise BadInput otherwise."""
+    """Return `rate` where its amount lies in RATE_RANGE; raise BadInput otherwise."""
     low, high = RATE_RANGE
-    if not low <= rate <= high:
-        raise BadInput(f"the rate is {rate}; expected {low} to {high}, 1 is the declared speed")
+    if not low <= abs(rate) <= high:
+        raise BadInput(
+            f"the rate is {rate}; expected {low} to {high}, or -{low} to -{high} to play "
+            "backwards; 1 is the declared speed"
+        )
     return rate
 
 
@@ -37,8 +41,8 @@ def checked_position(position: float, duration: float) -> float:
 class PlaybackClock:
     """The pair and the rate; a change of either is a new clock.
 
-    rate is 0 while the clock stands. A stamp in the future means the clock starts then: until
-    that instant the position is the pair's own.
+    rate is negative while the clock runs backwards, and 0 while it stands. A stamp in the future
+    means the clock starts then: until that instant the position is the pair's own.
     """
 
     stamp_ns: int = 0

@@ -186,3 +186,15 @@ def inverse(a: Pose) -> Pose:
 def relative(a: Pose, b: Pose) -> Pose:
     """Return `b` in the frame `a`; both are given in the same parent frame."""
     return compose(inverse(a), b)
+
+
+def pose_between(a: Pose, b: Pose, share: float) -> Pose:
+    """Return the pose at `share` (0 to 1) of the straight way from `a` to `b`; turns are short."""
+    sign = (
+        1.0 if sum(x * y for x, y in zip(a.orientation, b.orientation, strict=True)) >= 0 else -1.0
+    )
+    x, y, z, w = (
+        p + share * (sign * q - p) for p, q in zip(a.orientation, b.orientation, strict=True)
+    )
+    position = add(a.position, scale(subtract(b.position, a.position), share))
+    return Pose(position, normalized((x, y, z, w)))

@@ -130,17 +130,24 @@ def _number(value: object, limits: Range, *, whole: bool = False) -> float:
 
 @dataclass(frozen=True)
 class Number:
-    """A finite number; whole numbers and decimals alike."""
+    """A finite number; whole numbers and decimals alike. mirrored: its negative may be, too."""
 
     limits: Range = ANY
     unit: str = ""
+    mirrored: bool = False
 
     @property
     def expected(self) -> str:
-        return _phrase("a number", self.limits, self.unit)
+        phrase = _phrase("a number", self.limits, self.unit)
+        return f"{phrase}, or its negative" if self.mirrored else phrase
 
     def read(self, value: object) -> float:
-        return _number(value, self.limits)
+        if not self.mirrored:
+            return _number(value, self.limits)
+        number = _number(value, ANY)
+        if abs(number) not in self.limits:
+            raise ValueError
+        return number
 
 
 @dataclass(frozen=True)

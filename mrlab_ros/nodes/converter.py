@@ -46,6 +46,7 @@ from mrlab_ros.nodes.trajectories import TrajectoryServices
 from mrlab_ros.ros import share
 from mrlab_ros.ros.answers import create_deferred_service
 from mrlab_ros.ros.parameters import ParameterNode
+from mrlab_ros.ros.timers import every
 
 SWEEP_PERIOD_S = 3600.0
 
@@ -97,7 +98,7 @@ class ConverterNode(ParameterNode[ConverterParameters]):
             (srv.RestoreTrajectory, "restore", self.trajectories.restore),
         ):
             self._serve(kind, f"~/{name}", self._on_threads(answer))
-        self.create_timer(SWEEP_PERIOD_S, self._sweep, callback_group=self._group)
+        every(self, SWEEP_PERIOD_S, self._sweep, self._group)
 
     def parameters_changed(self) -> None:
         self._pool.limits = self._limits()

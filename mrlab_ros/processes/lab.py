@@ -109,6 +109,9 @@ class LabProcess:
             **({"lab_id": options.lab_id} if options.lab_id else {}),
             **self.parameters(options),
         }
+        if options.sim_time:
+            # By node: the nodes that these make for themselves need no clock of their own.
+            parameters |= {f"{NODES[n].graph_name}:use_sim_time": True for n in self.nodes}
         # A value is YAML, and JSON is YAML in which a text stays a text.
         given = [a for n, v in parameters.items() for a in ("-p", f"{n}:={json.dumps(v)}")]
         return (*self.nodes, "--ros-args", "--params-file", str(options.config), *given)

@@ -15,6 +15,7 @@ from mrlab_ros.messages import qos
 from mrlab_ros.messages.diagnostics import living_in, signs_to_message
 from mrlab_ros.processes.supervisor import LAST_EXIT, RESTARTS
 from mrlab_ros.ros.spinning import SpunNode
+from mrlab_ros.ros.timers import every
 
 TOPIC = "/diagnostics"
 
@@ -52,7 +53,7 @@ class Watcher:
         )
         self._topic = self._node.create_publisher(DiagnosticArray, TOPIC, qos.LATCHED)
         self._node.create_subscription(DiagnosticArray, TOPIC, self._hear, qos.LATCHED_EVENTS)
-        self._node.create_timer(PERIOD_S, self._give_sign)
+        every(self._node, PERIOD_S, self._give_sign)
         self._spun = SpunNode(self._node)
 
     def close(self) -> None:

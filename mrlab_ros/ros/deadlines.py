@@ -16,13 +16,16 @@ from typing import NamedTuple
 
 from mrlab_ros.core.clock import SECOND
 from mrlab_ros.core.playback.playback import Playback, PlaybackStatus
-from mrlab_ros.core.playback.stream import Sample
+from mrlab_ros.core.playback.stream import LOST_AFTER_NS, Sample
 from mrlab_ros.core.trajectory.trajectory import Trajectory
+from mrlab_ros.ros.clock import LabClock
 from mrlab_ros.ros.priority import take_precedence
 
 PR_SET_TIMERSLACK = 29
 # The longest the thread sleeps without a deadline, s.
 IDLE_SLEEP_S = 1.0
+# How often /clock is read where it gives the time and something is scheduled, s.
+TICK_S = 0.002
 # A sleep ends about WAKE_NS late, and preparing a joint state takes about PREPARE_NS: the thread
 # wakes earlier by their sum and publishes when they are due.
 WAKE_NS = 150_000
@@ -30,24 +33,6 @@ PREPARE_NS = 15_000
 # Another thread that runs Python delays the deadline thread by at most this time, s. Python's own
 # 5 ms would be half a period at 100 Hz.
 SWITCH_INTERVAL_S = 0.0005
-
-
-class LabClock:
-    """The lab's clock: ROS system time that never jumps during playback.
-
-    It advances with the monotonic clock from the wall time at which it was last set.
-    """
-
-    def __init__(self) -> None:
-        self._offset_ns = 0
-        self.set()
-
-    def set(self) -> None:
-        """Set the clock to the wall time."""
-        self._offset_ns = time.time_ns() - time.monotonic_ns()
-
-    def now_ns(self) -> int:
-        return time.monotonic_ns() + self._offset_ns
 
 
 class Report(NamedTuple):
@@ -83,10 +68,16 @@ class Player:
         self.last: Report | None = None
         self._error_ns = self._error_max_ns = 0
 
-    def prepare(self, now_ns: int) -> Sample | None:
-        """Return the joint state that is due, or will be within moments; None without one."""
+    def prepare(self, now_ns: int, *, simulated: bool = False) -> Sample | None:
+        """Return the joint state that is due, or will be within moments; None without one.
+
+        simulated: the time goes in ticks. What a tick makes due leaves at once and is not late.
+        """
         due_ns = self.playback.due_ns()
-        return None if due_ns is None else self.playback.tick(max(now_ns, due_ns))
+        if due_ns is None:
+            return None
+        late = now_ns - due_ns > (LOST_AFTER_NS if simulated else 0)
+        return self.playback.tick(now_ns if late else due_ns)
 
     def send(self, sample: Sample, now_ns: Callable[[], int]) -> None:
         """Publish a prepared joint state; keep its deadline error."""
@@ -120,8 +111,12 @@ class Scheduler:
     precedence: in words which priority the deadline thread got; empty before start().
     """
 
-    def __init__(self, connected: Callable[[], bool] = lambda: True) -> None:
-        self.clock = LabClock()
+    def __init__(
+        self, connected: Callable[[], bool] = lambda: True, clock: LabClock | None = None
+    ) -> None:
+        self.clock = clock or LabClock()
+        # The shifts of the clock that the playbacks know.
+        self._shifted_ns = self.clock.shifted_ns
         self._connected = connected
         self._changed = threading.Condition(threading.Lock())
         self._players: list[Player] = []
@@ -161,11 +156,13 @@ class Scheduler:
         ctypes.CDLL(None).prctl(PR_SET_TIMERSLACK, 1, 0, 0, 0)
         self.precedence = take_precedence()
         self._prepared.set()
-        now_ns = self.clock.now_ns
         with self._changed:
             while self._running:
-                early_ns = WAKE_NS + PREPARE_NS * len(self._players)
-                horizon_ns = now_ns() + early_ns
+                now_ns = self._now_ns()
+                simulated = self.clock.simulated
+                # A tick may be long in coming: nobody waits for it in a loop.
+                early_ns = 0 if simulated else WAKE_NS + PREPARE_NS * len(self._players)
+                horizon_ns = now_ns + early_ns
                 wait_ns = IDLE_SLEEP_S * SECOND
                 batch = []
                 for player in self._players:
@@ -175,11 +172,27 @@ class Scheduler:
                     if due_ns <= horizon_ns:
                         batch.append((due_ns, player))
                     else:
-                        wait_ns = min(wait_ns, due_ns - horizon_ns)
+                        wait_ns = min(
+                            wait_ns, TICK_S * SECOND if simulated else due_ns - horizon_ns
+                        )
                 if batch:
                     self._serve(batch)
                 else:
                     self._changed.wait(wait_ns / SECOND)
+
+    def _now_ns(self) -> int:
+        """Return the time; where the clock was shifted, shift what is scheduled; hold the lock."""
+        now_ns = self.clock.now_ns()
+        by_ns = self.clock.shifted_ns - self._shifted_ns
+        if by_ns:
+            self._shifted_ns += by_ns
+            for player in self._players:
+                player.playback.shift(by_ns)
+                try:
+                    player.announce(now_ns)
+                except Exception:
+                    self._print_trouble()
+        return now_ns
 
     def _serve(self, batch: list[tuple[int, Player]]) -> None:
         """Prepare all joint states that are due, then publish each at its deadline."""
@@ -188,14 +201,17 @@ class Scheduler:
         ready = []
         for due_ns, player in sorted(batch, key=lambda item: item[0]):
             try:
-                sample = player.prepare(begin_ns)
+                sample = player.prepare(begin_ns, simulated=self.clock.simulated)
             except Exception:
                 self._print_trouble()
                 continue
             if sample is not None:
                 ready.append((due_ns, player, sample))
         for due_ns, player, sample in ready:
-            while now_ns() < due_ns:
+            # By the monotonic clock: the other one may be set meanwhile.
+            left_ns = due_ns - now_ns()
+            at_ns = time.monotonic_ns() + left_ns
+            while time.monotonic_ns() < at_ns:
                 pass
             try:
                 player.send(sample, now_ns)
@@ -225,7 +241,7 @@ class Command:
 
     def __enter__(self) -> int:
         self._scheduler._changed.acquire()
-        return self._scheduler.clock.now_ns()
+        return self._scheduler._now_ns()
 
     def __exit__(self, *exception: object) -> None:
         scheduler = self._scheduler

@@ -21,6 +21,8 @@ from rclpy.guard_condition import GuardCondition
 from rclpy.impl.implementation_singleton import rclpy_implementation
 from rclpy.subscription import Subscription
 
+from mrlab_ros.core.clock import SECOND
+
 # The longest wait before a WaitSetThread checks that the context still lives, ns.
 MAX_WAIT_NS = 200_000_000
 # The most messages taken from one subscription before the others are served.
@@ -153,9 +155,10 @@ class WaitSetThread(_RawThread[Callable[[bytes], None]]):
 
 
 class Received(NamedTuple):
-    """A message as it came from the graph: CDR, and two times of ROS's clock, ns.
+    """A message as it came from the graph: CDR, and two times, ns.
 
-    sequence counts the messages of its publisher.
+    received_ns: on a clock that began with the wall clock and never goes back or jumps.
+    published_ns: on the wall clock. sequence counts the messages of its publisher.
     """
 
     received_ns: int
@@ -163,6 +166,20 @@ class Received(NamedTuple):
     data: bytes
     published_ns: int
     sequence: int
+
+
+# What is received while messages are taken, ns, is younger than the reading of the clock.
+LONGEST_TAKE_NS = SECOND
+
+
+def age_ns(now_ns: int, received_ns: int, longest_ns: int) -> int:
+    """Return how long ago a message was received, negative: after `now_ns`; all by the wall clock.
+
+    received_ns: 0 where it is unknown. longest_ns: since messages were taken last. An age that
+    cannot be is of a message from before the clock was set.
+    """
+    age = now_ns - (received_ns or now_ns)
+    return age if -LONGEST_TAKE_NS < age <= longest_ns else longest_ns
 
 
 class TopicPoll(_RawThread[str]):
@@ -180,6 +197,8 @@ class TopicPoll(_RawThread[str]):
         self._period = period
         self._on_messages = on_messages
         self._early: list[Received] = []
+        self._base_ns = time.time_ns() - time.monotonic_ns()
+        self._taken_ns = time.monotonic_ns()
 
     def _serve(self, stack: ExitStack, found: list[tuple[Any, Any, str]]) -> bool:
         while not self._changed:
@@ -194,14 +213,16 @@ class TopicPoll(_RawThread[str]):
 
         The next call may find messages that were received before those.
         """
-        began_ns = time.time_ns()
+        wall_ns, steady_ns = time.time_ns(), time.monotonic_ns()
+        began_ns = self._base_ns + steady_ns
+        longest_ns, self._taken_ns = steady_ns - self._taken_ns, steady_ns
         messages = self._early
         for handle, kind, topic in found:
             while (taken := handle.take_message(kind, True)) is not None:
                 data, info = taken
                 messages.append(
                     Received(
-                        info["received_timestamp"] or began_ns,
+                        began_ns - age_ns(wall_ns, info["received_timestamp"], longest_ns),
                         topic,
                         data,
                         info["source_timestamp"],

@@ -273,3 +273,9 @@ def test_every_service_and_client_has_the_deep_queues(path: Path) -> None:
     for call in calls_of_services(path):
         profiles = [ast.unparse(k.value) for k in call.keywords if k.arg == "qos_profile"]
         assert profiles == ["qos.SERVICES"], ast.unparse(call)
+
+
+@pytest.mark.parametrize("path", SOURCES, ids=module_name)
+def test_no_timer_goes_by_a_clock_that_may_be_set(path: Path) -> None:
+    if path.name != "timers.py":
+        assert "create_timer(" not in path.read_text(), "use mrlab_ros.ros.timers.every"

@@ -114,6 +114,12 @@ def up(
             "s3://bucket/lab; not given: in the folder for state."
         ),
     ] = "",
+    sim_time: Annotated[
+        bool,
+        typer.Option(
+            "--sim-time", help="The topic /clock gives the time, as use_sim_time says in ROS."
+        ),
+    ] = False,
     web: Annotated[bool, typer.Option(help="Serve the pages for browsers and headsets.")] = True,
     http: Annotated[
         str,
@@ -193,6 +199,7 @@ def up(
             insecure=insecure,
             store=checked_store(store),
             web=pages,
+            sim_time=sim_time,
         )
         facts: dict[str, object] = {"state_dir": str(folder), "zenoh": listen}
         where = run_facts(options) if pages is not None else {}
@@ -217,6 +224,8 @@ def up(
                     tell_when_keys_expire(keys, say, router=bool(zenoh_connect))
                 if no_physics:
                     say(SELF, no_physics)
+                if sim_time:
+                    say(SELF, "--sim-time: nothing moves until somebody publishes /clock")
                 answers = gateway_answers(where["here"]) if where else None
                 missing = wait_until_complete(stop, lab_nodes(options), len(models), answers)
                 refusals.raise_any()

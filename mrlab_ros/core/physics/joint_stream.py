@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections import deque
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import NamedTuple
 
 from mrlab_ros.core.clock import SECOND
@@ -194,6 +194,15 @@ class JointStream:
             return max(last_ns + self.delay_ns, self._plays_since_ns or 0)
         return last_ns + self.delay_ns if self._moves else None
 
+    def shift(self, by_ns: int) -> None:
+        """Go on as before after the clock was set by `by_ns`."""
+        if self._last is not None:
+            self._last = (self._last[0] + by_ns, self._last[1])
+        for i, piece in enumerate(self._pieces):
+            self._pieces[i] = replace(
+                piece, start_ns=piece.start_ns + by_ns, end_ns=piece.end_ns + by_ns
+            )
+
     def shown_ns(self, now_ns: int) -> int:
         """Return the stamp of the motion at the world's time `now_ns`.
 
@@ -219,7 +228,8 @@ class JointStream:
             return Placed(piece.end, self._rest, jumped)
         if now_ns == piece.end_ns:
             return Placed(piece.end, piece.velocities, jumped)
-        share = max((now_ns - piece.start_ns) / (piece.end_ns - piece.start_ns), 0.0)
+        length_ns = piece.end_ns - piece.start_ns
+        share = max((now_ns - piece.start_ns) / length_ns, 0.0) if length_ns else 0.0
         return Placed(between(piece.start, piece.end, share), piece.velocities, jumped)
 
 

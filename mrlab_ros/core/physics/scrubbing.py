@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 
 from mrlab_ros.core.clock import SECOND
+from mrlab_ros.core.geometry import Pose, pose_between
 from mrlab_ros.core.physics.engine import BodyState
 from mrlab_ros.core.physics.grasp import GraspEvent
 from mrlab_ros.core.physics.grippers import Grippers
@@ -15,6 +16,9 @@ from mrlab_ros.core.playback.states import State
 
 # Restoring a snapshot waits this long for the jump of the arm, ns.
 RESTORE_WAIT_NS = SECOND // 10
+# An object that is this close to where it was, m, and turned by as little, stays as it is: setting
+# its pose would wake it.
+IN_PLACE = 1e-4
 
 
 class Rewind:
@@ -46,9 +50,11 @@ class Rewind:
         """
         kept: dict[str, ObjectSnapshot] = {}
         for robot in self._world_state.robots.values():
-            if robot.playing.state is not State.PLAYING or robot.pending is not None:
+            playing = robot.playing
+            goes_on = playing.state is State.PLAYING and playing.clock.rate > 0
+            if not goes_on or robot.pending is not None:
                 continue
-            position = robot.playing.position(robot.stream.shown_ns(now_ns))
+            position = playing.position(robot.stream.shown_ns(now_ns))
             if robot.snapshots.wants(position):
                 kept = kept or self._kept(motions)
                 robot.snapshots.add(Snapshot(position, kept, robot.closed))
@@ -60,6 +66,36 @@ class Rewind:
             holder = self._world_state.robots.get(held_by)
             kept[name] = ObjectSnapshot(motion, held_by, holder.in_hand if holder else None)
         return kept
+
+    def retrace(self, robot: Robot, now_ns: int) -> None:
+        """Take the objects back along the run of a playback that goes backwards.
+
+        Between two snapshots a free object goes straight; what the robot held is in its hand.
+        """
+        playing = robot.playing
+        back = playing.state is State.PLAYING and playing.clock.rate < 0
+        if not back or robot.pending is not None:
+            return
+        around = robot.snapshots.around(playing.position(robot.stream.shown_ns(now_ns)))
+        if around is None:
+            return
+        before, after, share = around
+        if robot.held and robot.held not in before.held_by(robot.name):
+            self._grippers.lose(robot)
+        for name, kept in before.objects.items():
+            thing = self._world_state.objects.get(name)
+            if thing is None or thing.held_by not in ("", robot.name) or thing.hand is not None:
+                continue
+            if kept.held_by == robot.name and kept.in_hand is not None:
+                if robot.held != name:
+                    self._grippers.put_in_hand(robot, thing, kept.in_hand)
+            elif not kept.held_by and not thing.held_by:
+                then = after.objects.get(name)
+                pose = kept.motion.pose
+                if then is not None and not then.held_by:
+                    pose = pose_between(pose, then.motion.pose, share)
+                if not _same(self._engine.object(name).pose, pose):
+                    self._engine.set_object(name, BodyState(pose))
 
     def restore(self, robot: Robot, now_ns: int) -> None:
         """Restore the objects as they were when the run passed the position of the seek."""
@@ -89,3 +125,8 @@ class Rewind:
             robot.watch.reset()
         self._engine.drive_fingers(robot.name, robot.finger_velocities())
         self._grippers.announce(robot)
+
+
+def _same(a: Pose, b: Pose) -> bool:
+    numbers = zip((*a.position, *a.orientation), (*b.position, *b.orientation), strict=True)
+    return all(abs(x - y) <= IN_PLACE for x, y in numbers)

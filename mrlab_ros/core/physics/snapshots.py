@@ -75,3 +75,18 @@ class Snapshots:
         i = bisect.bisect_right(self._taken, position + 1e-6, key=lambda s: s.position)
         passed = self._taken and position <= self._taken[-1].position + self._spacing
         return self._taken[i - 1] if i and passed else None
+
+    def around(self, position: float) -> tuple[Snapshot, Snapshot, float] | None:
+        """Return the snapshots before and after `position`, and its share of the way, 0 to 1.
+
+        None where the run has not passed it.
+        """
+        before = self.at(position)
+        if before is None:
+            return None
+        i = bisect.bisect_right(self._taken, position + 1e-6, key=lambda s: s.position)
+        if i == len(self._taken):
+            return before, before, 0.0
+        after = self._taken[i]
+        share = (position - before.position) / (after.position - before.position)
+        return before, after, min(max(share, 0.0), 1.0)

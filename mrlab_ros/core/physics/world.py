@@ -248,6 +248,14 @@ class World:
         self.steps += made
         return made
 
+    def shift(self, by_ns: int) -> None:
+        """Go on as before after the clock of advance() was set by `by_ns`."""
+        if self._epoch_ns is not None:
+            self._shift(by_ns)
+            self._called_ns += by_ns
+            for robot in self._robots.values():
+                robot.shift(by_ns)
+
     def _shift(self, by_ns: int) -> None:
         """Shift the world's clock."""
         assert self._epoch_ns is not None
@@ -278,6 +286,7 @@ class World:
         if self._count % SLOW_STEPS == 0:
             self._rewind.record(now_ns, self._inventory.motions())
             for robot in present:
+                self._rewind.retrace(robot, now_ns)
                 self._collisions.check_clearance(robot, now_ns)
 
     def _move_arms(self, now_ns: int) -> list[Moved]:

@@ -102,7 +102,7 @@ class Playback:
 
     @property
     def rate(self) -> float:
-        """The speed of playback; 1 is the trajectory's own."""
+        """The speed of playback; 1 is the trajectory's own, -1 the same backwards."""
         return self._stream.rate
 
     @property
@@ -146,7 +146,7 @@ class Playback:
         self._machine.check(Event.LOAD)
         self._check_fits(trajectory)
         self._stream.trajectory = trajectory
-        self._stand(now_ns, Event.LOAD, 0.0, f"loaded {trajectory.id}")
+        self._stand(now_ns, Event.LOAD, self._stream.begin, f"loaded {trajectory.id}")
 
     def stand_at(self, now_ns: int, arm: Array) -> None:
         """Stand at `arm`, (J,) rad, where the arm stood before its process was restarted."""
@@ -172,7 +172,7 @@ class Playback:
         self.loop = kept.loop
         if event is Event.LOAD:
             self._stream.arm = kept.arm
-            self._stream.stand(now_ns, 0.0)
+            self._stream.stand(now_ns, self._stream.begin)
         else:
             self._stream.come_back(now_ns, position, kept.arm)
         self._announce(why)
@@ -252,14 +252,15 @@ class Playback:
         """End the run: READY to play from the first frame, the arm stays where it is.
 
         In COLLISION_HALT the arm goes back to the first frame, and the halt goes on until the
-        arm is clear.
+        arm is clear. A playback that goes backwards begins at its last frame.
         """
         self._require_owner(by)
         if self._machine.check(Event.STOP) is State.COLLISION_HALT:
-            message = "back at the first frame, waits until it is clear"
-            self._jump(now_ns, Event.STOP, 0.0, message)
+            message = "back where it began, waits until it is clear"
+            self._jump(now_ns, Event.STOP, self._stream.begin, message)
         else:
-            self._stand(now_ns, Event.STOP, 0.0, "stopped")
+            begin = 0.0 if self.trajectory is None else self._stream.begin
+            self._stand(now_ns, Event.STOP, begin, "stopped")
 
     def seek(self, now_ns: int, position: float, by: str = "") -> None:
         """Go to `position` (s) at once; PLAYING plays on from there, the rest stand there."""
@@ -274,13 +275,17 @@ class Playback:
     def set_rate(
         self, now_ns: int, rate: float, since_ns: int | None = None, by: str = ""
     ) -> None:
-        """Set the speed of playback, 0.1 to 4, without a jump.
+        """Set the speed of playback, 0.1 to 4 or -4 to -0.1, without a jump.
 
-        A system names the instant, a little in the past, from which on the new rate holds, so
-        that its members stay together.
+        What is READY then begins at the other end where the direction changes. A system names
+        the instant, a little in the past, from which on the new rate holds, so that its members
+        stay together.
         """
         self._require_owner(by)
-        self._stream.set_rate(now_ns if since_ns is None else since_ns, checked_rate(rate))
+        turns = (checked_rate(rate) < 0) != (self.rate < 0)
+        self._stream.set_rate(now_ns if since_ns is None else since_ns, rate)
+        if turns and self.state is State.READY:
+            self._stream.stand(now_ns, self._stream.begin)
         self._announce(f"rate {rate:g}")
 
     def set_standing_rate(self, now_ns: int, rate: float) -> None:
@@ -381,6 +386,11 @@ class Playback:
             return sample
         return stream.standing_sample(now_ns)
 
+    def shift(self, by_ns: int) -> None:
+        """Go on as before after the clock was set by `by_ns`."""
+        self._stream.shift(by_ns)
+        self._announce(self._message)
+
     def take_statuses(self) -> list[PlaybackStatus]:
         """Return the statuses of all changes since the last call, oldest first."""
         taken, self._statuses = self._statuses, []
@@ -469,15 +479,17 @@ class Playback:
             self._stand(due_ns, Event.STAGED, position, "at the start")
 
     def _finish(self, end_ns: int) -> None:
-        """End the run, or start over: the last frame left at `end_ns`."""
+        """End the run, or start over: its last joint state left at `end_ns`."""
+        begin = self._stream.begin
         # A member's own loop would keep its system from ending.
         if self.system or not self.loop:
             # COMPLETE lasts no longer than its announcement.
-            self._stand(end_ns, Event.FINISHED, self._loaded().duration, "played to the end")
+            message = "played back to the first frame" if self.rate < 0 else "played to the end"
+            self._stand(end_ns, Event.FINISHED, self._stream.end, message)
             self._machine.fire(Event.REARMED)
-            self._stream.stand(end_ns, 0.0, sent=True)
-            self._announce("played to the end")
-        elif self._stream.is_at(0.0):
-            self._follow(end_ns + self._stream.period_ns, 0.0, Event.REPEATED)
+            self._stream.stand(end_ns, begin, sent=True)
+            self._announce(message)
+        elif self._stream.is_at(begin):
+            self._follow(end_ns + self._stream.period_ns, begin, Event.REPEATED)
         else:
-            self._approach(end_ns, 0.0, Event.RETURNED, play_on_arrival=True)
+            self._approach(end_ns, begin, Event.RETURNED, play_on_arrival=True)

@@ -7,7 +7,7 @@ states: `Playback` decides what the arm does and calls the matching method.
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -50,7 +50,8 @@ class Stream:
 
     trajectory: what follow() follows; the caller loads one before it calls anything but stand().
     clock: the position on the trajectory at any time; its rate is 0 unless the arm follows.
-    rate: the speed of the next follow(). until: where it ends, s; None: at the last frame.
+    rate: the speed of the next follow(), negative: backwards. until: where it ends, s; None: at
+    the end of the trajectory.
     arm: the joint positions sent last, (J,) rad. streamed: the position of the last joint state
     of the trajectory, s; None where none was sent since the arm was moved otherwise.
     sent, lost: joint states of this run that left, and that were left out.
@@ -142,14 +143,23 @@ class Stream:
         if self.streamed is None:
             self._schedule_from(self.clock.position, skip=False)
         else:
-            self._schedule_from(max(self.clock.position, self.streamed), skip=True)
+            furthest = max if rate > 0 else min
+            self._schedule_from(furthest(self.clock.position, self.streamed), skip=True)
 
     def end_at(self, until: float | None) -> None:
-        """End the run at `until` (s), which lies ahead; None: at the last frame."""
+        """End the run at `until` (s), which lies ahead; None: at the trajectory's end."""
         self.until = until
         if self.clock.rate != 0:
             self._schedule(self._tick)
             self.next_ns = self._due_ns
+
+    def shift(self, by_ns: int) -> None:
+        """Move what is scheduled by `by_ns`: the clock was set, and no time has passed."""
+        self.clock = replace(self.clock, stamp_ns=self.clock.stamp_ns + by_ns)
+        self._due_ns += by_ns
+        self._motion_start_ns += by_ns
+        if self.next_ns is not None:
+            self.next_ns += by_ns
 
     # where it is ----------------------------------------------------------------------------
 
@@ -157,6 +167,16 @@ class Stream:
     def position(self) -> float:
         """The position of the last joint state on the trajectory, s."""
         return self.clock.position if self.streamed is None else self.streamed
+
+    @property
+    def begin(self) -> float:
+        """Where a run of the whole trajectory begins, s: backwards at the last frame."""
+        return self._loaded.duration if self.rate < 0 else 0.0
+
+    @property
+    def end(self) -> float:
+        """Where a run of the whole trajectory ends, s: backwards at the first frame."""
+        return 0.0 if self.rate < 0 else self._loaded.duration
 
     @property
     def frame(self) -> int:
@@ -207,7 +227,7 @@ class Stream:
         self._schedule(self._tick + 1)
         spacing_ns = round(CATCH_UP_SPACING * SECOND / trajectory.frame_rate)
         self.next_ns = max(self._due_ns, now_ns + spacing_ns)
-        self.ended = position >= trajectory.duration
+        self.ended = position == self.end
         self.held = position == self.until
         return sample
 
@@ -227,13 +247,13 @@ class Stream:
 
     @property
     def _step(self) -> float:
-        """Time on the trajectory between two joint states, s."""
+        """Time on the trajectory between two joint states, s; negative backwards."""
         return self.rate / self._loaded.frame_rate
 
     @property
     def _end(self) -> float:
         """Where this run ends, s."""
-        return self._loaded.duration if self.until is None else self.until
+        return self.end if self.until is None else self.until
 
     def _repetition(self, now_ns: int) -> int | None:
         return None if self._standing_ns is None else now_ns + self._standing_ns
@@ -243,22 +263,25 @@ class Stream:
 
     def _schedule_from(self, position: float, *, skip: bool) -> None:
         """Schedule the first joint state at (or, with skip, after) `position` (s)."""
-        ticks = position / self._step
+        ticks = (position - self.begin) / self._step
         self._schedule(math.floor(ticks + ON_TICK) + 1 if skip else math.ceil(ticks - ON_TICK))
         self.next_ns = self._due_ns
 
     def _schedule(self, tick: int) -> None:
         """Make `tick` the next joint state; the last one is exactly at the end of the run."""
-        trajectory = self._loaded
-        position, end = tick * self.rate / trajectory.frame_rate, self._end
-        if position > end - ON_FRAME / trajectory.frame_rate:
+        frame_rate, end = self._loaded.frame_rate, self._end
+        position = self.begin + tick * self.rate / frame_rate
+        left = end - position if self.rate > 0 else position - end
+        if left < ON_FRAME / frame_rate:
             position = end
         self._tick, self._next_position = tick, position
         self._due_ns = self.clock.due(position)
 
     def _skip_lost(self, now_ns: int) -> None:
         """Leave out the joint states whose successor is due too, and count them."""
-        newest = math.floor(min(self.clock.at(now_ns), self._end) / self._step + ON_FRAME)
+        nearest = min if self.rate > 0 else max
+        reached = nearest(self.clock.at(now_ns), self._end)
+        newest = math.floor((reached - self.begin) / self._step + ON_FRAME)
         self.lost += max(newest - self._tick, 0)
         self._schedule(max(newest, self._tick))
 

@@ -147,9 +147,13 @@ class RobotReport:
     deadline: Series = field(default_factory=Series)
     latency: dict[str, Series] = field(default_factory=dict)
     _holds: list[int] = field(default_factory=list)
+    # Where in _holds the present reckoning of time begins: the clock may be set back.
+    _begin: int = 0
 
     def add(self, reported: ReportedState) -> None:
         """Take note of a playback_state, in the order in which they came."""
+        if self.reported and reported.stamp_ns < self.reported[-1].stamp_ns:
+            self._begin = len(self._holds)
         self.reported.append(reported)
         self._holds.append(reported.holds_from_ns)
 
@@ -162,8 +166,8 @@ class RobotReport:
             self.tracking.add(time, float(np.max(np.abs(positions - expected))))
 
     def _expected(self, stamp_ns: int, courses: dict[str, ReferenceTrajectory]) -> Array | None:
-        number = bisect_right(self._holds, stamp_ns) - 1
-        if number < 0:
+        number = bisect_right(self._holds, stamp_ns, self._begin) - 1
+        if number < self._begin:
             return None
         reported = self.reported[number]
         course = courses.get(reported.trajectory)

@@ -5,7 +5,7 @@ name: cell                    # optional in a cell: the coordinator chooses one
 mode: parallel                # or sequential
 policy: halt_all              # or halt_member
 loop: false
-rate: 1.0                     # 0.1 to 4
+rate: 1.0                     # 0.1 to 4; negative: backwards
 at: 0.0                       # position on its timeline, s
 members:                      # in order of their turns
   - robot: ur5e_1
@@ -51,7 +51,7 @@ from mrlab_ros.core.systems.waits import parse
 SYSTEM_FIELDS = ("name", "mode", "policy", "loop", "rate", "at", "members")
 MEMBER_FIELDS = ("robot", "trajectory", "dwell", "after", "wait", "holds", "waits")
 HOLD_FIELDS = ("frame", "after", "wait")
-RATE = Number(between(*RATE_RANGE))
+RATE = Number(between(*RATE_RANGE), mirrored=True)
 # s; no trajectory is longer.
 POSITION = Number(between(0, 1e6), "s")
 DWELL = Number(Range(0, 3600, high_open=True), "s")

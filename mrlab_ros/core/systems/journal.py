@@ -46,9 +46,10 @@ def restore(
             bool(entry["loop"]),
             announce,
         )
-        system.rate = float(entry["rate"])
         if entry["state"] not in (SystemState.READY.name, SystemState.COMPLETE.name):
-            system.come_back(now_ns, float(entry["position"]), system.rate)
+            system.come_back(now_ns, float(entry["position"]), float(entry["rate"]))
+        else:
+            system.set_rate(now_ns, float(entry["rate"]))
     except (KeyError, TypeError, ValueError, LabError):
         return None
     return system
@@ -62,7 +63,7 @@ def _system(system: RobotSystem, now_ns: int) -> dict[str, Any]:
         "loop": system.loop,
         "rate": system.rate,
         "state": system.state.name,
-        "position": min(system.clock.at(now_ns), system.duration),
+        "position": min(max(system.clock.at(now_ns), 0.0), system.duration),
         "members": [
             {
                 "robot": m.robot,

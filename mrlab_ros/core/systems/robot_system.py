@@ -9,10 +9,11 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from contextlib import contextmanager
+from dataclasses import replace
 from enum import Enum
 
 from mrlab_ros.core.clock import SECOND, PlaybackClock, checked_position, checked_rate
-from mrlab_ros.core.errors import LabError
+from mrlab_ros.core.errors import LabError, Misuse
 from mrlab_ros.core.playback.states import MOVING, State
 from mrlab_ros.core.state_machine import Machine
 from mrlab_ros.core.systems.claims import Claims
@@ -49,7 +50,8 @@ class RobotSystem:
     """A robot system. A refused command raises Misuse or BadInput and changes nothing.
 
     message: why the system is in its state, for a person; may be empty.
-    clock: the position on the timeline at any time. rate: the speed it plays at.
+    clock: the position on the timeline at any time. rate: the speed it plays at, negative: from
+    the end of the timeline to its start, with no member waiting for anything.
     loop: whether it starts over after its end.
     """
 
@@ -133,6 +135,7 @@ class RobotSystem:
         """
         self._machine.fire(SystemEvent.RETURN)
         self.rate = rate
+        self._timeline.turn(backwards=rate < 0)
         self._timeline.place(position)
         self.clock = PlaybackClock(now_ns, min(position, self.duration), 0.0)
         self.message = "the coordinator was restarted; play goes on from here"
@@ -179,8 +182,14 @@ class RobotSystem:
         return position
 
     def set_rate(self, now_ns: int, rate: float) -> None:
-        """Set the speed of the timeline, 0.1 to 4, without a jump."""
+        """Set the speed of the timeline, 0.1 to 4 or -4 to -0.1, without a jump.
+
+        A change of direction is refused while the members move to their places.
+        """
         checked_rate(rate)
+        if (rate < 0) != (self.rate < 0):
+            self._turn(now_ns, rate)
+            return
         if self.state is SystemState.PLAYING:
             since_ns = max(now_ns, self.clock.stamp_ns)
             running, waiting = self._split_ordered(self.clock.at(now_ns))
@@ -190,10 +199,25 @@ class RobotSystem:
                 [Order(m.robot, Command.SET_RATE, stamp_ns=since_ns, rate=rate) for m in running],
             )
             # Until the tick that notices the end, the clock shows more than the duration.
-            position = min(self.clock.at(since_ns), self.duration)
-            self.clock = PlaybackClock(since_ns, position, rate)
+            self.clock = PlaybackClock(since_ns, self._position(since_ns), rate)
         self.rate = rate
         self._order_due(now_ns)
+
+    def _turn(self, now_ns: int, rate: float) -> None:
+        """Go on in the other direction."""
+        if self.state is SystemState.STAGING:
+            raise Misuse(
+                "the members move to their places; pause, then change the direction and play"
+            )
+        playing = self.state is SystemState.PLAYING
+        if playing:
+            self._freeze(now_ns)
+        self.rate = rate
+        self._timeline.turn(backwards=rate < 0)
+        if playing:
+            self._start(now_ns)
+        elif self.state is SystemState.READY:
+            self._rewind(now_ns)
 
     def set_mode(self, mode: Mode) -> None:
         """Set how the members share the timeline; only while nothing is under way."""
@@ -247,7 +271,7 @@ class RobotSystem:
                 self._start_when_staged(now_ns)
             elif state is State.READY and member.ordered:
                 member.ordered, member.done = False, True
-                member.position = member.duration
+                member.position = member.last
             self._poll(now_ns)
 
     def grasped(self, now_ns: int, robot: str, held: str | None) -> None:
@@ -260,6 +284,15 @@ class RobotSystem:
         """Do what time has made due: starts, met waits, the end, a staging that takes too long."""
         with self._announcing():
             self._poll(now_ns)
+
+    def shift(self, by_ns: int) -> None:
+        """Go on as before after the clock was set by `by_ns`."""
+        self.clock = replace(self.clock, stamp_ns=self.clock.stamp_ns + by_ns)
+        self._staged_by_ns += by_ns
+        self._retry_ns += by_ns
+        for member in self._timeline:
+            member.replied_ns += by_ns
+        self._announce()
 
     # inside: states -------------------------------------------------------------------------
 
@@ -363,7 +396,7 @@ class RobotSystem:
             self._rewind(now_ns)
             return
         self.message = f"{member.robot} lost its playback; play goes on from here"
-        position = min(self.clock.at(now_ns), self.duration)
+        position = self._position(now_ns)
         self.clock = PlaybackClock(now_ns, position, 0.0)
         self._timeline.place(position)
         for other in self._timeline:
@@ -437,9 +470,9 @@ class RobotSystem:
 
     def _finish(self, now_ns: int) -> None:
         """End the run: READY, or the next round where it loops."""
-        self.clock = PlaybackClock(now_ns, self.duration, 0.0)
+        self.clock = PlaybackClock(now_ns, self._timeline.last, 0.0)
         self._machine.fire(SystemEvent.FINISH)
-        self.message = "played to the end"
+        self.message = "played back to the start" if self.rate < 0 else "played to the end"
         # COMPLETE lasts no longer than its announcement.
         self._announce()
         if not self.loop:
@@ -457,8 +490,12 @@ class RobotSystem:
     # inside: members ------------------------------------------------------------------------
 
     def _rewind(self, now_ns: int) -> None:
-        self.clock = PlaybackClock(now_ns, 0.0, 0.0)
         self._timeline.rewind()
+        self.clock = PlaybackClock(now_ns, self._timeline.first, 0.0)
+
+    def _position(self, now_ns: int) -> float:
+        """Return the position on the timeline, s; never past its ends."""
+        return min(max(self.clock.at(now_ns), 0.0), self.duration)
 
     def _drive(self, now_ns: int, orders: Sequence[Order]) -> list[Reply]:
         """Send the orders; where one fails, bring all members to rest and raise its error."""
@@ -480,8 +517,7 @@ class RobotSystem:
 
     def _freeze(self, now_ns: int) -> None:
         """Let the timeline and every moving member stand."""
-        position = min(self.clock.at(now_ns), self.duration)
-        self.clock = PlaybackClock(now_ns, position, 0.0)
+        self.clock = PlaybackClock(now_ns, self._position(now_ns), 0.0)
         moving = [m for m in self._timeline if m.playback_state in MOVING]
         for member in self._timeline:
             member.ordered = False
@@ -489,8 +525,12 @@ class RobotSystem:
 
     def _split_ordered(self, position: float) -> tuple[list[Member], list[Member]]:
         """Return the ordered members whose share began by `position` (s), and the others."""
-        running = [m for m in self._timeline.ordered if m.start <= position]
-        return running, [m for m in self._timeline.ordered if m.start > position]
+        ordered = self._timeline.ordered
+        begun = [
+            m.end >= position if self._timeline.backwards else m.start <= position for m in ordered
+        ]
+        running = [m for m, here in zip(ordered, begun, strict=True) if here]
+        return running, [m for m, here in zip(ordered, begun, strict=True) if not here]
 
     def _withdraw(self, now_ns: int, members: Sequence[Member]) -> None:
         """Take back the PLAY orders of members whose start lies ahead."""

@@ -38,7 +38,8 @@ class Member:
     playback_state, position (s on its trajectory): as the robot reported them last.
     replied_ns: the stamp of its last reply; what it reported before that is out of date.
     ordered: PLAY was sent and the member has not stopped since. done: it has played to its end.
-    met: the waits whose condition was true.
+    met: the waits whose condition was true. backwards: it plays from its end to its start; it has
+    no waits then.
     """
 
     robot: str
@@ -54,6 +55,7 @@ class Member:
     ordered: bool = False
     done: bool = False
     met: set[Wait] = field(default_factory=set)
+    backwards: bool = False
 
     def __post_init__(self) -> None:
         if not 0 <= self.dwell < MAX_DWELL:
@@ -65,8 +67,20 @@ class Member:
         return self.start + self.duration
 
     @property
+    def first(self) -> float:
+        """Where its run begins, s on its trajectory."""
+        return self.duration if self.backwards else 0.0
+
+    @property
+    def last(self) -> float:
+        """Where its run ends, s on its trajectory."""
+        return 0.0 if self.backwards else self.duration
+
+    @property
     def open_waits(self) -> list[Wait]:
-        """The waits whose condition was not true yet, in order of frame."""
+        """The waits whose condition was not true yet, in order of frame; none backwards."""
+        if self.backwards:
+            return []
         return sorted((w for w in self.waits if w not in self.met), key=lambda w: w.frame)
 
     @property
@@ -91,13 +105,15 @@ class Member:
 class Timeline:
     """The members in order of their turns, and their shares of one timeline.
 
-    holders: which robot holds which object, by the object's name.
+    holders: which robot holds which object, by the object's name. backwards: it runs from its end
+    to 0, as fast as it would run forwards, and nothing waits.
     """
 
     def __init__(self, members: Iterable[Member], mode: Mode) -> None:
         self.members = {member.robot: member for member in members}
         self.mode = mode
         self.holders: dict[str, str] = {}
+        self.backwards = False
 
     def __iter__(self) -> Iterator[Member]:
         return iter(self.members.values())
@@ -106,6 +122,16 @@ class Timeline:
     def duration(self) -> float:
         """The length of the timeline, s."""
         return max((member.end for member in self), default=0.0)
+
+    @property
+    def first(self) -> float:
+        """Where a whole run begins, s."""
+        return self.duration if self.backwards else 0.0
+
+    @property
+    def last(self) -> float:
+        """Where a whole run ends, s."""
+        return 0.0 if self.backwards else self.duration
 
     @property
     def frame_rate(self) -> float:
@@ -165,10 +191,20 @@ class Timeline:
             if self.mode is Mode.SEQUENTIAL:
                 start = member.end + member.dwell
 
-    def rewind(self) -> None:
-        """Put every member at its start and forget what this run has met."""
+    def turn(self, *, backwards: bool) -> None:
+        """Run in this direction from where the members are; no effect where it does already."""
+        if backwards is self.backwards:
+            return
+        self.backwards = backwards
         for member in self:
-            member.position, member.ordered, member.done = 0.0, False, False
+            member.backwards = backwards
+            member.done = abs(member.position - member.last) <= SAME_INSTANT
+            member.met = _passed(member)
+
+    def rewind(self) -> None:
+        """Put every member where its run begins and forget what this run has met."""
+        for member in self:
+            member.position, member.ordered, member.done = member.first, False, False
             member.met = set()
         self.lay_out()
 
@@ -180,8 +216,12 @@ class Timeline:
         """
         for member in self:
             member.position = min(max(position - member.start, 0.0), member.duration)
-            member.met = {w for w in member.waits if member.wait_position(w) < member.position}
-            member.done = position >= member.end - SAME_INSTANT and member.position > 0
+            member.met = _passed(member)
+            if self.backwards:
+                over = position <= member.start + SAME_INSTANT
+                member.done = over and member.position < member.duration
+            else:
+                member.done = position >= member.end - SAME_INSTANT and member.position > 0
 
     def place(self, position: float) -> None:
         """Put members that play on later where they are at `position` (s) of the timeline.
@@ -199,7 +239,12 @@ class Timeline:
     def shift(self, member: Member, start: float) -> None:
         """Begin a member's share at `start` (s); in sequential mode those after it follow."""
         member.start = start
-        if self.mode is Mode.SEQUENTIAL:
+        if self.mode is Mode.SEQUENTIAL and self.backwards:
+            for before, after in itertools.pairwise(self):
+                if not (before.done or before.ordered):
+                    latest = after.start - before.dwell - before.duration
+                    before.start = min(before.start, latest)
+        elif self.mode is Mode.SEQUENTIAL:
             for before, after in itertools.pairwise(self):
                 if not (after.done or after.ordered):
                     after.start = max(after.start, before.end + before.dwell)
@@ -207,9 +252,10 @@ class Timeline:
     def known_starts(self) -> Iterator[Member]:
         """Yield the members whose start is known.
 
-        In sequential mode the members after one that waits or is halted are left out.
+        In sequential mode the members after one that waits or is halted are left out; backwards
+        the turns are the other way round.
         """
-        for member in self:
+        for member in reversed(list(self)) if self.backwards else self:
             if member.done:
                 continue
             halted = member.playback_state is State.COLLISION_HALT
@@ -254,3 +300,8 @@ class Timeline:
         other = self.members[condition.robot]
         reached = position - other.start if other.ordered else other.position
         return other.done or reached >= condition.frame / other.frame_rate - SAME_INSTANT
+
+
+def _passed(member: Member) -> set[Wait]:
+    """Return the waits before the place where a member is."""
+    return {wait for wait in member.waits if member.wait_position(wait) < member.position}

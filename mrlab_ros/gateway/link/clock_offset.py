@@ -6,7 +6,6 @@ web/src/link/clock_offset.ts is the same for the browser; test vectors hold both
 from __future__ import annotations
 
 import math
-from collections import deque
 from dataclasses import dataclass
 
 # s: a round trip that is older says little about a clock that drifts.
@@ -15,6 +14,9 @@ WINDOW_S = 30.0
 SLEW = 0.05
 # An error from which on it jumps, s.
 JUMP_S = 0.5
+# Two exchanges that differ by more than their round trips explain, and by this, s, have one of the
+# clocks set between them: the older one says nothing any more.
+SET_S = 0.05
 
 
 @dataclass(frozen=True)
@@ -32,11 +34,18 @@ def exchange(asked: float, came: float, answered: float, back: float) -> Exchang
     return Exchange(back, (back - asked) - (answered - came), offset)
 
 
+def _agree(older: Exchange, newer: Exchange) -> bool:
+    """Return whether `older` still counts beside `newer`."""
+    explained = (older.round_trip + newer.round_trip) / 2 + SET_S
+    recent = older.at >= newer.at - WINDOW_S
+    return recent and abs(older.offset - newer.offset) <= explained
+
+
 class ClockOffset:
     """Slews from one estimate to the next; `offset` at a time never runs backwards."""
 
     def __init__(self) -> None:
-        self._window: deque[Exchange] = deque()
+        self._window: list[Exchange] = []
         self._target = math.nan
         self._held = math.nan
         self._held_at = 0.0
@@ -53,9 +62,7 @@ class ClockOffset:
     def add(self, found: Exchange) -> None:
         """Take another exchange into account."""
         current = self.offset(found.at)
-        self._window.append(found)
-        while self._window[0].at < found.at - WINDOW_S:
-            self._window.popleft()
+        self._window = [each for each in self._window if _agree(each, found)] + [found]
         self._target = min(self._window, key=lambda each: each.round_trip).offset
         jumps = math.isnan(current) or abs(self._target - current) > JUMP_S
         self._held = self._target if jumps else current

@@ -42,8 +42,10 @@ from mrlab_ros.nodes.bridge.outward import Outward
 from mrlab_ros.nodes.bridge.services import Services
 from mrlab_ros.nodes.parameters import AUTOMATIC, BridgeParameters
 from mrlab_ros.ros import share
+from mrlab_ros.ros.clock import LabClock
 from mrlab_ros.ros.parameters import ParameterNode
 from mrlab_ros.ros.spinning import SpunNode
+from mrlab_ros.ros.timers import every
 
 STATISTICS = "/@mrlab/bridge/statistics"
 CLOCK = "/@mrlab/bridge/clock"
@@ -79,6 +81,7 @@ class BridgeNode(ParameterNode[BridgeParameters]):
         self._guests: Guests | None = None
         settings = self._zenoh_settings(prefix)
         self._session: Session = session or ZenohSession(settings)
+        self._lab_clock = LabClock(self)
         self._started = time.monotonic()
         self._checks = 0
         self._logged: set[str] = set()
@@ -102,7 +105,7 @@ class BridgeNode(ParameterNode[BridgeParameters]):
         self._declared = [
             self._session.token(rules.bridge_token(zid)),
             self._session.queryable(self._bridge.key(STATISTICS), self._answer_statistics),
-            self._session.queryable(self._bridge.key(CLOCK), _answer_clock),
+            self._session.queryable(self._bridge.key(CLOCK), self._answer_clock),
         ]
         self._watch: GuestWatch | None = None
         if self._guests is not None:
@@ -112,8 +115,8 @@ class BridgeNode(ParameterNode[BridgeParameters]):
         # Keeps the newest reports of clients in the graph for late joiners.
         self.create_subscription(Latency, "latency/clients", lambda _: None, qos.LATCHED_EVENTS)
         self._reported = time.monotonic()
-        self.create_timer(REPORT_PERIOD_S, self._report)
-        self._discovery = self.create_timer(self.parameters.discovery_period, self.discover)
+        every(self, REPORT_PERIOD_S, self._report)
+        self._discovery = every(self, self.parameters.discovery_period, self.discover)
         self.get_logger().info(
             f"carries what {len(self._rules.topics)} rules for topics and "
             f"{len(self._rules.services)} for services name, under '{prefix or '/'}', zenoh {zid}"
@@ -121,7 +124,7 @@ class BridgeNode(ParameterNode[BridgeParameters]):
 
     def parameters_changed(self) -> None:
         self.destroy_timer(self._discovery)
-        self._discovery = self.create_timer(self.parameters.discovery_period, self.discover)
+        self._discovery = every(self, self.parameters.discovery_period, self.discover)
 
     def _zenoh_settings(self, prefix: str) -> Any:
         values = self.parameters
@@ -221,6 +224,10 @@ class BridgeNode(ParameterNode[BridgeParameters]):
     def _answer_statistics(self, query: Query) -> None:
         query.reply(json.dumps(self.statistics()).encode())
 
+    def _answer_clock(self, query: Query) -> None:
+        received = self._lab_clock.now_ns()
+        query.reply(clock_answer(received, self._lab_clock.now_ns()))
+
     def _warn_once(self, text: str) -> None:
         if text not in self._logged:
             self._logged.add(text)
@@ -246,11 +253,6 @@ class BridgeNode(ParameterNode[BridgeParameters]):
             flush=True,
         )
         super().destroy_node()
-
-
-def _answer_clock(query: Query) -> None:
-    received = time.time_ns()
-    query.reply(clock_answer(received, time.time_ns()))
 
 
 def _rules(path: Path) -> rules.Rules:

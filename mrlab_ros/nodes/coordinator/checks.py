@@ -21,6 +21,9 @@ from mrlab_ros.ros.calls import call_all
 CATALOGUE_TIMEOUT_S = 4.0
 # A robot that a system takes stands, and nothing waits to be cleared.
 FREE = (State.IDLE, State.READY, State.PAUSED)
+# A new subscription receives the last states of a robot one after another: one that refuses the
+# robot counts once no newer one has followed for this time, s.
+SETTLED_S = 0.25
 
 
 class MemberChecks:
@@ -42,17 +45,20 @@ class MemberChecks:
     ) -> None:
         """Raise LabError where `system` cannot be made of its members; nothing is changed."""
         deadline = time.monotonic() + FIND_TIMEOUT_S
-        states = {robot: client.wait(deadline) for robot, client in clients.items()}
         wanted: dict[str, str] = {}
         for member in system.members.values():
-            robot, state = member.robot, states[member.robot]
-            _check_free(robot, state, system.name)
+            robot, client = member.robot, clients[member.robot]
+            while True:
+                state = client.wait(deadline)
+                why = _not_free(robot, state, system.name, member.trajectory_id)
+                if not why:
+                    break
+                if not client.wait_for_newer(state, SETTLED_S):
+                    raise Misuse(why)
             if member.trajectory_id not in ("", state.trajectory_id):
                 wanted[robot] = member.trajectory_id
-            elif state.trajectory_id:
-                member.duration, member.frame_rate = state.duration, state.frame_rate
             else:
-                raise Misuse(f"{robot} has no trajectory; load one, or name one for the system")
+                member.duration, member.frame_rate = state.duration, state.frame_rate
         known = self._trajectories(set(wanted.values()))
         for robot, trajectory_id in wanted.items():
             trajectory, placed = known[trajectory_id], robots[robot]
@@ -78,13 +84,18 @@ class MemberChecks:
         return found
 
 
-def _check_free(robot: str, state: msg.PlaybackState, system: str) -> None:
+def _not_free(robot: str, state: msg.PlaybackState, system: str, trajectory: str) -> str:
+    """Return why a robot cannot become a member of `system`; empty: it can.
+
+    trajectory: what it shall load; empty: it plays what it has.
+    """
+    if not (trajectory or state.trajectory_id):
+        return f"{robot} has no trajectory; load one, or name one for the system"
     if state.system == system:
         # This coordinator has no system of that name: it died, and its claim has not run out yet.
-        return
+        return ""
     if state.system:
-        raise Misuse(
-            f"'{robot}' is a member of system '{state.system}' already; dissolve that one first"
-        )
+        return f"'{robot}' is a member of system '{state.system}' already; dissolve that one first"
     if State(state.state) not in FREE:
-        raise Misuse(f"'{robot}' is in {state.label}; stop it first, then create the system")
+        return f"'{robot}' is in {state.label}; stop it first, then create the system"
+    return ""

@@ -48,7 +48,7 @@ class MemberClient:
         self.robot = robot
         # The newest state that the playback published.
         self.state: msg.PlaybackState | None = None
-        self._known = threading.Event()
+        self._changed = threading.Condition()
         self._node = node
         self._reports = reports
         self.load = self._node.create_client(
@@ -64,12 +64,19 @@ class MemberClient:
 
     def wait(self, deadline: float) -> msg.PlaybackState:
         """Return the newest state; raise NoAnswer where none came by `deadline`, monotonic s."""
-        self._known.wait(max(deadline - time.monotonic(), 0.0))
+        with self._changed:
+            left = max(deadline - time.monotonic(), 0.0)
+            self._changed.wait_for(lambda: self.state is not None, left)
         if self.state is None:
             raise NoAnswer(
                 f"no playback publishes the state of {self.robot}; is the playback running?"
             )
         return self.state
+
+    def wait_for_newer(self, known: msg.PlaybackState, timeout: float) -> bool:
+        """Return whether a state after `known` came within `timeout` s."""
+        with self._changed:
+            return self._changed.wait_for(lambda: self.state is not known, timeout)
 
     def host(self) -> str:
         """Return the node that plays the robot; raise NoAnswer where none publishes its state."""
@@ -83,8 +90,9 @@ class MemberClient:
     def _on_state(self, message: msg.PlaybackState) -> None:
         if not self._reports.accepts(message.lab):
             return
-        self.state = message
-        self._known.set()
+        with self._changed:
+            self.state = message
+            self._changed.notify_all()
         self._reports.on_state(self, message)
 
     def _on_grasp(self, message: msg.Grasp) -> None:

@@ -38,8 +38,10 @@ from mrlab_ros.nodes.coordinator.fleet import Hosts, MemberClient, RosFleet
 from mrlab_ros.nodes.parameters import CoordinatorParameters
 from mrlab_ros.ros.answers import answered, end_service
 from mrlab_ros.ros.calls import NoAnswer
+from mrlab_ros.ros.clock import LabClock
 from mrlab_ros.ros.parameters import ParameterNode
 from mrlab_ros.ros.spinning import Caller
+from mrlab_ros.ros.timers import every
 from mrlab_ros.ros.worker import Worker
 
 # Period at which an active system is polled, s.
@@ -71,6 +73,9 @@ class CoordinatorNode(ParameterNode[CoordinatorParameters]):
         self._identity = Identity(self.parameters.lab_id, log.warning)
         # After a restart another one.
         self._holder = secrets.token_hex(4)
+        self._lab_clock = LabClock(self)
+        # The shifts of the clock that the systems know.
+        self._shifted_ns = self._lab_clock.shifted_ns
         self._hosts = Hosts(self.caller.node)
         self._systems = Systems()
         self._members: dict[str, MemberClient] = {}
@@ -95,7 +100,7 @@ class CoordinatorNode(ParameterNode[CoordinatorParameters]):
         self.worker.do(self._restore)
         self._publish()
         # Not in this node's thread, which waits for the worker: claims must not expire meanwhile.
-        self.caller.node.create_timer(RENEWAL_PERIOD_S, self._renew)
+        every(self.caller.node, RENEWAL_PERIOD_S, self._renew)
 
     def destroy_node(self) -> None:
         self.worker.close()
@@ -301,7 +306,14 @@ class CoordinatorNode(ParameterNode[CoordinatorParameters]):
     # messages -------------------------------------------------------------------------------
 
     def _now_ns(self) -> int:
-        return int(self.get_clock().now().nanoseconds)
+        """Return the time, in the worker's thread; a clock that was set shifts the systems."""
+        now_ns = self._lab_clock.now_ns()
+        by_ns = self._lab_clock.shifted_ns - self._shifted_ns
+        if by_ns:
+            self._shifted_ns += by_ns
+            for system in self._systems:
+                system.shift(by_ns)
+        return now_ns
 
     def _renew(self) -> None:
         """Name the systems once a second: that keeps the claims on their robots."""
@@ -325,7 +337,7 @@ class CoordinatorNode(ParameterNode[CoordinatorParameters]):
 
     def _publish(self) -> None:
         with self._publishing:
-            now_ns = self._now_ns()
+            now_ns = self._lab_clock.now_ns()
             # Only the newest is kept for late joiners; the others must have arrived before.
             self._topic.wait_for_all_acked(ARRIVAL)
             self._topic.publish(

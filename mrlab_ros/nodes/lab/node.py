@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import time
 from collections.abc import Sequence
 from dataclasses import replace
 from pathlib import Path
@@ -34,8 +33,10 @@ from mrlab_ros.nodes.lab.scenes import Scenes
 from mrlab_ros.nodes.parameters import LabParameters
 from mrlab_ros.ros import share
 from mrlab_ros.ros.answers import answered
+from mrlab_ros.ros.clock import LabClock
 from mrlab_ros.ros.parameters import ParameterNode
 from mrlab_ros.ros.spinning import Caller
+from mrlab_ros.ros.timers import every
 
 try:  # not among the ROS wheels; where it is missing, a client places robots by /robots
     from tf2_msgs.msg import TFMessage
@@ -79,6 +80,7 @@ class LabNode(ParameterNode[LabParameters]):
         # Service responses need a second executor thread: load_scene waits for them.
         self._caller = Caller(self)
         self._identity = Identity(self.parameters.lab_id, self._meet)
+        self._lab_clock = LabClock(self)
         self._caller.node.create_subscription(msg.Robots, "/robots", self._on_robots, qos.LATCHED)
         self._observer = Observer(self._caller.node, self._identity)
         self._restore = LabRestore(self._caller.node, self._observer, self)
@@ -114,7 +116,7 @@ class LabNode(ParameterNode[LabParameters]):
             (srv.ListScenes, "list_scenes", self._on_list_scenes),
         ):
             self.create_service(kind, f"~/{name}", callback, qos_profile=qos.SERVICES)
-        self.create_timer(SAVE_PERIOD_S, self._save)
+        every(self, SAVE_PERIOD_S, self._save)
         self._return.start()
 
     def destroy_node(self) -> None:
@@ -151,7 +153,7 @@ class LabNode(ParameterNode[LabParameters]):
         self._descriptions[name].publish(text_to_message(description))
 
     def _announce(self) -> None:
-        now_ns = self.get_clock().now().nanoseconds
+        now_ns = self._lab_clock.now_ns()
         message = robots_to_message(now_ns, self._scene.robots, self._identity.lab)
         self._robots.publish(message)
         if self._transforms is not None:
@@ -186,7 +188,7 @@ class LabNode(ParameterNode[LabParameters]):
 
     def _document(self) -> SceneDocument:
         """Return the robots with what they have loaded, and the systems."""
-        now_ns = time.time_ns()
+        now_ns = self._lab_clock.now_ns()
         observer = self._observer
         scene = SceneDocument(
             robots=tuple(

@@ -48,7 +48,8 @@ class GraphListener:
 
     Joint states arrive a thousand times a second, so they bypass the executor. turn: advances
     the world and returns how long to wait at most, ns. never_touch: returns the pairs of links
-    of a model that never touch. lab: the id of this lab.
+    of a model that never touch. lab: the id of this lab. follow_clock: returns the time, and
+    shifts the world where the clock was set; called with the lock.
     """
 
     def __init__(
@@ -59,9 +60,11 @@ class GraphListener:
         lock: threading.Lock,
         turn: Callable[[], int],
         never_touch: Callable[[str], LinkPairs],
-        lab: str = "",
+        lab: str,
+        follow_clock: Callable[[], int],
     ) -> None:
         self._world = world
+        self._follow_clock = follow_clock
         self._never_touch = never_touch
         self._publishers = publishers
         self._lock = lock
@@ -191,6 +194,7 @@ class GraphListener:
     def _on_joint_state(self, name: str, joints: tuple[str, ...], data: bytes) -> None:
         stamp_ns, positions, velocities = joint_states.read(data, joints)
         with self._lock:
+            self._follow_clock()
             if name in self._world.robots:
                 self._world.joint_state(name, stamp_ns, positions, velocities)
 
@@ -200,6 +204,7 @@ class GraphListener:
         playing = messages.playing_from_message(message)
         self.robots[name].playing = playing
         with self._lock:
+            self._follow_clock()
             if name in self._world.robots:
                 self._world.playback(name, playing)
 

@@ -36,8 +36,10 @@ from mrlab_ros.nodes.physics.listener import GraphListener
 from mrlab_ros.nodes.physics.publishers import WorldPublishers
 from mrlab_ros.ros import share
 from mrlab_ros.ros.answers import answered
-from mrlab_ros.ros.deadlines import SWITCH_INTERVAL_S, LabClock
+from mrlab_ros.ros.clock import LabClock
+from mrlab_ros.ros.deadlines import SWITCH_INTERVAL_S
 from mrlab_ros.ros.parameters import ParameterNode
+from mrlab_ros.ros.timers import every
 
 try:
     from mrlab_ros.adapters.bullet.engine import BulletEngine
@@ -80,7 +82,8 @@ class PhysicsNode(ParameterNode[PhysicsParameters]):
         library = RobotLibrary(share.directory() / "robots")
         self._resolve = library.mesh_path
         self._lock = threading.Lock()
-        self._lab_clock = LabClock()
+        self._lab_clock = LabClock(self)
+        self._shifted_ns = self._lab_clock.shifted_ns
         self._engine = BulletEngine(self._resolve)
         self._world = World(self._engine, self._types, self._settings)
         self._world_publishers = WorldPublishers(self, self._world)
@@ -102,6 +105,7 @@ class PhysicsNode(ParameterNode[PhysicsParameters]):
             self._turn,
             library.never_touch,
             self.parameters.lab_id,
+            self._follow_clock,
         )
         for kind, name, callback in (
             (srv.SpawnObject, "spawn_object", self._on_spawn),
@@ -116,7 +120,7 @@ class PhysicsNode(ParameterNode[PhysicsParameters]):
             (srv.SetObjects, "set_objects", self._on_set),
         ):
             self.create_service(kind, f"~/{name}", callback, qos_profile=qos.SERVICES)
-        self.create_timer(SAVE_PERIOD, self._contents.save)
+        every(self, SAVE_PERIOD, self._contents.save)
         # With Python's default of 5 ms another thread could delay a halt.
         sys.setswitchinterval(SWITCH_INTERVAL_S)
         self._listener.start()
@@ -146,7 +150,7 @@ class PhysicsNode(ParameterNode[PhysicsParameters]):
         """
         try:
             with self._lock:
-                now_ns = self._lab_clock.now_ns()
+                now_ns = self._follow_clock()
                 made = self._world.advance(now_ns, MOST_STEPS)
                 if self._contents.waiting:
                     self._contents.regrip(now_ns, self._listener.known_robots)
@@ -158,6 +162,16 @@ class PhysicsNode(ParameterNode[PhysicsParameters]):
             if self.context.ok():
                 self.get_logger().error(f"physics: {error!r}", throttle_duration_sec=1.0)
             return TURN_NS
+
+    def _follow_clock(self) -> int:
+        """Return the time; where the clock was set, shift the world by as much."""
+        now_ns = self._lab_clock.now_ns()
+        by_ns = self._lab_clock.shifted_ns - self._shifted_ns
+        if by_ns:
+            self._shifted_ns += by_ns
+            self._world.shift(by_ns)
+            self._world_publishers.shift(by_ns)
+        return now_ns
 
     # services -------------------------------------------------------------------------------
 

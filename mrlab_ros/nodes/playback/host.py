@@ -32,10 +32,12 @@ from mrlab_ros.nodes.parameters import PlaybackParameters
 from mrlab_ros.nodes.playback.node import PlaybackNode
 from mrlab_ros.ros import share
 from mrlab_ros.ros.answers import answered
+from mrlab_ros.ros.clock import LabClock
 from mrlab_ros.ros.deadlines import Scheduler
 from mrlab_ros.ros.parameters import ParameterNode
 from mrlab_ros.ros.priority import REALTIME, take_precedence
 from mrlab_ros.ros.spinning import Caller, SpunNode
+from mrlab_ros.ros.timers import every
 
 # Trajectories that are fetched at the same time.
 MOST_LOADS = 4
@@ -97,7 +99,7 @@ class PlaybackHostNode(ParameterNode[PlaybackParameters]):
         self._only = set(self.parameters.robots)
         self._planner = RuckigPlanner(self._staging_limits())
         self._library = RobotLibrary(share.directory() / "robots")
-        self.scheduler = Scheduler(self.context.ok)
+        self.scheduler = Scheduler(self.context.ok, LabClock(self))
         self.nodes: dict[str, PlaybackNode] = {}
         self._caller = Caller(self)
         self._fetch = Fetches(CatalogueClient(self._caller.node).fetch)
@@ -124,12 +126,10 @@ class PlaybackHostNode(ParameterNode[PlaybackParameters]):
             self._command_members,
             qos_profile=qos.SERVICES,
         )
-        self._telemetry_timer = self.create_timer(
-            1 / self.parameters.telemetry_rate, self._telemetry
-        )
-        self.create_timer(1.0, self._states)
-        self.create_timer(JOURNAL_PERIOD_S, self._write_journal)
-        self.create_timer(LEASE_CHECK_S, self._check_leases)
+        self._telemetry_timer = every(self, 1 / self.parameters.telemetry_rate, self._telemetry)
+        every(self, 1.0, self._states)
+        every(self, JOURNAL_PERIOD_S, self._write_journal)
+        every(self, LEASE_CHECK_S, self._check_leases)
         self.create_subscription(msg.RobotSystems, "/systems", self._on_systems, qos.LATCHED)
         self.scheduler.start()
         self.get_logger().info(f"the deadline thread runs with {self.scheduler.precedence}")
@@ -141,9 +141,7 @@ class PlaybackHostNode(ParameterNode[PlaybackParameters]):
                 node.playback.set_standing_rate(now_ns, self.parameters.standing_rate)
         self._planner.limits = self._staging_limits()
         self.destroy_timer(self._telemetry_timer)
-        self._telemetry_timer = self.create_timer(
-            1 / self.parameters.telemetry_rate, self._telemetry
-        )
+        self._telemetry_timer = every(self, 1 / self.parameters.telemetry_rate, self._telemetry)
 
     def _staging_limits(self) -> StagingLimits:
         values = self.parameters

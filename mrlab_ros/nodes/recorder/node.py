@@ -36,6 +36,7 @@ from mrlab_ros.nodes.recorder.trajectories import ReplayedTrajectories
 from mrlab_ros.ros.answers import answered
 from mrlab_ros.ros.parameters import ParameterNode
 from mrlab_ros.ros.spinning import Caller
+from mrlab_ros.ros.timers import every
 
 MEGABYTE = 1_000_000
 
@@ -90,8 +91,8 @@ class RecorderNode(ParameterNode[RecorderParameters]):
             (SetBool, "set_loop", self._set_loop),
         ):
             self.create_service(kind, f"~/{name}", callback, qos_profile=qos.SERVICES)
-        self.create_timer(1.0, self._publish_while_working)
-        self.create_timer(0.25, self._discover)
+        every(self, 1.0, self._publish_while_working)
+        every(self, 0.25, self._discover)
         self._journal = Journal.of(
             self.parameters.state_dir, self.get_name(), self.get_logger().error
         )

@@ -2,15 +2,19 @@
 
 from __future__ import annotations
 
+import itertools
 import threading
+import time
 
 import numpy as np
 import pytest
 from fakes import StraightPlanner, make_model, make_trajectory
 from graph import wait_for
 
+from mrlab_ros.core.clock import SECOND
 from mrlab_ros.core.playback.playback import Playback
 from mrlab_ros.core.playback.states import State
+from mrlab_ros.ros.clock import LabClock
 from mrlab_ros.ros.deadlines import Player, Scheduler
 
 
@@ -129,3 +133,83 @@ def test_a_removed_player_is_served_no_more(scheduler):
         other.playback.play(now_ns)
     wait_for(lambda: len(others) == 50, "frames of another")
     assert len(sent) == count
+
+
+def test_a_wall_clock_that_is_set_moves_no_frame():
+    """Set back 5 s and forward an hour in the middle of a run: the spacing of frames stays."""
+    wall = [time.time_ns() - time.monotonic_ns()]
+    clock = LabClock(wall_ns=lambda: time.monotonic_ns() + wall[0])
+    scheduler = Scheduler(clock=clock)
+    scheduler.start()
+    try:
+        sent, states = [], []
+        player, _, _ = add(
+            scheduler, 150, lambda sample: sent.append((time.monotonic_ns(), sample))
+        )
+        announced = player._announce
+        player._announce = lambda now_ns, status: (
+            states.append((now_ns, status)),
+            announced(now_ns, status),
+        )
+        with scheduler.command() as now_ns:
+            player.playback.play(now_ns)
+        for step in (-5 * SECOND, 3600 * SECOND):
+            before = len(sent)
+            wait_for(lambda count=before: len(sent) > count + 30, "frames")
+            wall[0] += step
+        wait_for(lambda: player.playback.state is State.READY, "the end")
+    finally:
+        scheduler.stop()
+    sent = [(at, sample) for at, sample in sent if sample.streamed]
+    assert [sample.frame for _, sample in sent] == list(range(150))
+    began, ended = sent[0][0], sent[-1][0]
+    # 149 periods of 2 ms; a machine that is busy may add to them, 5 s it does not.
+    assert 0.29 <= (ended - began) / SECOND < 2.0
+    # Stamps follow the wall clock, and the clock pair that clients compute with is said anew.
+    gaps = [b.due_ns - a.due_ns for (_, a), (_, b) in itertools.pairwise(sent)]
+    odd = [gap for gap in gaps if abs(gap - 2_000_000) > 10]
+    assert [round(gap / SECOND) for gap in odd] == [-5, 3600]
+    pairs = [status.clock.stamp_ns for _, status in states if status.state is State.PLAYING]
+    assert [round((b - a) / SECOND) for a, b in itertools.pairwise(pairs)] == [-5, 3600]
+
+
+class Simulated:
+    """A node whose clock a test moves, as /clock would."""
+
+    def __init__(self) -> None:
+        self.nanoseconds = 0
+        self.ros_time_is_active = True
+
+    def get_clock(self):
+        return self
+
+    def now(self):
+        return self
+
+
+def test_clock_drives_playback_and_pauses_it():
+    node = Simulated()
+    scheduler = Scheduler(clock=LabClock(node))
+    scheduler.start()
+    try:
+        player, sent, announced = add(scheduler)
+        node.nanoseconds = 1000 * SECOND
+        with scheduler.command() as now_ns:
+            assert now_ns == 1000 * SECOND
+            player.playback.play(now_ns)
+        wait_for(lambda: len(sent) == 1, "the first frame")
+        # 20 ms in one tick: ten frames of 500 Hz, each with its own stamp.
+        node.nanoseconds += 20_000_000
+        wait_for(lambda: len(sent) == 11, "the frames of a tick")
+        assert [s.due_ns - now_ns for s in sent] == [i * 2_000_000 for i in range(11)]
+        # Back, as a bag that is played from its begin again: nothing moves, and it goes on.
+        node.nanoseconds = 10 * SECOND
+        with scheduler.command() as now_ns:
+            assert (now_ns, len(sent)) == (10 * SECOND, 11)
+        node.nanoseconds += 78_000_000
+        wait_for(lambda: len(sent) == 50, "the other frames")
+        wait_for(lambda: State.COMPLETE in announced, "the end")
+        assert [s.frame for s in sent] == list(range(50))
+        assert sent[-1].due_ns == 10 * SECOND + 78_000_000
+    finally:
+        scheduler.stop()

@@ -7,6 +7,9 @@ const WINDOW_S = 30
 const SLEW = 0.05
 /** An error from which on it jumps, s. */
 const JUMP_S = 0.5
+/** Two exchanges that differ by more than their round trips explain, and by this, s, have one of
+ * the clocks set between them: the older one says nothing any more. */
+const SET_S = 0.05
 
 /** One question and answer. at: s on the own clock; offset: s, theirs minus own. */
 export interface Exchange {
@@ -24,6 +27,12 @@ export function exchange(asked: number, came: number, answered: number, back: nu
   }
 }
 
+/** Return whether `older` still counts beside `newer`. */
+function agree(older: Exchange, newer: Exchange): boolean {
+  const explained = (older.roundTrip + newer.roundTrip) / 2 + SET_S
+  return older.at >= newer.at - WINDOW_S && Math.abs(older.offset - newer.offset) <= explained
+}
+
 /** Slews from one estimate to the next. */
 export class ClockOffset {
   private window: Exchange[] = []
@@ -39,7 +48,7 @@ export class ClockOffset {
   /** Take another exchange into account. */
   add(found: Exchange): void {
     const current = this.offset(found.at)
-    this.window = this.window.filter((each) => each.at >= found.at - WINDOW_S)
+    this.window = this.window.filter((each) => agree(each, found))
     this.window.push(found)
     this.target = this.best()?.offset ?? Number.NaN
     const jumps = Number.isNaN(current) || Math.abs(this.target - current) > JUMP_S

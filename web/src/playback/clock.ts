@@ -5,7 +5,7 @@ export interface PlaybackClock {
   readonly stamp: number
   /** s from the first frame */
   readonly position: number
-  /** 1 is the declared speed, 0 stands */
+  /** 1 is the declared speed, 0 stands, negative: backwards */
   readonly rate: number
 }
 

@@ -2,6 +2,8 @@ import { type PlaybackClock, positionAt } from './clock'
 
 /** Speeds that a person may choose, 1 is the declared one; the range is that of the lab. */
 export const RATES = [0.1, 0.25, 0.5, 1, 2, 4] as const
+/** The same backwards; a bag is replayed forwards alone. */
+export const BACKWARD_RATES = [-0.25, -0.5, -1, -2, -4] as const
 
 /** Something that goes along a timeline: a live robot, a bag or a motion. */
 export interface Player {
@@ -33,6 +35,11 @@ function within(position: number, duration: number): number {
   return Math.min(Math.max(position, 0), duration)
 }
 
+/** Return whether a clock that is at `position` still has a way to go. */
+function goesOn(rate: number, position: number, duration: number): boolean {
+  return rate > 0 ? position < duration : rate < 0 && position > 0
+}
+
 class Listeners {
   private readonly known = new Set<() => void>()
 
@@ -61,7 +68,7 @@ export class MotionPlayer implements Player {
   }
 
   get playing(): boolean {
-    return this.clock.rate !== 0 && this.position() < this.duration
+    return goesOn(this.clock.rate, this.position(), this.duration)
   }
 
   get rate(): number {
@@ -72,10 +79,11 @@ export class MotionPlayer implements Player {
     return within(positionAt(this.clock, this.now()), this.duration)
   }
 
-  /** From the end it starts over. */
+  /** From the end it starts over; backwards, from the start at the end. */
   play(): void {
     const position = this.position()
-    this.retake(position >= this.duration ? 0 : position, this.chosen)
+    const begin = this.chosen < 0 ? this.duration : 0
+    this.retake(goesOn(this.chosen, position, this.duration) ? position : begin, this.chosen)
   }
 
   pause(): void {
@@ -117,8 +125,7 @@ export class RemotePlayer implements Player {
   ) {}
 
   get playing(): boolean {
-    const { rate } = this.clock
-    return rate < 0 ? this.position() > 0 : rate > 0 && this.position() < this.duration
+    return goesOn(this.clock.rate, this.position(), this.duration)
   }
 
   /** Lab time at which the clock was set, s. */

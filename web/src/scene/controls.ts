@@ -1,5 +1,5 @@
 import './scene.css'
-import { type Player, RATES } from '../playback/player'
+import { BACKWARD_RATES, type Player, RATES } from '../playback/player'
 import type { SceneWords } from './words'
 
 const ICONS = {
@@ -62,10 +62,10 @@ export class Controls {
     this.clock.className = 'scene-clock'
     this.speed.className = 'scene-speed'
     this.speed.setAttribute('aria-label', words.speed)
-    for (const rate of RATES) {
+    for (const rate of player.kind === 'bag' ? RATES : [...RATES, ...BACKWARD_RATES]) {
       const option = document.createElement('option')
       option.value = String(rate)
-      option.textContent = `${rate}×`
+      option.textContent = `${String(rate).replace('-', '\u2212')}×`
       this.speed.append(option)
     }
     this.speed.addEventListener('change', () => player.setRate(Number(this.speed.value)))

@@ -26,6 +26,23 @@ test('played again at the end it starts over', () => {
   expect(motion.position()).toBe(1)
 })
 
+test('backwards it ends at the start, and begins at the end', () => {
+  const { clock, player: motion } = player()
+  motion.setRate(-2)
+  motion.play()
+  expect(motion.position()).toBe(8)
+  clock.now = 103
+  expect(motion.position()).toBe(2)
+  expect(motion.playing).toBe(true)
+  motion.setRate(1)
+  clock.now = 104
+  expect(motion.position()).toBe(3)
+  motion.setRate(-1)
+  clock.now = 110
+  expect(motion.position()).toBe(0)
+  expect(motion.playing).toBe(false)
+})
+
 test('a new rate holds from where it is', () => {
   const { clock, player: motion } = player()
   motion.play()
@@ -61,6 +78,19 @@ test('each change is announced until nobody listens', () => {
   stop()
   motion.pause()
   expect(heard).toHaveBeenCalledTimes(2)
+})
+
+test('a remote player follows a clock that runs backwards', () => {
+  const clock = { now: 50 }
+  const commands = { play: vi.fn(), pause: vi.fn(), seek: vi.fn(), setRate: vi.fn() }
+  const remote = new RemotePlayer('live', () => clock.now, commands)
+  remote.follow({ stamp: 50, position: 10, rate: -4 }, 10, -4)
+  expect(remote.playing).toBe(true)
+  clock.now = 51
+  expect(remote.position()).toBe(6)
+  clock.now = 60
+  expect(remote.position()).toBe(0)
+  expect(remote.playing).toBe(false)
 })
 
 test('a remote player asks and follows', () => {

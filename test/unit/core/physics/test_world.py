@@ -574,3 +574,51 @@ def test_settings_that_cannot_be_are_refused(values, says):
 def test_catalogue_entries_that_cannot_be_are_refused(entry, says):
     with pytest.raises(BadInput, match=says):
         catalogue.parse({"objects": {"thing": entry}})
+
+
+@pytest.mark.parametrize("by", [-5 * SECOND, 3600 * SECOND])
+def test_a_clock_that_is_set_stops_and_rewinds_nothing(by):
+    lab = Lab(gripper=Gripper.FINGERS)
+    lab.world.spawn("ball", "ball", Pose((2.0, 0.0, 0.5)))
+    lab.play()
+    lab.go(0.1, 500 * MS)
+    lab.world.move("ball", Pose((3.0, 0.0, 0.5)), (0, 0, 0), (0, 0, 0), held=True)
+    steps, playing = lab.world.steps, lab.world.robot("a").playing
+    lab.now_ns += by
+    lab.world.shift(by)
+    # The playback says its clock anew, as it does after a shift.
+    lab.world.playback("a", playing.shifted(by))
+    lab.go(0.2, 500 * MS)
+    assert 118 <= lab.world.steps - steps <= 121
+    assert lab.world.robot("a").placed == pytest.approx((0.2, 0.0), abs=1e-3)
+    # Nothing was sought: the ball stays where it was put.
+    assert lab.world.robot("a").pending is None
+    assert lab.world.motion("ball").pose.position == pytest.approx((3.0, 0.0, 0.5))
+    assert lab.world.skipped_ns == 0
+
+
+def test_backwards_the_objects_go_back_along_the_run():
+    lab = Lab(gripper=Gripper.FINGERS)
+    lab.world.spawn("ball", "ball", Pose((0.0, 0.0, 0.47)))
+    lab.world.spawn("ball", "other", Pose((5.0, 0.0, 0.47)))
+    lab.engine.pinched, lab.engine.block = "ball", 0.02
+    lab.world.set_program("a", GripperProgram((0.1, 1.5), (True, False)))
+    lab.play()
+    lab.go(0.0, 1000 * MS)
+    lab.world.move("other", Pose((6.0, 0.0, 0.47)), (0, 0, 0), (0, 0, 0), held=False)
+    lab.go(1.0, 1000 * MS)
+    assert lab.world.object("ball").held_by == ""
+    kept = len(lab.world.robot("a").snapshots)
+    clock = PlaybackClock(lab.now_ns, 2.0, -1.0)
+    lab.world.playback("a", Playing(State.PLAYING, "t", clock, 0, 1001, 100.0, 10.0))
+    lab.engine.pinched = ""
+    lab.go(0.3, 700 * MS)
+    assert lab.world.object("ball").held_by == "a"
+    assert lab.world.motion("ball").pose.position == pytest.approx((0.3, 0.0, 0.47), abs=0.02)
+    lab.go(0.0, 300 * MS)
+    lab.go(0.0, 980 * MS)
+    assert lab.world.object("ball").held_by == ""
+    assert lab.world.motion("ball").pose.position == pytest.approx((0.0, 0.0, 0.47), abs=0.01)
+    assert lab.world.motion("other").pose.position == pytest.approx((5.0, 0.0, 0.47), abs=0.01)
+    # Nothing was recorded on the way back, and the run is still known.
+    assert len(lab.world.robot("a").snapshots) == kept

@@ -375,7 +375,7 @@ def test_a_position_off_the_timeline_is_refused(position):
     assert playback.state is State.READY
 
 
-@pytest.mark.parametrize("rate", [0.0, 0.05, 5.0, -1.0, float("nan")])
+@pytest.mark.parametrize("rate", [0.0, 0.05, 5.0, -0.05, -5.0, float("nan")])
 def test_a_rate_out_of_range_is_refused(rate):
     playback = on_start()
     with pytest.raises(BadInput, match="expected 0.1 to 4.0"):
@@ -532,7 +532,7 @@ def test_whatever_is_asked_the_arm_stays_on_the_trajectory_and_never_moves_while
             elif name == "seek":
                 playback.seek(now, x * playback.trajectory.duration)
             elif name == "rate":
-                playback.set_rate(now, 0.1 + 3.9 * x)
+                playback.set_rate(now, (0.1 + 3.9 * x) * (-1 if round(16 * x) % 2 else 1))
             elif name == "collide":
                 playback.collide(now, "x")
             elif name == "clear":
@@ -549,3 +549,83 @@ def test_whatever_is_asked_the_arm_stays_on_the_trajectory_and_never_moves_while
             assert (sample.positions <= rows.max(axis=0) + 1e-12).all()
             assert 0 <= sample.position <= playback.trajectory.duration
         assert playback.state in State
+
+
+def backwards(rate: float = -1.0) -> Playback:
+    """A playback whose arm stands on its last frame, READY to play backwards."""
+    playback = loaded()
+    playback.set_rate(0, rate)
+    playback.seek(0, 0.1)
+    playback.stop(0)
+    playback.tick(0)
+    playback.take_statuses()
+    return playback
+
+
+def test_backwards_a_run_begins_at_the_last_frame_and_is_complete_at_the_first():
+    playback = backwards()
+    assert playback.clock.position == 0.1
+    playback.play(START)
+    samples = run(playback, START + SECOND)
+    assert [s.frame for s in samples] == list(range(10, -1, -1))
+    statuses = playback.take_statuses()
+    assert [s.state.name for s in statuses] == ["PLAYING", "COMPLETE", "READY"]
+    assert [s.clock.position for s in statuses] == [0.1, 0.0, 0.1]
+    assert statuses[1].message == "played back to the first frame"
+
+
+def test_backwards_an_arm_that_stands_elsewhere_moves_to_the_last_frame_first():
+    playback = loaded()
+    playback.set_rate(0, -2.0)
+    playback.take_statuses()
+    playback.play(START)
+    samples = run(playback, START + SECOND)
+    adjusting = [s for s in samples if not s.streamed]
+    assert np.array_equal(adjusting[-1].positions, playback.trajectory.positions[-1])
+    assert labels(playback) == ["ADJUSTING", "PLAYING", "COMPLETE", "READY"]
+
+
+def test_backwards_a_loop_moves_back_to_the_last_frame_and_goes_on():
+    playback = backwards()
+    playback.set_loop(True)
+    playback.take_statuses()
+    playback.play(START)
+    samples = streamed(run(playback, START + 2 * SECOND))
+    assert [s.frame for s in samples[:22]] == 2 * list(range(10, -1, -1))
+    assert labels(playback)[:3] == ["PLAYING", "ADJUSTING", "PLAYING"]
+
+
+def test_a_direction_may_change_on_the_way_and_in_a_pause():
+    playback = on_start()
+    playback.play(START)
+    there = run(playback, START + 5 * PERIOD)
+    playback.set_rate(START + 5 * PERIOD, -1.0)
+    back = run(playback, START + 7 * PERIOD)
+    playback.pause(START + 7 * PERIOD)
+    playback.set_rate(START + 7 * PERIOD, 1.0)
+    playback.play(START + SECOND)
+    again = run(playback, START + 9 * SECOND)
+    frames = [s.frame for s in there], [s.frame for s in back], [s.frame for s in streamed(again)]
+    assert frames == ([0, 1, 2, 3, 4, 5], [4, 3], list(range(4, 11)))
+    assert playback.state is State.READY
+
+
+def test_a_ready_playback_that_is_turned_begins_at_its_other_end():
+    playback = on_start()
+    playback.set_rate(START, -0.5)
+    assert (playback.state, playback.clock.position) == (State.READY, 0.1)
+    playback.set_rate(START, -2.0)
+    assert playback.clock.position == 0.1
+    playback.set_rate(START, 2.0)
+    assert playback.clock.position == 0.0
+    playback.unload(START)
+    playback.set_rate(START, -1.0)
+    playback.load(START, make_trajectory())
+    assert playback.clock.position == 0.1
+
+
+def test_a_restart_knows_the_direction():
+    playback = backwards(-0.5)
+    fresh = make()
+    fresh.come_back(START, playback.trajectory, playback.kept(), "restarted")
+    assert (fresh.state, fresh.rate, fresh.clock.position) == (State.READY, -0.5, 0.1)

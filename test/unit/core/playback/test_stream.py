@@ -103,3 +103,72 @@ def test_positions_only_grow_whatever_rate_is_set_on_the_way(rate, steps):
     positions = [s.position for s in samples]
     assert all(np.diff(positions) > 0)
     assert all(np.diff([s.due_ns for s in samples]) > 0)
+
+
+def backwards(rate: float = -1.0, frames: int = 11) -> Stream:
+    stream = make(frames)
+    stream.set_rate(0, rate)
+    return stream
+
+
+def test_backwards_every_frame_is_sent_once_with_its_exact_values_in_the_reverse_order():
+    stream = backwards()
+    assert (stream.begin, stream.end) == (0.1, 0.0)
+    stream.follow(START, stream.begin)
+    samples = take(stream, 11)
+    assert [s.frame for s in samples] == list(range(10, -1, -1))
+    assert np.array_equal([s.positions for s in samples], stream.trajectory.positions[::-1])
+    assert [s.due_ns for s in samples] == [START + i * PERIOD for i in range(11)]
+    assert stream.ended
+    assert samples[-1].position == 0.0
+
+
+@given(rate=st.floats(-4.0, -0.1))
+def test_backwards_at_any_rate_the_first_and_the_last_frame_are_sent(rate):
+    stream = backwards(rate)
+    stream.follow(START, stream.begin)
+    samples = []
+    while not stream.ended:
+        samples += take(stream, 1)
+    assert [samples[0].position, samples[-1].position] == [0.1, 0.0]
+    assert all(np.diff([s.position for s in samples]) < 0)
+    assert samples[-1].due_ns == START + round(0.1 / -rate * SECOND)
+
+
+def test_backwards_a_velocity_is_negative():
+    stream = backwards(-2.0)
+    stream.trajectory.channels.velocities.flags.writeable = True
+    stream.trajectory.channels.velocities[:] = 3.0
+    stream.follow(START, stream.begin)
+    assert take(stream, 1)[0].velocities.tolist() == [-6.0, -6.0]
+
+
+@given(
+    rates=st.lists(st.floats(0.1, 4.0).flatmap(lambda r: st.sampled_from([r, -r])), max_size=8),
+    late=st.floats(0, 1),
+)
+def test_a_turn_goes_back_through_the_poses_just_sent_and_never_off_the_trajectory(rates, late):
+    stream = make(101)
+    stream.follow(START, 0.0)
+    samples = take(stream, 50)
+    for rate in rates:
+        before = stream.streamed
+        stream.set_rate(samples[-1].due_ns + round(late * PERIOD), rate)
+        sample = stream.trajectory_sample(stream.next_ns)
+        moved = sample.position - before
+        assert moved * rate >= 0
+        assert abs(moved) <= 2 * abs(rate) / 100 + 0.04 * late + 1e-9
+        assert 0 <= sample.position <= 1.0
+        samples.append(sample)
+    assert all(np.diff([s.due_ns for s in samples]) >= 0)
+
+
+def test_backwards_what_is_too_late_is_left_out_and_the_first_frame_is_still_sent():
+    stream = backwards(frames=6001)
+    stream.follow(START, stream.begin)
+    take(stream, 5)
+    sample = stream.trajectory_sample(stream.next_ns + LOST_AFTER_NS + PERIOD)
+    assert stream.sent + stream.lost == 6000 - sample.frame + 1
+    assert stream.lost > 0
+    sample = stream.trajectory_sample(START + 3600 * SECOND)
+    assert (sample.frame, sample.position, stream.ended) == (0, 0.0, True)

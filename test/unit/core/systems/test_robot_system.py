@@ -627,7 +627,7 @@ def test_whatever_happens_no_member_moves_while_the_system_stands_and_play_recov
             elif name == "seek":
                 system.seek(world.now, x * system.duration)
             elif name == "rate":
-                system.set_rate(world.now, 0.1 + 3.9 * x)
+                system.set_rate(world.now, (0.1 + 3.9 * x) * (-1 if round(16 * x) % 2 else 1))
             elif name == "collide":
                 playback.collide(world.now, "touches")
             elif name == "clear":
@@ -892,3 +892,102 @@ def test_members_that_cannot_be_are_refused(robots, says):
 def test_an_unknown_system_is_named_with_those_that_are_there():
     with pytest.raises(Misuse, match="no system 'cell'; there are: none"):
         Systems().get("cell")
+
+
+@pytest.mark.parametrize("mode", Mode)
+@pytest.mark.parametrize("by", [-5 * SECOND, 3600 * SECOND])
+def test_a_clock_that_is_set_parts_no_members(mode, by):
+    world = make(TWO, mode)
+
+    def set_clock() -> None:
+        world.now += by
+        for playback in world.playbacks.values():
+            playback.shift(by)
+        world.system.shift(by)
+        world.report()
+
+    world.system.play(world.now)
+    world.advance(0.2)
+    set_clock()
+    assert world.system.state is SystemState.STAGING
+    world.run_until(SystemState.PLAYING)
+    world.advance(0.4)
+    set_clock()
+    world.run_until(SystemState.READY)
+    assert world.system.message == "played to the end"
+    assert world.frames("a") == list(range(101))
+    assert world.frames("b") == list(range(51))
+    # In sequential mode b begins the moment a has ended.
+    lag = world.sent["b"][0][2] - world.sent["a"][0][2]
+    assert lag == (0 if mode is Mode.PARALLEL else SECOND + by)
+
+
+@pytest.mark.parametrize("mode", Mode)
+@pytest.mark.parametrize("rate", [-1.0, -2.0])
+def test_backwards_the_same_run_is_played_from_its_end_to_its_start(mode, rate):
+    world = make(TWO, mode, dwell=0.5)
+    system = world.system
+    system.set_rate(world.now, rate)
+    assert system.clock.position == system.duration
+    system.play(world.now)
+    world.run_until(SystemState.READY)
+    assert system.message == "played back to the start"
+    step = round(-rate)
+    assert world.frames("a") == list(range(100, -1, -step))
+    assert world.frames("b") == list(range(50, -1, -step))
+    lag = (world.first_due("a") - world.first_due("b")) / SECOND * step
+    # Forwards b begins 1.5 s after a; parallel, a ends 0.5 s after b.
+    assert lag == pytest.approx(1.0 if mode is Mode.SEQUENTIAL else -0.5, abs=1e-6)
+
+
+def test_backwards_nothing_waits_and_forwards_again_it_does():
+    world = make(TWO, waits={"b": ["frame 10: after a.frame 60"]})
+    system = world.system
+    system.play(world.now)
+    world.run_until(SystemState.PLAYING)
+    world.advance(0.8)
+    system.set_rate(world.now, -1.0)
+    assert system.state is SystemState.PLAYING
+    world.run_until(SystemState.READY)
+    assert world.frames("a")[-1] == world.frames("b")[-1] == 0
+    for robot in "ab":
+        frames = world.frames(robot)
+        turn = frames.index(max(frames))
+        assert frames == [*range(turn + 1), *range(turn - 1, -1, -1)]
+    system.set_rate(world.now, 1.0)
+    world.sent = {robot: [] for robot in world.sent}
+    system.play(world.now)
+    world.run_until(SystemState.READY)
+    # b went on from frame 10 when a had reached frame 60.
+    held = {frame: now for _, frame, now in world.sent["b"]}
+    reached = {frame: now for _, frame, now in world.sent["a"]}
+    assert held[11] > reached[60]
+
+
+def test_a_direction_is_not_changed_while_members_move_to_their_places():
+    world = make(TWO)
+    world.system.play(world.now)
+    with pytest.raises(Misuse, match="move to their places"):
+        world.system.set_rate(world.now, -1.0)
+    assert world.system.rate == 1.0
+    world.run_until(SystemState.PLAYING)
+
+
+@pytest.mark.parametrize("turns", [1, 2])
+def test_a_direction_may_change_in_a_pause(turns):
+    world = make(TWO, Mode.SEQUENTIAL)
+    system = world.system
+    system.play(world.now)
+    world.run_until(SystemState.PLAYING)
+    world.advance(1.3)
+    system.pause(world.now)
+    for _ in range(turns):
+        system.set_rate(world.now, -system.rate)
+    system.play(world.now)
+    world.run_until(SystemState.READY)
+    a, b = world.frames("a"), world.frames("b")
+    if turns == 1:
+        assert (a[-1], b[-1], max(b)) == (0, 0, b[len(b) // 2])
+        assert a == [*range(101), *range(100, -1, -1)]
+    else:
+        assert (a, b) == (list(range(101)), list(range(51)))
