@@ -13,6 +13,7 @@ from mrlab_ros.core.physics.engine import (
     BodyState,
     Finger,
     FingerState,
+    Hit,
     Kind,
     LinkPairs,
     Touch,
@@ -51,7 +52,16 @@ class FakeEngine:
             "fingers": [0.0] * count, "drive": [0.0] * count,
         }  # fmt: skip
         links = frozenset(f.link for f in self.fitted)
-        return Arm(self.fitted, "tip", links | {"tip"}, frozenset({"base"}), (1.0,) * len(joints))
+        return Arm(
+            self.fitted,
+            "tip",
+            links | {"tip"},
+            frozenset({"base"}),
+            (1.0,) * len(joints),
+            "tip",
+            links | {"tip"},
+            100.0,
+        )
 
     def place_arm(self, name: str, pose: Pose) -> None:
         self.arms[name]["pose"] = pose
@@ -99,7 +109,9 @@ class FakeEngine:
     def touches(self, name: str) -> list[Touch]:
         tip = self.link(name, "tip").pose.position
         found = [
-            Touch("tip", Kind.OBJECT, o, "", tip, (1.0, 0.0, 0.0), -self._gap(name, o), 0.1)
+            Touch(
+                "tip", Kind.OBJECT, o, "", tip, (1.0, 0.0, 0.0), -self._gap(name, o), 0.1, "", 1.0
+            )
             for o in self.motions
             if self._gap(name, o) <= 0 and o != self.pinched and not self._holds(name, o)
         ]
@@ -112,8 +124,11 @@ class FakeEngine:
         if pinched and self.arms[name]["fingers"] == [self.block] * len(self.fitted):
             for finger, side in zip(self.fitted, (1.0, -1.0), strict=True):
                 found.append(
-                    Touch(finger.link, Kind.OBJECT, self.pinched, "", tip, (0, side, 0), 0, 0.1)
-                )
+                    Touch(
+                        finger.link, Kind.OBJECT, self.pinched, "", tip, (0, side, 0), 0, 0.1, "",
+                        1.0,
+                    )
+                )  # fmt: skip
         return found
 
     def distance(self, arm: str, kind: Kind, other: str, limit: float) -> float:
@@ -148,9 +163,18 @@ class FakeEngine:
     def remove_surface(self, name: str) -> None:
         self.surfaces.pop(name, None)
 
-    def hold(self, arm: str, link: str, name: str) -> None:
+    def hold(self, arm: str, link: str, name: str, mass: float) -> None:
         offset = np.subtract(self.object(name).pose.position, self.link(arm, "tip").pose.position)
         self.held[name] = (arm, tuple(offset))
+
+    def slide(self, name: str, way: Vector) -> None:
+        arm, offset = self.held[name]
+        self.held[name] = (arm, tuple(np.add(offset, way)))
+
+    def rays(
+        self, name: str, starts: Sequence[Vector], ends: Sequence[Vector]
+    ) -> list[Hit | None]:
+        return [Hit(0.5, (0.0, 0.0, -1.0)) for _ in starts]
 
     def release(self, name: str) -> None:
         self.motions[name] = self.object(name)

@@ -14,7 +14,7 @@ from std_msgs.msg import ColorRGBA
 
 from mrlab_ros.core.clock import PlaybackClock
 from mrlab_ros.core.errors import BadInput
-from mrlab_ros.core.geometry import Vector, checked_vector
+from mrlab_ros.core.geometry import Pose, Vector, checked_vector
 from mrlab_ros.core.physics.catalogue import ObjectType
 from mrlab_ros.core.physics.engine import BodyState, Kind, Shape
 from mrlab_ros.core.physics.events import (
@@ -23,6 +23,7 @@ from mrlab_ros.core.physics.events import (
     GraspChanged,
     ObjectRemoved,
 )
+from mrlab_ros.core.physics.grasp_load import Load
 from mrlab_ros.core.physics.simulated_robot import GripperProgram, Playing
 from mrlab_ros.core.physics.surfaces import Surface
 from mrlab_ros.core.physics.world_state import SceneObject
@@ -70,6 +71,7 @@ def contact_to_message(contact: Contact) -> msg.Contact:
         stamp=time_to_message(contact.stamp_ns),
         robot=contact.robot,
         link=touch.link,
+        held=touch.held,
         kind=touch.kind.value,
         other=contact.robot if touch.kind is Kind.SELF else touch.other,
         other_link=touch.other_link,
@@ -115,7 +117,22 @@ def grasp_to_message(event: GraspChanged, fingers: list[str]) -> msg.Grasp:
         fingers=fingers,
         finger_positions=event.positions,
         finger_forces=event.forces,
+        reason=event.reason,
+        **_load(event.load),
     )
+
+
+def _load(load: Load | None) -> dict[str, float]:
+    if load is None:
+        return {}
+    return {
+        "mass": load.mass,
+        "payload": load.payload,
+        "friction": load.friction,
+        "friction_needed": load.friction_needed,
+        "slip_margin": load.slip_margin,
+        "wrist_moment": load.wrist_moment,
+    }
 
 
 def fingers_to_message(now_ns: int, robot: str, positions: Mapping[str, float]) -> JointState:
@@ -134,7 +151,10 @@ def removed_to_message(event: ObjectRemoved) -> msg.ObjectRemoved:
     )
 
 
-def object_to_message(thing: SceneObject, motion: BodyState) -> msg.SceneObject:
+def object_to_message(
+    thing: SceneObject, motion: BodyState, in_tool: Pose | None = None
+) -> msg.SceneObject:
+    """in_tool: T_tool0_object where a robot holds it."""
     kind = thing.type
     return msg.SceneObject(
         name=thing.name,
@@ -147,6 +167,7 @@ def object_to_message(thing: SceneObject, motion: BodyState) -> msg.SceneObject:
         mesh=kind.mesh,
         primitive=primitive_to_message(kind),
         held_by=thing.held_by,
+        in_tool=pose_to_message(in_tool or Pose()),
     )
 
 

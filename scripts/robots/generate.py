@@ -24,7 +24,7 @@ import kuka_small
 import numpy as np
 import tools
 import yaml
-from body import Body
+from body import BLACK, Body
 from figure import SKIN, figure
 from mesher import GRID, Mesh, contour, creased, decimated
 from solids import Array, Solid
@@ -98,8 +98,12 @@ def _hull_files(
     folder: Path, link: str, parts: list[tuple[Solid, Array]], seen: Array, pose: Array
 ) -> list[str]:
     """Write the convex hulls of a link and return the names of their files."""
+    return _written(folder, link, hulls.cover_all(parts, seen), pose)
+
+
+def _written(folder: Path, link: str, corners: list[Array], pose: Array) -> list[str]:
     names = []
-    for number, vertices in enumerate(hulls.cover_all(parts, seen)):
+    for number, vertices in enumerate(corners):
         placed = vertices @ pose[:3, :3].T + pose[:3, 3]
         names.append(f"{link}_hull_{number}.stl")
         _stl(folder / names[-1], hulls.triangles(np.round(placed, 5) + 0.0))
@@ -145,7 +149,13 @@ def make(place: Path, source: str, target: str, out: Path) -> None:
         shells = [
             (part.solid, mesh.vertices[mesh.faces]) for owner, part, mesh in raw if owner == link
         ]
-        names = _hull_files(meshes, link, shells, np.concatenate(seen), pose)
+        if link in figures.get("boxes", {}):
+            # Pad and slide are boxes of the URDF; the jaw is convex, so it is its own hull.
+            own = [vertices for part, vertices in zip(parts, seen, strict=True)
+                   if part.material is BLACK]  # fmt: skip
+            names = _written(meshes, link, own, pose)
+        else:
+            names = _hull_files(meshes, link, shells, np.concatenate(seen), pose)
         files[link] = LinkFiles(f"{link}.glb", tuple(names))
     text = urdf(figures, files, f"package://mrlab_ros/robots/{place.as_posix()}/meshes")
     shutil.rmtree(folder / "meshes", ignore_errors=True)

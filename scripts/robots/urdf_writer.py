@@ -7,6 +7,9 @@ from dataclasses import dataclass, field
 from typing import Any
 from xml.sax.saxutils import quoteattr
 
+# What a frame without a body weighs, kg and kg*m^2: engines take 1 kg for one that states nothing.
+FRAME = {"mass": 1e-6, "com": [0.0, 0.0, 0.0], "inertia": [1e-9, 0.0, 0.0, 1e-9, 0.0, 1e-9]}
+
 
 @dataclass(frozen=True)
 class LinkFiles:
@@ -28,24 +31,35 @@ def _mesh(tag: str, uri: str) -> list[str]:
     ]
 
 
-def _link(name: str, inertial: dict[str, Any] | None, files: LinkFiles, folder: str) -> list[str]:
-    if inertial is None and files == LinkFiles():
-        return [f"  <link name={quoteattr(name)}/>"]
-    lines = [f"  <link name={quoteattr(name)}>"]
-    if inertial is not None:
-        names = ("ixx", "ixy", "ixz", "iyy", "iyz", "izz")
-        tensor = " ".join(
-            f'{n}="{float(v)!r}"' for n, v in zip(names, inertial["inertia"], strict=True)
-        )
-        lines += [
-            "    <inertial>",
-            f'      <origin xyz="{_numbers(inertial["com"])}" rpy="0 0 0"/>',
-            f'      <mass value="{float(inertial["mass"])!r}"/>',
-            f"      <inertia {tensor}/>",
-            "    </inertial>",
-        ]
+def _link(
+    name: str,
+    inertial: dict[str, Any] | None,
+    boxes: Sequence[dict[str, Any]],
+    files: LinkFiles,
+    folder: str,
+) -> list[str]:
+    inertial = inertial or FRAME
+    names = ("ixx", "ixy", "ixz", "iyy", "iyz", "izz")
+    tensor = " ".join(
+        f'{n}="{float(v)!r}"' for n, v in zip(names, inertial["inertia"], strict=True)
+    )
+    lines = [
+        f"  <link name={quoteattr(name)}>",
+        "    <inertial>",
+        f'      <origin xyz="{_numbers(inertial["com"])}" rpy="0 0 0"/>',
+        f'      <mass value="{float(inertial["mass"])!r}"/>',
+        f"      <inertia {tensor}/>",
+        "    </inertial>",
+    ]
     if files.visual:
         lines += _mesh("visual", f"{folder}/{files.visual}")
+    for box in boxes:
+        lines += [
+            "    <collision>",
+            f'      <origin xyz="{_numbers(box["xyz"])}" rpy="0 0 0"/>',
+            f'      <geometry><box size="{_numbers(box["size"])}"/></geometry>',
+            "    </collision>",
+        ]
     for file in files.collision:
         lines += _mesh("collision", f"{folder}/{file}")
     return [*lines, "  </link>"]
@@ -82,8 +96,10 @@ def urdf(figures: dict[str, Any], files: dict[str, LinkFiles], uri: str) -> str:
         "<!-- Written by scripts/robots/generate.py. -->",
         f"<robot name={quoteattr(figures['id'])}>",
     ]
+    boxes: dict[str, Any] = figures.get("boxes", {})
     for name in names:
-        lines += _link(name, inertials.get(name), files.get(name, LinkFiles()), uri)
+        own = files.get(name, LinkFiles())
+        lines += _link(name, inertials.get(name), boxes.get(name, ()), own, uri)
     for joint in joints:
         lines += _joint(joint)
     return "\n".join([*lines, "</robot>", ""])

@@ -12,7 +12,7 @@ import os
 import sys
 import tempfile
 from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any
 
@@ -21,12 +21,26 @@ import pybullet
 from mrlab_ros.adapters.bullet.description import Coupling, Description
 from mrlab_ros.adapters.bullet.shapes import NEUTRAL
 from mrlab_ros.core.errors import BadInput, Misuse
-from mrlab_ros.core.geometry import Pose
+from mrlab_ros.core.geometry import (
+    Pose,
+    Quaternion,
+    Vector,
+    add,
+    cross,
+    dot,
+    rotate,
+    scale,
+    subtract,
+)
 from mrlab_ros.core.physics.engine import Arm, BodyState, FingerState, LinkPairs
+from mrlab_ros.core.physics.grasp_load import PAD_FRICTION
 
-FINGER_FRICTION = 1.5
+FAR = 1.0  # m, over which fingers are looked for
+COUPLED = 1e-7  # m or rad; coupled fingers that are nearer to their places are left there
 ALL_GROUPS = 0xFFFF
 STATIC_GROUP = 2  # Bullet's own collision group of what never moves
+OBJECT_GROUP = 1  # the same of what moves
+ARM_GROUP = 64  # of the arms' links: rays that look for objects pass them
 # Limit of the finger force, N or N*m: what they hold is fixed to the gripper, and a light object
 # between strong fingers would jitter.
 PRESS = 15.0
@@ -34,12 +48,23 @@ PRESS = 15.0
 SAMPLES = (0.0, 0.35, -0.5, 0.8)
 
 
+@dataclass(frozen=True)
+class Way:
+    """How a joint carries a finger along while the gripper closes. index: of its link; axis: unit,
+    in the link's frame; rate: its share of the leader's speed, signed."""
+
+    index: int
+    axis: Vector
+    slides: bool
+    rate: float
+
+
 @dataclass(eq=False)
 class LoadedArm:
     """An arm as Bullet knows it: its numbers of body, joints and links.
 
     index: the number of each link. links: the link that each number counts as: what is fixed to
-    a finger is that finger.
+    a finger is that finger. ways: by the number of a finger's link, how it closes.
     """
 
     body: int
@@ -52,7 +77,8 @@ class LoadedArm:
     positions: list[float]
     couplings: tuple[Coupling, ...]
     ignored: set[tuple[int, int]]
-    driven: bool = False
+    followers: frozenset[int] = frozenset()
+    ways: dict[int, tuple[Way, ...]] = field(default_factory=dict)
 
 
 class Arms:
@@ -93,7 +119,7 @@ class Arms:
             joint_index[info[1].decode()] = i
         arm = LoadedArm(
             body=body,
-            facts=description.facts(),
+            facts=description.facts([1.0] * len(description.fingers)),
             joints=[joint_index[j] for j in joints],
             fingers=[joint_index[f.joint] for f in description.fingers],
             index={link: i for i, link in links.items()},
@@ -102,6 +128,7 @@ class Arms:
             positions=[0.0] * len(joints),
             couplings=description.couplings,
             ignored=set(),
+            followers=frozenset(c.follower for c in description.couplings),
         )
         self._free(arm)
         for link in sorted(description.fixed_links):
@@ -110,14 +137,62 @@ class Arms:
             self._call(
                 pybullet.setCollisionFilterGroupMask, body, arm.index[link], STATIC_GROUP, others
             )
+        for i in arm.moving:
+            self._call(pybullet.setCollisionFilterGroupMask, body, i, ARM_GROUP, ALL_GROUPS)
         for a, b in description.neighbours():
             self._ignore(arm, arm.index[a], arm.index[b])
         for pair in apart:
             if pair <= arm.index.keys():
                 self._ignore(arm, *sorted(arm.index[link] for link in pair))
         self._ignore_permanent(arm)
+        if arm.fingers:
+            closes = self._closes(arm, description)
+            arm.facts = description.facts(closes)
+            arm.ways = _ways(arm, description, joint_index, closes)
         self._arms[name] = arm
         return arm
+
+    def _closes(self, arm: LoadedArm, description: Description) -> list[float]:
+        """Return of each finger whether its upper (1) or its lower limit (-1) is closed: where it
+        is nearer to the other fingers. A follower closes as its leader does."""
+        led = {c.follower: c for c in arm.couplings}
+        roots = {
+            index: description.chain(link)[0]
+            for link, index in arm.index.items()
+            if link in description.finger_of
+        }
+        closes = [1.0] * len(arm.fingers)
+        pairs = [(a, b) for a in roots for b in roots if a < b and roots[a] != roots[b]]
+
+        def spread(finger: int, position: float) -> float:
+            for i, facts in enumerate(description.fingers):
+                at = position if i == finger else (facts.lower + facts.upper) / 2
+                c = led.get(i)
+                if c is not None and c.leader == finger:
+                    at = c.multiplier * position + c.offset
+                self._call(pybullet.resetJointState, arm.body, arm.fingers[i], at)
+            found = (
+                self._call(
+                    pybullet.getClosestPoints,
+                    arm.body,
+                    arm.body,
+                    FAR,
+                    linkIndexA=a,
+                    linkIndexB=b,
+                )
+                for a, b in pairs
+            )
+            return min((p[8] for points in found for p in points), default=FAR)
+
+        for i, facts in enumerate(description.fingers):
+            if i not in led:
+                closes[i] = 1.0 if spread(i, facts.upper) <= spread(i, facts.lower) else -1.0
+        for c in arm.couplings:
+            closes[c.follower] = math.copysign(1.0, closes[c.leader] * c.multiplier)
+        for index, facts, way in zip(arm.fingers, description.fingers, closes, strict=True):
+            opened = replace(facts, closes=way).opened
+            self._call(pybullet.resetJointState, arm.body, index, opened)
+        return closes
 
     def _load(self, text: str, pose: Pose) -> int:
         with tempfile.NamedTemporaryFile("w", suffix=".urdf") as file, _silent():
@@ -136,6 +211,7 @@ class Arms:
     def _free(self, arm: LoadedArm) -> None:
         """Switch off Bullet's motors and damping of an arm."""
         driven = arm.joints + arm.fingers
+        pads = {finger.link for finger in arm.facts.fingers}
         self._call(
             pybullet.setJointMotorControlArray,
             arm.body,
@@ -148,7 +224,7 @@ class Arms:
                 pybullet.changeDynamics,
                 arm.body,
                 i,
-                lateralFriction=FINGER_FRICTION if i in arm.fingers else NEUTRAL,
+                lateralFriction=PAD_FRICTION if arm.links[i] in pads else NEUTRAL,
                 restitution=NEUTRAL,
                 linearDamping=0.0,
                 angularDamping=0.0,
@@ -225,7 +301,6 @@ class Arms:
             raise BadInput(
                 f"finger velocities {list(velocities)} for {name}; expected {len(arm.fingers)}"
             )
-        arm.driven = any(velocities)
         if arm.fingers:
             self._call(
                 pybullet.setJointMotorControlArray,
@@ -264,28 +339,69 @@ class Arms:
         return BodyState(Pose(state[0], state[1]), state[6], state[7])
 
     def let_touch(self, name: str, other: int, touch: bool) -> None:
-        """Switch contacts between the links of an arm and an object on or off."""
+        """Switch contacts between an arm's hand with its fingers and an object on or off."""
         arm = self[name]
-        for link in arm.links:
-            self._call(pybullet.setCollisionFilterPair, arm.body, other, link, -1, int(touch))
+        for link in arm.facts.grip_links:
+            self._call(
+                pybullet.setCollisionFilterPair, arm.body, other, arm.index[link], -1, int(touch)
+            )
+
+    def grip(self, arm: LoadedArm, link: int, point: Vector, normal: Vector) -> float:
+        """Return the cosine between a contact and the way a finger closes, or a tool points.
+
+        normal: unit, from the other towards the arm.
+        """
+        if link in arm.ways:
+            way: Vector = (0.0, 0.0, 0.0)
+            for joint in arm.ways[link]:
+                state = pybullet.getLinkState(arm.body, joint.index, 0, 0, self._client)
+                axis = scale(rotate(state[5], joint.axis), joint.rate)
+                moved = axis if joint.slides else cross(axis, subtract(point, state[4]))
+                way = add(way, moved)
+            size = math.hypot(*way)
+            return -dot(way, normal) / size if size > 0 else 0.0
+        if arm.links[link] not in arm.facts.tool_links:
+            return 0.0
+        tool = self.tool(arm)
+        return -dot(rotate(tool, (0.0, 0.0, 1.0)), normal)
+
+    def tool(self, arm: LoadedArm) -> Quaternion:
+        """Return the orientation of an arm's tool frame."""
+        state = pybullet.getLinkState(arm.body, arm.index[arm.facts.tool], 0, 0, self._client)
+        turn: Quaternion = state[5]
+        return turn
+
+    def velocity_at(self, arm: LoadedArm, link: int, point: Vector) -> Vector:
+        """Return the velocity of a link at a point, m/s."""
+        if link < 0:
+            return (0.0, 0.0, 0.0)
+        state = pybullet.getLinkState(arm.body, link, 1, 0, self._client)
+        return add(state[6], cross(state[7], subtract(point, state[0])))
 
     def stepped(self) -> None:
         """Keep coupled fingers equally far closed; call it after every step."""
         for arm in self._arms.values():
-            if arm.couplings and arm.driven:
+            if arm.fingers:
                 self._couple(arm)
 
     def _couple(self, arm: LoadedArm) -> None:
-        """Place each leader at the mean of what its followers' positions mean for it, and them."""
-        states = self._call(pybullet.getJointStates, arm.body, arm.fingers)
-        led: dict[int, list[tuple[int, float, float]]] = {}
+        """Keep fingers in their ranges; place each leader at the mean of what its followers'
+        positions mean for it, and them."""
+        states = pybullet.getJointStates(arm.body, arm.fingers, self._client)
+        led: dict[int, list[tuple[int, float, float]]] = {
+            i: [(i, 1.0, 0.0)] for i in range(len(arm.fingers)) if i not in arm.followers
+        }
         for c in arm.couplings:
-            led.setdefault(c.leader, [(c.leader, 1.0, 0.0)]).append(
-                (c.follower, c.multiplier, c.offset)
-            )
-        for members in led.values():
-            position = _mean([(states[i][0] - o) / m for i, m, o in members])
+            led.setdefault(c.leader, []).append((c.follower, c.multiplier, c.offset))
+        for leader, members in led.items():
+            finger = arm.facts.fingers[leader]
+            mean = _mean([(states[i][0] - o) / m for i, m, o in members])
             velocity = _mean([states[i][1] / m for i, m, _ in members])
+            position = min(max(mean, finger.lower), finger.upper)
+            if position != mean:
+                velocity = 0.0
+            if all(abs(states[i][0] - m * position - o) < COUPLED for i, m, o in members):
+                continue
             for i, m, o in members:
                 self._call(
                     pybullet.resetJointState,
@@ -294,6 +410,25 @@ class Arms:
                     m * position + o,
                     m * velocity,
                 )
+
+
+def _ways(
+    arm: LoadedArm, description: Description, joint_index: dict[str, int], closes: list[float]
+) -> dict[int, tuple[Way, ...]]:
+    """Return how each link of a finger moves while the gripper closes."""
+    rates = dict(zip((f.joint for f in description.fingers), closes, strict=True))
+    for c in arm.couplings:
+        leader, follower = description.fingers[c.leader], description.fingers[c.follower]
+        rates[follower.joint] = closes[c.leader] * c.multiplier
+        rates[leader.joint] = closes[c.leader]
+    ways = {}
+    for link, index in arm.index.items():
+        if link in description.finger_of:
+            chain = description.chain(link)
+            ways[index] = tuple(
+                Way(joint_index[joint], *description.axis(joint), rates[joint]) for joint in chain
+            )
+    return ways
 
 
 def _mean(values: Sequence[float]) -> float:

@@ -5,12 +5,13 @@ from __future__ import annotations
 import math
 import os
 import xml.etree.ElementTree as ET
-from collections.abc import Callable, Iterator
-from dataclasses import dataclass
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 from mrlab_ros.adapters.robots import urdf
 from mrlab_ros.core.errors import BadInput
+from mrlab_ros.core.geometry import Vector
 from mrlab_ros.core.physics.engine import Arm, Finger
 
 PRESCRIBED_MASS = 1e6  # kg, and kg*m^2, of every link that joint states prescribe
@@ -61,10 +62,18 @@ class Description:
             for link in self._root.iterfind("link")
             if link.find("collision") is not None
         }
+        self.tool = tip
         if fingers:
-            self.hand = fingers[0].parent
+            self.hand = next(j for j in fingers if self._group(j.parent) not in moved).parent
         else:
             self.hand = next((x for x in reversed(links) if x in self.tool_links & shaped), tip)
+        rigid = {link for link in links if self._group(link) == self._group(self.hand)}
+        self.grip_links = rigid | self.finger_links
+        self._masses = {
+            str(link.get("name")): float(mass.get("value", 0))
+            for link in self._root.iterfind("link")
+            if (mass := link.find("inertial/mass")) is not None
+        }
 
     def _above(self, link: str) -> list[str]:
         above = []
@@ -100,14 +109,54 @@ class Description:
         ]
         return max(ways, default=LINK_SIZE)
 
-    def facts(self) -> Arm:
+    def _lever(self, joint: str) -> float:
+        """Return how far, m, the arm's end moves at most while a joint moves by 1 rad or 1 m."""
+        return 1.0 if self.axis(joint)[1] else self._below(self._by_name[joint].child)
+
+    def chain(self, link: str) -> list[str]:
+        """Return the finger joints that move `link`, from the hand outwards."""
+        found = []
+        own = {finger.joint for finger in self.fingers}
+        for above in (link, *self._above(link)):
+            joint = self._parent.get(above)
+            if joint is not None and joint.name in own:
+                found.append(joint.name)
+        return found[::-1]
+
+    def axis(self, joint: str) -> tuple[Vector, bool]:
+        """Return a joint's unit axis in the frame of its link, and whether it slides along it."""
+        x, y, z = self._by_name[joint].axis
+        size = math.hypot(x, y, z) or 1.0
+        return (x / size, y / size, z / size), self._by_name[joint].kind == "prismatic"
+
+    def facts(self, closes: Sequence[float]) -> Arm:
+        """closes: of each finger, 1 where its upper limit is closed, -1 where its lower one is."""
+        fingers = tuple(
+            replace(finger, closes=way) for finger, way in zip(self.fingers, closes, strict=True)
+        )
         return Arm(
-            self.fingers,
+            fingers,
             self.hand,
             frozenset(self.tool_links),
             frozenset(self.fixed_links),
-            tuple(self._below(self._by_name[name].child) for name in self._prescribed),
+            tuple(self._lever(name) for name in self._prescribed),
+            self.tool,
+            frozenset(self.grip_links),
+            self._grip_force(),
+            sum(self._masses.get(link, 0.0) for link in self.tool_links),
+            sum(self._masses.get(x, 0.0) for x in self.links if x not in self.fixed_links),
         )
+
+    def _grip_force(self) -> float:
+        """Return what the fingers press with together, N: each chain of finger joints with the
+        force of its first joint, or with its torque on the lever to its end."""
+        total = 0.0
+        for finger in self.fingers:
+            if self.chain(finger.link)[0] != finger.joint:
+                continue
+            lever = 1.0 if self.axis(finger.joint)[1] else self._below(finger.link)
+            total += finger.max_force / lever
+        return total
 
     def text(self, resolve: Callable[[str], Path]) -> str:
         """Return the URDF that Bullet reads: masses, collision meshes with paths, no visuals.

@@ -6,14 +6,15 @@ objects are kinematic: posed with the gripper's velocity before every step.
 
 from __future__ import annotations
 
+import itertools
 import math
 from collections.abc import Callable, Sequence
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 import pybullet
 
-from mrlab_ros.adapters.bullet.arms import STATIC_GROUP, Arms
+from mrlab_ros.adapters.bullet.arms import OBJECT_GROUP, STATIC_GROUP, Arms
 from mrlab_ros.adapters.bullet.objects import Objects
 from mrlab_ros.adapters.bullet.shapes import make_body, make_shape
 from mrlab_ros.core.errors import BadInput, Misuse
@@ -23,7 +24,9 @@ from mrlab_ros.core.geometry import (
     add,
     compose,
     cross,
+    dot,
     relative,
+    scale,
     subtract,
 )
 from mrlab_ros.core.physics.engine import (
@@ -32,6 +35,7 @@ from mrlab_ros.core.physics.engine import (
     Body,
     BodyState,
     FingerState,
+    Hit,
     Kind,
     LinkPairs,
     Touch,
@@ -42,6 +46,17 @@ RAY = 100.0  # m, length of the ray that searches the support below a point
 SOLVER_ITERATIONS = 30
 # (m/s)^2: the solver stops when no velocity changes by more than 1 mm/s.
 SOLVER_RESIDUAL = 1e-6
+
+
+@dataclass(eq=False)
+class HeldObject:
+    """What an arm's link holds. offset: T_link_object. motion: at the instant that the arm was
+    posed for."""
+
+    arm: str
+    link: str
+    offset: Pose
+    motion: BodyState
 
 
 class BulletEngine:
@@ -65,7 +80,7 @@ class BulletEngine:
         self._objects = Objects(self._client, gravity)
         self._surfaces: dict[str, int] = {}
         self._names: dict[int, tuple[Kind, str]] = {}
-        self._held: dict[str, tuple[str, str, Pose]] = {}
+        self._held: dict[str, HeldObject] = {}
 
     def close(self) -> None:
         if self._client >= 0:
@@ -92,7 +107,7 @@ class BulletEngine:
         self._arms.place(name, pose)
 
     def remove_arm(self, name: str) -> None:
-        for held in [h for h, (holder, _, _) in self._held.items() if holder == name]:
+        for held in self._held_by(name):
             self.release(held)
         self._objects.wake_touching(self._arms[name].body)
         del self._names[self._arms.remove(name)]
@@ -111,7 +126,14 @@ class BulletEngine:
             self._objects.wake_touching(self._arms[name].body)
 
     def speed(self, name: str) -> float:
-        return self._arms.speed(name)
+        fastest = self._arms.speed(name)
+        for held in self._held_by(name):
+            hand = self.link(name, self._held[held].link)
+            low, high = self._objects.bounds(held)
+            for x, y, z in itertools.product(*zip(low, high, strict=True)):
+                way = subtract((x, y, z), hand.pose.position)
+                fastest = max(fastest, math.hypot(*add(hand.linear, cross(hand.angular, way))))
+        return fastest
 
     def drive_fingers(self, name: str, velocities: Sequence[float]) -> None:
         self._arms.drive_fingers(name, velocities)
@@ -139,9 +161,52 @@ class BulletEngine:
                 other_link = self._arms[other].links[p[4]]
                 kind = Kind.SELF if p[2] == arm.body else Kind.ROBOT
             depth, impulse = max(-p[8], 0.0), p[9] * self._duration
+            if kind is Kind.OBJECT and other in self._held and self._held[other].arm == name:
+                # The held object reports it, as a contact of its own.
+                continue
+            grip = self._arms.grip(arm, p[3], p[5], p[7]) if kind is Kind.OBJECT else 0.0
             found.append(
-                Touch(arm.links[p[3]], kind, other, other_link, p[5], p[7], depth, impulse)
+                Touch(
+                    arm.links[p[3]], kind, other, other_link, p[5], p[7], depth, impulse, "", grip
+                )
             )
+        for held in self._held_by(name):
+            found += self._held_touches(name, held)
+        return found
+
+    def _held_by(self, name: str) -> list[str]:
+        return [held for held, known in self._held.items() if known.arm == name]
+
+    def _held_touches(self, name: str, held: str) -> list[Touch]:
+        """Return the contact points of what an arm holds, as contacts of the arm."""
+        known, found = self._held[held], []
+        body, motion = self._objects.body(held), known.motion
+        for p in pybullet.getContactPoints(body, physicsClientId=self._client):
+            if p[8] > 0.0 and p[9] <= 0.0:
+                continue
+            kind, other = self._names[p[2]]
+            other_link, grip = "", 0.0
+            way = subtract(p[5], motion.pose.position)
+            velocity = add(motion.linear, cross(motion.angular, way))
+            if kind is Kind.ROBOT:
+                arm = self._arms[other]
+                other_link = arm.links[p[4]]
+                # The normal points from the other robot to what is held: against its finger.
+                grip = self._arms.grip(arm, p[4], p[6], scale(p[7], -1.0))
+                velocity = subtract(velocity, self._arms.velocity_at(arm, p[4], p[6]))
+                kind = Kind.SELF if other == name else Kind.ROBOT
+            elif kind is Kind.OBJECT and other in self._held:
+                other_motion = self._held[other].motion
+                way = subtract(p[6], other_motion.pose.position)
+                moved = add(other_motion.linear, cross(other_motion.angular, way))
+                velocity = subtract(velocity, moved)
+            depth, impulse = max(-p[8], 0.0), p[9] * self._duration
+            found.append(
+                Touch(
+                    known.link, kind, other, other_link, p[5], p[7], depth, impulse, held, grip,
+                    -dot(velocity, p[7]),
+                )
+            )  # fmt: skip
         return found
 
     def distance(self, arm: str, kind: Kind, other: str, limit: float) -> float:
@@ -157,6 +222,12 @@ class BulletEngine:
                 continue
             if own or p[3] in robot.moving:
                 nearest = min(nearest, p[8])
+        for held in self._held_by(arm):
+            if (kind, other) != (Kind.OBJECT, held) and kind is not Kind.SELF:
+                near = pybullet.getClosestPoints(
+                    self._objects.body(held), body, limit, physicsClientId=self._client
+                )
+                nearest = min([nearest, *(p[8] for p in near)])
         return nearest
 
     def _body(self, kind: Kind, name: str) -> int | None:
@@ -177,10 +248,14 @@ class BulletEngine:
         del self._names[self._objects.remove(name)]
 
     def object(self, name: str) -> BodyState:
-        return self._objects.motion(name)
+        held = self._held.get(name)
+        # Bullet has moved the body on, to the end of the step.
+        return held.motion if held is not None else self._objects.motion(name)
 
     def set_object(self, name: str, motion: BodyState) -> None:
         self._objects.set_motion(name, motion)
+        if name in self._held:
+            self._held[name].motion = motion
 
     def add_surface(self, name: str, body: Body, pose: Pose) -> None:
         if name in self._surfaces:
@@ -203,28 +278,35 @@ class BulletEngine:
 
     # holding --------------------------------------------------------------------------------
 
-    def hold(self, arm: str, link: str, name: str) -> None:
+    def hold(self, arm: str, link: str, name: str, mass: float = 0.0) -> None:
+        """Fix an object to an arm's link; mass: kg that others feel, 0: it does not give way."""
         body = self._objects.body(name)
         hand = self.link(arm, link).pose
         if name in self._held:
             self.release(name)
-        self._held[name] = (arm, link, relative(hand, self.object(name).pose))
-        self._objects.grip(name)
+        motion = self._objects.motion(name)
+        self._held[name] = HeldObject(arm, link, relative(hand, motion.pose), motion)
+        self._objects.grip(name, mass)
         self._arms.let_touch(arm, body, False)
 
+    def slide(self, name: str, way: Vector) -> None:
+        held = self._held[name]
+        held.offset = Pose(add(held.offset.position, way), held.offset.orientation)
+
     def release(self, name: str) -> None:
-        arm, _, _ = self._held.pop(name)
+        arm = self._held.pop(name).arm
         self._objects.loosen(name)
         self._arms.let_touch(arm, self._objects.body(name), True)
 
     def _carry(self, duration: float) -> None:
         """Pose what is held with its gripper and set its velocity: a rigid constraint."""
-        for name, (arm, link, offset) in self._held.items():
-            hand = self.link(arm, link)
-            pose = compose(hand.pose, offset)
+        for name, held in self._held.items():
+            hand = self.link(held.arm, held.link)
+            pose = compose(hand.pose, held.offset)
             way = subtract(pose.position, hand.pose.position)
             linear = add(hand.linear, cross(hand.angular, way))
-            self._objects.move_held(name, BodyState(pose, linear, hand.angular), duration)
+            held.motion = BodyState(pose, linear, hand.angular)
+            self._objects.move_held(name, held.motion, duration)
 
     # space and time -------------------------------------------------------------------------
 
@@ -238,6 +320,18 @@ class BulletEngine:
         )
         body, _, _, hit, _ = hits[0]
         return None if body < 0 else float(hit[2])
+
+    def rays(
+        self, name: str, starts: Sequence[Vector], ends: Sequence[Vector]
+    ) -> list[Hit | None]:
+        body = self._objects.body(name)
+        found = pybullet.rayTestBatch(
+            starts,
+            ends,
+            collisionFilterMask=OBJECT_GROUP,
+            physicsClientId=self._client,
+        )
+        return [Hit(hit[2], hit[4]) if hit[0] == body else None for hit in found]
 
     def overlapping(self, low: Vector, high: Vector) -> set[str]:
         found = pybullet.getOverlappingObjects(low, high, self._client) or ()

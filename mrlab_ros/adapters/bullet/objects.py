@@ -11,7 +11,7 @@ import pybullet
 
 from mrlab_ros.adapters.bullet.shapes import make_body, make_shape
 from mrlab_ros.core.errors import BadInput, Misuse
-from mrlab_ros.core.geometry import Pose
+from mrlab_ros.core.geometry import Pose, Vector
 from mrlab_ros.core.physics.engine import Body, BodyState
 
 # An object slower than this, m/s and rad/s, for two seconds (fixed in Bullet) falls asleep.
@@ -146,12 +146,20 @@ class Objects:
 
     # held in a hand -------------------------------------------------------------------------
 
-    def grip(self, name: str) -> None:
-        """Make an object kinematic: only move_held() moves it."""
+    def bounds(self, name: str) -> tuple[Vector, Vector]:
+        """Return the corners of a box around an object, in world."""
+        low, high = pybullet.getAABB(self.body(name), -1, self._client)
+        return low, high
+
+    def grip(self, name: str, mass: float) -> None:
+        """Make an object kinematic: only move_held() moves it.
+
+        mass: kg that others feel; 0: no contact moves it.
+        """
         body = self.body(name)
         self._held.add(body)
         self._change(body, pybullet.ACTIVATION_STATE_DISABLE_SLEEPING)
-        self._weigh(body, HELD_MASS)
+        self._weigh(body, mass or HELD_MASS)
 
     def loosen(self, name: str) -> None:
         """Undo grip(); the object keeps its motion."""

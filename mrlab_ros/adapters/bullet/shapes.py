@@ -16,6 +16,8 @@ from mrlab_ros.core.physics.engine import Body, Part, Shape
 NEUTRAL = 1.0
 # Coefficient of rolling friction, m: the offset of the normal force of a round body.
 ROLLING = 0.0008
+# The swept sphere's radius as a share of half of the least extent.
+SWEPT = 0.8
 ROUND = (Shape.SPHERE, Shape.CYLINDER, Shape.HULL)
 NUMBERS = {Shape.BOX: 3, Shape.CYLINDER: 2, Shape.SPHERE: 1}
 
@@ -56,6 +58,11 @@ def make_body(client: int, body: Body, shape: int, pose: Pose) -> int:
         useMaximalCoordinates=True,
         physicsClientId=client,
     )
+    if not static:
+        # A sphere inside the body is swept along its way, so that what is fast stops at a thin
+        # surface.
+        radius = SWEPT * min(_least(part) for part in body.parts)
+        pybullet.changeDynamics(made, -1, ccdSweptSphereRadius=radius, physicsClientId=client)
     pybullet.changeDynamics(
         made,
         -1,
@@ -71,6 +78,18 @@ def make_body(client: int, body: Body, shape: int, pose: Pose) -> int:
             made, -1, activationState=pybullet.ACTIVATION_STATE_SLEEP, physicsClientId=client
         )
     return made
+
+
+def _least(part: Part) -> float:
+    """Return half of the least extent of a part, m."""
+    if part.shape is Shape.BOX:
+        return min(part.size) / 2
+    if part.shape is Shape.CYLINDER:
+        return min(part.size[0], part.size[1] / 2)
+    if part.shape is Shape.SPHERE:
+        return part.size[0]
+    assert part.vertices is not None
+    return float((part.vertices.max(axis=0) - part.vertices.min(axis=0)).min()) / 2
 
 
 def _compound(client: int, parts: list[dict[str, Any]]) -> int:

@@ -15,6 +15,7 @@ from mrlab_ros.adapters.robots import urdf
 from mrlab_ros.adapters.yaml_files import read_yaml
 from mrlab_ros.core.errors import BadInput
 from mrlab_ros.core.naming import did_you_mean
+from mrlab_ros.core.physics.grasp_load import Tool
 from mrlab_ros.core.robots.model import RobotModel
 
 END_EFFECTORS = "end_effectors"
@@ -103,6 +104,15 @@ class RobotLibrary:
     def end_effector_facts(self, end_effector: str) -> dict[str, Any]:
         """Return the content of end_effector.yaml."""
         return read_yaml(self._end_effector_folder(end_effector) / "end_effector.yaml")
+
+    def hand_facts(self, robot_id: str, end_effector: str) -> Tool:
+        """Return what is stated of a robot's hand; raise BadInput for an unknown id."""
+        facts = self.end_effector_facts(end_effector) if end_effector else {}
+        return Tool(
+            float(self.facts(robot_id).get("payload") or 0.0),
+            float(facts.get("force", 0.0)),
+            float(facts.get("lip_radius", 0.0)),
+        )
 
     def collision_description(self, robot_id: str, end_effector: str | None = None) -> str:
         """Return the URDF without visuals and with mesh paths in place of URIs.

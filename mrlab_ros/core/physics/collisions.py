@@ -7,6 +7,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from mrlab_ros.core.errors import BadInput
+from mrlab_ros.core.physics import contact_rules
 from mrlab_ros.core.physics import surfaces as rooms
 from mrlab_ros.core.physics.clearance import Halt
 from mrlab_ros.core.physics.engine import Kind
@@ -15,6 +16,9 @@ from mrlab_ros.core.physics.simulated_robot import Robot
 from mrlab_ros.core.physics.surfaces import Surface
 from mrlab_ros.core.physics.world_state import WorldState
 
+# From this distance on, m, the fingers have left what they released.
+LEFT = 0.002
+
 
 class Collisions:
     """Observes contacts of all arms with objects, surfaces, each other and themselves."""
@@ -22,29 +26,31 @@ class Collisions:
     def __init__(self, state: WorldState) -> None:
         self._world_state = state
         self._engine = state.engine
-        self._contacts: dict[tuple[str, str, Kind, str, str], Contact] = {}
+        self._contacts: dict[tuple[str, str, str, Kind, str, str], Contact] = {}
 
     def take(self) -> list[Contact]:
         """Return the hardest contact of each pair since the last call."""
         taken, self._contacts = list(self._contacts.values()), {}
         return taken
 
-    def observe(self, robot: Robot, now_ns: int) -> None:
-        """Record an arm's contacts; announce a collision that begins."""
+    def observe(self, robot: Robot, now_ns: int, duration: float) -> None:
+        """Record an arm's contacts of a step of `duration` s; announce a collision that begins."""
         robot.touches = self._engine.touches(robot.name)
         if not robot.touches:
             return
+        if robot.held:
+            contact_rules.press(robot, now_ns, duration)
         frame = robot.playing.frame_at(robot.stream.shown_ns(now_ns))
         first: Contact | None = None
         for touch in robot.touches:
-            if touch.link in robot.arm.fixed_links:
+            if touch.link in robot.arm.fixed_links and not touch.held:
                 continue
             contact = Contact(now_ns, robot.name, frame, touch)
-            key = (robot.name, touch.link, touch.kind, touch.other, touch.other_link)
+            key = (robot.name, touch.link, touch.held, touch.kind, touch.other, touch.other_link)
             known = self._contacts.get(key)
             if known is None or touch.impulse > known.touch.impulse:
                 self._contacts[key] = contact
-            if self._world_state.counts(robot, touch):
+            if contact_rules.counts(self._world_state, robot, touch):
                 robot.partners.add((touch.kind, touch.other))
                 if first is None or touch.depth > first.touch.depth:
                     first = contact
@@ -57,14 +63,18 @@ class Collisions:
             robot.raise_again = False
 
     def check_clearance(self, robot: Robot, now_ns: int) -> None:
-        """Announce a collision that is over; stop tolerating surfaces that the arm has left."""
+        """Announce a collision that is over; stop tolerating what the arm has left."""
         far = 2 * self._world_state.settings.clear_margin
+        contact_rules.forget(robot, now_ns)
+        for name in list(robot.leaving):
+            if self._engine.distance(robot.name, Kind.OBJECT, name, LEFT) >= LEFT:
+                robot.leaving.discard(name)
         for name in list(robot.tolerated):
             if self._engine.distance(robot.name, Kind.SURFACE, name, far) >= far / 2:
                 robot.tolerated.discard(name)
         if robot.clearance.state is Halt.CLEAR:
             return
-        if any(self._world_state.counts(robot, touch) for touch in robot.touches):
+        if any(contact_rules.counts(self._world_state, robot, touch) for touch in robot.touches):
             return
         nearest = far
         for kind, other in robot.partners:

@@ -72,7 +72,10 @@ class BodyState:
 
 @dataclass(frozen=True)
 class Finger:
-    """A force-driven joint: `lower` is open, `upper` is closed. m or rad; max_force: N or N*m."""
+    """A force-driven joint. m or rad; max_force: N or N*m.
+
+    closes: 1 where its upper limit is closed, -1 where its lower limit is.
+    """
 
     joint: str
     link: str
@@ -80,6 +83,16 @@ class Finger:
     upper: float
     max_velocity: float
     max_force: float
+    closes: float = 1.0
+
+    @property
+    def opened(self) -> float:
+        """Its position where the gripper is open."""
+        return self.lower if self.closes > 0 else self.upper
+
+    def closed_by(self, position: float) -> float:
+        """Return how far it has closed from its open end, m or rad."""
+        return self.closes * (position - self.opened)
 
 
 @dataclass(frozen=True, eq=False)
@@ -87,8 +100,11 @@ class Arm:
     """What the engine found in a robot's description.
 
     fingers: its joints that the trajectory does not prescribe. hand: the link an object is fixed
-    to. tool_links: all links beyond tool0. fixed_links: links that no joint moves. levers: m, of
-    each prescribed joint the longest way from it to the arm's end.
+    to. tool: tool0, or what stands for it. tool_links: all links beyond it. grip_links: the
+    fingers and what is rigid with the hand. fixed_links: links that no joint moves. levers: m, of
+    each prescribed joint the longest way from it to the arm's end. grip_force: N, of all fingers
+    together. tool_mass: kg beyond the tool's frame. moving_mass: kg of all that its joints move,
+    0 where the description does not state it.
     """
 
     fingers: tuple[Finger, ...]
@@ -96,6 +112,11 @@ class Arm:
     tool_links: frozenset[str]
     fixed_links: frozenset[str]
     levers: tuple[float, ...]
+    tool: str
+    grip_links: frozenset[str]
+    grip_force: float = 0.0
+    tool_mass: float = 0.0
+    moving_mass: float = 0.0
 
 
 @dataclass(frozen=True)
@@ -109,7 +130,13 @@ class FingerState:
 @dataclass(frozen=True)
 class Touch:
     """One contact point of an arm. normal: unit, from the other towards the arm; depth: m,
-    positive where they overlap; impulse: N*s of the step."""
+    positive where they overlap; impulse: N*s of the step.
+
+    held: the object in its hand that touches; empty: the arm itself. grip: the cosine between the
+    contact and the way in which the finger that touches closes, or in which a tool without fingers
+    points; 1: it presses straight on the other. A touch of what is held with another robot's
+    finger has that finger's. approach: m/s, how fast what is held moves into the other here.
+    """
 
     link: str
     kind: Kind
@@ -119,6 +146,17 @@ class Touch:
     normal: Vector
     depth: float
     impulse: float
+    held: str = ""
+    grip: float = 0.0
+    approach: float = 0.0
+
+
+@dataclass(frozen=True)
+class Hit:
+    """Where a ray meets an object. share: of the ray's length; normal: unit, out of the object."""
+
+    share: float
+    normal: Vector
 
 
 class Engine(Protocol):
@@ -152,7 +190,8 @@ class Engine(Protocol):
         ...
 
     def speed(self, name: str) -> float:
-        """Return how fast the arm's fastest point moves with its present velocities, m/s."""
+        """Return how fast the fastest point of the arm and of what it holds moves with the present
+        velocities, m/s."""
         ...
 
     def drive_fingers(self, name: str, velocities: Sequence[float]) -> None:
@@ -170,18 +209,21 @@ class Engine(Protocol):
         ...
 
     def touches(self, name: str) -> list[Touch]:
-        """Return the arm's contact points of the last step."""
+        """Return the contact points of the last step of the arm and of what it holds."""
         ...
 
     def distance(self, arm: str, kind: Kind, other: str, limit: float) -> float:
-        """Return the distance from the arm's moving links to something, m, at most `limit`."""
+        """Return the distance from the arm's moving links and what it holds to something, m, at
+        most `limit`."""
         ...
 
     def add_object(self, name: str, body: Body, motion: BodyState) -> None: ...
 
     def remove_object(self, name: str) -> None: ...
 
-    def object(self, name: str) -> BodyState: ...
+    def object(self, name: str) -> BodyState:
+        """Return an object's motion; of a held one that at the instant its hand was posed for."""
+        ...
 
     def set_object(self, name: str, motion: BodyState) -> None: ...
 
@@ -189,8 +231,16 @@ class Engine(Protocol):
 
     def remove_surface(self, name: str) -> None: ...
 
-    def hold(self, arm: str, link: str, name: str) -> None:
-        """Fix an object to an arm's link where it is now; contacts between the two are off."""
+    def hold(self, arm: str, link: str, name: str, mass: float) -> None:
+        """Fix an object to an arm's link where it is now.
+
+        mass: kg that others feel when they meet it. Contacts with the fingers and what is rigid
+        with the hand are off.
+        """
+        ...
+
+    def slide(self, name: str, way: Vector) -> None:
+        """Shift a held object in its hand by `way`, m, in the frame of the hand."""
         ...
 
     def release(self, name: str) -> None:
@@ -199,6 +249,12 @@ class Engine(Protocol):
 
     def below(self, point: Vector) -> float | None:
         """Return the height of the first fixed thing below `point`, m; None without one."""
+        ...
+
+    def rays(
+        self, name: str, starts: Sequence[Vector], ends: Sequence[Vector]
+    ) -> list[Hit | None]:
+        """Return where rays meet an object first; None for those that pass it."""
         ...
 
     def overlapping(self, low: Vector, high: Vector) -> set[str]:

@@ -6,6 +6,7 @@ from dataclasses import dataclass
 
 from mrlab_ros.core.physics.engine import Touch
 from mrlab_ros.core.physics.grasp import Grasp
+from mrlab_ros.core.physics.grasp_load import Load
 
 
 @dataclass(frozen=True)
@@ -31,7 +32,11 @@ class CollisionChanged:
 
 @dataclass(frozen=True)
 class GraspChanged:
-    """State of a gripper. positions, forces: of the fingers, in the arm's order."""
+    """State of a gripper. positions, forces: of the fingers, in the arm's order.
+
+    reason: what is to be said of it, empty: nothing. load: what the grasp bears, None unless it is
+    known.
+    """
 
     stamp_ns: int
     robot: str
@@ -39,6 +44,15 @@ class GraspChanged:
     object: str
     positions: tuple[float, ...]
     forces: tuple[float, ...]
+    reason: str = ""
+    load: Load | None = None
+
+
+@dataclass(frozen=True)
+class LoadChanged:
+    """The grasp of a robot as before, but it bears something else, or something is to be said."""
+
+    grasp: GraspChanged
 
 
 @dataclass(frozen=True)
@@ -51,4 +65,4 @@ class ObjectRemoved:
     why: str
 
 
-Event = CollisionChanged | GraspChanged | ObjectRemoved
+Event = CollisionChanged | GraspChanged | LoadChanged | ObjectRemoved

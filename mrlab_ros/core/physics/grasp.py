@@ -6,13 +6,18 @@ from collections.abc import Sequence
 from enum import Enum
 
 from mrlab_ros.core.clock import SECOND
-from mrlab_ros.core.geometry import Vector, dot
+from mrlab_ros.core.geometry import dot
 from mrlab_ros.core.physics.engine import Finger, FingerState, Kind, Touch
 from mrlab_ros.core.state_machine import Table
 
 # Two fingers oppose each other when the cosine between their contact normals is below this;
 # three fingers 120 degrees apart have -0.5.
 OPPOSED = -0.4
+# A finger that closed by less than this share of its range is at its open end.
+LEAST_WAY = 0.002
+# Cosine between a contact and the way a finger closes, from which on its inner side touches: 60
+# degrees, for the normal of a contact between two edges lies anywhere between their faces.
+INWARDS = 0.5
 
 
 class Gripper(Enum):
@@ -87,20 +92,21 @@ class StallWatch:
         self._from: list[tuple[int, float]] | None = None
         self._stalled: set[str] = set()
         self._all_since_ns: int | None = None
-        self._touched: dict[tuple[str, str], tuple[int, Vector]] = {}
+        self._touched: dict[tuple[str, str], tuple[int, Touch]] = {}
 
     def update(
         self, now_ns: int, states: Sequence[FingerState], touches: Sequence[Touch]
     ) -> frozenset[str]:
         """Return the links of the fingers that are stalled at `now_ns`."""
         for touch in touches:
-            if touch.kind is Kind.OBJECT and touch.link in self._links:
-                self._touched[touch.link, touch.other] = (now_ns, touch.normal)
+            inwards = touch.kind is Kind.OBJECT and touch.grip >= INWARDS
+            if inwards and touch.link in self._links and not touch.held:
+                self._touched[touch.link, touch.other] = (now_ns, touch)
         if self._from is None:
             self._from = [(now_ns, state.position) for state in states]
         for i, (finger, state) in enumerate(zip(self._fingers, states, strict=True)):
             since_ns, position = self._from[i]
-            if state.position - position > self._least[i]:
+            if finger.closes * (state.position - position) > self._least[i]:
                 self._stalled.discard(finger.link)
                 self._from[i] = (now_ns, state.position)
             elif now_ns - since_ns >= self._span_ns:
@@ -119,18 +125,26 @@ class StallWatch:
     def shut(self, states: Sequence[FingerState]) -> bool:
         """Return whether all fingers are at their closed end."""
         return all(
-            finger.upper - state.position <= least
+            finger.upper - finger.lower - finger.closed_by(state.position) <= least
             for finger, state, least in zip(self._fingers, states, self._least, strict=True)
         )
 
-    def pinched(self, now_ns: int) -> str | None:
-        """Return the first object, by name, that two opposing stalled fingers touch."""
-        by_object: dict[str, list[tuple[str, Vector]]] = {}
-        for (link, other), (seen_ns, normal) in self._touched.items():
+    def pinched(self, now_ns: int) -> tuple[str, tuple[Touch, ...]] | None:
+        """Return the first object, by name, that two opposing stalled fingers touch inwards, and
+        the newest touch of each of its fingers."""
+        by_object: dict[str, list[Touch]] = {}
+        for (link, other), (seen_ns, touch) in self._touched.items():
             if link in self._stalled and now_ns - seen_ns <= self._span_ns:
-                by_object.setdefault(other, []).append((link, normal))
+                by_object.setdefault(other, []).append(touch)
         for name in sorted(by_object):
-            normals = [normal for _, normal in by_object[name]]
+            normals = [touch.normal for touch in by_object[name]]
             if any(dot(a, b) < OPPOSED for i, a in enumerate(normals) for b in normals[i + 1 :]):
-                return name
+                return name, tuple(by_object[name])
         return None
+
+    def wedged(self, states: Sequence[FingerState]) -> bool:
+        """Return whether a finger is at its open end: what lies between them is too wide."""
+        return any(
+            finger.closed_by(state.position) < LEAST_WAY * (finger.upper - finger.lower)
+            for finger, state in zip(self._fingers, states, strict=True)
+        )

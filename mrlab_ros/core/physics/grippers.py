@@ -2,19 +2,25 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 from mrlab_ros.core.clock import SECOND
 from mrlab_ros.core.errors import Misuse
 from mrlab_ros.core.geometry import (
     Pose,
-    add,
+    Vector,
     compose,
-    cross,
+    conjugate,
+    dot,
     relative,
+    rotate,
     subtract,
 )
-from mrlab_ros.core.physics.engine import BodyState, Kind
-from mrlab_ros.core.physics.events import GraspChanged
-from mrlab_ros.core.physics.grasp import Grasp, GraspEvent, Gripper
+from mrlab_ros.core.physics.engine import BodyState, Kind, Touch
+from mrlab_ros.core.physics.grasp import INWARDS, Grasp, GraspEvent, Gripper
+from mrlab_ros.core.physics.grasp_load import Grip, fingers_grip
+from mrlab_ros.core.physics.holding import Holding
+from mrlab_ros.core.physics.seal import OUT, leak, lip
 from mrlab_ros.core.physics.simulated_robot import COMMANDING, Robot
 from mrlab_ros.core.physics.world_state import SceneObject, WorldState
 
@@ -25,6 +31,7 @@ class Grippers:
     def __init__(self, state: WorldState) -> None:
         self._world_state = state
         self._engine = state.engine
+        self._holding = Holding(state)
 
     # by service -----------------------------------------------------------------------------
 
@@ -50,13 +57,9 @@ class Grippers:
 
     # holding --------------------------------------------------------------------------------
 
-    def _seize(self, robot: Robot, thing: SceneObject) -> None:
+    def _seize(self, robot: Robot, thing: SceneObject, grip: Grip | None = None) -> None:
         self.take_away(thing)
-        hand = self._world_state.hand(robot).pose
-        robot.in_hand = relative(hand, self._engine.object(thing.name).pose)
-        self._engine.hold(robot.name, robot.arm.hand, thing.name)
-        robot.held, thing.held_by, thing.hand = thing.name, robot.name, None
-        robot.held_since_ns = self._world_state.now_ns
+        self._holding.fix(robot, thing, grip)
         robot.lost = ""
         robot.fire(GraspEvent.SEIZED)
         self._engine.drive_fingers(robot.name, robot.finger_velocities())
@@ -64,20 +67,12 @@ class Grippers:
 
     def let_go(self, robot: Robot) -> None:
         """Release what is held; the object keeps the gripper's velocity."""
-        if not robot.held:
-            return
-        thing = self._world_state.objects[robot.held]
-        self._engine.release(thing.name)
-        hand = self._world_state.hand(robot)
-        pose = self._engine.object(thing.name).pose
-        arm = subtract(pose.position, hand.pose.position)
-        linear = add(hand.linear, cross(hand.angular, arm))
-        self._engine.set_object(thing.name, BodyState(pose, linear, hand.angular))
-        thing.held_by, robot.held, robot.in_hand = "", "", None
+        if robot.held:
+            self._holding.free(robot)
 
-    def lose(self, robot: Robot) -> None:
+    def lose(self, robot: Robot, reason: str = "") -> None:
         """Release what a robot holds while its gripper stays closed."""
-        robot.lost = robot.held
+        robot.lost, robot.reason = robot.held, reason
         self.let_go(robot)
         robot.fire(GraspEvent.LOST)
         self.announce(robot)
@@ -90,47 +85,57 @@ class Grippers:
 
     def carry(self, robot: Robot) -> None:
         """Place what the gripper holds after the arm was placed."""
-        if robot.held and robot.in_hand is not None:
+        if robot.holding is not None:
             hand = self._world_state.hand(robot).pose
-            self._engine.set_object(robot.held, BodyState(compose(hand, robot.in_hand)))
+            pose = compose(hand, robot.holding.in_hand)
+            self._engine.set_object(robot.held, BodyState(pose))
+            robot.holding.velocity = None
 
-    def put_in_hand(self, robot: Robot, thing: SceneObject, in_hand: Pose) -> None:
+    def put_in_hand(
+        self, robot: Robot, thing: SceneObject, in_hand: Pose, grip: Grip | None
+    ) -> None:
         """Let a robot hold an object at `in_hand`: T_hand_object."""
+        again = robot.held == thing.name
+        if again:
+            self.let_go(robot)
         hand = self._world_state.hand(robot).pose
         self._engine.set_object(thing.name, BodyState(compose(hand, in_hand)))
-        if robot.held != thing.name:
-            self._seize(robot, thing)
+        if again:
+            self._holding.fix(robot, thing, grip)
+        else:
+            self._seize(robot, thing, grip)
 
     def announce(self, robot: Robot) -> None:
         """Add an event with the state of a gripper."""
-        states = self._engine.fingers(robot.name)
-        self._world_state.events.append(
-            GraspChanged(
-                self._world_state.now_ns,
-                robot.name,
-                robot.grasp,
-                robot.held,
-                tuple(state.position for state in states),
-                tuple(state.force for state in states),
-            )
-        )
+        self._holding.announce(robot)
+
+    def weigh(self, robot: Robot, now_ns: int, duration: float) -> None:
+        """Look at what a grasp bears; the last look was `duration` s ago."""
+        self._holding.weigh(robot, now_ns, duration)
 
     # along the trajectory -------------------------------------------------------------------
 
-    def follow(self, robot: Robot, now_ns: int) -> None:
-        """Open or close the gripper as the trajectory commands; grasp what it reached."""
+    def follow(self, robot: Robot, now_ns: int, duration: float) -> None:
+        """Open or close the gripper as the trajectory commands; grasp what it reached.
+
+        duration: s since the last call.
+        """
         if robot.program.times and robot.playing.state in COMMANDING and robot.pending is None:
             position = robot.playing.position(robot.stream.shown_ns(now_ns))
             closed = robot.program.closed_at(position)
             if closed is not None and closed != robot.closed:
                 self._set_closed(robot, closed, now_ns)
-        if robot.closed and not robot.held:
+        if robot.held:
+            fallen = self._holding.slip(robot, duration)
+            if fallen:
+                self.lose(robot, fallen)
+        elif robot.closed:
             self._watch(robot, now_ns)
 
     def _set_closed(self, robot: Robot, closed: bool, now_ns: int) -> None:
         robot.closed = closed
         robot.closing_since_ns = now_ns
-        robot.lost = ""
+        robot.lost = robot.reason = ""
         robot.watch.reset()
         if not closed:
             self.let_go(robot)
@@ -140,26 +145,50 @@ class Grippers:
             self.announce(robot)
 
     def _watch(self, robot: Robot, now_ns: int) -> None:
-        reached: str | None = None
-        shut = False
+        found: tuple[SceneObject, Grip | None] | None = None
+        shut, reason = False, ""
         if robot.gripper is Gripper.VACUUM:
-            reached = self._sucked(robot)
+            found, reason = self._sucked(robot)
             waited = (now_ns - robot.closing_since_ns) / SECOND
             shut = waited > self._world_state.settings.grasp_timeout
         elif robot.gripper is Gripper.FINGERS and robot.grasp is Grasp.CLOSING:
             states = self._engine.fingers(robot.name)
             stalled = robot.watch.update(now_ns, states, robot.touches)
             if stalled:
-                reached = robot.watch.pinched(now_ns)
+                found, reason = self._pinched(robot, now_ns)
             timeout = (
                 robot.watch.all_stalled_for(now_ns) > self._world_state.settings.grasp_timeout
             )
             shut = timeout or (bool(stalled) and robot.watch.shut(states))
-        thing = self._world_state.objects.get(reached) if reached is not None else None
-        if thing is not None and thing.graspable and self._may_take(robot, thing):
-            self._seize(robot, thing)
-        elif shut and robot.fire(GraspEvent.SHUT):
+        if found is not None and self._may_take(robot, found[0]):
+            self._seize(robot, *found)
+        elif shut and robot.grasp is Grasp.CLOSING:
+            robot.reason = reason
+            robot.fire(GraspEvent.SHUT)
             self.announce(robot)
+        elif reason and robot.gripper is Gripper.VACUUM:
+            self._holding.remark(robot, reason)
+
+    def _pinched(
+        self, robot: Robot, now_ns: int
+    ) -> tuple[tuple[SceneObject, Grip | None] | None, str]:
+        """Return the object between the fingers with its grip, and why there is none."""
+        pinched = robot.watch.pinched(now_ns)
+        thing = self._world_state.objects.get(pinched[0]) if pinched is not None else None
+        if pinched is None or thing is None or not thing.graspable:
+            return None, ""
+        if robot.watch.wedged(self._engine.fingers(robot.name)):
+            return None, f"{thing.name} is wider than the gripper opens"
+        hand = self._world_state.hand(robot).pose
+        contacts = [
+            (relative(hand, Pose(touch.point)).position, self._in_hand(hand, touch.normal))
+            for touch in pinched[1]
+        ]
+        return (thing, fingers_grip(contacts)), ""
+
+    @staticmethod
+    def _in_hand(hand: Pose, way: Vector) -> Vector:
+        return rotate(conjugate(hand.orientation), way)
 
     def _may_take(self, robot: Robot, thing: SceneObject) -> bool:
         """Return whether a closed gripper may take an object: of two that close on it at the same
@@ -167,19 +196,47 @@ class Grippers:
         holder = self._world_state.robots.get(thing.held_by)
         return holder is None or robot.closing_since_ns >= holder.held_since_ns
 
-    def _sucked(self, robot: Robot) -> str | None:
-        """Return the first object, by name, that the cup touches.
+    def _sucked(self, robot: Robot) -> tuple[tuple[SceneObject, Grip | None] | None, str]:
+        """Return the first object, by name, on which the cup seals, and why there is none.
 
         What was taken from it is not grasped again before the next gripper command, or two cups
         on one object would take it from each other at every step.
         """
         objects = self._world_state.objects
-        reached = (
-            touch.other
-            for touch in robot.touches
-            if touch.kind is Kind.OBJECT
-            and touch.link in robot.arm.tool_links
-            and touch.other != robot.lost
-            and touch.other in objects
-        )
-        return min((name for name in reached if objects[name].graspable), default=None)
+        reached: dict[str, list[Touch]] = {}
+        for touch in robot.touches:
+            if (
+                touch.kind is Kind.OBJECT
+                and touch.link in robot.arm.tool_links
+                and touch.other != robot.lost
+                and touch.other in objects
+                and objects[touch.other].graspable
+            ):
+                reached.setdefault(touch.other, []).append(touch)
+        reason = ""
+        for name in sorted(reached):
+            inwards = [touch for touch in reached[name] if touch.grip >= INWARDS]
+            if not inwards:
+                reason = reason or f"the cup touches {name} with its side"
+                continue
+            grip, leaks = self._sealed(robot, name, inwards)
+            if not leaks:
+                return (objects[name], grip), ""
+            reason = reason or leaks
+        return None, reason
+
+    def _sealed(
+        self, robot: Robot, name: str, touches: Sequence[Touch]
+    ) -> tuple[Grip | None, str]:
+        """Return the grip of a cup on an object that it touches, and why it does not seal."""
+        radius = robot.tool.lip_radius
+        if not radius:
+            return None, ""
+        tool = self._engine.link(robot.name, robot.arm.tool).pose
+        axis = rotate(tool.orientation, OUT)
+        depth = max(dot(subtract(touch.point, tool.position), axis) for touch in touches)
+        found = lip(tool, depth, radius)
+        leaks = leak(name, found, self._engine.rays(name, found.starts, found.ends))
+        hand = self._world_state.hand(robot).pose
+        point = relative(hand, Pose(found.middle)).position
+        return Grip(point, (self._in_hand(hand, axis),), radius, vacuum=True), leaks

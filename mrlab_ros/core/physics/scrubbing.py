@@ -64,7 +64,11 @@ class Rewind:
         for name, motion in motions.items():
             held_by = self._world_state.objects[name].held_by
             holder = self._world_state.robots.get(held_by)
-            kept[name] = ObjectSnapshot(motion, held_by, holder.in_hand if holder else None)
+            holding = holder.holding if holder is not None else None
+            if holding is None:
+                kept[name] = ObjectSnapshot(motion, held_by)
+            else:
+                kept[name] = ObjectSnapshot(motion, held_by, holding.in_hand, holding.grip)
         return kept
 
     def retrace(self, robot: Robot, now_ns: int) -> None:
@@ -88,7 +92,7 @@ class Rewind:
                 continue
             if kept.held_by == robot.name and kept.in_hand is not None:
                 if robot.held != name:
-                    self._grippers.put_in_hand(robot, thing, kept.in_hand)
+                    self._grippers.put_in_hand(robot, thing, kept.in_hand, kept.grip)
             elif not kept.held_by and not thing.held_by:
                 then = after.objects.get(name)
                 pose = kept.motion.pose
@@ -115,7 +119,7 @@ class Rewind:
                     self._engine.set_object(name, kept.motion)
             elif holder is robot or (holder.closed and not holder.held):
                 # In a seek of a whole system a robot gives back what it took from another one.
-                self._grippers.put_in_hand(holder, thing, kept.in_hand)
+                self._grippers.put_in_hand(holder, thing, kept.in_hand, kept.grip)
         robot.closed = snapshot.closed
         if not robot.held:
             robot.fire(GraspEvent.OPEN)

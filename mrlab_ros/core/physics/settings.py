@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from mrlab_ros.core import records
-from mrlab_ros.core.records import Integer, Number, above, between, field
+from mrlab_ros.core.records import Choice, Integer, Number, above, between, field
 
 PLACE = "config/physics.yaml"
 
@@ -45,6 +45,23 @@ class Settings:
         Number(above(0, 60), "s"),
         "After this time stalled fingers that touch no object count as closed on nothing.",
         0.5,
+    )
+    set_down: float = field(
+        Number(above(0, 0.05), "m"),
+        "How far a held object may be pressed on what it is set down on, or put into, before that "
+        "is a collision.",
+        0.002,
+    )
+    graze: float = field(
+        Number(above(0, 0.05), "m"),
+        "How far a held object may be moved against anything in another direction.",
+        0.0005,
+    )
+    hold: str = field(
+        Choice({"friction": "friction", "infinite": "infinite"}),
+        "friction: what friction or suction cannot hold slips and drops; infinite: a grasp holds "
+        "whatever it bears.",
+        "friction",
     )
     max_objects: int = field(
         Integer(between(1, 10_000)),

@@ -8,10 +8,11 @@ from collections.abc import Iterator
 from dataclasses import dataclass, field, replace
 
 from mrlab_ros.core.clock import SECOND, PlaybackClock
-from mrlab_ros.core.geometry import Pose
+from mrlab_ros.core.geometry import Pose, Vector
 from mrlab_ros.core.physics.clearance import Clearance
 from mrlab_ros.core.physics.engine import Arm, Kind, Touch
 from mrlab_ros.core.physics.grasp import TABLE, Grasp, GraspEvent, Gripper, StallWatch
+from mrlab_ros.core.physics.grasp_load import Grip, Load, Tool
 from mrlab_ros.core.physics.joint_stream import Joints, JointStream
 from mrlab_ros.core.physics.settings import Settings
 from mrlab_ros.core.physics.snapshots import Snapshot, Snapshots
@@ -80,6 +81,36 @@ class GripperProgram:
         return self.closes[i - 1] if i else not self.closes[0]
 
 
+@dataclass(frozen=True)
+class Pressed:
+    """How far, m, what is held has moved into something, and when it last touched it.
+
+    depth: m, by which they overlapped when it was grasped: a cup presses on what it takes.
+    """
+
+    seen_ns: int
+    way: float
+    depth: float = 0.0
+
+
+@dataclass(eq=False)
+class Held:
+    """How a robot holds its object.
+
+    in_hand: T_hand_object. grip: None where it was attached by service, and never slips. reach:
+    m, from the hand to its furthest point. velocity: m/s of its centre when its load was last
+    looked at, None after a jump. slip_speed: m/s; slid: m in the hand.
+    """
+
+    in_hand: Pose
+    grip: Grip | None
+    reach: float
+    velocity: Vector | None = None
+    load: Load | None = None
+    slip_speed: float = 0.0
+    slid: float = 0.0
+
+
 @dataclass(eq=False)
 class Robot:
     """The state of one robot. joints: names in order of its joint states."""
@@ -90,6 +121,7 @@ class Robot:
     arm: Arm
     gripper: Gripper
     settings: Settings
+    tool: Tool = field(default_factory=Tool)
     stream: JointStream = field(init=False)
     clearance: Clearance = field(init=False)
     watch: StallWatch = field(init=False)
@@ -114,7 +146,16 @@ class Robot:
     held_since_ns: int = 0
     # The object that was taken from the closed gripper; empty after the next gripper command.
     lost: str = ""
-    in_hand: Pose | None = None
+    holding: Held | None = None
+    # Objects just released, between the fingers until these have left them.
+    leaving: set[str] = field(default_factory=set)
+    # By kind, name and link: what the held object presses on.
+    pressed: dict[tuple[Kind, str, str], Pressed] = field(default_factory=dict)
+    # What is to be said of the gripper; empty: nothing.
+    reason: str = ""
+    # The load that was announced last, and when.
+    told: Load | None = None
+    told_ns: int = 0
     pending: tuple[int, Snapshot] | None = None
 
     def __post_init__(self) -> None:
@@ -127,6 +168,16 @@ class Robot:
         self.watch = StallWatch(self.arm.fingers, s.stall_share, round(s.stall_time * SECOND))
         self.snapshots = Snapshots(s.snapshot_rate, s.snapshot_count)
         self.finger_links = frozenset(f.link for f in self.arm.fingers)
+
+    @property
+    def in_hand(self) -> Pose | None:
+        """The pose of what it holds in the frame of its hand; None: it holds nothing."""
+        return self.holding.in_hand if self.holding is not None else None
+
+    @property
+    def payload(self) -> float:
+        """What it may carry beside its end effector, kg; 0: not stated."""
+        return max(self.tool.payload - self.arm.tool_mass, 0.0)
 
     def queue(self, playing: Playing) -> None:
         """Queue a playback state; apply_due() applies it from its stamp on."""
@@ -157,6 +208,11 @@ class Robot:
         self.watch.reset()
         self.closing_since_ns += by_ns
         self.held_since_ns += by_ns
+        self.told_ns += by_ns
+        self.pressed = {
+            key: replace(pressed, seen_ns=pressed.seen_ns + by_ns)
+            for key, pressed in self.pressed.items()
+        }
         if self.pending is not None:
             self.pending = (self.pending[0] + by_ns, self.pending[1])
         self._update_stream()
@@ -169,11 +225,15 @@ class Robot:
         )
 
     def reach(self, end: Joints, start: Joints | None = None) -> float:
-        """Return an upper bound of the arm's travel, m, from `start` (None: zeros) to `end`."""
+        """Return an upper bound of the travel, m, of the arm and of what it holds, from `start`
+        (None: zeros) to `end`."""
+        more = self.holding.reach if self.holding is not None else 0.0
         if start is None:
-            return sum([abs(q) * lever for q, lever in zip(end, self.arm.levers, strict=True)])
+            return sum(
+                [abs(q) * (lever + more) for q, lever in zip(end, self.arm.levers, strict=True)]
+            )
         ways = zip(start, end, self.arm.levers, strict=True)
-        return sum([abs(b - a) * lever for a, b, lever in ways])
+        return sum([abs(b - a) * (lever + more) for a, b, lever in ways])
 
     @property
     def grasp(self) -> Grasp:
@@ -185,23 +245,9 @@ class Robot:
         before = self._grasp.state
         return self._grasp.fire(event) is not before
 
-    def may_grasp(self, link: str) -> bool:
-        """Return whether `link` may touch an object without that being a collision."""
-        if self.gripper is Gripper.FINGERS:
-            return link in self.finger_links
-        return self.gripper is Gripper.VACUUM and link in self.arm.tool_links
-
-    def counts(self, touch: Touch, graspable: bool) -> bool:
-        """Return whether `touch` is a collision of this arm."""
-        if touch.link in self.arm.fixed_links:
-            return False
-        if touch.kind is Kind.OBJECT:
-            return touch.other != self.held and not (graspable and self.may_grasp(touch.link))
-        return not (touch.kind is Kind.SURFACE and touch.other in self.tolerated)
-
     def finger_velocities(self) -> list[float]:
         """Return the commanded finger velocities: closing, opening, or 0 around a held object."""
         if self.grasp is Grasp.HOLDING:
             return [0.0] * len(self.arm.fingers)
         way = 1.0 if self.closed else -1.0
-        return [way * finger.max_velocity for finger in self.arm.fingers]
+        return [way * finger.closes * finger.max_velocity for finger in self.arm.fingers]

@@ -8,16 +8,18 @@ from dataclasses import dataclass
 
 from mrlab_ros.core.geometry import Pose
 from mrlab_ros.core.physics.engine import BodyState
+from mrlab_ros.core.physics.grasp_load import Grip
 
 
 @dataclass(frozen=True)
 class ObjectSnapshot:
     """An object at one instant. held_by: the robot that held it, with its pose in the hand's
-    frame; empty: free."""
+    frame and its grip; empty: free."""
 
     motion: BodyState
     held_by: str = ""
     in_hand: Pose | None = None
+    grip: Grip | None = None
 
 
 @dataclass(frozen=True)

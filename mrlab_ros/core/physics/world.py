@@ -12,12 +12,13 @@ from collections.abc import Sequence
 
 from mrlab_ros.core.clock import SECOND
 from mrlab_ros.core.errors import Misuse
-from mrlab_ros.core.geometry import Pose, Vector
+from mrlab_ros.core.geometry import Pose, Vector, compose, relative
 from mrlab_ros.core.physics.catalogue import Catalogue
 from mrlab_ros.core.physics.collisions import Collisions
 from mrlab_ros.core.physics.engine import BodyState, Engine, LinkPairs
 from mrlab_ros.core.physics.events import Contact, Event
 from mrlab_ros.core.physics.grasp import Gripper
+from mrlab_ros.core.physics.grasp_load import Tool
 from mrlab_ros.core.physics.grippers import Grippers
 from mrlab_ros.core.physics.joint_stream import Joints, between
 from mrlab_ros.core.physics.objects import Inventory
@@ -99,6 +100,14 @@ class World:
         """Return pose and velocity of the link that a robot's objects are fixed to."""
         return self._world_state.hand(self.robot(name))
 
+    def in_tool(self, name: str) -> Pose | None:
+        """Return an object's pose in tool0 of the robot that holds it; None: no robot does."""
+        robot = self._robots.get(self.object(name).held_by)
+        if robot is None or robot.in_hand is None:
+            return None
+        tool = self._engine.link(robot.name, robot.arm.tool).pose
+        return compose(relative(tool, self.hand(robot.name).pose), robot.in_hand)
+
     def take_events(self) -> list[Event]:
         """Return the events since the last call, oldest first."""
         taken, self._world_state.events = self._world_state.events, []
@@ -118,18 +127,22 @@ class World:
         pose: Pose,
         gripper: Gripper,
         apart: LinkPairs = frozenset(),
+        tool: Tool | None = None,
     ) -> None:
         """Add a robot; its arm is in the world from its first joint state on.
 
-        apart: pairs of its links that never touch, though their collision shapes may.
+        apart: pairs of its links that never touch, though their collision shapes may. tool: what
+        is stated of its hand.
         """
         if name in self._robots:
             raise Misuse(f"robot '{name}' is in the world already; remove it first")
         arm = self._engine.add_arm(name, urdf, joints, pose, apart)
         if not arm.fingers and gripper is Gripper.FINGERS:
             gripper = Gripper.NONE
-        self._robots[name] = Robot(name, joints, pose, arm, gripper, self._settings)
-        self._engine.set_fingers(name, [finger.lower for finger in arm.fingers])
+        self._robots[name] = Robot(
+            name, joints, pose, arm, gripper, self._settings, tool or Tool()
+        )
+        self._engine.set_fingers(name, [finger.opened for finger in arm.fingers])
         # Braked: free fingers would slide when the arm swings.
         self._engine.drive_fingers(name, [0.0] * len(arm.fingers))
         self._grippers.announce(self._robots[name])
@@ -278,9 +291,9 @@ class World:
                     self._engine.move_arm(robot.name, at, velocities)
             self._engine.step(duration)
             for robot in present:
-                self._collisions.observe(robot, now_ns)
+                self._collisions.observe(robot, now_ns, duration)
         for robot in present:
-            self._grippers.follow(robot, now_ns)
+            self._grippers.follow(robot, now_ns, duration * divisions)
             if robot.pending is not None:
                 self._rewind.restore(robot, now_ns)
         if self._count % SLOW_STEPS == 0:
@@ -288,6 +301,8 @@ class World:
             for robot in present:
                 self._rewind.retrace(robot, now_ns)
                 self._collisions.check_clearance(robot, now_ns)
+                if robot.held:
+                    self._grippers.weigh(robot, now_ns, duration * divisions * SLOW_STEPS)
 
     def _move_arms(self, now_ns: int) -> list[Moved]:
         """Pose every arm by its joint states; return those that moved."""

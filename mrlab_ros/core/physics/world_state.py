@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 from mrlab_ros.core.errors import Misuse
 from mrlab_ros.core.naming import did_you_mean
 from mrlab_ros.core.physics.catalogue import ObjectType
-from mrlab_ros.core.physics.engine import BodyState, Engine, Kind, Touch
+from mrlab_ros.core.physics.engine import BodyState, Engine
 from mrlab_ros.core.physics.events import Event
 from mrlab_ros.core.physics.settings import Settings
 from mrlab_ros.core.physics.simulated_robot import Robot
@@ -65,8 +65,3 @@ class WorldState:
     def hand(self, robot: Robot) -> BodyState:
         """Return pose and velocity of the link that a robot's objects are fixed to."""
         return self.engine.link(robot.name, robot.arm.hand)
-
-    def counts(self, robot: Robot, touch: Touch) -> bool:
-        """Return whether `touch` is a collision of this robot."""
-        thing = self.objects.get(touch.other) if touch.kind is Kind.OBJECT else None
-        return robot.counts(touch, thing is not None and thing.graspable)

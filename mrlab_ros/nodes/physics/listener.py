@@ -21,6 +21,7 @@ from mrlab_ros.core.errors import LabError
 from mrlab_ros.core.identity import Identity
 from mrlab_ros.core.physics.engine import LinkPairs
 from mrlab_ros.core.physics.grasp import Gripper
+from mrlab_ros.core.physics.grasp_load import Tool
 from mrlab_ros.core.physics.simulated_robot import GripperProgram, Playing
 from mrlab_ros.core.physics.world import World
 from mrlab_ros.messages import joint_states, qos
@@ -48,8 +49,9 @@ class GraphListener:
 
     Joint states arrive a thousand times a second, so they bypass the executor. turn: advances
     the world and returns how long to wait at most, ns. never_touch: returns the pairs of links
-    of a model that never touch. lab: the id of this lab. follow_clock: returns the time, and
-    shifts the world where the clock was set; called with the lock.
+    of a model that never touch. tool: returns what is stated of a model with an end effector.
+    lab: the id of this lab. follow_clock: returns the time, and shifts the world where the clock
+    was set; called with the lock.
     """
 
     def __init__(
@@ -60,12 +62,14 @@ class GraphListener:
         lock: threading.Lock,
         turn: Callable[[], int],
         never_touch: Callable[[str], LinkPairs],
+        tool: Callable[[str, str], Tool],
         lab: str,
         follow_clock: Callable[[], int],
     ) -> None:
         self._world = world
         self._follow_clock = follow_clock
         self._never_touch = never_touch
+        self._tool = tool
         self._publishers = publishers
         self._lock = lock
         self._log = node.get_logger()
@@ -184,6 +188,7 @@ class GraphListener:
                     pose_from_message(known.robot.pose),
                     _gripper(known.robot.end_effector),
                     self._never_touch(known.robot.model),
+                    self._tool(known.robot.model, known.robot.end_effector),
                 )
                 self._world.set_program(name, known.program)
                 self._world.playback(name, known.playing)

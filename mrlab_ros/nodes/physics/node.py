@@ -104,6 +104,7 @@ class PhysicsNode(ParameterNode[PhysicsParameters]):
             self._lock,
             self._turn,
             library.never_touch,
+            library.hand_facts,
             self.parameters.lab_id,
             self._follow_clock,
         )

@@ -13,7 +13,7 @@ from sensor_msgs.msg import JointState
 
 from mrlab_ros.core.clock import SECOND
 from mrlab_ros.core.physics.engine import BodyState
-from mrlab_ros.core.physics.events import CollisionChanged, Event, ObjectRemoved
+from mrlab_ros.core.physics.events import CollisionChanged, Event, LoadChanged, ObjectRemoved
 from mrlab_ros.core.physics.surfaces import Surface
 from mrlab_ros.core.physics.world import World
 from mrlab_ros.messages import physics as messages
@@ -108,6 +108,8 @@ class WorldPublishers:
         elif isinstance(event, CollisionChanged):
             if event.robot in self._collisions:
                 self._collisions[event.robot].publish(messages.collision_to_message(event))
+        elif isinstance(event, LoadChanged):
+            self._publish_event(event.grasp)
         elif event.robot in self._grasps and event.robot in self._world.robots:
             fingers = [finger.joint for finger in self._world.robot(event.robot).arm.fingers]
             self._grasps[event.robot].publish(messages.grasp_to_message(event, fingers))
@@ -136,8 +138,9 @@ class WorldPublishers:
             motion = self._world.motion(thing.name)
             known = before.get(thing.name)
             if known is None or not known.holds(motion, thing.held_by):
+                in_tool = self._world.in_tool(thing.name)
                 known = PublishedObject(
-                    messages.object_to_message(thing, motion), motion, thing.held_by
+                    messages.object_to_message(thing, motion, in_tool), motion, thing.held_by
                 )
             published[thing.name] = known
         changed = (
@@ -149,7 +152,9 @@ class WorldPublishers:
         if changed or now_ns >= self._repeat_ns:
             self._repeat_ns = now_ns + REPEAT_NS
             objects = [known.message for known in published.values()]
-            self._objects.publish(messages.objects_to_message(now_ns, objects))
+            # The instant of the poses: the arms' joint states have the same stamps.
+            stamp_ns = self._world.now_ns or now_ns
+            self._objects.publish(messages.objects_to_message(stamp_ns, objects))
         return changed
 
     def publish_surfaces(self, now_ns: int, surfaces: Sequence[Surface]) -> None:

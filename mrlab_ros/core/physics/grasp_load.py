@@ -1,0 +1,174 @@
+"""What a grasp bears and whether friction holds it: a quasi-static model with declared figures.
+
+Fingers: Coulomb friction of a soft pad. A pad that carries a force F across it and a moment M
+about its normal slips where (F / (mu N))^2 + (M / (mu N r))^2 > 1, with r its effective radius
+(Howe and Cutkosky, "Practical force-motion models for sliding manipulation", IJRR 1996). Vacuum:
+the holding force of the cup less what pulls and peels at it presses the lip on the surface.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+from mrlab_ros.core.geometry import Vector, add, cross, dot, rotate, scale, subtract
+from mrlab_ros.core.physics.engine import BodyState
+
+GRAVITY: Vector = (0.0, 0.0, -9.80665)  # m/s^2, the standard value
+# Coefficient of a rubber pad; an object's own coefficient is multiplied with it, as in the engine.
+PAD_FRICTION = 1.5
+# The same of a dry cup: suppliers reckon with 0.5 on metal, glass, wood (VDI 2259 tables).
+CUP_FRICTION = 1.0
+# Effective radius of a finger pad, m: two thirds of the radius of a pad of 12 mm.
+PAD_RADIUS = 0.008
+# What is needed where nothing presses on the object any more.
+NO_GRIP = 99.0
+# Friction less than this is needed by no grasp, so that the margin stays finite.
+LEAST = 1e-3
+# Two fingers whose contacts are closer to one line than this (sine) oppose each other.
+ON_A_LINE = 0.35
+
+
+@dataclass(frozen=True)
+class Tool:
+    """What is stated of a robot's hand. payload: kg of the robot at its flange, 0: not stated;
+    cup_force: N that a vacuum cup holds; lip_radius: m."""
+
+    payload: float = 0.0
+    cup_force: float = 0.0
+    lip_radius: float = 0.0
+
+
+@dataclass(frozen=True)
+class Grip:
+    """How an object is gripped, in the frame of the hand. point: m, the middle of the contacts;
+    axes: unit, their normals, or one, out of a vacuum cup; spread: m, from the contacts to the
+    point, or the radius of the cup's lip."""
+
+    point: Vector
+    axes: tuple[Vector, ...]
+    spread: float
+    vacuum: bool = False
+
+
+@dataclass(frozen=True)
+class Load:
+    """What a grasp bears; see mrlab_msgs/Grasp. excess: m/s^2, by which it slips along `way`."""
+
+    mass: float
+    payload: float
+    friction: float
+    friction_needed: float
+    wrist_moment: float
+    way: Vector = (0.0, 0.0, 0.0)
+    excess: float = 0.0
+
+    @property
+    def slip_margin(self) -> float:
+        return self.friction / self.friction_needed - 1.0
+
+    def about(self, other: Load | None) -> bool:
+        """Return whether another load is much the same."""
+        if other is None:
+            return False
+        near = abs(self.friction_needed - other.friction_needed)
+        return near <= 0.02 + 0.1 * other.friction_needed
+
+
+def fingers_grip(contacts: Sequence[tuple[Vector, Vector]]) -> Grip:
+    """Return the grip of fingers at `contacts`: (point, normal) each, in the frame of the hand."""
+    middle = scale(_sum([point for point, _ in contacts]), 1.0 / len(contacts))
+    spread = sum(math.dist(point, middle) for point, _ in contacts) / len(contacts)
+    return Grip(middle, tuple(normal for _, normal in contacts), spread)
+
+
+def bears(
+    grip: Grip,
+    hand: BodyState,
+    tool0: Vector,
+    thing: BodyState,
+    acceleration: Vector,
+    mass: float,
+    payload: float,
+    friction: float,
+    force: float,
+) -> Load:
+    """Return what a grasp bears.
+
+    tool0: its origin in world; thing: the held object; acceleration: m/s^2 of its centre; mass:
+    kg; friction: of the object's surface; force: N of all fingers together, or of the cup.
+    """
+    load = scale(subtract(GRAVITY, acceleration), mass)
+    turn = hand.pose.orientation
+    point = add(hand.pose.position, rotate(turn, grip.point))
+    moment = cross(subtract(thing.pose.position, point), load)
+    axes = [rotate(turn, axis) for axis in grip.axes]
+    mu = friction * (CUP_FRICTION if grip.vacuum else PAD_FRICTION)
+    if grip.vacuum:
+        axis = axes[0]
+        across, twist = _apart(load, axis)[1], dot(moment, axis)
+        peel = _length(subtract(moment, scale(axis, twist)))
+        pressing, radius = force - dot(load, axis) - peel / grip.spread, grip.spread
+    else:
+        axis, pair = _common(axes)
+        along, rest = _apart(load, axis)
+        twist = dot(moment, axis)
+        across = rest if pair else along
+        # What pushes on one finger must not open it.
+        opening = _length(along if pair else rest)
+        pressing = force if opening <= force / 2 else 0.0
+        radius = PAD_RADIUS if pair else max(grip.spread, PAD_RADIUS)
+    wanted = math.hypot(_length(across), twist / radius)
+    needed = wanted / pressing if pressing > wanted / NO_GRIP else NO_GRIP
+    needed = max(needed, LEAST)
+    excess = (wanted - mu * max(pressing, 0.0)) / mass
+    if needed == NO_GRIP:
+        excess = _length(load) / mass
+    wrist = _length(cross(subtract(thing.pose.position, tool0), scale(GRAVITY, mass)))
+    size = _length(across)
+    way = scale(across, 1.0 / size) if size > 0 else (0.0, 0.0, 0.0)
+    return Load(mass, payload, mu, needed, wrist, way, excess)
+
+
+def remark(load: Load, holder: str) -> str:
+    """Return what is to be said of a load; empty: nothing."""
+    if load.slip_margin < 0:
+        return (
+            f"it slips: holding {load.mass:.3g} kg needs a friction of "
+            f"{load.friction_needed:.2f}, there is {load.friction:.2f}"
+        )
+    if 0 < load.payload < load.mass:
+        return (
+            f"{load.mass:.3g} kg is more than the {load.payload:.3g} kg that {holder} may carry "
+            "with this end effector"
+        )
+    return ""
+
+
+def _common(axes: Sequence[Vector]) -> tuple[Vector, bool]:
+    """Return the line that two fingers close on, and True; or what three turn about, and False."""
+    first = axes[0]
+    for other in axes[1:]:
+        normal = cross(first, other)
+        size = _length(normal)
+        if size > ON_A_LINE:
+            return scale(normal, 1.0 / size), False
+    return first, True
+
+
+def _apart(v: Vector, axis: Vector) -> tuple[Vector, Vector]:
+    """Return the components of `v` along a unit axis and across it."""
+    along = scale(axis, dot(v, axis))
+    return along, subtract(v, along)
+
+
+def _sum(vectors: Sequence[Vector]) -> Vector:
+    total: Vector = (0.0, 0.0, 0.0)
+    for v in vectors:
+        total = add(total, v)
+    return total
+
+
+def _length(v: Vector) -> float:
+    return math.hypot(*v)

@@ -1,0 +1,172 @@
+"""What a robot holds: fixing it to the hand, weighing it, letting it slip, letting it go."""
+
+from __future__ import annotations
+
+import math
+
+from mrlab_ros.core.clock import SECOND
+from mrlab_ros.core.geometry import (
+    Pose,
+    Vector,
+    add,
+    conjugate,
+    cross,
+    relative,
+    rotate,
+    scale,
+    subtract,
+)
+from mrlab_ros.core.physics.engine import BodyState
+from mrlab_ros.core.physics.events import GraspChanged, LoadChanged
+from mrlab_ros.core.physics.grasp_load import Grip, Load, bears, remark
+from mrlab_ros.core.physics.simulated_robot import Held, Robot
+from mrlab_ros.core.physics.world_state import SceneObject, WorldState
+
+# A load is announced again at most so often, ns.
+TOLD_NS = SECOND // 2
+# An object that slid so far between the fingers, m, falls: a pad is 25 mm high.
+SLID = 0.012
+# The normal of a contact that supports an object points up by more than this cosine.
+SUPPORTS = 0.5
+
+
+class Holding:
+    """Fixes objects to hands and keeps what is known of them."""
+
+    def __init__(self, state: WorldState) -> None:
+        self._world_state = state
+        self._engine = state.engine
+
+    def fix(self, robot: Robot, thing: SceneObject, grip: Grip | None) -> None:
+        """Fix an object to a robot's hand where it is.
+
+        What others feel when they meet it is the effective mass of a robot, half of its moving
+        mass and its load (ISO/TS 15066:2016, A.3.4).
+        """
+        hand = self._world_state.hand(robot).pose
+        in_hand = relative(hand, self._engine.object(thing.name).pose)
+        half = [(b - a) / 2 for a, b in zip(thing.type.low, thing.type.high, strict=True)]
+        reach = _length(in_hand.position) + _length((half[0], half[1], half[2]))
+        robot.holding = Held(in_hand, grip, reach)
+        robot.held, thing.held_by, thing.hand = thing.name, robot.name, None
+        robot.held_since_ns = self._world_state.now_ns
+        robot.share_of = None
+        robot.pressed.clear()
+        robot.leaving.discard(thing.name)
+        robot.told, robot.reason = None, ""
+        felt = robot.arm.moving_mass / 2 + thing.type.mass if robot.arm.moving_mass else 0.0
+        self._engine.hold(robot.name, robot.arm.hand, thing.name, felt)
+        robot.holding.load = robot.told = self._load(robot, thing, (0.0, 0.0, 0.0))
+        if robot.told is not None:
+            robot.reason = remark(robot.told, robot.name)
+
+    def free(self, robot: Robot) -> None:
+        """Let go of what is held; the object keeps the hand's velocity."""
+        thing = self._world_state.objects[robot.held]
+        self._engine.release(thing.name)
+        hand = self._world_state.hand(robot)
+        pose = self._engine.object(thing.name).pose
+        arm = subtract(pose.position, hand.pose.position)
+        linear = add(hand.linear, cross(hand.angular, arm))
+        self._engine.set_object(thing.name, BodyState(pose, linear, hand.angular))
+        thing.held_by, robot.held, robot.holding = "", "", None
+        robot.leaving.add(thing.name)
+        robot.share_of = None
+        robot.pressed.clear()
+
+    def announce(self, robot: Robot) -> None:
+        """Add an event with the state of a gripper."""
+        self._world_state.events.append(self._state(robot))
+
+    def remark(self, robot: Robot, reason: str) -> None:
+        """Say something of a gripper whose state stays."""
+        if reason != robot.reason:
+            robot.reason = reason
+            self._world_state.events.append(LoadChanged(self._state(robot)))
+
+    def _state(self, robot: Robot) -> GraspChanged:
+        states = self._engine.fingers(robot.name)
+        return GraspChanged(
+            self._world_state.now_ns,
+            robot.name,
+            robot.grasp,
+            robot.held,
+            tuple(state.position for state in states),
+            tuple(state.force for state in states),
+            robot.reason,
+            robot.holding.load if robot.holding is not None else None,
+        )
+
+    # what it bears --------------------------------------------------------------------------
+
+    def weigh(self, robot: Robot, now_ns: int, duration: float) -> None:
+        """Look at what a grasp bears; the last look was `duration` s ago."""
+        held = robot.holding
+        if held is None:
+            return
+        thing = self._world_state.objects[robot.held]
+        hand = self._world_state.hand(robot)
+        arm = rotate(hand.pose.orientation, held.in_hand.position)
+        velocity = add(hand.linear, cross(hand.angular, arm))
+        change = subtract(velocity, held.velocity) if held.velocity else (0.0, 0.0, 0.0)
+        held.velocity = velocity
+        held.load = self._load(robot, thing, scale(change, 1.0 / duration))
+        if held.load is None:
+            return
+        said = remark(held.load, robot.name)
+        due = now_ns - robot.told_ns >= TOLD_NS and not held.load.about(robot.told)
+        if due or said[:8] != robot.reason[:8]:
+            robot.told, robot.told_ns, robot.reason = held.load, now_ns, said
+            self._world_state.events.append(LoadChanged(self._state(robot)))
+
+    def _load(self, robot: Robot, thing: SceneObject, acceleration: Vector) -> Load | None:
+        held = robot.holding
+        if held is None or held.grip is None:
+            return None
+        vacuum = held.grip.vacuum
+        return bears(
+            held.grip,
+            self._world_state.hand(robot),
+            self._engine.link(robot.name, robot.arm.tool).pose.position,
+            self._engine.object(thing.name),
+            acceleration,
+            thing.type.mass,
+            robot.payload,
+            thing.type.body.friction,
+            robot.tool.cup_force if vacuum else robot.arm.grip_force,
+        )
+
+    def slip(self, robot: Robot, duration: float) -> str:
+        """Let what friction does not hold slide for `duration` s.
+
+        Return why it falls; empty: it is still in the hand.
+        """
+        held = robot.holding
+        if held is None or held.load is None or held.grip is None:
+            return ""
+        load = held.load
+        if self._world_state.settings.hold == "infinite" or (
+            load.excess <= 0 and held.slip_speed <= 0
+        ):
+            return ""
+        if any(touch.held and touch.normal[2] > SUPPORTS for touch in robot.touches):
+            # It stands on something, which bears its weight.
+            held.slip_speed = 0.0
+            return ""
+        numbers = f"friction {load.friction:.2f}, needed {load.friction_needed:.2f}"
+        if held.grip.vacuum:
+            return f"{robot.held} came off the cup: {load.mass:.3g} kg, {numbers}"
+        held.slip_speed = max(held.slip_speed + load.excess * duration, 0.0)
+        way = held.slip_speed * duration
+        held.slid += way
+        if held.slid > SLID:
+            return f"{robot.held} slipped out of the fingers: {load.mass:.3g} kg, {numbers}"
+        hand = self._world_state.hand(robot).pose
+        shift = rotate(conjugate(hand.orientation), scale(load.way, way))
+        held.in_hand = Pose(add(held.in_hand.position, shift), held.in_hand.orientation)
+        self._engine.slide(robot.held, shift)
+        return ""
+
+
+def _length(v: Vector) -> float:
+    return math.hypot(*v)

@@ -1,0 +1,469 @@
+"""A fixture set of scenes with the events that must come of each, equal over five runs."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import pytest
+from physics_cell import LIP, PADS, TYPES, Cell, gantry
+
+from mrlab_ros.core.geometry import Pose
+from mrlab_ros.core.physics.grasp import Grasp
+from mrlab_ros.core.physics.settings import Settings
+from mrlab_ros.core.physics.simulated_robot import GripperProgram
+from mrlab_ros.core.physics.surfaces import Surface
+
+OPEN, CLOSING, HOLDING, EMPTY = Grasp.OPEN, Grasp.CLOSING, Grasp.HOLDING, Grasp.EMPTY
+HELD = [OPEN, CLOSING, HOLDING]
+RUNS = 5
+SCENES = {}
+# How far the tool stands above what it grasps before it comes down, m.
+ABOVE = 0.12
+
+
+def scene(function):
+    SCENES[function.__name__] = function
+    return function
+
+
+@pytest.fixture(scope="module")
+def library(tmp_path_factory):
+    return gantry(tmp_path_factory.mktemp("robots"))
+
+
+def pick(cell: Cell, kind: str, *, at=(0.0, 0.0), lift: float = 0.15, yaw: float = 0.0) -> str:
+    """Let gantry `a` come down on an object on the floor, close and lift."""
+    height = TYPES.get(kind).size[2]
+    thing = cell.put(kind, (*at, height / 2))
+    grasp = height / 2 + PADS
+    cell.add("a", at=(*at, grasp + ABOVE, yaw))
+    cell.go("a", (*at, grasp, yaw), 0.4)
+    cell.close("a", 0.9)
+    if lift:
+        cell.go("a", (*at, grasp + lift, yaw), 0.5)
+    return thing
+
+
+@scene
+def a_cube_is_picked_lifted_and_set_down(cell):
+    cube = pick(cell, "cube")
+    assert cell.place(cube)[2] == pytest.approx(0.175, abs=0.001)
+    cell.go("a", (0.2, 0.0, 0.025 + PADS), 0.7)
+    cell.open("a", 0.3)
+    cell.go("a", (0.2, 0.0, 0.2 + PADS), 0.4)
+    assert cell.grasps("a") == [*HELD, OPEN]
+    assert not cell.hits()
+    assert cell.place(cube) == pytest.approx((0.2, 0.0, 0.025), abs=0.001)
+
+
+@scene
+def fingers_meet_the_sides_of_what_they_hold(cell):
+    pick(cell, "cube", lift=0.0)
+    for position in cell.world.fingers("a").values():
+        # The pads are 85 mm apart when open, the cube is 50 mm wide.
+        assert 0.0425 - position == pytest.approx(0.025, abs=0.0005)
+
+
+@scene
+def a_thin_plate_is_held_upright(cell):
+    thing = pick(cell, "thin", yaw=0.0)
+    assert cell.grasps("a") == HELD
+    assert cell.place(thing)[2] > 0.15
+    assert not cell.hits()
+
+
+@scene
+def what_just_fits_between_the_fingers_is_held(cell):
+    pick(cell, "fits")
+    assert cell.grasps("a") == HELD
+    assert not cell.hits()
+
+
+@scene
+def what_is_wider_than_the_opening_is_hit_and_not_held(cell):
+    thing = pick(cell, "wide")
+    ((robot, link, held, other), *_) = cell.hits()
+    assert (robot, held, other) == ("a", "", thing)
+    assert link in ("gripper_left_finger_link", "gripper_right_finger_link")
+    assert HOLDING not in cell.grasps("a")
+
+
+@scene
+def what_is_too_wide_is_not_held_though_it_stood_between_the_fingers(cell):
+    cell.add("a", at=(0.0, 0.0, 0.03 + PADS))
+    cell.put("wide", (0.0, 0.0, 0.03))
+    cell.close("a", 1.2)
+    assert cell.grasps("a") == [OPEN, CLOSING, EMPTY]
+    assert "wider than the gripper opens" in cell.reasons("a")
+
+
+@scene
+def a_finger_that_comes_down_on_a_block_collides(cell):
+    # 30 mm beside the middle: one finger is above the block.
+    cell.put("anvil", (0.0, 0.0, 0.025))
+    cell.add("a", at=(0.0, 0.1, 0.05 + PADS + 0.06))
+    cell.go("a", (0.0, 0.1, PADS), 0.5)
+    ((robot, link, held, other), *_) = cell.hits()
+    assert (robot, held, other) == ("a", "", "anvil_1")
+    assert "finger_link" in link
+
+
+@scene
+def the_back_of_a_finger_that_sweeps_a_can_collides(cell):
+    cell.put("can", (0.0, 0.15, 0.0575))
+    cell.add("a", at=(0.0, 0.0, 0.09 + PADS))
+    cell.go("a", (0.0, 0.12, 0.09 + PADS), 0.6)
+    ((_, link, _, other), *_) = cell.hits()
+    assert (link, other) == ("gripper_right_finger_link", "can_1")
+
+
+@scene
+def closed_fingers_that_push_a_cube_collide(cell):
+    cell.put("cube", (0.15, 0.0, 0.025))
+    cell.add("a", at=(0.0, 0.0, 0.03 + PADS))
+    cell.close("a", 1.2)
+    assert cell.grasps("a") == [OPEN, CLOSING, EMPTY]
+    cell.go("a", (0.14, 0.0, 0.03 + PADS), 0.6)
+    assert cell.hits()[0][3] == "cube_1"
+
+
+@scene
+def a_held_bar_moved_into_a_wall_collides(cell):
+    cell.put("wall", (0.6, 0.0, 0.5), rpy=(0.0, 0.0, math.pi / 2), name="barrier")
+    bar = pick(cell, "bar")
+    assert not cell.hits()
+    cell.go("a", (0.35, 0.0, 0.17 + PADS), 0.6)
+    assert cell.hits()[0] == ("a", "gripper_base_link", bar, "barrier")
+    # It went no further than a few millimetres before that was said.
+    (first,) = [e for e in cell.events if getattr(e, "colliding", False)][:1]
+    assert first.contact.touch.depth < 0.004
+
+
+@scene
+def a_held_bar_swept_at_six_metres_a_second_meets_a_plate(cell):
+    cell = Cell(cell.library, Settings(hold="infinite"))
+    bar = pick(cell, "bar", lift=0.4)
+    plate = cell.put("plate", (1.2, 0.0, 0.4), rpy=(0.0, math.pi / 2, 0.0))
+    at = Pose((1.2, 0.0, 0.42), (0.0, math.sqrt(0.5), 0.0, math.sqrt(0.5)))
+    cell.world.move(plate, at, (0, 0, 0), (0, 0, 0), held=True)
+    cell.go("a", (2.4, 0.0, 0.42 + PADS), 0.4, even=True)
+    assert cell.hits()[0] == ("a", "gripper_base_link", bar, plate)
+    cell.engine.close()
+
+
+@scene
+def a_held_part_moved_into_a_free_part_collides(cell):
+    pick(cell, "cube", lift=0.02)
+    cell.put("block", (0.3, 0.0, 0.02))
+    cell.go("a", (0.26, 0.0, 0.045 + PADS), 0.8)
+    assert cell.hits()[0] == ("a", "gripper_base_link", "cube_1", "block_1")
+
+
+@scene
+def a_held_part_pressed_into_the_floor_collides(cell):
+    cube = pick(cell, "cube")
+    cell.go("a", (0.2, 0.0, 0.015 + PADS), 0.8)
+    assert cell.hits()[0] == ("a", "gripper_base_link", cube, "floor")
+
+
+@scene
+def a_part_set_down_a_millimetre_too_deep_is_tolerated(cell):
+    cube = pick(cell, "cube")
+    cell.go("a", (0.2, 0.0, 0.024 + PADS), 0.8)
+    cell.open("a", 0.3)
+    assert not cell.hits()
+    assert cell.place(cube)[2] == pytest.approx(0.025, abs=0.001)
+
+
+@scene
+def a_collision_of_what_is_held_ends_once_it_is_clear(cell):
+    pick(cell, "cube")
+    cell.go("a", (0.2, 0.0, 0.015 + PADS), 0.5)
+    cell.go("a", (0.2, 0.0, 0.2 + PADS), 0.5)
+    cell.wait(0.4)
+    found = [e.colliding for e in cell.events if hasattr(e, "colliding")]
+    assert found == [True, False]
+
+
+@scene
+def a_cube_is_stacked_on_another(cell):
+    cell.put("cube", (0.2, 0.0, 0.025), name="below")
+    cube = pick(cell, "cube")
+    cell.go("a", (0.2, 0.0, 0.17 + PADS), 0.5)
+    cell.go("a", (0.2, 0.0, 0.0752 + PADS), 0.4)
+    cell.open("a", 0.3)
+    cell.go("a", (0.2, 0.0, 0.2 + PADS), 0.4)
+    assert not cell.hits()
+    assert cell.place(cube) == pytest.approx((0.2, 0.0, 0.075), abs=0.002)
+
+
+@scene
+def a_peg_goes_into_its_hole(cell):
+    cell.put("hole", (0.25, 0.0, 0.03))
+    peg = cell.put("peg", (0.0, 0.0, 0.05))
+    grasp = 0.08 + PADS
+    cell.add("a", at=(0.0, 0.0, grasp + ABOVE))
+    cell.go("a", (0.0, 0.0, grasp), 0.4)
+    cell.close("a", 0.9)
+    cell.go("a", (0.0, 0.0, grasp + 0.08), 0.4)
+    cell.go("a", (0.25, 0.0, grasp + 0.08), 0.5)
+    cell.go("a", (0.25, 0.0, grasp + 0.001), 0.6)
+    cell.open("a", 0.4)
+    cell.go("a", (0.25, 0.0, grasp + ABOVE), 0.4)
+    assert not cell.hits()
+    assert cell.grasps("a") == [*HELD, OPEN]
+    assert cell.place(peg) == pytest.approx((0.25, 0.0, 0.05), abs=0.002)
+
+
+@scene
+def a_peg_beside_its_hole_collides(cell):
+    cell.put("hole", (0.25, 0.0, 0.03))
+    peg = cell.put("peg", (0.0, 0.0, 0.05))
+    grasp = 0.08 + PADS
+    cell.add("a", at=(0.0, 0.0, grasp + ABOVE))
+    cell.go("a", (0.0, 0.0, grasp), 0.4)
+    cell.close("a", 0.9)
+    cell.go("a", (0.0, 0.0, grasp + 0.08), 0.4)
+    cell.go("a", (0.256, 0.0, grasp + 0.08), 0.5)
+    cell.go("a", (0.256, 0.0, grasp), 0.6)
+    assert cell.hits()[0] == ("a", "gripper_base_link", peg, "hole_1")
+
+
+@scene
+def a_rod_goes_from_hand_to_hand(cell):
+    pick(cell, "bar", lift=0.3, yaw=0.0)
+    # The second gripper takes the bar 12 cm further along.
+    bar = "bar_1"
+    z = cell.place(bar)[2]
+    cell.add("b", at=(0.12, 0.0, z + PADS + ABOVE))
+    cell.go("b", (0.12, 0.0, z + PADS), 0.5)
+    cell.close("b", 0.9)
+    assert cell.world.object(bar).held_by == "b"
+    cell.open("a", 0.4)
+    cell.go("a", (0.0, 0.0, z + PADS + 0.1), 0.4)
+    assert cell.grasps("a") == [*HELD, EMPTY, OPEN]
+    assert cell.grasps("b") == HELD
+    assert not cell.hits()
+
+
+@scene
+def a_bar_that_one_robot_holds_meets_the_other_robot(cell):
+    bar = pick(cell, "bar", lift=0.3)
+    cell.add("b", at=(0.6, 0.0, 0.32))
+    cell.go("a", (0.3, 0.0, 0.32 + PADS), 0.6)
+    assert ("a", "gripper_base_link", bar, "b") in cell.hits()
+
+
+@scene
+def what_is_too_heavy_for_friction_slips_out(cell):
+    lead = pick(cell, "heavy", lift=0.3)
+    cell.wait(0.6)
+    assert cell.grasps("a")[:3] == HELD
+    assert cell.grasps("a")[-1] is EMPTY
+    assert "slipped out of the fingers" in cell.reasons("a")
+    assert cell.place(lead)[2] < 0.05
+
+
+@scene
+def what_is_above_the_payload_is_said_and_held(cell):
+    lead = pick(cell, "lead", lift=0.3)
+    cell.wait(0.2)
+    assert "7 kg is more than the 3.95 kg" in cell.reasons("a")
+    assert cell.place(lead)[2] > 0.3
+    load = cell.world.robot("a").holding.load
+    assert load.friction_needed == pytest.approx(7 * 9.80665 / 125, rel=0.1)
+    assert 0 < load.slip_margin < 1.0
+
+
+@scene
+def what_is_slick_slips_where_a_rough_one_holds(cell):
+    pick(cell, "slick", lift=0.2)
+    assert cell.grasps("a")[-1] is EMPTY
+
+
+@scene
+def with_an_infinite_hold_nothing_slips(cell):
+    cell = Cell(cell.library, Settings(hold="infinite"))
+    lead = pick(cell, "heavy", lift=0.3)
+    cell.wait(0.2)
+    assert cell.grasps("a") == HELD
+    assert "it slips" in cell.reasons("a")
+    assert cell.place(lead)[2] > 0.3
+    cell.engine.close()
+
+
+@scene
+def a_bar_gripped_at_its_end_turns_more_than_pads_can_bear(cell):
+    bar = cell.put("bar", (0.0, 0.0, 0.02))
+    cell.add("a", at=(0.27, 0.0, 0.02 + PADS + ABOVE))
+    cell.go("a", (0.27, 0.0, 0.02 + PADS), 0.4)
+    cell.close("a", 0.9)
+    load = cell.world.robot("a").holding.load
+    assert load.wrist_moment == pytest.approx(0.5 * 9.80665 * 0.27, rel=0.02)
+    assert load.slip_margin < 0
+    cell.go("a", (0.27, 0.0, 0.3 + PADS), 0.5)
+    assert cell.world.object(bar).held_by == ""
+
+
+def suck(cell: Cell, kind: str, at, *, x: float = 0.0, tilt: float = 0.0, rpy=(0.0, 0.0, 0.0)):
+    """Let the cup come down on an object's top and switch on."""
+    thing = cell.put(kind, at, rpy=rpy)
+    top = at[2] + TYPES.get(kind).size[2] / 2 + LIP
+    if tilt:
+        top += 0.006
+    cell.add("a", "vacuum_cup", at=(x, LIP * math.sin(-tilt), top + 0.06, 0.0, tilt))
+    cell.go("a", (x, LIP * math.sin(-tilt), top - 0.0015, 0.0, tilt), 0.4)
+    cell.close("a", 0.8)
+    return thing
+
+
+@scene
+def a_cup_lifts_a_carton(cell):
+    carton = suck(cell, "carton", (0.0, 0.0, 0.1))
+    assert cell.grasps("a") == HELD
+    cell.go("a", (0.0, 0.0, 0.5), 0.5)
+    assert cell.place(carton)[2] > 0.15
+    assert not cell.hits()
+    load = cell.world.robot("a").holding.load
+    assert load.slip_margin > 1.0
+
+
+@scene
+def a_cup_does_not_seal_over_an_edge(cell):
+    suck(cell, "carton", (0.0, 0.0, 0.1), x=0.14)
+    assert HOLDING not in cell.grasps("a")
+    assert "an edge, a hole or a rim" in cell.reasons("a")
+
+
+@scene
+def a_cup_does_not_seal_on_the_rim_of_a_cup(cell):
+    suck(cell, "cup", (0.0, 0.0, 0.04), x=0.03)
+    assert HOLDING not in cell.grasps("a")
+
+
+@scene
+def a_cup_does_not_seal_on_a_ball(cell):
+    suck(cell, "ball", (0.0, 0.0, 0.033))
+    assert HOLDING not in cell.grasps("a")
+    assert "does not seal" in cell.reasons("a")
+
+
+@scene
+def a_cup_that_stands_askew_does_not_seal(cell):
+    suck(cell, "slab", (0.0, 0.0, 0.01), tilt=0.3)
+    assert HOLDING not in cell.grasps("a")
+
+
+@scene
+def what_is_too_heavy_for_a_cup_comes_off(cell):
+    anvil = suck(cell, "anvil", (0.0, 0.0, 0.025))
+    cell.go("a", (0.0, 0.0, 0.5), 0.5)
+    assert cell.world.object(anvil).held_by == ""
+    assert "came off the cup" in cell.reasons("a")
+
+
+@scene
+def a_tower_stands_while_its_top_is_taken(cell):
+    for k in range(3):
+        cell.put("cube", (0.0, 0.0, 0.025 + 0.05 * k))
+    cell.add("a", at=(0.0, 0.0, 0.13 + PADS + ABOVE))
+    cell.wait(0.3)
+    cell.go("a", (0.0, 0.0, 0.13 + PADS), 0.4)
+    cell.close("a", 0.9)
+    cell.go("a", (0.0, 0.0, 0.3 + PADS), 0.5)
+    assert cell.grasps("a") == HELD
+    assert not cell.hits()
+    assert cell.place("cube_2") == pytest.approx((0.0, 0.0, 0.075), abs=0.003)
+
+
+@scene
+def cubes_of_a_row_are_taken_one_by_one(cell):
+    for k in range(3):
+        cell.put("cube", (0.0501 * k, 0.0, 0.025))
+    cell.add("a", at=(0.0, 0.0, 0.035 + PADS + ABOVE))
+    for k in range(2):
+        x = 0.0501 * k
+        cell.go("a", (x, 0.0, 0.035 + PADS + ABOVE), 0.3)
+        cell.go("a", (x, 0.0, 0.035 + PADS), 0.3)
+        cell.close("a", 0.8)
+        cell.go("a", (x, 0.0, 0.035 + PADS + ABOVE), 0.3)
+        cell.go("a", (-0.25 + 0.1 * k, 0.0, 0.036 + PADS), 0.5)
+        cell.open("a", 0.3)
+    assert cell.grasps("a") == [OPEN, *[CLOSING, HOLDING, OPEN] * 2]
+    assert not cell.hits()
+    assert cell.place("cube_3")[0] == pytest.approx(0.1002, abs=0.002)
+
+
+@scene
+def what_is_held_is_where_the_hand_was_at_that_stamp(cell):
+    cube = pick(cell, "cube")
+    in_tool = cell.world.in_tool(cube)
+    cell.go("a", (0.5, 0.0, 0.175 + PADS), 0.5, even=True)
+    x, _, z = cell.place(cube)
+    # tool0 points down: its x lies along the world's.
+    shown = cell.world.robot("a").placed
+    assert x == pytest.approx(shown[0] + in_tool.position[0], abs=1e-6)
+    assert z == pytest.approx(shown[2] - in_tool.position[2], abs=1e-6)
+    assert cell.world.in_tool(cube).position == pytest.approx(in_tool.position, abs=1e-9)
+
+
+@scene
+def what_is_thrown_flies_with_the_hands_velocity(cell):
+    cube = pick(cell, "cube", lift=0.4)
+    cell.program["a"].append((cell.now_ns / 1e9 + 0.3, False))
+    times, closes = zip(*cell.program["a"], strict=True)
+    cell.world.set_program("a", GripperProgram(times, closes))
+    cell.go("a", (0.62, 0.0, 0.425 + PADS), 0.31, even=True)
+    assert cell.world.motion(cube).linear[0] == pytest.approx(2.0, rel=0.02)
+
+
+@scene
+def a_ball_from_twenty_metres_stays_above_a_thin_mesh(cell):
+    corners = np.array([[-1, -1, 0], [1, -1, 0], [1, 1, 0], [-1, 1, 0.0]])
+    mesh = Surface("shelf", "other", Pose((0, 0, 0.5)), corners,
+                   np.array([[0, 1, 2], [0, 2, 3]], np.int32))  # fmt: skip
+    cell.world.set_surfaces([mesh])
+    kinds = ("ball", "cube_small", "plate", "peg", "bottle")
+    names = [cell.put(kind, (0.35 * k - 0.7, 0.0, 20.5)) for k, kind in enumerate(kinds)]
+    lowest = dict.fromkeys(names, 99.0)
+    for _ in range(25):
+        cell.wait(0.1)
+        for name in names:
+            x, y, z = cell.place(name)
+            if max(abs(x), abs(y)) < 1.0:
+                lowest[name] = min(lowest[name], z)
+    assert min(lowest.values()) > 0.5, lowest
+
+
+@scene
+def what_is_thrown_at_twenty_metres_a_second_stays_in_the_room(cell):
+    wall = np.array([[0, -2, 0], [0, 2, 0], [0, 2, 3], [0, -2, 3.0]])
+    mesh = Surface("wall", "wall", Pose((1.0, 0, 0)), wall,
+                   np.array([[0, 1, 2], [0, 2, 3]], np.int32))  # fmt: skip
+    cell.world.set_surfaces([mesh])
+    for k, kind in enumerate(("ball", "cube_small", "peg", "disc")):
+        name = cell.put(kind, (0.0, 0.4 * k - 0.6, 1.0))
+        speed = (20.0, 0.0, 0.0)
+        cell.world.move(name, Pose((0.0, 0.4 * k - 0.6, 1.0)), speed, (3, 5, 7), held=False)
+    cell.wait(0.5)
+    assert all(cell.place(thing.name)[0] < 1.0 for thing in cell.world.objects)
+
+
+@pytest.mark.parametrize("name", list(SCENES))
+def test_a_scene_has_its_events(name, library):
+    cell = Cell(library)
+    SCENES[name](cell)
+    cell.engine.close()
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("name", list(SCENES))
+def test_a_scene_is_the_same_in_five_runs(name, library):
+    digests = set()
+    for _ in range(RUNS):
+        cell = Cell(library)
+        SCENES[name](cell)
+        digests.add(cell.digest())
+        cell.engine.close()
+    assert len(digests) == 1
