@@ -55,6 +55,7 @@ const SHAPES = {
   ),
   motion: <path d="M3 15.5c3.5 0 3.5-11 7-11s3.5 11 7 11M3 4.5h.1M17 4.5h.1" />,
   robot: <path d="M4 17h8M8 17v-3l-3-5 5.5-4.5L15 8m0 0 1.8-.7M15 8l-.4 2M5 9h.1M10.4 4.5h.1" />,
+  room: <path d="M3 6.5 10 3l7 3.5v7L10 17l-7-3.5zM3 6.5l7 3.5 7-3.5M10 10v7" />,
   people: (
     <>
       <circle cx="7.5" cy="6.5" r="3" />

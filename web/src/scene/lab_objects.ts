@@ -1,7 +1,7 @@
 import { Group, Matrix4, type Object3D, Quaternion, Vector3 } from 'three'
+import type { SceneHost } from './lab_scene'
 import { type MeshSource, release } from './meshes'
 import { primitiveOf, type Shape } from './shapes'
-import type { Stage } from './stage'
 
 export interface Pose {
   readonly position: { readonly x: number; readonly y: number; readonly z: number }
@@ -62,7 +62,7 @@ export class LabObjects {
 
   /** toolOf: the tool0 of a robot; undefined where it is not there. */
   constructor(
-    private readonly stage: Stage,
+    private readonly stage: SceneHost,
     private readonly meshes: MeshSource,
     private readonly toolOf: (robot: string) => Object3D | undefined,
     private readonly trouble: (sentence: string) => void,

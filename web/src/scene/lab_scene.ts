@@ -15,7 +15,6 @@ import { Label } from './labels'
 import { Looks } from './looks'
 import type { MeshSource } from './meshes'
 import { SceneRobot } from './robot'
-import type { Stage } from './stage'
 import { LabSurfaces, type ShownSurface } from './surfaces'
 import type { SceneTheme } from './theme'
 
@@ -30,6 +29,18 @@ export interface ShownRobot {
   readonly urdf: string
   readonly pose: Pose
   readonly joint_names: readonly string[]
+}
+
+/** Where a lab is drawn: a page's picture, or the room. */
+export interface SceneHost {
+  /** The lab's frame `world`: z up, m. */
+  readonly world: Object3D
+  readonly theme: SceneTheme
+  onTheme(listener: (theme: SceneTheme) => void): () => void
+  /** Ask for a new picture. */
+  invalidate(): void
+  /** Show points of the world's frame whole; a view that a person chose stays, unless `again`. */
+  frame(points: readonly Vector3[], again?: boolean): void
 }
 
 interface Entry {
@@ -58,7 +69,7 @@ export class LabScene {
   private nameHeight = NAME
 
   constructor(
-    private readonly stage: Stage,
+    private readonly stage: SceneHost,
     private readonly meshes: MeshSource,
     private readonly onTrouble: () => void = () => undefined,
   ) {
@@ -97,6 +108,11 @@ export class LabScene {
   /** Return the joints of a robot in the order in which setJoints wants them. */
   robot(name: string): SceneRobot | undefined {
     return this.robots.get(name)?.robot
+  }
+
+  /** Return the frame of a robot's base. */
+  base(name: string): Object3D | undefined {
+    return this.robots.get(name)?.base
   }
 
   /** Move a robot's base. */

@@ -124,6 +124,11 @@ export class SceneRobot {
     }
   }
 
+  /** Return where a joint is as it was last moved, rad or m. */
+  angle(joint: string): number | undefined {
+    return this.movables.get(joint)?.value
+  }
+
   /** Move one joint by its name, rad or m; return whether there is one and it moves. */
   setJoint(name: string, value: number): boolean {
     const found = this.movables.get(name)

@@ -23,7 +23,14 @@ import {
 import { jointStateType } from '../../protocol/sensor_msgs'
 import { stringType } from '../../protocol/std_msgs'
 import type { LabScene } from '../../scene/lab_scene'
-import { type CourseOf, FollowedRobot, type RobotView, seconds, setJoints } from './followed_robot'
+import {
+  type CourseOf,
+  type DrawnArm,
+  FollowedRobot,
+  type RobotView,
+  seconds,
+  setJoints,
+} from './followed_robot'
 
 export interface SystemView {
   readonly system: RobotSystem
@@ -37,6 +44,19 @@ export interface KeyActivity {
   /** s, of the lab's clock */
   newest: number
 }
+
+/** What a follower moves: the part of a LabScene that it calls. */
+export type FollowedScene = Pick<
+  LabScene,
+  | 'setRobots'
+  | 'setState'
+  | 'setTargets'
+  | 'setCollision'
+  | 'setObjects'
+  | 'setSurfaces'
+  | 'setContacts'
+  | 'frame'
+> & { robot(name: string): DrawnArm | undefined }
 
 /** What a follower needs of the page that it serves. */
 export interface FollowerOptions {
@@ -59,7 +79,7 @@ export class LabFollower {
   /** Whether the lab has said which robots there are. */
   readonly known = signal(false)
   readonly activity = new Map<string, KeyActivity>()
-  scene: LabScene | null = null
+  scene: FollowedScene | null = null
   private readonly kept = new Map<string, FollowedRobot>()
   private readonly systemPlayers = new Map<string, RemotePlayer>()
   private surfaces: readonly Surface[] = []
@@ -125,7 +145,7 @@ export class LabFollower {
   }
 
   /** Give the scene what is known; call it when the scene is there. */
-  attach(scene: LabScene): void {
+  attach(scene: FollowedScene): void {
     this.scene = scene
     scene.setSurfaces(this.surfaces)
     this.show()

@@ -21,6 +21,9 @@ export interface RobotView {
   readonly player: RemotePlayer
 }
 
+/** A drawn robot as far as it is posed here. */
+export type DrawnArm = Pick<SceneRobot, 'setJoint' | 'setPositions'>
+
 /** Returns the frames of a trajectory, such as quintic@3. Rejects where they cannot be had. */
 export type CourseOf = (trajectory: string) => Promise<Course>
 
@@ -47,7 +50,7 @@ export class FollowedRobot {
   /** Whether joint states came. */
   private heard = false
   /** What stands in a pose of the lab, rather than in that of its URDF. */
-  private posed: SceneRobot | undefined
+  private posed: DrawnArm | undefined
 
   constructor(
     readonly player: RemotePlayer,
@@ -73,7 +76,7 @@ export class FollowedRobot {
 
   /** Take over joint states. Return 'first' where they are the first that are drawn, whether they
    * move the drawn robot otherwise. */
-  takeJoints(message: JointState, drawn: SceneRobot | undefined): 'first' | boolean {
+  takeJoints(message: JointState, drawn: DrawnArm | undefined): 'first' | boolean {
     this.pose?.take(message.name, message.position, seconds(message.header.stamp))
     this.heard = true
     if (drawn === undefined) return false
@@ -87,7 +90,7 @@ export class FollowedRobot {
   }
 
   /** Before a picture: pose it by its clock; return whether it moves on by itself. */
-  draw(drawn: SceneRobot | undefined): boolean {
+  draw(drawn: DrawnArm | undefined): boolean {
     if (this.pose === null) return false
     const { moves } = this.pose
     const fresh = this.heard && this.posed !== drawn
@@ -129,7 +132,7 @@ export class FollowedRobot {
 }
 
 /** Pose a drawn robot by the names of its joints; return whether that moves it. */
-export function setJoints(drawn: SceneRobot, { name, position }: JointState): boolean {
+export function setJoints(drawn: DrawnArm, { name, position }: JointState): boolean {
   let moved = false
   for (let i = 0; i < name.length; i++) {
     moved = drawn.setJoint(name[i] as string, position[i] as number) || moved

@@ -34,6 +34,12 @@ const ROUTES: readonly Route[] = [
     wide: true,
   },
   {
+    path: /^\/room$/,
+    page: lazy(async () => (await import('../../room/page')).RoomPage),
+    members: true,
+    wide: true,
+  },
+  {
     path: /^\/trajectories(\/.*)?$/,
     page: lazy(async () => (await import('../trajectories/page')).TrajectoriesPage),
     members: true,

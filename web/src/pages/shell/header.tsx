@@ -11,13 +11,14 @@ import { mayAdmit, session, useApi } from './session'
 interface Place {
   readonly href: string
   readonly icon: IconName
-  readonly name: 'upload' | 'trajectories' | 'lab' | 'people'
+  readonly name: 'upload' | 'trajectories' | 'lab' | 'room' | 'people'
 }
 
 const PLACES: readonly Place[] = [
   { href: '/', icon: 'upload', name: 'upload' },
   { href: '/trajectories', icon: 'motion', name: 'trajectories' },
   { href: '/lab', icon: 'robot', name: 'lab' },
+  { href: '/room', icon: 'room', name: 'room' },
   { href: '/people', icon: 'people', name: 'people' },
 ]
 

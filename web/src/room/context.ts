@@ -1,0 +1,57 @@
+import type { Object3D, Vector3 } from 'three'
+import { type Link, LinkError, type ServiceType } from '../link/link'
+import type { TrajectoryInfo } from '../protocol/mrlab_msgs'
+import type { Words } from '../words/en'
+import type { Feedback } from './panels/panel'
+import type { Place, Support } from './placement/supports'
+
+/** A catalogue's entry with its picture, once that is read. */
+export interface Entry {
+  readonly id: string
+  readonly name: string
+  readonly note: string
+  /** What the catalogue can be narrowed to. */
+  readonly group: string
+  picture: HTMLImageElement | null
+}
+
+/** What the parts of the room share. */
+export interface RoomContext {
+  readonly link: Link
+  readonly words: Words
+  readonly feedback: Feedback
+  /** The lab's frame. */
+  readonly world: Object3D
+  /** Of the eyes, in the scene. */
+  readonly head: Vector3
+  readonly robots: readonly Entry[]
+  readonly endEffectors: readonly Entry[]
+  readonly trajectories: readonly TrajectoryInfo[]
+  readonly supports: readonly Support[]
+  readonly bases: Iterable<Place>
+  readonly leftHanded: boolean
+  /** Tell the person a sentence, where they look. */
+  say(text: string): void
+}
+
+interface Answer {
+  readonly success: boolean
+  readonly message: string
+}
+
+/** Call a service; say why where it is refused. Returns the answer, null without one. */
+export async function order<Request, Response extends Answer>(
+  { link, say }: Pick<RoomContext, 'link' | 'say'>,
+  service: string,
+  type: ServiceType<Request, Response>,
+  request: Request,
+): Promise<Response | null> {
+  try {
+    const answer = await link.call(service, type, request)
+    if (!answer.success) say(answer.message)
+    return answer.success ? answer : null
+  } catch (error) {
+    say(error instanceof LinkError ? error.message : String(error))
+    return null
+  }
+}

@@ -1,0 +1,134 @@
+import { Matrix4, type Ray, Vector3 } from 'three'
+import { moveObjectType, type SceneObject } from '../../protocol/mrlab_msgs'
+import type { LabScene } from '../../scene/lab_scene'
+import { order, type RoomContext } from '../context'
+import type { Pointer } from '../input/pointer'
+import type { Hit, Signal, Target } from '../input/target'
+
+/** m */
+const REACH = 0.06
+/** s between two poses that physics is told of. */
+const PERIOD = 1 / 30
+/** Samples of a throw: the last 0.1 s or so. */
+const SAMPLES = 8
+/** m/s: nobody throws faster, but a lost hand jumps. */
+const FASTEST = 6
+
+const centre = new Vector3()
+const at = new Vector3()
+const inverse = new Matrix4()
+
+/** An object that is picked up by a hand or a ray, carried, and thrown when it is let go. */
+export class ObjectHandle implements Target {
+  private holder: Pointer | null = null
+  private near = false
+  private distance = 0
+  private readonly offset = new Vector3()
+  private readonly position = new Vector3()
+  private readonly times = new Float64Array(SAMPLES)
+  private readonly places = new Float64Array(SAMPLES * 3)
+  private samples = 0
+  private toldAt = 0
+  private object: SceneObject
+
+  constructor(
+    object: SceneObject,
+    private readonly scene: LabScene,
+    private readonly context: RoomContext,
+  ) {
+    this.object = object
+  }
+
+  /** Take over where it is. */
+  show(object: SceneObject): void {
+    this.object = object
+  }
+
+  cast(ray: Ray, hit: Hit): boolean {
+    this.centre(centre)
+    const along = at.subVectors(centre, ray.origin).dot(ray.direction)
+    if (along < 0) return false
+    ray.at(along, hit.point)
+    if (hit.point.distanceTo(centre) > this.radius) return false
+    hit.distance = along - this.radius / 2
+    return true
+  }
+
+  reaches(point: Vector3): boolean {
+    return point.distanceTo(this.centre(centre)) < this.radius + REACH
+  }
+
+  on(signal: Signal): void {
+    const { pointer } = signal
+    if (signal.kind === 'enter') this.context.feedback('hover', signal)
+    else if (signal.kind === 'down' && this.holder === null) {
+      this.context.feedback('press', signal)
+      this.holder = pointer
+      this.near = this.reaches(pointer.place)
+      this.centre(centre)
+      this.distance = at.subVectors(centre, pointer.ray.origin).dot(pointer.ray.direction)
+      this.offset.copy(centre).sub(this.hand(pointer, at))
+      this.samples = 0
+    } else if ((signal.kind === 'up' || signal.kind === 'cancel') && this.holder === pointer) {
+      this.holder = null
+      this.tell(false, signal.kind === 'up')
+    }
+  }
+
+  /** Before each picture: it goes with the hand. now: s. */
+  update(now: number): void {
+    if (this.holder === null) return
+    this.hand(this.holder, at).add(this.offset)
+    inverse.copy(this.context.world.matrixWorld).invert()
+    this.position.copy(at).applyMatrix4(inverse)
+    const sample = this.samples++ % SAMPLES
+    this.times[sample] = now
+    this.position.toArray(this.places, sample * 3)
+    this.scene.moveObject(this.object.name, this.pose(), '')
+    if (now - this.toldAt < PERIOD) return
+    this.toldAt = now
+    this.tell(true, false)
+  }
+
+  private get radius(): number {
+    const { x, y, z } = this.object.size
+    return Math.max(Math.hypot(x, y, z) / 2, 0.03)
+  }
+
+  /** Write its place in the scene. */
+  private centre(into: Vector3): Vector3 {
+    const { x, y, z } = this.holder === null ? this.object.pose.position : this.position
+    return this.context.world.localToWorld(into.set(x, y, z))
+  }
+
+  private hand({ ray, place }: Pointer, into: Vector3): Vector3 {
+    return this.near ? into.copy(place) : ray.at(this.distance, into)
+  }
+
+  private pose() {
+    const { x, y, z } = this.position
+    return { position: { x, y, z }, orientation: this.object.pose.orientation }
+  }
+
+  private tell(held: boolean, thrown: boolean): void {
+    const linear = { x: 0, y: 0, z: 0 }
+    if (thrown && this.samples >= SAMPLES) {
+      const newest = (this.samples - 1) % SAMPLES
+      const oldest = this.samples % SAMPLES
+      const time = (this.times[newest] as number) - (this.times[oldest] as number)
+      const speed = (axis: number) =>
+        ((this.places[newest * 3 + axis] as number) - (this.places[oldest * 3 + axis] as number)) /
+        Math.max(time, 1e-3)
+      at.set(speed(0), speed(1), speed(2)).clampLength(0, FASTEST)
+      linear.x = at.x
+      linear.y = at.y
+      linear.z = at.z
+    }
+    order(this.context, 'physics/move_object', moveObjectType, {
+      name: this.object.name,
+      pose: this.pose(),
+      twist: { linear, angular: { x: 0, y: 0, z: 0 } },
+      held,
+    })
+  }
+}

@@ -1,0 +1,50 @@
+import type { SceneObject } from '../../protocol/mrlab_msgs'
+import type { ShownObject } from '../../scene/lab_objects'
+import type { LabScene } from '../../scene/lab_scene'
+import type { RoomContext } from '../context'
+import type { Target } from '../input/target'
+import { ObjectHandle } from './object_handle'
+
+/** A handle for each object of the scene. */
+export class ObjectHandles {
+  private readonly handles = new Map<string, ObjectHandle>()
+
+  constructor(
+    private readonly scene: LabScene,
+    private readonly context: RoomContext,
+    private readonly targets: Target[],
+  ) {}
+
+  set(objects: readonly ShownObject[]): void {
+    const here = new Set<string>()
+    for (const object of objects as readonly SceneObject[]) {
+      here.add(object.name)
+      const handle = this.handles.get(object.name)
+      if (handle !== undefined) handle.show(object)
+      else this.add(object)
+    }
+    for (const [name, handle] of this.handles) {
+      if (here.has(name)) continue
+      this.handles.delete(name)
+      this.targets.splice(this.targets.indexOf(handle), 1)
+    }
+  }
+
+  /** Before each picture. now: s. */
+  update(now: number): void {
+    for (const handle of this.handles.values()) handle.update(now)
+  }
+
+  dispose(): void {
+    for (const handle of this.handles.values()) {
+      this.targets.splice(this.targets.indexOf(handle), 1)
+    }
+    this.handles.clear()
+  }
+
+  private add(object: SceneObject): void {
+    const handle = new ObjectHandle(object, this.scene, this.context)
+    this.handles.set(object.name, handle)
+    this.targets.push(handle)
+  }
+}

@@ -1,0 +1,179 @@
+import { Ray, Vector3 } from 'three'
+import { type Button, type Hit, newHit, type Target } from './target'
+
+/** A hand out of view is guessed: what it drags stands still, and after this, s, it lets go. */
+const LOST_S = 0.5
+/** m: a fingertip hovers from HOVER_IN on until it is farther than HOVER_OUT. */
+const HOVER_IN = 0.15
+const HOVER_OUT = 0.2
+/** m: it presses at PRESS and has let go at RELEASE. */
+const PRESS = 0.005
+const RELEASE = 0.009
+/** s between two presses of one finger. */
+const COOLDOWN_S = 0.25
+
+export type PointerKind = 'mouse' | 'ray' | 'touch'
+export type Hand = 'left' | 'right' | 'none'
+
+/** One pointer and what it points at. A target that is pressed keeps it until it is released. */
+export abstract class Pointer {
+  readonly hit: Hit = newHit()
+  hovered: Target | null = null
+  captured: Target | null = null
+  /** Where it holds things: the grip, the pinch, the fingertip; for a mouse its ray's origin. */
+  readonly place = new Vector3()
+  readonly ray = new Ray()
+  tracked = false
+  protected lostAt = Number.NaN
+  private readonly tried: Hit = newHit()
+
+  constructor(
+    readonly kind: PointerKind,
+    readonly hand: Hand,
+  ) {}
+
+  /** Let go of everything: the pointer is gone. */
+  drop(): void {
+    this.captured?.on({ kind: 'cancel', pointer: this })
+    this.captured = null
+    this.hover(null)
+    this.tracked = false
+  }
+
+  /** Forget a target that is gone. */
+  forget(target: Target): void {
+    if (this.captured === target) this.captured = null
+    if (this.hovered === target) this.hovered = null
+  }
+
+  protected hover(target: Target | null): void {
+    if (target === this.hovered) return
+    const before = this.hovered
+    this.hovered = target
+    before?.on({ kind: 'leave', pointer: this })
+    target?.on({ kind: 'enter', pointer: this })
+  }
+
+  /** Freeze while it is not tracked; return whether it is to be left alone. */
+  protected lose(now: number, tracked: boolean): boolean {
+    this.tracked = tracked
+    if (tracked) {
+      this.lostAt = Number.NaN
+      return false
+    }
+    if (Number.isNaN(this.lostAt)) this.lostAt = now
+    if (this.captured === null) this.hover(null)
+    else if (now - this.lostAt > LOST_S) this.drop()
+    return true
+  }
+
+  protected take(from: Hit): void {
+    this.hit.distance = from.distance
+    this.hit.point.copy(from.point)
+    this.hit.u = from.u
+    this.hit.v = from.v
+  }
+
+  protected attempt(): Hit {
+    this.tried.distance = Number.POSITIVE_INFINITY
+    return this.tried
+  }
+}
+
+/** Points from afar: a mouse, a controller's ray or that of a hand. */
+export class RayPointer extends Pointer {
+  private button: Button | null = null
+
+  /** Point; now: s. tracked: false while the device only guesses. Call after ray and place are set. */
+  aim(now: number, tracked: boolean, targets: readonly Target[], hidden = false): void {
+    if (this.lose(now, tracked)) return
+    if (this.captured !== null) {
+      const hit = this.attempt()
+      if (this.captured.cast(this.ray, hit)) this.take(hit)
+      this.captured.on({ kind: 'move', pointer: this })
+      return
+    }
+    let nearest: Target | null = null
+    this.hit.distance = Number.POSITIVE_INFINITY
+    if (!hidden) {
+      for (const target of targets) {
+        const hit = this.attempt()
+        if (!target.cast(this.ray, hit) || hit.distance >= this.hit.distance) continue
+        this.take(hit)
+        nearest = target
+      }
+      // what the hand itself is at goes before what its ray meets
+      for (const target of targets) if (target.reaches?.(this.place)) nearest = target
+    }
+    this.hover(nearest)
+    nearest?.on({ kind: 'move', pointer: this })
+  }
+
+  press(button: Button): void {
+    if (this.captured !== null || this.hovered === null) return
+    this.button = button
+    this.captured = this.hovered
+    this.captured.on({ kind: 'down', pointer: this, button })
+  }
+
+  release(button: Button): void {
+    if (this.captured === null || button !== this.button) return
+    const target = this.captured
+    this.captured = null
+    target.on({ kind: 'up', pointer: this, button })
+  }
+}
+
+/** A fingertip on panels: it hovers before a face, presses through it, and lets go a little before
+ * it pressed, so that a trembling finger does not press twice. */
+export class TouchPointer extends Pointer {
+  private before = Number.NaN
+  private pressedAt = Number.NEGATIVE_INFINITY
+
+  /** Move the fingertip, which is `place`. */
+  aim(now: number, tracked: boolean, targets: readonly Target[]): void {
+    if (this.lose(now, tracked)) {
+      this.before = Number.NaN
+      return
+    }
+    const target = this.captured ?? this.nearest(targets)
+    if (target === null) {
+      this.before = Number.NaN
+      this.hover(null)
+      return
+    }
+    if (target !== this.hovered) this.before = Number.NaN
+    const distance = target.face?.(this.place, this.hit) ?? Number.NaN
+    this.hover(target)
+    if (this.captured !== null) {
+      if (Number.isNaN(distance) || distance > RELEASE) {
+        this.captured = null
+        target.on({ kind: 'up', pointer: this, button: 'select' })
+      } else target.on({ kind: 'move', pointer: this })
+    } else {
+      target.on({ kind: 'move', pointer: this })
+      // only from the front: a finger that comes through from behind presses nothing
+      const crosses = this.before > PRESS && distance <= PRESS
+      if (crosses && now - this.pressedAt > COOLDOWN_S) {
+        this.pressedAt = now
+        this.captured = target
+        target.on({ kind: 'down', pointer: this, button: 'select' })
+      }
+    }
+    this.before = distance
+  }
+
+  private nearest(targets: readonly Target[]): Target | null {
+    let found: Target | null = null
+    let least = Number.POSITIVE_INFINITY
+    for (const target of targets) {
+      const distance = target.face?.(this.place, this.attempt()) ?? Number.NaN
+      const reach = target === this.hovered ? HOVER_OUT : HOVER_IN
+      if (Number.isNaN(distance) || Math.abs(distance) > reach) continue
+      if (Math.abs(distance) >= least) continue
+      least = Math.abs(distance)
+      found = target
+    }
+    return found
+  }
+}

@@ -1,0 +1,183 @@
+import { useSignal } from '@preact/signals'
+import { useEffect, useRef } from 'preact/hooks'
+import './room.css'
+import { Button } from '../design/button'
+import { Notice } from '../design/notice'
+import type { Link } from '../link/link'
+import { session, useApi } from '../pages/shell/session'
+import { Presence } from '../protocol/mrlab_msgs'
+import { language, words } from '../words/words'
+import type { Entry } from './context'
+import type { Room } from './room'
+import { type Ability, abilityOf } from './session/features'
+import { hopsOf, refusalOf } from './why/hops'
+
+/** s between two looks at what is not there. */
+const PERIOD_S = 1
+
+function picture(url: string | null): HTMLImageElement | null {
+  if (url === null) return null
+  const image = new Image()
+  image.src = url
+  return image
+}
+
+/** The lab in a person's room; without a headset, seen from the desktop. link: opened by who shows
+ * it. */
+function RoomView({ link }: { link: Link }) {
+  const api = useApi()
+  const host = useRef<HTMLDivElement>(null)
+  const room = useSignal<Room | null>(null)
+  const ability = useSignal<Ability | null>(null)
+  const entering = useSignal(false)
+  const trouble = useSignal('')
+  const openFor = useSignal(Number.NaN)
+  const shown = language.value
+
+  useEffect(() => {
+    let here = true
+    let made: Room | null = null
+    const part = session.value?.user?.role === 'instructor' ? Presence.TEACHES : Presence.DRIVES
+    const axes = words.value.room.axes
+    const catalogue = api.robots().then(({ robots, end_effectors }) => ({
+      robots: robots.map(
+        ({ model, name, maker, joints, thumbnail }): Entry => ({
+          id: model,
+          name,
+          note: axes(joints),
+          group: maker,
+          picture: picture(thumbnail),
+        }),
+      ),
+      endEffectors: end_effectors.map(
+        ({ id, name, thumbnail }): Entry => ({
+          id,
+          name,
+          note: '',
+          group: '',
+          picture: picture(thumbnail),
+        }),
+      ),
+    }))
+    Promise.all([import('./room'), catalogue])
+      .then(([{ Room }, parts]) => {
+        if (!here || host.current === null) return
+        made = new Room({
+          container: host.current,
+          link,
+          words: words.value,
+          part: session.value?.user?.role === 'display' ? Presence.WATCHES : part,
+          ...parts,
+        })
+        room.value = made
+        // for tests and the curious
+        if (new URLSearchParams(location.search).has('inspect'))
+          Object.assign(window, { room: made })
+      })
+      .catch((error: unknown) => {
+        trouble.value =
+          error instanceof Error && error.name === 'NoWebGL'
+            ? words.value.lab.noWebGL
+            : String(error)
+      })
+    abilityOf({ secure: isSecureContext, xr: navigator.xr }).then((found) => {
+      ability.value = found
+    })
+    return () => {
+      here = false
+      room.value = null
+      made?.dispose()
+    }
+  }, [link, shown])
+
+  useEffect(() => {
+    let since = Number.NaN
+    const look = () => {
+      const now = performance.now() / 1000
+      if (link.status.phase !== 'open') since = Number.NaN
+      else if (Number.isNaN(since)) since = now
+      openFor.value = now - since
+    }
+    look()
+    const timer = setInterval(look, PERIOD_S * 1000)
+    return () => clearInterval(timer)
+  }, [link])
+
+  const w = words.value.room
+  const found = room.value
+  const hops = hopsOf(
+    {
+      ability: ability.value,
+      link: found?.follower.status.value ?? link.status,
+      openFor: openFor.value,
+      known: found?.follower.known.value ?? false,
+      robots: found?.follower.robots.value.length ?? 0,
+      troubles: found?.troubles.value ?? [],
+      secureUrl: `https://${location.host}/room`,
+    },
+    w,
+  )
+  const mode = ability.value?.mode ?? null
+  const enter = () => {
+    if (found === null || mode === null) return
+    entering.value = true
+    trouble.value = ''
+    found
+      .enter(mode)
+      .catch((error: unknown) => {
+        trouble.value = refusalOf(error, w)
+      })
+      .finally(() => {
+        entering.value = false
+      })
+  }
+  const inside = found?.inside.value ?? false
+  return (
+    <section class="room" aria-label={w.title}>
+      <div class="room-view" ref={host} />
+      <div class="room-bar">
+        {mode !== null && !inside && (
+          <Button look="primary" icon="headset" disabled={found === null} onClick={enter}>
+            {entering.value ? w.entering : mode === 'immersive-ar' ? w.enter : w.enterVr}
+          </Button>
+        )}
+        {inside && <p class="room-line small">{w.inside}</p>}
+      </div>
+      <div class="room-hops">
+        {trouble.value && (
+          <Notice severity="error">
+            <p>{trouble.value}</p>
+          </Notice>
+        )}
+        {hops.map(({ id, severity, words: text }) => (
+          <Notice key={id} severity={severity}>
+            <p data-hop={id}>{text}</p>
+          </Notice>
+        ))}
+      </div>
+    </section>
+  )
+}
+
+/** The room, or in `--mode fake` one with made-up robots. */
+export function RoomPage() {
+  const link = useSignal<Link | null>(null)
+  useEffect(() => {
+    let open: Link | null = null
+    let here = true
+    const opening =
+      import.meta.env.MODE === 'fake'
+        ? import('../../test/fake_lab').then(({ fakeLab }) => fakeLab())
+        : import('../link/socket').then(({ openLink }) => openLink())
+    opening.then((found) => {
+      open = found
+      if (here) link.value = found
+      else found.close()
+    })
+    return () => {
+      here = false
+      open?.close()
+    }
+  }, [])
+  return link.value && <RoomView link={link.value} />
+}

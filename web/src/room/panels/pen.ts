@@ -1,0 +1,249 @@
+import { THEMES } from '../../design/tokens'
+
+const FONT = 'system-ui, -apple-system, "Segoe UI", Roboto, "Liberation Sans", sans-serif'
+/** Texels a mm: 1 mm is 3.8 arc minutes at 0.9 m, more than a headset shows. */
+export const TEXELS = 2
+/** Heights of text, mm: for reading at 0.9 m. */
+export const TEXT = { head: 30, body: 22, small: 18 } as const
+/** Of what is pressed, mm; and between two of them. */
+export const HIT = 60
+export const GAP = 12
+
+/** The room is read before white walls and dark desks alike: the panels are dark in every theme. */
+export const PANEL_THEME = THEMES.dark
+
+/** A part of a panel that can be pressed, mm from the left top corner. */
+export interface Zone {
+  readonly x: number
+  readonly y: number
+  readonly width: number
+  readonly height: number
+  /** Names it for tests and for keeping what is hovered over a repaint. */
+  readonly id: string
+  readonly enabled: boolean
+  /** share: where across it was pressed or is dragged, 0 to 1; final: it was let go. */
+  press(share: number, final: boolean): void
+  /** Follows a drag; otherwise it acts once, when it is let go above it. */
+  readonly drags: boolean
+}
+
+export interface ButtonLook {
+  readonly primary?: boolean
+  readonly chosen?: boolean
+  readonly enabled?: boolean
+  readonly small?: boolean
+  readonly picture?: CanvasImageSource | null
+}
+
+export type Ink = 'ink' | 'second' | 'accent' | 'border'
+
+/** Draws a panel in mm and notes what can be pressed. */
+export class Pen {
+  readonly zones: Zone[] = []
+
+  constructor(
+    readonly context: CanvasRenderingContext2D,
+    readonly width: number,
+    readonly height: number,
+    private readonly hovered: string,
+    private readonly pressed: string,
+  ) {
+    context.setTransform(TEXELS, 0, 0, TEXELS, 0, 0)
+    context.clearRect(0, 0, width, height)
+    context.fillStyle = PANEL_THEME.colours.card
+    context.strokeStyle = PANEL_THEME.colours.border
+    context.lineWidth = 2
+    context.beginPath()
+    context.roundRect(1, 1, width - 2, height - 2, 22)
+    context.fill()
+    context.stroke()
+  }
+
+  /** Write one line, cut with … where it is longer than `most`; return its width, mm. */
+  text(
+    x: number,
+    y: number,
+    words: string,
+    size: number = TEXT.body,
+    most = this.width - x - 24,
+    ink: Ink | string = 'ink',
+    weight = 400,
+    align: CanvasTextAlign = 'left',
+  ): number {
+    const { context } = this
+    context.font = `${weight} ${size}px ${FONT}`
+    context.fillStyle = this.colour(ink)
+    context.textAlign = align
+    context.textBaseline = 'middle'
+    let shown = words
+    while (shown.length > 1 && context.measureText(shown).width > most) {
+      shown = `${shown.slice(0, -2).trimEnd()}…`
+    }
+    context.fillText(shown, x, y)
+    return context.measureText(shown).width
+  }
+
+  /** Write several lines from `y` on; return the place below them. */
+  lines(
+    x: number,
+    y: number,
+    words: string,
+    size: number = TEXT.body,
+    most = this.width - 2 * x,
+    ink: Ink | string = 'ink',
+    rows = 4,
+  ): number {
+    const { context } = this
+    context.font = `400 ${size}px ${FONT}`
+    let line = ''
+    let row = 0
+    let at = y
+    const put = (text: string) => {
+      this.text(x, at, text, size, most, ink)
+      at += size * 1.32
+      row++
+    }
+    for (const word of words.split(' ')) {
+      const longer = line === '' ? word : `${line} ${word}`
+      if (context.measureText(longer).width <= most || line === '') line = longer
+      else {
+        if (row >= rows - 1) {
+          line = longer
+          continue
+        }
+        put(line)
+        line = word
+      }
+    }
+    if (line !== '') put(line)
+    return at
+  }
+
+  button(
+    id: string,
+    x: number,
+    y: number,
+    width: number,
+    words: string,
+    act: () => void,
+    { primary = false, chosen = false, enabled = true, small = false }: ButtonLook = {},
+    height = HIT,
+  ): void {
+    this.face(id, x, y, width, height, { primary, chosen, enabled })
+    const ink = !enabled
+      ? PANEL_THEME.colours.border
+      : primary
+        ? PANEL_THEME.colours.on_accent
+        : PANEL_THEME.colours.ink
+    const size = small ? TEXT.small : TEXT.body
+    this.text(x + width / 2, y + height / 2 + 1, words, size, width - 14, ink, 600, 'center')
+    this.zone({
+      id,
+      x,
+      y,
+      width,
+      height,
+      enabled,
+      drags: false,
+      press: (_, final) => final && act(),
+    })
+  }
+
+  /** A card with a picture above its words. */
+  card(
+    id: string,
+    x: number,
+    y: number,
+    width: number,
+    height: number,
+    words: string,
+    note: string,
+    picture: CanvasImageSource | null,
+    act: () => void,
+  ): void {
+    this.face(id, x, y, width, height, { enabled: true })
+    const side = height - 66
+    if (picture !== null) {
+      this.context.drawImage(picture, x + (width - side) / 2, y + 6, side, side)
+    }
+    this.text(x + width / 2, y + height - 44, words, TEXT.small, width - 12, 'ink', 600, 'center')
+    this.text(
+      x + width / 2,
+      y + height - 20,
+      note,
+      TEXT.small,
+      width - 12,
+      'second',
+      400,
+      'center',
+    )
+    this.zone({
+      id,
+      x,
+      y,
+      width,
+      height,
+      enabled: true,
+      drags: false,
+      press: (_, final) => final && act(),
+    })
+  }
+
+  /** A pill with a word; filled where it is a warning. */
+  chip(right: number, y: number, words: string, colour: string, filled: boolean): void {
+    const { context } = this
+    context.font = `600 ${TEXT.small}px ${FONT}`
+    const width = context.measureText(words).width + 28
+    context.beginPath()
+    context.roundRect(right - width, y - 17, width, 34, 17)
+    context.lineWidth = 2.5
+    context.strokeStyle = colour
+    context.fillStyle = colour
+    if (filled) context.fill()
+    context.stroke()
+    const ink = filled ? PANEL_THEME.colours.on_halt : colour
+    this.text(right - width / 2, y + 1, words, TEXT.small, width, ink, 600, 'center')
+  }
+
+  /** A filled box with rounded corners. */
+  box(x: number, y: number, width: number, height: number, colour: string): void {
+    const { context } = this
+    context.beginPath()
+    context.roundRect(x, y, width, height, 12)
+    context.fillStyle = colour
+    context.fill()
+  }
+
+  zone(zone: Zone): void {
+    this.zones.push(zone)
+  }
+
+  colour(ink: Ink | string): string {
+    return ink in PANEL_THEME.colours
+      ? PANEL_THEME.colours[ink as keyof typeof PANEL_THEME.colours]
+      : ink
+  }
+
+  private face(
+    id: string,
+    x: number,
+    y: number,
+    width: number,
+    height: number,
+    { primary = false, chosen = false, enabled = true }: ButtonLook,
+  ): void {
+    const { context } = this
+    const { colours } = PANEL_THEME
+    context.beginPath()
+    context.roundRect(x, y, width, height, 12)
+    context.fillStyle = !enabled ? colours.card : primary ? colours.accent : colours.page
+    if (enabled && id === this.pressed) context.fillStyle = colours.border
+    else if (enabled && id === this.hovered && !primary) context.fillStyle = colours.hairline
+    context.fill()
+    const strong = enabled && (chosen || id === this.hovered)
+    context.lineWidth = strong ? 4 : 2
+    context.strokeStyle = strong ? colours.accent : colours.hairline
+    if (primary && id === this.hovered) context.strokeStyle = colours.ink
+    context.stroke()
+  }
+}

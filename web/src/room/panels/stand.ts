@@ -1,0 +1,72 @@
+import { MathUtils, type Object3D, Quaternion, Vector3 } from 'three'
+
+/** m: text is made for this distance, and grows with more. */
+const READ_AT = 0.9
+const LARGEST = 2
+/** rad and m: a panel that is this far from where it should be follows, after so long, s. */
+const SLACK_TURN = MathUtils.degToRad(30)
+const SLACK_WAY = 0.6
+const WAIT = 0.5
+const EASE = 0.3
+/** m: nearer it is moved away from the eyes. */
+const NEAREST = 0.75
+
+const UP = new Vector3(0, 1, 0)
+const X = new Vector3(1, 0, 0)
+const away = new Vector3()
+const back = new Vector3()
+const wanted = new Vector3()
+const turned = new Quaternion()
+const tilt = new Quaternion()
+
+/** Keeps a panel where a person reads it: it stands still, and follows once it has been in the wrong
+ * place for a while; never under a pointer. */
+export class Stand {
+  private readonly place = new Vector3()
+  private readonly turn = new Quaternion()
+  private wrongSince = Number.NaN
+  private movedAt = Number.NEGATIVE_INFINITY
+  private here = false
+
+  constructor(private readonly panel: Object3D) {}
+
+  /** at: where it should be, in the floor space, m. now, step: s. held: a pointer is over it. */
+  update(at: Vector3, head: Vector3, now: number, step: number, held: boolean): void {
+    back.subVectors(at, head)
+    const distance = back.length()
+    if (distance < NEAREST && distance > 1e-3) {
+      back.setY(0).normalize().multiplyScalar(NEAREST)
+      wanted.set(head.x + back.x, at.y, head.z + back.z)
+    } else wanted.copy(at)
+    away.subVectors(head, wanted)
+    turned.setFromAxisAngle(UP, Math.atan2(away.x, away.z))
+    const pitch = Math.atan2(away.y, Math.hypot(away.x, away.z))
+    turned.multiply(tilt.setFromAxisAngle(X, -pitch))
+    if (!this.here) {
+      this.here = true
+      this.place.copy(wanted)
+      this.turn.copy(turned)
+      this.panel.position.copy(wanted)
+      this.panel.quaternion.copy(turned)
+    }
+    const wrong =
+      this.place.distanceTo(wanted) > SLACK_WAY || this.turn.angleTo(turned) > SLACK_TURN
+    if (!wrong || held) this.wrongSince = Number.NaN
+    else if (Number.isNaN(this.wrongSince)) this.wrongSince = now
+    else if (now - this.wrongSince > WAIT) {
+      this.wrongSince = Number.NaN
+      this.movedAt = now
+      this.place.copy(wanted)
+      this.turn.copy(turned)
+    }
+    if (now - this.movedAt < 3 * EASE) {
+      const share = 1 - Math.exp((-4 * step) / EASE)
+      this.panel.position.lerp(this.place, share)
+      this.panel.quaternion.slerp(this.turn, share)
+    }
+    const far = this.panel.position.distanceTo(head) / READ_AT
+    const scale = MathUtils.clamp(far, 0.85, LARGEST)
+    // small changes of the distance do not make text swim
+    if (Math.abs(this.panel.scale.x - scale) > 0.08) this.panel.scale.setScalar(scale)
+  }
+}

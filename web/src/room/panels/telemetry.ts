@@ -1,0 +1,113 @@
+import type { Telemetry } from '../../protocol/mrlab_msgs'
+import type { RoomContext } from '../context'
+import { Panel } from './panel'
+import { PANEL_THEME, type Pen, TEXT } from './pen'
+
+const WIDTH = 640
+const ROW = 62
+const TOP = 96
+const EDGE = 26
+/** Samples of a graph: 12 s. */
+const SAMPLES = 120
+/** s between two samples and two paintings. */
+const PERIOD = 0.1
+const DEG = 180 / Math.PI
+
+/** Angles, velocities and torque proxies of a robot's joints, live. */
+export class TelemetryPanel {
+  readonly panel: Panel
+  private readonly angles: Float64Array
+  private readonly graph: Float64Array
+  private written = 0
+  private takenAt = Number.NEGATIVE_INFINITY
+  private newest: Telemetry | null = null
+
+  constructor(
+    private readonly context: RoomContext,
+    private readonly joints: readonly string[],
+  ) {
+    this.angles = new Float64Array(joints.length)
+    this.graph = new Float64Array(joints.length * SAMPLES).fill(Number.NaN)
+    const height = TOP + joints.length * ROW + 46
+    this.panel = new Panel(WIDTH, height, (pen) => this.draw(pen), context.feedback)
+  }
+
+  take(message: Telemetry): void {
+    this.newest = message
+  }
+
+  /** Before each picture; angleOf: of the robot as it is drawn, rad. now: s. */
+  update(now: number, angleOf: (joint: string) => number): void {
+    if (now - this.takenAt > PERIOD) {
+      this.takenAt = now
+      const place = this.written++ % SAMPLES
+      this.joints.forEach((joint, i) => {
+        this.angles[i] = angleOf(joint)
+        this.graph[i * SAMPLES + place] = this.angles[i] as number
+      })
+      this.panel.repaint()
+    }
+    this.panel.update()
+  }
+
+  dispose(): void {
+    this.panel.dispose()
+  }
+
+  private draw(pen: Pen): void {
+    const w = this.context.words
+    pen.text(EDGE, 40, w.room.telemetry, TEXT.head, 300, 'ink', 700)
+    const { angles, velocities, proxies } = w.plots.channels
+    const heads = [angles, velocities, proxies]
+    heads.forEach((head, i) => {
+      const x = [300, 430, 614][i] as number
+      pen.text(x, 82, head, TEXT.small, 170, 'second', 400, 'right')
+    })
+    this.joints.forEach((joint, i) => {
+      const y = TOP + i * ROW + ROW / 2
+      const colour = PANEL_THEME.joints[i % PANEL_THEME.joints.length] as string
+      pen.text(EDGE, y - 14, joint, TEXT.small, 170, colour, 600)
+      this.drawGraph(pen, i, y, colour)
+      const index = this.newest?.joint_names.indexOf(joint) ?? -1
+      const speed = index < 0 ? 0 : (this.newest?.velocities[index] ?? 0) * DEG
+      const proxy = index < 0 ? 0 : (this.newest?.effort_proxy[index] ?? 0)
+      const values = [
+        `${((this.angles[i] ?? 0) * DEG).toFixed(1)}°`,
+        `${speed.toFixed(1)}°/s`,
+        proxy.toFixed(1),
+      ]
+      values.forEach((value, column) => {
+        const x = [300, 430, 614][column] as number
+        pen.text(x, y - 12, value, TEXT.small, 160, 'ink', 600, 'right')
+      })
+    })
+    const y = TOP + this.joints.length * ROW + 20
+    pen.text(EDGE, y, `${proxies}: ${w.room.proxyNote}`, TEXT.small, undefined, 'second')
+  }
+
+  private drawGraph(pen: Pen, joint: number, y: number, colour: string): void {
+    const { context } = pen
+    const begin = joint * SAMPLES
+    let low = Number.POSITIVE_INFINITY
+    let high = Number.NEGATIVE_INFINITY
+    for (let i = 0; i < SAMPLES; i++) {
+      const value = this.graph[begin + i] as number
+      if (Number.isNaN(value)) continue
+      low = Math.min(low, value)
+      high = Math.max(high, value)
+    }
+    const span = Math.max(high - low, 0.02)
+    const left = EDGE
+    const width = WIDTH - 2 * EDGE
+    context.beginPath()
+    for (let i = 0; i < SAMPLES; i++) {
+      const value = this.graph[begin + ((this.written + i) % SAMPLES)] as number
+      if (Number.isNaN(value)) continue
+      const at = y + 26 - ((value - (low + high - span) / 2) / span) * 22
+      context.lineTo(left + (i / (SAMPLES - 1)) * width, at)
+    }
+    context.strokeStyle = colour
+    context.lineWidth = 3
+    context.stroke()
+  }
+}

@@ -1,0 +1,47 @@
+/** What a session cannot do without, and what it is asked for besides. */
+export const REQUIRED = ['local-floor'] as const
+export const WANTED = [
+  'hand-tracking',
+  'anchors',
+  'plane-detection',
+  'mesh-detection',
+  'hit-test',
+] as const
+
+export type Feature = (typeof WANTED)[number]
+export type Mode = 'immersive-ar' | 'immersive-vr'
+
+/** Why there is no way into the room from here; empty: there is one. */
+export type Hindrance = '' | 'no_https' | 'no_webxr' | 'no_device' | 'blocked'
+
+/** What is asked of a browser to find out what it can do. */
+export interface XrPlatform {
+  readonly secure: boolean
+  readonly xr: { isSessionSupported(mode: Mode): Promise<boolean> } | undefined
+}
+
+export interface Ability {
+  readonly mode: Mode | null
+  readonly hindrance: Hindrance
+}
+
+/** Find out how the room can be entered: passthrough before a room of its own. */
+export async function abilityOf({ secure, xr }: XrPlatform): Promise<Ability> {
+  if (!secure) return { mode: null, hindrance: 'no_https' }
+  if (xr === undefined) return { mode: null, hindrance: 'no_webxr' }
+  try {
+    for (const mode of ['immersive-ar', 'immersive-vr'] as const) {
+      if (await xr.isSessionSupported(mode)) return { mode, hindrance: '' }
+    }
+  } catch {
+    // a permissions policy, or a person, said no
+    return { mode: null, hindrance: 'blocked' }
+  }
+  return { mode: null, hindrance: 'no_device' }
+}
+
+/** Return which of the wanted features a session does not have; one that does not tell has all. */
+export function missingOf(granted: readonly string[] | undefined): Feature[] {
+  if (granted === undefined) return []
+  return WANTED.filter((feature) => !granted.includes(feature))
+}

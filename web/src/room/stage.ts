@@ -1,0 +1,181 @@
+import {
+  CircleGeometry,
+  DirectionalLight,
+  Group,
+  HemisphereLight,
+  Mesh,
+  NeutralToneMapping,
+  PCFShadowMap,
+  PerspectiveCamera,
+  PMREMGenerator,
+  Scene,
+  ShadowMaterial,
+  type Vector3,
+  WebGLRenderer,
+} from 'three'
+import { OrbitControls } from 'three/examples/jsm/controls/OrbitControls.js'
+import { RoomEnvironment } from 'three/examples/jsm/environments/RoomEnvironment.js'
+import { Floor } from '../scene/floor'
+import type { SceneHost } from '../scene/lab_scene'
+import { NoWebGL } from '../scene/stage'
+import { onTheme, type SceneTheme, themeNow } from '../scene/theme'
+import { stand } from './frames'
+
+/** m above the floor, of the eyes of the desktop view. */
+const EYES = 1.6
+const SHADOW = 1.6 // m, half of what the shadow covers
+/** 0 is sharp everywhere; three's 1 blurs text. */
+const FOVEATION = 0.4
+
+/** The scene in the room: `scene` is the headset's floor space, `anchor` the one thing that an
+ * XRAnchor moves, `world` in it the lab's frame in ROS axes. Without a headset a mouse turns the
+ * view. */
+export class RoomStage implements SceneHost {
+  readonly scene = new Scene()
+  readonly anchor = new Group()
+  readonly world = new Group()
+  /** Panels: in the floor space, never under a robot. */
+  readonly panels = new Group()
+  readonly camera = new PerspectiveCamera(60, 1, 0.02, 60)
+  readonly renderer: WebGLRenderer
+  readonly controls: OrbitControls
+  readonly canvas = document.createElement('canvas')
+  theme: SceneTheme = themeNow()
+  private readonly floor = new Floor()
+  private readonly sun = new DirectionalLight(0xffffff, 2.0)
+  private readonly shadowFloor = new Mesh(
+    new CircleGeometry(6, 48),
+    new ShadowMaterial({ color: 0x0a1420, opacity: 0.35 }),
+  )
+  private readonly themed = new Set<(theme: SceneTheme) => void>()
+  private readonly undo: (() => void)[] = []
+
+  /** Throws NoWebGL where the browser has none. label: for screen readers. */
+  constructor(
+    private readonly container: HTMLElement,
+    label: string,
+  ) {
+    this.canvas.className = 'room-canvas'
+    this.canvas.tabIndex = 0
+    this.canvas.setAttribute('role', 'img')
+    this.canvas.setAttribute('aria-label', label)
+    this.renderer = rendererOn(this.canvas)
+    this.renderer.toneMapping = NeutralToneMapping
+    this.renderer.shadowMap.enabled = true
+    this.renderer.shadowMap.type = PCFShadowMap
+    this.renderer.xr.enabled = true
+    this.renderer.xr.setReferenceSpaceType('local-floor')
+    this.renderer.xr.setFoveation(FOVEATION)
+    container.append(this.canvas)
+    stand(this.world)
+    this.anchor.add(this.world)
+    this.shadowFloor.receiveShadow = true
+    this.world.add(this.floor.group, this.shadowFloor)
+    this.scene.add(this.anchor, this.panels)
+    this.lightUp()
+    this.camera.position.set(0, EYES, 0.6)
+    this.controls = new OrbitControls(this.camera, this.canvas)
+    this.controls.target.set(0, 0.7, -1.2)
+    this.controls.maxPolarAngle = Math.PI * 0.55
+    this.controls.minDistance = 0.3
+    this.controls.maxDistance = 12
+    this.controls.update()
+    const watched = new ResizeObserver(() => this.resize())
+    watched.observe(container)
+    this.undo.push(
+      () => watched.disconnect(),
+      onTheme((theme) => {
+        this.theme = theme
+        this.floor.setTheme(theme)
+        for (const listener of this.themed) listener(theme)
+      }),
+    )
+    this.floor.setTheme(this.theme)
+    this.setGrid(true)
+    this.resize()
+  }
+
+  onTheme(listener: (theme: SceneTheme) => void): () => void {
+    this.themed.add(listener)
+    listener(this.theme)
+    return () => this.themed.delete(listener)
+  }
+
+  /** Drawn in every frame: there is nothing to ask for. */
+  invalidate(): void {}
+
+  /** The room is not framed: who is in it walks. */
+  frame(_points: readonly Vector3[]): void {}
+
+  /** Show the floor that is there, with shadows on it, or a grid. */
+  setPassthrough(on: boolean): void {
+    this.setGrid(!on)
+  }
+
+  setGrid(on: boolean): void {
+    this.floor.group.visible = on
+    this.shadowFloor.visible = !on
+  }
+
+  /** Keep light and shadow about a place of the scene. */
+  lightAt(place: Vector3): void {
+    this.sun.target.position.copy(place)
+    this.sun.position.set(place.x + 1.2, place.y + 3.2, place.z + 1.4)
+    this.sun.target.updateMatrixWorld()
+  }
+
+  dispose(): void {
+    for (const undo of this.undo) undo()
+    this.renderer.setAnimationLoop(null)
+    this.controls.dispose()
+    this.floor.dispose()
+    this.shadowFloor.geometry.dispose()
+    this.shadowFloor.material.dispose()
+    this.sun.shadow.dispose()
+    this.scene.environment?.dispose()
+    this.renderer.dispose()
+    this.renderer.forceContextLoss()
+    this.canvas.remove()
+  }
+
+  private resize(): void {
+    if (this.renderer.xr.isPresenting) return
+    const { clientWidth: width, clientHeight: height } = this.container
+    if (width === 0 || height === 0) return
+    this.renderer.setPixelRatio(Math.min(devicePixelRatio, 2))
+    this.renderer.setSize(width, height, false)
+    this.camera.aspect = width / height
+    this.camera.updateProjectionMatrix()
+  }
+
+  private lightUp(): void {
+    const generator = new PMREMGenerator(this.renderer)
+    const room = new RoomEnvironment()
+    this.scene.environment = generator.fromScene(room, 0.04).texture
+    this.scene.environmentIntensity = 0.6
+    room.dispose()
+    generator.dispose()
+    const { shadow } = this.sun
+    this.sun.castShadow = true
+    shadow.mapSize.set(1024, 1024)
+    shadow.bias = -0.0003
+    shadow.normalBias = 0.01
+    shadow.radius = 5
+    shadow.camera.left = shadow.camera.bottom = -SHADOW
+    shadow.camera.right = shadow.camera.top = SHADOW
+    shadow.camera.near = 0.1
+    shadow.camera.far = 8
+    this.scene.add(new HemisphereLight(0xffffff, 0x8895a5, 0.6), this.sun, this.sun.target)
+  }
+}
+
+function rendererOn(canvas: HTMLCanvasElement): WebGLRenderer {
+  const context = canvas.getContext('webgl2', {
+    alpha: true,
+    antialias: true,
+    powerPreference: 'high-performance',
+    xrCompatible: true,
+  })
+  if (context === null) throw new NoWebGL('this browser has no WebGL 2')
+  return new WebGLRenderer({ canvas, context, alpha: true, antialias: true })
+}
