@@ -28,6 +28,7 @@ from mrlab_ros.core.physics.simulated_robot import GripperProgram, Playing
 from mrlab_ros.core.physics.surfaces import Surface
 from mrlab_ros.core.physics.world_state import SceneObject
 from mrlab_ros.core.playback.states import State
+from mrlab_ros.core.scene.placement import Support, support_of
 from mrlab_ros.messages.poses import pose_from_message, pose_to_message
 from mrlab_ros.messages.time import make_header, time_from_message, time_to_message
 
@@ -220,6 +221,23 @@ def surface_from_message(message: msg.Surface) -> Surface:
         np.array(vertices, dtype=np.float64).reshape(-1, 3),
         np.array(message.triangles, dtype=np.int64).astype(np.int32).reshape(-1, 3),
     )
+
+
+def supports_from_message(message: msg.Surfaces) -> tuple[Support, ...]:
+    """Return the level surfaces of a room, those that robots stand on beside the endless floor."""
+    found = []
+    for each in message.surfaces:
+        surface = surface_from_message(each)
+        support = support_of(
+            surface.name,
+            surface.label,
+            surface.pose,
+            surface.vertices,
+            is_mesh=len(surface.triangles) > 0,
+        )
+        if support is not None:
+            found.append(support)
+    return tuple(found)
 
 
 def _color(kind: ObjectType) -> ColorRGBA:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 import small_lab
+from geometry_msgs.msg import Point, Pose
 from graph import Graph, wait_for
 from mrlab_msgs import msg, srv
 from rclpy.serialization import deserialize_message
@@ -186,7 +187,10 @@ def test_a_new_playback_host_finds_the_robots_and_starts_idle(graph, lab):
         ({"model": "ur5e", "name": "UR 5"}, "lower-case letters"),
         ({"model": "ur5e", "name": "lab"}, "name of the lab's own"),
         ({"model": "ur5e", "end_effector": "chainsaw"}, "chainsaw"),
-        ({"model": "ur5e", "surface": "table_1"}, "surface 'table_1' is unknown"),
+        (
+            {"model": "ur5e", "surface": "table_1"},
+            "no level surface 'table_1'",
+        ),
     ],
 )
 def test_a_robot_that_cannot_be_is_refused(graph, lab, request_fields, says):
@@ -194,6 +198,30 @@ def test_a_robot_that_cannot_be_is_refused(graph, lab, request_fields, says):
     assert not answer.success
     assert says in answer.message
     assert not lab.host.nodes
+
+
+def test_a_robot_stands_on_a_table_before_who_asked_for_it(graph, lab):
+    corners = [Point(x=x, y=y) for x, y in ((-0.5, -0.4), (0.5, -0.4), (0.5, 0.4), (-0.5, 0.4))]
+    table = msg.Surface(name="table_1", label="table", vertices=corners)
+    table.pose.position.x, table.pose.position.z = 1.1, 0.72
+    publisher = graph.client.create_publisher(msg.Surfaces, "/surfaces", qos.LATCHED)
+    publisher.publish(msg.Surfaces(surfaces=[table]))
+    request = {
+        "model": "ur5e",
+        "automatic": True,
+        "surface": "table_1",
+        "has_viewer": True,
+        "viewer": Pose(position=Point(z=1.6)),
+    }
+
+    def placed():
+        answer = graph.call(srv.SpawnRobot, "/lab/spawn_robot", **request)
+        return answer.robot if answer.success else None
+
+    robot = wait_for(placed, "a robot on the table")
+    assert robot.pose.position.z == pytest.approx(0.72)
+    # it faces the viewer, who stands at the origin
+    assert abs(robot.pose.orientation.z) > 0.95
 
 
 def test_robots_are_placed_apart_and_a_restarted_lab_has_them_back(graph, tmp_path):

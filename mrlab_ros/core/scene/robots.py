@@ -4,16 +4,24 @@ from __future__ import annotations
 
 import itertools
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from functools import cache
 
 from mrlab_ros.core.errors import Misuse
 from mrlab_ros.core.geometry import WORLD_SIZE, Pose, checked_vector
 from mrlab_ros.core.naming import checked_name, did_you_mean
+from mrlab_ros.core.scene.placement import (
+    FLOOR,
+    SPACING,
+    Standing,
+    Support,
+    Viewer,
+    named_support,
+    place_before,
+    place_on,
+)
 
-# Robots placed automatically stand this share of their reaches apart, so that two arms can meet
-# but not stand in each other.
-SPACING = 0.75
 GRID = 0.25
 GRID_RADIUS = 80
 
@@ -79,6 +87,23 @@ class Scene:
             f"no free place within {GRID_RADIUS * GRID:g} m of the origin; remove a robot, or "
             "give a pose"
         )
+
+    def free_pose_on(
+        self, reach: float, surface: str, viewer: Pose | None, supports: Sequence[Support]
+    ) -> Pose:
+        """Return a clear pose on a level surface of the room, facing the viewer if one is given.
+
+        surface: its name; empty: the best one in front of the viewer, or the floor without one.
+        Raises BadInput for an unknown surface, Misuse where there is no room.
+        """
+        standing = [Standing(robot.pose.position, robot.reach) for robot in self._robots.values()]
+        if viewer is not None:
+            only = named_support(surface, supports) if surface else None
+            return place_before(Viewer.of(viewer), reach, supports, standing, only)
+        support = named_support(surface, supports)
+        if support.name == FLOOR:
+            return self.free_pose(reach)
+        return place_on(support, supports, standing)
 
     def spawn(self, robot: PlacedRobot) -> PlacedRobot:
         """Add `robot`; raise BadInput where its name or its position cannot be used."""

@@ -16,7 +16,7 @@ from std_msgs.msg import String
 from mrlab_ros.adapters.robots.library import RobotLibrary
 from mrlab_ros.adapters.scenes.files import SceneFiles
 from mrlab_ros.adapters.scenes.state_file import StateFile
-from mrlab_ros.core.errors import BadInput, LabError
+from mrlab_ros.core.errors import LabError
 from mrlab_ros.core.geometry import Pose
 from mrlab_ros.core.identity import Identity
 from mrlab_ros.core.scene.document import RobotEntry, SceneDocument
@@ -241,18 +241,23 @@ class LabNode(ParameterNode[LabParameters]):
 
     @answered
     def _on_spawn(self, request: Any, response: Any) -> str:
-        if request.automatic and request.surface not in ("", "floor"):
-            raise BadInput(
-                f"the surface '{request.surface}' is unknown to the lab; leave it empty for the "
-                "floor, or give a pose"
-            )
-        pose = None if request.automatic else pose_from_message(request.pose)
+        if request.automatic:
+            pose = self._automatic_pose(request)
+        else:
+            pose = pose_from_message(request.pose)
         self._file.check_room()
         robot = self._spawn(request.model, request.end_effector or None, request.name, pose)
         self._announce()
         response.robot = robot_to_message(robot)
-        x, y, _ = robot.pose.position
-        return f"{robot.name} stands at x {x:g} m, y {y:g} m"
+        x, y, z = robot.pose.position
+        height = f", z {z:.3g} m" if z else ""
+        return f"{robot.name} stands at x {x:.3g} m, y {y:.3g} m{height}"
+
+    def _automatic_pose(self, request: Any) -> Pose:
+        reach = self._library.model(request.model).reach
+        viewer = pose_from_message(request.viewer) if request.has_viewer else None
+        supports = self._observer.supports
+        return self._scene.free_pose_on(reach, request.surface, viewer, supports)
 
     @answered
     def _on_place(self, request: Any, response: Any) -> str:

@@ -11,8 +11,11 @@ from mrlab_msgs import msg
 from rclpy.node import Node
 from rclpy.subscription import Subscription
 
+from mrlab_ros.core.errors import LabError
 from mrlab_ros.core.identity import Identity
+from mrlab_ros.core.scene.placement import Support
 from mrlab_ros.messages import qos
+from mrlab_ros.messages.physics import supports_from_message
 
 POLL_PERIOD_S = 0.02
 
@@ -30,12 +33,21 @@ class Observer:
         self._lock = threading.Lock()
         self._states: dict[str, msg.PlaybackState] = {}
         self._systems: msg.RobotSystems | None = None
+        self._supports: tuple[Support, ...] = ()
         self._subscriptions: dict[str, Subscription] = {}
         # Counts what was received, so that a caller sees whether something changed.
         self.received = 0
         node.create_subscription(
             msg.RobotSystems, "/systems", self._on_systems, qos.LATCHED_EVENTS
         )
+
+        node.create_subscription(msg.Surfaces, "/surfaces", self._on_surfaces, qos.LATCHED)
+
+    @property
+    def supports(self) -> tuple[Support, ...]:
+        """The level surfaces of the room that physics published last."""
+        with self._lock:
+            return self._supports
 
     def follow(self, robots: Collection[str]) -> None:
         """Observe exactly these robots; forget the others."""
@@ -83,6 +95,15 @@ class Observer:
             if robot in self._subscriptions:
                 self._states[robot] = message
                 self.received += 1
+
+    def _on_surfaces(self, message: msg.Surfaces) -> None:
+        try:
+            supports = supports_from_message(message)
+        except LabError as error:
+            self._node.get_logger().warning(f"the surfaces stay as they were: {error}")
+            return
+        with self._lock:
+            self._supports = supports
 
     def _on_systems(self, message: msg.RobotSystems) -> None:
         if not self._identity.accepts(message.lab):

@@ -46,18 +46,14 @@ export class Overlays {
   private readonly ring = new RingGeometry(0.35, 0.5, 40)
   private readonly undo: (() => void)[]
 
-  /** targets: gets those of a robot whenever they change. */
   constructor(
     link: Link,
     private readonly scene: LabScene,
     private readonly world: Object3D,
-    targets: (robot: string, targets: readonly GraspTarget[]) => void,
   ) {
     this.undo = [
       link.subscribe('*/targets', graspTargetsType, (message, { key }) => {
-        const name = key.slice(0, key.indexOf('/'))
-        this.setTargets(name, message.targets)
-        targets(name, message.targets)
+        this.setTargets(key.slice(0, key.indexOf('/')), message.targets)
       }),
       link.subscribe('*/collision', collisionType, ({ colliding, contact }, { key }) => {
         const name = key.slice(0, key.indexOf('/'))

@@ -4,8 +4,7 @@ import './room.css'
 import { Button } from '../design/button'
 import { Notice } from '../design/notice'
 import type { Link } from '../link/link'
-import { session, useApi } from '../pages/shell/session'
-import { Presence } from '../protocol/mrlab_msgs'
+import { useApi } from '../pages/shell/session'
 import { language, words } from '../words/words'
 import type { Entry } from './context'
 import type { Room } from './room'
@@ -37,7 +36,6 @@ function RoomView({ link }: { link: Link }) {
   useEffect(() => {
     let here = true
     let made: Room | null = null
-    const part = session.value?.user?.role === 'instructor' ? Presence.TEACHES : Presence.DRIVES
     const axes = words.value.room.axes
     const catalogue = api.robots().then(({ robots, end_effectors }) => ({
       robots: robots.map(
@@ -66,7 +64,6 @@ function RoomView({ link }: { link: Link }) {
           container: host.current,
           link,
           words: words.value,
-          part: session.value?.user?.role === 'display' ? Presence.WATCHES : part,
           ...parts,
         })
         room.value = made

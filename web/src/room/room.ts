@@ -3,18 +3,19 @@ import { Matrix4, Quaternion, Vector3 } from 'three'
 import type { Link } from '../link/link'
 import { commandsOf } from '../pages/lab/commands'
 import { type FollowedScene, LabFollower } from '../pages/lab/follow'
+import type { DrawnArm } from '../pages/lab/followed_robot'
 import type { Pose } from '../protocol/geometry_msgs'
 import {
   listCatalogueType,
   type ObjectType,
   setSurfacesType,
   spawnRobotType,
-  surfacesType,
   type TrajectoryInfo,
   trajectoryCatalogueType,
 } from '../protocol/mrlab_msgs'
 import { LabScene, type ShownRobot } from '../scene/lab_scene'
 import { MeshLibrary } from '../scene/meshes'
+import type { ShownSurface } from '../scene/surfaces'
 import type { Words } from '../words/en'
 import { SceneAnchor } from './anchor/anchor'
 import { Arms } from './arms'
@@ -32,7 +33,6 @@ import { PANEL_THEME } from './panels/pen'
 import { RobotPanels } from './panels/robot_panels'
 import { Stand } from './panels/stand'
 import { objectsTab, type Picking, robotsTab, roomTab, systemsTab } from './panels/tabs'
-import { People, type Tracked } from './people'
 import { type Place, type Support, supportsOf } from './placement/supports'
 import { RoomScan } from './room-scan/scan'
 import type { Feature, Mode } from './session/features'
@@ -62,8 +62,6 @@ export interface RoomParts {
   readonly words: Words
   readonly robots: readonly Entry[]
   readonly endEffectors: readonly Entry[]
-  /** Whether who is here teaches: Presence.part. */
-  readonly part: number
 }
 
 /** The lab in a person's room: wires what the folders beside it do, once a frame. */
@@ -90,7 +88,6 @@ export class Room {
   private readonly meshes = new MeshLibrary()
   private readonly overlays: Overlays
   private readonly objects: ObjectHandles
-  private readonly people: People
   private readonly mouse: Mouse
   private readonly targets: Target[] = []
   private readonly boardStand: Stand
@@ -99,7 +96,9 @@ export class Room {
   private readonly undo: (() => void)[] = []
   private inputs: XrInputs | null = null
   private current: RoomSession | null = null
-  private surfaceCount = 0
+  private surfaces: readonly ShownSurface[] = []
+  /** What of a robot messages move: the fingers, for its arm goes by the clock. */
+  private readonly fingers = new Map<string, DrawnArm>()
   private boardYaw = 0
   private asideSince = Number.NaN
   private aligned = false
@@ -130,20 +129,18 @@ export class Room {
     this.arms = new Arms(link, this.scene, (text) => this.board.say(text))
     this.anchor = new SceneAnchor(this.stage.anchor)
     this.objects = new ObjectHandles(this.scene, this.context, this.targets)
-    this.overlays = new Overlays(link, this.scene, this.stage.world, (robot, targets) =>
-      this.panels.setTargets(robot, targets),
-    )
-    this.people = new People(link, this.stage.world, parts.part)
+    this.overlays = new Overlays(link, this.scene, this.stage.world)
     this.scan = new RoomScan(this.stage.world, (surfaces) => {
       order(this.context, 'physics/set_surfaces', setSurfacesType, { surfaces })
     })
-    this.follower = new LabFollower(
-      link,
-      (name) => commandsOf(link, name),
-      (state) => words.states[state],
-      (state) => PANEL_THEME.states[state],
-      () => undefined,
-    )
+    this.follower = new LabFollower(link, {
+      commands: (name) => commandsOf(link, name),
+      word: (state) => words.states[state],
+      colour: (state) => PANEL_THEME.states[state],
+      stir: () => undefined,
+      // the arms fetch it themselves, and are posed by them alone
+      courseOf: () => Promise.reject(new Error('the arms have it')),
+    })
     this.follower.attach(this.followed())
     this.mouse = new Mouse(this.stage, this.targets)
     this.board.tabs = this.makeTabs()
@@ -167,6 +164,7 @@ export class Room {
       this.aligned = restored
     })
     this.inside.value = true
+    this.showSurfaces()
     this.board.panel.repaint()
   }
 
@@ -180,7 +178,6 @@ export class Room {
     for (const undo of this.undo) undo()
     this.mouse.dispose()
     this.follower.dispose()
-    this.people.dispose()
     this.overlays.dispose()
     this.objects.dispose()
     for (const handle of this.handles.values()) handle.dispose()
@@ -242,17 +239,24 @@ export class Room {
         this.objects.set(objects)
       },
       setContacts: (contacts) => scene.setContacts(contacts),
+      setSurfaces: (surfaces) => this.setSurfaces(surfaces),
+      // cubes between the fingers mark them here
+      setTargets: () => undefined,
       frame: () => undefined,
-      robot: (name) => {
-        const robot = scene.robot(name)
-        if (robot === undefined) return undefined
-        const arm = this.follower.robots.value.find((view) => view.robot.name === name)
-        return {
-          setJoint: (joint, value) =>
-            !arm?.robot.joint_names.includes(joint) && robot.setJoint(joint, value),
-        }
-      },
+      robot: (name) => this.fingers.get(name),
     }
+  }
+
+  private setSurfaces(surfaces: readonly ShownSurface[]): void {
+    this.supports = supportsOf(surfaces)
+    this.surfaces = surfaces.filter(({ vertices }) => vertices.length > 0)
+    this.showSurfaces()
+    this.board.panel.repaint()
+  }
+
+  /** Draw the room's surfaces where the room itself is not seen. */
+  private showSurfaces(): void {
+    this.scene.setSurfaces(this.current?.mode === 'immersive-ar' ? [] : this.surfaces)
   }
 
   private setRobots(robots: readonly ShownRobot[]): void {
@@ -273,12 +277,19 @@ export class Room {
         (pointer, axis) => this.inputs?.stick(pointer, axis) ?? 0,
       )
       this.handles.set(name, handle)
+      this.fingers.set(name, {
+        setPositions: () => undefined,
+        setJoint: (joint, value) =>
+          !joint_names.includes(joint) &&
+          (this.scene.robot(name)?.setJoint(joint, value) ?? false),
+      })
       this.targets.push(handle)
     }
     for (const [name, handle] of this.handles) {
       if (robots.some((robot) => robot.name === name)) continue
       this.dropHandle(name, handle)
       this.arms.forget(name)
+      this.fingers.delete(name)
       this.overlays.forget(name)
     }
     if (!this.aligned && !this.inside.value && this.handles.size > 0) this.align(SEATED)
@@ -352,7 +363,7 @@ export class Room {
 
   private roomLines(): string[] {
     const w = this.parts.words.room
-    const lines = [w.surfaces(this.surfaceCount)]
+    const lines = [w.surfaces(this.surfaces.length)]
     if (this.inside.value) {
       const waited = performance.now() / 1000 - this.enteredAt > SCAN_WAIT_S
       if (waited && this.scan.count === 0) lines.push(w.notSetUp)
@@ -366,11 +377,6 @@ export class Room {
   private listen(): void {
     const { link } = this.parts
     this.undo.push(
-      link.subscribe('surfaces', surfacesType, ({ surfaces }) => {
-        this.supports = supportsOf(surfaces)
-        this.surfaceCount = surfaces.filter(({ vertices }) => vertices.length > 0).length
-        this.board.panel.repaint()
-      }),
       link.subscribe('trajectories', trajectoryCatalogueType, ({ trajectories }) => {
         this.trajectories = trajectories
         this.panels.repaint()
@@ -455,11 +461,11 @@ export class Room {
     this.inputs = null
     this.current = null
     this.anchor.end()
-    this.people.leave()
     this.stage.controls.enabled = true
     this.stage.setPassthrough(false)
     this.align(SEATED)
     this.inside.value = false
+    this.showSurfaces()
     this.board.panel.repaint()
   }
 
@@ -484,7 +490,6 @@ export class Room {
     this.scene.update()
     this.overlays.setPicked(this.picking.on ? this.picking.picked : NONE)
     this.overlays.update(now)
-    this.people.update(now, this.tracked)
     this.standBoard(now, step)
     this.board.update(now)
     this.panels.update(now, step)
@@ -506,16 +511,6 @@ export class Room {
     }
     this.scan.update(frame, space, now)
     this.inputs?.update(frame, space, now)
-  }
-
-  private readonly tracked = (): Tracked | null => {
-    if (!this.inside.value) return null
-    const hands: { left: Pose | null; right: Pose | null } = { left: null, right: null }
-    for (const pointer of this.inputs?.pointers() ?? []) {
-      if (pointer.kind !== 'ray' || pointer.hand === 'none' || !pointer.tracked) continue
-      hands[pointer.hand] = poseInWorld(this.stage.world, pointer.place, this.look)
-    }
-    return { head: poseInWorld(this.stage.world, this.head, this.look), ...hands }
   }
 
   /** Keep the board at the hand that does not work, a little to the side of where one looks. */

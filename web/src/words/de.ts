@@ -378,7 +378,6 @@ export const de: Words = {
     playOn: 'Drücke Abspielen, um hier weiterzumachen.',
     carryHint: 'Halte den Sockel, um ihn zu tragen.',
     proxyNote: 'Ersatzgröße, kein Drehmoment',
-    noTelemetry: 'Es bewegt gerade kein Gelenk.',
     clearObjects: 'Alle Dinge entfernen',
     systemHint:
       'Mehrere Roboter auf einer Zeitachse: drücke den Knopf, dann berühre sie der Reihe nach.',
@@ -402,6 +401,5 @@ export const de: Words = {
     scan: 'Raum einrichten',
     bringHere: 'Szene hierher holen',
     leave: 'Verlassen',
-    you: 'du',
   },
 }

@@ -375,7 +375,6 @@ export const en = {
     playOn: 'Press Play to go on from here.',
     carryHint: 'Hold the base to carry the robot.',
     proxyNote: 'A proxy and no torque',
-    noTelemetry: 'It moves no joint now.',
     clearObjects: 'Remove all objects',
     systemHint:
       'Several robots on one timeline: press the button, then touch each robot in order.',
@@ -398,7 +397,6 @@ export const en = {
     scan: 'Set up the room',
     bringHere: 'Bring the scene here',
     leave: 'Leave',
-    you: 'you',
   },
 }
 

@@ -12,7 +12,8 @@ from hypothesis import strategies as st
 from mrlab_ros.core.errors import BadInput, Misuse
 from mrlab_ros.core.geometry import Pose
 from mrlab_ros.core.naming import RESERVED
-from mrlab_ros.core.scene.robots import SPACING, PlacedRobot, Scene
+from mrlab_ros.core.scene.placement import SPACING
+from mrlab_ros.core.scene.robots import PlacedRobot, Scene
 
 
 def robot(scene: Scene, reach: float = 0.9, name: str = "", pose: Pose | None = None):

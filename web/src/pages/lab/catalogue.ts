@@ -7,9 +7,15 @@ interface Carrier {
   readonly end_effector: string
 }
 
+/** What says whom a trajectory is for: fields of the gateway's list and of the lab's messages. */
+interface Carried {
+  readonly robot_model: string
+  readonly end_effector: string
+}
+
 /** Return whether a robot can play a trajectory: one that was made without an end effector plays
  * with any. The same rule as `mrlab_ros/core/trajectory/fit.py`. */
-export function fits(info: TrajectoryInfo, robot: Carrier): boolean {
+export function fits(info: Carried, robot: Carrier): boolean {
   if (info.robot_model !== robot.model) return false
   return info.end_effector === '' || info.end_effector === robot.end_effector
 }

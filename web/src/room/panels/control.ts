@@ -1,12 +1,8 @@
 import { CircleGeometry, Mesh, MeshBasicMaterial, PlaneGeometry } from 'three'
-import type { RobotView } from '../../pages/lab/follow'
+import { fits } from '../../pages/lab/catalogue'
+import type { RobotView } from '../../pages/lab/followed_robot'
 import { RATES } from '../../playback/player'
-import {
-  type GraspTarget,
-  loadTrajectoryType,
-  removeType,
-  setEndEffectorType,
-} from '../../protocol/mrlab_msgs'
+import { loadTrajectoryType, removeType, setEndEffectorType } from '../../protocol/mrlab_msgs'
 import { triggerType } from '../../protocol/std_srvs'
 import { order, type RoomContext } from '../context'
 import { Panel } from './panel'
@@ -31,7 +27,6 @@ type View = 'control' | 'motions' | 'end_effectors'
 export class ControlPanel {
   readonly panel: Panel
   telemetry = false
-  targets: readonly GraspTarget[] = []
   /** Places on the timeline, s, at which it collided. */
   readonly collisions: number[] = []
   private view: View = 'control'
@@ -235,7 +230,7 @@ export class ControlPanel {
     const { duration } = player
     pen.box(x, middle - 4, width, 8, PANEL_THEME.colours.hairline)
     const at = (time: number) => x + (duration > 0 ? time / duration : 0) * width
-    for (const { time, close } of this.targets) {
+    for (const { time, close } of this.robot.targets) {
       pen.box(at(time) - 2, middle - 20, 4, 40, PANEL_THEME.colours.second)
       const mark = close ? this.context.words.room.grasps : this.context.words.room.releases
       pen.text(at(time), middle - 30, mark, TEXT.small, 120, 'second', 400, 'center')
@@ -279,7 +274,7 @@ export class ControlPanel {
   private drawMotions(pen: Pen): void {
     const { robot } = this.robot
     const w = this.context.words.room
-    const fit = this.context.trajectories.filter((each) => each.robot_model === robot.model)
+    const fit = this.context.trajectories.filter((each) => fits(each, robot))
     if (fit.length === 0) pen.lines(EDGE, 120, w.noneFits(robot.model), TEXT.body)
     this.drawList(
       pen,

@@ -1,7 +1,7 @@
 import { type Object3D, Vector3 } from 'three'
 import type { Unsubscribe } from '../../link/link'
-import type { RobotView } from '../../pages/lab/follow'
-import { type GraspTarget, telemetryType } from '../../protocol/mrlab_msgs'
+import type { RobotView } from '../../pages/lab/followed_robot'
+import { telemetryType } from '../../protocol/mrlab_msgs'
 import type { LabScene } from '../../scene/lab_scene'
 import type { RoomContext } from '../context'
 import type { Target } from '../input/target'
@@ -33,7 +33,6 @@ interface Entry {
 /** The control panels of all robots, each at its robot on the person's side. */
 export class RobotPanels {
   private readonly entries = new Map<string, Entry>()
-  private readonly targetsOf = new Map<string, readonly GraspTarget[]>()
 
   constructor(
     private readonly context: RoomContext,
@@ -71,14 +70,6 @@ export class RobotPanels {
     return halts
   }
 
-  setTargets(name: string, targets: readonly GraspTarget[]): void {
-    this.targetsOf.set(name, targets)
-    const entry = this.entries.get(name)
-    if (entry === undefined) return
-    entry.control.targets = targets
-    entry.control.panel.repaint()
-  }
-
   repaint(): void {
     for (const { control } of this.entries.values()) control.panel.repaint()
   }
@@ -99,7 +90,6 @@ export class RobotPanels {
   private add(view: RobotView): void {
     const { name } = view.robot
     const control = new ControlPanel(this.context, view)
-    control.targets = this.targetsOf.get(name) ?? []
     this.parent.add(control.panel.group)
     this.targets.push(control.panel)
     const stand = new Stand(control.panel.group)
