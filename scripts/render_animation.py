@@ -16,7 +16,7 @@ from PIL import Image
 from playwright.sync_api import sync_playwright
 from typer.testing import CliRunner
 
-from mrlab_ros.cli import app
+from mrlab_ros.cli import make_app
 
 ROOT = Path(__file__).resolve().parent.parent
 MOTION = ROOT / "examples" / "pick_and_place_ur5e.mat"
@@ -76,7 +76,7 @@ def main() -> None:
         page = Path(folder) / "page.html"
         tool = ["--end-effector", "parallel_gripper"]
         command = ["show", str(MOTION), "--robot", "ur5e", *tool, "-o", str(page)]
-        done = CliRunner().invoke(app, command, catch_exceptions=False)
+        done = CliRunner().invoke(make_app(), command, catch_exceptions=False)
         if done.exit_code:
             raise SystemExit(done.output)
         first, *rest = frames(page, arguments.count)

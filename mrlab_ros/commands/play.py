@@ -2,149 +2,138 @@
 
 from __future__ import annotations
 
+import json
 import time
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from mrlab_ros.core.errors import LabError, Misuse
+from mrlab_ros.commands.convert.options import FIELDS, with_options, words_of
+from mrlab_ros.core.conversion.options import Options
+from mrlab_ros.core.errors import Misuse
 
 if TYPE_CHECKING:
-    from mrlab_ros.commands.follow import Follower
-    from mrlab_ros.ros.graph import Graph
+    from rich.console import Console
 
-# After play the robot moves within this time, or its state gives the reason.
-MOVE_TIMEOUT_S = 5.0
+    from mrlab_ros.client.lab import Lab
+    from mrlab_ros.client.robot import LabRobot, Run
+
+# What is a file by its name, also where it does not exist.
+ENDINGS = (".mat", ".gz", ".csv", ".txt", ".tsv", ".lvm", ".npz", ".json", ".mcap", ".db3")
 
 
+@with_options
 def play(
+    options: Options,
     robot: Annotated[str, typer.Argument(help="A robot of the scene, such as ur5e_1.")],
     trajectory: Annotated[
-        str, typer.Argument(help="A trajectory of the catalogue, or a workspace file.")
-    ],
-    rate: Annotated[
-        float, typer.Option(help="Speed, 0.1 to 4; 1 is the declared one, -1 the same backwards.")
-    ] = 1.0,
+        str,
+        typer.Argument(
+            help="A trajectory of the catalogue, or a file: a workspace, a table, a trajectory "
+            "file or a bag. Not given: what is loaded."
+        ),
+    ] = "",
+    speed: Annotated[
+        float | None,
+        typer.Option(help="Speed, 0.1 to 4; 1 is the declared one, -1 the same backwards."),
+    ] = None,
     loop: Annotated[
         bool, typer.Option("--loop", help="Begin again after the last frame.")
     ] = False,
     wait: Annotated[
         bool, typer.Option("--wait/--no-wait", help="Follow the motion to its end.")
     ] = True,
+    as_json: Annotated[
+        bool, typer.Option("--json", help="Print one JSON object a state.")
+    ] = False,
 ) -> None:
     """Play a trajectory on a robot and follow it to the end.
 
-    A workspace file is converted for the robot first. Ctrl-C ends the following, not the motion.
-    Ends with 0 when the last frame was played, 1 when something kept it from that.
+    A file is converted for the robot first, with the options of mrlab convert. Ctrl-C ends the
+    following, not the motion. Ends with 0 when the last frame was played, 2 when the file needs a
+    choice, 1 when something kept it from that.
     """
     from rich.console import Console
 
-    from mrlab_ros.commands.follow import Follower
-    from mrlab_ros.ros.graph import Graph
+    from mrlab_ros.client.lab import Lab
 
-    console = Console(highlight=False)
-    with Graph() as graph:
-        found = graph.robot(robot)
-        follower = Follower(graph, robot)
-        state = follower.watch.wait(lambda _: True, MOVE_TIMEOUT_S, f"the state of {robot}")
-        wanted = in_catalogue(graph, found, trajectory)
-        begin(graph, robot, state, wanted, rate, loop)
-        since = len(follower.states)
+    console = Console(highlight=False, stderr=as_json)
+    with Lab() as lab:
+        found = lab.robot(robot)
+        if trajectory:
+            motion = in_catalogue(lab, found, trajectory, options)
+            run = found.play(motion, speed=1.0 if speed is None else speed, loop=loop)
+        else:
+            _check_no_file_options(options, "what is loaded")
+            run = found.run() or found.play(speed=speed, loop=loop)
         if not wait:
-            console.print(f"{robot} plays {wanted}")
+            console.print(f"{robot} plays {run.follower.state.trajectory_id}")
             return
         try:
-            _follow(console, follower, since)
+            follow(console, run, as_json=as_json)
         except KeyboardInterrupt:
             console.print(
-                f"{robot} plays on; its services /{robot}/pause and /{robot}/stop end it"
+                f"{robot} plays on; end it with: mrlab pause {robot}, or mrlab stop {robot}"
             )
             raise typer.Exit(130) from None
 
 
-def in_catalogue(graph: Graph, robot: Any, trajectory: str) -> str:
-    """Return the trajectory's id; convert it first where it is a file."""
-    from mrlab_msgs import srv
-
+def is_file(trajectory: str) -> bool:
+    """Return whether this names a file or a folder and no trajectory of the catalogue."""
     path = Path(trajectory)
-    if path.suffix.lower() != ".mat":
+    return path.suffix.lower() in ENDINGS or ("/" in trajectory and path.exists()) or path.is_dir()
+
+
+def in_catalogue(lab: Lab, robot: LabRobot, trajectory: str, options: Options) -> str:
+    """Return the trajectory's id; convert it first where it is a file.
+
+    A file that is refused is reported with its findings and the commands that mend it; the
+    command then ends as mrlab convert does.
+    """
+    if not is_file(trajectory):
+        _check_no_file_options(options, f"the trajectory '{trajectory}'")
         return trajectory
-    request = srv.ConvertTrajectory.Request(
-        path=str(path.resolve()), robot_model=robot.model, end_effector=robot.end_effector
-    )
-    answer = graph.order(srv.ConvertTrajectory, "/converter/convert", request, timeout=60.0)
-    return str(answer.trajectory.id)
+    from mrlab_ros.client.lab import FileRefused
+
+    try:
+        return lab.convert(trajectory, robot, options).id
+    except FileRefused as refusal:
+        from mrlab_ros.commands.convert import report
+        from mrlab_ros.commands.convert.outcomes import EXIT_CODES
+
+        report.show(refusal.result, None, ["mrlab", "play", robot.name, trajectory], options)
+        raise typer.Exit(EXIT_CODES[refusal.result.outcome]) from None
 
 
-def begin(graph: Graph, robot: str, state: Any, trajectory: str, rate: float, loop: bool) -> None:
-    """Load `trajectory` unless it is loaded, set rate and loop where they differ, and play."""
-    from mrlab_msgs import srv
-    from std_srvs.srv import SetBool, Trigger
-
-    if state.trajectory_id != trajectory:
-        load = srv.LoadTrajectory.Request(id=trajectory)
-        graph.order(srv.LoadTrajectory, f"/{robot}/load", load)
-    if rate != state.rate:
-        graph.order(srv.SetRate, f"/{robot}/set_rate", srv.SetRate.Request(rate=rate))
-    if loop != state.loop:
-        graph.order(SetBool, f"/{robot}/set_loop", SetBool.Request(data=loop))
-    graph.order(Trigger, f"/{robot}/play", Trigger.Request())
+def _check_no_file_options(options: Options, what: str) -> None:
+    """Raise Misuse where there are options of a conversion and nothing to convert."""
+    if given := words_of(options):
+        hint = "; the speed is set with --speed" if f"--{_rate_option()}" in given else ""
+        raise Misuse(f"{given[0]} is for a file, and {what} is converted already{hint}")
 
 
-class Course:
-    """Reads a run off the states that follow `play`: how it stands, and how it ended."""
-
-    def __init__(self, robot: str) -> None:
-        self._robot = robot
-        self.moving = False
-        self.complete = False
-
-    def take(self, state: Any) -> None:
-        """Take the next state; raise Misuse where it says that the run will not complete."""
-        from mrlab_msgs import msg
-
-        kind = msg.PlaybackState
-        if state.state in (kind.ADJUSTING, kind.PLAYING):
-            self.moving = True
-        elif state.state == kind.COMPLETE:
-            self.complete = True
-        elif state.state == kind.COLLISION_HALT:
-            raise Misuse(
-                f"{self._robot} was halted by a collision ({state.message}); place it elsewhere "
-                f"or call /{self._robot}/seek, then play again"
-            )
-        elif state.state == kind.IDLE and self.moving:
-            raise LabError(f"the playback of {self._robot} was restarted; play again")
-        elif state.state == kind.READY and self.moving and not self.complete:
-            raise Misuse(
-                f"{self._robot} ended before its last frame: {state.message or 'stopped'}"
-            )
+def _rate_option() -> str:
+    return next(option for option, field in FIELDS.items() if field == "frame_rate")
 
 
-def _follow(console: Any, follower: Follower, since: int) -> None:
+def follow(console: Console, run: Run, *, as_json: bool = False) -> None:
+    """Show a run until its last frame; raise LabError where it ends before."""
     from rich.progress import BarColumn, Progress, TextColumn
 
-    from mrlab_ros.commands.follow import milliseconds
+    from mrlab_ros.client.follow import milliseconds
 
-    course = Course(follower.robot)
-    deadline = time.monotonic() + MOVE_TIMEOUT_S
+    follower = run.follower
     label = ""
     columns = (TextColumn("{task.description}"), BarColumn(), TextColumn("{task.fields[words]}"))
-    with Progress(*columns, console=console, disable=not console.is_terminal) as bar:
+    plain = as_json or not console.is_terminal
+    with Progress(*columns, console=console, disable=plain) as bar:
         task = bar.add_task(follower.robot, words="")
-        while not course.complete:
-            for state in follower.states[since:]:
-                since += 1
-                course.take(state)
-                if state.label != label and not console.is_terminal:
-                    console.print(f"{follower.robot} {state.label} {state.message}".rstrip())
+        while not run.complete:
+            for state in run.advance():
+                if state.label != label:
+                    _say_state(console, follower.robot, state, plain=plain, as_json=as_json)
                 label = state.label
-            if not course.moving and time.monotonic() > deadline:
-                raise LabError(
-                    f"{follower.robot} accepted play but does not move after {MOVE_TIMEOUT_S:g} "
-                    "s; mrlab status shows what runs"
-                )
             state = follower.state
             words = f"{state.label}  frame {follower.frame} of {state.frame_count}"
             if follower.errors:
@@ -157,3 +146,11 @@ def _follow(console: Any, follower: Follower, since: int) -> None:
         f"{milliseconds(follower.error_p50)}, max {milliseconds(follower.error_max)}, "
         f"{follower.frames_lost} frames left out"
     )
+
+
+def _say_state(console: Console, robot: str, state: Any, *, plain: bool, as_json: bool) -> None:
+    if as_json:
+        facts = {"robot": robot, "state": state.label, "message": state.message}
+        print(json.dumps({**facts, "frame": state.frame}), flush=True)
+    elif plain:
+        console.print(f"{robot} {state.label} {state.message}".rstrip())

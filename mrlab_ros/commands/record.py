@@ -2,16 +2,17 @@
 
 from __future__ import annotations
 
+import json
 import time
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from mrlab_ros.core.errors import LabError
+from mrlab_ros.core.errors import LabError, Misuse
 
 if TYPE_CHECKING:
-    from mrlab_ros.ros.graph import Graph, Watch
+    from mrlab_ros.ros.graph import GraphClient, Watch
 
 REFRESH = 0.25
 # A working recorder publishes its state once a second; without one for this long it has gone, s.
@@ -29,6 +30,10 @@ def record(
     split: Annotated[
         float, typer.Option(help="Seconds after which a new file begins; 0: never.")
     ] = 0.0,
+    stop: Annotated[
+        bool, typer.Option("--stop", help="End the recording that runs, whoever started it.")
+    ] = False,
+    as_json: Annotated[bool, typer.Option("--json", help="Print one JSON object a line.")] = False,
 ) -> None:
     """Record the running lab into a bag until Ctrl-C.
 
@@ -40,29 +45,63 @@ def record(
     from rich.live import Live
     from std_srvs.srv import Trigger
 
-    from mrlab_ros.ros.graph import Graph
+    from mrlab_ros.client.connect import open_graph
 
+    if stop:
+        _end(bag, as_json=as_json)
+        return
     console = Console(highlight=False)
     request = srv.StartRecording.Request(
         bag=str(bag.absolute()) if bag else "",
         topics=[topic.strip() for topic in topics.split(",") if topic.strip()],
         split_duration=split,
     )
-    with Graph() as graph:
+    with open_graph() as graph:
         watch = graph.watch(msg.RecorderState, "/recorder/state")
         begun = False
         try:
             answer = graph.order(srv.StartRecording, "/recorder/start", request)
             begun = True
-            console.print(f"records into {answer.bag}; Ctrl-C ends it", soft_wrap=True)
+            if as_json:
+                print(json.dumps({"bag": answer.bag}), flush=True)
+                _follow(watch, _print_state, answer.bag)
+                return
+            console.print(
+                f"records into {answer.bag}; Ctrl-C ends it, or mrlab record --stop",
+                soft_wrap=True,
+            )
             with Live(console=console, auto_refresh=False, transient=True) as live:
-                _follow(watch, lambda line: live.update(line, refresh=True), answer.bag)
+                _follow(
+                    watch, lambda *states: live.update(_line(*states), refresh=True), answer.bag
+                )
         except KeyboardInterrupt:
             if not begun:
                 # It may have begun all the same.
                 graph.call(Trigger, "/recorder/stop", Trigger.Request())
                 raise typer.Exit(130) from None
-            console.print(_stop(graph), soft_wrap=True)
+            said = _stop(graph)
+            if as_json:
+                print(json.dumps({"message": said}))
+            else:
+                console.print(said, soft_wrap=True)
+
+
+def _end(bag: Path | None, *, as_json: bool) -> None:
+    """End the recording that runs; raise Misuse where none does."""
+    from mrlab_msgs import msg
+
+    from mrlab_ros.client.connect import open_graph
+
+    if bag is not None:
+        raise Misuse(f"--stop ends the recording that runs; leave '{bag}' out")
+    with open_graph() as graph:
+        state = graph.watch(msg.RecorderState, "/recorder/state").wait(
+            lambda _: True, SILENCE, "the recorder"
+        )
+        if state.state != msg.RecorderState.RECORDING:
+            raise Misuse("nothing is recorded; mrlab record begins a recording")
+        said = _stop(graph)
+    print(json.dumps({"bag": state.bag, "message": said}) if as_json else said)
 
 
 def _follow(watch: Watch[Any], show: Any, bag: str) -> None:
@@ -76,7 +115,7 @@ def _follow(watch: Watch[Any], show: Any, bag: str) -> None:
             before, last, received_at = last, state, time.monotonic()
             # What is latched from before this recording says nothing of it.
             if state.state == msg.RecorderState.RECORDING and state.bag == bag:
-                show(_line(state, before if began else None))
+                show(state, before if began else None)
                 began = True
             elif began:
                 raise LabError(
@@ -94,6 +133,11 @@ def _follow(watch: Watch[Any], show: Any, bag: str) -> None:
         time.sleep(REFRESH)
 
 
+def _print_state(state: Any, _: Any) -> None:
+    facts = {"position": state.position, "messages": state.messages, "bytes": state.bytes}
+    print(json.dumps(facts), flush=True)
+
+
 def _line(state: Any, before: Any) -> str:
     rate = ""
     if before is not None and state.position > before.position:
@@ -102,7 +146,7 @@ def _line(state: Any, before: Any) -> str:
     return f"{state.position:.0f} s  {state.messages} messages  {megabytes(state.bytes)}{rate}"
 
 
-def _stop(graph: Graph) -> str:
+def _stop(graph: GraphClient) -> str:
     from std_srvs.srv import Trigger
 
     answer = graph.order(Trigger, "/recorder/stop", Trigger.Request(), timeout=30.0)

@@ -21,7 +21,7 @@ from mrlab_ros.core.errors import LabError, Misuse
 from mrlab_ros.messages.time import time_from_message
 
 if TYPE_CHECKING:
-    from mrlab_ros.ros.graph import Graph, Watch
+    from mrlab_ros.ros.graph import GraphClient, Watch
 
 REFRESH = 0.1
 # What is typed faster than it is served comes at once: an arrow is three bytes.
@@ -52,14 +52,14 @@ def replay(
     from rich.console import Console
     from rich.live import Live
 
-    from mrlab_ros.ros.graph import Graph
+    from mrlab_ros.client.connect import open_graph
 
     console = Console(highlight=False)
     path = Path(bag).expanduser()
     request = srv.Replay.Request(
         bag=str(path.absolute()) if path.exists() else bag, rate=rate, start=start, loop=loop
     )
-    with Graph() as graph:
+    with open_graph() as graph:
         watch = graph.watch(msg.RecorderState, "/recorder/state")
         try:
             answer = graph.order(srv.Replay, "/recorder/replay", request, BEGIN_TIMEOUT_S)
@@ -129,7 +129,7 @@ def position_now(state: Any) -> float:
 class Keyboard:
     """What the keys do."""
 
-    def __init__(self, graph: Graph, watch: Watch[Any]) -> None:
+    def __init__(self, graph: GraphClient, watch: Watch[Any]) -> None:
         self._graph = graph
         self._watch = watch
         self.said = ""
@@ -179,7 +179,7 @@ def next_rate(rate: float, faster: bool) -> float:
     return next((r for r in reversed(RATES) if r < rate), RATES[0])
 
 
-def _end(graph: Graph, timeout: float = STOP_TIMEOUT_S) -> None:
+def _end(graph: GraphClient, timeout: float = STOP_TIMEOUT_S) -> None:
     from std_srvs.srv import Trigger
 
     graph.call(Trigger, "/recorder/stop", Trigger.Request(), timeout)

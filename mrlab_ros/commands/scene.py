@@ -10,13 +10,13 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from mrlab_ros.core.errors import BadInput, Misuse
-from mrlab_ros.messages import qos
 
 if TYPE_CHECKING:
-    from mrlab_ros.ros.graph import Graph
+    from mrlab_ros.ros.graph import GraphClient
 
 # Loading a scene spawns its robots and loads their trajectories, one after another, s.
 LOAD_TIMEOUT = 120.0
+CATALOGUE = "/physics/list_catalogue"
 
 scene = typer.Typer(no_args_is_help=True, help="Whole scenes: list, save, load.")
 objects = typer.Typer(
@@ -31,9 +31,9 @@ def list_scenes(as_json: AsJson = False) -> None:
     """List the scenes: those that came with the lab, and those saved in it."""
     from mrlab_msgs import srv
 
-    from mrlab_ros.ros.graph import Graph
+    from mrlab_ros.client.connect import open_graph
 
-    with Graph() as graph:
+    with open_graph() as graph:
         answer = graph.call(srv.ListScenes, "/lab/list_scenes", srv.ListScenes.Request())
     names = list(answer.scenes)
     print(json.dumps(names) if as_json else "\n".join(names))
@@ -54,9 +54,9 @@ def load(name: Scene) -> None:
 def _scene_file(verb: str, name: str, timeout: float) -> str:
     from mrlab_msgs import srv
 
-    from mrlab_ros.ros.graph import Graph
+    from mrlab_ros.client.connect import open_graph
 
-    with Graph() as graph:
+    with open_graph() as graph:
         request = srv.SceneFile.Request(name=name)
         service = f"/lab/{verb}_scene"
         return str(graph.order(srv.SceneFile, service, request, timeout).message)
@@ -159,19 +159,14 @@ def clear() -> None:
         print(graph.order(Trigger, "/physics/clear_objects", Trigger.Request()).message)
 
 
-def _graph() -> Graph:
+def _graph() -> GraphClient:
     """Return a client of a lab that has physics; raise Misuse where it has none."""
-    from mrlab_msgs import srv
+    from mrlab_ros.client.connect import open_graph
 
-    from mrlab_ros.ros.graph import FIND_TIMEOUT_S, Graph
-
-    graph = Graph()
+    graph = open_graph()
     try:
         graph.robots()
-        client = graph.node.create_client(
-            srv.ListCatalogue, "/physics/list_catalogue", qos_profile=qos.SERVICES
-        )
-        if not client.wait_for_service(timeout_sec=FIND_TIMEOUT_S):
+        if not graph.is_offered(CATALOGUE):
             raise Misuse("this lab runs without physics; start it with: mrlab up --physics")
     except BaseException:
         graph.close()
@@ -179,10 +174,10 @@ def _graph() -> Graph:
     return graph
 
 
-def _catalogue(graph: Graph) -> Any:
+def _catalogue(graph: GraphClient) -> Any:
     from mrlab_msgs import srv
 
-    return graph.call(srv.ListCatalogue, "/physics/list_catalogue", srv.ListCatalogue.Request())
+    return graph.call(srv.ListCatalogue, CATALOGUE, srv.ListCatalogue.Request())
 
 
 def _place(text: str) -> tuple[float, float, float]:

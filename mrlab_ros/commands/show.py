@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
+from mrlab_ros.commands.convert.options import with_options
 from mrlab_ros.core.conversion.options import Options
 from mrlab_ros.core.errors import BadInput, Misuse
 
@@ -18,7 +19,9 @@ if TYPE_CHECKING:
     from mrlab_ros.core.conversion.convert import ConversionResult
 
 
+@with_options
 def show(
+    options: Options,
     file: Annotated[
         Path,
         typer.Argument(help="Workspace, table, trajectory file, recorded bag, or its report."),
@@ -31,17 +34,6 @@ def show(
         Path | None,
         typer.Option("--out", "--output", "-o", help="The page; none: FILE with .html, here."),
     ] = None,
-    variable: Annotated[str, typer.Option(help="The matrix to take, as MATLAB writes it.")] = "",
-    columns: Annotated[str, typer.Option(help="Columns that hold the joints: 2:7.")] = "",
-    transpose: Annotated[bool, typer.Option("--transpose", help="Samples are columns.")] = False,
-    units: Annotated[
-        str, typer.Option(help="Unit of the joints: rad, deg, mm or counts:N a turn.")
-    ] = "",
-    unwrap: Annotated[bool, typer.Option("--unwrap", help="Remove jumps of 2*pi.")] = False,
-    gripper: Annotated[
-        str, typer.Option(help="Column or variable that holds the gripper, or none.")
-    ] = "",
-    rate: Annotated[float, typer.Option(help="Frames a second; 0: the file's, or 100.")] = 0.0,
     opened: Annotated[
         bool, typer.Option("--open/--no-open", help="Open the page where there is a desktop.")
     ] = True,
@@ -53,15 +45,6 @@ def show(
     path = output or Path(f"{file.name.split('.')[0] or 'motion'}.html")
     if path.suffix.lower() not in (".html", ".htm"):
         raise Misuse(f"the page is '{path.name}'; expected a name that ends in .html")
-    options = Options(
-        variable=variable,
-        columns=columns,
-        transpose=transpose,
-        unwrap=unwrap,
-        units=units,
-        gripper=gripper,
-        frame_rate=rate,
-    )
     text = _page(file, robot, end_effector, options)
     path.parent.mkdir(parents=True, exist_ok=True)
     path.write_text(text, encoding="utf-8")

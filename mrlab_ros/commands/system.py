@@ -14,7 +14,7 @@ from mrlab_ros.core.naming import checked_name, did_you_mean
 
 if TYPE_CHECKING:
     from mrlab_ros.core.systems.cell_file import MemberEntry, SystemEntry
-    from mrlab_ros.ros.graph import Graph
+    from mrlab_ros.ros.graph import GraphClient
 
 app = typer.Typer(
     no_args_is_help=True,
@@ -35,9 +35,9 @@ def list_systems(
     from rich.console import Console
     from rich.table import Table
 
-    from mrlab_ros.ros.graph import Graph
+    from mrlab_ros.client.connect import open_graph
 
-    with Graph() as graph:
+    with open_graph() as graph:
         systems = _systems(graph)
     if as_json:
         for system in systems:
@@ -76,12 +76,12 @@ def create(
     from mrlab_msgs import srv
 
     from mrlab_ros.adapters.scenes.files import content
+    from mrlab_ros.client.connect import open_graph
     from mrlab_ros.core.scene.document import parse_cell
     from mrlab_ros.messages.scenes import create_system_request
-    from mrlab_ros.ros.graph import Graph
 
     systems = parse_cell(content(file), file.name)
-    with Graph() as graph:
+    with open_graph() as graph:
         # All robots and names, before the first conversion adds to the catalogue.
         for system in systems:
             _check_entry(graph, system)
@@ -103,7 +103,7 @@ def create(
             print(f"next: mrlab system play {name}")
 
 
-def _check_entry(graph: Graph, system: SystemEntry) -> None:
+def _check_entry(graph: GraphClient, system: SystemEntry) -> None:
     """Raise where the coordinator would refuse the system for its robots or its name."""
     others = _systems(graph, system.name) if system.name else _systems(graph)
     for member in system.members:
@@ -119,14 +119,17 @@ def _check_entry(graph: Graph, system: SystemEntry) -> None:
         checked_name(system.name, frozenset(taken), "system")
 
 
-def _trajectory(graph: Graph, folder: Path, member: MemberEntry) -> str:
+def _trajectory(graph: GraphClient, folder: Path, member: MemberEntry) -> str:
     """Return the id of the member's trajectory; convert it where the file names a workspace."""
-    from mrlab_ros.commands.play import in_catalogue
+    from mrlab_ros.client.lab import Lab
+    from mrlab_ros.commands.play import in_catalogue, is_file
+    from mrlab_ros.core.conversion.options import Options
 
     name = member.trajectory
-    if Path(name).suffix.lower() != ".mat":
+    if not is_file(name):
         return name
-    return in_catalogue(graph, graph.robot(member.robot), str(folder / name))
+    lab = Lab(graph)
+    return in_catalogue(lab, lab.robot(member.robot), str(folder / name), Options())
 
 
 @app.command()
@@ -140,10 +143,10 @@ def play(
     from mrlab_msgs import msg
     from std_srvs.srv import Trigger
 
+    from mrlab_ros.client.connect import open_graph
     from mrlab_ros.messages import qos
-    from mrlab_ros.ros.graph import Graph
 
-    with Graph() as graph:
+    with open_graph() as graph:
         _system(graph, name)
         seen: list[Any] = []
         watch = graph.watch(msg.RobotSystems, "/systems", qos.LATCHED_EVENTS)
@@ -163,7 +166,14 @@ def play(
         print(graph.order(Trigger, f"/{name}/play", Trigger.Request(), 30.0).message)
         if not wait:
             return
-        last = watch.wait(note, 24 * 3600.0, f"the end of {name}")
+        try:
+            last = watch.wait(note, 24 * 3600.0, f"the end of {name}")
+        except KeyboardInterrupt:
+            print(
+                f"{name} plays on; end it with: mrlab system pause {name}, or mrlab system stop "
+                f"{name}"
+            )
+            raise typer.Exit(130) from None
         state = next((s for s in last.systems if s.name == name), None)
     if state is None:
         raise Misuse(f"{name} was dissolved while it played")
@@ -176,9 +186,9 @@ def _simple(verb: str, words: str) -> None:
     def command(name: Name) -> None:
         from std_srvs.srv import Trigger
 
-        from mrlab_ros.ros.graph import Graph
+        from mrlab_ros.client.connect import open_graph
 
-        with Graph() as graph:
+        with open_graph() as graph:
             _system(graph, name)
             print(graph.order(Trigger, f"/{name}/{verb}", Trigger.Request()).message)
 
@@ -245,22 +255,22 @@ def dissolve(name: Name) -> None:
     """Set the members free, paused where they are."""
     from mrlab_msgs import srv
 
-    from mrlab_ros.ros.graph import Graph
+    from mrlab_ros.client.connect import open_graph
 
-    with Graph() as graph:
+    with open_graph() as graph:
         request = srv.Remove.Request(name=name)
         print(graph.order(srv.Remove, "/coordinator/dissolve_system", request).message)
 
 
 def _order(name: str, service: str, kind: Any, request: Any) -> None:
-    from mrlab_ros.ros.graph import Graph
+    from mrlab_ros.client.connect import open_graph
 
-    with Graph() as graph:
+    with open_graph() as graph:
         _system(graph, name)
         print(graph.order(kind, f"/{name}/{service}", request).message)
 
 
-def _systems(graph: Graph, name: str = "") -> list[Any]:
+def _systems(graph: GraphClient, name: str = "") -> list[Any]:
     """Return the systems as last published, or as soon as one called `name` is among them.
 
     The latched messages come oldest first, one soon after the other.
@@ -278,7 +288,7 @@ def _systems(graph: Graph, name: str = "") -> list[Any]:
     return list(watch.value.systems)
 
 
-def _system(graph: Graph, name: str) -> Any:
+def _system(graph: GraphClient, name: str) -> Any:
     systems = _systems(graph, name)
     for system in systems:
         if system.name == name:

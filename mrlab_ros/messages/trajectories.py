@@ -13,6 +13,7 @@ from mrlab_msgs import msg
 from numpy.typing import NDArray
 
 from mrlab_ros.core.conversion.candidates import Candidate
+from mrlab_ros.core.conversion.convert import ConversionResult, Outcome
 from mrlab_ros.core.conversion.options import Options
 from mrlab_ros.core.conversion.preview import Preview
 from mrlab_ros.core.diagnostics import Diagnostic, Fix, Severity
@@ -202,3 +203,33 @@ def info_from_head(head: Mapping[str, Any]) -> msg.TrajectoryInfo:
 def trajectory_without_frames(head: Mapping[str, Any]) -> msg.Trajectory:
     """Return the message of a trajectory's head alone: info and joint names, no frames."""
     return msg.Trajectory(info=info_from_head(head), joint_names=list(head["joint_names"]))
+
+
+def preview_from_message(message: msg.Preview) -> Preview:
+    values: NDArray[np.float32] = np.array(message.values, np.float32)
+    rows: NDArray[np.uint32] = np.array(message.rows, np.uint32)
+    return Preview(message.variable, rows, values.reshape(len(rows), -1))
+
+
+def candidate_from_message(message: msg.Candidate) -> Candidate:
+    return Candidate(
+        message.variable,
+        (message.rows, message.columns),
+        message.score,
+        message.why,
+        message.minimum,
+        message.maximum,
+        preview_from_message(message.preview),
+    )
+
+
+def result_from_response(file: str, response: Any) -> ConversionResult:
+    """Return what a response of ConvertTrajectory says of a file that was not taken."""
+    return ConversionResult(
+        file,
+        Outcome(response.outcome),
+        None,
+        tuple(map(candidate_from_message, response.candidates)),
+        tuple(map(diagnostic_from_message, response.diagnostics)),
+        preview_from_message(response.preview) if response.preview.variable else None,
+    )

@@ -224,6 +224,12 @@ class BridgeParameters:
         "Keys folder: only its people may connect, over TLS, each in their role; empty: no keys.",
         "",
     )
+    socket: str = field(
+        TEXT,
+        "Unix socket on which programs of this machine connect with all rights; who may is up to "
+        "its folder's permissions; empty: none. Not with a router or passwords.",
+        "",
+    )
     lease: float = field(
         Number(between(0, 3600), "s"),
         "Time after which a silent link counts as broken; 0: 1.5 beyond this machine, 10 within.",

@@ -15,7 +15,6 @@ from pathlib import Path
 
 from mrlab_ros.core.errors import BadInput
 from mrlab_ros.processes.options import LabOptions
-from mrlab_ros.processes.parameter_file import check_parameter_file
 from mrlab_ros.processes.supervisor import ProcessSpec
 from mrlab_ros.processes.web import GatewayProcess
 
@@ -82,6 +81,8 @@ def _bridge_parameters(options: LabOptions) -> Parameters:
         found |= {"bridge:connect": [options.connect], "bridge:mode": "client"}
     elif options.listen:
         found["bridge:listen"] = [options.listen]
+    if options.socket and not options.connect:
+        found["bridge:socket"] = options.socket
     if options.insecure:
         found["bridge:insecure"] = True
     if options.keys is not None:
@@ -164,6 +165,8 @@ def parameter_file(chosen: Path | None) -> Path:
         raise BadInput(
             f"there is no parameter file {chosen}; name an existing one as config, or leave it out"
         )
+    from mrlab_ros.processes.parameter_file import check_parameter_file
+
     check_parameter_file(chosen)
     return chosen.resolve()
 

@@ -33,8 +33,9 @@ class LabOptions:
     to begin with. listen: where zenoh clients connect; empty: the bridge's default. connect: a
     router that clients connect to in place of the bridge. keys: a keys folder. insecure: listen
     beyond this machine without keys. store: URL or folder of uploads and trajectories; empty: in
-    state_dir. web: the gateway; None: no pages. sim_time: the topic /clock gives the time. lab_id:
-    distinguishes this lab from others on the same ROS domain; empty: nothing is ignored.
+    state_dir. socket: on which this user's commands connect; empty: none. web: the gateway; None:
+    no pages. sim_time: the topic /clock gives the time. lab_id: distinguishes this lab from others
+    on the same ROS domain; empty: nothing is ignored.
     """
 
     config: Path
@@ -47,6 +48,7 @@ class LabOptions:
     keys: Path | None = None
     insecure: bool = False
     store: str = ""
+    socket: str = ""
     web: WebOptions | None = None
     sim_time: bool = False
     lab_id: str = ""

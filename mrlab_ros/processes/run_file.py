@@ -16,6 +16,8 @@ from mrlab_ros.processes.supervisor import ProcessState
 
 # `mrlab status` holds the lock for a moment; a claim retries for this long, s.
 CLAIM_TIMEOUT_S = 0.2
+# Bytes of a Unix socket's address on Linux.
+SOCKET_PATH = 108
 
 
 def _folder() -> Path:
@@ -34,6 +36,12 @@ class RunFile:
         self._path = _folder() / f"domain-{domain}.json"
         self._lock: IO[bytes] | None = None
         self._facts: dict[str, object] = {}
+
+    @property
+    def socket(self) -> str:
+        """Where the lab's bridge listens for this user's commands; empty: the path is too long."""
+        path = str(self._path.with_suffix(".sock"))
+        return path if len(os.fsencode(path)) < SOCKET_PATH else ""
 
     def claim(self, **facts: object) -> None:
         """Take the domain for this process; raise Misuse where another supervisor has it."""
@@ -65,7 +73,8 @@ class RunFile:
     def release(self) -> None:
         """Release the domain."""
         if self._lock is not None:
-            self._path.unlink(missing_ok=True)
+            for suffix in (".json", ".sock", ".sock.lock"):
+                self._path.with_suffix(suffix).unlink(missing_ok=True)
             self._lock.close()
             self._lock = None
 

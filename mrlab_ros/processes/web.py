@@ -11,7 +11,6 @@ from dataclasses import dataclass
 
 from mrlab_ros.core.bridge.links import from_here
 from mrlab_ros.processes.options import LabOptions
-from mrlab_ros.processes.parameter_file import parameter
 from mrlab_ros.processes.supervisor import ProcessSpec
 
 GATEWAY_MODULE = "mrlab_ros.gateway"
@@ -34,6 +33,8 @@ class GatewayProcess:
 
     def arguments(self, options: LabOptions) -> tuple[str, ...]:
         """Return the gateway's command line."""
+        from mrlab_ros.processes.parameter_file import parameter  # not for a mere list of names
+
         web = options.web
         assert web is not None
         keys = options.keys.expanduser().resolve() if options.keys is not None else None
@@ -80,6 +81,8 @@ def zenoh_endpoint(options: LabOptions) -> str:
         return options.connect
     listen = options.listen
     if not listen:
+        from mrlab_ros.processes.parameter_file import parameter
+
         listed = parameter(options.config, "bridge", "listen")
         first = listed[0] if isinstance(listed, list) and listed else ""
         listen = first if "/" in str(first) else ""

@@ -7,7 +7,8 @@ from __future__ import annotations
 
 import threading
 import time
-from collections.abc import Callable
+from abc import ABC, abstractmethod
+from collections.abc import Callable, Collection
 from types import TracebackType
 from typing import Any, Generic, TypeVar
 
@@ -26,9 +27,11 @@ from mrlab_ros.ros.calls import NoAnswer, call
 from mrlab_ros.ros.domain import domain_id
 
 T = TypeVar("T")
+C = TypeVar("C", bound="GraphClient")
 # How long a command waits for the lab to be found, s: discovery takes up to 3 s.
 FIND_TIMEOUT_S = 6.0
 CALL_TIMEOUT_S = 15.0
+OFFER_PERIOD_S = 0.05
 # The messages that a latched topic keeps for late joiners arrive oldest first, with pauses shorter
 # than this, s.
 LATCHED_BURST_S = 0.5
@@ -64,8 +67,119 @@ class Watch(Generic[T]):
             return self.value
 
 
-class Graph:
-    """A client of the graph; use it as a context manager."""
+class GraphClient(ABC):
+    """What a program does with a running lab; use it as a context manager.
+
+    domain: the lab's ROS domain. prompt: a watch of a latched topic has its value at once, and
+    what is not there then was never published.
+    """
+
+    domain: int
+    prompt = False
+
+    @abstractmethod
+    def close(self) -> None:
+        """End every subscription and free what the client holds."""
+
+    def __enter__(self: C) -> C:
+        return self
+
+    def __exit__(
+        self,
+        kind: type[BaseException] | None,
+        error: BaseException | None,
+        trace: TracebackType | None,
+    ) -> None:
+        self.close()
+
+    @abstractmethod
+    def subscribe(
+        self, kind: Any, topic: str, callback: Callable[[Any], None], quality: QoSProfile
+    ) -> None:
+        """Call `callback` with every message of `topic`, in a thread of the client's own."""
+
+    def watch(self, kind: Any, topic: str, quality: QoSProfile = qos.LATCHED) -> Watch[Any]:
+        """Follow `topic`, latched unless `quality` says otherwise."""
+        watch: Watch[Any] = Watch(topic)
+        self.subscribe(kind, topic, watch.set, quality)
+        return watch
+
+    @abstractmethod
+    def call(
+        self,
+        kind: Any,
+        service: str,
+        request: Any,
+        timeout: float = CALL_TIMEOUT_S,
+        find_timeout: float = FIND_TIMEOUT_S,
+    ) -> Any:
+        """Return the service's answer, whatever it says; raise NoAnswer where none comes."""
+
+    @abstractmethod
+    def node_names(self) -> Collection[str]:
+        """Return the names of the nodes in the graph."""
+
+    @abstractmethod
+    def is_published(self, topic: str) -> bool:
+        """Return whether `topic` has a publisher."""
+
+    @abstractmethod
+    def is_offered(self, service: str) -> bool:
+        """Return whether `service` has a server, after waiting for discovery where need be."""
+
+    def kept(self, kind: Any, topic: str) -> list[tuple[float, Any]]:
+        """Return the age in s, and the message, of each that a prompt client gets no stream of."""
+        return []
+
+    def order(self, kind: Any, service: str, request: Any, timeout: float = CALL_TIMEOUT_S) -> Any:
+        """Call a service and return its answer; raise Misuse with its message where it refuses."""
+        answer = self.call(kind, service, request, timeout)
+        if not answer.success:
+            raise Misuse(answer.message)
+        return answer
+
+    def robots(self, timeout: float = FIND_TIMEOUT_S) -> list[Any]:
+        """Return the robots of the scene; raise NoAnswer where no lab publishes any."""
+        watch = self.watch(msg.Robots, "/robots")
+        try:
+            robots: list[Any] = watch.wait(lambda _: True, timeout, "the robots").robots
+        except NoAnswer:
+            raise NoAnswer(
+                f"no lab answers on ROS domain {self.domain}; {self.advice()}"
+            ) from None
+        return robots
+
+    def robot(self, name: str) -> Any:
+        """Return the robot called `name`; raise Misuse that names the others."""
+        robots = self.robots()
+        for robot in robots:
+            if robot.name == name:
+                return robot
+        known = [robot.name for robot in robots]
+        listed = ", ".join(known)
+        raise Misuse(
+            f"no robot '{name}' is in the scene; there "
+            + (f"are: {listed}" if known else "are none: mrlab spawn ur5e puts one there")
+            + did_you_mean(name, known)
+        )
+
+    def catalogue(self) -> list[Any]:
+        """Return what there is to load."""
+        answer = self.call(
+            srv.ListTrajectories, "/converter/list_any", srv.ListTrajectories.Request()
+        )
+        infos: list[Any] = answer.trajectories
+        return infos
+
+    def advice(self) -> str:
+        """Return what to do where a part of the lab does not answer."""
+        if "lab" in self.node_names():
+            return "that part of the lab is missing: mrlab status shows what runs"
+        return "start a lab with: mrlab up (or set ROS_DOMAIN_ID to the domain of a running one)"
+
+
+class Graph(GraphClient):
+    """A node of its own in the graph, which discovery takes a second or more to connect."""
 
     def __init__(self) -> None:
         self.domain = domain_id()
@@ -95,28 +209,10 @@ class Graph:
         self.node.destroy_node()
         self._context.try_shutdown()
 
-    def __enter__(self) -> Graph:
-        return self
-
-    def __exit__(
-        self,
-        kind: type[BaseException] | None,
-        error: BaseException | None,
-        trace: TracebackType | None,
-    ) -> None:
-        self.close()
-
     def subscribe(
         self, kind: Any, topic: str, callback: Callable[[Any], None], quality: QoSProfile
     ) -> None:
-        """Call `callback` with every message of `topic`, in the graph's own thread."""
         self.node.create_subscription(kind, topic, callback, quality)
-
-    def watch(self, kind: Any, topic: str, quality: QoSProfile = qos.LATCHED) -> Watch[Any]:
-        """Follow `topic`, latched unless `quality` says otherwise."""
-        watch: Watch[Any] = Watch(topic)
-        self.subscribe(kind, topic, watch.set, quality)
-        return watch
 
     def call(
         self,
@@ -126,59 +222,26 @@ class Graph:
         timeout: float = CALL_TIMEOUT_S,
         find_timeout: float = FIND_TIMEOUT_S,
     ) -> Any:
-        """Return the service's answer, whatever it says; raise NoAnswer where none comes."""
         client = self._clients.get(service)
         if client is None:
             client = self._clients[service] = self.node.create_client(
                 kind, service, qos_profile=qos.SERVICES
             )
         if not client.wait_for_service(timeout_sec=find_timeout):
-            raise NoAnswer(
-                f"nobody offers {service} on ROS domain {self.domain}; {self._advice()}"
-            )
+            raise NoAnswer(f"nobody offers {service} on ROS domain {self.domain}; {self.advice()}")
         return call(client, request, timeout)
 
-    def order(self, kind: Any, service: str, request: Any, timeout: float = CALL_TIMEOUT_S) -> Any:
-        """Call a service and return its answer; raise Misuse with its message where it refuses."""
-        answer = self.call(kind, service, request, timeout)
-        if not answer.success:
-            raise Misuse(answer.message)
-        return answer
+    def node_names(self) -> Collection[str]:
+        names: list[str] = self.node.get_node_names()
+        return names
 
-    def robots(self, timeout: float = FIND_TIMEOUT_S) -> list[Any]:
-        """Return the robots of the scene; raise NoAnswer where no lab publishes any."""
-        watch = self.watch(msg.Robots, "/robots")
-        try:
-            robots: list[Any] = watch.wait(lambda _: True, timeout, "the robots").robots
-        except NoAnswer:
-            raise NoAnswer(
-                f"no lab answers on ROS domain {self.domain}; {self._advice()}"
-            ) from None
-        return robots
+    def is_published(self, topic: str) -> bool:
+        return bool(self.node.count_publishers(topic))
 
-    def robot(self, name: str) -> Any:
-        """Return the robot called `name`; raise Misuse that names the others."""
-        robots = self.robots()
-        for robot in robots:
-            if robot.name == name:
-                return robot
-        known = [robot.name for robot in robots]
-        listed = ", ".join(known)
-        raise Misuse(
-            f"no robot '{name}' is in the scene; there "
-            + (f"are: {listed}" if known else "are none: mrlab up --robots ur5e begins with one")
-            + did_you_mean(name, known)
-        )
-
-    def catalogue(self) -> list[Any]:
-        """Return what there is to load."""
-        answer = self.call(
-            srv.ListTrajectories, "/converter/list_any", srv.ListTrajectories.Request()
-        )
-        infos: list[Any] = answer.trajectories
-        return infos
-
-    def _advice(self) -> str:
-        if any(name == "lab" for name in self.node.get_node_names()):
-            return "that part of the lab is missing: mrlab status shows what runs"
-        return "start a lab with: mrlab up (or set ROS_DOMAIN_ID to the domain of a running one)"
+    def is_offered(self, service: str) -> bool:
+        deadline = time.monotonic() + FIND_TIMEOUT_S
+        while not self.node.count_services(service):
+            if time.monotonic() > deadline:
+                return False
+            time.sleep(OFFER_PERIOD_S)
+        return True

@@ -15,9 +15,10 @@ from sensor_msgs.msg import JointState
 from typer.testing import CliRunner
 
 from mrlab_ros.adapters.bags.writer import BagWriter
-from mrlab_ros.cli import app
+from mrlab_ros.cli import make_app
 from mrlab_ros.commands.replay import Keyboard, next_rate
-from mrlab_ros.commands.status import _recorder_facts, _recorder_line
+from mrlab_ros.commands.status.facts import recorder_facts
+from mrlab_ros.commands.status.table import recorder_line
 from mrlab_ros.core.design import STATES
 from mrlab_ros.core.errors import BadInput
 from mrlab_ros.core.recording.metadata import QosProfile, Topic
@@ -69,7 +70,7 @@ def bag(tmp_path: Path) -> Path:
 
 
 def run(*arguments: object) -> str:
-    done = CliRunner().invoke(app, list(map(str, arguments)))
+    done = CliRunner().invoke(make_app(), list(map(str, arguments)))
     if done.exception is not None and not isinstance(done.exception, SystemExit):
         raise done.exception
     assert done.exit_code == 0, done.output
@@ -158,8 +159,8 @@ def test_repair_says_what_it_did(bag):
     ],
 )
 def test_status_says_what_the_recorder_does(fields, line):
-    assert _recorder_line(_recorder_facts(msg.RecorderState(**fields))) == line
-    assert _recorder_line(_recorder_facts(None)) == ""
+    assert recorder_line(recorder_facts(msg.RecorderState(**fields))) == line
+    assert recorder_line(recorder_facts(None)) == ""
 
 
 @pytest.mark.parametrize(

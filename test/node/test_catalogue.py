@@ -58,11 +58,13 @@ def test_the_numbers_of_a_workspace_are_played_bit_for_bit(
     q = (10 * u**3 - 15 * u**4 + 6 * u**5) * np.linspace(0.3, 0.9, 6) - 1 / 3
     assert (np.radians(np.degrees(q)) != q).sum() > 20
     path = tmp_path / "exact.mat"
-    scipy.io.savemat(path, {"q": q, "fs": 100.0}, do_compression=True)
+    scipy.io.savemat(path, {"run": q, "fs": 100.0}, do_compression=True)
     answer = graph.call(
         srv.ConvertTrajectory, "/converter/convert", path=str(path), robot_model="ur5e"
     )
     assert answer.success, answer.message
+    # A warning without a number holds NaN, which equals nothing.
+    assert np.isnan(answer.trajectory.warnings[0].value)
     robot = spawn(graph)
     states = listen_state(graph, robot)
     joints = graph.listen(JointState, f"/{robot}/joint_states", qos.STREAM)

@@ -19,7 +19,7 @@ from mrlab_ros.ros import graph as ros_graph
 
 def mrlab(*arguments: str) -> str:
     """Return what a command prints; raise what it raises."""
-    result = CliRunner().invoke(cli.app, arguments)
+    result = CliRunner().invoke(cli.make_app(), arguments)
     if result.exception is not None:
         raise result.exception
     return result.stdout

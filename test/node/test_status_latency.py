@@ -9,13 +9,15 @@ import pytest
 from mrlab_msgs.msg import Latency, LatencyHop
 from rich.console import Console
 
-from mrlab_ros.commands.status import LATENCY_AGE_S, Presence, View, expected_nodes
+from mrlab_ros.commands.status.table import overview
+from mrlab_ros.commands.status.view import LATENCY_AGE_S, Presence, View, expected_nodes
 
 
 class Graph:
     """A graph in which a test says what arrives."""
 
     domain = 231
+    prompt = False
 
     def __init__(self):
         self.heard = {}
@@ -70,7 +72,7 @@ def test_a_client_s_name_does_nothing_to_the_terminal(graph, view):
     graph.heard["/latency/clients"](report("quest\x1b[2J\x07\nrest"))
     console = Console(width=200)
     with console.capture() as capture:
-        console.print(view.table())
+        console.print(overview(view.facts(), {}, console.width))
     assert "\x1b[2J" not in capture.get()
     assert observers(view) == ["client quest?[2J??rest"]
 

@@ -53,7 +53,7 @@ def test_robots_and_names_are_checked_first(systems):
 
 def test_a_refused_file_converts_nothing(systems, monkeypatch, tmp_path):
     converted = []
-    monkeypatch.setattr("mrlab_ros.ros.graph.Graph", Graph)
+    monkeypatch.setattr("mrlab_ros.client.connect.open_graph", Graph)
     monkeypatch.setattr(system, "_trajectory", lambda *given: converted.append(given))
     file = tmp_path / "cell.yaml"
     file.write_text(

@@ -152,7 +152,7 @@ def test_what_cannot_be_written_ends_no_batch(folder, tmp_path):
         assert done.returncode == 1
         assert f"{option} '{occupied / 'inside'}' cannot be written" in done.stderr
     (tmp_path / "out" / "good.json").mkdir(parents=True)
-    done = run("--out", tmp_path / "out", "--json", folder)
+    done = run("--out", tmp_path / "out", "--force", "--json", folder)
     assert done.returncode == 1
     assert "not written" in done.stderr
     assert len(done.stdout.splitlines()) == 3

@@ -70,7 +70,7 @@ def record_a_play(bag: Path) -> None:
         # All of the motion is in the bag once the recorder listens to it.
         with Graph() as graph:
             wait_for(lambda: graph.node.count_subscribers(JOINTS) >= 2, "the recorder listening")
-        assert "played 601 frames" in done("play", "ur5e_1", MOTION, "--rate", "4")
+        assert "played 601 frames" in done("play", "ur5e_1", MOTION, "--speed", "4")
         recorder.send_signal(signal.SIGINT)
         said, trouble = recorder.communicate(timeout=DEADLINE)
         assert recorder.returncode == 0, trouble

@@ -7,7 +7,7 @@ import pytest
 import scipy.io
 from typer.testing import CliRunner
 
-from mrlab_ros.cli import app
+from mrlab_ros.cli import make_app
 from mrlab_ros.core.errors import BadInput, Misuse
 
 ROOT = Path(__file__).parents[2]
@@ -15,7 +15,7 @@ QUINTIC = ROOT / "examples" / "quintic_ur5e.mat"
 
 
 def run(*arguments: object) -> str:
-    done = CliRunner().invoke(app, ["show", *map(str, arguments)], catch_exceptions=False)
+    done = CliRunner().invoke(make_app(), ["show", *map(str, arguments)], catch_exceptions=False)
     assert done.exit_code == 0, done.output
     return done.output
 
@@ -45,7 +45,7 @@ def test_a_refused_file_is_shown_with_its_findings(tmp_path):
 def test_a_trajectory_file_knows_its_robot(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     convert = ["convert", str(QUINTIC), "--robot", "ur5e", "--out", str(tmp_path)]
-    assert CliRunner().invoke(app, convert).exit_code == 0
+    assert CliRunner().invoke(make_app(), convert).exit_code == 0
     run(tmp_path / "quintic_ur5e.json")
     assert "Accepted" in (tmp_path / "quintic_ur5e.html").read_text()
 
@@ -53,7 +53,7 @@ def test_a_trajectory_file_knows_its_robot(tmp_path, monkeypatch):
 def test_plot_writes_the_page(tmp_path):
     page = tmp_path / "page.html"
     convert = ["convert", str(QUINTIC), "--robot", "ur5e", "--plot", str(page)]
-    assert CliRunner().invoke(app, convert).exit_code == 0
+    assert CliRunner().invoke(make_app(), convert).exit_code == 0
     assert "Accepted" in page.read_text()
 
 

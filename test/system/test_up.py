@@ -149,13 +149,13 @@ def test_the_pages_are_opened_by_the_printed_url(lab: Lab) -> None:
 
 def test_play_follows_a_workspace_file_to_its_end(lab: Lab) -> None:
     file = Path(__file__).parents[2] / "examples" / "quintic_ur5e.mat"
-    done = mrlab("play", "ur5e_1", str(file), "--rate", "4")
+    done = mrlab("play", "ur5e_1", str(file), "--speed", "4")
     assert done.returncode == 0, done.stderr
     assert "ur5e_1 played 601 frames" in done.stdout
     for arguments, words in (
         (("play", "nobody", "quintic_ur5e"), "no robot 'nobody' is in the scene"),
         (("play", "ur5e_1", "nothing"), "no trajectory 'nothing'"),
-        (("play", "ur5e_1", "quintic_ur5e", "--rate", "9"), "expected 0.1 to 4"),
+        (("play", "ur5e_1", "quintic_ur5e", "--speed", "9"), "expected 0.1 to 4"),
         (("up",), "a lab runs on ROS domain"),
     ):
         refused = mrlab(*arguments)

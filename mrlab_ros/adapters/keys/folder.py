@@ -227,9 +227,16 @@ class Keys:
         files = ("people.json", "passwords.txt", "server.pem", "server.key", "ca.pem")
         return tuple(private_files.changed_at(self.folder / name) for name in files)
 
-    def settings(self, rules: Rules, prefix: str, now: datetime) -> dict[str, Any]:
-        """Return zenoh's settings, path -> value, of a lab that lets these people in."""
-        return zenoh_settings.listening_settings(self.folder, self._people, rules, prefix, now)
+    def settings(
+        self, rules: Rules, prefix: str, now: datetime, *, local: bool = False
+    ) -> dict[str, Any]:
+        """Return zenoh's settings, path -> value, of a lab that lets these people in.
+
+        local: and this machine's user, without keys, through a Unix socket.
+        """
+        return zenoh_settings.listening_settings(
+            self.folder, self._people, rules, prefix, now, local=local
+        )
 
     def router(
         self, rules: Rules, prefix: str, limits: Mapping[str, object], now: datetime

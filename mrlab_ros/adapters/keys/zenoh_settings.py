@@ -14,8 +14,8 @@ from typing import Any
 
 from mrlab_ros.adapters.keys.certificates import Signed
 from mrlab_ros.adapters.keys.people import Entry, People
-from mrlab_ros.core.bridge.access import access_control, bounds
-from mrlab_ros.core.bridge.links import LEASE_BEYOND, healing, nested
+from mrlab_ros.core.bridge.access import LINKS, access_control, bounds
+from mrlab_ros.core.bridge.links import LEASE_BEYOND, LOCAL_PROTOCOL, healing, nested
 from mrlab_ros.core.bridge.rules import Rules
 
 PORT = 7447
@@ -24,9 +24,13 @@ LOCAL = ("localhost", "127.0.0.1")
 
 
 def listening_settings(
-    folder: Path, people: People, rules: Rules, prefix: str, now: datetime
+    folder: Path, people: People, rules: Rules, prefix: str, now: datetime, *, local: bool = False
 ) -> dict[str, Any]:
-    """Return the settings of a lab that lets these people in."""
+    """Return the settings of a lab that lets these people in.
+
+    local: and whoever connects through the lab's Unix socket. Where people log in with passwords
+    zenoh asks for one there, too.
+    """
     tls = {
         "root_ca_certificate": str(folder / "ca.pem"),
         "listen_certificate": str(folder / "server.pem"),
@@ -39,7 +43,11 @@ def listening_settings(
     if people.login.by_password:
         file = folder / "passwords.txt"
         found["transport/auth/usrpwd/dictionary_file"] = str(file)
-    found["access_control"] = access_control(rules, people.at(now), people.login, prefix)
+    found["access_control"] = access_control(
+        rules, people.at(now), people.login, prefix, local=local
+    )
+    if local:
+        found["transport/link/protocols"] = [*LINKS, LOCAL_PROTOCOL]
     return found
 
 

@@ -99,6 +99,16 @@ WRITERS: dict[str, Writer] = {
 }
 
 
+# How the name of a file in each format ends.
+ENDINGS = {name: ".mcap" if name == "jointtrajectory" else f".{name}" for name in WRITERS}
+
+
+def path(name: str, trajectory_id: str, folder: Path) -> Path:
+    """Return the file that the writer of the format `name` makes; raise BadInput as writer()."""
+    writer(name)
+    return folder / f"{trajectory_id}{ENDINGS[name]}"
+
+
 def writer(name: str) -> Writer:
     """Return the writer of the format `name`; raise BadInput that lists the formats."""
     if name not in WRITERS:

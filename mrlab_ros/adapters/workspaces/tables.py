@@ -7,11 +7,13 @@ import zipfile
 from typing import Any
 
 import numpy as np
+import orjson
 
 from mrlab_ros.adapters.workspaces import table_text
 from mrlab_ros.adapters.workspaces.mat5 import INTEGERS, Damaged, TooLarge, is_vector
 from mrlab_ros.adapters.workspaces.sink import Found, Sink
 from mrlab_ros.adapters.workspaces.view import View
+from mrlab_ros.core.conversion.named_columns import GRIPPER
 
 TIME_HEADINGS = ("t", "time", "time_from_start")
 
@@ -53,6 +55,52 @@ def read_csv(data: memoryview, sink: Sink) -> None:
         values = np.delete(values, time, axis=1)
         headings = headings[:time] + headings[time + 1 :]
     _add(sink, "q", values, tuple(headings) if len(headings) == values.shape[1] else ())
+
+
+def read_json(data: memoryview, sink: Sink) -> None:
+    """Hand the arrays and numbers of a JSON object to the sink, each as the variable of its name.
+
+    A trajectory file of the lab (trajectory.schema.json) gives q in rad, its gripper as the last
+    column, the joints' names and fs.
+    """
+    try:
+        document = orjson.loads(data)
+    except orjson.JSONDecodeError as error:
+        raise Damaged(f"it is no JSON ({error})") from None
+    if not isinstance(document, dict):
+        raise Damaged('it is no JSON object; expected one such as {"q": [[...], ...], "fs": 100}')
+    frames = document.get("frames")
+    if "schema_version" in document and isinstance(frames, dict):
+        _add_frames(document, frames, sink)
+        return
+    for name, content in document.items():
+        if (values := _numbers(content)) is not None:
+            _add(sink, str(name), values)
+
+
+def _add_frames(document: dict[str, Any], frames: dict[str, Any], sink: Sink) -> None:
+    degrees, gripper = _numbers(frames.get("q")), _numbers(frames.get("gripper"))
+    if degrees is None or degrees.ndim != 2:
+        raise Damaged("its frames hold no matrix q; convert the workspace again")
+    values, names = np.radians(degrees), document.get("joint_names")
+    headings = [str(name) for name in names] if isinstance(names, list) else []
+    if gripper is not None and gripper.shape == values.shape[:1]:
+        values = np.column_stack([values, gripper])
+        headings.append(GRIPPER)
+    _add(sink, "q", values, tuple(headings) if len(headings) == values.shape[1] else ())
+    if (rate := _numbers(document.get("frame_rate"))) is not None:
+        _add(sink, "fs", rate)
+
+
+def _numbers(content: Any) -> Any:
+    """Return numbers, or rows of equally many, as an array; None for anything else."""
+    if isinstance(content, bool) or not isinstance(content, int | float | list) or content == []:
+        return None
+    try:
+        values = np.array(content, dtype=np.float64)
+    except (TypeError, ValueError, OverflowError):
+        return None
+    return values if values.ndim <= 2 else None
 
 
 def read_npz(data: memoryview, sink: Sink, limit: int) -> None:

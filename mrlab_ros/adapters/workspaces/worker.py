@@ -146,6 +146,9 @@ def read(data: memoryview, name: str, sink: Sink, limit: int) -> str:
     if name.lower().endswith(".npz"):
         tables.read_npz(data, sink, limit)
         return "NumPy npz"
+    if name.lower().endswith(".json"):
+        tables.read_json(data, sink)
+        return "JSON"
     if form in TEXTS and name.lower().endswith((".csv", ".txt", ".tsv", ".lvm")):
         tables.read_csv(data, sink)
         return "CSV"

@@ -34,7 +34,9 @@ from mrlab_ros.adapters.workspaces.reader import (
 )
 from mrlab_ros.adapters.workspaces.results import Task, refused, unexpected
 from mrlab_ros.commands.convert import report
-from mrlab_ros.commands.convert.targets import PICTURES, Targets
+from mrlab_ros.commands.convert.options import convert_words
+from mrlab_ros.commands.convert.outcomes import EXIT_CODES
+from mrlab_ros.commands.convert.targets import PICTURES, Targets, check_free
 from mrlab_ros.core.conversion.convert import (
     DEFAULT_FRAME_RATE,
     ConversionResult,
@@ -47,18 +49,20 @@ from mrlab_ros.core.errors import BadInput, Misuse
 from mrlab_ros.core.robots.model import RobotModel
 from mrlab_ros.ros import share
 
-EXIT_CODES = {Outcome.ACCEPTED: 0, Outcome.REJECTED: 1, Outcome.AMBIGUOUS: 2}
 # the worst of a batch: a refusal, then a choice that is open
 BADNESS = (0, 2, 1)
 AHEAD = 64  # files that may be converted before the first of them is reported
 MANY_PLOTS = 8  # from so many on, processes that draw are worth their start
 LEAST_MEMORY, LEAST_TIME, MOST_LIMIT = 64, 0.1, 1_000_000  # MiB, s, either
-SUFFIXES = (".mat", ".mat.gz", ".csv", ".lvm", ".npz", ".mcap", ".db3")
+SUFFIXES = (".mat", ".mat.gz", ".csv", ".lvm", ".npz", ".json", ".mcap", ".db3")
 
 
 @dataclass(frozen=True)
 class Request:
-    """The arguments of the command. memory: MiB; timeout, time_limit: s."""
+    """The arguments of the command.
+
+    force: replace files that exist. memory: MiB; timeout, time_limit: s.
+    """
 
     files: list[Path]
     topic: str
@@ -68,6 +72,7 @@ class Request:
     end_effector: str
     out: Path | None
     to: str
+    force: bool
     plot: Path | None
     as_json: bool
     memory: int
@@ -116,6 +121,16 @@ def run(request: Request) -> int:
         )
         for source in inputs
     ]
+    written_later = [
+        path
+        for task in tasks
+        for path in (
+            request.out and export.path(request.to, task.trajectory_id, request.out),
+            request.plot and _plot_path(request.plot, task.trajectory_id),
+        )
+        if path is not None
+    ]
+    check_free(written_later, _files(request.files), force=request.force)
     with _plotter(len(inputs) if request.plot else 0, targets) as plot:
         converted = _converted(inputs, tasks, limits)
         for source, task, result in _with_progress(converted, len(inputs), request):
@@ -130,7 +145,8 @@ def run(request: Request) -> int:
                 line = orjson.dumps(report.record(source.given, result, written))
                 print(line.decode(), flush=True)
             else:
-                report.show(result, written)
+                words = convert_words(source.given, request.robot, request.end_effector)
+                report.show(result, written, words, request.options)
     if len(results) > 1 and not request.as_json:
         report.summarise(results)
     worst = max((EXIT_CODES[r.outcome] for r in results), key=BADNESS.index)
@@ -269,7 +285,7 @@ def _inputs(request: Request) -> list[Input]:
     if not request.topic:
         return [
             Input(str(path), path.name, path.name, partial(opened, path))
-            for path in _expand(request.files)
+            for path in _files(request.files)
         ]
     from mrlab_ros.commands.convert.topic import receive  # rclpy, which files do not need
 
@@ -278,7 +294,12 @@ def _inputs(request: Request) -> list[Input]:
     return [Input(request.topic, request.topic, read_as, partial(in_memory, message))]
 
 
-def _expand(files: Iterable[Path]) -> Iterable[Path]:
+def _files(given: Iterable[Path]) -> list[Path]:
+    """Return the files that are given, and those in the folders that are given."""
+    return list(expanded(given))
+
+
+def expanded(files: Iterable[Path]) -> Iterable[Path]:
     """Yield the files; of a folder, the workspaces in it, in order."""
     for path in files:
         if path.is_dir():

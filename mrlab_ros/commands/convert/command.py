@@ -7,10 +7,13 @@ from typing import Annotated
 
 import typer
 
+from mrlab_ros.commands.convert.options import with_options
 from mrlab_ros.core.conversion.options import Options
 
 
+@with_options
 def convert(
+    options: Options,
     robot: Annotated[str, typer.Option(help="Robot that the trajectory is for, such as ur5e.")],
     files: Annotated[
         list[Path] | None, typer.Argument(help="Workspace files, bags, or folders of them.")
@@ -19,28 +22,12 @@ def convert(
         str, typer.Option(help="Take the next JointTrajectory of this topic instead of a file.")
     ] = "",
     timeout: Annotated[float, typer.Option(help="How long to wait for the topic, s.")] = 10.0,
-    variable: Annotated[str, typer.Option(help="The matrix to take, as MATLAB writes it.")] = "",
-    columns: Annotated[str, typer.Option(help="Columns that hold the joints: 2:7.")] = "",
-    transpose: Annotated[bool, typer.Option("--transpose", help="Samples are columns.")] = False,
-    degrees: Annotated[bool, typer.Option("--degrees", help="Values are degrees.")] = False,
-    unwrap: Annotated[bool, typer.Option("--unwrap", help="Remove jumps of 2*pi.")] = False,
-    units: Annotated[
-        str, typer.Option(help="Unit of the joints: rad, deg, mm or counts:N a turn.")
-    ] = "",
-    join: Annotated[str, typer.Option(help="Join variables, such as q1..q6 or a,b.")] = "",
-    gripper: Annotated[
-        str, typer.Option(help="Column or variable that holds the gripper, or none.")
-    ] = "",
-    invert: Annotated[
-        bool, typer.Option("--invert", help="Larger means an open gripper.")
-    ] = False,
-    resample: Annotated[
-        bool, typer.Option("--resample", help="Make rows at uneven times even.")
-    ] = False,
-    rate: Annotated[float, typer.Option(help="Frames a second; 0: the file's, or 100.")] = 0.0,
     end_effector: Annotated[str, typer.Option(help="End effector; empty: none.")] = "",
     out: Annotated[Path | None, typer.Option(help="Folder for what is written.")] = None,
     to: Annotated[str, typer.Option(help="json, csv, mat, npz or jointtrajectory.")] = "json",
+    force: Annotated[
+        bool, typer.Option("--force", help="Replace files that exist; never one of the inputs.")
+    ] = False,
     plot: Annotated[
         Path | None, typer.Option(help="Write plots: a .png, .svg or .html with 3D, or a folder.")
     ] = None,
@@ -62,22 +49,11 @@ def convert(
         topic=topic,
         timeout=timeout,
         robot=robot,
-        options=Options(
-            variable=variable,
-            columns=columns,
-            transpose=transpose,
-            degrees=degrees,
-            unwrap=unwrap,
-            frame_rate=rate,
-            resample=resample,
-            join=join,
-            gripper=gripper,
-            invert=invert,
-            units=units,
-        ),
+        options=options,
         end_effector=end_effector,
         out=out,
         to=to,
+        force=force,
         plot=plot,
         as_json=as_json,
         memory=memory,

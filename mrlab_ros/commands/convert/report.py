@@ -9,8 +9,10 @@ from typing import Any
 from rich.console import Console
 from rich.table import Table
 
+from mrlab_ros.commands.convert.options import command_with
 from mrlab_ros.core.conversion.candidates import SPARK_WIDTH
 from mrlab_ros.core.conversion.convert import ConversionResult
+from mrlab_ros.core.conversion.options import Options
 from mrlab_ros.core.design import OUTCOME_STYLES, SEVERITY_STYLES
 
 
@@ -45,8 +47,13 @@ def record(given: str, result: ConversionResult, written: Path | None) -> dict[s
     }
 
 
-def show(result: ConversionResult, written: Path | None) -> None:
-    """Print what became of a file, every finding, and what there is to choose from."""
+def show(
+    result: ConversionResult, written: Path | None, words: list[str], options: Options
+) -> None:
+    """Print what became of a file, every finding, and what there is to choose from.
+
+    words: of the command that was given, without its `options`; findings name it with one more.
+    """
     console = Console()
     outcome = result.outcome.name.lower()
     console.print(outcome, style=OUTCOME_STYLES[outcome], end="  ")
@@ -59,10 +66,21 @@ def show(result: ConversionResult, written: Path | None) -> None:
         console.print(label + d.message, style=style, markup=False, highlight=False)
         if d.remedy:
             console.print(f"      {d.remedy}", markup=False, highlight=False)
+        if result.trajectory is None:
+            for fix in d.fixes:
+                if fix.option:
+                    _say_next(console, command_with(words, options, fix.option, fix.value))
     if result.candidates:
         console.print(_choices(result))
+        if not any(fix.option == "variable" for d in result.diagnostics for fix in d.fixes):
+            likeliest = result.candidates[0].path
+            _say_next(console, command_with(words, options, "variable", likeliest))
     if written:
         console.print(f"  written to {written}", markup=False, highlight=False)
+
+
+def _say_next(console: Console, command: str) -> None:
+    console.print(f"      try: {command}", markup=False, highlight=False, soft_wrap=True)
 
 
 def _choices(result: ConversionResult) -> Table:

@@ -6,12 +6,29 @@ import contextlib
 import sys
 import tempfile
 from collections import Counter
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from pathlib import Path
 
 from mrlab_ros.core.errors import BadInput, Misuse
 
 PICTURES = (".png", ".svg", ".html")
+
+
+def check_free(targets: Iterable[Path], inputs: Iterable[Path], *, force: bool) -> None:
+    """Raise Misuse where writing `targets` would replace an input, or any file without `force`."""
+    there = [path for path in targets if path.exists()]
+    read = {path.resolve(): path for path in inputs}
+    for path in there:
+        if path.resolve() in read:
+            raise Misuse(
+                f"'{path}' would be written and is read as well; give another folder with --out"
+            )
+    if there and not force:
+        more = f" and {len(there) - 1} more" if len(there) > 1 else ""
+        raise Misuse(
+            f"'{there[0]}'{more} is there already and nothing was written; give another folder, "
+            "or replace what is there with --force"
+        )
 
 
 class Targets:

@@ -17,9 +17,9 @@ from mrlab_ros.processes.supervisor import SELF
 if TYPE_CHECKING:
     from rich.console import Console
 
+    from mrlab_ros.client.follow import Follower
     from mrlab_ros.commands.demo.arrivals import Arrivals
     from mrlab_ros.commands.demo.lab import Stage
-    from mrlab_ros.commands.follow import Follower
 
 PROGRESS_PERIOD_S = 1.0
 
@@ -73,7 +73,7 @@ class Display:
 
     def show(self, system: str) -> None:
         """Show the present state of every robot, and of the system."""
-        from mrlab_ros.commands.follow import milliseconds
+        from mrlab_ros.client.follow import milliseconds
 
         lines = []
         for (follower, arrived), task in zip(self._rows, self._tasks, strict=True):
@@ -130,7 +130,7 @@ def print_summary(console: Console, summaries: list[RobotSummary]) -> None:
     """Print what became of every robot's run, and its warnings."""
     from rich.table import Table
 
-    from mrlab_ros.commands.follow import milliseconds
+    from mrlab_ros.client.follow import milliseconds
 
     table = Table(box=None, padding=(0, 2, 0, 0), pad_edge=False)
     table.add_column("robot", no_wrap=True)

@@ -22,8 +22,8 @@ from mrlab_ros.processes.web import gateway_answers
 if TYPE_CHECKING:
     from rich.console import Console
 
+    from mrlab_ros.client.follow import Follower
     from mrlab_ros.commands.demo.lab import Stage
-    from mrlab_ros.commands.follow import Follower
     from mrlab_ros.ros.graph import Graph, Watch
 
 SYSTEM = "demo"
@@ -155,7 +155,7 @@ class Run:
 
     def _follow(self, graph: Graph, robots: list[str], arrivals: list[Arrivals]) -> list[Follower]:
         """Follow the robots; wait until each speaks on the graph and over zenoh."""
-        from mrlab_ros.commands.follow import Follower
+        from mrlab_ros.client.follow import Follower
 
         followers = [Follower(graph, robot) for robot in robots]
         for follower, arrived in zip(followers, arrivals, strict=True):

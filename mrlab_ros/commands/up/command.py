@@ -38,6 +38,7 @@ from mrlab_ros.processes.lab import (
     robot_models,
 )
 from mrlab_ros.processes.options import LabOptions, new_lab_id
+from mrlab_ros.processes.parameter_file import parameter
 from mrlab_ros.processes.readiness import READY_TIMEOUT_S, wait_until_complete
 from mrlab_ros.processes.run_file import RunFile
 from mrlab_ros.processes.supervisor import SELF, Phase, ProcessState, Supervisor
@@ -198,10 +199,16 @@ def up(
             keys=keys,
             insecure=insecure,
             store=checked_store(store),
+            socket=run_file.socket if bridge else "",
             web=pages,
             sim_time=sim_time,
         )
-        facts: dict[str, object] = {"state_dir": str(folder), "zenoh": listen}
+        facts: dict[str, object] = {
+            "state_dir": str(folder),
+            "zenoh": listen,
+            "socket": options.socket if not zenoh_connect else "",
+            "prefix": parameter(options.config, "bridge", "prefix") or "",
+        }
         where = run_facts(options) if pages is not None else {}
         if where:
             facts["web"] = where

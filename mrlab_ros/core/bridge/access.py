@@ -14,6 +14,7 @@ from enum import Enum
 from typing import Any
 
 from mrlab_ros.core.bridge.assets import ASSETS, SCHEMA
+from mrlab_ros.core.bridge.links import LOCAL_PROTOCOL
 from mrlab_ros.core.bridge.rules import (
     Direction,
     Role,
@@ -39,6 +40,8 @@ MESSAGES = (
 ATTACHED = 1024
 # The lab's own subject at a router; a person's name cannot contain a space.
 LAB = "the lab"
+# The user of the lab's own machine.
+HERE = "this machine"
 
 
 class Login(Enum):
@@ -67,11 +70,18 @@ class Person:
 
 
 def access_control(
-    rules: Rules, people: Iterable[Person], login: Login, prefix: str = "", lab: str = ""
+    rules: Rules,
+    people: Iterable[Person],
+    login: Login,
+    prefix: str = "",
+    lab: str = "",
+    *,
+    local: bool = False,
 ) -> dict[str, Any]:
     """Return zenoh's `access_control` for a lab that forwards what `rules` name below `prefix`.
 
     lab: for a router, the common name of the certificate with which the lab itself connects.
+    local: who connects through a Unix socket, which the system guards, may do everything.
     """
     people = list(people)
     subjects, policies = [], []
@@ -95,6 +105,10 @@ def access_control(
             {"id": LAB, "link_protocols": list(LINKS), "cert_common_names": [lab]},
         )
         policies.append({"id": LAB, "rules": [_lab_rule(prefix)["id"]], "subjects": [LAB]})
+    if local:
+        found.append(_lab_rule(prefix))
+        subjects.append({"id": HERE, "link_protocols": [LOCAL_PROTOCOL]})
+        policies.append({"id": HERE, "rules": [_lab_rule(prefix)["id"]], "subjects": [HERE]})
     return {
         "enabled": True,
         "default_permission": "deny",

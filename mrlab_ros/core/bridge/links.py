@@ -17,6 +17,7 @@ LEASE_WITHIN = 10.0
 # Timeout of one attempt to connect and periods of the retries, ms: TCP itself repeats less often
 # after the first second. zenoh's defaults are 1 to 4 s, and 10 s.
 OPEN_TIMEOUT = 2000
+LOCAL_PROTOCOL = "unixsock-stream"
 RETRY = {"period_init_ms": 250, "period_max_ms": 500, "period_increase_factor": 1.5}
 
 
@@ -45,13 +46,18 @@ def is_local(endpoint: str) -> bool:
     """Return whether an endpoint such as tcp/127.0.0.1:7447 is on this machine."""
     protocol, _, address = endpoint.partition("/")
     host = address.rsplit(":", 1)[0].strip("[]")
-    if protocol == "unixsock-stream" or host == "localhost":
+    if protocol == LOCAL_PROTOCOL or host == "localhost":
         return True
     try:
         return ipaddress.ip_address(host).is_loopback
     except ValueError:
         # A host name may resolve to any address, even one that begins with 127.
         return False
+
+
+def local_endpoint(socket: str) -> str:
+    """Return the endpoint of a Unix socket: only who may enter its folder can connect."""
+    return f"{LOCAL_PROTOCOL}/{socket}"
 
 
 def from_here(endpoint: str) -> str:

@@ -401,7 +401,8 @@ class Playback:
     def _require_owner(self, by: str) -> None:
         if by != self.system:
             raise Misuse(
-                f"is driven by system '{self.system}'; command the system, or dissolve it"
+                f"is driven by system '{self.system}'; command that (mrlab system --help), or set "
+                f"the robot free with: mrlab system dissolve {self.system}"
                 if self.system
                 else f"is not a member of system '{by}'; create the system again"
             )

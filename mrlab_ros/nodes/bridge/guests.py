@@ -8,6 +8,7 @@ from functools import partial
 
 from mrlab_ros.adapters.link_sockets import LinkSockets
 from mrlab_ros.core.bridge.guests import Cut, Guests, Link
+from mrlab_ros.core.bridge.links import LOCAL_PROTOCOL
 from mrlab_ros.ros.worker import Worker
 
 # How often the bytes of each link are read, s.
@@ -29,7 +30,9 @@ class GuestWatch:
         self._worker.close()
 
     def on_link(self, link: Link, opened: bool) -> None:
-        """Take a link that was opened or closed."""
+        """Take a link that was opened or closed; this machine's user is no guest."""
+        if link.local.startswith(LOCAL_PROTOCOL) or link.remote.startswith(LOCAL_PROTOCOL):
+            return
         self._worker.send(partial(self._opened if opened else self._closed, link))
 
     def _opened(self, link: Link) -> None:

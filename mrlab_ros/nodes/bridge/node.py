@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import Any
 
 import yaml
+from diagnostic_msgs.msg import DiagnosticArray  # type: ignore[import-untyped]
 from mrlab_msgs.msg import Latency
 from rclpy.context import Context
 from rclpy.node import Node
@@ -28,7 +29,7 @@ from mrlab_ros.core.bridge import rules
 from mrlab_ros.core.bridge.access import bounds
 from mrlab_ros.core.bridge.guests import Guests, Share
 from mrlab_ros.core.bridge.latency import Ledger, clock_answer
-from mrlab_ros.core.bridge.links import check_endpoints, check_router
+from mrlab_ros.core.bridge.links import check_endpoints, check_router, local_endpoint
 from mrlab_ros.core.bridge.rules import Direction, ServiceRule, TopicRule
 from mrlab_ros.core.errors import BadInput
 from mrlab_ros.messages import qos
@@ -38,6 +39,7 @@ from mrlab_ros.nodes.bridge.assets import AssetRoutes
 from mrlab_ros.nodes.bridge.context import BridgeContext
 from mrlab_ros.nodes.bridge.guests import GuestWatch
 from mrlab_ros.nodes.bridge.inward import Inward
+from mrlab_ros.nodes.bridge.kept import Kept
 from mrlab_ros.nodes.bridge.outward import Outward
 from mrlab_ros.nodes.bridge.services import Services
 from mrlab_ros.nodes.parameters import AUTOMATIC, BridgeParameters
@@ -49,6 +51,7 @@ from mrlab_ros.ros.timers import every
 
 STATISTICS = "/@mrlab/bridge/statistics"
 CLOCK = "/@mrlab/bridge/clock"
+KEPT = "/@mrlab/bridge/kept"
 REPORT_PERIOD_S = 1.0
 # zenoh's setting of the sessions of all people together, and its least value.
 MAX_SESSIONS = "transport/unicast/max_sessions"
@@ -112,8 +115,11 @@ class BridgeNode(ParameterNode[BridgeParameters]):
             self._watch = GuestWatch(self._guests, self.get_logger().warning)
             self._declared.append(self._session.follow_links(self._watch.on_link))
         self._reports = self.create_publisher(Latency, "latency", qos.LATCHED)
-        # Keeps the newest reports of clients in the graph for late joiners.
-        self.create_subscription(Latency, "latency/clients", lambda _: None, qos.LATCHED_EVENTS)
+        for kind, topic in ((Latency, "latency/clients"), (DiagnosticArray, "diagnostics")):
+            # Subscribed, the newest reports of clients stay in the graph for late joiners, too.
+            kept = Kept(self, kind, topic, qos.LATCHED_EVENTS)
+            key = self._bridge.key(f"{KEPT}/{topic}")
+            self._declared.append(self._session.queryable(key, kept.answer))
         self._reported = time.monotonic()
         every(self, REPORT_PERIOD_S, self._report)
         self._discovery = every(self, self.parameters.discovery_period, self.discover)
@@ -146,6 +152,10 @@ class BridgeNode(ParameterNode[BridgeParameters]):
             return configuration(Path(file))
         check_endpoints(listen, values.insecure, bool(folder))
         limits = bounds(self._rules, prefix)
+        # A client of a router listens nowhere.
+        door = values.socket if mode != "client" else ""
+        if door:
+            listen = (*listen, local_endpoint(door))
         if not folder:
             return configuration(
                 mode=mode, listen=listen, connect=connect, lease=lease, security=limits
@@ -156,7 +166,7 @@ class BridgeNode(ParameterNode[BridgeParameters]):
             check_router(mode, listen, connect)
             security = keys.lab_settings(now())
         else:
-            security = keys.settings(self._rules, prefix, now()) | limits
+            security = keys.settings(self._rules, prefix, now(), local=bool(door)) | limits
             share_of_each = Share(values.sessions_each, values.guest_rate, values.guest_burst)
             self._guests = Guests(
                 keys.people(now()), share_of_each, by_certificate=keys.login.by_certificate
@@ -222,7 +232,8 @@ class BridgeNode(ParameterNode[BridgeParameters]):
         }
 
     def _answer_statistics(self, query: Query) -> None:
-        query.reply(json.dumps(self.statistics()).encode())
+        nodes = sorted(set(self.get_node_names()))
+        query.reply(json.dumps({**self.statistics(), "nodes": nodes}).encode())
 
     def _answer_clock(self, query: Query) -> None:
         received = self._lab_clock.now_ns()

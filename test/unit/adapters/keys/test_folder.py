@@ -26,7 +26,7 @@ from mrlab_ros.adapters.keys.folder import (
     Keys,
 )
 from mrlab_ros.adapters.keys.people import GATEWAY, NOBODY, read_passwords
-from mrlab_ros.cli import app
+from mrlab_ros.cli import make_app
 from mrlab_ros.commands.up import keys as up_keys
 from mrlab_ros.commands.up.keys import checked_listen, checked_router
 from mrlab_ros.commands.up.web import prepare_keys
@@ -249,7 +249,7 @@ def test_a_host_that_cannot_be_one_is_refused_and_nothing_is_made(tmp_path, host
 
 
 def run(*arguments):
-    return CliRunner().invoke(app, ["keys", *map(str, arguments)])
+    return CliRunner().invoke(make_app(), ["keys", *map(str, arguments)])
 
 
 def test_a_certificate_names_the_address_and_the_host_name_of_its_machine(tmp_path, monkeypatch):

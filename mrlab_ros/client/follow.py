@@ -13,7 +13,7 @@ from mrlab_ros.core.clock import SECOND
 from mrlab_ros.messages import qos
 from mrlab_ros.messages.playback import unknown_state
 from mrlab_ros.messages.time import time_from_message
-from mrlab_ros.ros.graph import Graph, Watch
+from mrlab_ros.ros.graph import GraphClient, Watch
 
 # Latched like the publisher, and deep enough to see every state that follows another closely.
 EVERY_STATE = QoSProfile(
@@ -26,7 +26,7 @@ EVERY_STATE = QoSProfile(
 class Follower:
     """Follows one robot's playback_state and telemetry."""
 
-    def __init__(self, graph: Graph, robot: str) -> None:
+    def __init__(self, graph: GraphClient, robot: str) -> None:
         self.robot = robot
         self.watch: Watch[Any] = Watch(f"/{robot}/playback_state")
         self.states: list[Any] = []

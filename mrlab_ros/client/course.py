@@ -1,0 +1,59 @@
+"""How a run of one robot goes, read off the states that follow `play`."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable, Collection
+from typing import Any
+
+from mrlab_msgs import msg
+
+from mrlab_ros.core.errors import LabError, Misuse
+
+# What a halt says of its contact, and what the lab calls an object unless it was named.
+CONTACT = re.compile(r"touches (\S+)")
+OBJECT = re.compile(r"[a-z][a-z0-9_]*_\d+")
+
+
+class Course:
+    """Reads a run off its states: how it stands, and how it ended."""
+
+    def __init__(self, robot: str, robots: Callable[[], Collection[str]] = tuple) -> None:
+        """robots: returns the names of the robots of the scene."""
+        self._robot = robot
+        self._robots = robots
+        self.moving = False
+        self.complete = False
+
+    def take(self, state: Any) -> None:
+        """Take the next state; raise LabError where it says that the run will not complete."""
+        kind = msg.PlaybackState
+        if state.state in (kind.ADJUSTING, kind.PLAYING):
+            self.moving = True
+        elif state.state == kind.COMPLETE:
+            self.complete = True
+        elif state.state == kind.COLLISION_HALT:
+            raise Misuse(halted(self._robot, state.message, self._robots()))
+        elif state.state == kind.IDLE and self.moving:
+            raise LabError(f"the playback of {self._robot} was restarted; play again")
+        elif state.state == kind.READY and self.moving and not self.complete:
+            raise Misuse(
+                f"{self._robot} ended before its last frame: {state.message or 'stopped'}"
+            )
+
+
+def halted(robot: str, why: str, robots: Collection[str] = ()) -> str:
+    """Return what is said of a robot that a collision halted, with the commands that end it.
+
+    robots: the names of those in the scene, which are no objects.
+    """
+    contact = CONTACT.search(why)
+    other = contact.group(1) if contact else ""
+    away = f"place the robot elsewhere: mrlab place {robot} --at X,Y"
+    if OBJECT.fullmatch(other) and other not in robots:
+        away = f"take {other} away: mrlab objects remove {other}, or {away}"
+    return (
+        f"{robot} was halted by a collision: {why or 'its arm touches something'}. Its arm goes "
+        f"back to the first frame with: mrlab stop {robot}. So that it does not happen again, "
+        f"{away}. Then play on with: mrlab resume {robot}"
+    )

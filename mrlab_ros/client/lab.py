@@ -1,0 +1,214 @@
+"""The Python API of a running lab: spawn, convert, load, play, wait, watch, record."""
+
+from __future__ import annotations
+
+import math
+import os
+from collections.abc import Callable, Sequence
+from pathlib import Path
+from types import TracebackType
+from typing import TYPE_CHECKING, Any
+
+from mrlab_msgs import srv
+from std_srvs.srv import Trigger
+
+from mrlab_ros.client.connect import open_graph
+from mrlab_ros.client.motion import Motion, motion_of
+from mrlab_ros.client.robot import LabRobot
+from mrlab_ros.core.conversion.options import Options
+from mrlab_ros.core.errors import BadInput
+from mrlab_ros.core.geometry import Pose
+from mrlab_ros.messages.poses import pose_to_message
+from mrlab_ros.ros.graph import GraphClient
+
+if TYPE_CHECKING:
+    from mrlab_ros.core.conversion.convert import ConversionResult
+
+CONVERT_TIMEOUT_S = 60.0
+STOP_RECORDING_TIMEOUT_S = 30.0
+# Endings of what a recorded bag's folder holds.
+BAG_FILES = (".mcap", ".db3")
+
+
+class FileRefused(BadInput):
+    """A file that the converter does not take; `result` has its findings and candidates."""
+
+    def __init__(self, result: ConversionResult) -> None:
+        super().__init__(result.message)
+        self.result = result
+
+
+class Lab:
+    """A running lab on the ROS domain of this environment; use it as a context manager.
+
+    Raises NoAnswer where none runs. Every call returns when the lab has answered, and raises
+    LabError with the lab's own sentence where it refuses; then nothing has changed.
+    """
+
+    def __init__(self, graph: GraphClient | None = None) -> None:
+        self.graph = graph or open_graph()
+        try:
+            self.graph.robots()
+        except BaseException:
+            self.graph.close()
+            raise
+
+    def close(self) -> None:
+        """End all subscriptions; the lab goes on."""
+        self.graph.close()
+
+    def __enter__(self) -> Lab:
+        return self
+
+    def __exit__(
+        self,
+        kind: type[BaseException] | None,
+        error: BaseException | None,
+        trace: TracebackType | None,
+    ) -> None:
+        self.close()
+
+    def robots(self) -> list[LabRobot]:
+        """Return the robots of the scene."""
+        return [LabRobot(self.graph, robot) for robot in self.graph.robots()]
+
+    def robot(self, name: str) -> LabRobot:
+        """Return the robot called `name`; raise Misuse that names the others."""
+        return LabRobot(self.graph, self.graph.robot(name))
+
+    def spawn(
+        self,
+        model: str,
+        *,
+        at: tuple[float, float] | None = None,
+        yaw: float = 0.0,
+        end_effector: str = "",
+        name: str = "",
+    ) -> LabRobot:
+        """Put a robot into the scene.
+
+        at: x and y of its base in world, m; None: a free place. yaw: rad about the vertical; it
+        counts with `at` only. end_effector: empty for a bare flange. name: empty for the model's
+        id and a number.
+        """
+        request = srv.SpawnRobot.Request(
+            model=model, end_effector=end_effector, name=name, automatic=at is None
+        )
+        if at is not None:
+            request.pose = pose_to_message(standing(*at, yaw))
+        answer = self.graph.order(srv.SpawnRobot, "/lab/spawn_robot", request)
+        return LabRobot(self.graph, answer.robot, answer.message)
+
+    def trajectories(self) -> list[Motion]:
+        """Return what there is to load."""
+        return [motion_of(info) for info in self.graph.catalogue()]
+
+    def convert(
+        self,
+        file: str | Path,
+        robot: LabRobot | str,
+        options: Options | None = None,
+        *,
+        end_effector: str = "",
+        id: str = "",
+    ) -> Motion:
+        """Convert a workspace, table, trajectory file or bag and put it into the catalogue.
+
+        robot: the robot that will play it, with its end effector, or the id of a model. options:
+        as of `mrlab convert`, such as Options(degrees=True). id: its name there; empty: from the
+        file's. Raises FileRefused with the findings where the file is not taken.
+        """
+        model = robot if isinstance(robot, str) else robot.model
+        tool = end_effector if isinstance(robot, str) else robot.end_effector
+        path = one_file(Path(file))
+        request = srv.ConvertTrajectory.Request(
+            path=str(path.absolute()),
+            robot_model=model,
+            end_effector=tool,
+            id=id,
+            **vars(options or Options()),
+        )
+        answer = self.graph.call(
+            srv.ConvertTrajectory, "/converter/convert", request, CONVERT_TIMEOUT_S
+        )
+        if not answer.success:
+            if not answer.diagnostics:
+                raise BadInput(answer.message)
+            from mrlab_ros.messages.trajectories import result_from_response  # seldom needed
+
+            raise FileRefused(result_from_response(path.name, answer))
+        return motion_of(answer.trajectory)
+
+    def record(
+        self, bag: str | Path = "", topics: Sequence[str] = (), split: float = 0.0
+    ) -> Recording:
+        """Start a recording; as a context manager it ends with the block.
+
+        bag: the folder to make; empty: one named by date and time. topics: such as
+        /*/joint_states; none: all of the lab's. split: s after which a new file begins; 0: never.
+        """
+        request = srv.StartRecording.Request(
+            bag=os.path.abspath(bag) if bag else "", topics=list(topics), split_duration=split
+        )
+        answer = self.graph.order(srv.StartRecording, "/recorder/start", request)
+        return Recording(self.graph, answer.bag)
+
+    def stop_recording(self) -> str:
+        """End the recording, or the replay, that runs; return what the recorder says."""
+        answer = self.graph.order(
+            Trigger, "/recorder/stop", Trigger.Request(), STOP_RECORDING_TIMEOUT_S
+        )
+        return str(answer.message)
+
+    def watch(self, kind: Any, topic: str, callback: Callable[[Any], None]) -> None:
+        """Call `callback` with every message of a topic, in a thread of the lab client's own.
+
+        kind: the message's class, such as mrlab_msgs.msg.SceneObjects. A latched topic gives its
+        newest message at once.
+        """
+        from mrlab_ros.messages import qos
+
+        self.graph.subscribe(kind, topic, callback, qos.LATCHED)
+
+
+class Recording:
+    """A recording that runs. bag: its folder."""
+
+    def __init__(self, graph: GraphClient, bag: str) -> None:
+        self._graph = graph
+        self.bag = Path(bag)
+
+    def stop(self) -> str:
+        """End it; return what the recorder says of the bag."""
+        answer = self._graph.order(
+            Trigger, "/recorder/stop", Trigger.Request(), STOP_RECORDING_TIMEOUT_S
+        )
+        return str(answer.message)
+
+    def __enter__(self) -> Recording:
+        return self
+
+    def __exit__(
+        self,
+        kind: type[BaseException] | None,
+        error: BaseException | None,
+        trace: TracebackType | None,
+    ) -> None:
+        self.stop()
+
+
+def standing(x: float, y: float, yaw: float, z: float = 0.0) -> Pose:
+    """Return the pose of a base that stands upright; m, rad."""
+    return Pose((x, y, z), (0.0, 0.0, math.sin(yaw / 2), math.cos(yaw / 2)))
+
+
+def one_file(path: Path) -> Path:
+    """Return `path`, or the one file of the bag that is its folder; raise BadInput."""
+    if not path.is_dir():
+        return path
+    inside = sorted(each for each in path.iterdir() if each.suffix in BAG_FILES)
+    if len(inside) != 1:
+        raise BadInput(
+            f"the folder '{path}' holds {len(inside)} files of a bag; name one file of it"
+        )
+    return inside[0]

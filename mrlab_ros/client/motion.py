@@ -1,0 +1,31 @@
+"""A trajectory of the lab's catalogue."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from mrlab_msgs import msg
+
+
+@dataclass(frozen=True)
+class Motion:
+    """A trajectory of the catalogue. frame_rate: Hz; duration: s; warnings: sentences."""
+
+    id: str
+    robot_model: str
+    frame_rate: float
+    frame_count: int
+    duration: float
+    warnings: tuple[str, ...] = ()
+
+
+def motion_of(info: msg.TrajectoryInfo) -> Motion:
+    """Return the catalogue's entry."""
+    return Motion(
+        info.id,
+        info.robot_model,
+        info.frame_rate,
+        info.frame_count,
+        info.duration,
+        tuple(warning.message for warning in info.warnings),
+    )

@@ -1,0 +1,224 @@
+"""One robot of a running lab, and a run of it."""
+
+from __future__ import annotations
+
+import math
+import time
+from collections.abc import Callable, Collection, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+from mrlab_msgs import msg, srv
+from sensor_msgs.msg import JointState  # type: ignore[import-untyped]
+from std_srvs.srv import SetBool, Trigger
+
+from mrlab_ros.client.course import Course
+from mrlab_ros.client.follow import Follower
+from mrlab_ros.client.motion import Motion
+from mrlab_ros.core.errors import LabError, Misuse
+from mrlab_ros.core.geometry import Pose
+from mrlab_ros.messages import qos
+from mrlab_ros.messages.poses import pose_to_message
+from mrlab_ros.messages.time import time_from_message
+from mrlab_ros.ros.graph import GraphClient
+
+# A robot of the scene has published its state by then, and moves by then after play, s.
+STATE_TIMEOUT_S = 5.0
+POLL_PERIOD_S = 0.02
+
+
+@dataclass(frozen=True)
+class JointSample:
+    """One joint state. time_ns: on the lab's clock; positions: rad or m, in names' order."""
+
+    time_ns: int
+    names: tuple[str, ...]
+    positions: tuple[float, ...]
+    velocities: tuple[float, ...]
+
+
+class LabRobot:
+    """A robot of the scene. message: what the lab said when it was spawned."""
+
+    def __init__(self, graph: GraphClient, robot: Any, message: str = "") -> None:
+        self._graph = graph
+        self.name: str = robot.name
+        self.model: str = robot.model
+        self.end_effector: str = robot.end_effector
+        self.joint_names: tuple[str, ...] = tuple(robot.joint_names)
+        self.message = message
+        self._follower: Follower | None = None
+
+    @property
+    def follower(self) -> Follower:
+        """What the robot reports of its playback; raises NoAnswer where it has none."""
+        if self._follower is None:
+            self._follower = Follower(self._graph, self.name)
+            self._follower.watch.wait(lambda _: True, STATE_TIMEOUT_S, f"the state of {self.name}")
+        return self._follower
+
+    @property
+    def state(self) -> str:
+        """The state of its playback, such as PLAYING."""
+        return str(self.follower.state.label)
+
+    def load(self, motion: Motion | str) -> str:
+        """Load a trajectory of the catalogue, by its id; return what the robot says."""
+        request = srv.LoadTrajectory.Request(id=_id(motion))
+        return self._say(srv.LoadTrajectory, "load", request)
+
+    def play(
+        self,
+        motion: Motion | str | None = None,
+        *,
+        speed: float | None = None,
+        loop: bool | None = None,
+    ) -> Run:
+        """Play what is loaded, or `motion`, which is loaded first; return the run.
+
+        speed: 0.1 to 4, 1 is the declared one, negative backwards. speed and loop: as before
+        where None.
+        """
+        follower = self.follower
+        state = follower.state
+        if motion is not None and state.trajectory_id != _id(motion):
+            self.load(motion)
+        if speed is not None and speed != state.rate:
+            self.set_speed(speed)
+        if loop is not None and loop != state.loop:
+            self.set_loop(loop)
+        since = len(follower.states)
+        self.resume()
+        return Run(follower, since, self._robots)
+
+    def run(self) -> Run | None:
+        """Return the run that goes on; None where the robot stands."""
+        follower = self.follower
+        if follower.state.state not in (msg.PlaybackState.ADJUSTING, msg.PlaybackState.PLAYING):
+            return None
+        return Run(follower, len(follower.states) - 1, self._robots)
+
+    def resume(self) -> str:
+        """Play on from where it stands."""
+        return self._trigger("play")
+
+    def pause(self) -> str:
+        """Stand still where it is."""
+        return self._trigger("pause")
+
+    def stop(self) -> str:
+        """End the run; after a collision go back to the first frame, too."""
+        return self._trigger("stop")
+
+    def clear_halt(self) -> str:
+        """End a collision halt once nothing is touched any more."""
+        return self._trigger("clear_halt")
+
+    def seek(self, position: float) -> str:
+        """Go to a place on the trajectory, s from its first frame."""
+        return self._say(srv.Seek, "seek", srv.Seek.Request(position=position))
+
+    def set_speed(self, speed: float) -> str:
+        """Set the speed of playback, 0.1 to 4; negative: backwards."""
+        return self._say(srv.SetRate, "set_rate", srv.SetRate.Request(rate=speed))
+
+    def set_loop(self, on: bool) -> str:
+        """Have it start over after the last frame, or not."""
+        return self._say(SetBool, "set_loop", SetBool.Request(data=on))
+
+    def place(self, x: float, y: float, yaw: float = 0.0, z: float = 0.0) -> str:
+        """Move its base; x, y, z in m, yaw in rad about the vertical."""
+        pose = Pose((x, y, z), (0.0, 0.0, math.sin(yaw / 2), math.cos(yaw / 2)))
+        request = srv.PlaceRobot.Request(robot=self.name, pose=pose_to_message(pose))
+        return str(self._graph.order(srv.PlaceRobot, "/lab/place_robot", request).message)
+
+    def set_end_effector(self, end_effector: str) -> str:
+        """Exchange its end effector; empty: a bare flange."""
+        request = srv.SetEndEffector.Request(robot=self.name, end_effector=end_effector)
+        answer = self._graph.order(srv.SetEndEffector, "/lab/set_end_effector", request)
+        self.end_effector = end_effector
+        return str(answer.message)
+
+    def remove(self) -> str:
+        """Take it out of the scene."""
+        request = srv.Remove.Request(name=self.name)
+        return str(self._graph.order(srv.Remove, "/lab/remove_robot", request).message)
+
+    def watch(self, callback: Callable[[JointSample], None]) -> None:
+        """Call `callback` with every joint state, in a thread of the lab client's own."""
+        self._graph.subscribe(
+            JointState,
+            f"/{self.name}/joint_states",
+            lambda message: callback(
+                JointSample(
+                    time_from_message(message.header.stamp),
+                    tuple(message.name),
+                    tuple(message.position),
+                    tuple(message.velocity),
+                )
+            ),
+            qos.STREAM,
+        )
+
+    def _robots(self) -> list[str]:
+        return [robot.name for robot in self._graph.robots()]
+
+    def _trigger(self, verb: str) -> str:
+        return self._say(Trigger, verb, Trigger.Request())
+
+    def _say(self, kind: Any, verb: str, request: Any) -> str:
+        """Call a service of the robot; raise Misuse, with its name, where it refuses."""
+        answer = self._graph.call(kind, f"/{self.name}/{verb}", request)
+        if not answer.success:
+            raise Misuse(f"{self.name}: {answer.message}")
+        return str(answer.message)
+
+
+class Run:
+    """A run that `play` began."""
+
+    def __init__(
+        self, follower: Follower, since: int, robots: Callable[[], Collection[str]] = tuple
+    ) -> None:
+        self.follower = follower
+        self._since = since
+        self._course = Course(follower.robot, robots)
+        self._deadline = time.monotonic() + STATE_TIMEOUT_S
+
+    def advance(self) -> Sequence[Any]:
+        """Take what the robot has reported since; return the new states.
+
+        Raises LabError where the run will not complete, with the reason and what to do.
+        """
+        new = self.follower.states[self._since :]
+        self._since += len(new)
+        for state in new:
+            self._course.take(state)
+        if not self._course.moving and not self.complete and time.monotonic() > self._deadline:
+            raise LabError(
+                f"{self.follower.robot} accepted play but does not move after "
+                f"{STATE_TIMEOUT_S:g} s; mrlab status shows what runs"
+            )
+        return new
+
+    @property
+    def complete(self) -> bool:
+        """Whether its last frame was played, as far as `advance` has read."""
+        return self._course.complete
+
+    def wait(self, timeout: float = math.inf) -> bool:
+        """Wait until the last frame was played; return False where `timeout` s were not enough.
+
+        Raises LabError where the run was stopped or halted.
+        """
+        end = time.monotonic() + timeout
+        while not self.complete:
+            if time.monotonic() > end:
+                return False
+            if not self.advance():
+                time.sleep(POLL_PERIOD_S)
+        return True
+
+
+def _id(motion: Motion | str) -> str:
+    return motion if isinstance(motion, str) else motion.id

@@ -1,0 +1,246 @@
+"""What `mrlab status` knows of the running lab, kept up to date by its graph."""
+
+from __future__ import annotations
+
+import math
+import operator
+import time
+from collections.abc import Callable, Iterable, Mapping
+from typing import TYPE_CHECKING, Any
+
+from mrlab_ros.commands.status.facts import latency_facts, recorder_facts, robot_facts
+from mrlab_ros.core.watch import SILENT_AFTER_S
+from mrlab_ros.processes.lab import NODES, PROCESSES
+from mrlab_ros.processes.run_file import RunFile
+from mrlab_ros.processes.web import gateway_answers
+
+if TYPE_CHECKING:
+    from mrlab_ros.client.follow import Follower
+    from mrlab_ros.ros.graph import GraphClient, Watch
+
+# What a robot that was just found has to say is there by then, s.
+SETTLE_TIMEOUT_S = 6.0
+# A node that nobody has seen for this long is missing, s: discovery takes up to 3.5 s. With --once
+# that is the longest wait.
+ONCE_TIMEOUT_S = 4.0
+MISSING_AFTER_S = 5.0
+# Once the lab's robots are known the publishers of all topics are, after this time at most, s.
+DISCOVERY_S = 1.5
+# Who measures reports once a second; one that has been silent for longer has gone, s.
+LATENCY_AGE_S = 5.0
+# How often the gateway is asked whether it is there, s.
+WEB_PERIOD_S = 1.0
+
+
+def expected_nodes(supervisor: Mapping[str, Any] | None, *, in_replay: bool) -> tuple[str, ...]:
+    """Return the names of the nodes that this lab is made of.
+
+    supervisor: the run file of `mrlab up`, which lists the processes it started; without one all
+    nodes are expected. in_replay: a bag is replayed, and most nodes have left the graph for it.
+    """
+    kept = None if supervisor is None else {p["name"] for p in supervisor["processes"]}
+    entries = [
+        NODES[node]
+        for process in PROCESSES
+        if not kept or process.name in kept
+        for node in process.nodes
+    ]
+    return tuple(entry.graph_name for entry in entries if entry.in_replay or not in_replay)
+
+
+class Presence:
+    """Which nodes are in the graph; one that was just started or discovered is not missing yet.
+
+    names: returns the names of the nodes that the graph knows now.
+    """
+
+    def __init__(
+        self, names: Callable[[], Iterable[str]], clock: Callable[[], float] = time.monotonic
+    ) -> None:
+        self._names = names
+        self._clock = clock
+        self._begun = clock()
+        self._seen: dict[str, float] = {}
+
+    def present(self, expected: Iterable[str], patience: float) -> dict[str, bool]:
+        """Return for each node whether it was in the graph within the last `patience` s."""
+        now = self._clock()
+        self._seen |= dict.fromkeys(self._names(), now)
+        return {name: now - self._seen.get(name, self._begun) <= patience for name in expected}
+
+    def wait(
+        self, expected: Callable[[], Iterable[str]], timeout: float = ONCE_TIMEOUT_S
+    ) -> dict[str, bool]:
+        """Return which nodes are there as soon as all are, or `timeout` s after the start."""
+        while True:
+            names = set(self._names())
+            found = {name: name in names for name in expected()}
+            if all(found.values()) or self._clock() - self._begun > timeout:
+                return found
+            time.sleep(0.05)
+
+
+class View:
+    """Everything `mrlab status` shows, kept up to date by the graph."""
+
+    def __init__(self, graph: GraphClient) -> None:
+        from diagnostic_msgs.msg import DiagnosticArray
+        from mrlab_msgs import msg
+
+        from mrlab_ros.messages import qos
+
+        self._graph = graph
+        self._run_file = RunFile(graph.domain)
+        self._robots: Watch[Any] = graph.watch(msg.Robots, "/robots")
+        self._catalogue: Watch[Any] = graph.watch(msg.TrajectoryCatalogue, "/trajectories")
+        self._systems: Watch[Any] = graph.watch(msg.RobotSystems, "/systems")
+        self._recorder: Watch[Any] = graph.watch(msg.RecorderState, "/recorder/state")
+        self._followers: dict[str, Follower] = {}
+        # The newest report of each observer, by what it is called here.
+        self._latencies: dict[str, Any] = {}
+        self._answers, self._asked = False, -math.inf
+        # By process when it was heard last, and what is amiss with it; empty: nothing.
+        self._troubles: dict[str, tuple[float, str]] = {}
+        graph.subscribe(msg.Latency, "/latency", self._on_latency, qos.LATCHED)
+        if graph.prompt:
+            return
+        graph.subscribe(DiagnosticArray, "/diagnostics", self._on_diagnostics, qos.LATCHED_EVENTS)
+        graph.subscribe(msg.Latency, "/latency/clients", self._on_client, qos.LATCHED_EVENTS)
+
+    def settle(self) -> None:
+        """Wait until every latched message has arrived, or SETTLE_TIMEOUT_S is over.
+
+        Latched messages come oldest first, one soon after the other: the newest is there once no
+        more come.
+        """
+        from mrlab_ros.ros.graph import LATCHED_BURST_S
+
+        if self._graph.prompt:
+            self.robots()
+            return
+        begun = time.monotonic()
+        deadline = begun + SETTLE_TIMEOUT_S
+        watches = (self._robots, self._catalogue, self._systems)
+        received: list[Any] = []
+        since = time.monotonic()
+        while (now := time.monotonic()) < deadline:
+            followers = [follower for _, follower in self.robots()]
+            before = received
+            watched = (*watches, *(f.watch for f in followers))
+            received = [w.value for w in watched]
+            same = len(received) == len(before) and all(map(operator.is_, received, before))
+            measured = self._latencies or "bridge" not in self._graph.node_names()
+            # What nobody publishes once discovery is over will not come.
+            discovered = now - begun > DISCOVERY_S
+            awaited = [w for w in watched if w.value is None]
+            if discovered:
+                awaited = [w for w in awaited if self._graph.is_published(w.topic)]
+            if not same or awaited or not measured:
+                since = now
+            elif now - since > LATCHED_BURST_S:
+                return
+            time.sleep(0.02)
+
+    def _ask_bridge(self) -> None:
+        """Take what the bridge keeps of topics that zenoh does not carry."""
+        from diagnostic_msgs.msg import DiagnosticArray
+        from mrlab_msgs import msg
+
+        for age, message in self._graph.kept(DiagnosticArray, "/diagnostics"):
+            self._on_diagnostics(message, age)
+        for _, report in self._graph.kept(msg.Latency, "/latency/clients"):
+            self._on_client(report)
+
+    def _on_diagnostics(self, message: Any, age: float = 0.0) -> None:
+        from mrlab_ros.messages.diagnostics import troubles_in
+
+        now = time.monotonic() - age
+        self._troubles |= {name: (now, text) for name, text in troubles_in(message).items()}
+
+    def troubles(self) -> dict[str, str]:
+        """Return what is amiss with processes, by process."""
+        now = time.monotonic()
+        return {
+            name: text
+            for name, (heard, text) in sorted(self._troubles.items())
+            if text and now - heard < SILENT_AFTER_S
+        }
+
+    def _on_latency(self, report: Any) -> None:
+        self._latencies[report.observer] = report
+
+    def _on_client(self, report: Any) -> None:
+        # Any client may publish these: a name must neither pass for the bridge's nor contain
+        # control characters of the terminal.
+        name = "".join(c if c.isprintable() else "?" for c in report.observer)
+        self._latencies[f"client {name}"] = report
+
+    def expected_nodes(self) -> tuple[str, ...]:
+        """Return the names of the nodes that this lab is made of now."""
+        recorder = recorder_facts(self._recorder.value)
+        in_replay = recorder is not None and recorder["state"] in ("REPLAYING", "PAUSED")
+        return expected_nodes(self._run_file.read(), in_replay=in_replay)
+
+    def latencies(self) -> list[tuple[str, Any]]:
+        """Return whose reports there are and the reports, the bridge's own first; no old ones."""
+        for name, report in list(self._latencies.items()):
+            stamp = report.header.stamp
+            if abs(time.time() - stamp.sec - 1e-9 * stamp.nanosec) > LATENCY_AGE_S:
+                self._latencies.pop(name, None)
+        return sorted(self._latencies.items(), key=lambda entry: entry[0])
+
+    def robots(self) -> list[tuple[Any, Follower]]:
+        """Return the robots of the scene, each with what is known of its playback."""
+        from mrlab_ros.client.follow import Follower
+
+        robots = self._robots.value.robots if self._robots.value else []
+        for robot in robots:
+            if robot.name not in self._followers:
+                self._followers[robot.name] = Follower(self._graph, robot.name)
+        return [(robot, self._followers[robot.name]) for robot in robots]
+
+    def facts(self) -> dict[str, Any]:
+        """Return what is known, ready for JSON: SI units, null where nothing is known."""
+        if self._graph.prompt:
+            self._ask_bridge()
+        supervisor = self._run_file.read()
+        return {
+            "domain": self._graph.domain,
+            "supervisor": supervisor,
+            "web": self._web(supervisor),
+            "robots": [robot_facts(robot, follower) for robot, follower in self.robots()],
+            "trajectories": [
+                {
+                    "id": t.id,
+                    "robot_model": t.robot_model,
+                    "frame_rate": t.frame_rate,
+                    "frame_count": t.frame_count,
+                    "duration": t.duration,
+                    "warnings": [w.message for w in t.warnings],
+                }
+                for t in (self._catalogue.value.trajectories if self._catalogue.value else ())
+            ],
+            "systems": [
+                {
+                    "name": s.name,
+                    "state": s.label,
+                    "message": s.message,
+                    "members": [m.robot for m in s.members],
+                    "duration": s.duration,
+                }
+                for s in (self._systems.value.systems if self._systems.value else ())
+            ],
+            "latency": [latency_facts(name, report) for name, report in self.latencies()],
+            "recorder": recorder_facts(self._recorder.value),
+            "trouble": self.troubles(),
+        }
+
+    def _web(self, supervisor: Mapping[str, Any] | None) -> dict[str, Any] | None:
+        """Return where the pages are and whether they answer, asked once a second at most."""
+        web = (supervisor or {}).get("web")
+        if web is None:
+            return None
+        if time.monotonic() - self._asked > WEB_PERIOD_S:
+            self._answers = gateway_answers(web["here"])()
+            self._asked = time.monotonic()
+        return {"address": web["address"], "answers": self._answers}

@@ -1,0 +1,40 @@
+"""Keeps the newest messages of topics that zenoh does not carry, for programs of this machine."""
+
+from __future__ import annotations
+
+import base64
+import json
+import time
+from collections import deque
+from typing import Any
+
+from rclpy.node import Node
+from rclpy.qos import QoSProfile
+
+from mrlab_ros.adapters.zenoh_session import Query
+
+# Who reports does so once a second; what is older says nothing of now, s.
+KEPT_FOR_S = 5.0
+# More than a class of clients reports in that time.
+MOST = 512
+
+
+class Kept:
+    """The messages of one topic from the last KEPT_FOR_S, as CDR."""
+
+    def __init__(self, node: Node, kind: Any, topic: str, quality: QoSProfile) -> None:
+        self._messages: deque[tuple[float, bytes]] = deque(maxlen=MOST)
+        node.create_subscription(kind, topic, self._keep, quality, raw=True)
+
+    def _keep(self, message: bytes) -> None:
+        self._messages.append((time.monotonic(), message))
+
+    def answer(self, query: Query) -> None:
+        """Reply with a JSON list of [age in s, CDR as base64], the oldest first."""
+        now = time.monotonic()
+        found = [
+            [now - at, base64.b64encode(message).decode()]
+            for at, message in list(self._messages)
+            if now - at <= KEPT_FOR_S
+        ]
+        query.reply(json.dumps(found).encode())

@@ -1,0 +1,166 @@
+"""Every command and option that a message or a page of the documentation names is one."""
+
+from __future__ import annotations
+
+import ast
+import inspect
+import re
+import shlex
+from collections.abc import Iterator
+from functools import cache
+from pathlib import Path
+from typing import Any
+
+import pytest
+import typer.main
+from typer.core import TyperGroup
+
+from mrlab_ros.cli import COMMANDS, make_app
+from mrlab_ros.commands.convert.options import declared, with_options, words_of
+from mrlab_ros.core.conversion.options import Options
+from mrlab_ros.core.diagnostics import KINDS
+
+ROOT = Path(__file__).parents[3]
+SOURCES = [
+    *sorted((ROOT / "mrlab_ros").rglob("*.py")),
+    *sorted((ROOT / "web" / "src" / "words").glob("*.ts")),
+]
+PAGES = [ROOT / "README.md", *sorted((ROOT / "docs").glob("*.md"))]
+# A command up to where its sentence, its code or its table cell ends.
+NAMED = re.compile(r"\bmrlab ((?:--?)?[a-z](?:(?!, (?:or|and|then) |mrlab )[^`\n;:|()])*)")
+OPTION = re.compile(r"(?<![\w-])--[a-z][a-z-]+")
+# Words after "mrlab" in prose, as in "mrlab sets it".
+PROSE = {"and", "does", "is", "made", "process", "processes", "wrote"}
+
+
+@cache
+def group() -> TyperGroup:
+    found = typer.main.get_command(make_app())
+    assert isinstance(found, TyperGroup)
+    return found
+
+
+def resolved(words: list[str]) -> tuple[Any, list[str]]:
+    """Return the command that words name, and the words after it."""
+    command: Any = group()
+    while isinstance(command, TyperGroup) and words and words[0] in command.commands:
+        command, words = command.commands[words[0]], words[1:]
+    return command, words
+
+
+def options_of(command: Any) -> set[str]:
+    names = {name for p in command.params for name in (*p.opts, *p.secondary_opts)}
+    return names | {"--help", "--debug"}
+
+
+def texts(path: Path) -> Iterator[str]:
+    """Yield the texts of a source file, with X for what is filled in."""
+    if path.suffix == ".ts":
+        yield from re.findall(r'"((?:[^"\\]|\\.)*)"', path.read_text())
+        return
+    inside = set()
+    for node in ast.walk(ast.parse(path.read_text())):
+        if isinstance(node, ast.JoinedStr):
+            inside |= {id(value) for value in node.values}
+            yield "".join(
+                value.value if isinstance(value, ast.Constant) else "X" for value in node.values
+            )
+        elif isinstance(getattr(node, "value", None), str) and id(node) not in inside:
+            yield node.value
+
+
+def wrong_in(text: str) -> list[str]:
+    """Return what a text names that is no command or no option of it."""
+    wrong = []
+    for match in NAMED.finditer(" ".join(text.split())):
+        said = match.group(1).split(". ")[0]
+        words = said.replace("'", "").replace('"', "").replace(",", " ").split()
+        words = [word.rstrip(".") for word in words]
+        if words[0] in PROSE or words[0].startswith("X"):
+            continue
+        command, rest = resolved(words)
+        if command is group() and not words[0].startswith("-"):
+            wrong.append(f"mrlab {words[0]}")
+        known = options_of(command)
+        wrong += [
+            f"mrlab {said}: {option}" for option in OPTION.findall(said) if option not in known
+        ]
+        if isinstance(command, TyperGroup) and command is not group():
+            # `mrlab keys` alone is the group; a word behind it in code is one of its commands.
+            extra = [word for word in rest[:1] if re.fullmatch(r"[a-z]+", word)]
+            wrong += [f"mrlab {said}" for word in extra if match.group(0).startswith("`mrlab")]
+    return wrong
+
+
+@pytest.mark.parametrize("path", SOURCES, ids=lambda path: str(path.relative_to(ROOT)))
+def test_messages_name_commands_and_options_that_exist(path: Path) -> None:
+    assert [wrong for text in texts(path) for wrong in wrong_in(text)] == []
+
+
+@pytest.mark.parametrize("path", PAGES, ids=lambda path: path.name)
+def test_pages_name_commands_and_options_that_exist(path: Path) -> None:
+    code = re.findall(r"`([^`\n]+)`", path.read_text())
+    assert [wrong for text in code for wrong in wrong_in(text)] == []
+
+
+def fenced() -> Iterator[tuple[str, str]]:
+    for page in PAGES:
+        for block in re.findall(r"^```[a-z]*\n(.*?)^```", page.read_text(), re.M | re.S):
+            for line in block.replace("\\\n", " ").splitlines():
+                if line.startswith("mrlab "):
+                    yield page.name, line.split("  #")[0].split(" &&")[0].strip()
+
+
+@pytest.mark.parametrize(("page", "line"), fenced())
+def test_the_parser_takes_every_command_of_a_block(page: str, line: str) -> None:
+    """Parse it as the shell would hand it over; what is filled in stands for a word."""
+    words = shlex.split(line.split(" | ")[0].split(" > ")[0], comments=True)[1:]
+    command: Any = group()
+    context = command.make_context("mrlab", words)
+    while isinstance(command, TyperGroup):
+        name, found, rest = command.resolve_command(
+            context, [*context._protected_args, *context.args]
+        )
+        assert found is not None, line
+        context, command = found.make_context(name, rest, parent=context), found
+        if not context._protected_args:
+            break
+
+
+def test_every_option_that_mends_a_file_is_one_of_convert_play_load_and_show() -> None:
+    """Play takes what convert takes: a finding is mended with the same words."""
+    mends = {
+        option
+        for kind in KINDS.values()
+        for option in OPTION.findall(f"{kind.message} {kind.remedy}")
+    } - {"--row-limit", "--speed", "--package"}
+    assert mends
+    for name in ("convert", "play", "load", "show"):
+        command, _ = resolved([name])
+        assert mends <= options_of(command), name
+    fields = {option for kind in KINDS.values() for option, _, _ in kind.fixes if option}
+    assert fields - {"{option}"} <= set(vars(Options()))
+
+
+def test_the_options_of_a_conversion_are_declared_once() -> None:
+    @with_options
+    def command(options: Options, file: str = "") -> None:
+        taken.append((options, file))
+
+    taken: list[tuple[Options, str]] = []
+    values = dict.fromkeys(inspect.signature(declared).parameters, "")
+    command(**{**values, "file": "a.mat", "degrees": True, "rate": 50.0})  # type: ignore[arg-type]
+    assert taken[0][1] == "a.mat"
+    assert (taken[0][0].degrees, taken[0][0].frame_rate) == (True, 50.0)
+    assert words_of(Options(degrees=True, frame_rate=50.0, columns="2:7")) == [
+        "--columns", "2:7", "--degrees", "--rate", "50",
+    ]  # fmt: skip
+
+
+def test_a_command_alone_is_the_same_as_among_all() -> None:
+    for name in COMMANDS:
+        alone = typer.main.get_command(make_app([name]))
+        assert isinstance(alone, TyperGroup)
+        assert set(alone.commands) == {name}
+        shown = [param.name for param in alone.commands[name].params]
+        assert shown == [param.name for param in group().commands[name].params]
