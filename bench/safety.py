@@ -22,12 +22,12 @@ import numpy as np
 import rclpy
 import report
 from mrlab_msgs import msg, srv
-from mrlab_ros.adapters.trajectories.store import write
 from rclpy.client import Client
 from rclpy.node import Node
 from std_srvs.srv import SetBool, Trigger
 
 from mrlab_ros.adapters.robots.library import RobotLibrary
+from mrlab_ros.adapters.trajectories.npz_file import write
 from mrlab_ros.core.trajectory.trajectory import Channels, Source, Trajectory
 from mrlab_ros.messages import qos
 from mrlab_ros.processes.lab import LabProcess, parameter_file

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable
 
 
@@ -16,6 +17,11 @@ class Identity:
         self.lab = lab
         self._log = log
         self.others: set[str] = set()
+
+    @property
+    def namespace(self) -> str:
+        """What a name in the graph ends with that another lab must not have; may be empty."""
+        return f"/lab_{re.sub('[^0-9A-Za-z]', '', self.lab)}" if self.lab else ""
 
     def accepts(self, lab: str) -> bool:
         """Return whether a message that names `lab` is of this one."""

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from mrlab_ros.core.bridge.rules import FULL_NAME, PREFIX
-from mrlab_ros.core.conversion.convert import DEFAULT_FRAME_RATE, MOST_ROWS
+from mrlab_ros.core.conversion.options import DEFAULT_FRAME_RATE, MOST_ROWS
 from mrlab_ros.core.naming import NAME
 from mrlab_ros.core.recording.topics import LAB_TOPICS
 from mrlab_ros.core.records import (

@@ -23,7 +23,7 @@ from typing import IO
 
 from mrlab_ros.core.repeated_lines import RepeatedLines
 
-FIRST_DELAY_S = 0.5
+FIRST_DELAY_S = 0.1
 LONGEST_DELAY_S = 10.0
 STABLE_AFTER_S = 10.0
 # From SIGINT to SIGKILL, s; a clean stop of a process takes well under 1 s.

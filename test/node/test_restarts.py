@@ -188,4 +188,12 @@ def test_a_second_lab_on_the_domain_is_ignored_and_both_keep_their_robots(graph,
     assert "another lab (a1)" in wait_for(lambda: second.lost, "a word there too")[0]
     load(graph, robot, "wave")
     assert list(first.host.nodes) == [robot]
+    # The orders of a system have a name that no other lab's coordinator calls.
+    second_host = graph.add(PlaybackHostNode, lab_id="b2")
+    names = {name for name, _ in graph.client.get_service_names_and_types()}
+    assert {name for name in names if name.endswith("command_members")} == {
+        "/playback_host/lab_a1/command_members", "/playback_host/lab_b2/command_members",
+    }  # fmt: skip
     assert make_system(graph, {robot: "wave"}).success
+    assert first.host.nodes[robot].playback.system == "cell"
+    assert not second_host.nodes

@@ -21,7 +21,7 @@ from typing import Any, BinaryIO, TypeVar
 
 import mrlab_ros
 from mrlab_ros.adapters.workspaces import content, results
-from mrlab_ros.core.conversion.convert import MOST_ROWS
+from mrlab_ros.core.conversion.options import MOST_ROWS
 from mrlab_ros.core.conversion.workspace import Workspace
 from mrlab_ros.core.diagnostics import Refused, finding
 

@@ -17,8 +17,8 @@ import numpy as np
 
 from mrlab_ros.adapters.trajectories import npz_file
 from mrlab_ros.core.conversion.candidates import Candidate
-from mrlab_ros.core.conversion.convert import MOST_ROWS, ConversionResult, Outcome, convert
-from mrlab_ros.core.conversion.options import Options
+from mrlab_ros.core.conversion.convert import ConversionResult, Outcome, convert
+from mrlab_ros.core.conversion.options import MOST_ROWS, Options
 from mrlab_ros.core.conversion.preview import Preview
 from mrlab_ros.core.conversion.workspace import Workspace
 from mrlab_ros.core.diagnostics import Diagnostic, Fix, Severity, finding

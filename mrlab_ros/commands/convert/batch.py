@@ -38,12 +38,11 @@ from mrlab_ros.commands.convert.options import convert_words
 from mrlab_ros.commands.convert.outcomes import EXIT_CODES
 from mrlab_ros.commands.convert.targets import PICTURES, Targets, check_free
 from mrlab_ros.core.conversion.convert import (
-    DEFAULT_FRAME_RATE,
     ConversionResult,
     Outcome,
     id_from,
 )
-from mrlab_ros.core.conversion.options import Options
+from mrlab_ros.core.conversion.options import DEFAULT_FRAME_RATE, Options
 from mrlab_ros.core.diagnostics import Refused
 from mrlab_ros.core.errors import BadInput, Misuse
 from mrlab_ros.core.robots.model import RobotModel

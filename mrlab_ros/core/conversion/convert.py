@@ -28,7 +28,7 @@ from mrlab_ros.core.conversion.explain import bad_message, contents
 from mrlab_ros.core.conversion.headings import split_tables
 from mrlab_ros.core.conversion.layout import Chosen, Layout, lay_out, pick, reshaped
 from mrlab_ros.core.conversion.measuring import fits
-from mrlab_ros.core.conversion.options import Options
+from mrlab_ros.core.conversion.options import DEFAULT_FRAME_RATE, MOST_ROWS, Options
 from mrlab_ros.core.conversion.preview import Preview, preview
 from mrlab_ros.core.conversion.stated import with_headings, with_statements
 from mrlab_ros.core.conversion.survey import Survey, survey
@@ -40,9 +40,7 @@ from mrlab_ros.core.trajectory.channels import ProxyCoefficients
 from mrlab_ros.core.trajectory.names import checked_id
 from mrlab_ros.core.trajectory.trajectory import Source, Trajectory
 
-DEFAULT_FRAME_RATE = 100.0  # Hz
 MOST_FRAMES = 2_000_000  # of a message that is sampled: five hours and a half at 100 Hz
-MOST_ROWS = 5_000_000  # of a matrix, if not said otherwise: almost 14 hours at 100 Hz
 MOST_OWN_RATE = 10_000.0  # Hz; points that come more often are sampled at the default
 # Hz and rad (m): rows that come more slowly and are farther apart are waypoints
 WAYPOINT_RATE, WAYPOINT_STEP = 10.0, 0.1

@@ -13,7 +13,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from mrlab_ros.core.conversion.convert import DEFAULT_FRAME_RATE, ConversionResult, Outcome
+from mrlab_ros.core.conversion.convert import ConversionResult, Outcome
+from mrlab_ros.core.conversion.options import DEFAULT_FRAME_RATE
 from mrlab_ros.core.conversion.preview import Preview
 from mrlab_ros.core.diagnostics import Diagnostic
 from mrlab_ros.core.show.packed import packed

@@ -13,7 +13,7 @@ from mrlab_ros.adapters.robots.shown import from_library
 from mrlab_ros.adapters.store import keys
 from mrlab_ros.adapters.store.port import Missing
 from mrlab_ros.adapters.trajectories import npz_file
-from mrlab_ros.core.conversion.convert import DEFAULT_FRAME_RATE
+from mrlab_ros.core.conversion.options import DEFAULT_FRAME_RATE
 from mrlab_ros.core.conversion.preview import Preview
 from mrlab_ros.core.diagnostics import Diagnostic, Fix, Severity
 from mrlab_ros.core.errors import BadInput

@@ -120,9 +120,12 @@ class PlaybackHostNode(ParameterNode[PlaybackParameters]):
             enable_rosout=False,
         )
         self.create_subscription(msg.Robots, "/robots", self._on_robots, qos.LATCHED)
+        # Named by the lab too: the coordinator of another one on the same domain must not drive
+        # robots that happen to have the names of its own.
+        self._host = f"{self.get_fully_qualified_name()}{self._identity.namespace}"
         orders.create_service(
             srv.CommandMembers,
-            f"{self.get_fully_qualified_name()}/command_members",
+            f"{self._host}/command_members",
             self._command_members,
             qos_profile=qos.SERVICES,
         )
@@ -233,7 +236,7 @@ class PlaybackHostNode(ParameterNode[PlaybackParameters]):
             self.scheduler,
             self._fetch,
             self.parameters.standing_rate,
-            host=self.get_fully_qualified_name(),
+            host=self._host,
             lab=self._identity.lab,
             kept=self._kept_of(robot, model),
             context=self.context,

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import pytest
+
 from mrlab_ros.core.identity import Identity
 
 
@@ -21,3 +23,10 @@ def test_what_names_no_lab_is_accepted():
     assert Identity("a1", said.append).accepts("")
     assert Identity("", said.append).accepts("b2")
     assert said == []
+
+
+@pytest.mark.parametrize(
+    ("lab", "namespace"), [("", ""), ("a1b2", "/lab_a1b2"), ("my lab/1", "/lab_mylab1")]
+)
+def test_a_name_in_the_graph_can_hold_the_id(lab, namespace):
+    assert Identity(lab, lambda text: None).namespace == namespace

@@ -2,12 +2,16 @@
 
 from __future__ import annotations
 
+from contextlib import suppress
+
 import pytest
 import yaml
+from hypothesis import given
+from hypothesis import strategies as st
 
 from mrlab_ros.core.errors import BadInput
 from mrlab_ros.core.scene.document import parse_cell
-from mrlab_ros.core.systems.cell_file import plain_system
+from mrlab_ros.core.systems.cell_file import MEMBER_FIELDS, SYSTEM_FIELDS, plain_system
 from mrlab_ros.core.systems.robot_system import Policy
 from mrlab_ros.core.systems.timeline import Mode
 
@@ -108,9 +112,38 @@ def test_the_least_is_a_list_of_robots():
         ("members: [{robot: a, wait: until noon}]", "member a: .* is no wait; expected"),
         ("members: [{robot: a, holds: [{frame: x}]}]", "member a, hold 1: frame is 'x'"),
         ("members: [{robot: a, holds: [{wait: x}]}]", "member a, hold 1: frame is missing"),
+        (
+            "members: [{robot: a, holds: [{frame: 5}]}]",
+            "member a, hold 1: nothing says until when it holds frame 5; add wait",
+        ),
+        ("members: [{robot: a, holds: 5}]", "member a: holds is 5; expected a list"),
+        ("members: [{robot: a, holds: [free]}]", "hold 1 is 'free'; expected a mapping"),
+        ("members: [{robot: a, waits: 5}]", "member a: waits is 5; expected"),
+        ("members: [{robot: a, wait: {b: c}}]", "member a: wait is .*; expected"),
+        ("members: [{robot: 5}]", "member 1: robot is 5; expected"),
+        ("members: [{robot: a, dwell: true}]", "member a: dwell is true; expected"),
+        ("members: {robot: a}", "members is .*; expected a list"),
+        ("name: [a]\nmembers: [{robot: a}]", "name is .*; expected"),
+        ("rate: fast\nmembers: [{robot: a}]", "rate is 'fast'; expected"),
+        ("rate: -5\nmembers: [{robot: a}]", "0.1 to 4, or its negative"),
         ("members: [5, {robot: a, dwell: x}]", "the system file has 2 mistakes"),
     ],
 )
 def test_what_is_wrong_is_named_with_its_place(text, says):
     with pytest.raises(BadInput, match=says):
         read(yaml.safe_load(text))
+
+
+YAML = st.recursive(
+    st.none() | st.booleans() | st.integers() | st.floats() | st.text(max_size=5),
+    lambda inner: st.lists(inner, max_size=3) | st.dictionaries(st.text(max_size=5), inner),
+    max_leaves=4,
+)
+
+
+@given(st.sampled_from(SYSTEM_FIELDS), st.sampled_from(MEMBER_FIELDS), YAML, YAML)
+def test_whatever_type_a_value_has_it_is_read_or_named(field, member_field, value, other):
+    cell = {"members": [{"robot": "a", member_field: other}], field: value}
+    # Anything but a refusal fails the test.
+    with suppress(BadInput):
+        assert read(cell).members
