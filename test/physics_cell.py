@@ -103,8 +103,12 @@ class Cell:
         kind = Gripper.VACUUM if vacuum else Gripper.FINGERS
         tool = CUP if vacuum else Tool(payload)
         text = self.library.description("gantry", hand)
-        self.world.add_robot(name, text, JOINTS, Pose(), kind, frozenset(), tool)
-        self.at[name] = (*at, *(0.0,) * (5 - len(at)))
+        self.join(name, text, JOINTS, (*at, *(0.0,) * (5 - len(at))), kind, tool)
+
+    def join(self, name: str, text: str, joints, at, kind: Gripper, tool: Tool) -> None:
+        """Add any robot; at: its joint positions."""
+        self.world.add_robot(name, text, tuple(joints), Pose(), kind, frozenset(), tool)
+        self.at[name] = tuple(at)
         self.program[name] = [(0.0, False)]
         self.world.set_program(name, GripperProgram((0.0,), (False,)))
         clock = PlaybackClock(self.now_ns, self.now_ns / SECOND, 1.0)
@@ -130,7 +134,7 @@ class Cell:
                     q = tuple(a + share * (b - a) for a, b in zip(start, goal, strict=True))
                     v = tuple(rate * (b - a) / seconds for a, b in zip(start, goal, strict=True))
                 else:
-                    q, v = at, (0.0,) * 5
+                    q, v = at, (0.0,) * len(at)
                 self.world.joint_state(other, self.now_ns, q, v)
             self.world.advance(self.now_ns)
             self.events += self.world.take_events()

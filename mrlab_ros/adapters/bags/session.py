@@ -15,6 +15,7 @@ from mrlab_ros.adapters.bags.reader import Bag
 from mrlab_ros.core.clock import SECOND, PlaybackClock
 from mrlab_ros.core.recording.report import (
     GRASP_STATES,
+    HOLDING,
     Changes,
     Contact,
     ReferenceTrajectory,
@@ -134,6 +135,12 @@ class _Reader:
         known = grasp.state < len(GRASP_STATES)
         label = GRASP_STATES[grasp.state] if known else str(grasp.state)
         robot.grasps.add(time, label, grasp.object)
+        # Bags of earlier versions do not have these fields.
+        reason = str(getattr(grasp, "reason", ""))
+        if reason:
+            robot.remarks.add(time, reason)
+        if label == HOLDING and getattr(grasp, "friction_needed", 0.0):
+            robot.bear(grasp.object, grasp)
 
     def _robots(self, time: float, robots: Any) -> None:
         for entry in robots.robots:

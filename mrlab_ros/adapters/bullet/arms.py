@@ -35,6 +35,8 @@ from mrlab_ros.core.geometry import (
 from mrlab_ros.core.physics.engine import Arm, BodyState, FingerState, LinkPairs
 from mrlab_ros.core.physics.grasp_load import PAD_FRICTION
 
+# Where the first removed arm waits, m, and how many wait at most: one costs 25 us a step.
+PARKED_AT, MOST_PARKED = -500.0, 8
 FAR = 1.0  # m, over which fingers are looked for
 COUPLED = 1e-7  # m or rad; coupled fingers that are nearer to their places are left there
 ALL_GROUPS = 0xFFFF
@@ -64,7 +66,8 @@ class LoadedArm:
     """An arm as Bullet knows it: its numbers of body, joints and links.
 
     index: the number of each link. links: the link that each number counts as: what is fixed to
-    a finger is that finger. ways: by the number of a finger's link, how it closes.
+    a finger is that finger. made_of: its URDF, its joints, its links that never touch. ways: by
+    the number of a finger's link, how it closes.
     """
 
     body: int
@@ -77,6 +80,7 @@ class LoadedArm:
     positions: list[float]
     couplings: tuple[Coupling, ...]
     ignored: set[tuple[int, int]]
+    made_of: tuple[str, tuple[str, ...], LinkPairs]
     followers: frozenset[int] = frozenset()
     ways: dict[int, tuple[Way, ...]] = field(default_factory=dict)
 
@@ -88,6 +92,8 @@ class Arms:
         self._client = client
         self._resolve = resolve
         self._arms: dict[str, LoadedArm] = {}
+        # Arms that were removed, oldest first: Bullet keeps the shapes of a removed body.
+        self._parked: list[LoadedArm] = []
 
     def __getitem__(self, name: str) -> LoadedArm:
         try:
@@ -110,6 +116,15 @@ class Arms:
         """
         if name in self._arms:
             raise Misuse(f"arm '{name}' is in the world already; remove it first")
+        made_of = (text, joints, apart)
+        parked = next((arm for arm in self._parked if arm.made_of == made_of), None)
+        if parked is not None:
+            self._parked.remove(parked)
+            self._arms[name] = parked
+            self._let_collide(parked, collide=True)
+            parked.positions = [0.0] * len(joints)
+            self.place(name, pose)
+            return parked
         description = Description(text, joints, f"the description of {name}")
         body = self._load(description.text(self._resolve), pose)
         links, joint_index = {-1: description.base}, {}
@@ -128,17 +143,11 @@ class Arms:
             positions=[0.0] * len(joints),
             couplings=description.couplings,
             ignored=set(),
+            made_of=made_of,
             followers=frozenset(c.follower for c in description.couplings),
         )
         self._free(arm)
-        for link in sorted(description.fixed_links):
-            # As for Bullet's static bodies: the base may overlap the floor.
-            others = ALL_GROUPS & ~STATIC_GROUP
-            self._call(
-                pybullet.setCollisionFilterGroupMask, body, arm.index[link], STATIC_GROUP, others
-            )
-        for i in arm.moving:
-            self._call(pybullet.setCollisionFilterGroupMask, body, i, ARM_GROUP, ALL_GROUPS)
+        self._let_collide(arm, collide=True)
         for a, b in description.neighbours():
             self._ignore(arm, arm.index[a], arm.index[b])
         for pair in apart:
@@ -265,11 +274,33 @@ class Arms:
         self._pose(arm, arm.positions)
 
     def remove(self, name: str) -> int:
-        """Remove an arm; return its body number."""
-        body = self[name].body
+        """Remove an arm; return its body number.
+
+        It is parked, out of reach and without contacts, until the same robot comes again.
+        """
+        arm = self[name]
         del self._arms[name]
-        self._call(pybullet.removeBody, body)
-        return body
+        self._let_collide(arm, collide=False)
+        place = (0.0, 0.0, PARKED_AT * (1 + len(self._parked)))
+        self._call(
+            pybullet.resetBasePositionAndOrientation, arm.body, place, (0.0, 0.0, 0.0, 1.0)
+        )
+        self._pose(arm, [0.0] * len(arm.joints))
+        self._parked.append(arm)
+        if len(self._parked) > MOST_PARKED:
+            self._call(pybullet.removeBody, self._parked.pop(0).body)
+        return arm.body
+
+    def _let_collide(self, arm: LoadedArm, *, collide: bool) -> None:
+        """Let an arm's links collide, or not."""
+        for i in arm.links:
+            # As for Bullet's static bodies: the base may overlap the floor.
+            group, others = STATIC_GROUP, ALL_GROUPS & ~STATIC_GROUP
+            if i in arm.moving:
+                group, others = ARM_GROUP, ALL_GROUPS
+            if not collide:
+                group = others = 0
+            self._call(pybullet.setCollisionFilterGroupMask, arm.body, i, group, others)
 
     def move(self, name: str, positions: Sequence[float], velocities: Sequence[float]) -> None:
         arm = self[name]

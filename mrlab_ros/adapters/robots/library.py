@@ -112,6 +112,7 @@ class RobotLibrary:
             float(self.facts(robot_id).get("payload") or 0.0),
             float(facts.get("force", 0.0)),
             float(facts.get("lip_radius", 0.0)),
+            str(self.facts(robot_id).get("tip_link", "")),
         )
 
     def collision_description(self, robot_id: str, end_effector: str | None = None) -> str:

@@ -69,7 +69,7 @@ def _along(state: WorldState, robot: Robot, touch: Touch) -> bool:
     """Return whether a touch of what is held is below it or ahead of the tool."""
     if dot(touch.normal, UP) > ALONG:
         return True
-    tool = state.engine.link(robot.name, robot.arm.tool).pose
+    tool = state.engine.link(robot.name, robot.tool_link).pose
     return dot(touch.normal, rotate(tool.orientation, UP)) < -ALONG
 
 

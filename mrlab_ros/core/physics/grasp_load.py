@@ -33,11 +33,13 @@ ON_A_LINE = 0.35
 @dataclass(frozen=True)
 class Tool:
     """What is stated of a robot's hand. payload: kg of the robot at its flange, 0: not stated;
-    cup_force: N that a vacuum cup holds; lip_radius: m."""
+    cup_force: N that a vacuum cup holds; lip_radius: m; tip: the link of the tool's frame, empty:
+    tool0."""
 
     payload: float = 0.0
     cup_force: float = 0.0
     lip_radius: float = 0.0
+    tip: str = ""
 
 
 @dataclass(frozen=True)

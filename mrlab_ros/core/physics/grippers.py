@@ -232,7 +232,7 @@ class Grippers:
         radius = robot.tool.lip_radius
         if not radius:
             return None, ""
-        tool = self._engine.link(robot.name, robot.arm.tool).pose
+        tool = self._engine.link(robot.name, robot.tool_link).pose
         axis = rotate(tool.orientation, OUT)
         depth = max(dot(subtract(touch.point, tool.position), axis) for touch in touches)
         found = lip(tool, depth, radius)

@@ -127,7 +127,7 @@ class Holding:
         return bears(
             held.grip,
             self._world_state.hand(robot),
-            self._engine.link(robot.name, robot.arm.tool).pose.position,
+            self._engine.link(robot.name, robot.tool_link).pose.position,
             self._engine.object(thing.name),
             acceleration,
             thing.type.mass,

@@ -175,6 +175,11 @@ class Robot:
         return self.holding.in_hand if self.holding is not None else None
 
     @property
+    def tool_link(self) -> str:
+        """The link that is its tool's frame."""
+        return self.tool.tip or self.arm.tool
+
+    @property
     def payload(self) -> float:
         """What it may carry beside its end effector, kg; 0: not stated."""
         return max(self.tool.payload - self.arm.tool_mass, 0.0)

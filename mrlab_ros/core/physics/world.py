@@ -105,7 +105,7 @@ class World:
         robot = self._robots.get(self.object(name).held_by)
         if robot is None or robot.in_hand is None:
             return None
-        tool = self._engine.link(robot.name, robot.arm.tool).pose
+        tool = self._engine.link(robot.name, robot.tool_link).pose
         return compose(relative(tool, self.hand(robot.name).pose), robot.in_hand)
 
     def take_events(self) -> list[Event]:

@@ -130,6 +130,24 @@ class Contact:
 
 
 @dataclass
+class Borne:
+    """The most that the grasps of an object bore: kg, coefficients of friction, N*m."""
+
+    mass: float
+    payload: float
+    friction: float
+    friction_needed: float
+    wrist_moment: float
+
+    @property
+    def label(self) -> str:
+        return (
+            f"{self.mass:.3g} kg, friction {self.friction:.2f}, needed {self.friction_needed:.2f}, "
+            f"{self.wrist_moment:.3g} N*m at the wrist"
+        )
+
+
+@dataclass
 class RobotReport:
     """What one robot did. tracking rad, deadline s, latency s by hop."""
 
@@ -137,6 +155,9 @@ class RobotReport:
     model: str = ""
     states: Changes = field(default_factory=Changes)
     grasps: Changes = field(default_factory=Changes)
+    # What was said of its grasps.
+    remarks: Changes = field(default_factory=Changes)
+    borne: dict[str, Borne] = field(default_factory=dict)
     collisions: list[Contact] = field(default_factory=list)
     # When the arm or the tool touched something, halting or not.
     contacts: list[float] = field(default_factory=list)
@@ -156,6 +177,15 @@ class RobotReport:
             self._begin = len(self._holds)
         self.reported.append(reported)
         self._holds.append(reported.holds_from_ns)
+
+    def bear(self, name: str, grasp: Any) -> None:
+        """Take note of what a grasp of object `name` bears; grasp: a mrlab_msgs/Grasp."""
+        before = self.borne.get(name)
+        needed, wrist = grasp.friction_needed, grasp.wrist_moment
+        if before is not None:
+            needed = max(needed, before.friction_needed)
+            wrist = max(wrist, before.wrist_moment)
+        self.borne[name] = Borne(grasp.mass, grasp.payload, grasp.friction, needed, wrist)
 
     def compare(
         self, time: float, stamp_ns: int, positions: Array, courses: dict[str, ReferenceTrajectory]
@@ -182,6 +212,8 @@ class RobotReport:
             "model": self.model,
             "states": [span.facts() for span in self.states.spans(end)],
             "grasps": [span.facts() for span in self.grasps.spans(end)],
+            "remarks": [span.facts() for span in self.remarks.spans(end)],
+            "borne": {name: vars(borne) for name, borne in self.borne.items()},
             "collisions": [vars(contact) for contact in self.collisions],
             "contacts": len(self.contacts),
             "joint_states": self.joint_states,
@@ -262,9 +294,11 @@ def _course_lines(robot: RobotReport, end: float) -> list[str]:
     ]
     lines += [
         f"  {span.start:8.2f} s  holds {span.detail} for {span.end - span.start:.2f} s"
+        + (f": {robot.borne[span.detail].label}" if span.detail in robot.borne else "")
         for span in robot.grasps.spans(end)
         if span.label == HOLDING
     ]
+    lines += [f"  {span.start:8.2f} s  {span.label}" for span in robot.remarks.spans(end)]
     return sorted(lines, key=lambda line: float(line.split(maxsplit=1)[0]))
 
 

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from types import SimpleNamespace
+
 import numpy as np
 import pytest
 
@@ -91,12 +93,17 @@ def test_the_text_tells_what_happened_in_order():
     robot.collisions.append(Contact(10.0, "wrist_3_link", "table", 412))
     robot.grasps.add(2.0, "HOLDING", "cube_1")
     robot.grasps.add(5.0, "OPEN")
+    for needed in (0.2, 0.5, 0.3):
+        robot.bear("cube_1", SimpleNamespace(mass=1.5, payload=4.0, friction=0.9,
+                                             friction_needed=needed, wrist_moment=2.0))  # fmt: skip
+    robot.remarks.add(4.0, "cube_1 slipped out of the fingers")
     robot.tracking.add(1.0, 0.5)
     lines = report_lines(report)
     assert lines[:2] == ["20.0 s, 1 robot", "x_0.mcap has no index"]
-    assert [line.split("  ")[-1] for line in lines[4:8]] == [
+    assert [line.split("  ")[-1] for line in lines[4:9]] == [
         "PLAYING for 10.00 s: wave",
-        "holds cube_1 for 3.00 s",
+        "holds cube_1 for 3.00 s: 1.5 kg, friction 0.90, needed 0.50, 2 N*m at the wrist",
+        "cube_1 slipped out of the fingers",
         "COLLISION_HALT for 10.00 s",
         "collision: wrist_3_link touched table at frame 412",
     ]

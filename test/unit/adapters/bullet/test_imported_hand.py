@@ -1,0 +1,92 @@
+"""An imported robot with a hand of its own picks a cube: fingers that mimic, 0 is closed."""
+
+from __future__ import annotations
+
+import math
+from pathlib import Path
+
+import pytest
+from physics_cell import ROOT, Cell
+
+from mrlab_ros.adapters.robots import checks
+from mrlab_ros.adapters.robots.importing import import_robot
+from mrlab_ros.adapters.robots.library import RobotLibrary
+from mrlab_ros.core.physics.grasp import Grasp, Gripper
+
+# m: height of the shoulder, length of both arms, from the wrist to the middle of the pads.
+SHOULDER, ARM, GRIP = 0.3, 0.4, 0.13
+
+
+def link(name: str, size: str, at: str) -> str:
+    return f"""<link name="{name}"><inertial><mass value="2"/><inertia ixx="0.01" iyy="0.01"
+      izz="0.01" ixy="0" ixz="0" iyz="0"/></inertial><collision><origin xyz="{at}"/><geometry>
+      <box size="{size}"/></geometry></collision></link>"""
+
+
+def joint(name: str, kind: str, parent: str, child: str, at: str, axis: str, more: str) -> str:
+    return f"""<joint name="{name}" type="{kind}"><parent link="{parent}"/><child link="{child}"/>
+      <origin xyz="{at}"/><axis xyz="{axis}"/>{more}</joint>"""
+
+
+TURN = '<limit lower="-3.1" upper="3.1" velocity="3" effort="90"/>'
+SLIDE = '<limit lower="0" upper="0.04" velocity="0.1" effort="40"/>'
+ROBOT = "".join([
+    '<robot name="own">',
+    link("base", "0.1 0.1 0.1", "0 0 0.05"), link("tower", "0.06 0.06 0.1", "0 0 -0.06"),
+    link("upper", "0.05 0.05 0.3", "0 0 0.2"), link("fore", "0.05 0.05 0.28", "0 0 0.2"),
+    link("palm", "0.04 0.12 0.03", "0 0 0.06"),
+    link("left", "0.02 0.01 0.06", "0 0.005 0.03"),
+    link("right", "0.02 0.01 0.06", "0 -0.005 0.03"),
+    joint("turn", "revolute", "base", "tower", f"0 0 {SHOULDER}", "0 0 1", TURN),
+    joint("shoulder", "revolute", "tower", "upper", "0 0 0", "0 1 0", TURN),
+    joint("elbow", "revolute", "upper", "fore", f"0 0 {ARM}", "0 1 0", TURN),
+    joint("wrist", "revolute", "fore", "palm", f"0 0 {ARM}", "0 1 0", TURN),
+    joint("finger_1", "prismatic", "palm", "left", "0 0 0.09", "0 1 0", SLIDE),
+    joint("finger_2", "prismatic", "palm", "right", "0 0 0.09", "0 -1 0",
+          SLIDE + '<mimic joint="finger_1" multiplier="1" offset="0"/>'),
+    "</robot>",
+])  # fmt: skip
+
+
+def reach(x: float, y: float, z: float) -> tuple[float, ...]:
+    """Return the joints that hold the pads at a place, pointing down."""
+    across, up = math.hypot(x, y), z + GRIP - SHOULDER
+    bend = math.acos((across**2 + up**2 - 2 * ARM**2) / (2 * ARM**2))
+    lift = math.atan2(across, up) - math.atan2(
+        ARM * math.sin(bend), ARM + ARM * math.cos(bend)
+    )
+    return (math.atan2(y, x), lift, bend, math.pi - lift - bend)
+
+
+def test_an_imported_hand_picks_a_cube_and_sets_it_down(tmp_path: Path):
+    source = tmp_path / "own.urdf"
+    source.write_text(ROBOT)
+    library = RobotLibrary(ROOT / "robots", tmp_path / "imported")
+    found = import_robot(source, "own", library, {}).findings
+    assert checks.errors(found) == ()
+    assert library.hand("own") == {"finger_1", "finger_2"}
+    model = library.model("own")
+    cell = Cell(library)
+    cube = cell.put("cube", (0.5, 0.0, 0.025))
+    tool = library.hand_facts("own", "")
+    above = reach(0.5, 0.0, 0.15)
+    cell.join("a", library.description("own"), model.joint_names, above, Gripper.FINGERS, tool)
+    cell.wait(0.1)
+    for position in cell.world.fingers("a").values():
+        assert abs(position) == pytest.approx(0.04, abs=1e-4), "it begins open"
+    cell.go("a", reach(0.5, 0.0, 0.025), 0.5)
+    cell.close("a", 0.8)
+    cell.go("a", above, 0.5)
+    assert cell.grasps("a") == [Grasp.OPEN, Grasp.CLOSING, Grasp.HOLDING]
+    assert cell.place(cube)[2] > 0.13
+    # One finger follows the other, and each is where the cube's side is.
+    one, two = cell.world.fingers("a").values()
+    assert one == pytest.approx(two, abs=1e-6)
+    assert cell.world.robot("a").holding.load.payload == 0.0
+    cell.go("a", reach(0.4, 0.3, 0.15), 0.6)
+    cell.go("a", reach(0.4, 0.3, 0.026), 0.5)
+    cell.open("a", 0.4)
+    cell.go("a", reach(0.4, 0.3, 0.15), 0.5)
+    assert not cell.hits()
+    assert cell.place(cube) == pytest.approx((0.4, 0.3, 0.025), abs=0.004)
+    cell.engine.close()
