@@ -252,6 +252,18 @@ def drift(rows: list[dict[str, Any]]) -> list[dict[str, Any]]:
     return found
 
 
+def oracle() -> list[dict[str, Any]]:
+    """Replay the tests' motions in this engine and in MuJoCo; return how far apart objects are."""
+    sys.path.insert(0, str(Path(__file__).parents[1] / "test"))
+    from physics_oracle import gaps, replays
+
+    rows = []
+    for name in replays():
+        gap = 1e3 * gaps(name)
+        rows.append({"replay": name, "most mm": float(gap.max()), "end mm": float(gap[-1])})
+    return rows
+
+
 def in_process(*arguments: str) -> Any:
     """Run a part of this benchmark in a process of its own; return what it found."""
     command = [sys.executable, __file__, *arguments]
@@ -270,6 +282,7 @@ def main() -> None:
     parser = report.options(__doc__)
     parser.add_argument("--soak", type=float, metavar="MINUTES", help="only soak, so long")
     parser.add_argument("--case", help=argparse.SUPPRESS)
+    parser.add_argument("--oracle", action="store_true", help=argparse.SUPPRESS)
     parser.add_argument("--load", type=float, help=argparse.SUPPRESS)
     parser.add_argument("--halt", type=int, help=argparse.SUPPRESS)
     options = parser.parse_args()
@@ -277,6 +290,8 @@ def main() -> None:
     kinds = (KINDS * 4)[:32]
     if options.case:
         answer(measured(*json.loads(options.case)))
+    if options.oracle:
+        answer(oracle())
     if options.load or options.halt:
         import physics_node
 
@@ -298,6 +313,7 @@ def main() -> None:
     )
     rows = [in_process("--case", json.dumps(case)) for case in cases]
     report.show("Physics steps", rows, options.json)
+    report.show("Physics beside MuJoCo", in_process("--oracle"), options.json)
     rows = in_process("--load", str(5.0 if options.quick else 30.0))
     report.show("Physics node", rows, options.json)
     latencies = report.percentiles(in_process("--halt", str(6 if options.quick else 50)))

@@ -139,7 +139,7 @@ class _Reader:
         reason = str(getattr(grasp, "reason", ""))
         if reason:
             robot.remarks.add(time, reason)
-        if label == HOLDING and getattr(grasp, "friction_needed", 0.0):
+        if label == HOLDING and getattr(grasp, "friction_needed", None):
             robot.bear(grasp.object, grasp)
 
     def _robots(self, time: float, robots: Any) -> None:

@@ -282,9 +282,7 @@ class Arms:
         del self._arms[name]
         self._let_collide(arm, collide=False)
         place = (0.0, 0.0, PARKED_AT * (1 + len(self._parked)))
-        self._call(
-            pybullet.resetBasePositionAndOrientation, arm.body, place, (0.0, 0.0, 0.0, 1.0)
-        )
+        self._call(pybullet.resetBasePositionAndOrientation, arm.body, place, (0.0, 0.0, 0.0, 1.0))
         self._pose(arm, [0.0] * len(arm.joints))
         self._parked.append(arm)
         if len(self._parked) > MOST_PARKED:

@@ -142,8 +142,8 @@ class Borne:
     @property
     def label(self) -> str:
         return (
-            f"{self.mass:.3g} kg, friction {self.friction:.2f}, needed {self.friction_needed:.2f}, "
-            f"{self.wrist_moment:.3g} N*m at the wrist"
+            f"{self.mass:.3g} kg, friction {self.friction:.2f}, "
+            f"needed {self.friction_needed:.2f}, {self.wrist_moment:.3g} N*m at the wrist"
         )
 
 

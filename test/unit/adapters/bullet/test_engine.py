@@ -3,10 +3,13 @@
 from __future__ import annotations
 
 import hashlib
+import re
+import sys
 from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
+import pybullet
 import pytest
 
 from mrlab_ros.adapters.bullet.engine import BulletEngine
@@ -317,3 +320,39 @@ def test_input_that_would_end_bullet_is_refused_before(engine):
         with pytest.raises((BadInput, Misuse)):
             case()
     engine.step(STEP)
+
+
+def test_a_robot_that_comes_again_is_the_body_that_was_put_aside(world, engine):
+    """Bullet keeps the shapes of a removed body: 60 spawns would take 50 MB."""
+    world.spawn("cube", pose=Pose((0.9, 0.3, 0.5)))
+    seen = set()
+    for k in range(12):
+        world.add_robot("a", beam(), ("j",), Pose((0.0, 0.0, 0.1 * (k % 2))), Gripper.NONE)
+        seen.add(engine._arms["a"].body)
+        drive(world, "a", np.zeros((3, 1)), start_ns=k * SECOND)
+        world.remove_robot("a")
+    assert len(seen) == 1
+    world.advance(13 * SECOND)
+    # What is put aside touches nothing, and what is back does.
+    height = world.motion("cube_1").pose.position[2]
+    assert height == pytest.approx(0.025, abs=0.002)
+    world.move("cube_1", Pose((0.9, 0.1, 0.5)), (0, 0, 0), (0, 0, 0), held=True)
+    world.add_robot("a", beam(), ("j",), Pose(), Gripper.NONE)
+    events = drive(world, "a", np.arange(30)[:, None] * 0.01, start_ns=14 * SECOND)
+    assert collisions(events)[0].contact.touch.other == "cube_1"
+
+
+@pytest.mark.parametrize("robot", LIBRARY.ids())
+def test_plain_bullet_has_nothing_to_say_of_a_shipped_description(robot, capfd, tmp_path):
+    """Frames without a body state a mass too: an engine takes 1 kg for one that states none."""
+    text = LIBRARY.own_description(robot).replace("package://mrlab_ros", str(ROOT))
+    path = tmp_path / "robot.urdf"
+    # Bullet reads no .glb.
+    path.write_text(re.sub(r"<visual>.*?</visual>", "", text, flags=re.S))
+    client = pybullet.connect(pybullet.DIRECT)
+    capfd.readouterr()
+    pybullet.loadURDF(str(path), useFixedBase=True, physicsClientId=client)
+    sys.stdout.flush()
+    said = capfd.readouterr()
+    pybullet.disconnect(client)
+    assert said.out + said.err == ""

@@ -2,110 +2,11 @@
 
 from __future__ import annotations
 
-from pathlib import Path
-
 import numpy as np
 import pytest
-from scipy.io import loadmat
+from physics_stage import HANDOVER, SCENES, Stage
 
-from mrlab_ros.adapters.bullet.engine import BulletEngine
-from mrlab_ros.adapters.robots.library import RobotLibrary
-from mrlab_ros.adapters.scenes.files import SceneFiles
-from mrlab_ros.adapters.yaml_files import read_yaml
-from mrlab_ros.core.clock import SECOND, PlaybackClock
-from mrlab_ros.core.physics import catalogue
-from mrlab_ros.core.physics.events import CollisionChanged, GraspChanged
-from mrlab_ros.core.physics.grasp import Grasp, Gripper
-from mrlab_ros.core.physics.settings import Settings
-from mrlab_ros.core.physics.simulated_robot import GripperProgram, Playing
-from mrlab_ros.core.physics.world import World
-from mrlab_ros.core.playback.states import State
-
-ROOT = Path(__file__).parents[4]
-LIBRARY = RobotLibrary(ROOT / "robots")
-TYPES = catalogue.parse(read_yaml(ROOT / "config" / "objects.yaml"))
-SCENES = SceneFiles(ROOT / "config" / "scenes", ROOT / "no saved ones")
-RATE = 100
-FRAME_NS = SECOND // RATE
-
-
-class Stage:
-    """A shipped scene whose robots play the columns of the shipped workspace files."""
-
-    def __init__(self, scene: str, files: dict[str, str] | None = None) -> None:
-        self.engine = BulletEngine(LIBRARY.mesh_path)
-        self.world = World(self.engine, TYPES, Settings())
-        document = SCENES.load(scene)
-        self.motions = {}
-        for robot in document.robots:
-            model = LIBRARY.model(robot.model)
-            self.world.add_robot(
-                robot.name,
-                LIBRARY.description(robot.model, robot.end_effector),
-                model.joint_names,
-                robot.pose,
-                Gripper.FINGERS,
-                LIBRARY.never_touch(robot.model),
-            )
-            if files is None:
-                self.motions[robot.name] = model.home[None, :]
-                continue
-            q = loadmat(ROOT / "examples" / f"{files[robot.name]}.mat")["q"]
-            closed = q[:, 6] > 0.5
-            frames = [0, *(np.flatnonzero(np.diff(q[:, 6])) + 1)]
-            program = GripperProgram(
-                tuple(f / RATE for f in frames), tuple(bool(closed[f]) for f in frames)
-            )
-            self.world.set_program(robot.name, program)
-            self.motions[robot.name] = q[:, :6]
-        for thing in document.objects:
-            self.world.spawn(thing.type, thing.name, thing.pose, automatic=thing.automatic)
-        self.frame = 0
-        self.now_ns = 0
-        self.events = []
-
-    def _tell(self, state: State, frame: int) -> None:
-        for name, q in self.motions.items():
-            clock = PlaybackClock(self.now_ns, frame / RATE, float(state is State.PLAYING))
-            count = len(q)
-            playing = Playing(state, "t", clock, frame, count, RATE, (count - 1) / RATE)
-            self.world.playback(name, playing)
-
-    def _send(self, frame: int, *, moving: bool) -> None:
-        for name, q in self.motions.items():
-            last = len(q) - 1
-            v = (q[min(frame + 1, last)] - q[max(frame - 1, 0)]) * RATE / 2 * moving
-            self.world.joint_state(name, self.now_ns, q[min(frame, last)], v)
-        self.world.advance(self.now_ns)
-        self.events += self.world.take_events()
-
-    def play(self, until: float) -> None:
-        """Play on to a place on the timeline, s."""
-        self._tell(State.PLAYING, self.frame)
-        while self.frame < round(until * RATE):
-            self.frame += 1
-            self.now_ns += FRAME_NS
-            self._send(self.frame, moving=True)
-
-    def stand(self, seconds: float = 0.3) -> None:
-        self._tell(State.PAUSED, self.frame)
-        for _ in range(round(seconds * RATE)):
-            self.now_ns += FRAME_NS
-            self._send(self.frame, moving=False)
-
-    def seek(self, position: float) -> None:
-        self.frame = round(position * RATE)
-        self.now_ns += FRAME_NS
-        self.stand()
-
-    def place(self, name: str) -> np.ndarray:
-        return np.array(self.world.motion(name).pose.position)
-
-    def grasps(self, robot: str) -> list[Grasp]:
-        return [e.state for e in self.events if isinstance(e, GraspChanged) and e.robot == robot]
-
-    def hits(self) -> list[CollisionChanged]:
-        return [e for e in self.events if isinstance(e, CollisionChanged)]
+from mrlab_ros.core.physics.grasp import Grasp
 
 
 @pytest.fixture
@@ -175,12 +76,6 @@ def test_scrubbing_a_run_puts_the_cube_back_where_it_was(stages):
     assert stage.world.object("cube_1").held_by == ""
     assert np.abs(stage.place("cube_1") - end).max() < 0.005
     assert not stage.hits()
-
-
-HANDOVER = {
-    "ur5e_1": "two_robot_handover_ur5e",
-    "kuka_kr6_r900_sixx_1": "two_robot_handover_kr6",
-}
 
 
 @pytest.mark.slow

@@ -52,9 +52,7 @@ def reach(x: float, y: float, z: float) -> tuple[float, ...]:
     """Return the joints that hold the pads at a place, pointing down."""
     across, up = math.hypot(x, y), z + GRIP - SHOULDER
     bend = math.acos((across**2 + up**2 - 2 * ARM**2) / (2 * ARM**2))
-    lift = math.atan2(across, up) - math.atan2(
-        ARM * math.sin(bend), ARM + ARM * math.cos(bend)
-    )
+    lift = math.atan2(across, up) - math.atan2(ARM * math.sin(bend), ARM + ARM * math.cos(bend))
     return (math.atan2(y, x), lift, bend, math.pi - lift - bend)
 
 

@@ -94,8 +94,10 @@ def test_the_text_tells_what_happened_in_order():
     robot.grasps.add(2.0, "HOLDING", "cube_1")
     robot.grasps.add(5.0, "OPEN")
     for needed in (0.2, 0.5, 0.3):
-        robot.bear("cube_1", SimpleNamespace(mass=1.5, payload=4.0, friction=0.9,
-                                             friction_needed=needed, wrist_moment=2.0))  # fmt: skip
+        grasp = SimpleNamespace(
+            mass=1.5, payload=4.0, friction=0.9, friction_needed=needed, wrist_moment=2.0
+        )
+        robot.bear("cube_1", grasp)
     robot.remarks.add(4.0, "cube_1 slipped out of the fingers")
     robot.tracking.add(1.0, 0.5)
     lines = report_lines(report)
