@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 import importlib
+import os
 import signal
 import sys
 import traceback
 from collections.abc import Sequence
+from types import FrameType
 from typing import Annotated
 
 import typer
@@ -129,6 +131,7 @@ def main() -> None:
     # In the background of a script SIGINT is ignored at first, and SIGTERM would tidy nothing.
     for number in (signal.SIGINT, signal.SIGTERM):
         signal.signal(number, signal.default_int_handler)
+    signal.signal(signal.SIGHUP, hang_up)
     try:
         make_app(sys.argv[1:])(prog_name="mrlab")
     except LabError as error:
@@ -137,6 +140,14 @@ def main() -> None:
         sys.exit(130)
     except Exception as error:
         fail(f"{type(error).__name__}: {error}; mrlab --debug ... shows where")
+
+
+def hang_up(number: int, frame: FrameType | None) -> None:
+    """End as at Ctrl-C where the terminal was closed; nothing can be written to it any more."""
+    nowhere = os.open(os.devnull, os.O_RDWR)
+    for descriptor in range(3):
+        os.dup2(nowhere, descriptor)
+    signal.default_int_handler(number, frame)
 
 
 def fail(sentence: str) -> None:

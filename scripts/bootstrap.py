@@ -35,6 +35,10 @@ PROBE = (
 )
 
 
+# How often a long step says that it still runs, s.
+PROGRESS_S = 15
+
+
 class SetupError(Exception):
     """A prerequisite is missing or a step failed; the text holds the remedy."""
 
@@ -107,7 +111,14 @@ def run(command, **kwargs):
     """Run a command quietly; show what it printed only when it fails."""
     log = STAMPS / "last-command.log"
     with log.open("wb") as out:
-        code = subprocess.run(command, stdout=out, stderr=subprocess.STDOUT, **kwargs).returncode
+        begin = time.monotonic()
+        process = subprocess.Popen(command, stdout=out, stderr=subprocess.STDOUT, **kwargs)
+        try:
+            code = wait(process, begin)
+        except BaseException:
+            process.terminate()
+            process.wait()
+            raise
     if code:
         tail = "\n".join(log.read_text(errors="replace").splitlines()[-30:])
         raise SetupError(
@@ -116,6 +127,15 @@ def run(command, **kwargs):
                 code, " ".join(map(str, command)), tail, log
             )
         )
+
+
+def wait(process, begin):
+    """Return the exit code of a step's command; say every 15 s that it still runs."""
+    while True:
+        try:
+            return process.wait(timeout=PROGRESS_S)
+        except subprocess.TimeoutExpired:
+            say("  ... {:.0f} s".format(time.monotonic() - begin))
 
 
 class Setup:
@@ -202,7 +222,13 @@ class Setup:
         ]
 
     def make_venv(self):
+        say("  needs 1.4 GB in this folder, and the network")
         shutil.rmtree(str(VENV), ignore_errors=True)
+        # What was built names its place: a clone that was moved builds everything again.
+        shutil.rmtree(str(INSTALL), ignore_errors=True)
+        for built in ROOT.joinpath("build").iterdir():
+            if built.is_dir():
+                shutil.rmtree(str(built), ignore_errors=True)
         STAMPS.mkdir(parents=True)
         run([self.python["executable"], "-m", "venv", str(VENV)])
         # colcon looks for packages below the workspace; the venv holds none of ours.

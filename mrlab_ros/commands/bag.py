@@ -36,21 +36,28 @@ def path_of(bag: str) -> Path:
 def info(bag: BagArgument, as_json: AsJson = False) -> None:
     """Show topics, counts, length and attachments of a bag."""
     from mrlab_ros.adapters.bags.reader import Bag
+    from mrlab_ros.adapters.bags.repair import refresh_metadata
 
     found = Bag(path_of(bag))
+    anew = refresh_metadata(found.path)
     if as_json:
         sys.stdout.write(json.dumps(_facts(found), indent=2) + "\n")
         return
     _print(found)
+    if anew:
+        print("metadata.yaml was behind the files, and is written anew")
 
 
 @app.command()
-def repair(bag: BagArgument) -> None:
+def repair(bag: BagArgument, as_json: AsJson = False) -> None:
     """Rewrite damaged files and metadata.yaml; the originals are kept beside them."""
     from mrlab_ros.adapters.bags.repair import KEPT
     from mrlab_ros.adapters.bags.repair import repair as mend
 
     done = mend(path_of(bag))
+    if as_json:
+        print(json.dumps(asdict(done)))
+        return
     for trouble in done.troubles:
         print(trouble)
     if not done.files:
@@ -123,6 +130,13 @@ def _began(bag: Bag) -> str:
     return datetime.fromtimestamp(bag.start_ns / 1e9).strftime("%Y-%m-%d %H:%M:%S")
 
 
+def is_live(bag: Bag) -> bool:
+    """Return whether a recorder that lives writes into the bag."""
+    from mrlab_ros.adapters.bags.writer import is_being_written
+
+    return any(is_being_written(file.path) for file in bag.files)
+
+
 def _facts(bag: Bag) -> dict[str, Any]:
     return {
         "path": str(bag.path),
@@ -131,7 +145,8 @@ def _facts(bag: Bag) -> dict[str, Any]:
         "messages": bag.message_count,
         "bytes": bag.size,
         "files": [file.path.name for file in bag.files],
-        "troubles": bag.troubles,
+        "live": is_live(bag),
+        "troubles": [] if is_live(bag) else bag.troubles,
         "gaps": [asdict(gap) for gap in bag.gaps()],
         "versions": bag.versions(),
         "topics": [
@@ -159,7 +174,9 @@ def _print(bag: Bag) -> None:
         f"{bag.size / 1e6:.1f} MB in {len(bag.files)} file{'s' * (len(bag.files) != 1)}",
         soft_wrap=True,
     )
-    for trouble in bag.troubles:
+    if is_live(bag):
+        console.print("it is being recorded; mrlab record --stop ends that", soft_wrap=True)
+    for trouble in [] if is_live(bag) else bag.troubles:
         console.print(f"{trouble}; mrlab bag repair mends it", soft_wrap=True)
     for gap in bag.gaps():
         console.print(gap.describe(bag.start_ns), soft_wrap=True)

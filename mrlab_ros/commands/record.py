@@ -17,6 +17,8 @@ if TYPE_CHECKING:
 REFRESH = 0.25
 # A working recorder publishes its state once a second; without one for this long it has gone, s.
 SILENCE = 5.0
+# A bag of hours is closed by then, s.
+STOP_TIMEOUT_S = 30.0
 
 
 def record(
@@ -147,9 +149,10 @@ def _line(state: Any, before: Any) -> str:
 
 
 def _stop(graph: GraphClient) -> str:
+    """End the recording; raise LabError where the recorder does not answer."""
     from std_srvs.srv import Trigger
 
-    answer = graph.order(Trigger, "/recorder/stop", Trigger.Request(), timeout=30.0)
+    answer = graph.order(Trigger, "/recorder/stop", Trigger.Request(), timeout=STOP_TIMEOUT_S)
     return str(answer.message)
 
 

@@ -173,6 +173,8 @@ def test_the_verbs_say_what_they_did(lab: None) -> None:
 def test_a_recording_is_ended_from_another_terminal(lab: None, tmp_path: Path) -> None:
     with Lab() as lab_:
         recording = lab_.record(tmp_path / "class.bag")
+        assert "it is being recorded" in ok("bag", "info", str(recording.bag))
+        assert "mrlab record --stop" in said("bag", "repair", str(recording.bag))[1]
         assert json.loads(ok("record", "--stop", "--json"))["bag"] == str(recording.bag)
         assert "nothing is recorded" in said("record", "--stop")[1]
         with lab_.record(tmp_path / "second.bag") as recording:

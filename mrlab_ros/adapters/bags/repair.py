@@ -10,8 +10,8 @@ from mcap.writer import CompressionType, Writer
 
 from mrlab_ros.adapters.bags.mcap_file import DAMAGE, BagFile, open_file
 from mrlab_ros.adapters.bags.reader import METADATA, Bag, mcap_files_in
-from mrlab_ros.adapters.bags.writer import CHUNK_SIZE, RESERVE, metadata_text
-from mrlab_ros.core.errors import BadInput
+from mrlab_ros.adapters.bags.writer import CHUNK_SIZE, RESERVE, is_being_written, metadata_text
+from mrlab_ros.core.errors import BadInput, Misuse
 from mrlab_ros.core.recording.metadata import ROOT
 
 KEPT = ".original"
@@ -38,6 +38,11 @@ def repair(folder: Path) -> Repaired:
     paths = mcap_files_in(folder)
     if not paths:
         raise BadInput(f"{folder} is no bag: it holds no MCAP file; name the folder of a bag")
+    if any(map(is_being_written, paths)):
+        raise Misuse(
+            f"the bag {folder} is being recorded and needs no repair; end the recording first: "
+            "mrlab record --stop"
+        )
     files = list(map(open_file, paths))
     damages = {file.path: damage for file in files if (damage := _damage(file))}
     metadata = folder / METADATA
@@ -67,6 +72,26 @@ def repair(folder: Path) -> Repaired:
             path.with_suffix(NEW).unlink(missing_ok=True)
     names = [path.name for path in damages] + [METADATA] * stale
     return Repaired(names, list(damages.values()), bag.message_count)
+
+
+def refresh_metadata(folder: Path) -> bool:
+    """Write metadata.yaml anew where it is behind its files and nobody records; return that.
+
+    The files stay as they are. Where the folder cannot be written, nothing is done.
+    """
+    paths = mcap_files_in(folder) if folder.is_dir() else []
+    if not paths or any(map(is_being_written, paths)):
+        return False
+    bag = Bag(folder, paths)
+    if _agrees(folder / METADATA, bag):
+        return False
+    new = folder / f"{METADATA}.new"
+    try:
+        new.write_text(metadata_text(bag.facts()))
+        new.replace(folder / METADATA)
+    except OSError:
+        return False
+    return True
 
 
 def _damage(file: BagFile) -> str:

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import contextlib
 import errno
+import fcntl
 import os
 import struct
 from collections.abc import Callable
@@ -38,6 +39,18 @@ RESERVE_SIZE = 8 << 20
 FULL = (errno.ENOSPC, errno.EDQUOT)
 
 
+def is_being_written(path: Path) -> bool:
+    """Return whether a writer that lives has a bag's file open."""
+    try:
+        with open(path, "rb") as file:
+            fcntl.flock(file, fcntl.LOCK_SH | fcntl.LOCK_NB)
+    except BlockingIOError:
+        return True
+    except OSError:
+        return False
+    return False
+
+
 class DiskTrouble(LabError):
     """The bag cannot be written any more; what is in it stays readable."""
 
@@ -52,7 +65,11 @@ class WholeFile:
     def __init__(self, path: Path, pwrite: Callable[[int, Any, int], int] = os.pwrite) -> None:
         self._pwrite = pwrite
         flags = os.O_WRONLY | os.O_CREAT | os.O_EXCL | os.O_CLOEXEC
+        self._path = path
         self._descriptor: int | None = os.open(path, flags, 0o644)
+        with contextlib.suppress(OSError):  # some file systems have no locks
+            # The kernel releases it with the writer: so a live bag is told from a killed one.
+            fcntl.flock(self._descriptor, fcntl.LOCK_EX | fcntl.LOCK_NB)
         self._end = 0
         self._waiting = bytearray()
 
@@ -68,6 +85,16 @@ class WholeFile:
             self._put(bytes(self._waiting) + TAIL)
             self._end += len(self._waiting)
             self._waiting.clear()
+
+    def is_in_place(self) -> bool:
+        """Return whether the file is still where it was made."""
+        if self._descriptor is None:
+            return True
+        try:
+            there = os.stat(self._path)
+        except OSError:
+            return False
+        return os.path.samestat(there, os.fstat(self._descriptor))
 
     def complete(self) -> None:
         """Add what waits as the file's end: it holds footer and magic itself."""
@@ -121,6 +148,7 @@ class BagWriter:
         self._topics = {topic.name: topic for topic in self.facts.topics}
         self._channels: dict[str, int] = {}
         self._earlier_bytes = 0
+        self._reserve: int | None = None
         self._last_ns = self.facts.end_ns
         try:
             folder.mkdir(parents=True, exist_ok=after is not None)
@@ -192,6 +220,11 @@ class BagWriter:
             self._writer.flush()
         except OSError as error:
             raise self._trouble(error) from None
+        if not self._file.is_in_place():
+            raise DiskTrouble(
+                f"the bag {self.folder} was renamed or removed while it was recorded; what was "
+                "recorded is whole where it is now; start a new recording"
+            )
 
     def write_metadata(self) -> None:
         """Write metadata.yaml as things are; a reader sees all of it or the one before."""
@@ -223,17 +256,22 @@ class BagWriter:
             self._file.close()
 
     def _keep_reserve(self) -> None:
-        with open(self.folder / RESERVE, "wb") as reserve:
-            try:
-                os.posix_fallocate(reserve.fileno(), 0, RESERVE_SIZE)
-            except OSError as error:
-                if error.errno in FULL:
-                    raise
-                # Some file systems cannot keep space for a file; there the bag has no reserve.
+        path = self.folder / RESERVE
+        path.unlink(missing_ok=True)
+        self._reserve = os.open(path, os.O_RDWR | os.O_CREAT | os.O_EXCL | os.O_CLOEXEC, 0o600)
+        # Without a name its space is free again when this process ends, however it does.
+        path.unlink()
+        try:
+            os.posix_fallocate(self._reserve, 0, RESERVE_SIZE)
+        except OSError as error:
+            if error.errno in FULL:
+                raise
+            # Some file systems cannot keep space for a file; there the bag has no reserve.
 
     def _give_up_reserve(self) -> None:
-        with contextlib.suppress(OSError):
-            (self.folder / RESERVE).unlink()
+        if self._reserve is not None:
+            os.close(self._reserve)
+            self._reserve = None
 
     def _begin_part(self) -> None:
         name = f"{self.folder.name}_{len(self.facts.parts)}.mcap"

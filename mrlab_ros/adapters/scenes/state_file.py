@@ -17,6 +17,8 @@ from mrlab_ros.core.scene.document import SceneDocument
 FULL = (errno.ENOSPC, errno.EDQUOT)
 # What one change may add to a state file, bytes.
 ROOM = 65_536
+# The lab's own, with its robots and systems.
+SCENE_FILE = "scene.json"
 
 
 class StateFile:

@@ -14,6 +14,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
+from mrlab_ros.adapters.scenes.state_file import SCENE_FILE
 from mrlab_ros.adapters.store.objects import open_store
 from mrlab_ros.commands.up.keys import (
     checked_listen,
@@ -225,6 +226,12 @@ def up(
         try:
             with Supervisor(specs, say, changed) as supervisor:
                 say(SELF, f"starts the lab on ROS domain {domain}; Ctrl-C stops it")
+                if models and (folder / SCENE_FILE).exists():
+                    say(
+                        SELF,
+                        f"--state-dir {folder} holds a scene, which is brought back; "
+                        "--robots is for an empty one",
+                    )
                 if listen is not None and insecure:
                     say(SELF, f"--insecure: whoever reaches {listen} sees and moves everything")
                 if keys is not None and bridge:

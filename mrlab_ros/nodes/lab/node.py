@@ -15,7 +15,7 @@ from std_msgs.msg import String
 
 from mrlab_ros.adapters.robots.library import RobotLibrary
 from mrlab_ros.adapters.scenes.files import SceneFiles
-from mrlab_ros.adapters.scenes.state_file import StateFile
+from mrlab_ros.adapters.scenes.state_file import SCENE_FILE, StateFile
 from mrlab_ros.core.errors import LabError
 from mrlab_ros.core.geometry import Pose
 from mrlab_ros.core.identity import Identity
@@ -43,7 +43,6 @@ try:  # not among the ROS wheels; where it is missing, a client places robots by
 except ImportError:
     TFMessage = None
 
-FILE = "scene.json"
 # What robots have loaded and where they stand is written this often where it changed, s.
 SAVE_PERIOD_S = 2.0
 
@@ -66,7 +65,7 @@ class LabNode(ParameterNode[LabParameters]):
         )
         state_dir = self.parameters.state_dir
         log = self.get_logger()
-        file = Path(state_dir) / FILE if state_dir else None
+        file = Path(state_dir) / SCENE_FILE if state_dir else None
         self._file = StateFile(file, log.error, whole=True)
         # What could not be brought back, a sentence each.
         self.lost: list[str] = []

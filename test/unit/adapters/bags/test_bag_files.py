@@ -16,9 +16,15 @@ from mcap.writer import Writer
 from rosbags.highlevel import AnyReader
 
 from mrlab_ros.adapters.bags.reader import Bag
-from mrlab_ros.adapters.bags.repair import repair
-from mrlab_ros.adapters.bags.writer import RESERVE_SIZE, BagWriter, DiskTrouble, WholeFile
-from mrlab_ros.core.errors import BadInput
+from mrlab_ros.adapters.bags.repair import refresh_metadata, repair
+from mrlab_ros.adapters.bags.writer import (
+    RESERVE_SIZE,
+    BagWriter,
+    DiskTrouble,
+    WholeFile,
+    is_being_written,
+)
+from mrlab_ros.core.errors import BadInput, Misuse
 from mrlab_ros.core.recording.metadata import QosProfile, Topic
 
 MAGIC = b"\x89MCAP0\r\n"
@@ -186,6 +192,7 @@ def test_a_repair_brings_index_and_metadata_and_keeps_the_originals(tmp_path):
     writer.note("mrlab", {"mrlab_ros": "1"})
     messages = fill(writer, 300)
     writer.flush()
+    writer._file.close()  # as the kernel does for a killed process
     original = (folder / "class_0.mcap").read_bytes()
     done = repair(folder)
     assert (done.files, done.messages) == (["class_0.mcap", "metadata.yaml"], 300)
@@ -222,6 +229,7 @@ def test_a_repair_that_fails_leaves_the_bag_as_it_was(tmp_path, monkeypatch):
     messages = fill(writer, 20)
     writer.write_metadata()
     writer.flush()
+    writer._file.close()
     before = {path.name: path.read_bytes() for path in folder.iterdir()}
 
     def refuse(*_: Any) -> None:
@@ -391,7 +399,7 @@ def test_the_reserve_lets_a_bag_end_well_on_a_full_disk(tmp_path):
     writer = begin(folder, open_file=lambda path: WholeFile(path, disk))
     flushed, unflushed = fill_disk(writer)
     messages = flushed + unflushed
-    assert (folder / ".reserve").stat().st_size == RESERVE_SIZE
+    assert os.fstat(writer._reserve).st_size == RESERVE_SIZE
     disk.room += RESERVE_SIZE
     writer.close()
     assert Bag(folder).troubles == []
@@ -437,3 +445,44 @@ def test_folders_that_cannot_be_made_are_named(tmp_path):
     (tmp_path / "file").write_text("")
     with pytest.raises(BadInput, match="cannot be made"):
         begin(tmp_path / "file" / "bag")
+
+
+def test_a_bag_that_is_recorded_is_known_and_not_mended(tmp_path):
+    folder = tmp_path / "class"
+    writer = begin(folder)
+    messages = fill(writer, 100)
+    writer.flush()
+    assert is_being_written(folder / "class_0.mcap")
+    with pytest.raises(Misuse, match="mrlab record --stop"):
+        repair(folder)
+    assert not refresh_metadata(folder)
+    writer.close()
+    assert not is_being_written(folder / "class_0.mcap")
+    assert read(folder) == messages
+    assert repair(folder).files == []
+
+
+def test_metadata_of_a_killed_bag_is_right_after_it_was_looked_at(tmp_path):
+    folder = tmp_path / "class"
+    writer = begin(folder)
+    writer.write_metadata()
+    messages = fill(writer, 100)
+    writer.flush()
+    writer._file.close()  # as the kernel does for a killed process
+    assert sorted(path.name for path in folder.iterdir()) == ["class_0.mcap", "metadata.yaml"]
+    assert refresh_metadata(folder)
+    facts = yaml.safe_load((folder / "metadata.yaml").read_text())
+    assert facts["rosbag2_bagfile_information"]["message_count"] == len(messages)
+    assert not refresh_metadata(folder)
+
+
+def test_a_renamed_folder_ends_the_recording_at_once_and_the_bag_is_whole(tmp_path):
+    folder = tmp_path / "class"
+    writer = begin(folder)
+    messages = fill(writer, 100)
+    folder.rename(tmp_path / "moved")
+    with pytest.raises(DiskTrouble, match="renamed or removed"):
+        writer.flush()
+    with pytest.raises(DiskTrouble):
+        writer.close()
+    assert read(tmp_path / "moved") == messages
