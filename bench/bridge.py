@@ -32,6 +32,8 @@ DOMAIN = os.environ.get("ROS_DOMAIN_ID", "143")
 PROCESSES = Path(__file__).parent / "bridge_processes"
 # Subscribers that one process holds.
 SESSIONS = 10
+# Messages a second of a guest who floods a key.
+FLOOD = 17_000
 RSS_PERIOD = 5.0
 
 
@@ -204,9 +206,17 @@ def listening(port: int) -> bool:
 
 
 def bridged(
-    robots: int, rate: float, seconds: float, subscribers: int = 1, rss: list[float] | None = None
+    robots: int,
+    rate: float,
+    seconds: float,
+    subscribers: int = 1,
+    rss: list[float] | None = None,
+    flood: int = 0,
 ) -> dict[str, Any]:
-    """Measure the whole way; `rss` collects the bridge's memory, MB, meanwhile."""
+    """Measure the whole way; `rss` collects the bridge's memory, MB, meanwhile.
+
+    flood: messages a second that a guest sends all the time on a key that comes in.
+    """
     with bridge() as carried:
         counts = [SESSIONS] * (subscribers // SESSIONS)
         counts += [subscribers % SESSIONS] if subscribers % SESSIONS else []
@@ -215,7 +225,8 @@ def bridged(
             Process("subscriber", "--zenoh", carried.endpoint, "--sessions", count)
             for count in counts
         ]
-        with processes(source, *receivers):
+        guests = [Process("flood", carried.endpoint, flood)] if flood else []
+        with processes(source, *receivers, *guests):
             for receiver in receivers:
                 receiver.listen()
             source.listen()
@@ -233,7 +244,7 @@ def bridged(
             said = [receiver.ask() for receiver in receivers]
             carried_messages = min(sent, said[0]["count"] // counts[0])
     return row(
-        "bridge",
+        f"bridge, {flood:,}/s from a guest" if flood else "bridge",
         robots,
         rate,
         sent,
@@ -318,6 +329,7 @@ def main() -> None:
         alone("zenoh", 13, 100.0, seconds),
         bridged(1, 100.0, seconds),
         bridged(13, 100.0, seconds),
+        bridged(13, 100.0, seconds, flood=FLOOD),
         bridged(50, 100.0, seconds),
         bridged(1, 0.0, seconds),
     ]

@@ -221,8 +221,7 @@ def config(
 ) -> None:
     """Print the zenoh settings of the lab as JSON: to read, or for zenoh's own bridge."""
     from mrlab_ros.adapters.keys.folder import Keys, now
-    from mrlab_ros.adapters.keys.zenoh_settings import EVERYWHERE
-    from mrlab_ros.core.bridge.links import nested
+    from mrlab_ros.core.bridge.links import EVERYWHERE, nested
     from mrlab_ros.core.bridge.rules import checked_prefix
 
     rules = rules_of(allow_list)

@@ -9,10 +9,12 @@ from contextlib import asynccontextmanager
 from fastapi import APIRouter, Depends, FastAPI
 
 import mrlab_ros
+from mrlab_ros.adapters.robots.library import RobotLibrary
 from mrlab_ros.adapters.store.objects import open_store
 from mrlab_ros.gateway import authority, errors, pages
 from mrlab_ros.gateway.assets import routes as asset_routes
 from mrlab_ros.gateway.assets.cache import AssetCache
+from mrlab_ros.gateway.assets.robots import Robots
 from mrlab_ros.gateway.guard import Guard
 from mrlab_ros.gateway.hosts import Hosts
 from mrlab_ros.gateway.link import socket
@@ -24,6 +26,7 @@ from mrlab_ros.gateway.people.people import People
 from mrlab_ros.gateway.policy import authorise, read_policy
 from mrlab_ros.gateway.ports import Ports
 from mrlab_ros.gateway.settings import Settings
+from mrlab_ros.gateway.share import directory
 from mrlab_ros.gateway.store import routes as trajectory_routes
 from mrlab_ros.gateway.store.shelf import Shelf
 from mrlab_ros.gateway.uploads import routes as upload_routes
@@ -94,7 +97,8 @@ def create_app(settings: Settings, ports: Ports) -> FastAPI:
     app.state.link = link
     app.state.assets = None if ports.lab is None else AssetCache(ports.lab)
     store = ports.store or open_store(settings.store or str(settings.state_dir / "store"))
-    shelf = Shelf(store, settings.state_dir, app.state.policy, signs_in=settings.signs_in)
+    robots = Robots(RobotLibrary(directory() / "robots"), app.state.assets)
+    shelf = Shelf(store, settings.state_dir, policy, robots, signs_in=settings.signs_in)
     app.state.shelf = shelf
     app.state.desk = upload_routes.Desk(Receiver(store, shelf.work))
     app.state.pages = settings.pages or pages.pages_folder()

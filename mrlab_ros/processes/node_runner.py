@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import gc
 import importlib
 import os
 import signal
@@ -60,6 +61,7 @@ def run(names: list[str]) -> int:
     watcher: Watcher | None = None
     spun: dict[str, SpunNode] = {}
     name = ""
+    settled = False
     try:
         if not all(NODES[name].in_replay for name in names):
             aside = StandAside()
@@ -84,6 +86,12 @@ def run(names: list[str]) -> int:
                         mistakes.append(str(error))
             if mistakes:
                 raise WrongParameters("\n".join(mistakes))
+            if not settled:
+                # What was imported stays. A search of it for garbage takes 20 ms, in which no
+                # thread moves anything.
+                settled = True
+                gc.collect()
+                gc.freeze()
             # What its nodes could not bring back after a restart.
             watcher.lost = [
                 text for node in spun.values() for text in getattr(node.node, "lost", ())

@@ -15,11 +15,16 @@ from typing import Any
 from mrlab_ros.adapters.keys.certificates import Signed
 from mrlab_ros.adapters.keys.people import Entry, People
 from mrlab_ros.core.bridge.access import LINKS, access_control, bounds
-from mrlab_ros.core.bridge.links import LEASE_BEYOND, LOCAL_PROTOCOL, healing, nested
+from mrlab_ros.core.bridge.links import (
+    EVERYWHERE,
+    LEASE_BEYOND,
+    LOCAL_PROTOCOL,
+    PORT,
+    healing,
+    nested,
+)
 from mrlab_ros.core.bridge.rules import Rules
 
-PORT = 7447
-EVERYWHERE = (f"tls/0.0.0.0:{PORT}",)
 LOCAL = ("localhost", "127.0.0.1")
 
 

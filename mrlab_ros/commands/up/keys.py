@@ -19,8 +19,7 @@ EXPIRES_SOON = 30
 def checked_listen(chosen: str, keys: Path | None, insecure: bool) -> str:
     """Return where the bridge listens; raise BadInput where it may not, or keys are unusable."""
     from mrlab_ros.adapters.keys.folder import Keys, now
-    from mrlab_ros.adapters.keys.zenoh_settings import EVERYWHERE
-    from mrlab_ros.core.bridge.links import check_endpoints
+    from mrlab_ros.core.bridge.links import EVERYWHERE, check_endpoints
 
     if insecure and keys is not None:
         raise BadInput("--keys and --insecure exclude each other; leave one of them out")

@@ -18,6 +18,9 @@ LEASE_WITHIN = 10.0
 # after the first second. zenoh's defaults are 1 to 4 s, and 10 s.
 OPEN_TIMEOUT = 2000
 LOCAL_PROTOCOL = "unixsock-stream"
+PORT = 7447
+# Where a lab with keys listens.
+EVERYWHERE = (f"tls/0.0.0.0:{PORT}",)
 RETRY = {"period_init_ms": 250, "period_max_ms": 500, "period_increase_factor": 1.5}
 
 

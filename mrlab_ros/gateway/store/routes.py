@@ -15,7 +15,6 @@ from fastapi.concurrency import run_in_threadpool
 from fastapi.responses import StreamingResponse
 from starlette.background import BackgroundTask
 
-from mrlab_ros.adapters.robots.shown import from_library
 from mrlab_ros.adapters.store import keys
 from mrlab_ros.core.errors import BadInput, Unavailable
 from mrlab_ros.core.show import document
@@ -83,7 +82,7 @@ async def motion(person: CurrentPerson, shelf: TheShelf, trajectory: TrajectoryI
     def made() -> bytes:
         record, version = shelf.find(person, trajectory)
         loaded = shelf.files.load(record, version)
-        robot = from_library(shelf.library, loaded.robot_model, loaded.end_effector)
+        robot = shelf.robots.shown(loaded.robot_model, loaded.end_effector)
         seconds = f"{loaded.duration:.2f} s at {loaded.frame_rate:g} Hz"
         return orjson.dumps(document.motion(loaded, robot, message=f"{loaded.id}: {seconds}"))
 

@@ -12,7 +12,6 @@ from typing import Any
 import orjson
 from fastapi.requests import HTTPConnection
 
-from mrlab_ros.adapters.robots.library import RobotLibrary
 from mrlab_ros.adapters.store.port import ObjectStore
 from mrlab_ros.adapters.trajectories.catalogue import Catalogue
 from mrlab_ros.adapters.trajectories.files import TrajectoryFiles
@@ -21,8 +20,8 @@ from mrlab_ros.core.diagnostics import Diagnostic
 from mrlab_ros.core.show.document import findings
 from mrlab_ros.core.trajectory.document import warnings_of
 from mrlab_ros.core.trajectory.record import Record, Version
+from mrlab_ros.gateway.assets.robots import Robots
 from mrlab_ros.gateway.people.person import LOCAL, Person
-from mrlab_ros.gateway.share import directory
 from mrlab_ros.gateway.store import downloads
 
 STALE_AFTER_S = 3600.0  # a download this old was of a gateway that was killed
@@ -32,12 +31,18 @@ class Shelf:
     """Answers what a person may see; every method may block, so call them in a thread."""
 
     def __init__(
-        self, store: ObjectStore, state_dir: Path, policy: Policy, *, signs_in: bool
+        self,
+        store: ObjectStore,
+        state_dir: Path,
+        policy: Policy,
+        robots: Robots,
+        *,
+        signs_in: bool,
     ) -> None:
         self.store = store
         self.catalogue = Catalogue(store)
         self.files = TrajectoryFiles(store, state_dir / "fetched")
-        self.library = RobotLibrary(directory() / "robots")
+        self.robots = robots
         # Where uploads and downloads lie for a moment.
         self.work = state_dir / "work"
         self.work.mkdir(parents=True, exist_ok=True)

@@ -9,7 +9,6 @@ from typing import Any
 
 import orjson
 
-from mrlab_ros.adapters.robots.shown import from_library
 from mrlab_ros.adapters.store import keys
 from mrlab_ros.adapters.store.port import Missing
 from mrlab_ros.adapters.trajectories import npz_file
@@ -46,7 +45,7 @@ def keep_preview(
 ) -> str | None:
     """Keep the document of rows that were not taken; None where they are no motion."""
     try:
-        robot = from_library(shelf.library, model, end_effector or None)
+        robot = shelf.robots.shown(model, end_effector or None)
     except BadInput:
         return None
     made = document.preview_motion(
@@ -90,7 +89,7 @@ def _accepted(shelf: Shelf, draft: str, note: dict[str, Any]) -> bytes:
             shelf.store.get_file(draft, file)  # type: ignore[arg-type]
             file.flush()
             loaded = npz_file.read(Path(file.name))
-    robot = from_library(shelf.library, loaded.robot_model, loaded.end_effector)
+    robot = shelf.robots.shown(loaded.robot_model, loaded.end_effector)
     found = [_diagnostic(fields) for fields in note["diagnostics"]]
     return orjson.dumps(document.motion(loaded, robot, message=note["message"], diagnostics=found))
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import importlib
+import time
 from collections.abc import Callable
 from dataclasses import dataclass, field
 from typing import Any
@@ -62,6 +63,11 @@ class BridgeContext:
                 "its package and restart the bridge"
             )
             return None
+
+    @staticmethod
+    def give_way() -> None:
+        """Let the forwarding thread go on: a check of the graph takes milliseconds."""
+        time.sleep(0)
 
     def warn_of_loss(self, error: Exception) -> None:
         self.warn_once(f"a message was lost: {type(error).__name__}: {error}")

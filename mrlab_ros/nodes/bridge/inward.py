@@ -20,10 +20,11 @@ from mrlab_ros.nodes.bridge.context import BridgeContext, Count, profile
 
 @dataclass
 class InRoute:
-    """The route of one topic."""
+    """The route of one topic; readers: its subscriptions at the last check."""
 
     type: str
     qos: TopicQos
+    readers: int
     publisher: Publisher
     subscriber: Declared
     token: Declared
@@ -36,19 +37,32 @@ class Inward:
         self._bridge = bridge
         self._routes: dict[str, InRoute] = {}
 
-    def keep(self, wanted: dict[str, tuple[TopicRule, str]]) -> None:
-        """Open and close routes until they are those of `wanted`: name -> rule and type."""
+    def keep(self, wanted: dict[str, tuple[TopicRule, str]], thorough: bool = True) -> None:
+        """Open and close routes until they are those of `wanted`: name -> rule and type.
+
+        Unless `thorough`, a topic whose number of subscriptions is unchanged is not checked
+        further.
+        """
         for name in [n for n in self._routes if n not in wanted]:
             self._close(name)
         for name, (rule, type_name) in wanted.items():
-            self._renew(name, rule, type_name)
+            self._renew(name, rule, type_name, thorough)
+            self._bridge.give_way()
 
-    def _renew(self, name: str, rule: TopicRule, type_name: str) -> None:
+    def _renew(self, name: str, rule: TopicRule, type_name: str, thorough: bool) -> None:
         bridge = self._bridge
+        known = self._routes.get(name)
+        readers = bridge.streams.count_subscribers(name)
+        if (
+            known is not None
+            and not thorough
+            and (known.readers, known.type) == (readers, type_name)
+        ):
+            return
         ends = bridge.streams.get_subscriptions_info_by_topic(name)
         qos = bridge.quality(ends, rule, type_name)
-        known = self._routes.get(name)
         if known is not None and (known.qos, known.type) == (qos, type_name):
+            known.readers = readers
             return
         if known is not None:
             self._close(name)
@@ -65,7 +79,7 @@ class Inward:
             qos.latched and rule.history > 0,
         )
         token = session.token(rules.topic_token(session.zid, Direction.IN, key, type_name, qos))
-        self._routes[name] = InRoute(type_name, qos, publisher, subscriber, token)
+        self._routes[name] = InRoute(type_name, qos, readers, publisher, subscriber, token)
 
     def _close(self, name: str) -> None:
         route = self._routes.pop(name)

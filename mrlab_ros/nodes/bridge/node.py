@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 import sys
 import time
+from functools import lru_cache
 from pathlib import Path
 from typing import Any
 
@@ -15,8 +16,6 @@ from rclpy.context import Context
 from rclpy.node import Node
 from rclpy.parameter import Parameter
 
-from mrlab_ros.adapters.keys.folder import Keys, now
-from mrlab_ros.adapters.keys.zenoh_settings import EVERYWHERE
 from mrlab_ros.adapters.zenoh_session import (
     LOOPBACK,
     Query,
@@ -29,7 +28,12 @@ from mrlab_ros.core.bridge import rules
 from mrlab_ros.core.bridge.access import bounds
 from mrlab_ros.core.bridge.guests import Guests, Share
 from mrlab_ros.core.bridge.latency import Ledger, clock_answer
-from mrlab_ros.core.bridge.links import check_endpoints, check_router, local_endpoint
+from mrlab_ros.core.bridge.links import (
+    EVERYWHERE,
+    check_endpoints,
+    check_router,
+    local_endpoint,
+)
 from mrlab_ros.core.bridge.rules import Direction, ServiceRule, TopicRule
 from mrlab_ros.core.errors import BadInput
 from mrlab_ros.messages import qos
@@ -58,6 +62,8 @@ MAX_SESSIONS = "transport/unicast/max_sessions"
 LEAST_SESSIONS = 200
 # At every nth check of the graph the QoS of each publisher is read too.
 THOROUGH = 10
+# Names whose rules are remembered.
+NAMES = 4096
 # How long the forwarding thread may wait for another Python thread, s; Python's own is 5 ms.
 SWITCH_INTERVAL_S = 5e-4
 
@@ -80,6 +86,9 @@ class BridgeNode(ParameterNode[BridgeParameters]):
             parameter_overrides=parameter_overrides,
         )
         self._rules = _rules(Path(self.parameters.allow_list))
+        # Of every name at every check; matching it with all patterns takes 20 us.
+        self._topic_rule = lru_cache(NAMES)(self._rules.topic)
+        self._service_rule = lru_cache(NAMES)(self._rules.service)
         prefix = self.parameters.prefix
         self._guests: Guests | None = None
         settings = self._zenoh_settings(prefix)
@@ -160,6 +169,9 @@ class BridgeNode(ParameterNode[BridgeParameters]):
             return configuration(
                 mode=mode, listen=listen, connect=connect, lease=lease, security=limits
             )
+        # Here: a lab without keys needs no cryptography in its memory.
+        from mrlab_ros.adapters.keys.folder import Keys, now
+
         keys = Keys(Path(folder))
         keys.check(now())
         if connect:
@@ -188,19 +200,22 @@ class BridgeNode(ParameterNode[BridgeParameters]):
         coming_in: dict[str, tuple[TopicRule, str]] = {}
         for name, types in self.get_topic_names_and_types():
             for type_name in types:
-                rule = self._rules.topic(name, type_name)
+                rule = self._topic_rule(name, type_name)
                 if rule is not None:
                     out = rule.direction is Direction.OUT
                     (going_out if out else coming_in).setdefault(name, (rule, type_name))
         self._checks += 1
         self._outward.keep(going_out, thorough=self._checks % THOROUGH == 0)
-        self._inward.keep(coming_in)
+        self._inward.keep(coming_in, thorough=self._checks % THOROUGH == 0)
         called: dict[str, tuple[ServiceRule, str]] = {}
         for name, types in self.get_service_names_and_types():
             # A client keeps its service's name in the graph, and the bridge has clients itself.
             for type_name in types:
-                service = self._rules.service(name, type_name)
-                if service is not None and self.count_services(name):
+                service = self._service_rule(name, type_name)
+                if service is None:
+                    continue
+                self._bridge.give_way()
+                if self.count_services(name):
                     called.setdefault(name, (service, type_name))
         self._service_routes.keep(called)
         self._service_routes.refuse_late()
@@ -210,7 +225,8 @@ class BridgeNode(ParameterNode[BridgeParameters]):
         now = time.monotonic()
         window, self._reported = now - self._reported, now
         now_ns = self.get_clock().now().nanoseconds
-        report = latency_to_message(now_ns, "bridge", window, self._ledger.report())
+        delays = self._ledger.report(self._bridge.give_way)
+        report = latency_to_message(now_ns, "bridge", window, delays)
         self._reports.publish(report)
 
     def statistics(self) -> dict[str, Any]:

@@ -66,6 +66,7 @@ class Outward:
             self._close(name)
         for name, (rule, type_name) in wanted.items():
             self._renew(name, rule, type_name, thorough)
+            self._bridge.give_way()
 
     def subscribed(self) -> dict[str, bool]:
         """Return for every key whether it has a zenoh subscriber."""
