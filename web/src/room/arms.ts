@@ -13,6 +13,9 @@ import type { LabScene } from '../scene/lab_scene'
 
 /** s: a motion of minutes comes in one answer. */
 const FETCH_TIMEOUT_S = 30
+/** s: what a change of the clock moves has come to rest by then. */
+const SETTLE_S = 0.4
+const MOVING: ReadonlySet<number> = new Set([PlaybackState.ADJUSTING, PlaybackState.PLAYING])
 const ON_COURSE: ReadonlySet<number> = new Set([
   PlaybackState.PLAYING,
   PlaybackState.PAUSED,
@@ -40,6 +43,7 @@ export class Arms {
   private readonly courses = new Map<string, Promise<Trajectory | null>>()
   private readonly undo: (() => void)[]
   private shown = new Float64Array()
+  private movesUntil = 0
 
   /** say: is told what could not be fetched. */
   constructor(
@@ -83,13 +87,15 @@ export class Arms {
     this.arms.delete(name)
   }
 
-  /** Move every robot to where it is at a lab time, s. */
-  update(time: number): void {
-    for (const [name, { arm, positions }] of this.arms) {
+  /** Move every robot to where it is at a lab time, s; return whether one moves. */
+  update(time: number): boolean {
+    for (const [name, { arm, positions, state }] of this.arms) {
       const robot = this.scene.robot(name)
       if (robot === undefined || !arm.sample(time, this.scratch(positions.length))) continue
       robot.setPositions(this.shown)
+      if (MOVING.has(state?.state ?? 0)) this.movesUntil = time + SETTLE_S
     }
+    return time < this.movesUntil
   }
 
   /** Return the source of a robot's pose, for who wants to know why it moves as it does. */
@@ -124,6 +130,7 @@ export class Arms {
 
   private takeState(arm: Arm, state: PlaybackState): void {
     arm.state = state
+    this.movesUntil = this.link.labTime() + SETTLE_S
     const { clock, trajectory_id: id, trajectory_version: version } = state
     arm.arm.setClock(
       { stamp: seconds(clock.stamp), position: clock.position, rate: clock.rate },

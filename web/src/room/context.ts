@@ -2,7 +2,7 @@ import type { Object3D, Vector3 } from 'three'
 import { type Link, LinkError, type ServiceType } from '../link/link'
 import type { TrajectoryInfo } from '../protocol/mrlab_msgs'
 import type { Words } from '../words/en'
-import type { Feedback } from './panels/panel'
+import type { Surroundings } from './panels/panel'
 import type { Place, Support } from './placement/supports'
 
 /** A catalogue's entry with its picture, once that is read. */
@@ -16,10 +16,9 @@ export interface Entry {
 }
 
 /** What the parts of the room share. */
-export interface RoomContext {
+export interface RoomContext extends Surroundings {
   readonly link: Link
   readonly words: Words
-  readonly feedback: Feedback
   /** The lab's frame. */
   readonly world: Object3D
   /** Of the eyes, in the scene. */

@@ -58,6 +58,7 @@ export class Mouse {
   }
 
   private move({ clientX, clientY }: PointerEvent): void {
+    this.stage.invalidate()
     const box = this.stage.canvas.getBoundingClientRect()
     this.at.set(
       ((clientX - box.left) / box.width) * 2 - 1,

@@ -199,6 +199,7 @@ export class Room {
       robots,
       endEffectors,
       feedback: this.sound.feedback,
+      stir: () => room.stage.invalidate(),
       world: this.stage.world,
       head: this.head,
       get trajectories() {
@@ -473,6 +474,7 @@ export class Room {
     const began = performance.now()
     const now = began / 1000
     const step = Math.min(now - this.last, 0.1)
+    this.stage.measure(now - this.last)
     this.last = now
     let ahead = AHEAD_S
     const space = this.stage.renderer.xr.getReferenceSpace()
@@ -486,7 +488,9 @@ export class Room {
     }
     for (const handle of this.handles.values()) handle.update(now, step)
     this.objects.update(now)
-    this.arms.update(this.parts.link.labTime() + Math.min(ahead, 0.05))
+    if (this.arms.update(this.parts.link.labTime() + Math.min(ahead, 0.05))) {
+      this.stage.invalidate()
+    }
     this.scene.update()
     this.overlays.setPicked(this.picking.on ? this.picking.picked : NONE)
     this.overlays.update(now)
@@ -494,8 +498,7 @@ export class Room {
     this.board.update(now)
     this.panels.update(now, step)
     this.lightUp()
-    this.stage.renderer.render(this.stage.scene, this.stage.camera)
-    this.frames++
+    if (this.stage.draw(now)) this.frames++
     this.frameMs = performance.now() - began
   }
 
@@ -523,7 +526,8 @@ export class Room {
     const side = this.boardYaw + (this.leftHanded ? -BOARD_SIDE : BOARD_SIDE)
     at.set(-Math.sin(side), 0, -Math.cos(side)).multiplyScalar(BOARD_AWAY).add(this.head)
     at.y = this.head.y - 0.22
-    this.boardStand.update(at, this.head, now, step, this.board.panel.pointers > 0)
+    const held = this.board.panel.pointers > 0
+    if (this.boardStand.update(at, this.head, now, step, held)) this.stage.invalidate()
   }
 
   private lightUp(): void {

@@ -24,6 +24,10 @@ import { stand } from './frames'
 /** m above the floor, of the eyes of the desktop view. */
 const EYES = 1.6
 const SHADOW = 1.6 // m, half of what the shadow covers
+/** s */
+const STILL_PERIOD = 0.5
+const LONGEST_PAUSE = 0.4
+const SMOOTH = 0.04
 /** 0 is sharp everywhere; three's 1 blurs text. */
 const FOVEATION = 0.4
 
@@ -49,6 +53,10 @@ export class RoomStage implements SceneHost {
   )
   private readonly themed = new Set<(theme: SceneTheme) => void>()
   private readonly undo: (() => void)[] = []
+  private stirred = true
+  private drawnAt = Number.NEGATIVE_INFINITY
+  private cost = 0
+  private pause = 0
 
   /** Throws NoWebGL where the browser has none. label: for screen readers. */
   constructor(
@@ -80,6 +88,9 @@ export class RoomStage implements SceneHost {
     this.controls.minDistance = 0.3
     this.controls.maxDistance = 12
     this.controls.update()
+    const stir = () => this.invalidate()
+    this.controls.addEventListener('change', stir)
+    this.undo.push(() => this.controls.removeEventListener('change', stir))
     const watched = new ResizeObserver(() => this.resize())
     watched.observe(container)
     this.undo.push(
@@ -101,8 +112,30 @@ export class RoomStage implements SceneHost {
     return () => this.themed.delete(listener)
   }
 
-  /** Drawn in every frame: there is nothing to ask for. */
-  invalidate(): void {}
+  /** Ask for a new picture; a headset gets one in every frame. */
+  invalidate(): void {
+    this.stirred = true
+  }
+
+  /** Draw, in a headset always, on a desktop what was asked for and twice a second: software that
+   * draws slowly leaves the page time for clicks. now: s. */
+  draw(now: number): boolean {
+    const inside = this.renderer.xr.isPresenting
+    if (!inside) {
+      const still = !this.stirred && now - this.drawnAt < STILL_PERIOD
+      if (still || now - this.drawnAt < this.pause) return false
+      this.pause = Math.min(2 * this.cost, LONGEST_PAUSE)
+    }
+    this.stirred = false
+    this.drawnAt = now
+    this.renderer.render(this.scene, this.camera)
+    return true
+  }
+
+  /** Note how long the browser took from one frame to the next, s: all that drawing costs. */
+  measure(step: number): void {
+    this.cost = step < SMOOTH ? 0 : this.cost + 0.3 * (step - this.cost)
+  }
 
   /** The room is not framed: who is in it walks. */
   frame(_points: readonly Vector3[]): void {}
@@ -146,6 +179,7 @@ export class RoomStage implements SceneHost {
     this.renderer.setSize(width, height, false)
     this.camera.aspect = width / height
     this.camera.updateProjectionMatrix()
+    this.invalidate()
   }
 
   private lightUp(): void {

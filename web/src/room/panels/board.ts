@@ -29,7 +29,7 @@ export class Board {
   private now = 0
 
   constructor(context: RoomContext) {
-    this.panel = new Panel(BOARD_WIDTH, BOARD_HEIGHT, (pen) => this.draw(pen), context.feedback)
+    this.panel = new Panel(BOARD_WIDTH, BOARD_HEIGHT, (pen) => this.draw(pen), context)
   }
 
   /** What is wrong as long as it is: shown where nothing newer is. */

@@ -47,7 +47,7 @@ export class ControlPanel {
     robot: RobotView,
   ) {
     this.robot = robot
-    this.panel = new Panel(WIDTH, HEIGHT, (pen) => this.draw(pen), context.feedback)
+    this.panel = new Panel(WIDTH, HEIGHT, (pen) => this.draw(pen), context)
     this.flat.color.set(PANEL_THEME.colours.accent)
     this.panel.group.add(this.bar, this.knob)
     this.bar.position.z = this.knob.position.z = 1.5 * MM

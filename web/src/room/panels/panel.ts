@@ -21,6 +21,13 @@ const local = new Vector3()
 /** What a panel does beside what was pressed: a sound, a pulse. */
 export type Feedback = (what: 'hover' | 'press', signal: Signal) => void
 
+/** What a panel needs of the room. */
+export interface Surroundings {
+  readonly feedback: Feedback
+  /** A picture is due. */
+  stir(): void
+}
+
 /** A flat panel that faces along its z: one canvas, one draw call. It is painted when something
  * changed, never in each frame. */
 export class Panel implements Target {
@@ -42,7 +49,7 @@ export class Panel implements Target {
     readonly width: number,
     readonly height: number,
     private readonly draw: (pen: Pen) => void,
-    private readonly feedback: Feedback,
+    private readonly surroundings: Surroundings,
   ) {
     this.canvas.width = width * TEXELS
     this.canvas.height = height * TEXELS
@@ -79,6 +86,7 @@ export class Panel implements Target {
       this.active = this.zones.find(({ id }) => id === this.active?.id) ?? null
     }
     this.texture.needsUpdate = true
+    this.surroundings.stir()
   }
 
   /** Press a zone as a pointer would, by its id; false: there is none, or it is off. */
@@ -141,7 +149,7 @@ export class Panel implements Target {
         if (signal.button !== 'select') return
         this.active = this.zoneAt(hit)
         if (this.active === null) return
-        this.feedback('press', signal)
+        this.surroundings.feedback('press', signal)
         if (this.active.drags) this.active.press(shareOf(this.active, hit), false)
         this.repaint()
         return
@@ -189,7 +197,7 @@ export class Panel implements Target {
     const id = zone?.id ?? ''
     if (id === this.hovered) return
     this.hovered = id
-    if (id !== '') this.feedback('hover', signal)
+    if (id !== '') this.surroundings.feedback('hover', signal)
     this.repaint()
   }
 }

@@ -121,7 +121,8 @@ export class RobotPanels {
       .addScaledVector(side, Math.max(entry.reach, LEAST_SIDE))
       .addScaledVector(toHead, TOWARDS)
     at.y = Math.max(head.y - BELOW_EYES, LOWEST)
-    entry.stand.update(at, head, now, step, entry.control.panel.pointers > 0)
+    const held = entry.control.panel.pointers > 0
+    if (entry.stand.update(at, head, now, step, held)) this.context.stir()
   }
 
   private updateTelemetry(name: string, entry: Entry, now: number): void {

@@ -30,8 +30,9 @@ export class Stand {
 
   constructor(private readonly panel: Object3D) {}
 
-  /** at: where it should be, in the floor space, m. now, step: s. held: a pointer is over it. */
-  update(at: Vector3, head: Vector3, now: number, step: number, held: boolean): void {
+  /** at: where it should be, in the floor space, m. now, step: s. held: a pointer is over it.
+   * Returns whether it moves. */
+  update(at: Vector3, head: Vector3, now: number, step: number, held: boolean): boolean {
     back.subVectors(at, head)
     const distance = back.length()
     if (distance < NEAREST && distance > 1e-3) {
@@ -59,7 +60,8 @@ export class Stand {
       this.place.copy(wanted)
       this.turn.copy(turned)
     }
-    if (now - this.movedAt < 3 * EASE) {
+    const moves = now - this.movedAt < 3 * EASE
+    if (moves) {
       const share = 1 - Math.exp((-4 * step) / EASE)
       this.panel.position.lerp(this.place, share)
       this.panel.quaternion.slerp(this.turn, share)
@@ -68,5 +70,6 @@ export class Stand {
     const scale = MathUtils.clamp(far, 0.85, LARGEST)
     // small changes of the distance do not make text swim
     if (Math.abs(this.panel.scale.x - scale) > 0.08) this.panel.scale.setScalar(scale)
+    return moves
   }
 }

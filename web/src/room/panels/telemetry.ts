@@ -29,7 +29,7 @@ export class TelemetryPanel {
     this.angles = new Float64Array(joints.length)
     this.graph = new Float64Array(joints.length * SAMPLES).fill(Number.NaN)
     const height = TOP + joints.length * ROW + 46
-    this.panel = new Panel(WIDTH, height, (pen) => this.draw(pen), context.feedback)
+    this.panel = new Panel(WIDTH, height, (pen) => this.draw(pen), context)
   }
 
   take(message: Telemetry): void {

@@ -113,12 +113,23 @@ export class RoomScan {
     if (before === undefined && this.known.size >= MOST_SURFACES) return false
     seen.add(found)
     const now = poseInWorld(this.world, position, quaternion)
-    if (before?.changed === found.lastChangedTime && near(before.pose, now)) return false
+    const stays = before !== undefined && near(before.pose, now)
+    if (stays && before.changed === found.lastChangedTime) return false
     const name = before?.name ?? this.nameFor(label)
-    const same = before?.changed === found.lastChangedTime ? before.surface : null
-    const surface = same === null ? surfaceOf(found, name, label, now) : { ...same, pose: now }
-    this.known.set(found, { name, label, changed: found.lastChangedTime, pose: now, surface })
-    return true
+    const surface =
+      before?.changed === found.lastChangedTime
+        ? { ...before.surface, pose: now }
+        : surfaceOf(found, name, label, now)
+    // devices mark planes as changed that are as they were, some in every frame
+    const same = stays && sameShape(before.surface, surface)
+    this.known.set(found, {
+      name,
+      label,
+      changed: found.lastChangedTime,
+      pose: same ? before.pose : now,
+      surface: same ? before.surface : surface,
+    })
+    return !same
   }
 
   private nameFor(label: string): string {
@@ -135,6 +146,15 @@ function near(a: Pose, b: Pose): boolean {
   const way = Math.hypot(p.x - r.x, p.y - r.y, p.z - r.z)
   const dot = Math.abs(q.x * s.x + q.y * s.y + q.z * s.z + q.w * s.w)
   return way < MOVED && 1 - dot < TURNED * TURNED
+}
+
+function sameShape(a: Surface, b: Surface): boolean {
+  if (a.vertices.length !== b.vertices.length) return false
+  if (a.triangles.length !== b.triangles.length) return false
+  return a.vertices.every((p, i) => {
+    const q = b.vertices[i] as typeof p
+    return Math.hypot(p.x - q.x, p.y - q.y, p.z - q.z) < MOVED
+  })
 }
 
 function surfaceOf(found: XRPlane | XRMesh, name: string, label: string, pose: Pose): Surface {
