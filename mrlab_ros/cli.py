@@ -33,7 +33,7 @@ mrlab pause ur5e_1, resume, stop, seek, place, remove — one robot; mrlab syste
 
 mrlab record class.bag — write down what happens; mrlab replay class.bag brings it back
 
-mrlab status — what runs, and how well
+mrlab status — what runs, and how well; mrlab doctor — what keeps it from running
 
 **Exit codes**: 0 done, 1 failed (one sentence says why), 2 wrong usage or a choice that
 is yours, 130 interrupted
@@ -64,6 +64,7 @@ COMMANDS = {
     "record": "record:record",
     "replay": "replay:replay",
     "status": "status.command:status",
+    "doctor": "doctor:doctor",
     "open": "open:open_pages",
     "bag": "bag:app",
     "keys": "keys:app",
