@@ -59,7 +59,8 @@ class _Guest:
     bucket: Bucket | None
     links: dict[Link, int] = field(default_factory=dict)
     out_until: float = float("-inf")
-    logged: float = float("-inf")
+    # When each kind of refusal was logged last.
+    logged: dict[str, float] = field(default_factory=dict)
 
 
 class Guests:
@@ -88,7 +89,7 @@ class Guests:
                 f"a client at {link.host} has the certificate {link.common_name or 'of nobody'}, "
                 "which is not, or no longer, of a person of this lab; it was disconnected"
             )
-            return Cut((link,), self._once(self._guest(link, None), words, now))
+            return Cut((link,), self._once(self._guest(link, None), "person", words, now))
         guest = self._guest(link, person)
         if now < guest.out_until:
             return Cut((link,), "")
@@ -97,7 +98,7 @@ class Guests:
                 f"{guest.name} has {len(guest.links)} sessions and may have no more; close some, "
                 "or raise the bridge's parameter sessions_each"
             )
-            return Cut((link,), self._once(guest, words, now))
+            return Cut((link,), self._once(guest, "sessions", words, now))
         guest.links[link] = 0
         return None
 
@@ -134,7 +135,7 @@ class Guests:
                     f"{guest.name} sent {sent / 1e6:.3g} MB in a moment and may send "
                     f"{self._share.rate / 1e3:.3g} kB a second; disconnected for {OUT_S:g} s"
                 )
-                found.append(Cut(tuple(guest.links), self._once(guest, words, now)))
+                found.append(Cut(tuple(guest.links), self._once(guest, "bytes", words, now)))
                 guest.links.clear()
                 guest.out_until = now + OUT_S
         return found
@@ -150,8 +151,8 @@ class Guests:
         return guest
 
     @staticmethod
-    def _once(guest: _Guest, words: str, now: float) -> str:
-        if now - guest.logged < QUIET_S:
+    def _once(guest: _Guest, kind: str, words: str, now: float) -> str:
+        if now - guest.logged.get(kind, float("-inf")) < QUIET_S:
             return ""
-        guest.logged = now
+        guest.logged[kind] = now
         return words

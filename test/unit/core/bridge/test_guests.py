@@ -50,6 +50,13 @@ def test_the_same_refusal_is_logged_once_a_minute(guests):
     assert guests.opened(link(101, "anna.01"), QUIET_S).words
 
 
+def test_refusals_of_two_kinds_are_both_logged(guests):
+    for i in range(4):
+        guests.opened(link(i, "anna.01"), 0.0)
+    (cut,) = guests.received({link(0, "anna.01"): 9000}, 1.0)
+    assert "disconnected for" in cut.words
+
+
 def test_a_certificate_of_nobody_is_disconnected(guests):
     assert "no longer" in guests.opened(link(1, "revoked.04"), 0.0).words
     assert guests.opened(link(2, ""), 0.0).links == (link(2, ""),)
