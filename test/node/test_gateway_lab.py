@@ -38,12 +38,12 @@ class Bridge:
         """End the session: left open, it would keep the whole test run from ending."""
         self.session.close()
 
-    def topic(self, key: str, type_name: str) -> Publisher:
+    def topic(self, key: str, type_name: str, history: int = 1) -> Publisher:
         key, zid = f"{self.prefix}/{key}", self.session.zid
         self.held.append(
             self.session.token(topic_token(zid, Direction.OUT, key, type_name, LATCHED))
         )
-        return self.session.publisher(key, TopicRule(name=f"/{key}"), 1)
+        return self.session.publisher(key, TopicRule(name=f"/{key}"), history)
 
     def schema(self, messages: dict[str, str]) -> None:
         document = json.dumps({"messages": messages, "services": {}}).encode()
@@ -101,6 +101,18 @@ def test_topics_services_and_presence() -> None:
             newest = await lab.get("robots")
             assert newest is not None
             assert newest.sequence == 7
+
+            # Each publisher's state counts, and a plain get returns the newest all the same.
+            frames = bridge.topic("tf_static", "tf2_msgs/msg/TFMessage", history=3)
+            for number in range(1, 6):
+                frames.put(
+                    definitions.encode("tf2_msgs/msg/TFMessage", {}), attachment(number, 8, 9)
+                )
+            kept = await lab.get_all("tf_static")
+            assert [sample.sequence for sample in kept] == [3, 4, 5]
+            newest = await lab.get("tf_static")
+            assert newest is not None
+            assert newest.sequence == 5
 
             bridge.close()
             await until(lambda: lab.phase is Phase.LOST)
