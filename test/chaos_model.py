@@ -17,7 +17,7 @@ from mrlab_ros.ros.calls import NoAnswer, call
 from mrlab_ros.ros.spinning import SpunNode
 
 # After a blow the next command works within this time, s: 5 on a machine that is not busy.
-RECOVERY_S = 20.0
+RECOVERY_S = 40.0
 # A client that has no answer by then asks again, s.
 ANSWER_S = 2.0
 MOVING = (msg.PlaybackState.ADJUSTING, msg.PlaybackState.PLAYING)
@@ -35,6 +35,7 @@ class Client:
         self.systems: msg.RobotSystems | None = None
         self.states: dict[str, msg.PlaybackState] = {}
         self._followed: set[str] = set()
+        self._collisions: dict[str, Any] = {}
         self.node.create_subscription(msg.Robots, "/robots", self._on_robots, qos.LATCHED)
         self.node.create_subscription(
             msg.RobotSystems, "/systems", self._on_systems, qos.LATCHED_EVENTS
@@ -52,6 +53,15 @@ class Client:
             return call(client, kind.Request(**fields), ANSWER_S)
         finally:
             self.node.destroy_client(client)
+
+    def collide(self, robot: str, *, colliding: bool) -> None:
+        """Say of a robot what physics would."""
+        if robot not in self._collisions:
+            self._collisions[robot] = self.node.create_publisher(
+                msg.Collision, f"/{robot}/collision", qos.LATCHED
+            )
+        contact = msg.Contact(link="forearm_link", other="a wall")
+        self._collisions[robot].publish(msg.Collision(colliding=colliding, contact=contact))
 
     def _on_robots(self, message: msg.Robots) -> None:
         self.robots = message
@@ -76,6 +86,8 @@ class Model:
         self._client, self._dice, self._said = client, dice, said
         self._robots: list[str] = []
         self._trajectory = ""
+        # What the lab said last when it was to obey again.
+        self._answer = ""
         # None: the answer of the last command that changes it was lost.
         self._system: bool | None = False
 
@@ -103,9 +115,14 @@ class Model:
         if self._system:
             choices += ["system play", "system pause", "system stop", "dissolve"]
         else:
-            choices += ["play", "pause", "stop", "load", "seek", "create"]
+            choices += ["play", "play back", "pause", "stop", "load", "seek", "create"]
+        choices.append("halt")
         what = dice.choice(choices)
         self._said.append(f"{what} {robot}")
+        if what == "halt":
+            client.collide(robot, colliding=True)
+            client.collide(robot, colliding=False)
+            return
         try:
             if what == "create":
                 members = [msg.SystemMember(robot=name) for name in self._robots]
@@ -118,6 +135,9 @@ class Model:
                 self._system = False if answer.success else self._system
             elif what == "load":
                 answer = client.ask(srv.LoadTrajectory, f"/{robot}/load", id=self._trajectory)
+            elif what == "play back":
+                client.ask(srv.SetRate, f"/{robot}/set_rate", rate=dice.choice((-1.0, 1.0)))
+                answer = client.ask(Trigger, f"/{robot}/play")
             elif what == "seek":
                 answer = client.ask(srv.Seek, f"/{robot}/seek", position=0.2)
             else:
@@ -134,7 +154,10 @@ class Model:
     def recover(self) -> None:
         """Expect that every robot obeys again, alone or through its system, within a time."""
         began = time.monotonic()
-        wait_for(self._obeys, f"a lab that obeys; {self._said[-6:]}", RECOVERY_S)
+        try:
+            wait_for(self._obeys, "a lab that obeys", RECOVERY_S)
+        finally:
+            self._said.append(f"  the last answer: {self._answer}")
         self._said.append(f"  recovered after {time.monotonic() - began:.1f} s")
         self.check()
 
@@ -165,9 +188,12 @@ class Model:
             if self._system is None:
                 self._client.ask(srv.Remove, "/coordinator/dissolve_system", name="cell")
                 self._system = False
-            if self._system:
-                return bool(self._client.ask(Trigger, "/cell/stop").success)
-            answers = [self._client.ask(Trigger, f"/{robot}/stop") for robot in self._robots]
-            return all(answer.success for answer in answers)
-        except NoAnswer:
+            for name in ["cell"] if self._system else self._robots:
+                answer = self._client.ask(Trigger, f"/{name}/stop")
+                self._answer = f"{name}: {answer.message}"
+                if not answer.success:
+                    return False
+            return True
+        except NoAnswer as error:
+            self._answer = str(error)
             return False

@@ -176,7 +176,7 @@ class Scheduler:
                             wait_ns, TICK_S * SECOND if simulated else due_ns - horizon_ns
                         )
                 if batch:
-                    self._serve(batch)
+                    self._serve(batch, early_ns)
                 else:
                     self._changed.wait(wait_ns / SECOND)
 
@@ -194,8 +194,11 @@ class Scheduler:
                     self._print_trouble()
         return now_ns
 
-    def _serve(self, batch: list[tuple[int, Player]]) -> None:
-        """Prepare all joint states that are due, then publish each at its deadline."""
+    def _serve(self, batch: list[tuple[int, Player]], early_ns: int) -> None:
+        """Prepare all joint states that are due, then publish each at its deadline.
+
+        early_ns: how far ahead a deadline may lie, unless the clock was set meanwhile.
+        """
         now_ns = self.clock.now_ns
         begin_ns = now_ns()
         ready = []
@@ -209,7 +212,7 @@ class Scheduler:
                 ready.append((due_ns, player, sample))
         for due_ns, player, sample in ready:
             # By the monotonic clock: the other one may be set meanwhile.
-            left_ns = due_ns - now_ns()
+            left_ns = min(due_ns - now_ns(), early_ns)
             at_ns = time.monotonic_ns() + left_ns
             while time.monotonic_ns() < at_ns:
                 pass

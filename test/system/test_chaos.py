@@ -1,9 +1,10 @@
 """A lab that is killed, frozen and commanded at random goes on as a user may expect.
 
 The model knows only what a user was told: which robots there are, what they have loaded, which
-systems there are. After every blow the next command works within a few seconds, robots and systems
-stand or play but are never lost, and a process that died is named. The seed is printed;
-MRLAB_CHAOS_SEED repeats a run, MRLAB_CHAOS_SECONDS makes it longer.
+systems there are. Its processes are killed and frozen, its disk fills up, its wall clock is set.
+After every blow the next command works within a few seconds, robots and systems stand or play but
+are never lost, and a process that died is named. The seed is printed; MRLAB_CHAOS_SEED repeats a
+run, MRLAB_CHAOS_SECONDS makes it longer.
 """
 
 from __future__ import annotations
@@ -11,32 +12,117 @@ from __future__ import annotations
 import json
 import os
 import random
+import shutil
 import signal
+import struct
+import subprocess
 import time
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass
 from pathlib import Path
 
 import pytest
 from chaos_model import Client, Model
 from launched_lab import done, launched_lab, mrlab
+from zenoh_side import free_endpoint
 
 from mrlab_ros.processes.run_file import RunFile
 
 MOTION = Path(__file__).parents[2] / "examples" / "quintic_ur5e.mat"
+SHIM = Path(__file__).parents[1] / "clock_shim.c"
 SECONDS = float(os.environ.get("MRLAB_CHAOS_SECONDS", "15"))
 SEED = int(os.environ.get("MRLAB_CHAOS_SEED", str(random.SystemRandom().randrange(2**32))))
 # What a freeze lasts, s.
 FREEZE_S = 3.0
-VICTIMS = ("lab", "playback", "recorder")
+VICTIMS = ("lab", "playback", "recorder", "physics", "bridge")
+# The wall clock is set by one of these, s.
+STEPS = (-3600.0, -5.0, -0.3, 0.3, 5.0, 3600.0)
+# Of the disk that fills up.
+DISK = "48m"
+
+
+class Clock:
+    """The wall clock of the lab's processes, which nobody else's follows."""
+
+    def __init__(self, folder: Path) -> None:
+        self._file = folder / "clock_offset"
+        self._file.write_bytes(bytes(8))
+        self._library = folder / "clock_shim.so"
+        subprocess.run(
+            ("cc", "-shared", "-fPIC", "-O1", "-o", self._library, SHIM, "-ldl"), check=True
+        )
+
+    @property
+    def environment(self) -> dict[str, str]:
+        return {"LD_PRELOAD": str(self._library), "CLOCK_SHIM": str(self._file)}
+
+    def set_by(self, seconds: float) -> None:
+        with self._file.open("r+b") as file:
+            (offset,) = struct.unpack("<q", file.read())
+            file.seek(0)
+            file.write(struct.pack("<q", offset + round(seconds * 1e9)))
+
+
+class Disk:
+    """A small disk for the state of a lab, where one may be mounted here; see `small`."""
+
+    def __init__(self, folder: Path) -> None:
+        self.folder = folder
+        folder.mkdir()
+        mount = ("mount", "-t", "tmpfs", "-o", f"size={DISK}", "mrlab_chaos", folder)
+        self.small = (
+            shutil.which("mount") is not None
+            and subprocess.run(mount, capture_output=True, check=False).returncode == 0
+        )
+
+    def fill(self) -> None:
+        with (self.folder / "filler").open("wb", buffering=0) as file:
+            try:
+                while True:
+                    file.write(bytes(1 << 16))
+            except OSError:
+                return
+
+    def free(self) -> None:
+        (self.folder / "filler").unlink()
+
+    def close(self) -> None:
+        if self.small:
+            subprocess.run(("umount", "-l", self.folder), check=True)
+
+
+@contextmanager
+def small_disk(folder: Path) -> Iterator[Disk]:
+    disk = Disk(folder)
+    try:
+        yield disk
+    finally:
+        disk.close()
+
+
+@dataclass
+class World:
+    """A launched lab, and what can be done to it."""
+
+    client: Client
+    clock: Clock
+    disk: Disk
 
 
 @pytest.fixture
-def client(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Client]:
-    robots = ("--robots", "ur5e,ur5e")
-    without = ("--no-bridge", "--no-web", "--no-physics")
-    with launched_lab(tmp_path, monkeypatch, *robots, *without), Client() as made:
-        done("play", "ur5e_1", MOTION)
-        yield made
+def world(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[World]:
+    clock = Clock(tmp_path)
+    for name, value in clock.environment.items():
+        monkeypatch.setenv(name, value)
+    with small_disk(tmp_path / "state") as disk:
+        options = ("--robots", "ur5e,ur5e", "--zenoh-listen", free_endpoint())
+        with (
+            launched_lab(tmp_path, monkeypatch, *options, "--state-dir", disk.folder),
+            Client() as client,
+        ):
+            done("play", "ur5e_1", MOTION)
+            yield World(client, clock, disk)
 
 
 def pids() -> dict[str, int]:
@@ -45,36 +131,66 @@ def pids() -> dict[str, int]:
     return {p["name"]: p["pid"] for p in found["processes"] if p["pid"]}
 
 
-def blow(dice: random.Random, said: list[str]) -> None:
-    """Kill or freeze a process."""
+def kill(world: World, dice: random.Random, said: list[str], model: Model) -> None:
     victim = dice.choice(VICTIMS)
     pid = pids().get(victim)
-    if pid is None:
-        return
-    if dice.random() < 0.6:
+    if pid is not None:
         said.append(f"kill {victim}")
         os.kill(pid, signal.SIGKILL)
+
+
+def freeze(world: World, dice: random.Random, said: list[str], model: Model) -> None:
+    victim = dice.choice(VICTIMS)
+    pid = pids().get(victim)
+    if pid is not None:
+        said.append(f"freeze {victim}")
+        os.kill(pid, signal.SIGSTOP)
+        try:
+            time.sleep(FREEZE_S)
+        finally:
+            os.kill(pid, signal.SIGCONT)
+
+
+def set_clock(world: World, dice: random.Random, said: list[str], model: Model) -> None:
+    step = dice.choice(STEPS)
+    said.append(f"set the wall clock by {step:g} s")
+    world.clock.set_by(step)
+
+
+def fill_disk(world: World, dice: random.Random, said: list[str], model: Model) -> None:
+    """Fill the disk, and command the lab while it is full."""
+    if not world.disk.small:
+        said.append("no full disk: no small one can be mounted here")
         return
-    said.append(f"freeze {victim}")
-    os.kill(pid, signal.SIGSTOP)
+    said.append("fill the disk")
+    world.disk.fill()
     try:
-        time.sleep(FREEZE_S)
+        for _ in range(3):
+            model.step()
+        model.recover()
     finally:
-        os.kill(pid, signal.SIGCONT)
+        world.disk.free()
+    said.append("the disk is free again")
 
 
-def test_a_lab_under_kills_and_freezes_stays_what_its_user_was_told(client):
+Blow = Callable[[World, random.Random, list[str], Model], None]
+BLOWS: dict[Blow, int] = {kill: 5, freeze: 3, set_clock: 3, fill_disk: 2}
+
+
+@pytest.mark.timeout(240 + 4 * SECONDS)
+def test_a_lab_under_kills_freezes_and_set_clocks_stays_what_its_user_was_told(world):
     dice = random.Random(SEED)
     said: list[str] = [f"MRLAB_CHAOS_SEED={SEED}"]
-    model = Model(client, dice, said)
-    model.prepare()
+    model = Model(world.client, dice, said)
     end = time.monotonic() + SECONDS
     blows = 0
     try:
+        model.prepare()
         while time.monotonic() < end or not blows:
             for _ in range(dice.randrange(1, 5)):
                 model.step()
-            blow(dice, said)
+            [blow] = dice.choices(list(BLOWS), list(BLOWS.values()))
+            blow(world, dice, said, model)
             blows += 1
             model.recover()
         model.check()

@@ -169,7 +169,11 @@ class PlaybackHostNode(ParameterNode[PlaybackParameters]):
                 self._remove(robot)
         for robot in wanted.values():
             if robot.name not in self.nodes:
-                self._add(robot.name, robot.model)
+                try:
+                    self._add(robot.name, robot.model)
+                except LabError as error:
+                    self.get_logger().error(f"{robot.name} has no playback: {error}")
+                    continue
             node = self.nodes[robot.name]
             with self.scheduler.command(node.player):
                 node.playback.end_effector = robot.end_effector
