@@ -83,7 +83,7 @@ class LabPage:
     def open(self, url: str) -> LabPage:
         """Open the page; wait until the first robot is there."""
         self.page.goto(f"{url}/lab")
-        self.page.locator(".lab-panel article h3").first.wait_for()
+        self.page.locator(".lab-panel article h2").first.wait_for()
         return self
 
     def robot(self, name: str) -> Locator:

@@ -130,6 +130,11 @@ async def refuse(websocket: WebSocket, error: LabError) -> None:
     await websocket.close(SOCKET_REFUSED, str(error).encode()[:120].decode(errors="ignore"))
 
 
+def _is_page(request: Request) -> bool:
+    """Return whether a request matched the route of the pages, which takes any path."""
+    return getattr(request.scope.get("route"), "path", "") == "/{path:path}"
+
+
 def install(app: FastAPI) -> None:
     """Have every error of `app` answered in the one form."""
 
@@ -142,12 +147,17 @@ def install(app: FastAPI) -> None:
 
     @app.exception_handler(HTTPException)
     async def _(request: Request, error: HTTPException) -> JSONResponse:
+        path = request.url.path
+        status, headers = error.status_code, error.headers
+        # below /api any path is one of the pages' route to the router, which takes GET alone
+        if status == 405 and path.startswith("/api/") and _is_page(request):
+            status, headers = 404, None
         words = {
-            404: ("not_found", f"there is nothing at {request.url.path}"),
-            405: ("method", f"{request.method} is not possible at {request.url.path}"),
+            404: ("not_found", f"there is nothing at {path}"),
+            405: ("method", f"{request.method} is not possible at {path}"),
         }
-        code, message = words.get(error.status_code, ("http", str(error.detail)))
-        return problem(error.status_code, code, message, error.headers)
+        code, message = words.get(status, ("http", str(error.detail)))
+        return problem(status, code, message, headers)
 
     @app.exception_handler(RequestValidationError)
     async def _(_: Request, error: RequestValidationError) -> JSONResponse:

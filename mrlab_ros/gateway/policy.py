@@ -72,6 +72,7 @@ ROUTES: Mapping[tuple[str, str], Everybody | Role | Need] = {
     ("GET", "/api/devices"): Role.STUDENT,
     ("DELETE", "/api/devices/{sign_in}"): Role.STUDENT,
     ("PUT", "/api/uploads/{file_name}"): CONVERTS_OWN,
+    ("PUT", "/api/uploads/"): CONVERTS_OWN,
     ("POST", "/api/conversions"): CONVERTS_OWN,
     ("GET", "/api/motions/{motion}"): READS,
     ("GET", "/api/trajectories"): Need(Verb.CALL, "converter/list"),

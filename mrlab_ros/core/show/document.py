@@ -18,6 +18,7 @@ from mrlab_ros.core.conversion.options import DEFAULT_FRAME_RATE
 from mrlab_ros.core.conversion.preview import Preview
 from mrlab_ros.core.diagnostics import Diagnostic
 from mrlab_ros.core.show.packed import packed
+from mrlab_ros.core.show.remedies import for_page
 from mrlab_ros.core.trajectory.trajectory import Source, Trajectory
 
 SCHEMA = "mrlab.motion.1"
@@ -88,23 +89,33 @@ def preview_motion(
 ) -> dict[str, Any] | None:
     """Return the document of some rows of a matrix that was not taken, or None.
 
-    The values count as rad, as the matrix has them; the first columns are the joints. None where
-    the matrix has fewer columns than the robot has joints, or fewer than two rows: no motion.
+    The values count as rad, or as degrees where a finding says that they are; the first columns
+    are the joints. None where the matrix has fewer columns than the robot has joints, or fewer
+    than two rows: no motion.
     """
     joints = len(robot.joints)
     if len(preview.rows) < 2 or preview.values.shape[1] < joints:
         return None
+    values = preview.values[:, :joints]
+    if any(_all_degrees(d, preview.variable) for d in diagnostics):
+        values = np.radians(values)
     return {
         **_head(file, verdict, message, robot, frame_rate),
         "times": packed((preview.rows.astype(np.float64) - 1) / frame_rate, "float64"),
         "rows": packed(preview.rows, "uint32"),
-        "positions": packed(preview.values[:, :joints], "float32"),
+        "positions": packed(values, "float32"),
         "gripper": None,
         "velocities": None,
         "effort_proxies": None,
         "findings": findings(diagnostics),
         "source": asdict(Source(file, preview.variable, sha256)),
     }
+
+
+def _all_degrees(found: Diagnostic, variable: str) -> bool:
+    """Return whether a finding says that a matrix is in degrees, and not only some columns."""
+    whole = any(fix.option == "units" and fix.value == "deg" for fix in found.fixes)
+    return found.code == "degrees" and whole and found.variable in ("", variable)
 
 
 def of_result(
@@ -142,7 +153,7 @@ def findings(diagnostics: Sequence[Diagnostic]) -> list[dict[str, Any]]:
             "severity": d.severity.name.lower(),
             "code": d.code,
             "message": d.message,
-            "remedy": d.remedy,
+            "remedy": for_page(d.remedy),
             "variable": d.variable,
             "first_row": d.first_row,
             "last_row": d.last_row,

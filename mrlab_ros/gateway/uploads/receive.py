@@ -162,6 +162,10 @@ def checked_name(name: str) -> str:
             f"the name of the file has {len(name)} characters; expected {LONGEST_NAME} at most: "
             "give it a shorter one"
         )
+    if not name.strip(". "):
+        raise BadInput(
+            f"'{name}' is no name for a file; give it one that says what it is, such as traj.mat"
+        )
     if not name.isprintable():
         raise BadInput(
             f"the name of the file is {name!r}, with characters that cannot be printed; expected "

@@ -65,7 +65,7 @@ async def upload(
     person: CurrentPerson,
     shelf: TheShelf,
     desk: TheDesk,
-    file_name: Annotated[str, Path(min_length=1, max_length=255)],
+    file_name: Annotated[str, Path(description="such as traj.mat")],
     content_length: Annotated[int | None, Header(ge=0, include_in_schema=False)] = None,
 ) -> answers.Upload:
     """Receive a file, the raw body of the request; one that breaks off leaves nothing."""
@@ -82,6 +82,12 @@ async def upload(
         size=received.size,
         sha256=received.sha256,
     )
+
+
+@router.put("/uploads/", include_in_schema=False)
+async def upload_without_name(person: CurrentPerson) -> None:
+    """Say that an upload needs a name."""
+    raise BadInput("the file has no name; give it one that says what it is, such as traj.mat")
 
 
 @router.post("/conversions")

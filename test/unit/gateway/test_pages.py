@@ -37,6 +37,14 @@ def test_a_missing_file_is_no_page(lab: Gateway, path: str) -> None:
     assert code_of(lab.anyone.get(path)) == (404, "not_found")
 
 
+def test_what_no_api_answers_says_so_whatever_the_method(lab: Gateway) -> None:
+    known = lab.browser()
+    for method in ("POST", "PUT", "PATCH", "DELETE"):
+        assert code_of(known.send(method, "/api/nothing")) == (404, "not_found")
+    # what is there is there, for another method
+    assert code_of(known.send("POST", "/api/devices")) == (405, "method")
+
+
 def test_files_with_fingerprints_are_kept_for_ever(lab: Gateway) -> None:
     response = lab.anyone.get("/static/main-1a2b.js")
     assert response.headers["cache-control"] == "public, max-age=31536000, immutable"

@@ -7,6 +7,7 @@ import { Label } from './labels'
 import { Looks } from './looks'
 import type { MeshSource } from './meshes'
 import { SceneRobot } from './robot'
+import { LabelSpacing } from './separate'
 import type { Stage } from './stage'
 import type { SceneTheme } from './theme'
 import { placeOf, ToolPath, type Track, trackOf } from './tool_path'
@@ -14,6 +15,7 @@ import type { SceneWords } from './words'
 
 const LABEL = 0.019 // as a part of the distance to it
 const MARK = 0.024
+const MARK_PIXELS = 27 // its height, about
 const SAME_PLACE = 0.02 // m, between labels that would hide each other
 const POSES = 7 // of the robot that the camera shows whole
 
@@ -83,7 +85,17 @@ export class PreviewScene {
       this.ends = [this.endLabel(`${words.start}, ${words.end}`, 0)]
     }
     this.mark()
-    this.undo.push(stage.onTheme((theme) => this.setTheme(theme)))
+    const spacing = new LabelSpacing(stage, [
+      ...this.markers.map((marker) => marker.label),
+      ...this.ends,
+    ])
+    this.undo.push(
+      stage.onTheme((theme) => this.setTheme(theme)),
+      stage.onFrame(() => {
+        spacing.place()
+        return false
+      }),
+    )
 
     this.ready = Promise.all([this.robot, ...this.ghosts].map((one) => one.ready)).then(() => {
       this.fit(track)
@@ -128,7 +140,9 @@ export class PreviewScene {
     const at = new Vector3()
     for (const { label, finding } of this.markers) {
       this.stage.toScreen(label.sprite.position, at)
-      const near = Math.hypot(at.x - x, at.y - 20 - y) < 22
+      // it sits above its point, the higher the more labels are there
+      const up = at.y + (label.sprite.center.y - 0.5) * MARK_PIXELS
+      const near = Math.hypot(at.x - x, up - y) < 22
       if (near) return this.motion.findings.indexOf(finding) + 1
     }
     return 0
@@ -185,11 +199,6 @@ export class PreviewScene {
       const label = new Label(String(i + 1), MARK)
       this.course.sample(this.course.timeOfRow(finding.first_row), this.positions)
       placeOf(this.robot, this.positions, label.sprite.position)
-      const { position, center } = label.sprite
-      const before = this.markers.filter(
-        (m) => m.label.sprite.position.distanceTo(position) < 0.02,
-      )
-      center.set(0.5 - before.length * 1.05, -0.25)
       this.stage.world.add(label.sprite)
       this.markers.push({ label, finding })
     }

@@ -4,7 +4,10 @@ import {
   DirectionalLight,
   Group,
   HemisphereLight,
+  Mesh,
+  MeshStandardMaterial,
   NeutralToneMapping,
+  type Object3D,
   PCFShadowMap,
   PerspectiveCamera,
   PMREMGenerator,
@@ -29,6 +32,7 @@ const STANDS = 0.4 // s without a new picture
 const VIEW = new Vector3(1.05, -1.0, 0.62).normalize()
 const LIGHT = new Vector3(0.55, -0.75, 1.5).normalize()
 const MARGIN = 1.08 // of the distance at which everything just fits
+const MATT = 0.15 // most metalness without reflections
 const TURN = Math.PI / 24 // rad, a press of an arrow key
 
 /** A browser that cannot draw in 3D. */
@@ -80,6 +84,8 @@ export class Stage {
     this.canvas.setAttribute('role', 'img')
     this.canvas.setAttribute('aria-label', label)
     this.renderer = rendererOn(this.canvas)
+    const software = drawsInSoftware(this.renderer)
+    if (software) this.sharpness = LEAST_SHARPNESS
     this.renderer.toneMapping = NeutralToneMapping
     this.renderer.toneMappingExposure = 1.05
     this.renderer.shadowMap.enabled = true
@@ -89,7 +95,7 @@ export class Stage {
     this.world.rotation.x = -Math.PI / 2
     this.scene.add(this.world)
     this.world.add(this.floor.group)
-    this.lightUp()
+    this.lightUp(software)
 
     this.controls = new OrbitControls(this.camera, this.canvas)
     this.controls.enableDamping = !reducedMotion()
@@ -204,6 +210,7 @@ export class Stage {
     for (const listener of this.listeners) more = listener(now) || more
     this.controls.update()
     this.adapt(now)
+    if (this.scene.environment === null) this.scene.traverse(matt)
     this.renderer.render(this.scene, this.camera)
     this.drawn++
     if (more) this.invalidate()
@@ -319,19 +326,28 @@ export class Stage {
     this.draw()
   }
 
-  private lightUp(): void {
-    const generator = new PMREMGenerator(this.renderer)
-    const room = new RoomEnvironment()
-    this.scene.environment = generator.fromScene(room, 0.04).texture
-    this.scene.environmentIntensity = 0.55
-    room.dispose()
-    generator.dispose()
+  private lightUp(software: boolean): void {
     this.sun.castShadow = true
-    this.sun.shadow.mapSize.set(2048, 2048)
+    if (software) {
+      // its reflections alone would take a processor ten seconds
+      this.sun.shadow.mapSize.set(1024, 1024)
+      this.sun.intensity = 2.4
+      const fill = new DirectionalLight(0xffffff, 0.9)
+      fill.position.set(-LIGHT.x, LIGHT.z * 0.35, LIGHT.y)
+      this.scene.add(new HemisphereLight(0xffffff, 0x9aa4b0, 1.7), fill)
+    } else {
+      const generator = new PMREMGenerator(this.renderer)
+      const room = new RoomEnvironment()
+      this.scene.environment = generator.fromScene(room, 0.04).texture
+      room.dispose()
+      generator.dispose()
+      this.sun.shadow.mapSize.set(2048, 2048)
+      this.scene.add(new HemisphereLight(0xffffff, 0x8895a5, 0.5))
+    }
     this.sun.shadow.bias = -0.0002
     this.sun.shadow.normalBias = 0.008
     this.sun.shadow.radius = 6
-    this.scene.add(new HemisphereLight(0xffffff, 0x8895a5, 0.5), this.sun, this.sun.target)
+    this.scene.add(this.sun, this.sun.target)
   }
 
   /** Fit the shadow to a sphere, in the scene's frame. */
@@ -371,4 +387,20 @@ function rendererOn(canvas: HTMLCanvasElement): WebGLRenderer {
   } catch (error) {
     throw new NoWebGL(error instanceof Error ? error.message : 'this browser has no WebGL 2')
   }
+}
+
+/** Let metal show its own colour: without reflections it would be black. */
+function matt(node: Object3D): void {
+  if (!(node instanceof Mesh)) return
+  const { material } = node
+  if (material instanceof MeshStandardMaterial && material.metalness > MATT)
+    material.metalness = MATT
+}
+
+/** Return whether a processor draws in place of a GPU, as far as the browser says. */
+function drawsInSoftware(renderer: WebGLRenderer): boolean {
+  const context = renderer.getContext()
+  const info = context.getExtension('WEBGL_debug_renderer_info')
+  const name = context.getParameter(info?.UNMASKED_RENDERER_WEBGL ?? context.RENDERER)
+  return /swiftshader|llvmpipe|softpipe|software|basic render/i.test(String(name))
 }

@@ -59,6 +59,7 @@ export const de: Words = {
     hint: 'Zeige auf eine Kurve für ihre Zahlen; ein Klick springt dorthin.',
     at: (time, row) => `${time} s · Zeile ${row}`,
     limit: (value) => `Grenze ${value}`,
+    limits: (low, high) => `Grenzen ${low} und ${high}`,
     from: (low, high, unit) => `von ${low} bis ${high} ${unit}`,
     between: (low, high) => `, erlaubt von ${low} bis ${high}`,
     noScene: 'Die 3D-Ansicht konnte nicht geladen werden; Kurven und Befunde sind vollständig.',
@@ -88,7 +89,10 @@ export const de: Words = {
     change: 'ändern',
     several: (count) => `${count} Matrizen dieser Datei könnten die Bewegung sein`,
     refused: (robot) => `Noch nicht angenommen für ${robot}: das ist zu beheben`,
+    unread: 'In dieser Datei steht keine lesbare Bewegung',
     which: 'Welche ist die Bewegung?',
+    drawn: (variable) => `Gezeigt: ${variable}, die wahrscheinlichste, als Radiant gelesen.`,
+    shownHere: 'gezeigt',
     take: (variable) => `${variable} nehmen`,
     range: (low, high) => `von ${low} bis ${high}`,
     sparkline: (variable) => `Werte von ${variable} über die Zeilen`,
@@ -116,7 +120,11 @@ export const de: Words = {
     join: (value) => `${value} zusammenfügen`,
     gripper: (value) => (value === 'none' ? 'Es gibt keinen Greifer' : `Der Greifer ist ${value}`),
     invert: () => 'Größer heißt offen',
-    units: (value) => `Zahlen als ${value} lesen`,
+    units: (value) => {
+      const counts = value.startsWith('counts:') ? value.slice(7) : ''
+      if (counts) return `Zahlen als Zählschritte lesen, ${counts} je Umdrehung`
+      return `Zahlen als ${value === 'deg' ? 'Grad' : 'Radiant'} lesen`
+    },
   },
   trajectories: {
     title: 'Trajektorien',

@@ -58,6 +58,7 @@ export const en = {
     hint: 'Point at a strip for its numbers; click to go there.',
     at: (time: string, row: string) => `${time} s · row ${row}`,
     limit: (value: string) => `limit ${value}`,
+    limits: (low: string, high: string) => `limits ${low} and ${high}`,
     from: (low: string, high: string, unit: string) => `from ${low} to ${high} ${unit}`,
     between: (low: string, high: string) => `, allowed from ${low} to ${high}`,
     noScene: 'The 3D view could not be loaded; plots and findings are complete.',
@@ -87,7 +88,10 @@ export const en = {
     change: 'change',
     several: (count: number) => `${count} matrices of this file could be the motion`,
     refused: (robot: string) => `Not taken for ${robot} yet: here is what to mend`,
+    unread: 'There is no motion in this file that can be read',
     which: 'Which one is the motion?',
+    drawn: (variable: string) => `Shown: ${variable}, the likeliest one, read as radians.`,
+    shownHere: 'shown',
     take: (variable: string) => `Take ${variable}`,
     range: (low: string, high: string) => `from ${low} to ${high}`,
     sparkline: (variable: string) => `Values of ${variable} over its rows`,
@@ -116,7 +120,11 @@ export const en = {
     gripper: (value: string) =>
       value === 'none' ? 'There is no gripper' : `The gripper is ${value}`,
     invert: (_value: string) => 'Larger means open',
-    units: (value: string) => `Read the numbers as ${value}`,
+    units: (value: string) => {
+      const counts = value.startsWith('counts:') ? value.slice(7) : ''
+      if (counts) return `Read the numbers as counts, ${counts} a turn`
+      return `Read the numbers as ${value === 'deg' ? 'degrees' : 'radians'}`
+    },
   },
   trajectories: {
     title: 'Trajectories',

@@ -1,6 +1,7 @@
 """The document of a motion: what web/src/playback/motion.ts says, from good and refused files."""
 
 import re
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -116,6 +117,14 @@ def test_a_refused_file_is_shown_by_its_preview():
     assert shown["value"] is None
     assert shown["limit"] == 1.0
     assert shown["fixes"] == [{"option": "degrees", "value": "true", "matlab": "q = deg2rad(q)"}]
+
+
+@pytest.mark.parametrize(("option", "shown"), [("units", np.pi / 2), ("", 90.0)])
+def test_a_file_in_degrees_is_drawn_in_degrees(option, shown):
+    found = refused([[0, 90], [0, 45]], rows=(1, 2))
+    degrees = replace(LIMIT, code="degrees", fixes=(Fix(option, "deg", "q = deg2rad(q);"),))
+    made = document.of_result(replace(found, diagnostics=(degrees,)), ROBOT)
+    assert unpacked(made["positions"])[0, 1] == pytest.approx(shown)
 
 
 def test_an_ambiguous_file_is_shown_by_its_likeliest_candidate():

@@ -30,6 +30,8 @@ export interface Mark {
 export interface StripWords {
   /** Such as "limit 180". */
   limit(value: string): string
+  /** Such as "limits -180 and 180". */
+  limits(low: string, high: string): string
 }
 
 export interface StripPlot {
@@ -58,6 +60,7 @@ const FONT = '13px system-ui, -apple-system, "Segoe UI", Roboto, sans-serif'
 // Left of the plot, for the numbers of the axis; the strips stand below each other.
 const AXIS_WIDTH = 52
 const AXIS_HEIGHT = 30
+const TEXT = 15 // height of a label of a limit, CSS pixels
 // A limit that is farther from the line than this share of its range would only flatten it.
 const NEAR = 0.35
 
@@ -114,6 +117,18 @@ function drawForbidden(plot: uPlot, { strip, theme, words }: StripOptions): void
   ctx.rect(bbox.left, bbox.top, bbox.width, bbox.height)
   ctx.clip()
   ctx.font = FONT.replace('13', String(13 * ratio))
+  const label = (text: string, y: number) => {
+    // On a patch of the card, so that neither hatching nor line crosses the letters.
+    const width = ctx.measureText(text).width
+    ctx.globalAlpha = 0.85
+    ctx.fillStyle = theme.colours.card
+    ctx.fillRect(bbox.left + 4 * ratio, y, width + 8 * ratio, TEXT * ratio)
+    ctx.globalAlpha = 1
+    ctx.fillStyle = colour
+    ctx.textBaseline = 'top'
+    ctx.fillText(text, bbox.left + 8 * ratio, y + ratio)
+  }
+  const places: number[] = []
   for (const [limit, above] of [
     [strip.upper, true],
     [strip.lower, false],
@@ -132,17 +147,55 @@ function drawForbidden(plot: uPlot, { strip, theme, words }: StripOptions): void
     ctx.moveTo(bbox.left, y)
     ctx.lineTo(bbox.left + bbox.width, y)
     ctx.stroke()
-    // On a patch of the card, so that the hatching does not cross the letters.
+    places.push(y)
+  }
+  const { upper, lower } = strip
+  const [top, low] = places
+  if (top !== undefined && low !== undefined && low - top < 2 * TEXT * ratio) {
+    // too near to each other for a label each
+    const middle = (top + low - TEXT * ratio) / 2
+    label(words.limits((lower ?? 0).toFixed(0), (upper ?? 0).toFixed(0)), middle)
+    ctx.restore()
+    return
+  }
+  for (const [limit, above] of [
+    [upper, true],
+    [lower, false],
+  ] as const) {
+    if (limit === null) continue
+    const y = plot.valToPos(limit, 'y', true)
     const text = words.limit(limit.toFixed(0))
+    if (y > bbox.top && y < bottom) label(text, above ? y + 3 * ratio : y - 17 * ratio)
+  }
+  ctx.restore()
+}
+
+/** Say by an arrow at the edge where a limit is that the axis does not reach. */
+function drawFarLimits(plot: uPlot, { strip, theme }: StripOptions): void {
+  const { ctx, bbox } = plot
+  const ratio = devicePixelRatio
+  const bottom = bbox.top + bbox.height
+  ctx.save()
+  ctx.font = FONT.replace('13', String(12 * ratio))
+  ctx.textAlign = 'right'
+  ctx.textBaseline = 'middle'
+  for (const [limit, arrow] of [
+    [strip.upper, '↑'],
+    [strip.lower, '↓'],
+  ] as const) {
+    if (limit === null) continue
+    const y = plot.valToPos(limit, 'y', true)
+    if (y > bbox.top && y < bottom) continue
+    const text = `${arrow} ${limit.toFixed(0)}${strip.unit === '°' ? '°' : ''}`
     const width = ctx.measureText(text).width
-    const place = above ? y + 3 * ratio : y - 17 * ratio
+    const right = bbox.left + bbox.width - 4 * ratio
+    const middle = arrow === '↑' ? bbox.top + 8 * ratio : bottom - 8 * ratio
     ctx.globalAlpha = 0.85
     ctx.fillStyle = theme.colours.card
-    ctx.fillRect(bbox.left + 4 * ratio, place, width + 8 * ratio, 15 * ratio)
+    ctx.fillRect(right - width - 3 * ratio, middle - 7 * ratio, width + 6 * ratio, 14 * ratio)
     ctx.globalAlpha = 1
-    ctx.fillStyle = colour
-    ctx.textBaseline = 'top'
-    ctx.fillText(text, bbox.left + 8 * ratio, place + ratio)
+    ctx.fillStyle = theme.colours.second
+    ctx.fillText(text, right, middle)
   }
   ctx.restore()
 }
@@ -238,7 +291,11 @@ export function createStrip(parent: HTMLElement, width: number, options: StripOp
       hooks: {
         drawClear: [(drawn) => drawForbidden(drawn, options)],
         // A new or resized plot has its scales when it is drawn, not before.
-        draw: [(drawn) => drawMarks(drawn, options), place],
+        draw: [
+          (drawn) => drawFarLimits(drawn, options),
+          (drawn) => drawMarks(drawn, options),
+          place,
+        ],
         setCursor: [(drawn) => options.onCursor(drawn.cursor.idx ?? null)],
       },
     },

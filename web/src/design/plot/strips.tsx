@@ -58,7 +58,7 @@ export function Strips({ times, strips, marks, rowOf, time, onSeek }: StripsProp
         strip,
         marks: marks.filter((mark) => mark.strip === null || mark.strip === index),
         theme: theme.value,
-        words: { limit: words.value.plots.limit },
+        words: words.value.plots,
         height: width() < NARROW ? FLAT_HEIGHT : HEIGHT,
         axis: index === strips.length - 1,
         sync,

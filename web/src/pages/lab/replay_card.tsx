@@ -23,13 +23,13 @@ export function ReplayCard({ follower }: { follower: LabFollower }) {
   }
   return (
     <article class="lab-card">
-      <h3>{w.recordings}</h3>
+      <h2>{w.recordings}</h2>
       {state?.message && <p class="small">{state.message}</p>}
       {state?.state === RecorderState.RECORDING && <p class="small">{w.recording(state.bag)}</p>}
       {replaying && state ? (
         <>
           <p class="small">{w.replaying(state.bag)}</p>
-          <Timeline player={follower.replay} rate={100} enabled={may.replay} />
+          <Timeline key="timeline" player={follower.replay} rate={100} enabled={may.replay} />
           {may.replay && (
             <Button onClick={() => trigger(link, 'recorder/stop')}>{w.endReplay}</Button>
           )}

@@ -54,7 +54,7 @@ export function RobotCard({ view, catalogue }: RobotCardProps) {
   return (
     <article class="lab-card" aria-label={robot.name}>
       <header class="lab-card-head">
-        <h3>{robot.name}</h3>
+        <h2>{robot.name}</h2>
         <StateChip state={state} />
         {may.scene && (
           <Menu label={w.actionsFor(robot.name)} icon="more" look="quiet">
@@ -70,19 +70,21 @@ export function RobotCard({ view, catalogue }: RobotCardProps) {
           </Menu>
         )}
       </header>
-      <p class="second small">
-        {robot.model}
-        {robot.end_effector && ` + ${robot.end_effector}`}
-        {playback?.system && ` · ${w.inSystem(playback.system)}`}
-      </p>
-      {playback?.message && <p class="small">{playback.message}</p>}
-      {touching && <p class="lab-halt small">{touching}</p>}
-      {holding && <p class="small">{w.holds(holding)}</p>}
-      {state === 'COLLISION_HALT' && may.commands && (
-        <Button onClick={() => trigger(link, `${robot.name}/clear_halt`)}>{w.clearHalt}</Button>
-      )}
+      <div class="lab-card-words" key="words">
+        <p class="second small">
+          {robot.model}
+          {robot.end_effector && ` + ${robot.end_effector}`}
+          {playback?.system && ` · ${w.inSystem(playback.system)}`}
+        </p>
+        {playback?.message && <p class="small">{playback.message}</p>}
+        {touching && <p class="lab-halt small">{touching}</p>}
+        {holding && <p class="small">{w.holds(holding)}</p>}
+        {state === 'COLLISION_HALT' && may.commands && (
+          <Button onClick={() => trigger(link, `${robot.name}/clear_halt`)}>{w.clearHalt}</Button>
+        )}
+      </div>
       {loaded && (
-        <>
+        <div class="lab-card-words" key="loaded">
           <div class="lab-loaded">
             <strong class="grow small">{playback.trajectory_id}</strong>
             {independent && may.commands && (
@@ -97,10 +99,11 @@ export function RobotCard({ view, catalogue }: RobotCardProps) {
             enabled={may.commands && independent}
           />
           <Targets view={view} />
-        </>
+        </div>
       )}
       {(choosing || (!loaded && independent)) && (
         <LoadList
+          key="list"
           robot={robot}
           catalogue={catalogue}
           loaded={playback?.trajectory_id ?? ''}

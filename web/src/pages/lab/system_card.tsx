@@ -48,7 +48,7 @@ export function SystemCard({ view }: { view: SystemView }) {
   return (
     <article class="lab-card" aria-label={system.name}>
       <header class="lab-card-head">
-        <h3>{system.name}</h3>
+        <h2>{system.name}</h2>
         <StateChip state={stateOf(system.label)} />
       </header>
       <p class="second small">{system.mode === 0 ? w.parallel : w.sequential}</p>
@@ -87,7 +87,7 @@ export function SystemCard({ view }: { view: SystemView }) {
           </li>
         ))}
       </ul>
-      <Timeline player={player} rate={100} enabled={may.commands} />
+      <Timeline key="timeline" player={player} rate={100} enabled={may.commands} />
     </article>
   )
 }

@@ -110,12 +110,14 @@ export function MotionView({ motion, compared = null, selected }: MotionViewProp
       )}
       <section class="card motion-plots" aria-label={w.title}>
         <div class="motion-channels">
-          <Segments<Channel>
-            label={w.title}
-            value={channel}
-            onChange={setChannel}
-            options={channels.map((each) => [each, w.channels[each]] as const)}
-          />
+          {channels.length > 1 && (
+            <Segments<Channel>
+              label={w.title}
+              value={channel}
+              onChange={setChannel}
+              options={channels.map((each) => [each, w.channels[each]] as const)}
+            />
+          )}
           {channel === 'proxies' && <p class="small second">{w.proxyNote}</p>}
         </div>
         <Strips

@@ -6,11 +6,13 @@ import { number, words } from '../../words/words'
 interface CandidatesProps {
   candidates: readonly Candidate[]
   busy: boolean
+  /** The variable that plots and 3D show; empty: none. */
+  drawn: string
   onChoose: (variable: string) => void
 }
 
 /** Several matrices could be the motion: say which. */
-export function Candidates({ candidates, busy, onChoose }: CandidatesProps) {
+export function Candidates({ candidates, busy, drawn, onChoose }: CandidatesProps) {
   const w = words.value.upload
   return (
     <section class="card stack" aria-labelledby="candidates">
@@ -20,6 +22,7 @@ export function Candidates({ candidates, busy, onChoose }: CandidatesProps) {
           <li key={candidate.variable} class="candidate">
             <div class="candidate-head">
               <code class="candidate-name">{candidate.variable}</code>
+              {candidate.variable === drawn && <span class="chip chip-plain">{w.shownHere}</span>}
               <span class="second small nowrap">
                 {candidate.rows} × {candidate.columns}
               </span>

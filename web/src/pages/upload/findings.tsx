@@ -12,6 +12,8 @@ interface FindingsProps {
   onSelect: (number: number) => void
   /** Absent where nothing can be mended here. */
   onFix?: (fix: Fix) => void
+  /** The choice between matrices is offered elsewhere on the page. */
+  chosenElsewhere?: boolean
   busy?: boolean
 }
 
@@ -49,11 +51,12 @@ function place(finding: Diagnostic): string {
 }
 
 function Finding(props: FindingsProps & { finding: Diagnostic; number: number }) {
-  const { finding, number, selected, onSelect, onFix, busy = false } = props
+  const { finding, number, selected, onSelect, onFix, busy = false, chosenElsewhere } = props
   const w = words.value
   const where = place(finding)
+  const fixes = finding.fixes.filter((fix) => !chosenElsewhere || fix.option !== 'variable')
   // The same line of MATLAB comes with several options at times.
-  const lines = [...new Set(finding.fixes.map((fix) => fix.matlab).filter(Boolean))]
+  const lines = [...new Set(fixes.map((fix) => fix.matlab).filter(Boolean))]
   return (
     <li
       class={`finding finding-${finding.severity}`}
@@ -79,7 +82,7 @@ function Finding(props: FindingsProps & { finding: Diagnostic; number: number })
         {finding.remedy && <p class="second small">{finding.remedy}</p>}
         {onFix && (
           <div class="finding-fixes">
-            {finding.fixes
+            {fixes
               .filter((fix) => applied({}, fix) !== null)
               .map((fix) => (
                 <Button

@@ -1,4 +1,4 @@
-import type { ConvertOptions, Fix } from '../../api/types'
+import type { Conversion, ConvertOptions, Fix } from '../../api/types'
 import type { Words } from '../../words/en'
 
 const SWITCHES = ['transpose', 'degrees', 'unwrap', 'resample', 'invert'] as const
@@ -35,4 +35,31 @@ export function optionLabels(options: ConvertOptions, words: Words): string[] {
   return Object.entries(options)
     .filter(([, value]) => value !== undefined && value !== false && value !== '')
     .map(([option, value]) => fixLabel({ option, value: String(value), matlab: '' }, words))
+}
+
+/** What no other robot mends: the file itself cannot be read, or holds no motion. */
+const OF_THE_FILE = new Set([
+  'missing',
+  'unsupported_format',
+  'unreadable',
+  'bad_table',
+  'converter_failed',
+  'reader_died',
+  'readers_disagree',
+  'too_large',
+  'too_slow',
+  'never_filled',
+  'empty',
+  'single_sample',
+  'not_real',
+  'wrong_class',
+  'unsupported_object',
+])
+
+/** Return whether another robot could make the file acceptable. */
+export function robotMatters(conversion: Conversion): boolean {
+  if (conversion.outcome !== 'rejected' || conversion.motion !== null) return true
+  return !conversion.diagnostics.some(
+    ({ code, severity }) => severity === 'error' && OF_THE_FILE.has(code),
+  )
 }

@@ -5,7 +5,7 @@ import { words } from '../../words/words'
 import { MotionView } from '../motion/lazy'
 import { Candidates } from './candidates'
 import { Findings } from './findings'
-import { optionLabels } from './fixes'
+import { optionLabels, robotMatters } from './fixes'
 import type { Result, UploadFlow } from './flow'
 import { Pickers } from './pickers'
 import { Publish } from './publish'
@@ -21,10 +21,12 @@ function robotName(flow: UploadFlow, model: string): string {
 }
 
 /** An accepted file says what was found; of another one the findings do. */
-function title(flow: UploadFlow, { conversion, choice }: Result): string {
+function title(flow: UploadFlow, result: Result): string {
+  const { conversion, choice } = result
   const w = words.value.upload
   if (conversion.outcome === 'accepted') return conversion.message
   if (conversion.outcome === 'ambiguous') return w.several(conversion.candidates.length)
+  if (!robotMatters(result.conversion)) return w.unread
   return w.refused(robotName(flow, choice.robot))
 }
 
@@ -73,6 +75,7 @@ export function Verdict({ flow, result, file }: VerdictProps) {
             <Candidates
               candidates={conversion.candidates}
               busy={busy}
+              drawn={motion?.source.variable ?? ''}
               onChoose={(variable) => void flow.chooseVariable(variable)}
             />
           )}
@@ -87,22 +90,32 @@ export function Verdict({ flow, result, file }: VerdictProps) {
                 selected.value = number
               }}
               onFix={(fix) => void flow.apply(fix)}
+              chosenElsewhere={conversion.outcome === 'ambiguous'}
               busy={busy}
             />
           )}
-          <details class="card verdict-robot">
-            <summary>
-              <span class="second small">{w.upload.checkedFor}</span>
-              <strong>
-                {robotName(flow, choice.robot)}
-                {effector && ` + ${effector.name}`}
-              </strong>
-              <span class="verdict-change">{w.upload.change}</span>
-            </summary>
-            <Pickers flow={flow} />
-          </details>
+          {robotMatters(result.conversion) && (
+            <details class="card verdict-robot">
+              <summary>
+                <span class="second small">{w.upload.checkedFor}</span>
+                <strong>
+                  {robotName(flow, choice.robot)}
+                  {effector && ` + ${effector.name}`}
+                </strong>
+                <span class="verdict-change">{w.upload.change}</span>
+              </summary>
+              <Pickers flow={flow} />
+            </details>
+          )}
         </div>
-        {motion && <MotionView key={conversion.motion} motion={motion} selected={selected} />}
+        {motion && (
+          <div class="verdict-motion stack-8">
+            {conversion.outcome === 'ambiguous' && (
+              <p class="second small">{w.upload.drawn(motion.source.variable)}</p>
+            )}
+            <MotionView key={conversion.motion} motion={motion} selected={selected} />
+          </div>
+        )}
       </div>
     </article>
   )

@@ -1,7 +1,8 @@
 import { expect, test } from 'vitest'
-import { applied, fixLabel, optionLabels } from '../../../src/pages/upload/fixes'
+import { applied, fixLabel, optionLabels, robotMatters } from '../../../src/pages/upload/fixes'
 import { de } from '../../../src/words/de'
 import { en } from '../../../src/words/en'
+import { finding } from '../../fake_api'
 
 test.each([
   ['unwrap', 'true', { unwrap: true }],
@@ -39,4 +40,29 @@ test('options that are off are not named', () => {
   expect(optionLabels({ unwrap: true, invert: false, columns: '' }, en)).toEqual([
     'Remove jumps by a full turn',
   ])
+})
+
+test('a unit has its name in a label, never the word of the option', () => {
+  for (const words of [en, de]) {
+    const labels = ['deg', 'rad', 'counts:4096'].map((value) =>
+      fixLabel({ option: 'units', value, matlab: '' }, words),
+    )
+    for (const label of labels) expect(label).not.toMatch(/\b(deg|rad)\b|counts:/)
+    expect(labels[2]).toContain('4096')
+  }
+})
+
+test('another robot is offered only where it could help', () => {
+  const result = (code: string, outcome: 'rejected' | 'accepted' = 'rejected') => ({
+    outcome,
+    message: '',
+    diagnostics: [finding({ code })],
+    candidates: [],
+    trajectory: null,
+    draft: null,
+    motion: null,
+  })
+  expect(robotMatters(result('unsupported_format'))).toBe(false)
+  expect(robotMatters(result('wrong_shape'))).toBe(true)
+  expect(robotMatters(result('unsupported_format', 'accepted'))).toBe(true)
 })
