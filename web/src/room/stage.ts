@@ -17,7 +17,7 @@ import { OrbitControls } from 'three/examples/jsm/controls/OrbitControls.js'
 import { RoomEnvironment } from 'three/examples/jsm/environments/RoomEnvironment.js'
 import { Floor } from '../scene/floor'
 import type { SceneHost } from '../scene/lab_scene'
-import { NoWebGL } from '../scene/stage'
+import { NoWebGL } from '../scene/renderer'
 import { onTheme, type SceneTheme, themeNow } from '../scene/theme'
 import { stand } from './frames'
 

@@ -4,7 +4,8 @@ import { MotionPlayer } from '../playback/player'
 import { Controls } from './controls'
 import { MeshLibrary, type MeshSource } from './meshes'
 import { PreviewScene } from './preview_scene'
-import { NoWebGL, Stage } from './stage'
+import { NoWebGL } from './renderer'
+import { Stage } from './stage'
 import { ENGLISH, type SceneWords } from './words'
 
 export interface PreviewOptions {

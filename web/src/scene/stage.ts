@@ -4,21 +4,19 @@ import {
   DirectionalLight,
   Group,
   HemisphereLight,
-  Mesh,
-  MeshStandardMaterial,
   NeutralToneMapping,
-  type Object3D,
   PCFShadowMap,
   PerspectiveCamera,
   PMREMGenerator,
   Scene,
   Sphere,
   Vector3,
-  WebGLRenderer,
+  type WebGLRenderer,
 } from 'three'
 import { OrbitControls } from 'three/examples/jsm/controls/OrbitControls.js'
 import { RoomEnvironment } from 'three/examples/jsm/environments/RoomEnvironment.js'
 import { Floor } from './floor'
+import { drawsInSoftware, matt, rendererOn } from './renderer'
 import { onTheme, reducedMotion, type SceneTheme, themeNow } from './theme'
 
 const MOST_PIXEL_RATIO = 2
@@ -32,13 +30,7 @@ const STANDS = 0.4 // s without a new picture
 const VIEW = new Vector3(1.05, -1.0, 0.62).normalize()
 const LIGHT = new Vector3(0.55, -0.75, 1.5).normalize()
 const MARGIN = 1.08 // of the distance at which everything just fits
-const MATT = 0.15 // most metalness without reflections
 const TURN = Math.PI / 24 // rad, a press of an arrow key
-
-/** A browser that cannot draw in 3D. */
-export class NoWebGL extends Error {
-  override readonly name = 'NoWebGL'
-}
 
 /** Called before each picture; true asks for another one. now: s, of performance.now(). */
 export type FrameListener = (now: number) => boolean
@@ -373,34 +365,4 @@ export class Stage {
     for (const listener of this.themed) listener(theme)
     this.invalidate()
   }
-}
-
-function rendererOn(canvas: HTMLCanvasElement): WebGLRenderer {
-  const context = canvas.getContext('webgl2', {
-    alpha: true,
-    antialias: true,
-    powerPreference: 'high-performance',
-  })
-  if (context === null) throw new NoWebGL('this browser has no WebGL 2')
-  try {
-    return new WebGLRenderer({ canvas, context, alpha: true, antialias: true })
-  } catch (error) {
-    throw new NoWebGL(error instanceof Error ? error.message : 'this browser has no WebGL 2')
-  }
-}
-
-/** Let metal show its own colour: without reflections it would be black. */
-function matt(node: Object3D): void {
-  if (!(node instanceof Mesh)) return
-  const { material } = node
-  if (material instanceof MeshStandardMaterial && material.metalness > MATT)
-    material.metalness = MATT
-}
-
-/** Return whether a processor draws in place of a GPU, as far as the browser says. */
-function drawsInSoftware(renderer: WebGLRenderer): boolean {
-  const context = renderer.getContext()
-  const info = context.getExtension('WEBGL_debug_renderer_info')
-  const name = context.getParameter(info?.UNMASKED_RENDERER_WEBGL ?? context.RENDERER)
-  return /swiftshader|llvmpipe|softpipe|software|basic render/i.test(String(name))
 }

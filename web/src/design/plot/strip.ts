@@ -1,6 +1,7 @@
 import uPlot from 'uplot'
 import 'uplot/dist/uPlot.min.css'
 import type { Theme } from '../theme'
+import { drawFarLimits, drawForbidden, FONT } from './limits'
 
 /** One line over time with its limits, in the unit that is shown. */
 export interface Strip {
@@ -56,11 +57,9 @@ interface StripOptions {
   onSeek(time: number): void
 }
 
-const FONT = '13px system-ui, -apple-system, "Segoe UI", Roboto, sans-serif'
 // Left of the plot, for the numbers of the axis; the strips stand below each other.
 const AXIS_WIDTH = 52
 const AXIS_HEIGHT = 30
-const TEXT = 15 // height of a label of a limit, CSS pixels
 // A limit that is farther from the line than this share of its range would only flatten it.
 const NEAR = 0.35
 
@@ -86,118 +85,6 @@ export function rangeOf(strip: Strip): [number, number] {
   if (strip.lower !== null && strip.lower >= low - NEAR * span) low = Math.min(low, strip.lower)
   const margin = 0.14 * Math.max(high - low, 1)
   return [low - margin, high + margin]
-}
-
-function hatch(colour: string, ratio: number): CanvasPattern | null {
-  const size = Math.round(7 * ratio)
-  const tile = document.createElement('canvas')
-  tile.width = size
-  tile.height = size
-  const context = tile.getContext('2d')
-  if (context === null) return null
-  context.strokeStyle = colour
-  context.lineWidth = ratio
-  context.beginPath()
-  for (const shift of [-size, 0, size]) {
-    context.moveTo(shift, size)
-    context.lineTo(shift + size, 0)
-  }
-  context.stroke()
-  return context.createPattern(tile, 'repeat')
-}
-
-function drawForbidden(plot: uPlot, { strip, theme, words }: StripOptions): void {
-  const { ctx, bbox } = plot
-  const ratio = devicePixelRatio
-  const colour = theme.states.COLLISION_HALT
-  const pattern = hatch(colour, ratio)
-  const bottom = bbox.top + bbox.height
-  ctx.save()
-  ctx.beginPath()
-  ctx.rect(bbox.left, bbox.top, bbox.width, bbox.height)
-  ctx.clip()
-  ctx.font = FONT.replace('13', String(13 * ratio))
-  const label = (text: string, y: number) => {
-    // On a patch of the card, so that neither hatching nor line crosses the letters.
-    const width = ctx.measureText(text).width
-    ctx.globalAlpha = 0.85
-    ctx.fillStyle = theme.colours.card
-    ctx.fillRect(bbox.left + 4 * ratio, y, width + 8 * ratio, TEXT * ratio)
-    ctx.globalAlpha = 1
-    ctx.fillStyle = colour
-    ctx.textBaseline = 'top'
-    ctx.fillText(text, bbox.left + 8 * ratio, y + ratio)
-  }
-  const places: number[] = []
-  for (const [limit, above] of [
-    [strip.upper, true],
-    [strip.lower, false],
-  ] as const) {
-    if (limit === null) continue
-    const y = plot.valToPos(limit, 'y', true)
-    if (y <= bbox.top || y >= bottom) continue
-    const [from, height] = above ? [bbox.top, y - bbox.top] : [y, bottom - y]
-    ctx.globalAlpha = 0.7
-    if (pattern) ctx.fillStyle = pattern
-    ctx.fillRect(bbox.left, from, bbox.width, height)
-    ctx.globalAlpha = 1
-    ctx.strokeStyle = colour
-    ctx.lineWidth = 1.25 * ratio
-    ctx.beginPath()
-    ctx.moveTo(bbox.left, y)
-    ctx.lineTo(bbox.left + bbox.width, y)
-    ctx.stroke()
-    places.push(y)
-  }
-  const { upper, lower } = strip
-  const [top, low] = places
-  if (top !== undefined && low !== undefined && low - top < 2 * TEXT * ratio) {
-    // too near to each other for a label each
-    const middle = (top + low - TEXT * ratio) / 2
-    label(words.limits((lower ?? 0).toFixed(0), (upper ?? 0).toFixed(0)), middle)
-    ctx.restore()
-    return
-  }
-  for (const [limit, above] of [
-    [upper, true],
-    [lower, false],
-  ] as const) {
-    if (limit === null) continue
-    const y = plot.valToPos(limit, 'y', true)
-    const text = words.limit(limit.toFixed(0))
-    if (y > bbox.top && y < bottom) label(text, above ? y + 3 * ratio : y - 17 * ratio)
-  }
-  ctx.restore()
-}
-
-/** Say by an arrow at the edge where a limit is that the axis does not reach. */
-function drawFarLimits(plot: uPlot, { strip, theme }: StripOptions): void {
-  const { ctx, bbox } = plot
-  const ratio = devicePixelRatio
-  const bottom = bbox.top + bbox.height
-  ctx.save()
-  ctx.font = FONT.replace('13', String(12 * ratio))
-  ctx.textAlign = 'right'
-  ctx.textBaseline = 'middle'
-  for (const [limit, arrow] of [
-    [strip.upper, '↑'],
-    [strip.lower, '↓'],
-  ] as const) {
-    if (limit === null) continue
-    const y = plot.valToPos(limit, 'y', true)
-    if (y > bbox.top && y < bottom) continue
-    const text = `${arrow} ${limit.toFixed(0)}${strip.unit === '°' ? '°' : ''}`
-    const width = ctx.measureText(text).width
-    const right = bbox.left + bbox.width - 4 * ratio
-    const middle = arrow === '↑' ? bbox.top + 8 * ratio : bottom - 8 * ratio
-    ctx.globalAlpha = 0.85
-    ctx.fillStyle = theme.colours.card
-    ctx.fillRect(right - width - 3 * ratio, middle - 7 * ratio, width + 6 * ratio, 14 * ratio)
-    ctx.globalAlpha = 1
-    ctx.fillStyle = theme.colours.second
-    ctx.fillText(text, right, middle)
-  }
-  ctx.restore()
 }
 
 const SEVERITY_STATE = { error: 'COLLISION_HALT', warning: 'PAUSED', info: 'READY' } as const
@@ -289,10 +176,10 @@ export function createStrip(parent: HTMLElement, width: number, options: StripOp
       ],
       series,
       hooks: {
-        drawClear: [(drawn) => drawForbidden(drawn, options)],
+        drawClear: [(drawn) => drawForbidden(drawn, strip, theme, options.words)],
         // A new or resized plot has its scales when it is drawn, not before.
         draw: [
-          (drawn) => drawFarLimits(drawn, options),
+          (drawn) => drawFarLimits(drawn, strip, theme),
           (drawn) => drawMarks(drawn, options),
           place,
         ],

@@ -152,12 +152,19 @@ export class UploadFlow {
     const running = new AbortController()
     this.#running = running
     this.error.value = ''
-    const choice: Choice = {
-      robot: this.robot.value,
-      effector: this.effector.value,
-      options: this.options.value,
-    }
     try {
+      if (this.library.value === null) {
+        // a file that is faster than the list of robots waits for it
+        this.stage.value = { kind: 'sending', share: 0 }
+        await this.loadLibrary()
+        running.signal.throwIfAborted()
+        if (this.library.value === null) return
+      }
+      const choice: Choice = {
+        robot: this.robot.value,
+        effector: this.effector.value,
+        options: this.options.value,
+      }
       if (this.#upload === null) {
         this.stage.value = { kind: 'sending', share: 0 }
         const upload = await this.api.upload(

@@ -118,3 +118,15 @@ test('publishing gives the draft its name', async () => {
   await flow.publish('wave', true)
   expect(flow.published.value).toMatchObject({ id: 'ada/wave', shared: true })
 })
+
+test('a file that is faster than the list of robots waits for it', async () => {
+  const asked: string[] = []
+  const convert = api.convert.bind(api)
+  api.convert = (request) => {
+    asked.push(request.robot_model)
+    return convert(request)
+  }
+  const eager = new UploadFlow(api)
+  await eager.choose(new File(['x'], 'wave.mat'))
+  expect(asked).toEqual(['ur5e'])
+})

@@ -1,0 +1,119 @@
+import type uPlot from 'uplot'
+import type { Theme } from '../theme'
+import type { Strip, StripWords } from './strip'
+
+export const FONT = '13px system-ui, -apple-system, "Segoe UI", Roboto, sans-serif'
+const TEXT = 15 // height of a label of a limit, CSS pixels
+
+function hatch(colour: string, ratio: number): CanvasPattern | null {
+  const size = Math.round(7 * ratio)
+  const tile = document.createElement('canvas')
+  tile.width = size
+  tile.height = size
+  const context = tile.getContext('2d')
+  if (context === null) return null
+  context.strokeStyle = colour
+  context.lineWidth = ratio
+  context.beginPath()
+  for (const shift of [-size, 0, size]) {
+    context.moveTo(shift, size)
+    context.lineTo(shift + size, 0)
+  }
+  context.stroke()
+  return context.createPattern(tile, 'repeat')
+}
+
+/** Hatch what lies beyond the limits, and name them. */
+export function drawForbidden(plot: uPlot, strip: Strip, theme: Theme, words: StripWords): void {
+  const { ctx, bbox } = plot
+  const ratio = devicePixelRatio
+  const colour = theme.states.COLLISION_HALT
+  const pattern = hatch(colour, ratio)
+  const bottom = bbox.top + bbox.height
+  ctx.save()
+  ctx.beginPath()
+  ctx.rect(bbox.left, bbox.top, bbox.width, bbox.height)
+  ctx.clip()
+  ctx.font = FONT.replace('13', String(13 * ratio))
+  const label = (text: string, y: number) => {
+    // On a patch of the card, so that neither hatching nor line crosses the letters.
+    const width = ctx.measureText(text).width
+    ctx.globalAlpha = 0.85
+    ctx.fillStyle = theme.colours.card
+    ctx.fillRect(bbox.left + 4 * ratio, y, width + 8 * ratio, TEXT * ratio)
+    ctx.globalAlpha = 1
+    ctx.fillStyle = colour
+    ctx.textBaseline = 'top'
+    ctx.fillText(text, bbox.left + 8 * ratio, y + ratio)
+  }
+  const places: number[] = []
+  for (const [limit, above] of [
+    [strip.upper, true],
+    [strip.lower, false],
+  ] as const) {
+    if (limit === null) continue
+    const y = plot.valToPos(limit, 'y', true)
+    if (y <= bbox.top || y >= bottom) continue
+    const [from, height] = above ? [bbox.top, y - bbox.top] : [y, bottom - y]
+    ctx.globalAlpha = 0.7
+    if (pattern) ctx.fillStyle = pattern
+    ctx.fillRect(bbox.left, from, bbox.width, height)
+    ctx.globalAlpha = 1
+    ctx.strokeStyle = colour
+    ctx.lineWidth = 1.25 * ratio
+    ctx.beginPath()
+    ctx.moveTo(bbox.left, y)
+    ctx.lineTo(bbox.left + bbox.width, y)
+    ctx.stroke()
+    places.push(y)
+  }
+  const { upper, lower } = strip
+  const [top, low] = places
+  if (top !== undefined && low !== undefined && low - top < 2 * TEXT * ratio) {
+    // too near to each other for a label each
+    const middle = (top + low - TEXT * ratio) / 2
+    label(words.limits((lower ?? 0).toFixed(0), (upper ?? 0).toFixed(0)), middle)
+    ctx.restore()
+    return
+  }
+  for (const [limit, above] of [
+    [upper, true],
+    [lower, false],
+  ] as const) {
+    if (limit === null) continue
+    const y = plot.valToPos(limit, 'y', true)
+    const text = words.limit(limit.toFixed(0))
+    if (y > bbox.top && y < bottom) label(text, above ? y + 3 * ratio : y - 17 * ratio)
+  }
+  ctx.restore()
+}
+
+/** Say by an arrow at the edge where a limit is that the axis does not reach. */
+export function drawFarLimits(plot: uPlot, strip: Strip, theme: Theme): void {
+  const { ctx, bbox } = plot
+  const ratio = devicePixelRatio
+  const bottom = bbox.top + bbox.height
+  ctx.save()
+  ctx.font = FONT.replace('13', String(12 * ratio))
+  ctx.textAlign = 'right'
+  ctx.textBaseline = 'middle'
+  for (const [limit, arrow] of [
+    [strip.upper, '↑'],
+    [strip.lower, '↓'],
+  ] as const) {
+    if (limit === null) continue
+    const y = plot.valToPos(limit, 'y', true)
+    if (y > bbox.top && y < bottom) continue
+    const text = `${arrow} ${limit.toFixed(0)}${strip.unit === '°' ? '°' : ''}`
+    const width = ctx.measureText(text).width
+    const right = bbox.left + bbox.width - 4 * ratio
+    const middle = arrow === '↑' ? bbox.top + 8 * ratio : bottom - 8 * ratio
+    ctx.globalAlpha = 0.85
+    ctx.fillStyle = theme.colours.card
+    ctx.fillRect(right - width - 3 * ratio, middle - 7 * ratio, width + 6 * ratio, 14 * ratio)
+    ctx.globalAlpha = 1
+    ctx.fillStyle = theme.colours.second
+    ctx.fillText(text, right, middle)
+  }
+  ctx.restore()
+}
