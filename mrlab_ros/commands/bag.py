@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
+from mrlab_ros.commands.output import AsJson, say
 from mrlab_ros.core.errors import BadInput
 
 if TYPE_CHECKING:
@@ -20,7 +21,6 @@ app = typer.Typer(help="Inspect, report and repair bags.", no_args_is_help=True)
 BagArgument = Annotated[
     str, typer.Argument(help="Folder of a bag, an MCAP file, or its name among the recorder's.")
 ]
-AsJson = Annotated[bool, typer.Option("--json", help="Print one JSON object.")]
 
 
 def path_of(bag: str) -> Path:
@@ -73,6 +73,7 @@ def repair(bag: BagArgument, as_json: AsJson = False) -> None:
 def extract(
     bag: BagArgument,
     out: Annotated[Path, typer.Option(help="Folder to write to.")] = Path("."),
+    as_json: AsJson = False,
 ) -> None:
     """Write a bag's attachments to files: URDFs, meshes, trajectories, scene, parameters."""
     from mrlab_ros.adapters.bags.reader import Bag
@@ -86,7 +87,7 @@ def extract(
             raise BadInput(f"the attachment '{name}' would be written outside of {root}")
         target.parent.mkdir(parents=True, exist_ok=True)
         target.write_bytes(found.attachment(name).data)
-    print(f"wrote {len(names)} files to {root}")
+    say(f"wrote {len(names)} files to {root}", as_json=as_json, files=list(names))
 
 
 @app.command()

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 import math
 from collections.abc import Callable
 from typing import TYPE_CHECKING, Annotated
@@ -10,6 +9,7 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from mrlab_ros.commands.convert.options import with_options
+from mrlab_ros.commands.output import AsJson, say
 from mrlab_ros.core.conversion.options import Options
 from mrlab_ros.core.errors import BadInput, Misuse
 
@@ -18,7 +18,6 @@ if TYPE_CHECKING:
     from mrlab_ros.client.robot import LabRobot
 
 Name = Annotated[str, typer.Argument(metavar="ROBOT", help="A robot of the scene, as ur5e_1.")]
-AsJson = Annotated[bool, typer.Option("--json", help="Print one JSON object.")]
 Yaw = Annotated[float, typer.Option(help="Turn about the vertical, degrees.")]
 
 
@@ -148,10 +147,8 @@ def _do(robot: str, work: Callable[[Lab, LabRobot], str], *, as_json: bool) -> N
 
 
 def _say(robot: str, message: str, *, as_json: bool) -> None:
-    if as_json:
-        print(json.dumps({"robot": robot, "message": message}))
-    else:
-        print(message if robot in message else f"{robot}: {message}")
+    words = message if as_json or robot in message else f"{robot}: {message}"
+    say(words, as_json=as_json, robot=robot)
 
 
 def _place(text: str) -> tuple[float, float, float]:

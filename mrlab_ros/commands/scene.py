@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
+from mrlab_ros.commands.output import AsJson, say
 from mrlab_ros.core.errors import BadInput, Misuse
 
 if TYPE_CHECKING:
@@ -22,7 +23,6 @@ scene = typer.Typer(no_args_is_help=True, help="Whole scenes: list, save, load."
 objects = typer.Typer(
     no_args_is_help=True, help="Objects of the scene: list, types, spawn, remove, clear."
 )
-AsJson = Annotated[bool, typer.Option("--json", help="Print JSON instead of a table.")]
 Scene = Annotated[str, typer.Argument(help="A scene; mrlab scene list shows them.")]
 
 
@@ -40,15 +40,15 @@ def list_scenes(as_json: AsJson = False) -> None:
 
 
 @scene.command()
-def save(name: Scene) -> None:
+def save(name: Scene, as_json: AsJson = False) -> None:
     """Save robots, places, trajectories, objects, surfaces and systems under a name."""
-    print(_scene_file("save", name, 15.0))
+    say(_scene_file("save", name, 15.0), as_json=as_json, scene=name)
 
 
 @scene.command()
-def load(name: Scene) -> None:
+def load(name: Scene, as_json: AsJson = False) -> None:
     """Bring the lab to a saved or shipped scene; what is there now goes."""
-    print(_scene_file("load", name, LOAD_TIMEOUT))
+    say(_scene_file("load", name, LOAD_TIMEOUT), as_json=as_json, scene=name)
 
 
 def _scene_file(verb: str, name: str, timeout: float) -> str:
@@ -121,6 +121,7 @@ def spawn(
     ] = False,
     name: Annotated[str, typer.Option(help="Its name; not given: the type and a number.")] = "",
     yaw: Annotated[float, typer.Option(help="Turn about the vertical, degrees.")] = 0.0,
+    as_json: AsJson = False,
 ) -> None:
     """Put an object into the scene."""
     from mrlab_msgs import srv
@@ -137,26 +138,32 @@ def spawn(
         pose=pose_to_message(Pose(position, (0.0, 0.0, math.sin(half), math.cos(half)))),
     )
     with _graph() as graph:
-        print(graph.order(srv.SpawnObject, "/physics/spawn_object", request).message)
+        answer = graph.order(srv.SpawnObject, "/physics/spawn_object", request)
+    say(answer.message, as_json=as_json)
 
 
 @objects.command()
-def remove(name: Annotated[str, typer.Argument(help="An object of the scene.")]) -> None:
+def remove(
+    name: Annotated[str, typer.Argument(help="An object of the scene.")],
+    as_json: AsJson = False,
+) -> None:
     """Take an object out of the scene."""
     from mrlab_msgs import srv
 
     with _graph() as graph:
         request = srv.Remove.Request(name=name)
-        print(graph.order(srv.Remove, "/physics/remove_object", request).message)
+        answer = graph.order(srv.Remove, "/physics/remove_object", request)
+    say(answer.message, as_json=as_json, object=name)
 
 
 @objects.command()
-def clear() -> None:
+def clear(as_json: AsJson = False) -> None:
     """Take all objects out of the scene."""
     from std_srvs.srv import Trigger
 
     with _graph() as graph:
-        print(graph.order(Trigger, "/physics/clear_objects", Trigger.Request()).message)
+        answer = graph.order(Trigger, "/physics/clear_objects", Trigger.Request())
+    say(answer.message, as_json=as_json)
 
 
 def _graph() -> GraphClient:

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
+from mrlab_ros.commands.output import AsJson, say
 from mrlab_ros.core.errors import BadInput, Misuse
 from mrlab_ros.core.naming import checked_name, did_you_mean
 
@@ -69,6 +70,7 @@ def create(
     file: Annotated[
         Path, typer.Argument(help="The system's YAML file; docs/systems.md explains.")
     ],
+    as_json: AsJson = False,
 ) -> None:
     """Make a system as its YAML file describes it."""
     from dataclasses import replace
@@ -99,8 +101,9 @@ def create(
             if system.at > 0:
                 at = srv.Seek.Request(position=system.at)
                 graph.order(srv.Seek, f"/{name}/seek", at)
-            print(answer.message)
-            print(f"next: mrlab system play {name}")
+            say(answer.message, as_json=as_json, system=name)
+            if not as_json:
+                print(f"next: mrlab system play {name}")
 
 
 def _check_entry(graph: GraphClient, system: SystemEntry) -> None:
@@ -138,6 +141,7 @@ def play(
     wait: Annotated[
         bool, typer.Option("--wait/--no-wait", help="Follow the system to its end.")
     ] = True,
+    as_json: AsJson = False,
 ) -> None:
     """Stage all members, then play; play on where the system is paused."""
     from mrlab_msgs import msg
@@ -159,11 +163,13 @@ def play(
             if not seen or seen[-1].label != state.label:
                 seen.append(state)
                 if len(seen) > 1:
-                    print(f"{name}: {state.label}{': ' * bool(state.message)}{state.message}")
+                    words = f"{name}: {state.label}{': ' * bool(state.message)}{state.message}"
+                    say(words, as_json=as_json, system=name, state=state.label)
             return len(seen) > 1 and state.label in ("READY", "PAUSED", "COLLISION_HALT")
 
         watch.wait(lambda m: note(m) or True, 5.0, "the systems")
-        print(graph.order(Trigger, f"/{name}/play", Trigger.Request(), 30.0).message)
+        answer = graph.order(Trigger, f"/{name}/play", Trigger.Request(), 30.0)
+        say(answer.message, as_json=as_json, system=name)
         if not wait:
             return
         try:
@@ -183,14 +189,15 @@ def play(
 
 def _simple(verb: str, words: str) -> None:
     @app.command(verb, help=words)
-    def command(name: Name) -> None:
+    def command(name: Name, as_json: AsJson = False) -> None:
         from std_srvs.srv import Trigger
 
         from mrlab_ros.client.connect import open_graph
 
         with open_graph() as graph:
             _system(graph, name)
-            print(graph.order(Trigger, f"/{name}/{verb}", Trigger.Request()).message)
+            answer = graph.order(Trigger, f"/{name}/{verb}", Trigger.Request())
+        say(answer.message, as_json=as_json, system=name)
 
 
 _simple("pause", "Pause all members; play continues from there.")
@@ -199,22 +206,26 @@ _simple("stop", "End the run; the next play begins at the start.")
 
 @app.command()
 def seek(
-    name: Name, position: Annotated[float, typer.Argument(help="Place on the timeline, s.")]
+    name: Name,
+    position: Annotated[float, typer.Argument(help="Place on the timeline, s.")],
+    as_json: AsJson = False,
 ) -> None:
     """Show another place on the timeline at once."""
     from mrlab_msgs import srv
 
-    _order(name, "seek", srv.Seek, srv.Seek.Request(position=position))
+    _order(name, "seek", srv.Seek, srv.Seek.Request(position=position), as_json=as_json)
 
 
 @app.command(context_settings=NEGATIVE)
 def step(
-    name: Name, frames: Annotated[int, typer.Argument(help="Frames; negative: backwards.")] = 1
+    name: Name,
+    frames: Annotated[int, typer.Argument(help="Frames; negative: backwards.")] = 1,
+    as_json: AsJson = False,
 ) -> None:
     """Step a standing system frame by frame."""
     from mrlab_msgs import srv
 
-    _order(name, "step", srv.Step, srv.Step.Request(frames=frames))
+    _order(name, "step", srv.Step, srv.Step.Request(frames=frames), as_json=as_json)
 
 
 @app.command(context_settings=NEGATIVE)
@@ -223,15 +234,20 @@ def rate(
     rate: Annotated[
         float, typer.Argument(help="0.1 to 4; 1 is the declared speed, -1 the same backwards.")
     ],
+    as_json: AsJson = False,
 ) -> None:
     """Set the speed of the timeline."""
     from mrlab_msgs import srv
 
-    _order(name, "set_rate", srv.SetRate, srv.SetRate.Request(rate=rate))
+    _order(name, "set_rate", srv.SetRate, srv.SetRate.Request(rate=rate), as_json=as_json)
 
 
 @app.command()
-def mode(name: Name, mode: Annotated[str, typer.Argument(help="parallel or sequential.")]) -> None:
+def mode(
+    name: Name,
+    mode: Annotated[str, typer.Argument(help="parallel or sequential.")],
+    as_json: AsJson = False,
+) -> None:
     """Set how the members share the timeline."""
     from mrlab_msgs import srv
 
@@ -239,19 +255,29 @@ def mode(name: Name, mode: Annotated[str, typer.Argument(help="parallel or seque
 
     if mode.upper() not in Mode.__members__:
         raise BadInput(f"the mode is '{mode}'; expected parallel or sequential")
-    _order(name, "set_mode", srv.SetMode, srv.SetMode.Request(mode=Mode[mode.upper()].value))
+    _order(
+        name,
+        "set_mode",
+        srv.SetMode,
+        srv.SetMode.Request(mode=Mode[mode.upper()].value),
+        as_json=as_json,
+    )
 
 
 @app.command()
-def loop(name: Name, on: Annotated[bool, typer.Argument(help="true or false.")] = True) -> None:
+def loop(
+    name: Name,
+    on: Annotated[bool, typer.Argument(help="true or false.")] = True,
+    as_json: AsJson = False,
+) -> None:
     """Have the system start over after its end, or not."""
     from std_srvs.srv import SetBool
 
-    _order(name, "set_loop", SetBool, SetBool.Request(data=on))
+    _order(name, "set_loop", SetBool, SetBool.Request(data=on), as_json=as_json)
 
 
 @app.command()
-def dissolve(name: Name) -> None:
+def dissolve(name: Name, as_json: AsJson = False) -> None:
     """Set the members free, paused where they are."""
     from mrlab_msgs import srv
 
@@ -259,15 +285,17 @@ def dissolve(name: Name) -> None:
 
     with open_graph() as graph:
         request = srv.Remove.Request(name=name)
-        print(graph.order(srv.Remove, "/coordinator/dissolve_system", request).message)
+        answer = graph.order(srv.Remove, "/coordinator/dissolve_system", request)
+    say(answer.message, as_json=as_json, system=name)
 
 
-def _order(name: str, service: str, kind: Any, request: Any) -> None:
+def _order(name: str, service: str, kind: Any, request: Any, *, as_json: bool) -> None:
     from mrlab_ros.client.connect import open_graph
 
     with open_graph() as graph:
         _system(graph, name)
-        print(graph.order(kind, f"/{name}/{service}", request).message)
+        answer = graph.order(kind, f"/{name}/{service}", request)
+    say(answer.message, as_json=as_json, system=name)
 
 
 def _systems(graph: GraphClient, name: str = "") -> list[Any]:

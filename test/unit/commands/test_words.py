@@ -31,6 +31,12 @@ NAMED = re.compile(r"\bmrlab ((?:--?)?[a-z](?:(?!, (?:or|and|then) |mrlab )[^`\n
 OPTION = re.compile(r"(?<![\w-])--[a-z][a-z-]+")
 # Words after "mrlab" in prose, as in "mrlab sets it".
 PROSE = {"and", "does", "is", "made", "process", "processes", "wrote"}
+# Commands beside groups that print what the lab, or the converter, answered.
+WITH_JSON = [
+    name
+    for name, place in COMMANDS.items()
+    if place.startswith("robot:") or name in ("convert", "play", "record", "status", "demo")
+]
 
 
 @cache
@@ -164,3 +170,10 @@ def test_a_command_alone_is_the_same_as_among_all() -> None:
         assert set(alone.commands) == {name}
         shown = [param.name for param in alone.commands[name].params]
         assert shown == [param.name for param in group().commands[name].params]
+
+
+@pytest.mark.parametrize("name", ["bag", "objects", "scene", "system", *WITH_JSON])
+def test_what_the_lab_answers_is_to_be_had_as_json(name: str) -> None:
+    command, _ = resolved([name])
+    for each in getattr(command, "commands", {name: command}).values():
+        assert "--json" in options_of(each), each.name

@@ -140,6 +140,17 @@ def test_a_person_is_known_by_what_the_login_proves(login, fields):
     assert found["subjects"] == [{"id": "anna", "link_protocols": ["tls", "quic"], **fields}]
 
 
+def test_this_machine_s_user_does_everything_through_the_socket_and_nobody_else():
+    without = access_control(SHIPPED, [ANNA], Login.CERTIFICATE)
+    found = access_control(SHIPPED, [ANNA], Login.CERTIFICATE, local=True)
+    (subject,) = [each for each in found["subjects"] if each not in without["subjects"]]
+    assert subject["link_protocols"] == ["unixsock-stream"]
+    (policy,) = [each for each in found["policies"] if each not in without["policies"]]
+    assert policy["subjects"] == [subject["id"]]
+    everybody = [each["subjects"] for each in without["policies"]]
+    assert all(subject["id"] not in names for names in everybody)
+
+
 def test_everybody_has_the_rules_of_one_role():
     found = access_control(SHIPPED, [ANNA, BEN], Login.CERTIFICATE)
     assert found["enabled"] is True
