@@ -74,8 +74,12 @@ class Load:
         """Return whether another load is much the same."""
         if other is None:
             return False
-        near = abs(self.friction_needed - other.friction_needed)
-        return near <= 0.02 + 0.1 * other.friction_needed
+        friction = abs(self.friction_needed - other.friction_needed)
+        moment = abs(self.wrist_moment - other.wrist_moment)
+        return (
+            friction <= 0.02 + 0.1 * other.friction_needed
+            and moment <= 0.05 + 0.1 * other.wrist_moment
+        )
 
 
 def fingers_grip(contacts: Sequence[tuple[Vector, Vector]]) -> Grip:

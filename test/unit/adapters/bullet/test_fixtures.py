@@ -9,6 +9,7 @@ import pytest
 from physics_cell import LIP, PADS, TYPES, Cell, gantry
 
 from mrlab_ros.core.geometry import Pose
+from mrlab_ros.core.physics.engine import Kind
 from mrlab_ros.core.physics.grasp import Grasp
 from mrlab_ros.core.physics.settings import Settings
 from mrlab_ros.core.physics.simulated_robot import GripperProgram
@@ -94,6 +95,10 @@ def what_is_too_wide_is_not_held_though_it_stood_between_the_fingers(cell):
     cell.add("a", at=(0.0, 0.0, 0.03 + PADS))
     cell.put("wide", (0.0, 0.0, 0.03))
     cell.close("a", 1.2)
+    # Neither finger has left its range, and both are as far closed.
+    one, two = cell.world.fingers("a").values()
+    assert one == pytest.approx(two, abs=1e-6)
+    assert -1e-9 <= one < 1e-4
     assert cell.grasps("a") == [OPEN, CLOSING, EMPTY]
     assert "wider than the gripper opens" in cell.reasons("a")
 
@@ -158,6 +163,19 @@ def a_held_part_moved_into_a_free_part_collides(cell):
     cell.put("block", (0.3, 0.0, 0.02))
     cell.go("a", (0.26, 0.0, 0.045 + PADS), 0.8)
     assert cell.hits()[0] == ("a", "gripper_base_link", "cube_1", "block_1")
+
+
+@scene
+def a_held_bar_that_turns_into_its_own_arm_collides(cell):
+    cell.add("a", at=(0.0, 0.0, 1.0))
+    bar = cell.put("bar", (0.0, 0.1, 0.9), rpy=(0.0, math.pi / 2, 0.0))
+    cell.world.attach("a", bar)
+    cell.go("a", (0.0, 0.0, 1.0, 0.0, -0.2), 0.4)
+    assert not cell.hits()
+    cell.go("a", (0.0, 0.0, 1.0, 0.0, 0.6), 0.6)
+    (first, *_) = [e.contact for e in cell.events if getattr(e, "colliding", False)]
+    assert (first.touch.kind, first.touch.held) == (Kind.SELF, bar)
+    assert first.touch.other_link == "mast"
 
 
 @scene
