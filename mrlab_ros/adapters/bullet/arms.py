@@ -19,7 +19,7 @@ from typing import Any
 import pybullet
 
 from mrlab_ros.adapters.bullet.description import Coupling, Description
-from mrlab_ros.adapters.bullet.shapes import NEUTRAL
+from mrlab_ros.adapters.bullet.shapes import NEUTRAL, STATIC_GROUP
 from mrlab_ros.core.errors import BadInput, Misuse
 from mrlab_ros.core.geometry import (
     Pose,
@@ -40,7 +40,6 @@ PARKED_AT, MOST_PARKED = -500.0, 8
 FAR = 1.0  # m, over which fingers are looked for
 COUPLED = 1e-7  # m or rad; coupled fingers that are nearer to their places are left there
 ALL_GROUPS = 0xFFFF
-STATIC_GROUP = 2  # Bullet's own collision group of what never moves
 OBJECT_GROUP = 1  # the same of what moves
 ARM_GROUP = 64  # of the arms' links: rays that look for objects pass them
 # Limit of the finger force, N or N*m: what they hold is fixed to the gripper, and a light object

@@ -14,9 +14,9 @@ from pathlib import Path
 
 import pybullet
 
-from mrlab_ros.adapters.bullet.arms import OBJECT_GROUP, STATIC_GROUP, Arms
+from mrlab_ros.adapters.bullet.arms import OBJECT_GROUP, Arms
 from mrlab_ros.adapters.bullet.objects import Objects
-from mrlab_ros.adapters.bullet.shapes import make_body, make_shape
+from mrlab_ros.adapters.bullet.shapes import STATIC_GROUP, make_body, make_shape
 from mrlab_ros.core.errors import BadInput, Misuse
 from mrlab_ros.core.geometry import (
     Pose,
@@ -347,3 +347,4 @@ class BulletEngine:
         self._carry(duration)
         pybullet.stepSimulation(self._client)
         self._arms.stepped()
+        self._objects.stepped()

@@ -9,9 +9,9 @@ from __future__ import annotations
 
 import pybullet
 
-from mrlab_ros.adapters.bullet.shapes import make_body, make_shape
+from mrlab_ros.adapters.bullet.shapes import STATIC_GROUP, least, make_body, make_shape
 from mrlab_ros.core.errors import BadInput, Misuse
-from mrlab_ros.core.geometry import Pose, Vector
+from mrlab_ros.core.geometry import Pose, Vector, dot, scale, subtract
 from mrlab_ros.core.physics.engine import Body, BodyState
 
 # An object slower than this, m/s and rad/s, for two seconds (fixed in Bullet) falls asleep.
@@ -20,6 +20,8 @@ REST = 0.01
 HELD_MASS = 1e6
 # A support that moved less than this, m, still supports.
 NUDGE = 1e-5
+# Half of the least extent, m, below which an object is thin.
+THIN = 0.004
 MAX_SPEED = 1000.0  # m/s and rad/s
 
 
@@ -34,6 +36,8 @@ class Objects:
         self._shapes: dict[Body, int] = {}
         self._masses: dict[int, float] = {}
         self._held: set[int] = set()
+        # Where the centre of each thin object was after the last step.
+        self._thin: dict[int, Vector] = {}
 
     def __contains__(self, name: str) -> bool:
         return name in self._bodies
@@ -53,6 +57,8 @@ class Objects:
         self._bodies[name] = made
         if body.mass:
             self._masses[made] = body.mass
+            if min(map(least, body.parts)) < THIN:
+                self._thin[made] = motion.pose.position
             self._change(made, pybullet.ACTIVATION_STATE_ENABLE_SLEEPING, REST)
             self._set_velocity(made, motion)
         else:
@@ -100,6 +106,7 @@ class Objects:
         self.wake_near(body)
         self._held.discard(body)
         self._masses.pop(body, None)
+        self._thin.pop(body, None)
         del self._bodies[name]
         pybullet.removeBody(body, physicsClientId=self._client)
         return body
@@ -125,9 +132,37 @@ class Objects:
         pybullet.resetBasePositionAndOrientation(
             body, pose.position, pose.orientation, self._client
         )
+        if body in self._thin:
+            self._thin[body] = pose.position
         if body in self._masses:
             self._set_velocity(body, motion)
             self._wake(body)
+
+    def stepped(self) -> None:
+        """Bring back each thin object whose centre passed a fixed surface in the last step.
+
+        The sphere that Bullet sweeps is small in what is thin; an edge that turns gets past it.
+        """
+        for body, before in self._thin.items():
+            pose = pybullet.getBasePositionAndOrientation(body, self._client)
+            if pose[0] == before:
+                continue
+            if body not in self._held:
+                hits = pybullet.rayTestBatch(
+                    [before],
+                    [pose[0]],
+                    collisionFilterMask=STATIC_GROUP,
+                    physicsClientId=self._client,
+                )
+                if hits[0][0] >= 0:
+                    linear, angular = pybullet.getBaseVelocity(body, self._client)
+                    normal = hits[0][4]
+                    into = min(dot(linear, normal), 0.0)
+                    linear = subtract(linear, scale(normal, into))
+                    pybullet.resetBasePositionAndOrientation(body, before, pose[1], self._client)
+                    pybullet.resetBaseVelocity(body, linear, angular, physicsClientId=self._client)
+                    continue
+            self._thin[body] = pose[0]
 
     def move_held(self, name: str, motion: BodyState, duration: float) -> None:
         """Put a held object where its hand is, moving with it for a step of `duration` s."""

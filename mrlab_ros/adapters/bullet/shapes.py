@@ -18,6 +18,7 @@ NEUTRAL = 1.0
 ROLLING = 0.0008
 # The swept sphere's radius as a share of half of the least extent.
 SWEPT = 0.8
+STATIC_GROUP = 2  # Bullet's own collision group of what never moves
 ROUND = (Shape.SPHERE, Shape.CYLINDER, Shape.HULL)
 NUMBERS = {Shape.BOX: 3, Shape.CYLINDER: 2, Shape.SPHERE: 1}
 
@@ -61,7 +62,7 @@ def make_body(client: int, body: Body, shape: int, pose: Pose) -> int:
     if not static:
         # A sphere inside the body is swept along its way, so that what is fast stops at a thin
         # surface.
-        radius = SWEPT * min(_least(part) for part in body.parts)
+        radius = SWEPT * min(least(part) for part in body.parts)
         pybullet.changeDynamics(made, -1, ccdSweptSphereRadius=radius, physicsClientId=client)
     pybullet.changeDynamics(
         made,
@@ -80,7 +81,7 @@ def make_body(client: int, body: Body, shape: int, pose: Pose) -> int:
     return made
 
 
-def _least(part: Part) -> float:
+def least(part: Part) -> float:
     """Return half of the least extent of a part, m."""
     if part.shape is Shape.BOX:
         return min(part.size) / 2

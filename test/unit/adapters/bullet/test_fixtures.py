@@ -444,6 +444,9 @@ def a_ball_from_twenty_metres_stays_above_a_thin_mesh(cell):
     cell.world.set_surfaces([mesh])
     kinds = ("ball", "cube_small", "plate", "peg", "bottle")
     names = [cell.put(kind, (0.35 * k - 0.7, 0.0, 20.5)) for k, kind in enumerate(kinds)]
+    # A thin plate that turns as it falls.
+    where = Pose((0.0, 0.0, 20.5))
+    cell.world.move(names[2], where, (0.0, 0.0, 0.0), (7.0, 3.0, 5.0), held=False)
     lowest = dict.fromkeys(names, 99.0)
     for _ in range(25):
         cell.wait(0.1)
