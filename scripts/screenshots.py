@@ -42,6 +42,9 @@ PASSWORD = "long enough to be one"
 PATIENCE_MS = 90_000
 # Until what moves stands still, ms.
 SETTLE_MS = 700
+# A machine that draws slowly gets fewer pixels while something moves: is the picture whole again?
+SHARP = """() => [...document.querySelectorAll('canvas.scene-canvas')].every(
+  (canvas) => canvas.width >= Math.floor(canvas.clientWidth * devicePixelRatio))"""
 
 
 @dataclass(frozen=True)
@@ -182,6 +185,7 @@ def take(browsers: tuple[Browser, Browser], stage: Stage, cookies: Path, names: 
             for theme in THEMES:
                 page.emulate_media(color_scheme=theme)  # type: ignore[arg-type]
                 page.wait_for_timeout(SETTLE_MS)
+                page.wait_for_function(SHARP)
                 image = Image.open(io.BytesIO(page.screenshot(timeout=PATIENCE_MS)))
                 file = IMAGES / f"{name}-{size}-{theme}.webp"
                 image.convert("RGB").save(file, quality=QUALITY, method=6)
