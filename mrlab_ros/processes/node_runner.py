@@ -36,6 +36,10 @@ def maker(name: str) -> Callable[[], Node]:
     return made
 
 
+def _nothing() -> None:
+    """Prepare nothing in a node's thread."""
+
+
 def process_of(names: list[str]) -> str:
     """Return the name of the lab's process that runs these nodes."""
     known = (process.name for process in PROCESSES if process.nodes == tuple(names))
@@ -81,7 +85,8 @@ def run(names: list[str]) -> int:
             for name in wanted:
                 if name not in spun:
                     try:
-                        spun[name] = SpunNode(makers[name]())
+                        made = makers[name]()
+                        spun[name] = SpunNode(made, getattr(made, "prepare_thread", _nothing))
                     except WrongParameters as error:
                         mistakes.append(str(error))
             if mistakes:

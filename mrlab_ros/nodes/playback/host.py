@@ -43,7 +43,7 @@ from mrlab_ros.ros.timers import every
 MOST_LOADS = 4
 # What moves, and what has changed, is written into the journal this often, s: a robot whose
 # process was killed stands at most this much behind.
-JOURNAL_PERIOD_S = 0.05
+JOURNAL_PERIOD_S = 0.1
 # How often the claims of robot systems are checked, s.
 LEASE_CHECK_S = 0.5
 
@@ -137,6 +137,15 @@ class PlaybackHostNode(ParameterNode[PlaybackParameters]):
         self.scheduler.start()
         self.get_logger().info(f"the deadline thread runs with {self.scheduler.precedence}")
         self._safety = SpunNode(orders, lambda: take_precedence(REALTIME - 1))
+
+    @staticmethod
+    def prepare_thread() -> None:
+        """Give the thread that spins this node precedence too; call it in that thread.
+
+        Its callbacks are short, and while one runs Python the deadline thread waits for it: on a
+        busy machine an ordinary thread would not come to its end for long.
+        """
+        take_precedence(REALTIME - 2)
 
     def parameters_changed(self) -> None:
         with self.scheduler.command() as now_ns:
