@@ -29,6 +29,8 @@ export interface RoomContext extends Surroundings {
   readonly supports: readonly Support[]
   readonly bases: Iterable<Place>
   readonly leftHanded: boolean
+  /** m: how far away text is read; a screen shows less of a room than eyes do. */
+  readonly readAt: number
   /** Tell the person a sentence, where they look. */
   say(text: string): void
 }

@@ -41,12 +41,16 @@ import { RoomStage } from './stage'
 
 /** m before the eyes: where the scene's middle comes to stand. */
 const AWAY = 1.5
-const SEATED = { head: new Vector3(0, 1.6, 0.6), look: new Quaternion() } as const
+const SEATED = { head: new Vector3(0, 1.6, 0.9), look: new Quaternion() } as const
 /** rad: a board that is this far to the side of where one looks, for so long, s, comes along. */
 const ASIDE = (75 * Math.PI) / 180
 const ASIDE_S = 1.5
 const BOARD_SIDE = (36 * Math.PI) / 180
 const BOARD_AWAY = 0.95
+const BOARD_AWAY_SCREEN = 1.35
+/** m */
+const READ_AT = 0.9
+const READ_AT_SCREEN = 1.5
 const SCAN_WAIT_S = 3
 /** s between a frame's start and the instant at which it is seen, where the device does not tell. */
 const AHEAD_S = 0.015
@@ -213,6 +217,9 @@ export class Room {
       },
       get leftHanded() {
         return room.leftHanded
+      },
+      get readAt() {
+        return room.inside.value ? READ_AT : READ_AT_SCREEN
       },
       say: (text) => room.board.say(text),
     }
@@ -523,11 +530,13 @@ export class Room {
     if (off < ASIDE) this.asideSince = Number.NaN
     else if (Number.isNaN(this.asideSince)) this.asideSince = now
     else if (now - this.asideSince > ASIDE_S) this.boardYaw = yaw
+    const away = this.inside.value ? BOARD_AWAY : BOARD_AWAY_SCREEN
     const side = this.boardYaw + (this.leftHanded ? -BOARD_SIDE : BOARD_SIDE)
-    at.set(-Math.sin(side), 0, -Math.cos(side)).multiplyScalar(BOARD_AWAY).add(this.head)
+    at.set(-Math.sin(side), 0, -Math.cos(side)).multiplyScalar(away).add(this.head)
     at.y = this.head.y - 0.22
     const held = this.board.panel.pointers > 0
-    if (this.boardStand.update(at, this.head, now, step, held)) this.stage.invalidate()
+    const { readAt } = this.context
+    if (this.boardStand.update(at, this.head, now, step, held, readAt)) this.stage.invalidate()
   }
 
   private lightUp(): void {

@@ -81,9 +81,9 @@ export class RoomStage implements SceneHost {
     this.world.add(this.floor.group, this.shadowFloor)
     this.scene.add(this.anchor, this.panels)
     this.lightUp()
-    this.camera.position.set(0, EYES, 0.6)
+    this.camera.position.set(0, EYES, 0.9)
     this.controls = new OrbitControls(this.camera, this.canvas)
-    this.controls.target.set(0, 0.7, -1.2)
+    this.controls.target.set(0, 0.85, -0.8)
     this.controls.maxPolarAngle = Math.PI * 0.55
     this.controls.minDistance = 0.3
     this.controls.maxDistance = 12

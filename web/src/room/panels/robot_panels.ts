@@ -122,7 +122,7 @@ export class RobotPanels {
       .addScaledVector(toHead, TOWARDS)
     at.y = Math.max(head.y - BELOW_EYES, LOWEST)
     const held = entry.control.panel.pointers > 0
-    if (entry.stand.update(at, head, now, step, held)) this.context.stir()
+    if (entry.stand.update(at, head, now, step, held, this.context.readAt)) this.context.stir()
   }
 
   private updateTelemetry(name: string, entry: Entry, now: number): void {

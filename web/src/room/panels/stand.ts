@@ -1,7 +1,5 @@
 import { MathUtils, type Object3D, Quaternion, Vector3 } from 'three'
 
-/** m: text is made for this distance, and grows with more. */
-const READ_AT = 0.9
 const LARGEST = 2
 /** rad and m: a panel that is this far from where it should be follows, after so long, s. */
 const SLACK_TURN = MathUtils.degToRad(30)
@@ -31,8 +29,15 @@ export class Stand {
   constructor(private readonly panel: Object3D) {}
 
   /** at: where it should be, in the floor space, m. now, step: s. held: a pointer is over it.
-   * Returns whether it moves. */
-  update(at: Vector3, head: Vector3, now: number, step: number, held: boolean): boolean {
+   * readAt: m, the distance for which text is made; it grows with more. Returns whether it moves. */
+  update(
+    at: Vector3,
+    head: Vector3,
+    now: number,
+    step: number,
+    held: boolean,
+    readAt: number,
+  ): boolean {
     back.subVectors(at, head)
     const distance = back.length()
     if (distance < NEAREST && distance > 1e-3) {
@@ -66,7 +71,7 @@ export class Stand {
       this.panel.position.lerp(this.place, share)
       this.panel.quaternion.slerp(this.turn, share)
     }
-    const far = this.panel.position.distanceTo(head) / READ_AT
+    const far = this.panel.position.distanceTo(head) / readAt
     const scale = MathUtils.clamp(far, 0.85, LARGEST)
     // small changes of the distance do not make text swim
     if (Math.abs(this.panel.scale.x - scale) > 0.08) this.panel.scale.setScalar(scale)
