@@ -1,0 +1,144 @@
+"""The room with an emulated Quest 3: enter, place on a table, play, scrub."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Sequence
+from math import atan2, cos
+from pathlib import Path
+
+import pytest
+from browser_side import DEADLINE_MS, eventually
+from playwright.sync_api import Browser, Page
+from served_lab import ServedLab
+
+HERE = Path(__file__).parents[1]
+IWER = HERE.parent / "web" / "node_modules" / "iwer" / "build" / "iwer.min.js"
+MOTION = HERE.parent / "examples" / "quintic_ur5e.mat"
+
+# Turns the right controller, held at the hip, to a place of the scene.
+AIM = """place => {
+  const hand = headset.device.controllers.right
+  const from = [0.2, 1.35, -0.2]
+  const to = place.map((value, i) => value - from[i])
+  const length = Math.hypot(...to)
+  const yaw = Math.atan2(-to[0], -to[2]) / 2
+  const pitch = Math.asin(to[1] / length) / 2
+  hand.position.set(...from)
+  hand.quaternion.set(
+    Math.cos(yaw) * Math.sin(pitch), Math.sin(yaw) * Math.cos(pitch),
+    -Math.sin(yaw) * Math.sin(pitch), Math.cos(yaw) * Math.cos(pitch))
+}"""
+
+
+class Headset:
+    """The page as the one in the headset uses it."""
+
+    def __init__(self, page: Page) -> None:
+        self.page = page
+
+    def wait_for(self, condition: str) -> None:
+        eventually(self.page, lambda: bool(self.page.evaluate(f"Boolean({condition})")))
+
+    def frames(self, count: int = 3) -> None:
+        now = self.page.evaluate("room.frames")
+        self.wait_for(f"room.frames >= {now + count}")
+
+    def point(self, panel: str, zone: str, share: float = 0.5) -> None:
+        """Point the ray at a part of a panel."""
+        self.wait_for(f"{panel}.panel.ids.includes('{zone}')")
+        place = self.page.evaluate(f"{panel}.panel.centre('{zone}', {share}).toArray()")
+        self.page.evaluate(AIM, place)
+        self.frames()
+
+    def trigger(self, pulled: bool) -> None:
+        value = 1 if pulled else 0
+        controller = "headset.device.controllers.right"
+        self.page.evaluate(f"{controller}.updateButtonValue('trigger', {value})")
+        self.frames()
+
+    def press(self, panel: str, zone: str) -> None:
+        self.point(panel, zone)
+        self.trigger(True)
+        self.trigger(False)
+
+    def state(self) -> str:
+        found: str = self.page.evaluate(
+            "room.follower.robots.value.find(v => v.robot.name === 'ur5e_1')?.state ?? ''"
+        )
+        return found
+
+    def reaches(self, state: str) -> None:
+        eventually(self.page, lambda: self.state() == state)
+
+
+@pytest.fixture
+def headset(chromium: Callable[[Sequence[str]], Browser], lab: ServedLab) -> Iterator[Headset]:
+    # WebGL itself is replaced: no_webgl.js needs its constants
+    browser = chromium(("--no-sandbox", "--disable-gpu"))
+    context = browser.new_context(viewport={"width": 480, "height": 360}, locale="en-GB")
+    context.add_init_script(path=HERE / "no_webgl.js")
+    context.add_init_script(path=IWER)
+    context.add_init_script(path=HERE / "emulated_headset.js")
+    page = context.new_page()
+    page.set_default_timeout(DEADLINE_MS)
+    page.goto(lab.signed_in_url("/room"))
+    page.goto(f"{lab.url}/room?inspect")
+    headset = Headset(page)
+    headset.wait_for("window.room && room.follower.known.value")
+    yield headset
+    browser.close()
+
+
+BOARD = "room.board"
+ROBOT = "room.panels.of('ur5e_1')"
+
+
+def test_a_person_enters_places_on_a_table_plays_and_scrubs(
+    headset: Headset, lab: ServedLab
+) -> None:
+    page = headset.page
+    page.get_by_role("button", name="Enter the room").dispatch_event("click")
+    headset.wait_for("room.inside.value && room.frames > 3")
+
+    # the table that the headset knows is a surface of the lab
+    headset.wait_for("room.supports.some(({ name }) => name === 'table_1')")
+
+    headset.press(ROBOT, "remove")
+    headset.wait_for("room.handles.size === 0")
+    page.evaluate("headset.device.quaternion.set(-0.26, 0, 0, 0.965)")  # looks down at the table
+    if "robot ur5e" not in page.evaluate("room.board.panel.ids"):
+        headset.press(BOARD, "next")
+    headset.press(BOARD, "robot ur5e")
+    headset.wait_for("room.scene.base('ur5e_1')")
+    x, y, z = page.evaluate("room.scene.base('ur5e_1').position.toArray()")
+    assert abs(z - 0.72) < 0.01
+    facing = page.evaluate(
+        "room.scene.base('ur5e_1').getWorldDirection(room.head.clone().set(0, 0, 0)).toArray()"
+    )
+    assert abs(facing[1] - 1) < 1e-6, "it stands upright"
+    heading = page.evaluate(
+        "(({ x, y, z, w }) => Math.atan2(2 * (w * z + x * y), 1 - 2 * (y * y + z * z)))"
+        "(room.scene.base('ur5e_1').quaternion)"
+    )
+    viewer = page.evaluate("room.stage.world.worldToLocal(room.head.clone()).toArray()")
+    assert cos(heading - atan2(viewer[1] - y, viewer[0] - x)) > 0.95, "it faces the viewer"
+
+    lab.done("play", "ur5e_1", str(MOTION), "--no-wait")
+    headset.reaches("PLAYING")
+    headset.press(ROBOT, "stop")
+    headset.reaches("READY")
+
+    # with the trajectory here, the pose at a display instant comes from the clock
+    headset.press(ROBOT, "play")
+    headset.reaches("PLAYING")
+    headset.wait_for("room.arms.source('ur5e_1') === 'course'")
+    headset.press(ROBOT, "play")  # the same button pauses
+    headset.reaches("PAUSED")
+
+    headset.point(ROBOT, "timeline", 0.2)
+    headset.trigger(True)
+    for share in (0.4, 0.6):
+        headset.point(ROBOT, "timeline", share)
+    headset.trigger(False)
+    player = f"{ROBOT}.robot.player"
+    headset.wait_for(f"Math.abs({player}.position() / {player}.duration - 0.6) < 0.02")
