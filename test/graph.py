@@ -10,6 +10,7 @@ import rclpy
 from rclpy.node import Node
 from rclpy.qos import QoSProfile
 
+from mrlab_ros.ros.shared_memory import remove_abandoned
 from mrlab_ros.ros.spinning import SpunNode
 
 Value = TypeVar("Value")
@@ -36,6 +37,7 @@ class Graph:
     """Spins nodes in a private context; calls services and listens as a client would."""
 
     def __init__(self) -> None:
+        remove_abandoned()  # of a lab that an earlier test killed
         self.context = rclpy.Context()
         self.context.init()
         self._spun: dict[Node, SpunNode] = {}

@@ -1,0 +1,76 @@
+"""Ends connections of which nothing comes: a request's head, or the rest of a body.
+
+uvicorn waits for ever for the first request of a connection and for the rest of a head, so a few
+thousand half requests would take every file descriptor of the gateway.
+"""
+
+from __future__ import annotations
+
+import asyncio
+from collections.abc import AsyncIterator
+
+import h11
+from uvicorn.protocols.http.h11_impl import H11Protocol
+
+from mrlab_ros.gateway.errors import TooSlow
+
+# Until the whole head of a request is there, and between two pieces of a body, s.
+HEAD_S = 20.0
+BODY_S = 30.0
+
+
+def protocol(wait: float = HEAD_S) -> type[H11Protocol]:
+    """Return uvicorn's HTTP with a bound on the time, s, until the head of a request is whole."""
+
+    class Patient(H11Protocol):
+        waiting: asyncio.TimerHandle | None = None
+        # Whether this connection still speaks HTTP.
+        wanted = True
+
+        def connection_made(self, transport: asyncio.Transport) -> None:  # type: ignore[override]
+            super().connection_made(transport)
+            self.wait()
+
+        def data_received(self, data: bytes) -> None:
+            super().data_received(data)
+            if self.cycle is None or self.cycle.response_complete:
+                self.wait()
+            else:
+                self.stop()
+
+        def handle_websocket_upgrade(self, event: h11.Request) -> None:
+            super().handle_websocket_upgrade(event)
+            self.stop(for_good=True)
+
+        def connection_lost(self, exc: Exception | None) -> None:
+            self.stop(for_good=True)
+            super().connection_lost(exc)
+
+        def wait(self) -> None:
+            if self.waiting is None and self.wanted:
+                self.waiting = self.loop.call_later(wait, self.transport.close)
+
+        def stop(self, for_good: bool = False) -> None:
+            if self.waiting is not None:
+                self.waiting.cancel()
+                self.waiting = None
+            self.wanted = self.wanted and not for_good
+
+    return Patient
+
+
+async def in_time(
+    body: AsyncIterator[bytes], file_name: str, wait: float = BODY_S
+) -> AsyncIterator[bytes]:
+    """Yield the pieces of a file's body; raise TooSlow after `wait` s without one."""
+    pieces = body.__aiter__()
+    while True:
+        try:
+            piece = await asyncio.wait_for(pieces.__anext__(), wait)
+        except StopAsyncIteration:
+            return
+        except asyncio.TimeoutError:
+            raise TooSlow(
+                f"nothing came of '{file_name}' for {wait:g} s and nothing was kept; send it again"
+            ) from None
+        yield piece
