@@ -22,7 +22,7 @@ from typing import Annotated
 import typer
 
 from mrlab_ros import __version__
-from mrlab_ros.core.doctor import NEEDED, OPTIONAL, Facts, Gateway, Port, examine
+from mrlab_ros.core.doctor import NEEDED, OPTIONAL, Certificate, Facts, Gateway, Port, examine
 
 GROUP, TIMEOUT_S = "239.255.0.1", 1.0
 MIDDLEWARES = ("rmw_fastrtps_cpp", "rmw_cyclonedds_cpp", "rmw_zenoh_cpp", "rmw_connextdds")
@@ -81,7 +81,6 @@ def gather(url: str, certificate: Path | None, state_dir: Path | None) -> Facts:
         ],
         gateway=_ask(address.rstrip("/")) if address else None,
         certificate=None if certificate is None else _expiry(certificate),
-        now=datetime.now(timezone.utc),
         state_dir=str(folder),
         state_writable=os.access(there, os.W_OK),
         free_bytes=shutil.disk_usage(there).free,
@@ -149,7 +148,7 @@ def _ask(url: str) -> Gateway:
     return Gateway(url, version, offset if offset is None or abs(offset) > 1 else 0.0, "")
 
 
-def _expiry(certificate: Path) -> tuple[str, datetime]:
+def _expiry(certificate: Path) -> Certificate:
     from cryptography import x509
 
     from mrlab_ros.core.errors import BadInput
@@ -158,4 +157,6 @@ def _expiry(certificate: Path) -> tuple[str, datetime]:
         read = x509.load_pem_x509_certificate(certificate.read_bytes())
     except (OSError, ValueError) as error:
         raise BadInput(f"{certificate} is no certificate in PEM: {error}") from None
-    return str(certificate), read.not_valid_after_utc
+    end = read.not_valid_after_utc
+    left = (end - datetime.now(timezone.utc)).total_seconds()
+    return Certificate(str(certificate), f"{end:%Y-%m-%d}", left)

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from datetime import datetime, timedelta
 
 PYTHON_FROM, PYTHON_TO = (3, 10), (3, 13)
 PHYSICS_TO = (3, 11)
@@ -12,7 +11,8 @@ PHYSICS_TO = (3, 11)
 LEAST_DISK = 1_000_000_000
 # A clock that is off by more makes poses jump on a client that trusts it, s.
 MOST_OFFSET = 0.5
-SOON = timedelta(days=14)
+# s before a certificate ends when it should be renewed
+SOON = 14 * 24 * 3600.0
 # Modules that a lab cannot do without, and what is lost without the others.
 NEEDED = ("rclpy", "mrlab_msgs", "zenoh", "numpy")
 OPTIONAL = {"pybullet": "the lab runs without physics: no contacts, no grasps"}
@@ -52,6 +52,15 @@ class Gateway:
 
 
 @dataclass(frozen=True)
+class Certificate:
+    """The certificate of the pages. day: on which it expires, YYYY-MM-DD; left: s until then."""
+
+    name: str
+    day: str
+    left: float
+
+
+@dataclass(frozen=True)
 class Facts:
     """What was found on a machine. multicast: why a packet did not come back; empty: it did."""
 
@@ -64,8 +73,7 @@ class Facts:
     version: str
     ports: Sequence[Port]
     gateway: Gateway | None
-    certificate: tuple[str, datetime] | None
-    now: datetime
+    certificate: Certificate | None
     state_dir: str
     state_writable: bool
     free_bytes: int
@@ -96,7 +104,7 @@ def examine(facts: Facts) -> Iterator[Finding]:
     if facts.gateway is not None:
         yield from _gateway(facts.gateway, facts.version)
     if facts.certificate is not None:
-        yield _certificate(*facts.certificate, facts.now)
+        yield _certificate(facts.certificate)
     yield Finding(
         "store",
         facts.state_writable,
@@ -201,9 +209,8 @@ def _gateway(gateway: Gateway, version: str) -> Iterator[Finding]:
         )
 
 
-def _certificate(name: str, expires: datetime, now: datetime) -> Finding:
-    left = expires - now
-    said = f"{name} expires {expires:%Y-%m-%d}"
-    if left > SOON:
+def _certificate(certificate: Certificate) -> Finding:
+    said = f"{certificate.name} expires {certificate.day}"
+    if certificate.left > SOON:
         return Finding("certificate", True, said)
     return Finding("certificate", False, said, "make a new one: mrlab keys renew")

@@ -3,13 +3,12 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from datetime import datetime, timedelta, timezone
 
 import pytest
 
-from mrlab_ros.core.doctor import NEEDED, Facts, Gateway, Port, examine
+from mrlab_ros.core.doctor import NEEDED, Certificate, Facts, Gateway, Port, examine
 
-NOW = datetime(2026, 3, 1, tzinfo=timezone.utc)
+DAY = 24 * 3600.0
 URL = "https://lab:8080"
 WELL = Facts(
     python=(3, 11),
@@ -21,8 +20,7 @@ WELL = Facts(
     version="1.0.0",
     ports=[Port(8080, "pages", free=False, ours=True), Port(7447, "zenoh", free=True, ours=False)],
     gateway=Gateway(URL, "1.0.0", 0.0, ""),
-    certificate=("lab.crt", NOW + timedelta(days=90)),
-    now=NOW,
+    certificate=Certificate("lab.crt", "2026-05-30", 90 * DAY),
     state_dir="/lab",
     state_writable=True,
     free_bytes=50_000_000_000,
@@ -57,8 +55,8 @@ def test_a_machine_that_is_well_has_nothing_to_do():
         ({"gateway": Gateway(URL, "", None, "refused")}, "gateway", "mrlab up"),
         ({"gateway": Gateway(URL, "0.9", 0.0, "")}, "gateway", "one version"),
         ({"gateway": Gateway(URL, "1.0.0", -4.0, "")}, "clocks", "-4.0 s"),
-        ({"certificate": ("c", NOW + timedelta(days=3))}, "certificate", "keys renew"),
-        ({"certificate": ("c", NOW - timedelta(days=3))}, "certificate", "keys renew"),
+        ({"certificate": Certificate("c", "2026-03-04", 3 * DAY)}, "certificate", "keys renew"),
+        ({"certificate": Certificate("c", "2026-02-26", -3 * DAY)}, "certificate", "keys renew"),
         ({"state_writable": False}, "store", "--state-dir"),
         ({"free_bytes": 10}, "disk", "GB"),
     ],
