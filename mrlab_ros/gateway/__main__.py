@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+import asyncio
 import logging
 import os
 import signal
@@ -38,12 +39,18 @@ def main() -> None:
     )
     # Each request of a client of an OpenID Connect provider would be a line.
     logging.getLogger("httpx").setLevel(logging.WARNING)
+    logging.getLogger("uvicorn.error").addFilter(_is_no_end)
     try:
         serve(settings_of(sys.argv[1:]))
     except LabError as error:
         logging.error("%s", error)
         lasting = isinstance(error, BadInput) and not isinstance(error, Unavailable)
         sys.exit(WRONG_CONFIGURATION if lasting else 1)
+
+
+def _is_no_end(record: logging.LogRecord) -> bool:
+    """Return False for the traceback of a request that the gateway's own end cut off."""
+    return not (record.exc_info and isinstance(record.exc_info[1], asyncio.CancelledError))
 
 
 def settings_of(arguments: list[str]) -> Settings:
@@ -72,6 +79,7 @@ def serve(settings: Settings) -> None:
     """
     import uvicorn
 
+    from mrlab_ros.gateway import patience
     from mrlab_ros.gateway.app import create_app
     from mrlab_ros.gateway.ports import real_ports
 
@@ -85,6 +93,7 @@ def serve(settings: Settings) -> None:
         }
     config = uvicorn.Config(
         create_app(settings, real_ports(settings)),
+        http=patience.protocol(),
         ws="websockets-sansio",
         # 316 instead of 64 KiB a connection, and a seventh of the processor time.
         ws_per_message_deflate=False,

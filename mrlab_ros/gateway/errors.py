@@ -59,6 +59,20 @@ class TooLarge(GatewayError):
     code = "too_large"
 
 
+class NotTheFile(GatewayError):
+    """A body is a form or another envelope instead of a file."""
+
+    status = 415
+    code = "not_the_file"
+
+
+class TooSlow(GatewayError):
+    """The rest of a body did not come."""
+
+    status = 408
+    code = "too_slow"
+
+
 class TooMany(GatewayError):
     """A person or an address asks too often."""
 

@@ -12,7 +12,8 @@ from starlette.requests import ClientDisconnect
 
 from mrlab_ros.adapters.store import keys
 from mrlab_ros.core.errors import BadInput, Unavailable
-from mrlab_ros.gateway.errors import NotFound
+from mrlab_ros.gateway.errors import NotFound, NotTheFile
+from mrlab_ros.gateway.patience import in_time
 from mrlab_ros.gateway.people.person import CurrentPerson, Person
 from mrlab_ros.gateway.people.rate_limits import Limit, RateLimit
 from mrlab_ros.gateway.ports import Ports, ports
@@ -70,9 +71,13 @@ async def upload(
 ) -> answers.Upload:
     """Receive a file, the raw body of the request; one that breaks off leaves nothing."""
     desk.count(person, UPLOADS)
+    if request.headers.get("content-type", "").startswith("multipart/"):
+        raise NotTheFile(
+            f"'{file_name}' came as a form; send the file itself as the body: curl -T {file_name}"
+        )
     try:
         received = await desk.receiver.receive(
-            shelf.user(person), file_name, content_length, request.stream()
+            shelf.user(person), file_name, content_length, in_time(request.stream(), file_name)
         )
     except ClientDisconnect:
         raise BadInput(f"'{file_name}' broke off and nothing was kept; send it again") from None

@@ -243,6 +243,13 @@ def test_files_that_cannot_be_taken_leave_nothing(school, anna, name, size, expe
     assert school.store.list("users") == []
 
 
+def test_a_form_is_no_file(school, anna):
+    answer = anna.send("PUT", "/api/uploads/q.mat", files={"file": b"q"})
+    assert code_of(answer) == (415, "not_the_file")
+    assert "curl -T q.mat" in answer.json()["error"]["message"]
+    assert school.store.list("users") == []
+
+
 def test_a_quota_bounds_one_person_alone(school, anna, ben):
     school.gateway.app.state.desk.receiver.bounds = Bounds(largest=4000, quota=5000)
     assert anna.upload().status_code == 201
