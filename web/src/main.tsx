@@ -6,16 +6,14 @@ import { HttpApi } from './api/http'
 import { followTheme } from './design/theme'
 import { App } from './pages/shell/app'
 import { followLinks } from './pages/shell/router'
-import { session } from './pages/shell/session'
+import { leaveSignedOut } from './pages/shell/session'
 import { preferredLanguage, setLanguage, words } from './words/words'
 
 async function connect(): Promise<Api> {
   // `scripts/npm run dev -- --mode fake`: the pages without a lab.
   if (import.meta.env.MODE === 'fake') return new (await import('../test/fake_api')).FakeApi()
   const api = new HttpApi(() => words.value.noAnswer)
-  api.onSignedOut = () => {
-    if (session.value?.user) session.value = { ...session.value, user: null }
-  }
+  api.onSignedOut = leaveSignedOut
   return api
 }
 

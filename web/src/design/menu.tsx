@@ -36,25 +36,68 @@ interface MenuProps {
   children: ComponentChildren
 }
 
+/** Return what the arrow keys go along in a menu, from its button's list. */
+function itemsOf(menu: HTMLElement | null): HTMLElement[] {
+  return [...(menu?.querySelectorAll<HTMLElement>('.menu-list :is(a, button)') ?? [])]
+}
+
+/** Return the item that a key leads to from the one at `at`, -1: none; undefined: no such key. */
+export function itemOf(key: string, at: number, count: number): number | undefined {
+  if (key === 'ArrowDown') return (at + 1) % count
+  if (key === 'ArrowUp') return (Math.max(at, 0) + count - 1) % count
+  if (key === 'Home') return 0
+  if (key === 'End') return count - 1
+  return undefined
+}
+
 /** A button that opens a list of buttons and links. */
 export function Menu({ label, icon, text, look = 'plain', children }: MenuProps) {
   const [open, setOpen] = useState(false)
   const menu = useOutside(open, () => setOpen(false))
+  const byKey = useRef(false)
+  useEffect(() => {
+    if (open && byKey.current) itemsOf(menu.current)[0]?.focus()
+  }, [open])
+  const onKey = (event: KeyboardEvent) => {
+    if (!open) {
+      if (event.key !== 'ArrowDown') return
+      byKey.current = true
+      setOpen(true)
+    } else {
+      const items = itemsOf(menu.current)
+      const at = items.indexOf(document.activeElement as HTMLElement)
+      const next = itemOf(event.key, at, items.length)
+      if (next === undefined) return
+      items[next]?.focus()
+    }
+    event.preventDefault()
+  }
+  const onChosen = () => {
+    // what had the focus goes with the list
+    if (menu.current?.querySelector('.menu-list')?.contains(document.activeElement))
+      menu.current.querySelector('button')?.focus()
+    setOpen(false)
+  }
   return (
-    <div class="menu" ref={menu}>
+    // biome-ignore lint/a11y: its buttons and links are reached and pressed by themselves
+    <div class="menu" ref={menu} onKeyDown={onKey}>
       <Button
         look={look}
         icon={icon}
         label={label}
         aria-expanded={open}
         aria-haspopup="true"
-        onClick={() => setOpen(!open)}
+        onClick={(event) => {
+          // a press of Enter or Space is a click without a pointer
+          byKey.current = event.detail === 0
+          setOpen(!open)
+        }}
       >
         {text}
       </Button>
       {open && (
         // biome-ignore lint/a11y: its buttons and links are reached and pressed by themselves
-        <div class="menu-list" onClick={() => setOpen(false)}>
+        <div class="menu-list" onClick={onChosen}>
           {children}
         </div>
       )}

@@ -292,7 +292,7 @@ class SocketLink implements Link {
       this.setOffer(NOTHING)
       this.services.lose(reason)
       this.setStatus('refused', reason)
-    } else this.lose(reason || 'the connection to the gateway is lost')
+    } else this.lose(reason || 'the gateway is gone or out of reach')
   }
 
   /** Leave the socket and try again later. */

@@ -116,6 +116,8 @@ export class RemotePlayer implements Player {
   duration = 0
   rate = 1
   private clock: PlaybackClock = { stamp: 0, position: 0, rate: 0 }
+  /** Lab time at which it was held; null: it goes on. */
+  private heldAt: number | null = null
   private readonly listeners = new Listeners()
 
   constructor(
@@ -125,7 +127,7 @@ export class RemotePlayer implements Player {
   ) {}
 
   get playing(): boolean {
-    return goesOn(this.clock.rate, this.position(), this.duration)
+    return this.heldAt === null && goesOn(this.clock.rate, this.position(), this.duration)
   }
 
   /** Lab time at which the clock was set, s. */
@@ -134,7 +136,14 @@ export class RemotePlayer implements Player {
   }
 
   position(): number {
-    return this.positionAt(this.labTime())
+    return this.positionAt(this.heldAt ?? this.labTime())
+  }
+
+  /** Stand still while nothing is heard of the clock; false: go on by it. */
+  hold(on: boolean): void {
+    if (on === (this.heldAt !== null)) return
+    this.heldAt = on ? this.labTime() : null
+    this.listeners.call()
   }
 
   /** Return the place on the timeline at a lab time, s, by the clock as it is set now. */

@@ -4,7 +4,7 @@ import './room.css'
 import { Button } from '../design/button'
 import { Notice } from '../design/notice'
 import type { Link } from '../link/link'
-import { useApi } from '../pages/shell/session'
+import { checkSignIn, useApi } from '../pages/shell/session'
 import { language, words } from '../words/words'
 import type { Entry } from './context'
 import type { Room } from './room'
@@ -86,6 +86,14 @@ function RoomView({ link }: { link: Link }) {
       made?.dispose()
     }
   }, [link, shown])
+
+  useEffect(
+    () =>
+      link.onStatus(({ phase }) => {
+        if (phase === 'refused') void checkSignIn(api)
+      }),
+    [link, api],
+  )
 
   useEffect(() => {
     let since = Number.NaN

@@ -111,3 +111,20 @@ test('a remote player asks and follows', () => {
   remote.seek(99)
   expect(commands.seek).toHaveBeenCalledWith(10)
 })
+
+test('a remote player that is held stands still, and goes on by its clock', () => {
+  const clock = { now: 50 }
+  const commands = { play: vi.fn(), pause: vi.fn(), seek: vi.fn(), setRate: vi.fn() }
+  const remote = new RemotePlayer('live', () => clock.now, commands)
+  remote.follow({ stamp: 50, position: 0, rate: 1 }, 10, 1)
+  clock.now = 52
+  const heard = vi.fn()
+  remote.onChange(heard)
+  remote.hold(true)
+  clock.now = 55
+  remote.hold(true)
+  expect([remote.position(), remote.playing]).toEqual([2, false])
+  remote.hold(false)
+  expect([remote.position(), remote.playing]).toEqual([5, true])
+  expect(heard).toHaveBeenCalledTimes(2)
+})

@@ -10,16 +10,27 @@ import { session, useApi } from '../shell/session'
 /** From the one that may least. */
 const ORDER: readonly Role[] = ['display', 'student', 'operator', 'instructor']
 
+/** Letters of a code. */
+const LENGTH = 8
+
 /** Return the roles that somebody may give to a device: none above one's own. */
 export function rolesUpTo(own: Role): readonly Role[] {
   return ORDER.slice(0, ORDER.indexOf(own) + 1)
+}
+
+/** Return a code as the headset shows it, such as BCDF-GHJK; what is no whole code stays as it is. */
+export function codeForm(text: string): string {
+  const plain = text.toUpperCase().replace(/[^A-Z0-9]/g, '')
+  return plain.length === LENGTH
+    ? `${plain.slice(0, LENGTH / 2)}-${plain.slice(LENGTH / 2)}`
+    : text
 }
 
 /** A person who is signed in lets the device in that shows this code. */
 export function ApprovePage({ code: given }: { code: string }) {
   const api = useApi()
   const own = session.value?.user?.role ?? 'student'
-  const [code, setCode] = useState(given)
+  const [code, setCode] = useState(codeForm(given))
   const [role, setRole] = useState<Role>(own === 'display' ? 'display' : 'student')
   const [error, setError] = useState('')
   const [device, setDevice] = useState('')
@@ -60,7 +71,7 @@ export function ApprovePage({ code: given }: { code: string }) {
         <Field
           label={w.code}
           value={code}
-          onInput={setCode}
+          onInput={(text) => setCode(codeForm(text))}
           error={error}
           placeholder="BCDF-GHJK"
           autocomplete="off"

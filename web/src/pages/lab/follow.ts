@@ -25,6 +25,7 @@ import { stringType } from '../../protocol/std_msgs'
 import type { LabScene } from '../../scene/lab_scene'
 import {
   type CourseOf,
+  clockOf,
   type DrawnArm,
   FollowedRobot,
   type RobotView,
@@ -83,6 +84,8 @@ export class LabFollower {
   private readonly kept = new Map<string, FollowedRobot>()
   private readonly systemPlayers = new Map<string, RemotePlayer>()
   private surfaces: readonly Surface[] = []
+  /** Names in the lab's order. */
+  private order: readonly string[] = []
   private readonly undo: (() => void)[]
 
   constructor(
@@ -95,6 +98,7 @@ export class LabFollower {
     this.undo = [
       link.onStatus((status) => {
         this.status.value = status
+        this.hold()
       }),
       this.on('robots', robotsType, (message) => this.takeRobots(message.robots)),
       this.on('*/robot_description', stringType, (message, { key }) => {
@@ -186,13 +190,28 @@ export class LabFollower {
     if (followed === undefined) {
       const { commands, courseOf } = this.options
       const player = new RemotePlayer('live', () => this.link.labTime(), commands(name))
+      player.hold(this.lost)
       followed = new FollowedRobot(player, courseOf)
       this.kept.set(name, followed)
     }
     return followed
   }
 
+  private get lost(): boolean {
+    return this.status.value.phase !== 'open'
+  }
+
+  /** Without the link everything stands where it was last known. */
+  private hold(): void {
+    const { lost } = this
+    for (const { player } of this.kept.values()) player.hold(lost)
+    for (const player of this.systemPlayers.values()) player.hold(lost)
+    this.replay.hold(lost)
+    this.options.stir()
+  }
+
   private takeRobots(robots: readonly Robot[]): void {
+    this.order = robots.map(({ name }) => name)
     for (const followed of this.kept.values()) followed.robot = null
     for (const robot of robots) this.of(robot.name).enter(robot)
     this.known.value = true
@@ -208,11 +227,10 @@ export class LabFollower {
           () => this.link.labTime(),
           this.options.commands(system.name),
         )
+        player.hold(this.lost)
         this.systemPlayers.set(system.name, player)
       }
-      const { clock, duration, rate } = system
-      const stamp = seconds(clock.stamp)
-      player.follow({ stamp, position: clock.position, rate: clock.rate }, duration, rate)
+      player.follow(clockOf(system), system.duration, system.rate)
       return { system, player }
     })
   }
@@ -234,7 +252,10 @@ export class LabFollower {
 
   private show(): void {
     const views: RobotView[] = []
-    for (const { view } of this.kept.values()) if (view !== null) views.push(view)
+    for (const name of this.order) {
+      const view = this.kept.get(name)?.view ?? null
+      if (view !== null) views.push(view)
+    }
     this.robots.value = views
     const { scene } = this
     if (scene === null) return

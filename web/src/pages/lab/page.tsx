@@ -11,7 +11,7 @@ import type { Link } from '../../link/link'
 import { courseOf } from '../../playback/course'
 import { trajectoryCatalogueType } from '../../protocol/mrlab_msgs'
 import { words } from '../../words/words'
-import { session, useApi } from '../shell/session'
+import { checkSignIn, session, useApi } from '../shell/session'
 import { AddRobot } from './add_robot'
 import { LabCatalogue } from './catalogue'
 import { commandsOf, trigger } from './commands'
@@ -87,6 +87,10 @@ export function Lab({ link }: { link: Link }) {
   const w = words.value.lab
   const robots = follower.robots.value
   const { phase, reason, roundTrip } = follower.status.value
+  const lost = phase === 'lost' || phase === 'refused'
+  useEffect(() => {
+    if (phase === 'refused') void checkSignIn(api)
+  }, [phase, api])
   const moving = robots.filter((one) => one.state === 'PLAYING' || one.state === 'ADJUSTING')
   const pauseAll = () => {
     const names = new Set(moving.map((one) => one.playback?.system || one.robot.name))
@@ -115,7 +119,7 @@ export function Lab({ link }: { link: Link }) {
               <Button
                 look="primary"
                 icon="pause"
-                disabled={moving.length === 0}
+                disabled={lost || moving.length === 0}
                 onClick={pauseAll}
               >
                 {w.pauseAll}
@@ -181,18 +185,26 @@ export function Lab({ link }: { link: Link }) {
                 {w.onlyWatch(words.value.roles[session.value.user.role])}
               </p>
             )}
-            {follower.systems.value.map((each) => (
-              <SystemCard key={each.system.name} view={each} />
-            ))}
-            {robots.map((each) => (
-              <RobotCard key={each.robot.name} view={each} catalogue={catalogue} />
-            ))}
-            {may.scene && robots.length > 0 && (
-              <Button icon="robot" onClick={toggle(adding)}>
-                {w.addRobot}
-              </Button>
+            {lost && follower.known.value && (
+              <p class="lab-last-known small" role="status">
+                {w.lastKnown}
+              </p>
             )}
-            <ReplayCard follower={follower} />
+            {/* what is disabled here disables all controls in it */}
+            <fieldset class="lab-cards" disabled={lost}>
+              {follower.systems.value.map((each) => (
+                <SystemCard key={each.system.name} view={each} />
+              ))}
+              {robots.map((each) => (
+                <RobotCard key={each.robot.name} view={each} catalogue={catalogue} />
+              ))}
+              {may.scene && robots.length > 0 && (
+                <Button icon="robot" onClick={toggle(adding)}>
+                  {w.addRobot}
+                </Button>
+              )}
+              <ReplayCard follower={follower} />
+            </fieldset>
           </aside>
         )}
         {adding.value && (

@@ -8,7 +8,7 @@ import { words } from '../../words/words'
 import { Header } from './header'
 import { lazy } from './lazy'
 import { path } from './router'
-import { ApiProvider, session } from './session'
+import { ApiProvider, checkSignIn, session } from './session'
 
 interface Route {
   readonly path: RegExp
@@ -109,6 +109,13 @@ export function App({ api }: { api: Api }) {
       .catch((problem: unknown) => setError(sentence(problem)))
   }
   useEffect(load, [])
+  useEffect(() => {
+    const look = () => {
+      if (session.value?.user) void checkSignIn(api)
+    }
+    addEventListener('focus', look)
+    return () => removeEventListener('focus', look)
+  }, [api])
   const wide = ROUTES.find((each) => each.path.test(path.value))?.wide && session.value?.user
   return (
     <ApiProvider value={api}>

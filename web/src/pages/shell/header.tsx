@@ -46,6 +46,8 @@ function AccountMenu() {
   const user = session.value?.user
   const signOut = async () => {
     await api.signOut()
+    // one's own doing: no page is to say that the sign-in was ended
+    if (session.value) session.value = { ...session.value, user: null }
     session.value = await api.session()
     navigate('/sign-in')
   }

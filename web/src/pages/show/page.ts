@@ -2,6 +2,7 @@ import '../../design/tokens.css'
 import './show.css'
 import type { MotionDocument } from '../../playback/motion'
 import type { SessionDocument } from '../../playback/session'
+import { translate } from './german'
 import { showMotion } from './motion_page'
 import { type ShownData, unpackData } from './packed_data'
 import { showSession } from './session_page'
@@ -14,6 +15,7 @@ declare global {
 function start(data: ShownData): void {
   const view = document.getElementById('view')
   if (view === null) return
+  if (navigator.language.startsWith('de')) translate(document.body)
   const shown = data.document as MotionDocument | SessionDocument
   if (shown.schema === 'mrlab.session.1') showSession(view, shown, data.meshes)
   else showMotion(view, shown, data.meshes)

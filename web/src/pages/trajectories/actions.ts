@@ -1,4 +1,5 @@
 import { sentence } from '../../api/api'
+import type { TrajectoryInfo } from '../../api/types'
 import { showToast } from '../../design/toast'
 import { words } from '../../words/words'
 import { type Catalogue, shortName } from './catalogue'
@@ -29,11 +30,17 @@ export async function removeWithUndo(
 }
 
 /** Let everybody see it, or nobody else. */
-export async function setShared(catalogue: Catalogue, id: string, shared: boolean): Promise<void> {
+export async function setShared(
+  catalogue: Catalogue,
+  info: TrajectoryInfo,
+  shared: boolean,
+): Promise<void> {
+  const { id } = info
   const w = words.value.trajectories
   try {
     await catalogue.share(id, shared)
-    showToast(shared ? w.nowShared(shortName(id)) : w.nowPrivate(shortName(id)))
+    const whose = info.owner === catalogue.user ? w.private : w.privateOf(info.owner)
+    showToast(shared ? w.nowShared(shortName(id)) : w.nowPrivate(shortName(id), whose))
   } catch (error) {
     showToast(sentence(error))
   }

@@ -2,6 +2,9 @@ import { computed, signal } from '@preact/signals'
 import { type Api, sentence } from '../../api/api'
 import type { TrajectoryInfo } from '../../api/types'
 
+/** A list that others change is read this often. */
+const EVERY_MS = 5000
+
 export type Scope = 'all' | 'mine' | 'shared'
 
 /** Return the part of an id behind its owner. */
@@ -41,6 +44,10 @@ export function found(
     .sort((a, b) => b.created - a.created || a.id.localeCompare(b.id))
 }
 
+function same(one: readonly TrajectoryInfo[], other: readonly TrajectoryInfo[] | null): boolean {
+  return JSON.stringify(one) === JSON.stringify(other)
+}
+
 /** The trajectories that a person may see, and what they look for. */
 export class Catalogue {
   readonly all = signal<readonly TrajectoryInfo[] | null>(null)
@@ -53,17 +60,38 @@ export class Catalogue {
     found(this.all.value ?? [], this.text.value, this.scope.value, this.user),
   )
 
+  /** Counts what was changed here. */
+  #changes = 0
+
   constructor(
     private readonly api: Api,
-    private readonly user: string,
+    readonly user: string,
   ) {}
 
+  /** Read the list. What was changed here meanwhile is newer than what is read. */
   async load(): Promise<void> {
-    this.error.value = ''
+    const changes = this.#changes
     try {
-      this.all.value = await this.api.trajectories()
+      const all = await this.api.trajectories()
+      if (changes === this.#changes && !same(all, this.all.value)) this.all.value = all
+      this.error.value = ''
     } catch (error) {
       this.error.value = sentence(error)
+    }
+  }
+
+  /** Read the list now, every few seconds while the page is looked at, and when it is looked at
+   * again: others change it. Return what ends that. */
+  follow(): () => void {
+    const look = () => {
+      if (document.visibilityState === 'visible') void this.load()
+    }
+    void this.load()
+    const timer = setInterval(look, EVERY_MS)
+    document.addEventListener('visibilitychange', look)
+    return () => {
+      clearInterval(timer)
+      document.removeEventListener('visibilitychange', look)
     }
   }
 
@@ -76,17 +104,20 @@ export class Catalogue {
 
   async share(id: string, shared: boolean): Promise<void> {
     await this.api.share(id, shared)
+    this.#changes++
     this.#replace(id, (each) => ({ ...each, shared }))
   }
 
   async remove(id: string): Promise<void> {
     await this.api.remove(id)
+    this.#changes++
     this.all.value = (this.all.value ?? []).filter((each) => each.id !== id)
     this.chosen.value = this.chosen.value.filter((each) => each !== id)
   }
 
   async restore(id: string, version: number): Promise<TrajectoryInfo> {
     const info = await this.api.restore(id, version)
+    this.#changes++
     const others = (this.all.value ?? []).filter((each) => each.id !== id)
     this.all.value = [info, ...others]
     return info

@@ -14,7 +14,7 @@ import { session, useApi } from '../shell/session'
 import { Findings } from '../upload/findings'
 import { type Catalogue, shortName, trajectoryPage } from './catalogue'
 import { Comparison } from './comparison'
-import { ownerName } from './list'
+import { audience, ownerName } from './list'
 import { Downloads, mayChange, TrajectoryMenu } from './menu'
 import { Versions } from './versions'
 import '../upload/upload.css'
@@ -94,7 +94,7 @@ export function TrajectoryDetail({ catalogue, id }: DetailProps) {
             <p class="row small second">
               <span class="chip chip-plain">
                 <Icon name={info.shared ? 'people' : 'person'} />
-                {ownerName(info, user)}, {info.shared ? w.shared : w.private}
+                {ownerName(info, user)}, {audience(info, user)}
               </span>
               <span class="chip chip-plain">{w.version(info.version)}</span>
             </p>

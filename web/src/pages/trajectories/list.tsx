@@ -22,6 +22,13 @@ export function ownerName(info: TrajectoryInfo, user: string): string {
   return info.owner === user ? w.you : info.owner
 }
 
+/** Return who may see it, in words. */
+export function audience(info: TrajectoryInfo, user: string): string {
+  const w = words.value.trajectories
+  if (info.shared) return w.shared
+  return info.owner === user ? w.private : w.privateOf(info.owner)
+}
+
 function Row({ catalogue, info, user }: ListProps & { info: TrajectoryInfo }) {
   const w = words.value.trajectories
   return (
@@ -44,12 +51,16 @@ function Row({ catalogue, info, user }: ListProps & { info: TrajectoryInfo }) {
           {info.end_effector && ` + ${info.end_effector}`} · {number(info.duration, 1)} s
           {info.warnings.length > 0 && ` · ${w.warnings(info.warnings.length)}`}
         </span>
+        {/* on a phone, where the columns beside it have no room */}
+        <span class="trajectory-whose second tiny">
+          {info.shared ? ownerName(info, user) : audience(info, user)} · {dateTime(info.created)}
+        </span>
       </a>
       <span class="trajectory-owner small">
         <Icon name={info.shared ? 'people' : 'person'} />
         <span>
           {ownerName(info, user)}
-          <span class="second tiny trajectory-shared">{info.shared ? w.shared : w.private}</span>
+          <span class="second tiny trajectory-shared">{audience(info, user)}</span>
         </span>
       </span>
       <span class="trajectory-created second small">{dateTime(info.created)}</span>

@@ -48,7 +48,7 @@ export function TrajectoryMenu({ catalogue, info, onRemoved }: MenuProps) {
         <Button
           look="quiet"
           icon={info.shared ? 'person' : 'people'}
-          onClick={() => void setShared(catalogue, info.id, !info.shared)}
+          onClick={() => void setShared(catalogue, info, !info.shared)}
         >
           {info.shared ? w.unshare : w.share}
         </Button>

@@ -11,9 +11,7 @@ export function TrajectoriesPage() {
   const api = useApi()
   const user = session.value?.user?.name ?? ''
   const catalogue = useMemo(() => new Catalogue(api, user), [api, user])
-  useEffect(() => {
-    void catalogue.load()
-  }, [catalogue])
+  useEffect(() => catalogue.follow(), [catalogue])
   const id = idOfPath(path.value)
   if (id !== '') return <TrajectoryDetail key={id} catalogue={catalogue} id={id} />
   return <TrajectoryList catalogue={catalogue} user={user} />

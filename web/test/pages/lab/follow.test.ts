@@ -2,6 +2,7 @@ import { expect, test, vi } from 'vitest'
 import { FakeLink } from '../../../src/link/fake'
 import { commandsOf } from '../../../src/pages/lab/commands'
 import { LabFollower } from '../../../src/pages/lab/follow'
+import { clockOf } from '../../../src/pages/lab/followed_robot'
 import { Course } from '../../../src/playback/course'
 import {
   collisionType,
@@ -201,4 +202,42 @@ test('where a trajectory cannot be had, the joint states pose the robot', async 
   })
   expect(joints.setJoint).toHaveBeenLastCalledWith('a', 1)
   expect(follower.pose()).toBe(false)
+})
+
+test('without the link a robot stands where it was last known', () => {
+  const { link, follower, robot, stir } = lab()
+  link.deliver('robots', robotsType, { robots: [robot] })
+  link.deliver('ur5e_1/playback_state', playbackStateType, {
+    state: PlaybackState.PLAYING,
+    clock: { stamp: { sec: 1000, nanosec: 0 }, position: 0, rate: 1 },
+    duration: 10,
+    rate: 1,
+  })
+  const player = follower.robots.value[0]?.player
+  link.time = 1002
+  stir.mockClear()
+  link.setStatus('lost', 'gone')
+  link.time = 1005
+  expect([player?.position(), player?.playing]).toEqual([2, false])
+  expect(stir).toHaveBeenCalled()
+  link.setStatus('open')
+  expect([player?.position(), player?.playing]).toEqual([5, true])
+})
+
+test('robots keep the order of the lab, whichever was heard of first', () => {
+  const { link, follower } = lab()
+  link.deliver('b/playback_state', playbackStateType, {})
+  const robots = ['a', 'b'].map((name) => robotType.create({ name }))
+  link.deliver('robots', robotsType, { robots })
+  expect(follower.robots.value.map((each) => each.robot.name)).toEqual(['a', 'b'])
+})
+
+test.each([
+  [-4, 'played back to the first frame', 0, 0],
+  [-4, 'stopped', 0, 6],
+  [-4, 'played back to the first frame', -4, 6],
+  [4, 'played to the end', 0, 6],
+])('at rate %d, %s, the timeline of a clock of rate %d is at %d', (rate, message, speed, at) => {
+  const clock = { stamp: { sec: 1, nanosec: 0 }, position: 6, rate: speed }
+  expect(clockOf({ clock, rate, message }).position).toBe(at)
 })

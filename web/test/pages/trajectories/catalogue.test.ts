@@ -1,11 +1,13 @@
 // @vitest-environment jsdom
-import { expect, test } from 'vitest'
+import { expect, test, vi } from 'vitest'
+import type { TrajectoryInfo } from '../../../src/api/types'
 import {
   Catalogue,
   found,
   idOfPath,
   trajectoryPage,
 } from '../../../src/pages/trajectories/catalogue'
+import { audience } from '../../../src/pages/trajectories/list'
 import { FakeApi, trajectory } from '../../fake_api'
 
 const ALL = [
@@ -70,4 +72,46 @@ test('two at most are compared, the last ones chosen', () => {
   expect(catalogue.chosen.value).toEqual(['b', 'c'])
   catalogue.toggle('b')
   expect(catalogue.chosen.value).toEqual(['c'])
+})
+
+test('a list that was asked for before something was deleted here does not bring it back', async () => {
+  const api = new FakeApi()
+  const catalogue = new Catalogue(api, 'ada')
+  await catalogue.load()
+  const before = catalogue.all.value ?? []
+  let answer = (_all: readonly TrajectoryInfo[]) => {}
+  api.trajectories = () =>
+    new Promise((resolve) => {
+      answer = resolve
+    })
+  const loading = catalogue.load()
+  await catalogue.remove('ada/wave')
+  answer(before)
+  await loading
+  expect(catalogue.all.value?.some((each) => each.id === 'ada/wave')).toBe(false)
+})
+
+test('what others delete goes within seconds, and the list stays itself where nothing changed', async () => {
+  vi.useFakeTimers()
+  const api = new FakeApi()
+  const catalogue = new Catalogue(api, 'ada')
+  const stop = catalogue.follow()
+  await vi.advanceTimersByTimeAsync(100)
+  const first = catalogue.all.value
+  expect(first?.length).toBeGreaterThan(1)
+  await vi.advanceTimersByTimeAsync(10_000)
+  expect(catalogue.all.value).toBe(first)
+  api.trajectories = () => Promise.resolve((first ?? []).slice(1))
+  await vi.advanceTimersByTimeAsync(6000)
+  expect(catalogue.all.value?.length).toBe((first?.length ?? 0) - 1)
+  stop()
+  expect(vi.getTimerCount()).toBe(0)
+  vi.useRealTimers()
+})
+
+test.each([
+  ['ada', 'only for you'],
+  ['grace', 'only for ada'],
+])('for %s a private one of ada is %s', (user, words) => {
+  expect(audience(trajectory({ id: 'ada/wave', owner: 'ada', shared: false }), user)).toBe(words)
 })

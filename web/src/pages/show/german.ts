@@ -1,0 +1,36 @@
+/** The page's own words; the sentences of converter and report stay as they are. */
+const WORDS: Readonly<Record<string, string>> = {
+  Accepted: 'Angenommen',
+  'Not accepted': 'Nicht angenommen',
+  'A choice is needed': 'Eine Wahl ist nötig',
+  Findings: 'Befunde',
+  error: 'Fehler',
+  warning: 'Warnung',
+  note: 'Hinweis',
+  Angles: 'Winkel',
+  Velocities: 'Geschwindigkeiten',
+  'Torque proxies (nominal, no torque)': 'Moment-Proxys (nominell, kein Drehmoment)',
+  Events: 'Ereignisse',
+  Robots: 'Roboter',
+  Report: 'Bericht',
+}
+const PLACES = 'h2, .verdict b, .findings button b'
+
+/** Put the fixed words of a page, which is written in English, into German. */
+export function translate(page: HTMLElement): void {
+  for (const place of page.querySelectorAll(PLACES)) {
+    const german = WORDS[place.textContent ?? '']
+    if (german !== undefined) place.textContent = german
+  }
+  for (const place of page.querySelectorAll('.findings button b')) {
+    const rows = place.nextSibling
+    if (rows instanceof Text) rows.data = germanRows(rows.data)
+  }
+}
+
+/** Return the place of a finding, such as ` row 3-7 · joint`, with its rows in German. */
+export function germanRows(text: string): string {
+  return text
+    .replace(/^(\s*)row (\d+)-(\d+)/, '$1Zeilen $2 bis $3')
+    .replace(/^(\s*)row (\d+)/, '$1Zeile $2')
+}
