@@ -34,19 +34,10 @@ const MOST_FRAMES = 100_000
 /** Return a ROS time, s. */
 export const seconds = (time: Time): number => time.sec + time.nanosec * 1e-9
 
-/** What a run that ended at the first frame is said to have done. */
-const PLAYED_BACK = 'played back to'
-
-/** Return the clock of a robot or a system as a timeline shows it. After a run backwards the lab
- * sets it to the end, from where the next one begins; until then the arm stands at the first frame. */
-export function clockOf(state: Pick<PlaybackState, 'clock' | 'rate' | 'message'>): PlaybackClock {
-  const { clock, rate, message } = state
-  const ended = rate < 0 && clock.rate === 0 && message.startsWith(PLAYED_BACK)
-  return {
-    stamp: seconds(clock.stamp),
-    position: ended ? 0 : clock.position,
-    rate: clock.rate,
-  }
+/** Return the clock of a robot or a system as a timeline takes it; where it stands in READY, the next
+ * run begins: at the end where it goes backwards. */
+export function clockOf({ clock }: Pick<PlaybackState, 'clock'>): PlaybackClock {
+  return { stamp: seconds(clock.stamp), position: clock.position, rate: clock.rate }
 }
 
 /** One robot as the messages of its lab say it is. */

@@ -2,7 +2,6 @@ import { expect, test, vi } from 'vitest'
 import { FakeLink } from '../../../src/link/fake'
 import { commandsOf } from '../../../src/pages/lab/commands'
 import { LabFollower } from '../../../src/pages/lab/follow'
-import { clockOf } from '../../../src/pages/lab/followed_robot'
 import { Course } from '../../../src/playback/course'
 import {
   collisionType,
@@ -230,14 +229,4 @@ test('robots keep the order of the lab, whichever was heard of first', () => {
   const robots = ['a', 'b'].map((name) => robotType.create({ name }))
   link.deliver('robots', robotsType, { robots })
   expect(follower.robots.value.map((each) => each.robot.name)).toEqual(['a', 'b'])
-})
-
-test.each([
-  [-4, 'played back to the first frame', 0, 0],
-  [-4, 'stopped', 0, 6],
-  [-4, 'played back to the first frame', -4, 6],
-  [4, 'played to the end', 0, 6],
-])('at rate %d, %s, the timeline of a clock of rate %d is at %d', (rate, message, speed, at) => {
-  const clock = { stamp: { sec: 1, nanosec: 0 }, position: 6, rate: speed }
-  expect(clockOf({ clock, rate, message }).position).toBe(at)
 })
