@@ -24,6 +24,7 @@ FAST_FOLDERS = ("unit", "fuzz")
 ORDER = ("node", "fuzz", "unit", "browser", "system")
 
 
+@pytest.hookimpl(tryfirst=True)  # before pytest-xdist reads the marks
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
     """Mark the `fast` tests, put the folders in ORDER, and say what runs in one process."""
     root = Path(__file__).parent

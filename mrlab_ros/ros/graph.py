@@ -196,18 +196,23 @@ class Graph(GraphClient):
         self._executor = SingleThreadedExecutor(context=self._context)
         self._executor.add_node(self.node)
         self._clients: dict[str, Any] = {}
+        self._closing = threading.Event()
         self._thread = threading.Thread(target=self._spin, name="graph", daemon=True)
         self._thread.start()
 
     def _spin(self) -> None:
         try:
-            self._executor.spin()
+            while not self._closing.is_set():
+                self._executor.spin_once()
         except ExternalShutdownException:
             return
 
     def close(self) -> None:
-        self._executor.shutdown(timeout_sec=1.0)
+        # First the thread ends: the executor takes its conditions away from one that still spins.
+        self._closing.set()
+        self._executor.wake()
         self._thread.join(1.0)
+        self._executor.shutdown(timeout_sec=1.0)
         self.node.destroy_node()
         self._context.try_shutdown()
 

@@ -128,7 +128,7 @@ def test_the_graph_heals_when_a_process_dies(lab: Lab) -> None:
     restarts = {p["name"]: p["restarts"] for p in after["supervisor"]["processes"]}
     others = ("playback", "physics", "bridge", "recorder", "web")
     assert restarts == {"lab": 1, **dict.fromkeys(others, 0)}
-    assert "lab ended (SIGKILL); restarts in 0.5 s" in lab.said
+    assert "lab ended (SIGKILL); restarts in 0.1 s" in lab.said
 
 
 def test_the_pages_are_opened_by_the_printed_url(lab: Lab) -> None:
@@ -144,7 +144,7 @@ def test_the_pages_are_opened_by_the_printed_url(lab: Lab) -> None:
     assert lab.status()["web"] == {"address": origin, "answers": True}
     victim = next(p for p in lab.status()["supervisor"]["processes"] if p["name"] == "web")
     os.kill(victim["pid"], signal.SIGKILL)
-    wait_for(lambda: "web ended (SIGKILL); restarts in 0.5 s" in lab.said, "the restart")
+    wait_for(lambda: "web ended (SIGKILL); restarts in 0.1 s" in lab.said, "the restart")
 
 
 def test_play_follows_a_workspace_file_to_its_end(lab: Lab) -> None:
