@@ -68,4 +68,4 @@ def test_another_type_and_silence_are_told_apart(node):
         receive("/note", 30.0)
     node.create_publisher(JointTrajectory, "/arm/joint_trajectory", 1)
     with pytest.raises(LabError, match="no message came"):
-        receive("/arm/joint_trajectory", 2.0)
+        receive("/arm/joint_trajectory", 8.0)

@@ -13,6 +13,7 @@ from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import Any
 
+import domain_coordinator
 import httpx
 import psutil
 import pytest
@@ -212,10 +213,13 @@ def test_a_wrong_parameter_file_is_named_whole_and_nothing_starts(tmp_path: Path
 def test_a_process_that_refuses_its_configuration_ends_the_start(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setenv("XDG_RUNTIME_DIR", str(tmp_path))
     config = tmp_path / "lab.yaml"
     config.write_text("bridge: {ros__parameters: {allow_list: /nowhere.yaml}}\n")
-    done = mrlab("up", "--no-physics", "--no-web", "--config", str(config))
+    # A domain of its own: the bridge of another lab there would be taken for this one's.
+    with domain_coordinator.domain_id() as domain:
+        monkeypatch.setenv("ROS_DOMAIN_ID", str(domain))
+        monkeypatch.setenv("XDG_RUNTIME_DIR", str(tmp_path))
+        done = mrlab("up", "--no-physics", "--no-web", "--config", str(config))
     assert done.returncode == 1
     assert "the bridge cannot read its allow-list /nowhere.yaml" in done.stdout
     assert "the lab does not start: bridge refused the configuration" in done.stderr
