@@ -255,6 +255,8 @@ def up(
                     stop.wait()
                 else:
                     follow_keys(keys, seen, stop, say, supervisor.restart)
+                # Another lab on this domain may have been taken for the process that refused.
+                refusals.raise_any()
                 say(SELF, "stops")
         finally:
             run_file.release()
@@ -266,22 +268,23 @@ def checked_store(place: str) -> str:
 
 
 class Refusals:
-    """The processes that refuse their configuration while the lab starts; they set `stop`."""
+    """The processes that refuse their configuration at their first start; they set `stop`.
+
+    One that refuses after a restart does not end a lab that runs.
+    """
 
     def __init__(self, stop: threading.Event) -> None:
         self._stop = stop
         self._names: set[str] = set()
-        self._started = False
 
     def check(self, states: Iterable[ProcessState]) -> None:
-        if not self._started:
-            self._names |= {s.name for s in states if s.phase == Phase.REFUSED.value}
-            if self._names:
-                self._stop.set()
+        first = (s for s in states if s.phase == Phase.REFUSED.value and not s.restarts)
+        self._names |= {s.name for s in first}
+        if self._names:
+            self._stop.set()
 
     def raise_any(self) -> None:
-        """End the check; raise BadInput where a process refused. Later ones do not end a lab."""
-        self._started = True
+        """Raise BadInput where a process refused."""
         if self._names:
             raise BadInput(
                 f"the lab does not start: {', '.join(sorted(self._names))} refused the "

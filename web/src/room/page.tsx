@@ -1,5 +1,6 @@
 import { useSignal } from '@preact/signals'
 import { useEffect, useRef } from 'preact/hooks'
+import { useLink } from '../link/use_link'
 import './room.css'
 import { Button } from '../design/button'
 import { Notice } from '../design/notice'
@@ -166,23 +167,6 @@ function RoomView({ link }: { link: Link }) {
 
 /** The room, or in `--mode fake` one with made-up robots. */
 export function RoomPage() {
-  const link = useSignal<Link | null>(null)
-  useEffect(() => {
-    let open: Link | null = null
-    let here = true
-    const opening =
-      import.meta.env.MODE === 'fake'
-        ? import('../../test/fake_lab').then(({ fakeLab }) => fakeLab())
-        : import('../link/socket').then(({ openLink }) => openLink())
-    opening.then((found) => {
-      open = found
-      if (here) link.value = found
-      else found.close()
-    })
-    return () => {
-      here = false
-      open?.close()
-    }
-  }, [])
+  const link = useLink()
   return link.value && <RoomView link={link.value} />
 }

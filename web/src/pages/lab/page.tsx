@@ -2,6 +2,7 @@ import { useSignal } from '@preact/signals'
 import { useEffect, useMemo, useRef } from 'preact/hooks'
 import { trajectoryUrl } from '../../api/api'
 import type { Rights } from '../../api/types'
+import { useLink } from '../../link/use_link'
 import './lab.css'
 import { Button } from '../../design/button'
 import { StateChip } from '../../design/chip'
@@ -228,23 +229,6 @@ export function Lab({ link }: { link: Link }) {
 
 /** The lab that this gateway serves, or in `--mode fake` a made-up one. */
 export function LabPage() {
-  const link = useSignal<Link | null>(null)
-  useEffect(() => {
-    let open: Link | null = null
-    let here = true
-    const opening =
-      import.meta.env.MODE === 'fake'
-        ? import('../../../test/fake_lab').then(({ fakeLab }) => fakeLab())
-        : import('../../link/socket').then(({ openLink }) => openLink())
-    opening.then((found) => {
-      open = found
-      if (here) link.value = found
-      else found.close()
-    })
-    return () => {
-      here = false
-      open?.close()
-    }
-  }, [])
+  const link = useLink()
   return link.value && <Lab link={link.value} />
 }
