@@ -22,6 +22,9 @@ ROOT = Path(__file__).resolve().parent.parent
 VENV = ROOT / ".venv"
 STAMPS = VENV / ".mrlab"
 INSTALL = ROOT / "install"
+# Interfaces of the distribution that the wheels lack; a ROS machine has them as packages.
+STANDARD_MESSAGES = ("control_msgs", "tf2_msgs")
+MESSAGES = ("mrlab_msgs", *STANDARD_MESSAGES)
 # pybullet has wheels up to 3.11, so 3.11 comes first.
 PYTHONS = ("3.11", "3.12", "3.13", "3.10")
 PROBE = (
@@ -184,7 +187,7 @@ class Setup:
         self.step(
             "messages",
             fingerprint(locks[0], *python, *filter(Path.is_file, sources)),
-            lambda: self.colcon("mrlab_msgs"),
+            lambda: self.colcon(*MESSAGES),
             "building the ROS messages (about a minute)",
         )
         web = ROOT / "web"
@@ -283,7 +286,7 @@ class Setup:
             if new != text:
                 path.write_text(new)
 
-    def colcon(self, package):
+    def colcon(self, *packages):
         run(
             [
                 str(VENV / "bin" / "colcon"),
@@ -293,8 +296,9 @@ class Setup:
                 "--base-paths",
                 ".",
                 "msg_schemas",
+                *("msg_schemas/standard/" + name for name in STANDARD_MESSAGES),
                 "--packages-select",
-                package,
+                *packages,
                 "--symlink-install",
                 "--cmake-args",
                 "-DCMAKE_BUILD_TYPE=Release",
@@ -327,7 +331,7 @@ class Setup:
 
     def prefixes(self):
         """Return the folders in which ROS packages are looked up."""
-        return [INSTALL / "mrlab_ros", INSTALL / "mrlab_msgs", VENV]
+        return [INSTALL / "mrlab_ros", *(INSTALL / name for name in MESSAGES), VENV]
 
     def env(self):
         """Return the environment in which the ROS wheels build and run.
@@ -337,8 +341,8 @@ class Setup:
         libraries = [VENV / "lib"] + sorted(self.site.glob("ros_*.libs"))
         packages = "lib/python{}/site-packages".format(self.python["version"])
         # colcon's symlink install leaves an egg-link in build/; the sources are the package.
-        paths = [INSTALL / "mrlab_msgs" / packages, ROOT]
-        libraries.insert(0, INSTALL / "mrlab_msgs" / "lib")
+        paths = [*(INSTALL / name / packages for name in MESSAGES), ROOT]
+        libraries[:0] = [INSTALL / name / "lib" for name in MESSAGES]
         env = dict(os.environ)
         env.pop("PYTHONHOME", None)
         env.update(

@@ -33,6 +33,8 @@ C = TypeVar("C", bound="GraphClient")
 FIND_TIMEOUT_S = 6.0
 CALL_TIMEOUT_S = 15.0
 OFFER_PERIOD_S = 0.05
+# How long closing waits for a callback that runs, s.
+CLOSE_TIMEOUT_S = 5.0
 # The messages that a latched topic keeps for late joiners arrive oldest first, with pauses shorter
 # than this, s.
 LATCHED_BURST_S = 0.5
@@ -197,6 +199,8 @@ class Graph(GraphClient):
         self._executor.add_node(self.node)
         self._clients: dict[str, Any] = {}
         self._closing = threading.Event()
+        # The executor's own wake() builds its wait set anew and goes on; this ends spin_once().
+        self._end = self.node.create_guard_condition(lambda: None)
         self._thread = threading.Thread(target=self._spin, name="graph", daemon=True)
         self._thread.start()
 
@@ -208,10 +212,11 @@ class Graph(GraphClient):
             return
 
     def close(self) -> None:
-        # First the thread ends: the executor takes its conditions away from one that still spins.
+        # First the thread ends: the executor takes its conditions away from one that still spins,
+        # and one that waits within rcl when the interpreter ends aborts the process.
         self._closing.set()
-        self._executor.wake()
-        self._thread.join(1.0)
+        self._end.trigger()
+        self._thread.join(CLOSE_TIMEOUT_S)
         self._executor.shutdown(timeout_sec=1.0)
         self.node.destroy_node()
         self._context.try_shutdown()

@@ -805,7 +805,7 @@ export interface DriveOrder {
   stamp: Time
   /** of STAGE and SEEK: s on the member's trajectory */
   position: number
-  /** of PLAY and SET_RATE: 0.1 to 4 */
+  /** of PLAY and SET_RATE: 0.1 to 4; negative: backwards */
   rate: number
   /** of PLAY and HOLD: s at which to wait in PAUSED; 0: play to the end */
   until: number
@@ -2597,7 +2597,7 @@ export interface RobotSystem {
   clock: PlaybackClock
   /** s of the timeline */
   duration: number
-  /** the speed it plays at when it plays, 0.1 to 4 */
+  /** the speed it plays at when it plays, 0.1 to 4; negative: backwards */
   rate: number
   loop: boolean
 }
@@ -3230,22 +3230,27 @@ export const setRateResponseType: MessageType<SetRateResponse> = /* @__PURE__ */
   writeSetRateResponse,
 )
 
-/** mrlab_msgs/srv/SetSurfaces_Request: Replace the surfaces of the room. */
+/** mrlab_msgs/srv/SetSurfaces_Request: Replace the surfaces of the room, or those of one source. */
 export interface SetSurfacesRequest {
+  /** who measured them, such as a headset: only its own are replaced; empty: all */
+  source: string
   surfaces: Surface[]
 }
 
 export function createSetSurfacesRequest(): SetSurfacesRequest {
   return {
+    source: '',
     surfaces: [],
   }
 }
 
 export function readSetSurfacesRequest(from: CdrReader, into: SetSurfacesRequest): void {
+  into.source = from.string(into.source)
   into.surfaces = from.messages(into.surfaces, createSurface, readSurface)
 }
 
 export function writeSetSurfacesRequest(to: CdrWriter, message: SetSurfacesRequest): void {
+  to.string(message.source)
   to.messages(message.surfaces, writeSurface)
 }
 
@@ -3667,6 +3672,8 @@ export interface Surface {
   name: string
   /** floor, wall, ceiling, table, ... as the headset names it */
   label: string
+  /** who measured it, such as a headset; empty: the lab's own */
+  source: string
   /** in world, m; of a plane, z is its normal */
   pose: Pose
   /** in the surface's frame, m: a plane's outline, or a mesh's vertices */
@@ -3679,6 +3686,7 @@ export function createSurface(): Surface {
   return {
     name: '',
     label: '',
+    source: '',
     pose: createPose(),
     vertices: [],
     triangles: new Uint32Array(0),
@@ -3688,6 +3696,7 @@ export function createSurface(): Surface {
 export function readSurface(from: CdrReader, into: Surface): void {
   into.name = from.string(into.name)
   into.label = from.string(into.label)
+  into.source = from.string(into.source)
   readPose(from, into.pose)
   into.vertices = from.messages(into.vertices, createPoint, readPoint)
   into.triangles = from.uint32s(into.triangles)
@@ -3696,6 +3705,7 @@ export function readSurface(from: CdrReader, into: Surface): void {
 export function writeSurface(to: CdrWriter, message: Surface): void {
   to.string(message.name)
   to.string(message.label)
+  to.string(message.source)
   writePose(to, message.pose)
   to.messages(message.vertices, writePoint)
   to.uint32s(message.triangles)
@@ -3824,6 +3834,16 @@ export interface Telemetry {
   gripper_closed: boolean
   /** pose of tool0 in the robot's base_link, m */
   tool0: Pose
+  /** empty: nothing, or no physics */
+  held_object: string
+  /** kg; meaningful, as what follows, only with held_object */
+  held_mass: number
+  /** kg that the robot may carry with this end effector; 0: not stated */
+  payload: number
+  /** friction there / friction needed - 1; negative: it slips */
+  slip_margin: number
+  /** N*m of its weight about the origin of tool0 */
+  wrist_moment: number
   /** s, how late the last joint state left */
   deadline_error: number
   /** s, largest since play */
@@ -3845,6 +3865,11 @@ export function createTelemetry(): Telemetry {
     has_gripper: false,
     gripper_closed: false,
     tool0: createPose(),
+    held_object: '',
+    held_mass: 0,
+    payload: 0,
+    slip_margin: 0,
+    wrist_moment: 0,
     deadline_error: 0,
     deadline_error_max: 0,
     frames_sent: 0,
@@ -3862,6 +3887,11 @@ export function readTelemetry(from: CdrReader, into: Telemetry): void {
   into.has_gripper = from.bool()
   into.gripper_closed = from.bool()
   readPose(from, into.tool0)
+  into.held_object = from.string(into.held_object)
+  into.held_mass = from.float64()
+  into.payload = from.float64()
+  into.slip_margin = from.float64()
+  into.wrist_moment = from.float64()
   into.deadline_error = from.float64()
   into.deadline_error_max = from.float64()
   into.frames_sent = from.uint32()
@@ -3878,6 +3908,11 @@ export function writeTelemetry(to: CdrWriter, message: Telemetry): void {
   to.bool(message.has_gripper)
   to.bool(message.gripper_closed)
   writePose(to, message.tool0)
+  to.string(message.held_object)
+  to.float64(message.held_mass)
+  to.float64(message.payload)
+  to.float64(message.slip_margin)
+  to.float64(message.wrist_moment)
   to.float64(message.deadline_error)
   to.float64(message.deadline_error_max)
   to.uint32(message.frames_sent)

@@ -135,7 +135,7 @@ export class Room {
     this.objects = new ObjectHandles(this.scene, this.context, this.targets)
     this.overlays = new Overlays(link, this.scene, this.stage.world)
     this.scan = new RoomScan(this.stage.world, (surfaces) => {
-      order(this.context, 'physics/set_surfaces', setSurfacesType, { surfaces })
+      order(this.context, 'physics/set_surfaces', setSurfacesType, { source: '', surfaces })
     })
     this.follower = new LabFollower(link, {
       commands: (name) => commandsOf(link, name),

@@ -83,6 +83,7 @@ export class RoomScan {
     const floor: Surface = {
       name: FLOOR,
       label: FLOOR,
+      source: '',
       pose: { position: { x: 0, y: 0, z: 0 }, orientation: { x: 0, y: 0, z: 0, w: 1 } },
       vertices: [],
       triangles: new Uint32Array(),
@@ -160,7 +161,8 @@ function sameShape(a: Surface, b: Surface): boolean {
 function surfaceOf(found: XRPlane | XRMesh, name: string, label: string, pose: Pose): Surface {
   if ('polygon' in found) {
     const outline = found.polygon.map(({ x, y, z }) => ros(x, y, z))
-    return { name, label, pose, vertices: simplifyOutline(outline), triangles: new Uint32Array() }
+    const vertices = simplifyOutline(outline)
+    return { name, label, source: '', pose, vertices, triangles: new Uint32Array() }
   }
   const simple = simplifyMesh(found.vertices, found.indices, MOST_TRIANGLES)
   const vertices = []
@@ -168,7 +170,7 @@ function surfaceOf(found: XRPlane | XRMesh, name: string, label: string, pose: P
     const [x, y, z] = simple.vertices.subarray(i, i + 3) as unknown as [number, number, number]
     vertices.push(ros(x, y, z))
   }
-  return { name, label, pose, vertices, triangles: simple.triangles }
+  return { name, label, source: '', pose, vertices, triangles: simple.triangles }
 }
 
 function ros(x: number, y: number, z: number): { x: number; y: number; z: number } {
