@@ -3,6 +3,9 @@ import type { Course } from './course'
 
 /** Streamed states are shown this much later, s: one that is 100 ms late leaves no gap. */
 const STREAM_DELAY = 0.12
+/** s: stamps that are farther from when they came are of another clock, as those of a bag that is
+ * replayed; such states are taken as of when they came. */
+const OTHER_CLOCK = 1
 const HISTORY = 64
 /** A joint this far from the course, rad or m, in so many states is not on it. */
 const OFF_COURSE = 0.01
@@ -10,15 +13,23 @@ const OFF_STATES = 4
 /** A step larger than this is eased out over EASE, s. */
 const STEP = 0.002
 const EASE = 0.12
+/** s between two pictures, at most, while something moves. */
+const PICTURE = 1 / 30
 
 /** Where the shown pose comes from. */
 export type PoseSource = 'none' | 'course' | 'states'
 
 /** The pose of an arm at any display instant: from its course and playback clock while it is on it,
- * else from the joint states as they came. A late, lost or early message moves nothing: the states
- * correct the course only where they contradict it, and every correction is eased. */
+ * else from the joint states, a little later than they came. A late, lost or early message moves
+ * nothing: the states correct the course only where they contradict it, and every correction is
+ * eased. */
 export class ClockedArm {
   source: PoseSource = 'none'
+  /** rad or m, in the order of the names: what `sample` wrote last. */
+  readonly positions: Float64Array
+  private readonly places = new Map<string, number>()
+  /** What was reported last. */
+  private readonly reported: Float64Array
   private course: Course | null = null
   private clock: PlaybackClock = { stamp: 0, position: 0, rate: 0 }
   private onCourse = false
@@ -28,24 +39,32 @@ export class ClockedArm {
   private readonly states: Float64Array
   private newest = -1
   private count = 0
+  private readonly jointCount: number
   private readonly scratch: Float64Array
-  /** What was shown last, and when. */
-  private readonly shown: Float64Array
   private shownAt = Number.NaN
   private readonly step: Float64Array
   private steppedAt = Number.NEGATIVE_INFINITY
   private changed = false
 
-  constructor(readonly jointCount: number) {
-    this.states = new Float64Array(HISTORY * jointCount)
-    this.scratch = new Float64Array(jointCount)
-    this.shown = new Float64Array(jointCount)
-    this.step = new Float64Array(jointCount)
+  /** jointNames: in the order of a course's positions. */
+  constructor(readonly jointNames: readonly string[]) {
+    const count = jointNames.length
+    this.jointCount = count
+    for (let i = 0; i < count; i++) this.places.set(jointNames[i] as string, i)
+    this.states = new Float64Array(HISTORY * count)
+    this.reported = new Float64Array(count)
+    this.scratch = new Float64Array(count)
+    this.positions = new Float64Array(count)
+    this.step = new Float64Array(count)
   }
 
-  /** Take over the course that is loaded, its joints in this arm's order; null: none. */
+  has(joint: string): boolean {
+    return this.places.has(joint)
+  }
+
+  /** Take over the course that is loaded; null, or one of other joints: there is none. */
   setCourse(course: Course | null): void {
-    this.course = course
+    this.course = course?.jointCount === this.jointCount ? course : null
     this.contradictions = 0
     this.changed = true
   }
@@ -62,29 +81,62 @@ export class ClockedArm {
     this.changed = true
   }
 
-  /** Take a state, in this arm's order, of a lab time, s; one that came too late is left out. */
-  takeState(stamp: number, positions: ArrayLike<number>): void {
-    if (this.newest >= 0 && stamp <= (this.stamps[this.newest] as number)) return
+  /** Take a state by the names of its joints; those of others are left out, and what it lacks stays.
+   * stamp, now: s of lab time, when it was published and when it came. */
+  take(
+    names: readonly string[],
+    positions: ArrayLike<number>,
+    stamp: number,
+    now: number = stamp,
+  ): void {
+    for (let i = 0; i < names.length; i++) {
+      const place = this.places.get(names[i] as string)
+      if (place !== undefined) this.reported[place] = positions[i] as number
+    }
+    const own = Math.abs(now - stamp) > OTHER_CLOCK ? now : stamp
+    const newest = this.count > 0 ? (this.stamps[this.newest] as number) : Number.NEGATIVE_INFINITY
+    if (own <= newest) {
+      // overtaken on its way: left out; older by far: its clock was set, what came before is void
+      if (newest - own < OTHER_CLOCK) return
+      this.count = 0
+    }
     this.newest = (this.newest + 1) % HISTORY
     this.count = Math.min(this.count + 1, HISTORY)
-    this.stamps[this.newest] = stamp
+    this.stamps[this.newest] = own
     const begin = this.newest * this.jointCount
-    for (let joint = 0; joint < this.jointCount; joint++) {
-      this.states[begin + joint] = positions[joint] ?? 0
-    }
-    this.compare(stamp, begin)
+    this.states.set(this.reported, begin)
+    this.compare(own, begin)
   }
 
-  /** Write the pose at a lab time, s, into `into`; return whether there is one. Times must not
+  /** Write the pose at a lab time, s, into `positions`; return whether there is one. Times must not
    * decrease. Allocates nothing. */
-  sample(time: number, into: Float64Array): boolean {
+  sample(time: number): boolean {
     const source = this.choose()
     if (source === 'none') return false
     if (source === 'course') this.course?.sample(positionAt(this.clock, time), this.scratch)
     else this.sampleStates(time - STREAM_DELAY)
     this.ease(time, source)
-    into.set(this.scratch)
     return true
+  }
+
+  /** Whether it will have moved after a lab time, s, without any further message. */
+  moves(time: number): boolean {
+    if (this.changed || time < this.steppedAt + EASE) return true
+    const source = this.choose()
+    if (source === 'states') return this.hasWay()
+    if (source === 'none' || this.course === null) return false
+    const { rate } = this.clock
+    const position = positionAt(this.clock, time)
+    return rate > 0 ? position < this.course.duration : rate < 0 && position > 0
+  }
+
+  /** Whether the newest state is elsewhere than what is shown. */
+  private hasWay(): boolean {
+    const begin = this.newest * this.jointCount
+    for (let joint = 0; joint < this.jointCount; joint++) {
+      if (this.states[begin + joint] !== this.positions[joint]) return true
+    }
+    return false
   }
 
   private choose(): PoseSource {
@@ -129,13 +181,14 @@ export class ClockedArm {
       this.source = source
       let most = 0
       for (let joint = 0; joint < this.jointCount; joint++) {
-        const left = (this.shown[joint] as number) - (this.scratch[joint] as number)
+        const left = (this.positions[joint] as number) - (this.scratch[joint] as number)
         this.step[joint] = left
         most = Math.max(most, Math.abs(left))
       }
       // what is nowhere yet has nothing to come from
       const steps = most > STEP && !Number.isNaN(this.shownAt)
-      this.steppedAt = steps ? this.shownAt : Number.NEGATIVE_INFINITY
+      // from the picture before this one, where there was one just now
+      this.steppedAt = steps ? Math.max(this.shownAt, time - PICTURE) : Number.NEGATIVE_INFINITY
     }
     const left = 1 - (time - this.steppedAt) / EASE
     if (left > 0) {
@@ -145,7 +198,7 @@ export class ClockedArm {
           (this.scratch[joint] as number) + share * (this.step[joint] as number)
       }
     }
-    this.shown.set(this.scratch)
+    this.positions.set(this.scratch)
     this.shownAt = time
   }
 }

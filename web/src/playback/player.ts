@@ -130,13 +130,8 @@ export class RemotePlayer implements Player {
     return this.heldAt === null && goesOn(this.clock.rate, this.position(), this.duration)
   }
 
-  /** Lab time at which the clock was set, s. */
-  get since(): number {
-    return this.clock.stamp
-  }
-
   position(): number {
-    return this.positionAt(this.heldAt ?? this.labTime())
+    return within(positionAt(this.clock, this.heldAt ?? this.labTime()), this.duration)
   }
 
   /** Stand still while nothing is heard of the clock; false: go on by it. */
@@ -144,11 +139,6 @@ export class RemotePlayer implements Player {
     if (on === (this.heldAt !== null)) return
     this.heldAt = on ? this.labTime() : null
     this.listeners.call()
-  }
-
-  /** Return the place on the timeline at a lab time, s, by the clock as it is set now. */
-  positionAt(labTime: number): number {
-    return within(positionAt(this.clock, labTime), this.duration)
   }
 
   /** Take over what the lab announced: its clock, duration, s, and chosen rate. */

@@ -28,9 +28,6 @@ const seconds = ({ sec, nanosec }: Time): number => sec + nanosec * 1e-9
 interface Arm {
   joints: readonly string[]
   arm: ClockedArm
-  /** In the order of `joints`. */
-  readonly places: Map<string, number>
-  positions: Float64Array
   state: PlaybackState | null
   /** id@version of the course that the arm has, or that is on its way. */
   wanted: string
@@ -42,7 +39,6 @@ export class Arms {
   private readonly arms = new Map<string, Arm>()
   private readonly courses = new Map<string, Promise<Trajectory | null>>()
   private readonly undo: (() => void)[]
-  private shown = new Float64Array()
   private movesUntil = 0
 
   /** say: is told what could not be fetched. */
@@ -55,11 +51,8 @@ export class Arms {
       link.subscribe('*/joint_states', jointStateType, (message, { key }) => {
         const arm = this.arms.get(key.slice(0, key.indexOf('/')))
         if (arm === undefined) return
-        for (let i = 0; i < message.name.length; i++) {
-          const place = arm.places.get(message.name[i] as string)
-          if (place !== undefined) arm.positions[place] = message.position[i] as number
-        }
-        arm.arm.takeState(seconds(message.header.stamp), arm.positions)
+        const stamp = seconds(message.header.stamp)
+        arm.arm.take(message.name, message.position, stamp, link.labTime())
       }),
       link.subscribe('*/playback_state', playbackStateType, (message, { key }) => {
         const name = key.slice(0, key.indexOf('/'))
@@ -73,12 +66,7 @@ export class Arms {
     const arm = this.of(name)
     if (arm.joints.join() === joints.join()) return
     arm.joints = [...joints]
-    arm.arm = new ClockedArm(joints.length)
-    arm.positions = new Float64Array(joints.length)
-    arm.places.clear()
-    joints.forEach((joint, i) => {
-      arm.places.set(joint, i)
-    })
+    arm.arm = new ClockedArm(joints)
     arm.wanted = ''
     if (arm.state !== null) this.takeState(arm, arm.state)
   }
@@ -89,10 +77,10 @@ export class Arms {
 
   /** Move every robot to where it is at a lab time, s; return whether one moves. */
   update(time: number): boolean {
-    for (const [name, { arm, positions, state }] of this.arms) {
+    for (const [name, { arm, state }] of this.arms) {
       const robot = this.scene.robot(name)
-      if (robot === undefined || !arm.sample(time, this.scratch(positions.length))) continue
-      robot.setPositions(this.shown)
+      if (robot === undefined || !arm.sample(time)) continue
+      robot.setPositions(arm.positions)
       if (MOVING.has(state?.state ?? 0)) this.movesUntil = time + SETTLE_S
     }
     return time < this.movesUntil
@@ -107,19 +95,12 @@ export class Arms {
     for (const undo of this.undo) undo()
   }
 
-  private scratch(count: number): Float64Array {
-    if (this.shown.length !== count) this.shown = new Float64Array(count)
-    return this.shown
-  }
-
   private of(name: string): Arm {
     let arm = this.arms.get(name)
     if (arm === undefined) {
       arm = {
         joints: [],
-        arm: new ClockedArm(0),
-        places: new Map(),
-        positions: new Float64Array(),
+        arm: new ClockedArm([]),
         state: null,
         wanted: '',
       }

@@ -8,6 +8,8 @@ const RATE = 100
 const FRAMES = 801
 const DEG = Math.PI / 180
 const DISPLAY = 1 / 72
+const NAMES = ['a', 'b']
+const ONE = ['a']
 
 /** A smooth motion of two joints over 8 s, up to 90 degrees a second. */
 function motion(): Course {
@@ -36,7 +38,7 @@ const frameOf = (course: Course, frame: number): readonly number[] => [
 describe('over a link with 10 % loss, 100 ms jitter and stalls of 150 to 300 ms', () => {
   const start = 1000
   const course = motion()
-  const arm = new ClockedArm(2)
+  const arm = new ClockedArm(NAMES)
   arm.setCourse(course)
   const link = new ShapedLink<State>(0.1, 0.1, [
     [start + 1.2, 0.15],
@@ -44,10 +46,9 @@ describe('over a link with 10 % loss, 100 ms jitter and stalls of 150 to 300 ms'
     [start + 5.05, 0.22],
   ])
   const clocks = new ShapedLink<PlaybackClock>(0.1, 0, [[start + 3.1, 0.3]])
-  const into = new Float64Array(2)
   const shown: { time: number; pose: number[] }[] = []
   const errors: number[] = []
-  arm.takeState(start - 0.2, frameOf(course, 0))
+  arm.take(NAMES, frameOf(course, 0), start - 0.2)
   // announced as the lab does: ahead of its stamp, then once a second
   clocks.send(start - 0.15, { stamp: start, position: 0, rate: 1 }, true)
   let frame = 0
@@ -56,15 +57,20 @@ describe('over a link with 10 % loss, 100 ms jitter and stalls of 150 to 300 ms'
       link.send(time, { stamp: start + frame / RATE, positions: frameOf(course, frame) })
       // at a frame's own time the pose is that of the source
       if (time > start + 0.4) {
-        arm.sample(start + frame / RATE, into)
+        arm.sample(start + frame / RATE)
         const [a, b] = frameOf(course, frame) as [number, number]
-        errors.push(Math.max(Math.abs(number(into[0]) - a), Math.abs(number(into[1]) - b)) / DEG)
+        errors.push(
+          Math.max(
+            Math.abs(number(arm.positions[0]) - a),
+            Math.abs(number(arm.positions[1]) - b),
+          ) / DEG,
+        )
       }
       frame++
     }
     for (const clock of clocks.arrived(time)) arm.setClock(clock, true)
-    for (const { stamp, positions } of link.arrived(time)) arm.takeState(stamp, positions)
-    if (arm.sample(time, into)) shown.push({ time, pose: [...into] })
+    for (const { stamp, positions } of link.arrived(time)) arm.take(NAMES, positions, stamp, time)
+    if (arm.sample(time)) shown.push({ time, pose: [...arm.positions] })
   }
 
   it('is at each frame time where the source is, within 0.01 degrees', () => {
@@ -106,59 +112,126 @@ describe('over a link with 10 % loss, 100 ms jitter and stalls of 150 to 300 ms'
 describe('where the states contradict the course', () => {
   it('follows the states, eased, and returns when they agree again', () => {
     const course = new Course(100, 1, new Float64Array([0, 0, 0]))
-    const arm = new ClockedArm(1)
-    const into = new Float64Array(1)
+    const arm = new ClockedArm(ONE)
     arm.setCourse(course)
     arm.setClock({ stamp: 10, position: 0, rate: 0 }, true)
-    arm.sample(10, into)
-    for (let i = 1; i <= 30; i++) arm.takeState(10 + i / 100, [0.5])
-    arm.sample(10.01, into)
-    expect(into[0]).toBeLessThan(0.1)
-    arm.sample(10.05, into)
+    arm.sample(10)
+    for (let i = 1; i <= 30; i++) arm.take(ONE, [0.5], 10 + i / 100)
+    arm.sample(10.01)
+    expect(arm.positions[0]).toBeLessThan(0.1)
+    arm.sample(10.05)
     expect(arm.source).toBe('states')
-    expect(into[0]).toBeLessThan(0.5)
-    arm.sample(10.5, into)
-    expect(into[0]).toBeCloseTo(0.5, 12)
-    for (let i = 31; i <= 60; i++) arm.takeState(10 + i / 100, [0])
-    arm.sample(10.9, into)
-    arm.sample(11.2, into)
+    expect(arm.positions[0]).toBeLessThan(0.5)
+    arm.sample(10.5)
+    expect(arm.positions[0]).toBeCloseTo(0.5, 12)
+    for (let i = 31; i <= 60; i++) arm.take(ONE, [0], 10 + i / 100)
+    arm.sample(10.9)
+    arm.sample(11.2)
     expect(arm.source).toBe('course')
-    expect(into[0]).toBeCloseTo(0, 12)
+    expect(arm.positions[0]).toBeCloseTo(0, 12)
   })
 
   it('one wrong state changes nothing', () => {
-    const arm = new ClockedArm(1)
-    const into = new Float64Array(1)
+    const arm = new ClockedArm(ONE)
     arm.setCourse(new Course(100, 1, new Float64Array([0, 0])))
     arm.setClock({ stamp: 10, position: 0, rate: 0 }, true)
-    arm.takeState(10.01, [1])
-    arm.sample(10.02, into)
-    expect(into[0]).toBe(0)
+    arm.take(ONE, [1], 10.01)
+    arm.sample(10.02)
+    expect(arm.positions[0]).toBe(0)
   })
 })
 
 it('a scrub shows at once that it was heard, and is there within 120 ms', () => {
-  const arm = new ClockedArm(1)
-  const into = new Float64Array(1)
+  const arm = new ClockedArm(ONE)
   arm.setCourse(new Course(10, 1, new Float64Array([0, 1, 2, 3])))
   arm.setClock({ stamp: 5, position: 0, rate: 0 }, true)
-  arm.sample(5, into)
+  arm.sample(5)
   arm.setClock({ stamp: 5.01, position: 0.2, rate: 0 }, true)
-  arm.sample(5.03, into)
-  expect(into[0]).toBeGreaterThan(0.3)
-  arm.sample(5.13, into)
-  expect(into[0]).toBeCloseTo(2, 12)
+  arm.sample(5.03)
+  expect(arm.positions[0]).toBeGreaterThan(0.3)
+  arm.sample(5.13)
+  expect(arm.positions[0]).toBeCloseTo(2, 12)
 })
 
 it('without a course it interpolates the states, and has no pose before the first', () => {
-  const arm = new ClockedArm(1)
-  const into = new Float64Array(1)
-  expect(arm.sample(1, into)).toBe(false)
-  arm.takeState(1, [0])
-  arm.takeState(1.1, [1])
-  arm.takeState(1.05, [9]) // overtaken: left out
-  arm.sample(1.17, into)
-  expect(into[0]).toBeCloseTo(0.5, 9)
-  arm.sample(3, into)
-  expect(into[0]).toBe(1)
+  const arm = new ClockedArm(ONE)
+  expect(arm.sample(1)).toBe(false)
+  arm.take(ONE, [0], 1)
+  arm.take(ONE, [1], 1.1)
+  arm.take(ONE, [9], 1.05) // overtaken: left out
+  arm.sample(1.17)
+  expect(arm.positions[0]).toBeCloseTo(0.5, 9)
+  arm.sample(3)
+  expect(arm.positions[0]).toBe(1)
+})
+
+it('a stream without a course is smooth over the same link, 0.12 s later', () => {
+  const start = 500
+  const arm = new ClockedArm(ONE)
+  const link = new ShapedLink<number>(0.08, 0.1, [])
+  const at = (time: number) => Math.sin(2 * time)
+  let sent = 0
+  let before = Number.NaN
+  let most = 0
+  let error = 0
+  for (let time = start; time < start + 6; time += DISPLAY / 4) {
+    for (; start + sent / 50 <= time; sent++) link.send(start + sent / 50, start + sent / 50)
+    for (const stamp of link.arrived(time)) arm.take(ONE, [at(stamp)], stamp, time)
+    if (!arm.sample(time) || time < start + 0.5) continue
+    const now = number(arm.positions[0])
+    error = Math.max(error, Math.abs(now - at(time - 0.12)))
+    if (!Number.isNaN(before)) most = Math.max(most, Math.abs(now - before))
+    before = now
+  }
+  expect(error).toBeLessThan(0.002)
+  expect(most).toBeLessThan(2 * 1.3 * (DISPLAY / 4))
+})
+
+it('states of another clock, as of a bag that is replayed, are taken as of when they came', () => {
+  const arm = new ClockedArm(ONE)
+  arm.take(ONE, [0], 10, 1000)
+  arm.take(ONE, [1], 10.1, 1000.1)
+  arm.sample(1000.17)
+  expect(arm.positions[0]).toBeCloseTo(0.5, 9)
+  // back to the bag's beginning
+  arm.take(ONE, [0], 10, 1000.2)
+  arm.sample(1000.4)
+  expect(arm.positions[0]).toBe(0)
+})
+
+it('goes on after the clock of its source was set back', () => {
+  const arm = new ClockedArm(ONE)
+  arm.take(ONE, [0], 100)
+  arm.take(ONE, [1], 50)
+  arm.sample(51)
+  expect(arm.positions[0]).toBe(1)
+})
+
+it('knows whether another picture is due', () => {
+  const arm = new ClockedArm(ONE)
+  arm.setCourse(new Course(10, 1, new Float64Array([0, 1, 2])))
+  arm.setClock({ stamp: 5, position: 0, rate: 1 }, true)
+  arm.sample(5)
+  expect(arm.moves(5)).toBe(true)
+  arm.sample(5.21)
+  expect(arm.moves(5.21)).toBe(false)
+  arm.setCourse(null)
+  arm.take(ONE, [2], 5.3)
+  arm.sample(5.5)
+  expect(arm.moves(5.5)).toBe(false)
+  arm.take(ONE, [2], 5.6)
+  arm.sample(5.7)
+  expect(arm.moves(5.7), 'it stands').toBe(false)
+  arm.take(ONE, [1.9], 5.8)
+  expect(arm.moves(5.8)).toBe(true)
+})
+
+it('writes each pose into the same numbers', () => {
+  const arm = new ClockedArm(ONE)
+  const { positions } = arm
+  arm.setCourse(new Course(10, 1, new Float64Array([0, 1, 2])))
+  arm.setClock({ stamp: 5, position: 0, rate: 1 }, true)
+  for (let i = 0; i < 5; i++) arm.sample(5 + i * 0.04)
+  expect(arm.positions).toBe(positions)
+  expect(positions[0]).toBeCloseTo(1.6, 9)
 })

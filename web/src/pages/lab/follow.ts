@@ -1,6 +1,8 @@
 import { signal } from '@preact/signals'
 import type { StateName } from '../../design/tokens'
 import type { Link, LinkStatus, MessageType, Sample } from '../../link/link'
+import type { PoseSource } from '../../playback/clocked_arm'
+import type { Course } from '../../playback/course'
 import type { Commands } from '../../playback/player'
 import { RemotePlayer } from '../../playback/player'
 import {
@@ -86,6 +88,8 @@ export class LabFollower {
   private surfaces: readonly Surface[] = []
   /** Names in the lab's order. */
   private order: readonly string[] = []
+  /** Lab time at which the link was lost, s. */
+  private heldAt: number | null = null
   private readonly undo: (() => void)[]
 
   constructor(
@@ -107,9 +111,8 @@ export class LabFollower {
       }),
       this.on('*/joint_states', jointStateType, (message, { key }) => {
         const name = owner(key)
-        const moved = this.of(name).takeJoints(message, this.scene?.robot(name))
-        if (moved === 'first') this.scene?.frame()
-        if (moved) options.stir()
+        const drawn = this.scene?.robot(name)
+        if (this.of(name).takeJoints(message, drawn, link.labTime())) options.stir()
       }),
       this.on('*/finger_states', jointStateType, (message, { key }) => {
         const drawn = this.scene?.robot(owner(key))
@@ -155,13 +158,27 @@ export class LabFollower {
     this.show()
   }
 
-  /** Before each picture: pose what moves by its clock; return whether something does. */
-  pose(): boolean {
+  /** Before each picture: pose the robots as they are when it is seen, `ahead`, s, from now; return
+   * whether one moves on. Without the link all stand where they were last known. */
+  pose(ahead = 0): boolean {
+    const time = this.heldAt ?? this.link.labTime() + ahead
     let more = false
     for (const [name, followed] of this.kept) {
-      more = followed.draw(this.scene?.robot(name)) || more
+      const moves = followed.draw(this.scene?.robot(name), time)
+      if (moves === 'first') this.scene?.frame()
+      if (moves !== false) more = true
     }
     return more
+  }
+
+  /** Return where the pose of a robot comes from, for who wants to know why it moves as it does. */
+  source(name: string): PoseSource {
+    return this.kept.get(name)?.source ?? 'none'
+  }
+
+  /** Return the frames of what a robot has loaded; null: they are not here. */
+  course(name: string): Course | null {
+    return this.kept.get(name)?.course ?? null
   }
 
   dispose(): void {
@@ -204,6 +221,7 @@ export class LabFollower {
   /** Without the link everything stands where it was last known. */
   private hold(): void {
     const { lost } = this
+    this.heldAt = lost ? (this.heldAt ?? this.link.labTime()) : null
     for (const { player } of this.kept.values()) player.hold(lost)
     for (const player of this.systemPlayers.values()) player.hold(lost)
     this.replay.hold(lost)

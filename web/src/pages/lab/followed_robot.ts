@@ -1,10 +1,15 @@
 import { STATE_NAMES, type StateName } from '../../design/tokens'
 import type { PlaybackClock } from '../../playback/clock'
+import { ClockedArm, type PoseSource } from '../../playback/clocked_arm'
 import type { Course } from '../../playback/course'
-import { LivePose } from '../../playback/live_pose'
 import type { RemotePlayer } from '../../playback/player'
 import type { Time } from '../../protocol/builtin_interfaces'
-import type { Collision, GraspTarget, PlaybackState, Robot } from '../../protocol/mrlab_msgs'
+import {
+  type Collision,
+  type GraspTarget,
+  PlaybackState,
+  type Robot,
+} from '../../protocol/mrlab_msgs'
 import type { JointState } from '../../protocol/sensor_msgs'
 import type { SceneRobot } from '../../scene/robot'
 
@@ -28,6 +33,13 @@ export type DrawnArm = Pick<SceneRobot, 'setJoint' | 'setPositions'>
 /** Returns the frames of a trajectory, such as quintic@3. Rejects where they cannot be had. */
 export type CourseOf = (trajectory: string) => Promise<Course>
 
+/** States in which an arm is on its course, where its clock says. */
+const ON_COURSE: ReadonlySet<number> = new Set([
+  PlaybackState.PLAYING,
+  PlaybackState.PAUSED,
+  PlaybackState.COLLISION_HALT,
+  PlaybackState.COMPLETE,
+])
 /** Larger ones are posed by their joint states alone: their frames would take tens of megabytes. */
 const MOST_FRAMES = 100_000
 
@@ -49,13 +61,10 @@ export class FollowedRobot {
   /** null: it is not in the lab, or not yet. */
   robot: Robot | null = null
   private playback: PlaybackState | null = null
-  private pose: LivePose | null = null
+  private arm: ClockedArm | null = null
   /** The trajectory whose frames are here or on their way. */
-  private course = ''
-  /** Whether it was drawn by the clock. */
-  private byClock = false
-  /** Whether joint states came. */
-  private heard = false
+  private wanted = ''
+  private frames: Course | null = null
   /** What stands in a pose of the lab, rather than in that of its URDF. */
   private posed: DrawnArm | undefined
 
@@ -64,46 +73,61 @@ export class FollowedRobot {
     private readonly courseOf: CourseOf,
   ) {}
 
+  /** The frames of what is loaded; null: they are not here. */
+  get course(): Course | null {
+    return this.frames
+  }
+
+  /** Where its pose comes from. */
+  get source(): PoseSource {
+    return this.arm?.source ?? 'none'
+  }
+
   /** Take over that it is in the lab. */
   enter(robot: Robot): void {
     this.robot = robot
-    if (this.pose?.jointNames.join() === robot.joint_names.join()) return
-    this.pose = new LivePose(robot.joint_names, this.player)
-    this.course = ''
-    this.fetchCourse()
+    if (this.arm?.jointNames.join() === robot.joint_names.join()) return
+    this.arm = new ClockedArm(robot.joint_names)
+    this.posed = undefined
+    this.setClock()
+    this.arm.setCourse(this.frames)
   }
 
   takePlayback(message: PlaybackState): void {
     this.playback = message
     this.player.follow(clockOf(message), message.duration, message.rate)
+    this.setClock()
     this.fetchCourse()
   }
 
-  /** Take over joint states. Return 'first' where they are the first that are drawn, whether they
-   * move the drawn robot otherwise. */
-  takeJoints(message: JointState, drawn: DrawnArm | undefined): 'first' | boolean {
-    this.pose?.take(message.name, message.position, seconds(message.header.stamp))
-    this.heard = true
+  /** Take over joint states; now: s of lab time. Return whether they ask for a picture. */
+  takeJoints(
+    { name, position, header }: JointState,
+    drawn: DrawnArm | undefined,
+    now: number,
+  ): boolean {
+    this.arm?.take(name, position, seconds(header.stamp), now)
     if (drawn === undefined) return false
-    if (this.posed !== drawn) {
-      this.posed = drawn
-      setJoints(drawn, message)
-      return 'first'
+    let moved = this.arm?.moves(now) ?? false
+    for (let i = 0; i < name.length; i++) {
+      const joint = name[i] as string
+      // the arm's joints are posed before each picture
+      if (this.arm?.has(joint)) continue
+      moved = drawn.setJoint(joint, position[i] as number) || moved
     }
-    // while the clock poses it, only the first of its pictures is asked for here
-    return this.pose?.moves ? !this.byClock : setJoints(drawn, message)
+    return moved
   }
 
-  /** Before a picture: pose it by its clock; return whether it moves on by itself. */
-  draw(drawn: DrawnArm | undefined): boolean {
-    if (this.pose === null) return false
-    const { moves } = this.pose
-    const fresh = this.heard && this.posed !== drawn
-    // where the clock stops, the joint states say where
-    if (moves || this.byClock || fresh) drawn?.setPositions(this.pose.now())
-    if (fresh) this.posed = drawn
-    this.byClock = moves
-    return moves
+  /** Before a picture that is seen at `time`, s of lab time: pose it. Return 'first' where it is
+   * the first time, whether it moves on by itself otherwise. */
+  draw(drawn: DrawnArm | undefined, time: number): 'first' | boolean {
+    const { arm } = this
+    if (arm === null || !arm.sample(time)) return false
+    const moves = arm.moves(time)
+    drawn?.setPositions(arm.positions)
+    if (drawn === undefined || this.posed === drawn) return moves
+    this.posed = drawn
+    return 'first'
   }
 
   /** Return it for the panel; null: it is not in the lab. */
@@ -117,22 +141,33 @@ export class FollowedRobot {
     return { robot, state, playback, holding, touching, targets, player }
   }
 
+  private setClock(): void {
+    if (this.playback === null) return
+    this.arm?.setClock(clockOf(this.playback), ON_COURSE.has(this.playback.state))
+  }
+
   /** Have the frames of the loaded trajectory here; without them the joint states pose the robot. */
   private fetchCourse(): void {
-    const { playback, pose } = this
-    if (playback === null || pose === null) return
+    const { playback } = this
+    if (playback === null) return
     const { trajectory_id: id, trajectory_version: version } = playback
     const wanted = id === '' ? '' : `${id}@${version}`
-    if (wanted === this.course) return
-    this.course = wanted
-    pose.setCourse(null)
+    if (wanted === this.wanted) return
+    this.wanted = wanted
+    this.setCourse(null)
     if (wanted === '' || playback.frame_count > MOST_FRAMES) return
     this.courseOf(wanted).then(
       (course) => {
-        if (this.course === wanted && this.pose === pose) pose.setCourse(course)
+        if (this.wanted === wanted) this.setCourse(course)
       },
+      // they cannot be had: the joint states say where it is
       () => undefined,
     )
+  }
+
+  private setCourse(course: Course | null): void {
+    this.frames = course
+    this.arm?.setCourse(course)
   }
 }
 

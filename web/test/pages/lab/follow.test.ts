@@ -150,7 +150,7 @@ test('each key is counted, and nothing is heard after the end', () => {
   expect(follower.robots.value).toHaveLength(1)
 })
 
-test('a playing robot is drawn by its clock, once the joint states bear it out', async () => {
+test('a playing robot is drawn by its clock until joint states contradict it', async () => {
   const { link, joints, follower, robot, courseOf } = lab()
   link.deliver('robots', robotsType, { robots: [{ ...robot, joint_names: ['a', 'b'] }] })
   const clock = { stamp: { sec: 1000, nanosec: 0 }, position: 0, rate: 1 }
@@ -177,11 +177,16 @@ test('a playing robot is drawn by its clock, once the joint states bear it out',
   expect(follower.pose()).toBe(true)
   const drawn = joints.setPositions.mock.lastCall as unknown as [Float64Array]
   expect([...drawn[0]]).toEqual([expect.closeTo(0.5), expect.closeTo(1)])
+  expect(follower.source('ur5e_1')).toBe('course')
   // it stands elsewhere than the clock says: the joint states are right
-  states(30_000_000, 0.9)
+  for (let i = 1; i < 6; i++) states(20_000_000 + i * 1_000_000, 0.9)
+  link.time = 1000.2
+  expect(follower.pose()).toBe(true)
+  link.time = 1000.4
   expect(follower.pose()).toBe(false)
+  expect(follower.source('ur5e_1')).toBe('states')
   const corrected = joints.setPositions.mock.lastCall as unknown as [Float64Array]
-  expect([...corrected[0]]).toEqual([0.9, 1.8])
+  expect([...corrected[0]]).toEqual([expect.closeTo(0.9), expect.closeTo(1.8)])
 })
 
 test('where a trajectory cannot be had, the joint states pose the robot', async () => {
@@ -196,11 +201,14 @@ test('where a trajectory cannot be had, the joint states pose the robot', async 
   })
   await courseOf.mock.results[0]?.value.catch(() => undefined)
   link.deliver('ur5e_1/joint_states', jointStateType, {
-    name: ['a'],
-    position: Float64Array.of(1),
+    name: ['a', 'finger'],
+    position: Float64Array.of(1, 2),
   })
-  expect(joints.setJoint).toHaveBeenLastCalledWith('a', 1)
+  expect(joints.setJoint.mock.calls).toEqual([['finger', 2]])
+  expect(follower.pose()).toBe(true)
   expect(follower.pose()).toBe(false)
+  const drawn = joints.setPositions.mock.lastCall as unknown as [Float64Array]
+  expect([...drawn[0]]).toEqual([1])
 })
 
 test('without the link a robot stands where it was last known', () => {
