@@ -31,8 +31,8 @@ export interface RoomContext extends Surroundings {
   readonly leftHanded: boolean
   /** m: how far away text is read; a screen shows less of a room than eyes do. */
   readonly readAt: number
-  /** Tell the person a sentence, where they look. */
-  say(text: string): void
+  /** Tell the person a sentence, where they look; warns: something is wrong, which it is by default. */
+  say(text: string, warns?: boolean): void
 }
 
 interface Answer {

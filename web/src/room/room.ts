@@ -1,63 +1,46 @@
-import { effect, signal } from '@preact/signals'
+import { signal } from '@preact/signals'
 import { Matrix4, Quaternion, Vector3 } from 'three'
 import type { Link } from '../link/link'
 import { commandsOf } from '../pages/lab/commands'
-import { type FollowedScene, LabFollower } from '../pages/lab/follow'
-import type { DrawnArm } from '../pages/lab/followed_robot'
-import type { Pose } from '../protocol/geometry_msgs'
-import {
-  listCatalogueType,
-  type ObjectType,
-  setSurfacesType,
-  spawnRobotType,
-  type TrajectoryInfo,
-  trajectoryCatalogueType,
-} from '../protocol/mrlab_msgs'
-import { LabScene, type ShownRobot } from '../scene/lab_scene'
+import { LabFollower } from '../pages/lab/follow'
+import { type TrajectoryInfo, trajectoryCatalogueType } from '../protocol/mrlab_msgs'
+import { LabScene } from '../scene/lab_scene'
 import { MeshLibrary } from '../scene/meshes'
 import type { ShownSurface } from '../scene/surfaces'
 import type { Words } from '../words/en'
+import { Alignment, SEATED } from './anchor/alignment'
 import { SceneAnchor } from './anchor/anchor'
 import { Arms } from './arms'
-import { type Entry, order, type RoomContext } from './context'
+import type { Entry } from './context'
 import { soundFeedback } from './feedback'
-import { poseInWorld } from './frames'
+import { followedScene } from './follow/followed_scene'
+import { listen } from './follow/listen'
+import { RoomRobots } from './follow/robots'
 import { ObjectHandles } from './handles/object_handles'
-import { RobotHandle } from './handles/robot_handle'
-import { XrInputs } from './input/sources'
-import type { Target } from './input/target'
+import { Targets } from './input/targets'
 import { Mouse } from './mouse'
 import { Overlays } from './overlays'
 import { Board } from './panels/board'
+import { BoardPlace } from './panels/board_place'
+import { boardTabs } from './panels/board_tabs'
 import { PANEL_THEME } from './panels/pen'
 import { RobotPanels } from './panels/robot_panels'
-import { Stand } from './panels/stand'
-import { objectsTab, type Picking, robotsTab, roomTab, systemsTab } from './panels/tabs'
-import { type Place, type Support, supportsOf } from './placement/supports'
-import { RoomScan } from './room-scan/scan'
+import { Spawning } from './placement/spawning'
+import { type Support, supportsOf } from './placement/supports'
+import { contextOf } from './room_context'
+import { orderSurfaces, RoomScan } from './room-scan/scan'
 import type { Feature, Mode } from './session/features'
-import { enter, type RoomSession } from './session/session'
+import { Visit } from './session/visit'
+import { Settings } from './settings/settings'
 import { RoomStage } from './stage'
+import { Creation } from './systems/creation'
 
-/** m before the eyes: where the scene's middle comes to stand. */
-const AWAY = 1.5
-const SEATED = { head: new Vector3(0, 1.6, 0.9), look: new Quaternion() } as const
-/** rad: a board that is this far to the side of where one looks, for so long, s, comes along. */
-const ASIDE = (75 * Math.PI) / 180
-const ASIDE_S = 1.5
-const BOARD_SIDE = (36 * Math.PI) / 180
-const BOARD_AWAY = 0.95
-const BOARD_AWAY_SCREEN = 1.35
-/** m */
-const READ_AT = 0.9
-const READ_AT_SCREEN = 1.5
-const SCAN_WAIT_S = 3
 /** s between a frame's start and the instant at which it is seen, where the device does not tell. */
 const AHEAD_S = 0.015
+const MOST_AHEAD_S = 0.05
 
 const matrix = new Matrix4()
 const scale = new Vector3()
-const at = new Vector3()
 
 /** What the room is made from. */
 export interface RoomParts {
@@ -70,9 +53,9 @@ export interface RoomParts {
 
 /** The lab in a person's room: wires what the folders beside it do, once a frame. */
 export class Room {
-  /** Whether a headset is in the room. */
-  readonly inside = signal(false)
   readonly troubles = signal<readonly string[]>([])
+  readonly head = new Vector3().copy(SEATED.head)
+  readonly look = new Quaternion()
   readonly follower: LabFollower
   readonly board: Board
   readonly panels: RobotPanels
@@ -81,38 +64,27 @@ export class Room {
   readonly scan: RoomScan
   readonly anchor: SceneAnchor
   readonly scene: LabScene
-  readonly handles = new Map<string, RobotHandle>()
-  readonly head = new Vector3().copy(SEATED.head)
-  readonly look = new Quaternion()
+  readonly robots: RoomRobots
+  readonly visit: Visit
+  readonly creation: Creation
+  readonly settings = new Settings()
   /** Frames drawn, and ms of JavaScript of the newest one. */
   frames = 0
   frameMs = 0
   supports: readonly Support[] = supportsOf([])
-  private readonly context: RoomContext
+  trajectories: readonly TrajectoryInfo[] = []
+  private readonly targets: Targets
   private readonly meshes = new MeshLibrary()
   private readonly overlays: Overlays
   private readonly objects: ObjectHandles
+  private readonly spawning: Spawning
+  private readonly alignment: Alignment
   private readonly mouse: Mouse
-  private readonly targets: Target[] = []
-  private readonly boardStand: Stand
-  private readonly picking: Picking = { on: false, picked: [] }
+  private readonly boardPlace: BoardPlace
   private readonly sound: ReturnType<typeof soundFeedback>
-  private readonly undo: (() => void)[] = []
-  private inputs: XrInputs | null = null
-  private current: RoomSession | null = null
+  private readonly undo: readonly (() => void)[]
   private surfaces: readonly ShownSurface[] = []
-  /** What of a robot messages move: the fingers, for its arm goes by the clock. */
-  private readonly fingers = new Map<string, DrawnArm>()
-  private boardYaw = 0
-  private asideSince = Number.NaN
-  private aligned = false
-  private restoring = false
-  private enteredAt = 0
   private last = 0
-  private grid = false
-  private leftHanded = localStorage.getItem('mrlab.room.left') === 'yes'
-  private types: readonly ObjectType[] = []
-  private trajectories: readonly TrajectoryInfo[] = []
 
   /** Throws NoWebGL where the browser has none. */
   constructor(private readonly parts: RoomParts) {
@@ -122,21 +94,34 @@ export class Room {
       this.troubles.value = [...this.scene.troubles]
     })
     this.sound = soundFeedback((signal, strength, ms) =>
-      this.inputs?.pulse(signal.pointer, strength, ms),
+      this.visit.inputs?.pulse(signal.pointer, strength, ms),
     )
-    this.context = this.makeContext()
-    this.board = new Board(this.context)
-    this.boardStand = new Stand(this.board.panel.group)
+    this.targets = new Targets((target) => {
+      this.mouse.pointer.forget(target)
+      for (const pointer of this.visit.pointers()) pointer.forget(target)
+    })
+    this.mouse = new Mouse(this.stage, this.targets.all)
+    this.visit = new Visit(this.stage, this.targets, () => this.left())
+    const context = contextOf(this, parts, this.sound.feedback)
+    const { targets } = this
+    this.board = new Board(context)
+    this.boardPlace = new BoardPlace(this.board, context)
     this.stage.panels.add(this.board.panel.group)
-    this.targets.push(this.board.panel)
-    this.panels = new RobotPanels(this.context, this.stage.panels, this.scene, this.targets)
+    targets.add(this.board.panel)
+    this.panels = new RobotPanels(context, this.stage.panels, this.scene, targets)
     this.arms = new Arms(link, this.scene, (text) => this.board.say(text))
     this.anchor = new SceneAnchor(this.stage.anchor)
-    this.objects = new ObjectHandles(this.scene, this.context, this.targets)
+    this.objects = new ObjectHandles(this.scene, context, targets)
     this.overlays = new Overlays(link, this.scene, this.stage.world)
-    this.scan = new RoomScan(this.stage.world, (surfaces) => {
-      order(this.context, 'physics/set_surfaces', setSurfacesType, { source: '', surfaces })
+    this.creation = new Creation(() => this.board.panel.repaint())
+    this.robots = new RoomRobots(this.scene, this.arms, this.overlays, context, targets, {
+      touched: (name) => this.creation.touch(name),
+      stick: (pointer, axis) => this.visit.inputs?.stick(pointer, axis) ?? 0,
     })
+    this.scan = new RoomScan(this.stage.world, (surfaces) => orderSurfaces(context, surfaces))
+    const bases = () => this.robots.bases()
+    this.alignment = new Alignment(this.stage, this.anchor, this.scan, bases)
+    this.spawning = new Spawning(context, this, () => this.board.panel.repaint())
     this.follower = new LabFollower(link, {
       commands: (name) => commandsOf(link, name),
       word: (state) => words.states[state],
@@ -145,46 +130,75 @@ export class Room {
       // the arms fetch it themselves, and are posed by them alone
       courseOf: () => Promise.reject(new Error('the arms have it')),
     })
-    this.follower.attach(this.followed())
-    this.mouse = new Mouse(this.stage, this.targets)
-    this.board.tabs = this.makeTabs()
-    this.listen()
+    this.follower.attach(
+      followedScene({
+        scene: this.scene,
+        robots: this.robots,
+        objects: this.objects,
+        came: () => this.came(),
+        setSurfaces: (surfaces) => this.setSurfaces(surfaces),
+      }),
+    )
+    this.board.tabs = boardTabs({
+      context,
+      spawning: this.spawning,
+      creation: this.creation,
+      follower: this.follower,
+      settings: this.settings,
+      stage: this.stage,
+      visit: this.visit,
+      alignment: this.alignment,
+      anchor: this.anchor,
+      scan: this.scan,
+      viewer: this,
+      surfaces: () => this.surfaces.length,
+    })
+    this.undo = [
+      link.subscribe('trajectories', trajectoryCatalogueType, ({ trajectories }) => {
+        this.trajectories = trajectories
+        this.panels.repaint()
+      }),
+      listen({
+        context,
+        follower: this.follower,
+        board: this.board,
+        panels: this.panels,
+        halt: () => this.sound.halt(),
+      }),
+    ]
     this.stage.renderer.setAnimationLoop((time, frame) => this.draw(time, frame))
   }
 
-  /** Enter with a headset; must be called by a person's tap. */
-  async enter(mode: Mode): Promise<void> {
-    const { renderer } = this.stage
-    this.current = await enter(renderer, mode, () => this.left())
-    const { session } = this.current
-    this.inputs = new XrInputs(session, this.stage.scene, this.targets)
-    this.stage.controls.enabled = false
-    this.stage.setPassthrough(mode === 'immersive-ar')
-    this.aligned = false
-    this.restoring = true
-    this.enteredAt = performance.now() / 1000
-    this.anchor.restore(session).then((restored) => {
-      this.restoring = false
-      this.aligned = restored
-    })
-    this.inside.value = true
-    this.showSurfaces()
-    this.board.panel.repaint()
+  get handles(): RoomRobots['handles'] {
+    return this.robots.handles
+  }
+
+  get inside(): Visit['inside'] {
+    return this.visit.inside
   }
 
   /** What the session that runs came without. */
   get missing(): readonly Feature[] {
-    return this.current?.missing ?? []
+    return this.visit.missing
+  }
+
+  /** Enter with a headset; must be called by a person's tap. */
+  async enter(mode: Mode): Promise<void> {
+    const session = await this.visit.enter(mode, performance.now() / 1000)
+    this.alignment.begin(session)
+    this.showSurfaces()
+    this.board.panel.repaint()
   }
 
   dispose(): void {
-    this.current?.session.end().catch(() => undefined)
+    this.visit.leave()
     for (const undo of this.undo) undo()
+    this.spawning.dispose()
     this.mouse.dispose()
     this.follower.dispose()
     this.overlays.dispose()
     this.objects.dispose()
-    for (const handle of this.handles.values()) handle.dispose()
+    this.robots.dispose()
     this.panels.dispose()
     this.board.panel.dispose()
     this.arms.dispose()
@@ -194,65 +208,15 @@ export class Room {
     this.meshes.dispose()
   }
 
-  private makeContext(): RoomContext {
-    const room = this
-    const { link, words, robots, endEffectors } = this.parts
-    return {
-      link,
-      words,
-      robots,
-      endEffectors,
-      feedback: this.sound.feedback,
-      stir: () => room.stage.invalidate(),
-      world: this.stage.world,
-      head: this.head,
-      get trajectories() {
-        return room.trajectories
-      },
-      get supports() {
-        return room.supports
-      },
-      get bases() {
-        return room.bases()
-      },
-      get leftHanded() {
-        return room.leftHanded
-      },
-      get readAt() {
-        return room.inside.value ? READ_AT : READ_AT_SCREEN
-      },
-      say: (text) => room.board.say(text),
-    }
+  /** Draw the room's surfaces where the room itself is not seen. */
+  private showSurfaces(): void {
+    this.scene.setSurfaces(this.visit.passthrough ? [] : this.surfaces)
   }
 
-  /** Where robots stand, with their names for `support`. */
-  private *bases(): Iterable<Place> {
-    for (const name of this.handles.keys()) {
-      const base = this.scene.base(name)
-      if (base === undefined) continue
-      const { x, y, z } = base.position
-      yield { x, y, z, support: name }
-    }
-  }
-
-  /** The scene as the follower moves it: joints are moved by the clock, not by messages. */
-  private followed(): FollowedScene {
-    const { scene } = this
-    return {
-      setRobots: (robots) => this.setRobots(robots),
-      setState: (name, word, colour, filled) => scene.setState(name, word, colour, filled),
-      setCollision: (name, link) => scene.setCollision(name, link),
-      setObjects: (objects) => {
-        scene.setObjects(objects)
-        this.objects.set(objects)
-      },
-      setContacts: (contacts) => scene.setContacts(contacts),
-      setSurfaces: (surfaces) => this.setSurfaces(surfaces),
-      // cubes between the fingers mark them here
-      setTargets: () => undefined,
-      frame: () => undefined,
-      robot: (name) => this.fingers.get(name),
-    }
+  /** The robots are there, or others. */
+  private came(): void {
+    const waits = this.alignment.due && !this.inside.value && this.handles.size > 0
+    if (waits) this.alignment.align(SEATED)
   }
 
   private setSurfaces(surfaces: readonly ShownSurface[]): void {
@@ -262,217 +226,9 @@ export class Room {
     this.board.panel.repaint()
   }
 
-  /** Draw the room's surfaces where the room itself is not seen. */
-  private showSurfaces(): void {
-    this.scene.setSurfaces(this.current?.mode === 'immersive-ar' ? [] : this.surfaces)
-  }
-
-  private setRobots(robots: readonly ShownRobot[]): void {
-    this.scene.setRobots(robots)
-    for (const { name, urdf, joint_names } of robots) {
-      const base = this.scene.base(name)
-      if (urdf === '' || base === undefined) continue
-      this.arms.setJoints(name, joint_names)
-      const before = this.handles.get(name)
-      if (before?.base === base) continue
-      if (before !== undefined) this.dropHandle(name, before)
-      const handle = new RobotHandle(
-        name,
-        base,
-        this.scene,
-        this.context,
-        (touched) => this.touch(touched),
-        (pointer, axis) => this.inputs?.stick(pointer, axis) ?? 0,
-      )
-      this.handles.set(name, handle)
-      this.fingers.set(name, {
-        setPositions: () => undefined,
-        setJoint: (joint, value) =>
-          !joint_names.includes(joint) &&
-          (this.scene.robot(name)?.setJoint(joint, value) ?? false),
-      })
-      this.targets.push(handle)
-    }
-    for (const [name, handle] of this.handles) {
-      if (robots.some((robot) => robot.name === name)) continue
-      this.dropHandle(name, handle)
-      this.arms.forget(name)
-      this.fingers.delete(name)
-      this.overlays.forget(name)
-    }
-    if (!this.aligned && !this.inside.value && this.handles.size > 0) this.align(SEATED)
-  }
-
-  private dropHandle(name: string, handle: RobotHandle): void {
-    this.handles.delete(name)
-    this.forgetTarget(handle)
-    handle.dispose()
-  }
-
-  private forgetTarget(target: Target): void {
-    const index = this.targets.indexOf(target)
-    if (index >= 0) this.targets.splice(index, 1)
-    this.mouse.pointer.forget(target)
-    for (const pointer of this.inputs?.pointers() ?? []) pointer.forget(target)
-  }
-
-  /** A robot's base was pressed and let go in place. */
-  private touch(name: string): void {
-    if (!this.picking.on) return
-    const index = this.picking.picked.indexOf(name)
-    if (index >= 0) this.picking.picked.splice(index, 1)
-    else this.picking.picked.push(name)
-    this.board.panel.repaint()
-  }
-
-  private makeTabs() {
-    const { context, follower } = this
-    const motionOf = (name: string) =>
-      follower.robots.value.find(({ robot }) => robot.name === name)?.playback?.trajectory_id ?? ''
-    const room = this
-    return [
-      robotsTab(context, (entry) => this.spawn(entry)),
-      objectsTab(
-        context,
-        () => this.types,
-        () => this.before(0.8),
-      ),
-      systemsTab(context, this.picking, motionOf, () =>
-        follower.systems.value.map(({ system }) => system),
-      ),
-      roomTab(context, {
-        lines: () => this.roomLines(),
-        get grid() {
-          return room.grid
-        },
-        toggleGrid: () => {
-          this.grid = !this.grid
-          this.stage.setGrid(this.grid)
-        },
-        get leftHanded() {
-          return room.leftHanded
-        },
-        toggleHand: () => {
-          this.leftHanded = !this.leftHanded
-          localStorage.setItem('mrlab.room.left', this.leftHanded ? 'yes' : 'no')
-        },
-        get scan() {
-          const session = room.current?.session
-          if (session?.initiateRoomCapture === undefined) return null
-          return () => {
-            session.initiateRoomCapture?.().catch((error: Error) => room.board.say(error.message))
-          }
-        },
-        bringHere: () => this.align(this),
-        leave: () => void this.current?.session.end(),
-      }),
-    ]
-  }
-
-  private roomLines(): string[] {
-    const w = this.parts.words.room
-    const lines = [w.surfaces(this.surfaces.length)]
-    if (this.inside.value) {
-      const waited = performance.now() / 1000 - this.enteredAt > SCAN_WAIT_S
-      if (waited && this.scan.count === 0) lines.push(w.notSetUp)
-      const holds = { kept: w.anchorKept, session: w.anchorSession, none: w.anchorNone }
-      lines.push(holds[this.anchor.hold])
-      if (this.missing.length > 0) lines.push(w.lacks(this.missing.join(', ')))
-    }
-    return lines
-  }
-
-  private listen(): void {
-    const { link } = this.parts
-    this.undo.push(
-      link.subscribe('trajectories', trajectoryCatalogueType, ({ trajectories }) => {
-        this.trajectories = trajectories
-        this.panels.repaint()
-      }),
-      effect(() => {
-        const views = this.follower.robots.value
-        const halted = this.panels.show(views)
-        if (halted) this.sound.halt()
-      }),
-      effect(() => {
-        const { phase, reason } = this.follower.status.value
-        const { hops } = this.parts.words.room
-        this.board.standing =
-          phase === 'open' ? '' : phase === 'connecting' ? hops.connecting : hops[phase](reason)
-      }),
-      effect(() => {
-        void this.follower.systems.value
-        this.board.panel.repaint()
-      }),
-      // pictures of the catalogue come later than the panel
-      ...[...this.parts.robots, ...this.parts.endEffectors].map(({ picture }) => {
-        const here = () => this.board.panel.repaint()
-        picture?.addEventListener('load', here)
-        return () => picture?.removeEventListener('load', here)
-      }),
-    )
-    const listed = link.onOffer(() => this.listObjects())
-    this.undo.push(listed)
-    this.listObjects()
-  }
-
-  private listObjects(): void {
-    if (this.types.length > 0) return
-    const { link } = this.parts
-    link
-      .call('physics/list_catalogue', listCatalogueType, {})
-      .then(({ types }) => {
-        this.types = types
-        this.board.panel.repaint()
-      })
-      // without physics there are no objects; the offer tells when it is there
-      .catch(() => undefined)
-  }
-
-  private async spawn({ id }: Entry): Promise<void> {
-    const request = spawnRobotType.request.create({
-      model: id,
-      automatic: true,
-      has_viewer: true,
-      viewer: poseInWorld(this.stage.world, this.head, this.look),
-    })
-    const answer = await order(this.context, 'lab/spawn_robot', spawnRobotType, request)
-    if (answer !== null) this.board.say(this.parts.words.room.placed(answer.robot.name), false)
-  }
-
-  /** Return a place so far before the eyes, m, a little below them. */
-  private before(distance: number): Pose {
-    at.set(0, 0, -distance).applyQuaternion(this.look).add(this.head)
-    at.y = Math.max(at.y - 0.2, 0.3)
-    return { ...poseInWorld(this.stage.world, at, SEATED.look), orientation: UPRIGHT }
-  }
-
-  /** Put the scene's middle on the floor before somebody. */
-  private align({ head, look }: { readonly head: Vector3; readonly look: Quaternion }): void {
-    at.set(0, 0, 0)
-    let count = 0
-    for (const { x, y, z } of this.bases()) {
-      at.x += x
-      at.y += y
-      at.z += z
-      count++
-    }
-    if (count > 0) at.divideScalar(count).applyQuaternion(this.stage.world.quaternion)
-    const floor = Number.isNaN(this.scan.floor) ? 0 : this.scan.floor
-    this.anchor.place(head, look, at, count > 0 ? AWAY : 0, floor)
-    this.stage.anchor.updateMatrixWorld(true)
-    this.aligned = true
-  }
-
   private left(): void {
-    this.inputs?.dispose()
-    this.inputs = null
-    this.current = null
     this.anchor.end()
-    this.stage.controls.enabled = true
-    this.stage.setPassthrough(false)
-    this.align(SEATED)
-    this.inside.value = false
+    this.alignment.align(SEATED)
     this.showSurfaces()
     this.board.panel.repaint()
   }
@@ -493,18 +249,17 @@ export class Room {
       this.stage.camera.matrixWorld.decompose(this.head, this.look, scale)
       this.mouse.update(now)
     }
-    for (const handle of this.handles.values()) handle.update(now, step)
+    this.robots.update(now, step)
     this.objects.update(now)
-    if (this.arms.update(this.parts.link.labTime() + Math.min(ahead, 0.05))) {
-      this.stage.invalidate()
-    }
+    const moves = this.arms.update(this.parts.link.labTime() + Math.min(ahead, MOST_AHEAD_S))
+    if (moves) this.stage.invalidate()
     this.scene.update()
-    this.overlays.setPicked(this.picking.on ? this.picking.picked : NONE)
+    this.overlays.setPicked(this.creation.picked)
     this.overlays.update(now)
-    this.standBoard(now, step)
+    if (this.boardPlace.update(this, now, step, this.inside.value)) this.stage.invalidate()
     this.board.update(now)
     this.panels.update(now, step)
-    this.lightUp()
+    this.stage.lightAbout(this.handles.values())
     if (this.stage.draw(now)) this.frames++
     this.frameMs = performance.now() - began
   }
@@ -514,50 +269,12 @@ export class Room {
     const viewer = frame.getViewerPose(space)
     if (viewer !== undefined) {
       matrix.fromArray(viewer.transform.matrix).decompose(this.head, this.look, scale)
-      if (!this.aligned && !this.restoring) {
-        this.align(this)
-        this.boardYaw = yawOf(this.look)
+      if (this.alignment.due) {
+        this.alignment.align(this)
+        this.boardPlace.face(this.look)
       }
     }
     this.scan.update(frame, space, now)
-    this.inputs?.update(frame, space, now)
+    this.visit.inputs?.update(frame, space, now)
   }
-
-  /** Keep the board at the hand that does not work, a little to the side of where one looks. */
-  private standBoard(now: number, step: number): void {
-    const yaw = yawOf(this.look)
-    const off = Math.abs(Math.atan2(Math.sin(yaw - this.boardYaw), Math.cos(yaw - this.boardYaw)))
-    if (off < ASIDE) this.asideSince = Number.NaN
-    else if (Number.isNaN(this.asideSince)) this.asideSince = now
-    else if (now - this.asideSince > ASIDE_S) this.boardYaw = yaw
-    const away = this.inside.value ? BOARD_AWAY : BOARD_AWAY_SCREEN
-    const side = this.boardYaw + (this.leftHanded ? -BOARD_SIDE : BOARD_SIDE)
-    at.set(-Math.sin(side), 0, -Math.cos(side)).multiplyScalar(away).add(this.head)
-    at.y = this.head.y - 0.22
-    const held = this.board.panel.pointers > 0
-    const { readAt } = this.context
-    if (this.boardStand.update(at, this.head, now, step, held, readAt)) this.stage.invalidate()
-  }
-
-  private lightUp(): void {
-    at.set(0, 0, 0)
-    let count = 0
-    for (const name of this.handles.keys()) {
-      const base = this.scene.base(name)
-      if (base === undefined) continue
-      at.x += base.matrixWorld.elements[12] as number
-      at.y += base.matrixWorld.elements[13] as number
-      at.z += base.matrixWorld.elements[14] as number
-      count++
-    }
-    if (count > 0) this.stage.lightAt(at.divideScalar(count))
-  }
-}
-
-const NONE: readonly string[] = []
-const UPRIGHT = { x: 0, y: 0, z: 0, w: 1 } as const
-
-/** Return the heading of a look about the vertical, rad; 0 looks along -z. */
-function yawOf({ x, y, z, w }: Quaternion): number {
-  return Math.atan2(2 * (w * y + x * z), 1 - 2 * (x * x + y * y))
 }

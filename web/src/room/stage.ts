@@ -5,12 +5,13 @@ import {
   HemisphereLight,
   Mesh,
   NeutralToneMapping,
+  type Object3D,
   PCFShadowMap,
   PerspectiveCamera,
   PMREMGenerator,
   Scene,
   ShadowMaterial,
-  type Vector3,
+  Vector3,
   WebGLRenderer,
 } from 'three'
 import { OrbitControls } from 'three/examples/jsm/controls/OrbitControls.js'
@@ -30,6 +31,8 @@ const LONGEST_PAUSE = 0.4
 const SMOOTH = 0.04
 /** 0 is sharp everywhere; three's 1 blurs text. */
 const FOVEATION = 0.4
+
+const place = new Vector3()
 
 /** The scene in the room: `scene` is the headset's floor space, `anchor` the one thing that an
  * XRAnchor moves, `world` in it the lab's frame in ROS axes. Without a headset a mouse turns the
@@ -145,13 +148,28 @@ export class RoomStage implements SceneHost {
     this.setGrid(!on)
   }
 
+  get grid(): boolean {
+    return this.floor.group.visible
+  }
+
   setGrid(on: boolean): void {
     this.floor.group.visible = on
     this.shadowFloor.visible = !on
   }
 
-  /** Keep light and shadow about a place of the scene. */
-  lightAt(place: Vector3): void {
+  /** Keep light and shadow about the middle of robots' bases. */
+  lightAbout(robots: Iterable<{ readonly base: Object3D }>): void {
+    place.set(0, 0, 0)
+    let count = 0
+    for (const { base } of robots) {
+      const { elements } = base.matrixWorld
+      place.x += elements[12] as number
+      place.y += elements[13] as number
+      place.z += elements[14] as number
+      count++
+    }
+    if (count === 0) return
+    place.divideScalar(count)
     this.sun.target.position.copy(place)
     this.sun.position.set(place.x + 1.2, place.y + 3.2, place.z + 1.4)
     this.sun.target.updateMatrixWorld()

@@ -2,7 +2,7 @@ import type { SceneObject } from '../../protocol/mrlab_msgs'
 import type { ShownObject } from '../../scene/lab_objects'
 import type { LabScene } from '../../scene/lab_scene'
 import type { RoomContext } from '../context'
-import type { Target } from '../input/target'
+import type { Targets } from '../input/targets'
 import { ObjectHandle } from './object_handle'
 
 /** A handle for each object of the scene. */
@@ -12,7 +12,7 @@ export class ObjectHandles {
   constructor(
     private readonly scene: LabScene,
     private readonly context: RoomContext,
-    private readonly targets: Target[],
+    private readonly targets: Targets,
   ) {}
 
   set(objects: readonly ShownObject[]): void {
@@ -26,7 +26,7 @@ export class ObjectHandles {
     for (const [name, handle] of this.handles) {
       if (here.has(name)) continue
       this.handles.delete(name)
-      this.targets.splice(this.targets.indexOf(handle), 1)
+      this.targets.remove(handle)
     }
   }
 
@@ -37,7 +37,7 @@ export class ObjectHandles {
 
   dispose(): void {
     for (const handle of this.handles.values()) {
-      this.targets.splice(this.targets.indexOf(handle), 1)
+      this.targets.remove(handle)
     }
     this.handles.clear()
   }
@@ -45,6 +45,6 @@ export class ObjectHandles {
   private add(object: SceneObject): void {
     const handle = new ObjectHandle(object, this.scene, this.context)
     this.handles.set(object.name, handle)
-    this.targets.push(handle)
+    this.targets.add(handle)
   }
 }

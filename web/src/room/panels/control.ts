@@ -1,22 +1,18 @@
-import { CircleGeometry, Mesh, MeshBasicMaterial, PlaneGeometry } from 'three'
 import { fits } from '../../pages/lab/catalogue'
 import type { RobotView } from '../../pages/lab/followed_robot'
 import { RATES } from '../../playback/player'
 import { loadTrajectoryType, removeType, setEndEffectorType } from '../../protocol/mrlab_msgs'
 import { triggerType } from '../../protocol/std_srvs'
 import { order, type RoomContext } from '../context'
+import { type Choice, PagedList } from './paged_list'
 import { Panel } from './panel'
 import { GAP, HIT, PANEL_THEME, type Pen, TEXT } from './pen'
+import { type Mark, Timeline, type Track } from './timeline'
 
 const WIDTH = 640
 const HEIGHT = 500
 const EDGE = 26
-/** mm, of the timeline in the panel. */
-const TRACK = { x: EDGE, y: 208, width: WIDTH - 2 * EDGE, height: HIT } as const
-const MM = 0.001
-const PAGE = 4
-/** s between two seeks of one drag. */
-const SEEK_PERIOD = 0.05
+const TRACK: Track = { x: EDGE, y: 208, width: WIDTH - 2 * EDGE, height: HIT }
 /** s between two paintings of the time that goes on. */
 const TIME_PERIOD = 0.25
 const NOTICE_S = 8
@@ -30,17 +26,13 @@ export class ControlPanel {
   /** Places on the timeline, s, at which it collided. */
   readonly collisions: number[] = []
   private view: View = 'control'
-  private page = 0
   private notice = ''
   private noticedAt = 0
-  private soughtAt = 0
   private paintedAt = 0
   private now = 0
-  private scrub: number | null = null
   private robot: RobotView
-  private readonly flat = new MeshBasicMaterial({ toneMapped: false })
-  private readonly bar = new Mesh(new PlaneGeometry(1, 1), this.flat)
-  private readonly knob = new Mesh(new CircleGeometry(0.5, 24), this.flat)
+  private readonly list = new PagedList()
+  private readonly timeline: Timeline
 
   constructor(
     private readonly context: RoomContext,
@@ -48,10 +40,8 @@ export class ControlPanel {
   ) {
     this.robot = robot
     this.panel = new Panel(WIDTH, HEIGHT, (pen) => this.draw(pen), context)
-    this.flat.color.set(PANEL_THEME.colours.accent)
-    this.panel.group.add(this.bar, this.knob)
-    this.bar.position.z = this.knob.position.z = 1.5 * MM
-    this.knob.scale.setScalar(30 * MM)
+    const repaint = () => this.panel.repaint()
+    this.timeline = new Timeline(this.panel.group, WIDTH, HEIGHT, TRACK, repaint)
   }
 
   get name(): string {
@@ -86,26 +76,14 @@ export class ControlPanel {
     }
     const { player } = this.robot
     const shown = this.view === 'control' && this.loaded
-    this.bar.visible = this.knob.visible = shown
-    if (shown) {
-      const position = this.scrub ?? player.position()
-      const share = player.duration > 0 ? position / player.duration : 0
-      const length = Math.max(share * TRACK.width, 0.1)
-      const left = TRACK.x - WIDTH / 2
-      const y = (HEIGHT / 2 - TRACK.y - TRACK.height / 2) * MM
-      this.bar.scale.set(length * MM, 8 * MM, 1)
-      this.bar.position.set((left + length / 2) * MM, y, this.bar.position.z)
-      this.knob.position.set((left + length) * MM, y, this.knob.position.z)
-      if (player.playing && now - this.paintedAt > TIME_PERIOD) this.panel.repaint()
-    }
+    this.timeline.update(shown ? player : null, now)
+    if (shown && player.playing && now - this.paintedAt > TIME_PERIOD) this.panel.repaint()
     this.panel.update()
   }
 
   dispose(): void {
     this.panel.dispose()
-    this.bar.geometry.dispose()
-    this.knob.geometry.dispose()
-    this.flat.dispose()
+    this.timeline.dispose()
   }
 
   private get loaded(): boolean {
@@ -187,7 +165,7 @@ export class ControlPanel {
     const row = top + HIT + GAP
     const open = (view: View) => () => {
       this.view = view
-      this.page = 0
+      this.list.page = 0
     }
     pen.button('motions', EDGE, row, third, w.motions, open('motions'), { primary: !this.loaded })
     pen.button(
@@ -224,44 +202,20 @@ export class ControlPanel {
   }
 
   private drawTimeline(pen: Pen): void {
-    const { player, playback } = this.robot
-    const { x, y, width, height } = TRACK
-    const middle = y + height / 2
-    const { duration } = player
-    pen.box(x, middle - 4, width, 8, PANEL_THEME.colours.hairline)
-    const at = (time: number) => x + (duration > 0 ? time / duration : 0) * width
-    for (const { time, close } of this.robot.targets) {
-      pen.box(at(time) - 2, middle - 20, 4, 40, PANEL_THEME.colours.second)
-      const mark = close ? this.context.words.room.grasps : this.context.words.room.releases
-      pen.text(at(time), middle - 30, mark, TEXT.small, 120, 'second', 400, 'center')
-    }
-    for (const time of this.collisions) {
-      pen.box(at(time) - 3, middle - 16, 6, 32, PANEL_THEME.states.COLLISION_HALT)
-    }
-    const position = this.scrub ?? player.position()
-    const frame = playback === null ? 0 : Math.round(position * playback.frame_rate)
-    const time = `${position.toFixed(1)} / ${duration.toFixed(1)} s`
-    pen.text(x, y + height + 10, time, TEXT.small, 300, 'ink', 600)
-    const rows = this.context.words.room.frame(frame + 1, playback?.frame_count ?? 0)
-    pen.text(x + width, y + height + 10, rows, TEXT.small, 300, 'second', 400, 'right')
-    pen.zone({
-      id: 'timeline',
-      x,
-      y,
-      width,
-      height,
-      enabled: true,
-      drags: true,
-      press: (share, final) => this.seek(share * duration, final),
-    })
-  }
-
-  private seek(position: number, final: boolean): void {
-    this.scrub = final ? null : position
-    this.panel.repaint()
-    if (!final && this.now - this.soughtAt < SEEK_PERIOD) return
-    this.soughtAt = this.now
-    this.robot.player.seek(position)
+    const { player, playback, targets } = this.robot
+    const w = this.context.words.room
+    const { colours, states } = PANEL_THEME
+    const marks: Mark[] = [
+      ...targets.map(({ time, close }) => ({
+        time,
+        colour: colours.second,
+        words: close ? w.grasps : w.releases,
+      })),
+      ...this.collisions.map((time) => ({ time, colour: states.COLLISION_HALT, words: '' })),
+    ]
+    const rate = playback?.frame_rate ?? 0
+    const frame = Math.round(this.timeline.position(player) * rate)
+    this.timeline.draw(pen, player, marks, w.frame(frame + 1, playback?.frame_count ?? 0))
   }
 
   private changeRate(step: number): void {
@@ -298,45 +252,16 @@ export class ControlPanel {
   }
 
   /** A page of a list; choosing one returns to the controls. */
-  private drawList(
-    pen: Pen,
-    entries: readonly { id: string; words: string; note: string }[],
-    choose: (id: string) => void,
-  ): void {
-    const w = this.context.words.room
-    const pages = Math.max(Math.ceil(entries.length / PAGE), 1)
-    this.page = Math.min(this.page, pages - 1)
-    const wide = WIDTH - 2 * EDGE
-    entries.slice(this.page * PAGE, (this.page + 1) * PAGE).forEach(({ id, words, note }, i) => {
-      const y = 86 + i * (HIT + GAP)
-      const label = note === '' || note === words ? words : `${words} · ${note}`
-      pen.button(`choose ${id}`, EDGE, y, wide, label, () => {
-        this.view = 'control'
-        choose(id)
-      })
-    })
-    const y = HEIGHT - HIT - EDGE
-    const turn = (by: number) => () => {
-      this.page += by
-    }
-    pen.button('back', EDGE, y, 190, w.back, () => {
+  private drawList(pen: Pen, entries: readonly Choice[], choose: (id: string) => void): void {
+    const back = () => {
       this.view = 'control'
+    }
+    this.list.draw(pen, EDGE, entries, this.context.words.room.back, {
+      back,
+      choose: (id) => {
+        back()
+        choose(id)
+      },
     })
-    if (pages === 1) return
-    pen.button('previous', WIDTH - EDGE - 2 * 90 - GAP - 90, y, 90, '‹', turn(-1), {
-      enabled: this.page > 0,
-    })
-    const place = `${this.page + 1} / ${pages}`
-    pen.text(
-      WIDTH - EDGE - 90 - GAP / 2 - 45,
-      y + HIT / 2,
-      place,
-      TEXT.small,
-      80,
-      'second',
-      400,
-      'center',
-    )
-    pen.button('next', WIDTH - EDGE - 90, y, 90, '›', turn(1), { enabled: this.page < pages - 1 })
   }
 }

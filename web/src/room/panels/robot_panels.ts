@@ -4,7 +4,7 @@ import type { RobotView } from '../../pages/lab/followed_robot'
 import { telemetryType } from '../../protocol/mrlab_msgs'
 import type { LabScene } from '../../scene/lab_scene'
 import type { RoomContext } from '../context'
-import type { Target } from '../input/target'
+import type { Targets } from '../input/targets'
 import { ControlPanel } from './control'
 import { Stand } from './stand'
 import { TelemetryPanel } from './telemetry'
@@ -38,7 +38,7 @@ export class RobotPanels {
     private readonly context: RoomContext,
     private readonly parent: Object3D,
     private readonly scene: LabScene,
-    private readonly targets: Target[],
+    private readonly targets: Targets,
   ) {}
 
   /** Return the panel of a robot. */
@@ -91,14 +91,14 @@ export class RobotPanels {
     const { name } = view.robot
     const control = new ControlPanel(this.context, view)
     this.parent.add(control.panel.group)
-    this.targets.push(control.panel)
+    this.targets.add(control.panel)
     const stand = new Stand(control.panel.group)
     this.entries.set(name, { control, stand, telemetry: null, reach: 0 })
   }
 
   private remove(name: string, entry: Entry): void {
     this.entries.delete(name)
-    this.targets.splice(this.targets.indexOf(entry.control.panel), 1)
+    this.targets.remove(entry.control.panel)
     entry.control.dispose()
     entry.telemetry?.undo()
     entry.telemetry?.panel.dispose()
@@ -132,13 +132,13 @@ export class RobotPanels {
       const panel = new TelemetryPanel(this.context, control.joints)
       panel.panel.group.position.x = BETWEEN
       control.panel.group.add(panel.panel.group)
-      this.targets.push(panel.panel)
+      this.targets.add(panel.panel)
       const undo = this.context.link.subscribe(`${name}/telemetry`, telemetryType, (message) =>
         panel.take(message),
       )
       const gone = () => {
         undo()
-        this.targets.splice(this.targets.indexOf(panel.panel), 1)
+        this.targets.remove(panel.panel)
       }
       entry.telemetry = { panel, undo: gone }
     } else if (!control.telemetry && entry.telemetry !== null) {

@@ -1,6 +1,7 @@
 import { Matrix4, type Object3D, Quaternion, Vector3 } from 'three'
 import type { Pose } from '../../protocol/geometry_msgs'
-import type { Surface } from '../../protocol/mrlab_msgs'
+import { type Surface, setSurfacesType } from '../../protocol/mrlab_msgs'
+import { order, type RoomContext } from '../context'
 import { poseInWorld, vectorToRos } from '../frames'
 import { simplifyMesh, simplifyOutline } from './simplify'
 
@@ -176,4 +177,9 @@ function surfaceOf(found: XRPlane | XRMesh, name: string, label: string, pose: P
 function ros(x: number, y: number, z: number): { x: number; y: number; z: number } {
   vectorToRos(corner.set(x, y, z), corner)
   return { x: corner.x, y: corner.y, z: corner.z }
+}
+
+/** Give physics the surfaces of the room. */
+export function orderSurfaces(context: RoomContext, surfaces: Surface[]): void {
+  order(context, 'physics/set_surfaces', setSurfacesType, { source: '', surfaces })
 }

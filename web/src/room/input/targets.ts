@@ -1,0 +1,20 @@
+import type { Target } from './target'
+
+/** What there is to point at. A pointer must forget what is removed. */
+export class Targets {
+  readonly all: Target[] = []
+
+  /** forget: is told of each target that is gone. */
+  constructor(private readonly forget: (target: Target) => void) {}
+
+  add(target: Target): void {
+    this.all.push(target)
+  }
+
+  remove(target: Target): void {
+    const index = this.all.indexOf(target)
+    if (index < 0) return
+    this.all.splice(index, 1)
+    this.forget(target)
+  }
+}

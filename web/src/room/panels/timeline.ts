@@ -1,0 +1,110 @@
+import { CircleGeometry, type Group, Mesh, MeshBasicMaterial, PlaneGeometry } from 'three'
+import type { RemotePlayer } from '../../playback/player'
+import { PANEL_THEME, type Pen, TEXT } from './pen'
+
+const MM = 0.001
+const THICK = 8
+const KNOB = 30
+/** s between two seeks of one drag. */
+const SEEK_PERIOD = 0.05
+
+/** Where a timeline lies in its panel, mm from the left top corner. */
+export interface Track {
+  readonly x: number
+  readonly y: number
+  readonly width: number
+  readonly height: number
+}
+
+/** A place on the timeline, s: a bar, a word above it. */
+export interface Mark {
+  readonly time: number
+  readonly colour: string
+  readonly words: string
+}
+
+/** The timeline of a panel: what goes on is a bar and a knob of their own, so that time alone paints
+ * nothing. */
+export class Timeline {
+  private readonly flat = new MeshBasicMaterial({ toneMapped: false })
+  private readonly bar = new Mesh(new PlaneGeometry(1, 1), this.flat)
+  private readonly knob = new Mesh(new CircleGeometry(0.5, 24), this.flat)
+  private scrub: number | null = null
+  private soughtAt = 0
+  private now = 0
+
+  /** width, height: of the panel, mm. repaint: it is scrubbed. */
+  constructor(
+    group: Group,
+    private readonly width: number,
+    private readonly height: number,
+    private readonly track: Track,
+    private readonly repaint: () => void,
+  ) {
+    this.flat.color.set(PANEL_THEME.colours.accent)
+    group.add(this.bar, this.knob)
+    this.bar.position.z = this.knob.position.z = 1.5 * MM
+    this.knob.scale.setScalar(KNOB * MM)
+  }
+
+  /** Return where it stands, s: where it is dragged to, else where the lab is. */
+  position(player: RemotePlayer): number {
+    return this.scrub ?? player.position()
+  }
+
+  /** Before each picture; null: there is nothing to show. now: s. */
+  update(player: RemotePlayer | null, now: number): void {
+    this.now = now
+    this.bar.visible = this.knob.visible = player !== null
+    if (player === null) return
+    const { x, y, width, height } = this.track
+    const share = player.duration > 0 ? this.position(player) / player.duration : 0
+    const length = Math.max(share * width, 0.1)
+    const left = x - this.width / 2
+    const middle = (this.height / 2 - y - height / 2) * MM
+    this.bar.scale.set(length * MM, THICK * MM, 1)
+    this.bar.position.set((left + length / 2) * MM, middle, this.bar.position.z)
+    this.knob.position.set((left + length) * MM, middle, this.knob.position.z)
+  }
+
+  /** Paint what stands still: the track, marks, times; `note` stands at its right end. */
+  draw(pen: Pen, player: RemotePlayer, marks: readonly Mark[], note: string): void {
+    const { x, y, width, height } = this.track
+    const middle = y + height / 2
+    const { duration } = player
+    pen.box(x, middle - THICK / 2, width, THICK, PANEL_THEME.colours.hairline)
+    for (const { time, colour, words } of marks) {
+      const at = x + (duration > 0 ? time / duration : 0) * width
+      const half = words === '' ? 16 : 20
+      pen.box(at - 2.5, middle - half, 5, 2 * half, colour)
+      if (words !== '') pen.text(at, middle - 30, words, TEXT.small, 120, 'second', 400, 'center')
+    }
+    const time = `${this.position(player).toFixed(1)} / ${duration.toFixed(1)} s`
+    pen.text(x, y + height + 10, time, TEXT.small, 300, 'ink', 600)
+    pen.text(x + width, y + height + 10, note, TEXT.small, 300, 'second', 400, 'right')
+    pen.zone({
+      id: 'timeline',
+      x,
+      y,
+      width,
+      height,
+      enabled: true,
+      drags: true,
+      press: (share, final) => this.seek(player, share * duration, final),
+    })
+  }
+
+  dispose(): void {
+    this.bar.geometry.dispose()
+    this.knob.geometry.dispose()
+    this.flat.dispose()
+  }
+
+  private seek(player: RemotePlayer, position: number, final: boolean): void {
+    this.scrub = final ? null : position
+    this.repaint()
+    if (!final && this.now - this.soughtAt < SEEK_PERIOD) return
+    this.soughtAt = this.now
+    player.seek(position)
+  }
+}

@@ -1,0 +1,38 @@
+import type { RoomContext } from './context'
+import type { Feedback } from './panels/panel'
+import type { Room, RoomParts } from './room'
+
+/** m */
+const READ_AT = 0.9
+const READ_AT_SCREEN = 1.5
+
+/** Return what the parts of a room share; what changes is read from the room. */
+export function contextOf(room: Room, parts: RoomParts, feedback: Feedback): RoomContext {
+  const { link, words, robots, endEffectors } = parts
+  return {
+    link,
+    words,
+    robots,
+    endEffectors,
+    feedback,
+    stir: () => room.stage.invalidate(),
+    world: room.stage.world,
+    head: room.head,
+    get trajectories() {
+      return room.trajectories
+    },
+    get supports() {
+      return room.supports
+    },
+    get bases() {
+      return room.robots.bases()
+    },
+    get leftHanded() {
+      return room.settings.leftHanded.value
+    },
+    get readAt() {
+      return room.inside.value ? READ_AT : READ_AT_SCREEN
+    },
+    say: (text, warns) => room.board.say(text, warns),
+  }
+}

@@ -1,0 +1,71 @@
+import type { Words } from '../../words/en'
+import type { Hold } from '../anchor/anchor'
+import type { RoomContext } from '../context'
+import { BOARD_WIDTH, BOTTOM, EDGE, type Tab, TOP } from '../panels/board'
+import { GAP, HIT, TEXT } from '../panels/pen'
+
+/** s: a headset says what it knows of the room within this. */
+const SCAN_WAIT_S = 3
+
+/** How the room stands, for somebody in it. */
+export interface RoomStanding {
+  /** Surfaces that the lab knows. */
+  readonly surfaces: number
+  /** s since somebody entered; NaN: nobody is inside. */
+  readonly insideFor: number
+  /** Surfaces that the headset knows. */
+  readonly scanned: number
+  readonly hold: Hold
+  /** Features that the session came without. */
+  readonly missing: readonly string[]
+}
+
+/** Return the lines that say how the room stands. */
+export function roomLines(room: RoomStanding, words: Words['room']): string[] {
+  const lines = [words.surfaces(room.surfaces)]
+  if (Number.isNaN(room.insideFor)) return lines
+  if (room.insideFor > SCAN_WAIT_S && room.scanned === 0) lines.push(words.notSetUp)
+  const holds = { kept: words.anchorKept, session: words.anchorSession, none: words.anchorNone }
+  lines.push(holds[room.hold])
+  if (room.missing.length > 0) lines.push(words.lacks(room.missing.join(', ')))
+  return lines
+}
+
+/** What the room tab shows and switches. */
+export interface RoomSwitches {
+  lines(): readonly string[]
+  readonly grid: boolean
+  toggleGrid(): void
+  readonly leftHanded: boolean
+  toggleHand(): void
+  /** null: the device has no room scan of its own. */
+  readonly scan: (() => void) | null
+  /** Bring the scene's origin to the floor before the person. */
+  bringHere(): void
+  leave(): void
+}
+
+export function roomTab(context: RoomContext, room: RoomSwitches): Tab {
+  return {
+    id: 'room',
+    words: context.words.room.room,
+    draw: (pen) => {
+      const w = context.words.room
+      let y = TOP + 6
+      for (const line of room.lines())
+        y = pen.lines(EDGE, y, line, TEXT.small, undefined, 'second') + 4
+      const width = (BOARD_WIDTH - 2 * EDGE - GAP) / 2
+      const top = BOTTOM - 3 * (HIT + GAP)
+      const right = EDGE + width + GAP
+      pen.button('grid', EDGE, top, width, w.grid, () => room.toggleGrid(), { chosen: room.grid })
+      pen.button('left_handed', right, top, width, w.leftHanded, () => room.toggleHand(), {
+        chosen: room.leftHanded,
+      })
+      pen.button('scan', EDGE, top + HIT + GAP, width, w.scan, () => room.scan?.(), {
+        enabled: room.scan !== null,
+      })
+      pen.button('bring', right, top + HIT + GAP, width, w.bringHere, () => room.bringHere())
+      pen.button('leave', EDGE, top + 2 * (HIT + GAP), width, w.leave, () => room.leave())
+    },
+  }
+}

@@ -1,0 +1,97 @@
+import type { LabFollower } from '../../pages/lab/follow'
+import {
+  createSystemMember,
+  createSystemType,
+  type RobotSystem,
+  removeType,
+} from '../../protocol/mrlab_msgs'
+import { triggerType } from '../../protocol/std_srvs'
+import { order, type RoomContext } from '../context'
+import { BOARD_WIDTH, EDGE, type Tab, TOP } from '../panels/board'
+import { GAP, HIT, type Pen, TEXT } from '../panels/pen'
+import type { Creation } from './creation'
+
+/** Making robot systems by touch, and what there is of them. */
+export function systemsTab(context: RoomContext, creation: Creation, follower: LabFollower): Tab {
+  return {
+    id: 'systems',
+    words: context.words.room.systems,
+    draw: (pen) => {
+      const w = context.words.room
+      let y = TOP + 6
+      if (!creation.on) {
+        y = pen.lines(EDGE, y, w.systemHint, TEXT.body)
+        pen.button('pick', EDGE, y + 4, 300, w.pick, () => creation.begin(), { primary: true })
+        y += HIT + 44
+      } else {
+        pen.lines(EDGE, y, w.touchInOrder, TEXT.body)
+        const list = creation.picked.map((name, i) => `${i + 1} ${name}`).join('   ')
+        pen.text(EDGE, y + 66, list || w.nonePicked, TEXT.body, undefined, 'accent', 600)
+        const ready = creation.picked.length >= 2
+        const make = (mode: number) => () => create(context, creation, follower, mode)
+        const width = (BOARD_WIDTH - 2 * EDGE - 2 * GAP) / 3
+        const look = { primary: true, enabled: ready, small: true }
+        const { parallel, sequential } = context.words.lab
+        pen.button('parallel', EDGE, y + 100, width, parallel, make(0), look)
+        pen.button('sequential', EDGE + width + GAP, y + 100, width, sequential, make(1), look)
+        pen.button('end_creation', EDGE + 2 * (width + GAP), y + 100, width, w.back, () => {
+          creation.end()
+        })
+        y += 200
+      }
+      for (const { system } of follower.systems.value.slice(0, 2)) {
+        drawSystem(pen, context, system, y)
+        y += HIT + 44
+      }
+    },
+  }
+}
+
+function drawSystem(pen: Pen, context: RoomContext, system: RobotSystem, y: number): void {
+  const { name, members, label } = system
+  const w = context.words.room
+  const robots = members.map(({ robot }) => robot).join(', ')
+  pen.text(
+    EDGE,
+    y,
+    `${name} · ${label.toLowerCase()} · ${robots}`,
+    TEXT.small,
+    undefined,
+    'second',
+  )
+  const moving = system.state === 2 || system.state === 3
+  const verb = moving ? 'pause' : 'play'
+  const width = (BOARD_WIDTH - 2 * EDGE - 2 * GAP) / 3
+  const call = (service: string) => () => {
+    order(context, `${name}/${service}`, triggerType, {})
+  }
+  pen.button(`${name} play`, EDGE, y + 18, width, moving ? w.pause : w.play, call(verb), {
+    primary: true,
+  })
+  pen.button(`${name} stop`, EDGE + width + GAP, y + 18, width, w.stop, call('stop'))
+  pen.button(`${name} dissolve`, EDGE + 2 * (width + GAP), y + 18, width, w.dissolve, () => {
+    order(context, 'coordinator/dissolve_system', removeType, { name })
+  })
+}
+
+async function create(
+  context: RoomContext,
+  creation: Creation,
+  follower: LabFollower,
+  mode: number,
+): Promise<void> {
+  const base = createSystemType.request.create()
+  const motionOf = (name: string) =>
+    follower.robots.value.find(({ robot }) => robot.name === name)?.playback?.trajectory_id ?? ''
+  const members = creation.picked.map((robot) => ({
+    ...createSystemMember(),
+    robot,
+    trajectory_id: motionOf(robot),
+  }))
+  const answer = await order(context, 'coordinator/create_system', createSystemType, {
+    ...base,
+    members,
+    mode,
+  })
+  if (answer !== null) creation.end()
+}
