@@ -131,7 +131,7 @@ def test_a_person_enters_places_on_a_table_plays_and_scrubs(
     # with the trajectory here, the pose at a display instant comes from the clock
     headset.press(ROBOT, "play")
     headset.reaches("PLAYING")
-    headset.wait_for("room.arms.source('ur5e_1') === 'course'")
+    headset.wait_for("room.follower.source('ur5e_1') === 'course'")
     headset.press(ROBOT, "play")  # the same button pauses
     headset.reaches("PAUSED")
 

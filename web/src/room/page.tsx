@@ -1,11 +1,13 @@
 import { useSignal } from '@preact/signals'
 import { useEffect, useRef } from 'preact/hooks'
+import { trajectoryUrl } from '../api/api'
 import { useLink } from '../link/use_link'
 import './room.css'
 import { Button } from '../design/button'
 import { Notice } from '../design/notice'
 import type { Link } from '../link/link'
 import { checkSignIn, useApi } from '../pages/shell/session'
+import { courseOf } from '../playback/course'
 import { language, words } from '../words/words'
 import type { Entry } from './context'
 import type { Room } from './room'
@@ -66,6 +68,7 @@ function RoomView({ link }: { link: Link }) {
           link,
           words: words.value,
           ...parts,
+          courseOf: async (id) => courseOf(await api.motion(trajectoryUrl(id, 'motion'))),
         })
         room.value = made
         // for tests and the curious

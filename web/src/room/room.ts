@@ -3,6 +3,7 @@ import { Matrix4, Quaternion, Vector3 } from 'three'
 import type { Link } from '../link/link'
 import { commandsOf } from '../pages/lab/commands'
 import { LabFollower } from '../pages/lab/follow'
+import type { CourseOf } from '../pages/lab/followed_robot'
 import { type TrajectoryInfo, trajectoryCatalogueType } from '../protocol/mrlab_msgs'
 import { LabScene } from '../scene/lab_scene'
 import { MeshLibrary } from '../scene/meshes'
@@ -10,7 +11,6 @@ import type { ShownSurface } from '../scene/surfaces'
 import type { Words } from '../words/en'
 import { Alignment, SEATED } from './anchor/alignment'
 import { SceneAnchor } from './anchor/anchor'
-import { Arms } from './arms'
 import type { Entry } from './context'
 import { soundFeedback } from './feedback'
 import { followedScene } from './follow/followed_scene'
@@ -49,6 +49,7 @@ export interface RoomParts {
   readonly words: Words
   readonly robots: readonly Entry[]
   readonly endEffectors: readonly Entry[]
+  readonly courseOf: CourseOf
 }
 
 /** The lab in a person's room: wires what the folders beside it do, once a frame. */
@@ -60,7 +61,6 @@ export class Room {
   readonly board: Board
   readonly panels: RobotPanels
   readonly stage: RoomStage
-  readonly arms: Arms
   readonly scan: RoomScan
   readonly anchor: SceneAnchor
   readonly scene: LabScene
@@ -87,7 +87,7 @@ export class Room {
   private last = 0
 
   /** Throws NoWebGL where the browser has none. */
-  constructor(private readonly parts: RoomParts) {
+  constructor(parts: RoomParts) {
     const { link, words } = parts
     this.stage = new RoomStage(parts.container, words.room.picture)
     this.scene = new LabScene(this.stage, this.meshes, () => {
@@ -109,12 +109,11 @@ export class Room {
     this.stage.panels.add(this.board.panel.group)
     targets.add(this.board.panel)
     this.panels = new RobotPanels(context, this.stage.panels, this.scene, targets)
-    this.arms = new Arms(link, this.scene, (text) => this.board.say(text))
     this.anchor = new SceneAnchor(this.stage.anchor)
     this.objects = new ObjectHandles(this.scene, context, targets)
     this.overlays = new Overlays(link, this.scene, this.stage.world)
     this.creation = new Creation(() => this.board.panel.repaint())
-    this.robots = new RoomRobots(this.scene, this.arms, this.overlays, context, targets, {
+    this.robots = new RoomRobots(this.scene, this.overlays, context, targets, {
       touched: (name) => this.creation.touch(name),
       stick: (pointer, axis) => this.visit.inputs?.stick(pointer, axis) ?? 0,
     })
@@ -127,8 +126,11 @@ export class Room {
       word: (state) => words.states[state],
       colour: (state) => PANEL_THEME.states[state],
       stir: () => undefined,
-      // the arms fetch it themselves, and are posed by them alone
-      courseOf: () => Promise.reject(new Error('the arms have it')),
+      courseOf: (id) =>
+        parts.courseOf(id).catch((error: Error) => {
+          this.board.say(error.message)
+          throw error
+        }),
     })
     this.follower.attach(
       followedScene({
@@ -201,7 +203,6 @@ export class Room {
     this.robots.dispose()
     this.panels.dispose()
     this.board.panel.dispose()
-    this.arms.dispose()
     this.scene.dispose()
     this.sound.dispose()
     this.stage.dispose()
@@ -251,8 +252,7 @@ export class Room {
     }
     this.robots.update(now, step)
     this.objects.update(now)
-    const moves = this.arms.update(this.parts.link.labTime() + Math.min(ahead, MOST_AHEAD_S))
-    if (moves) this.stage.invalidate()
+    if (this.follower.pose(Math.min(ahead, MOST_AHEAD_S))) this.stage.invalidate()
     this.scene.update()
     this.overlays.setPicked(this.creation.picked)
     this.overlays.update(now)

@@ -25,6 +25,7 @@ import {
 import { jointStateType } from '../../protocol/sensor_msgs'
 import { stringType } from '../../protocol/std_msgs'
 import type { LabScene } from '../../scene/lab_scene'
+import { Courses } from './courses'
 import {
   type CourseOf,
   clockOf,
@@ -84,6 +85,7 @@ export class LabFollower {
   readonly activity = new Map<string, KeyActivity>()
   scene: FollowedScene | null = null
   private readonly kept = new Map<string, FollowedRobot>()
+  private readonly courses: Courses
   private readonly systemPlayers = new Map<string, RemotePlayer>()
   private surfaces: readonly Surface[] = []
   /** Names in the lab's order. */
@@ -97,6 +99,7 @@ export class LabFollower {
     private readonly options: FollowerOptions,
   ) {
     const labTime = () => link.labTime()
+    this.courses = new Courses(options.courseOf)
     this.replay = new RemotePlayer('bag', labTime, options.commands('recorder'))
     this.status.value = link.status
     this.undo = [
@@ -205,10 +208,10 @@ export class LabFollower {
   private of(name: string): FollowedRobot {
     let followed = this.kept.get(name)
     if (followed === undefined) {
-      const { commands, courseOf } = this.options
+      const { commands } = this.options
       const player = new RemotePlayer('live', () => this.link.labTime(), commands(name))
       player.hold(this.lost)
-      followed = new FollowedRobot(player, courseOf)
+      followed = new FollowedRobot(player, this.courses.of)
       this.kept.set(name, followed)
     }
     return followed

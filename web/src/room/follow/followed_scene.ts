@@ -14,7 +14,7 @@ export interface FollowedParts {
   setSurfaces(surfaces: readonly ShownSurface[]): void
 }
 
-/** Return the scene as the follower moves it: joints are moved by the clock, not by messages. */
+/** Return the scene as the follower moves it. */
 export function followedScene(parts: FollowedParts): FollowedScene {
   const { scene, robots, objects } = parts
   return {
@@ -33,6 +33,6 @@ export function followedScene(parts: FollowedParts): FollowedScene {
     // cubes between the fingers mark them here
     setTargets: () => undefined,
     frame: () => undefined,
-    robot: (name) => robots.of(name),
+    robot: (name) => scene.robot(name),
   }
 }

@@ -238,3 +238,15 @@ test('robots keep the order of the lab, whichever was heard of first', () => {
   link.deliver('robots', robotsType, { robots })
   expect(follower.robots.value.map((each) => each.robot.name)).toEqual(['a', 'b'])
 })
+
+test('the frames of a trajectory are fetched once for all robots that play it', async () => {
+  const { link, follower, robot, courseOf } = lab()
+  const robots = ['a', 'b'].map((name) => ({ ...robot, name, joint_names: ['p', 'q'] }))
+  link.deliver('robots', robotsType, { robots })
+  const loaded = { state: PlaybackState.READY, trajectory_id: 'wave', trajectory_version: 1 }
+  for (const name of ['a', 'b'])
+    link.deliver(`${name}/playback_state`, playbackStateType, { ...loaded, duration: 0.1 })
+  await vi.waitFor(() => expect(follower.course('b')).not.toBeNull())
+  expect(follower.course('b')).toBe(follower.course('a'))
+  expect(courseOf).toHaveBeenCalledTimes(1)
+})
