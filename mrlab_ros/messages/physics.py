@@ -198,6 +198,7 @@ def surface_to_message(surface: Surface) -> msg.Surface:
     return msg.Surface(
         name=surface.name,
         label=surface.label,
+        source=surface.source,
         pose=pose_to_message(surface.pose),
         vertices=[Point(x=x, y=y, z=z) for x, y, z in surface.vertices.tolist()],
         triangles=surface.triangles.ravel().tolist(),
@@ -220,6 +221,7 @@ def surface_from_message(message: msg.Surface) -> Surface:
         pose_from_message(message.pose),
         np.array(vertices, dtype=np.float64).reshape(-1, 3),
         np.array(message.triangles, dtype=np.int64).astype(np.int32).reshape(-1, 3),
+        message.source,
     )
 
 

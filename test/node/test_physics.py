@@ -287,9 +287,15 @@ def test_a_room_is_kept_for_a_restart_that_nobody_planned(graph, lab, tmp_path):
     corners = [Point(x=x, y=y, z=0.0) for x, y in ((0.0, 0.0), (1.0, 0.0), (0.0, 1.0))]
     shelf = msg.Surface(name="shelf", label="shelf", vertices=corners, pose=pose((3, 0, 1)))
     assert graph.call(srv.SetSurfaces, "/physics/set_surfaces", surfaces=[shelf]).success
+    seen = {"source": "quest", "surfaces": [shelf]}
+    assert graph.call(srv.SetSurfaces, "/physics/set_surfaces", **seen).success
     kept = tmp_path / "physics.json"
     wait_for(
-        lambda: kept.exists() and [s.name for s in read(kept).surfaces] == ["shelf", "floor"],
+        lambda: (
+            kept.exists()
+            and [(s.name, s.source) for s in read(kept).surfaces]
+            == [("shelf", ""), ("floor", ""), ("shelf_2", "quest")]
+        ),
         "the file",
     )
 

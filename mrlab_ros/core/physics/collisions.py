@@ -90,12 +90,14 @@ class Collisions:
 
     # the room -------------------------------------------------------------------------------
 
-    def set_surfaces(self, new: Sequence[Surface]) -> tuple[str, ...]:
+    def set_surfaces(self, new: Sequence[Surface], source: str = "") -> tuple[str, ...]:
         """Replace the room's surfaces; without one labelled floor there is an endless floor.
 
-        Returns the names of those that overlap a robot. They are tolerated until the robot has
-        moved out of them.
+        source: replace those of this source alone. Returns the names of those that overlap a
+        robot. They are tolerated until the robot has moved out of them.
         """
+        if source:
+            new = rooms.of_source(source, new, self._world_state.surfaces)
         wanted = {surface.name: surface for surface in new}
         if len(wanted) != len(new):
             raise BadInput("two surfaces have the same name; give each its own")

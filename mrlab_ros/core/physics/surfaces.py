@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -16,6 +17,7 @@ THICKNESS = 0.02
 FLOOR_SIZE = 200.0  # m
 MAX_OUTLINE = 1000
 FLOOR = "floor"
+LONGEST_SOURCE = 64
 
 
 @dataclass(frozen=True, eq=False)
@@ -28,6 +30,7 @@ class Surface:
     pose: Pose
     vertices: Array
     triangles: NDArray[np.int32]
+    source: str = ""  # who measured it; empty: the lab's own
 
     @property
     def endless(self) -> bool:
@@ -37,6 +40,35 @@ class Surface:
 def floor() -> Surface:
     """Return the endless floor of a lab without detected surfaces."""
     return Surface(FLOOR, FLOOR, Pose(), np.zeros((0, 3)), np.zeros((0, 3), np.int32))
+
+
+def of_source(
+    source: str, new: Sequence[Surface], before: Mapping[str, Surface]
+) -> tuple[Surface, ...]:
+    """Return the surfaces of a room once `new` replaces those of one source.
+
+    Those of all others stay. A name that is taken gets a number behind it, so that two headsets
+    may each call a table table_1. There is one endless floor, and it is the lab's own. Raises
+    BadInput for two new ones of one name.
+    """
+    if len(source) > LONGEST_SOURCE or not source.isprintable():
+        raise BadInput(
+            f"the source {source[:80]!r} has {len(source)} characters; expected at most "
+            f"{LONGEST_SOURCE} that can be printed, such as an id of the headset"
+        )
+    if len({surface.name for surface in new}) != len(new):
+        raise BadInput("two surfaces have the same name; give each its own")
+    room = {name: surface for name, surface in before.items() if surface.source != source}
+    for surface in new:
+        if surface.endless and surface.label == FLOOR:
+            if not any(each.endless and each.label == FLOOR for each in room.values()):
+                room.setdefault(surface.name, replace(surface, source=""))
+            continue
+        name, number = surface.name, 2
+        while name in room:
+            name, number = f"{surface.name}_{number}", number + 1
+        room[name] = replace(surface, name=name, source=source)
+    return tuple(room.values())
 
 
 def body(surface: Surface, max_triangles: int) -> Body:

@@ -215,13 +215,13 @@ class World:
         """Remove all objects; return how many there were."""
         return self._inventory.clear()
 
-    def set_surfaces(self, new: Sequence[Surface]) -> tuple[str, ...]:
+    def set_surfaces(self, new: Sequence[Surface], source: str = "") -> tuple[str, ...]:
         """Replace the room's surfaces; without one labelled floor there is an endless floor.
 
-        Returns the names of those that overlap a robot. They are tolerated until the robot has
-        moved out of them.
+        source: replace those of this source alone. Returns the names of those that overlap a
+        robot. They are tolerated until the robot has moved out of them.
         """
-        return self._collisions.set_surfaces(new)
+        return self._collisions.set_surfaces(new, source)
 
     # time -----------------------------------------------------------------------------------
 

@@ -23,6 +23,7 @@ LAB_TOPICS = (
     "/contacts",
     "/latency",
     "/latency/clients",
+    "/presence",
     "/diagnostics",
     "/tf",
     "/tf_static",
@@ -42,6 +43,7 @@ OF_THE_PRESENT = (
     "/parameter_events",
     "/latency",
     "/latency/clients",
+    "/presence",
     "/diagnostics",
     "/recorder/**",
 )

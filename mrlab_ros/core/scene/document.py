@@ -50,7 +50,7 @@ ROBOT_FIELDS = (
     "name", "model", "end_effector", *POSE_FIELDS, "trajectory", "at", "rate", "loop",
 )  # fmt: skip
 OBJECT_FIELDS = ("name", "type", "automatic", *POSE_FIELDS, "held_by", "in_hand")
-SURFACE_FIELDS = ("name", "label", *POSE_FIELDS, "vertices", "triangles")
+SURFACE_FIELDS = ("name", "label", "source", *POSE_FIELDS, "vertices", "triangles")
 VECTOR, QUATERNION = Numbers(3), Numbers(4)
 PLACE = Numbers(3, between(-WORLD_SIZE, WORLD_SIZE), "m")
 VERTICES, TRIANGLES = Matrix(3), Matrix(3, whole=True)
@@ -143,6 +143,7 @@ def plain(scene: SceneDocument) -> dict[str, Any]:
         {
             "name": s.name,
             "label": s.label,
+            **({"source": s.source} if s.source else {}),
             **_plain_pose(s.pose),
             "vertices": s.vertices.tolist(),
             "triangles": s.triangles.tolist(),
@@ -362,4 +363,5 @@ def _surface(value: object, place: str) -> Surface:
         _pose(entry),
         entry.value("vertices", VERTICES, nothing),
         entry.value("triangles", TRIANGLES, nothing.astype(np.int32)),
+        entry.value("source", TEXT, ""),
     )

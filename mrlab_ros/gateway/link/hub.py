@@ -17,7 +17,7 @@ from mrlab_ros.core.bridge.rules import Congestion, Direction, Rules, TopicRule
 from mrlab_ros.core.errors import LabError
 from mrlab_ros.gateway.lab.connection import LabConnection, Phase, Sample, Unsubscribe
 from mrlab_ros.gateway.lab.key_expressions import matches
-from mrlab_ros.gateway.link import frames
+from mrlab_ros.gateway.link import frames, presence
 
 SECOND = 1_000_000_000
 log = logging.getLogger("mrlab.gateway")
@@ -47,6 +47,13 @@ class Message:
     topic: Topic
     sample: Sample
     entry: bytes = field(default=b"")
+
+    @property
+    def stream(self) -> int | tuple[int, str]:
+        """What a newer message replaces: those of its topic, of presence those of one display."""
+        if self.topic.key != presence.KEY:
+            return self.topic.id
+        return self.topic.id, presence.display(self.sample.payload)
 
     @property
     def stamp(self) -> float:
@@ -86,7 +93,11 @@ class Hub:
 
     def __init__(self, lab: LabConnection, rules: Rules) -> None:
         self._lab = lab
-        self._rules = [rule for rule in rules.topics if rule.direction is Direction.OUT]
+        self._rules = [
+            rule
+            for rule in rules.topics
+            if rule.direction is Direction.OUT or rule.name == f"/{presence.KEY}"
+        ]
         self._feeds: dict[str, _Feed] = {}
         self._topics: dict[str, Topic] = {}
         self._numbers: dict[str, int] = {}

@@ -160,7 +160,7 @@ class LinkSession:
         elif len(message.sample.payload) > LARGE:
             self._large[topic.id] = message
         else:
-            self._newest.offer(topic.id, topic.priority, message.encoded())
+            self._newest.offer(message.stream, topic.priority, message.encoded())
         if topic.id not in self._announced:
             self._announce(topic)
         self.wake()

@@ -10,6 +10,7 @@ import orjson
 from mrlab_ros.core.bridge.rules import Role, Rules
 from mrlab_ros.gateway.errors import TooMany
 from mrlab_ros.gateway.lab.connection import LabConnection, Phase
+from mrlab_ros.gateway.link import presence
 from mrlab_ros.gateway.link.hub import Hub
 from mrlab_ros.gateway.link.limits import LinkLimits
 from mrlab_ros.gateway.link.session import LinkSession, May
@@ -37,6 +38,7 @@ class Sessions:
         self.lab = lab
         self.hub = Hub(lab, rules)
         self.visibility = Visibility(lab.definitions)
+        self.displays = presence.Displays(lab.definitions)
         self._may = may
         self._limits = limits
         self._clients: dict[str, Client] = {}
@@ -80,11 +82,25 @@ class Sessions:
         if client.socket is socket:
             client.socket = None
             client.left_at = now
+            self._see_off(client.session)
 
     def end(self, client: Client) -> None:
         """Forget a client."""
-        if self._clients.pop(client.session.token, None) is not None:
-            client.session.close()
+        session = client.session
+        if self._clients.pop(session.token, None) is not None:
+            self._see_off(session)
+            session.close()
+
+    def say_where(self, session: LinkSession, payload: bytes, now: float) -> None:
+        """Give the lab a client's Presence. Raises BadInput or NotAllowed."""
+        found = self.displays.admit(session.token, session.person, payload, now)
+        if found is not None:
+            self.lab.put(presence.KEY, found)
+
+    def _see_off(self, session: LinkSession) -> None:
+        gone = self.displays.leave(session.token, session.person)
+        if gone is not None:
+            self.lab.put(presence.KEY, gone)
 
     def expire(self, now: float) -> None:
         """Forget clients that did not come back."""

@@ -15,9 +15,9 @@ from starlette.websockets import WebSocketDisconnect
 
 from mrlab_ros.core.bridge.policy import Policy, Verb
 from mrlab_ros.core.errors import BadInput, LabError
-from mrlab_ros.gateway.errors import SOCKET_REFUSED, TooMany
+from mrlab_ros.gateway.errors import SOCKET_REFUSED, NotAllowed, TooMany
 from mrlab_ros.gateway.lab.connection import CALL_TIMEOUT_S, LabConnection, NoAnswer, TimedOut
-from mrlab_ros.gateway.link import frames
+from mrlab_ros.gateway.link import frames, presence
 from mrlab_ros.gateway.link.frames import Call, Credit
 from mrlab_ros.gateway.link.lab_clock import LabClock
 from mrlab_ros.gateway.link.limits import LinkLimits
@@ -208,7 +208,7 @@ class _Socket:
             self._session.grant(frame.batch)
         elif isinstance(frame, Call):
             if frame.put:
-                self._put(frame)
+                self._put(frame, now)
             else:
                 self._call(frame, now)
         else:
@@ -230,18 +230,18 @@ class _Socket:
         else:
             raise BadInput(f"{str(op)[:40]!r} is no op of {PROTOCOL}; see docs/link.md")
 
-    def _put(self, frame: Call) -> None:
-        if self._port.may(self._session.person, Verb.PUBLISH, frame.key):
-            self._port.sessions.lab.put(frame.key, frame.payload)
-        else:
-            self._session.text(
-                {
-                    "op": "refused",
-                    "key": frame.key,
-                    "code": "not_allowed",
-                    "message": f"{self._session.person.role.value}s may not publish {frame.key}",
-                }
-            )
+    def _put(self, frame: Call, now: float) -> None:
+        session, sessions = self._session, self._port.sessions
+        try:
+            if not self._port.may(session.person, Verb.PUBLISH, frame.key):
+                raise NotAllowed(f"{session.person.role.value}s may not publish {frame.key}")
+            if frame.key == presence.KEY:
+                sessions.say_where(session, frame.payload, now)
+            else:
+                sessions.lab.put(frame.key, frame.payload)
+        except NotAllowed as error:
+            refused = {"op": "refused", "key": frame.key, "code": "not_allowed"}
+            session.text({**refused, "message": str(error)})
 
     def _call(self, frame: Call, now: float) -> None:
         session = self._session

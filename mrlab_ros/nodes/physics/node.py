@@ -219,7 +219,7 @@ class PhysicsNode(ParameterNode[PhysicsParameters]):
     def _on_surfaces(self, request: Any, response: Any) -> str:
         surfaces = [messages.surface_from_message(s) for s in request.surfaces]
         with self._lock:
-            inside = self._world.set_surfaces(surfaces)
+            inside = self._world.set_surfaces(surfaces, request.source)
         count = self._publish_surfaces()
         if inside:
             return (

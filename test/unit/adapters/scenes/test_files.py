@@ -32,11 +32,11 @@ def test_the_shipped_scenes_hold_known_robots_and_objects_and_survive_saving(tmp
         assert parse(plain(scene), name) == scene
     corners = np.array([[-1, -1, 0], [1, -1, 0], [1, 1, 0.0]])
     # As a headset may call it.
-    room = Surface("Wall 7", "wall", Pose((1, 0, 0)), corners, np.zeros((0, 3), np.int32))
+    room = Surface("Wall 7", "wall", Pose((1, 0, 0)), corners, np.zeros((0, 3), np.int32), "quest")
     files.save("mine", SceneDocument(surfaces=(room,)))
     (again,) = files.load("mine").surfaces
     assert np.array_equal(again.vertices, corners)
-    assert (again.name, again.pose) == ("Wall 7", room.pose)
+    assert (again.name, again.pose, again.source) == ("Wall 7", room.pose, "quest")
 
 
 def test_the_shipped_cell_is_a_document_with_one_system():

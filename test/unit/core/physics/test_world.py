@@ -475,6 +475,37 @@ def test_surfaces_that_are_none_are_refused_and_the_old_ones_stay():
     assert [s.name for s in world.surfaces] == ["wall", "floor"]
 
 
+def seen(world) -> list[tuple[str, str]]:
+    return [(surface.name, surface.source) for surface in world.surfaces]
+
+
+def test_two_headsets_do_not_replace_each_others_surfaces():
+    world = Lab().world
+    world.set_surfaces([wall(5.0)])
+    world.set_surfaces([rooms.floor(), wall(3.0)], "quest_a")
+    world.set_surfaces([rooms.floor(), wall(4.0)], "quest_b")
+    both = [("wall", ""), ("floor", ""), ("wall_2", "quest_a"), ("wall_3", "quest_b")]
+    assert seen(world) == both
+    world.set_surfaces([rooms.floor(), wall(3.5)], "quest_a")
+    assert sorted(seen(world)) == sorted(both)
+    places = {surface.name: surface.pose.position[0] for surface in world.surfaces}
+    assert (places["wall"], places["wall_2"], places["wall_3"]) == (5.0, 3.5, 4.0)
+    flat = np.array([[0, 0, 0], [1, 0, 0], [2, 0, 0.0]])
+    line = Surface("line", "", Pose(), flat, np.zeros((0, 3), np.int32))
+    with pytest.raises(BadInput, match="is a line"):
+        world.set_surfaces([line], "quest_a")
+    with pytest.raises(BadInput, match="expected at most 64"):
+        world.set_surfaces([], "x" * 65)
+    with pytest.raises(BadInput, match="same name"):
+        world.set_surfaces([wall(1.0), wall(2.0)], "quest_a")
+    assert sorted(seen(world)) == sorted(both)
+    world.set_surfaces([], "quest_a")
+    assert seen(world) == [("wall", ""), ("floor", ""), ("wall_3", "quest_b")]
+    # Without a source all are replaced, as a scene file does.
+    world.set_surfaces([wall(2.0)])
+    assert seen(world) == [("wall", ""), ("floor", "")]
+
+
 def test_scrubbing_back_puts_the_object_down_and_forward_into_the_hand_again():
     lab = Lab(gripper=Gripper.FINGERS)
     lab.world.spawn("ball", "ball", Pose((0.0, 0.0, 0.47)))

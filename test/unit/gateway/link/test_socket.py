@@ -303,6 +303,47 @@ async def test_only_what_comes_in_may_be_published(stage: Stage) -> None:
 
 
 @scene
+async def test_people_say_where_they_are_by_their_own_names_and_see_all_others(
+    stage: Stage,
+) -> None:
+    name = "mrlab_msgs/msg/Presence"
+    encode, decode = stage.lab.definitions.encode, stage.lab.definitions.decode
+    anna, ben = (
+        stage.side(stage.cookie(who, role))
+        for who, role in (("anna", Role.INSTRUCTOR), ("ben", Role.STUDENT))
+    )
+    anna.hello()
+    ben.hello(_1="presence")
+    await ben.welcome()
+    await anna.welcome()
+    anna.put("presence", encode(name, {"id": "quest", "name": "ben"}))
+    await anna.until(lambda: stage.lab.sent)
+    ben.put("presence", encode(name, {"id": "quest"}))
+    await ben.until(lambda: ben.of("refused"))
+    assert "belongs to another page" in ben.of("refused")[0]["message"]
+    # Of several displays the newest message each counts, not the newest of all.
+    (sent,) = stage.lab.sent
+    stage.lab.offer("presence", name)
+    for payload in (
+        encode(name, {"id": "pico"}),
+        encode(name, {"id": "pico", "part": 1}),
+        sent[1],
+    ):
+        stage.lab.publish("presence", payload)
+    ben.grant(1)
+    await ben.until(lambda: len(ben.values) == 2)
+    seen = [decode(name, payload) for payload in ben.payloads("presence")]
+    assert [(each.id, each.name, each.part) for each in seen] == [
+        ("pico", "", 1),
+        ("quest", "anna", 2),
+    ]
+    anna.leave()
+    await anna.ended()
+    last = decode(name, stage.lab.sent[-1][1])
+    assert (last.id, last.name, last.away) == ("quest", "anna", True)
+
+
+@scene
 async def test_only_topics_of_the_allow_list_are_given(stage: Stage) -> None:
     side = stage.side()
     side.hello(_1="rosout", _2="**", _3="robots")

@@ -1,0 +1,111 @@
+"""Who is in the room: a display says where it is; name and role are those of the sign-in."""
+
+from __future__ import annotations
+
+import math
+import struct
+from collections.abc import Iterator
+from typing import Any
+
+from mrlab_ros.core.bridge.rules import Role
+from mrlab_ros.core.errors import BadInput
+from mrlab_ros.gateway.errors import NotAllowed
+from mrlab_ros.gateway.lab.definitions import Definitions
+from mrlab_ros.gateway.people.person import Person
+
+KEY = "presence"
+TYPE = "mrlab_msgs/msg/Presence"
+LONGEST_ID = 64
+FRAME = "world"
+# s between two messages of a display, at least: 20 a second, and what a network bunches.
+PERIOD = 0.04
+# m: nobody is farther from the lab's origin.
+FARTHEST = 1000.0
+WATCHES, DRIVES, TEACHES = 0, 1, 2
+
+
+def part_of(role: Role) -> int:
+    """Return what somebody of a role does in the room, as in Presence.msg."""
+    if role.may(Role.INSTRUCTOR):
+        return TEACHES
+    return DRIVES if role.may(Role.OPERATOR) else WATCHES
+
+
+def display(payload: bytes) -> str:
+    """Return the id of the display that a Presence is of; empty where the payload is too short.
+
+    Read from the CDR itself: it is asked for once for each message and each client.
+    """
+    order = "<" if payload[1:2] == b"\x01" else ">"
+    try:
+        # Behind the CDR header: the stamp (8 bytes), then two strings, each aligned to 4.
+        at = 4 + 8
+        (frame,) = struct.unpack_from(f"{order}I", payload, at)
+        at += 4 + frame
+        at += -at % 4
+        (length,) = struct.unpack_from(f"{order}I", payload, at)
+    except struct.error:
+        return ""
+    return payload[at + 4 : at + 4 + max(length - 1, 0)].decode(errors="replace")
+
+
+class Displays:
+    """Which client each display belongs to. Times are s, monotonic."""
+
+    def __init__(self, definitions: Definitions) -> None:
+        self._definitions = definitions
+        # By a client's token: its display, and when it last said where it is.
+        self._seen: dict[str, tuple[str, float]] = {}
+
+    def admit(self, token: str, person: Person, payload: bytes, now: float) -> bytes | None:
+        """Return a Presence as the lab gets it; None: it comes too soon after the last one.
+
+        Raises BadInput where it is none, and NotAllowed for the id of another client's display.
+        """
+        message = self._definitions.decode(TYPE, payload)
+        owner = next((each for each, (name, _) in self._seen.items() if name == message.id), token)
+        if not 1 <= len(message.id) <= LONGEST_ID or not message.id.isprintable():
+            raise BadInput(
+                f"the display has the id {message.id[:80]!r}; expected 1 to {LONGEST_ID} "
+                "characters that can be printed"
+            )
+        if owner != token:
+            raise NotAllowed(
+                f"the display {message.id} belongs to another page; choose an id of your own"
+            )
+        for value in _numbers(message):
+            if not math.isfinite(value) or abs(value) > FARTHEST:
+                raise BadInput(
+                    f"the display {message.id} is at {value}; expected finite numbers of at most "
+                    f"{FARTHEST:g} m"
+                )
+        name, last = self._seen.get(token, (message.id, -math.inf))
+        if name == message.id and now - last < PERIOD and not message.away:
+            return None
+        self._seen[token] = message.id, now
+        message.name = person.name
+        message.part = part_of(person.role)
+        message.header.frame_id = FRAME
+        if message.away:
+            del self._seen[token]
+        return self._definitions.encode(TYPE, message)
+
+    def leave(self, token: str, person: Person) -> bytes | None:
+        """Return what says that a client's display is gone; None: it has none."""
+        if token not in self._seen:
+            return None
+        name, _ = self._seen.pop(token)
+        gone: dict[str, Any] = {
+            "id": name,
+            "name": person.name,
+            "part": part_of(person.role),
+            "away": True,
+        }
+        return self._definitions.encode(TYPE, gone)
+
+
+def _numbers(message: Any) -> Iterator[float]:
+    for pose in (message.head, message.left, message.right):
+        for part in (pose.position, pose.orientation):
+            yield from (part.x, part.y, part.z)
+        yield pose.orientation.w
