@@ -57,7 +57,7 @@ class Converter(Node):
     def __init__(self, trajectories: Sequence[Trajectory]) -> None:
         super().__init__("converter")
         self._known = {t.id: t for t in trajectories}
-        self.create_service(srv.GetTrajectory, "~/get", self._get)
+        self.create_service(srv.GetTrajectory, "~/get_any", self._get)
 
     def _get(self, request: Any, response: Any) -> Any:
         response.success = True

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import hashlib
+import random
 from pathlib import Path
 
 from mrlab_ros.adapters.bullet.engine import BulletEngine
@@ -31,6 +32,10 @@ OWN = {
     "slick": {"shape": "box", "size": [0.06, 0.06, 0.06], "mass": 4.0, "friction": 0.15},
     "slab": {"shape": "box", "size": [0.3, 0.3, 0.02], "mass": 1.0},
     "anvil": {"shape": "box", "size": [0.3, 0.3, 0.05], "mass": 9.0},
+    "round": {"shape": "cylinder", "size": [0.02, 0.08], "mass": 0.2},
+    "belt": {"shape": "box", "size": [3.0, 0.3, 0.02], "fixed": True},
+    # It glides: what drives a belt need not press.
+    "parcel": {"shape": "box", "size": [0.05, 0.05, 0.05], "mass": 0.01, "friction": 0.004},
     "tray": {
         "mass": 0.5,
         "parts": [
@@ -46,6 +51,8 @@ PERIOD_NS = SECOND // 100
 # From tool0 to the middle of the pads of the parallel gripper, and to where the hull of the cup
 # touches, m.
 PADS, LIP = 0.012 + 0.0995 + 0.043, 0.012 + 0.133
+# How often a joint state, or the world, is late where the machine stalls.
+STALLED = 0.7
 CUP = Tool(5.0, 45.0, 0.026)
 
 
@@ -84,12 +91,22 @@ def gantry(folder: Path) -> RobotLibrary:
 
 
 class Cell:
-    """Gantries in one world; time moves with their motions, 10 ms at a time."""
+    """Gantries in one world; time moves with their motions, 10 ms at a time.
 
-    def __init__(self, library: RobotLibrary, settings: Settings | None = None) -> None:
+    stalls: on a loaded machine, whose: joint states arrive late and together, and the world is
+    stepped late. None: all comes in time.
+    """
+
+    def __init__(
+        self,
+        library: RobotLibrary,
+        settings: Settings | None = None,
+        stalls: random.Random | None = None,
+    ) -> None:
         self.library = library
         self.engine = BulletEngine(library.mesh_path)
         self.world = World(self.engine, TYPES, settings or Settings())
+        self._stalls = stalls
         self.now_ns = 0
         self.at: dict[str, tuple[float, ...]] = {}
         self.program: dict[str, list[tuple[float, bool]]] = {}
@@ -125,6 +142,7 @@ class Cell:
         start = self.at[name]
         goal = (*to, *start[len(to) :])
         count = max(round(seconds * 100), 1)
+        waiting = []
         for k in range(1, count + 1):
             s = k / count
             share, rate = (s, 1.0) if even else (s * s * (3 - 2 * s), 6 * s * (1 - s))
@@ -135,10 +153,23 @@ class Cell:
                     v = tuple(rate * (b - a) / seconds for a, b in zip(start, goal, strict=True))
                 else:
                     q, v = at, (0.0,) * len(at)
-                self.world.joint_state(other, self.now_ns, q, v)
-            self.world.advance(self.now_ns)
-            self.events += self.world.take_events()
+                waiting.append((other, self.now_ns, q, v))
+            if k == count or not self._stalled():
+                for state in waiting:
+                    self.world.joint_state(*state)
+                waiting.clear()
+            if k == count or not self._stalled():
+                self.world.advance(self.now_ns)
+                self.events += self.world.take_events()
         self.at[name] = goal
+
+    def _stalled(self) -> bool:
+        return self._stalls is not None and self._stalls.random() < STALLED
+
+    def infinite(self) -> None:
+        """Begin anew, with grasps that nothing slips out of."""
+        self.engine.close()
+        self.__init__(self.library, Settings(hold="infinite"), self._stalls)
 
     def wait(self, seconds: float) -> None:
         if self.at:
@@ -160,7 +191,8 @@ class Cell:
         self.program[name].append((self.now_ns / SECOND, closed))
         times, closes = zip(*self.program[name], strict=True)
         self.world.set_program(name, GripperProgram(times, closes))
-        self.wait(seconds)
+        if seconds:
+            self.wait(seconds)
 
     def hits(self, name: str = "") -> list:
         """Return (robot, link, held, other) of each collision that began."""

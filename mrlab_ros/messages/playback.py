@@ -57,6 +57,7 @@ def telemetry_to_message(
     trajectory: Trajectory,
     sample: Sample,
     tool0: Array,
+    grasp: msg.Grasp | None,
     *,
     sent: int,
     lost: int,
@@ -65,9 +66,11 @@ def telemetry_to_message(
 ) -> msg.Telemetry:
     """Return the display values of a joint state.
 
-    tool0: (4, 4) homogeneous transform T_base_tool0. sent, lost: frames of this run. error_ns,
-    error_max_ns: how late the last joint state was published, and the latest of the run.
+    tool0: (4, 4) homogeneous transform T_base_tool0. grasp: what physics said last of the
+    gripper; None: there is no physics. sent, lost: frames of this run. error_ns, error_max_ns: how
+    late the last joint state was published, and the latest of the run.
     """
+    bears = grasp or msg.Grasp()
     closed = trajectory.gripper_at(sample.position)
     return msg.Telemetry(
         header=make_header(now_ns, robot),
@@ -79,6 +82,11 @@ def telemetry_to_message(
         has_gripper=closed is not None,
         gripper_closed=bool(closed),
         tool0=transform_to_pose_message(tool0),
+        held_object=bears.object,
+        held_mass=bears.mass,
+        payload=bears.payload,
+        slip_margin=bears.slip_margin,
+        wrist_moment=bears.wrist_moment,
         deadline_error=error_ns * 1e-9,
         deadline_error_max=error_max_ns * 1e-9,
         frames_sent=sent,

@@ -142,6 +142,24 @@ def test_telemetry_reports_the_motion(graph, lab):
     assert last.frames_lost == 0
     assert 0 < last.deadline_error <= last.deadline_error_max
     assert list(last.effort_proxy) == [1.0] * 6
+    # What the grasp bears, for as long as there is somebody who says so.
+    assert (last.held_object, last.held_mass) == ("", 0.0)
+    physics = graph.client.create_publisher(msg.Grasp, f"/{robot}/grasp", qos.LATCHED)
+    grasp = msg.Grasp(
+        state=msg.Grasp.HOLDING,
+        object="cube_1",
+        mass=0.2,
+        payload=3.95,
+        slip_margin=1.5,
+        wrist_moment=0.3,
+    )
+    physics.publish(grasp)
+    wait_for(lambda: telemetry[-1].held_object == "cube_1", "what is held")
+    last = telemetry[-1]
+    found = (last.held_mass, last.payload, last.slip_margin, last.wrist_moment)
+    assert found == (0.2, 3.95, 1.5, 0.3)
+    graph.client.destroy_publisher(physics)
+    wait_for(lambda: telemetry[-1].held_object == "", "nothing of a physics that is gone")
 
 
 def test_a_collision_halts_and_its_end_pauses(graph, lab):

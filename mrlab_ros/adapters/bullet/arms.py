@@ -305,7 +305,8 @@ class Arms:
             raise BadInput(
                 f"{len(positions)} joint positions for {name}; expected {len(arm.joints)}"
             )
-        if not (all(map(math.isfinite, positions)) and all(map(math.isfinite, velocities))):
+        # A sum is finite where all of it is, and a NaN or an infinity stays in it.
+        if not math.isfinite(sum(positions) + sum(velocities)):
             raise BadInput(
                 f"the joint state of {name} is not finite: {list(positions)}, {list(velocities)}"
             )
@@ -313,8 +314,8 @@ class Arms:
         pybullet.resetJointStatesMultiDof(
             arm.body,
             arm.joints,
-            [(q,) for q in positions],
-            [(v,) for v in velocities],
+            list(zip(positions)),
+            list(zip(velocities)),
             physicsClientId=self._client,
         )
 

@@ -170,8 +170,9 @@ class BulletEngine:
                     arm.links[p[3]], kind, other, other_link, p[5], p[7], depth, impulse, "", grip
                 )
             )
-        for held in self._held_by(name):
-            found += self._held_touches(name, held)
+        if self._held:
+            for held in self._held_by(name):
+                found += self._held_touches(name, held)
         return found
 
     def _held_by(self, name: str) -> list[str]:

@@ -7,6 +7,8 @@ near it are woken here.
 
 from __future__ import annotations
 
+import math
+
 import pybullet
 
 from mrlab_ros.adapters.bullet.shapes import STATIC_GROUP, least, make_body, make_shape
@@ -22,6 +24,8 @@ HELD_MASS = 1e6
 NUDGE = 1e-5
 # Half of the least extent, m, below which an object is thin.
 THIN = 0.004
+# A way of its centre, m, that is looked at: less than half of a sheet of 1 mm.
+LOOKED_AT = 0.0003
 MAX_SPEED = 1000.0  # m/s and rad/s
 
 
@@ -36,8 +40,10 @@ class Objects:
         self._shapes: dict[Body, int] = {}
         self._masses: dict[int, float] = {}
         self._held: set[int] = set()
-        # Where the centre of each thin object was after the last step.
+        # Where the centre of each thin object was when its way was last looked at.
         self._thin: dict[int, Vector] = {}
+        # What was last read of each object. What sleeps keeps its pose exactly.
+        self._read: dict[int, BodyState] = {}
 
     def __contains__(self, name: str) -> bool:
         return name in self._bodies
@@ -107,14 +113,20 @@ class Objects:
         self._held.discard(body)
         self._masses.pop(body, None)
         self._thin.pop(body, None)
+        self._read.pop(body, None)
         del self._bodies[name]
         pybullet.removeBody(body, physicsClientId=self._client)
         return body
 
     def motion(self, name: str) -> BodyState:
         body = self.body(name)
-        pose = pybullet.getBasePositionAndOrientation(body, self._client)
-        return BodyState(Pose(*pose), *pybullet.getBaseVelocity(body, self._client))
+        position, turn = pybullet.getBasePositionAndOrientation(body, self._client)
+        known = self._read.get(body)
+        if known is not None and (known.pose.position, known.pose.orientation) == (position, turn):
+            return known
+        velocity = pybullet.getBaseVelocity(body, self._client)
+        self._read[body] = BodyState(Pose(position, turn), *velocity)
+        return self._read[body]
 
     def set_motion(self, name: str, motion: BodyState) -> None:
         """Put an object somewhere at once, moving; what it touched there is woken."""
@@ -139,13 +151,13 @@ class Objects:
             self._wake(body)
 
     def stepped(self) -> None:
-        """Bring back each thin object whose centre passed a fixed surface in the last step.
+        """Bring back each thin object whose centre passed a fixed surface.
 
         The sphere that Bullet sweeps is small in what is thin; an edge that turns gets past it.
         """
         for body, before in self._thin.items():
             pose = pybullet.getBasePositionAndOrientation(body, self._client)
-            if pose[0] == before:
+            if math.dist(pose[0], before) < LOOKED_AT:
                 continue
             if body not in self._held:
                 hits = pybullet.rayTestBatch(
@@ -175,6 +187,7 @@ class Objects:
         self._set_velocity(body, BodyState(motion.pose, (x, y, z + lift), motion.angular))
 
     def _set_velocity(self, body: int, motion: BodyState) -> None:
+        self._read.pop(body, None)
         pybullet.resetBaseVelocity(
             body, motion.linear, motion.angular, physicsClientId=self._client
         )

@@ -56,7 +56,10 @@ class Grip:
 
 @dataclass(frozen=True)
 class Load:
-    """What a grasp bears; see mrlab_msgs/Grasp. excess: m/s^2, by which it slips along `way`."""
+    """What a grasp bears; see mrlab_msgs/Grasp. excess: m/s^2, by which it slips along `way`.
+
+    friction, friction_needed: 0 of what was attached by service, which never slips.
+    """
 
     mass: float
     payload: float
@@ -68,7 +71,7 @@ class Load:
 
     @property
     def slip_margin(self) -> float:
-        return self.friction / self.friction_needed - 1.0
+        return self.friction / self.friction_needed - 1.0 if self.friction_needed else 0.0
 
     def about(self, other: Load | None) -> bool:
         """Return whether another load is much the same."""
@@ -87,6 +90,11 @@ def fingers_grip(contacts: Sequence[tuple[Vector, Vector]]) -> Grip:
     middle = scale(_sum([point for point, _ in contacts]), 1.0 / len(contacts))
     spread = sum(math.dist(point, middle) for point, _ in contacts) / len(contacts)
     return Grip(middle, tuple(normal for _, normal in contacts), spread)
+
+
+def attached(tool0: Vector, thing: BodyState, mass: float, payload: float) -> Load:
+    """Return what a robot bears with an object that was attached by service; see bears()."""
+    return Load(mass, payload, 0.0, 0.0, _wrist_moment(tool0, thing, mass))
 
 
 def bears(
@@ -131,10 +139,15 @@ def bears(
     excess = (wanted - mu * max(pressing, 0.0)) / mass
     if needed == NO_GRIP:
         excess = _length(load) / mass
-    wrist = _length(cross(subtract(thing.pose.position, tool0), scale(GRAVITY, mass)))
+    wrist = _wrist_moment(tool0, thing, mass)
     size = _length(across)
     way = scale(across, 1.0 / size) if size > 0 else (0.0, 0.0, 0.0)
     return Load(mass, payload, mu, needed, wrist, way, excess)
+
+
+def _wrist_moment(tool0: Vector, thing: BodyState, mass: float) -> float:
+    """Return the moment of an object's weight about the origin of tool0, N*m."""
+    return _length(cross(subtract(thing.pose.position, tool0), scale(GRAVITY, mass)))
 
 
 def remark(load: Load, holder: str) -> str:

@@ -18,7 +18,7 @@ from mrlab_ros.core.geometry import (
 )
 from mrlab_ros.core.physics.engine import BodyState
 from mrlab_ros.core.physics.events import GraspChanged, LoadChanged
-from mrlab_ros.core.physics.grasp_load import Grip, Load, bears, remark
+from mrlab_ros.core.physics.grasp_load import Grip, Load, attached, bears, remark
 from mrlab_ros.core.physics.simulated_robot import Held, Robot
 from mrlab_ros.core.physics.world_state import SceneObject, WorldState
 
@@ -121,14 +121,18 @@ class Holding:
 
     def _load(self, robot: Robot, thing: SceneObject, acceleration: Vector) -> Load | None:
         held = robot.holding
-        if held is None or held.grip is None:
+        if held is None:
             return None
+        tool0 = self._engine.link(robot.name, robot.tool_link).pose.position
+        motion = self._engine.object(thing.name)
+        if held.grip is None:
+            return attached(tool0, motion, thing.type.mass, robot.payload)
         vacuum = held.grip.vacuum
         return bears(
             held.grip,
             self._world_state.hand(robot),
-            self._engine.link(robot.name, robot.tool_link).pose.position,
-            self._engine.object(thing.name),
+            tool0,
+            motion,
             acceleration,
             thing.type.mass,
             robot.payload,

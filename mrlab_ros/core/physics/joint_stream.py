@@ -5,6 +5,8 @@ from __future__ import annotations
 from collections import deque
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from math import isfinite
+from operator import sub
 from typing import NamedTuple
 
 from mrlab_ros.core.clock import SECOND
@@ -123,7 +125,7 @@ class JointStream:
         slope = v
         if moved and period_ns > 0:
             seconds = period_ns / SECOND
-            slope = tuple([(b - a) / seconds for a, b in zip(before, q, strict=True)])
+            slope = tuple([way / seconds for way in map(sub, q, before)])
         jump = restarted or (moved and _too_far(before, q, period_ns))
         if len(velocities) and moved and not jump:
             jump = _too_fast(slope, v)
@@ -152,8 +154,8 @@ class JointStream:
                 f"a joint state has {len(q)} positions and {len(v)} velocities; expected "
                 f"{self._joints} of each"
             )
-        # NaN fails this comparison too.
-        if not all(-LIMIT <= x <= LIMIT for x in q + v):
+        # A NaN among others is neither the least nor the greatest of them, but it stays in a sum.
+        if not (min(q + v) >= -LIMIT and max(q + v) <= LIMIT and isfinite(sum(q + v))):
             raise BadInput(
                 f"a joint state holds NaN, Inf or more than {LIMIT:g} rad; the arm stays where "
                 "it is"
@@ -235,10 +237,11 @@ class JointStream:
 
 def _too_far(start: Joints, end: Joints, period_ns: int) -> bool:
     reach = JUMP_SPEED * max(period_ns, LEAST_NS) / SECOND
-    return max([abs(b - a) for a, b in zip(start, end, strict=True)]) > reach
+    furthest: float = max(map(abs, map(sub, end, start)))
+    return furthest > reach
 
 
 def _too_fast(slope: Joints, reported: Joints) -> bool:
     """Return whether the positions changed much faster than the reported velocities."""
-    excess = max([abs(s - r) for s, r in zip(slope, reported, strict=True)])
+    excess: float = max(map(abs, map(sub, slope, reported)))
     return excess - max(map(abs, reported)) > JUMP_EXCESS

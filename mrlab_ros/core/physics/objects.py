@@ -121,19 +121,19 @@ class Inventory:
         return count
 
     def motions(self) -> dict[str, BodyState]:
-        """Return the state of every movable object by name; remove what left the room."""
-        motions = {}
-        for name, thing in list(self._objects.items()):
-            if not thing.type.mass:
-                continue
-            motion = self._engine.object(name)
+        """Return the state of every movable object by name."""
+        movable = (name for name, thing in self._objects.items() if thing.type.mass)
+        return {name: self._engine.object(name) for name in movable}
+
+    def keep_in_room(self) -> None:
+        """Remove what left the room."""
+        for name, motion in self.motions().items():
             x, y, z = motion.pose.position
             if abs(x) < WORLD_SIZE and abs(y) < WORLD_SIZE and -WORLD_DEPTH < z < WORLD_SIZE:
-                motions[name] = motion
-            else:
-                self.remove(name)
-                self._announce(thing, "it left the room")
-        return motions
+                continue
+            thing = self._objects[name]
+            self.remove(name)
+            self._announce(thing, "it left the room")
 
     def _announce(self, thing: SceneObject, why: str) -> None:
         stage = self._world_state

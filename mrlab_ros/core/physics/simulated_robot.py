@@ -6,6 +6,7 @@ import bisect
 from collections import deque
 from collections.abc import Iterator
 from dataclasses import dataclass, field, replace
+from operator import mul, sub
 
 from mrlab_ros.core.clock import SECOND, PlaybackClock
 from mrlab_ros.core.geometry import Pose, Vector
@@ -232,13 +233,11 @@ class Robot:
     def reach(self, end: Joints, start: Joints | None = None) -> float:
         """Return an upper bound of the travel, m, of the arm and of what it holds, from `start`
         (None: zeros) to `end`."""
-        more = self.holding.reach if self.holding is not None else 0.0
-        if start is None:
-            return sum(
-                [abs(q) * (lever + more) for q, lever in zip(end, self.arm.levers, strict=True)]
-            )
-        ways = zip(start, end, self.arm.levers, strict=True)
-        return sum([abs(b - a) * (lever + more) for a, b, lever in ways])
+        ways = list(map(abs, end if start is None else map(sub, end, start)))
+        reach: float = sum(map(mul, ways, self.arm.levers))
+        if self.holding is not None:
+            reach += sum(ways) * self.holding.reach
+        return reach
 
     @property
     def grasp(self) -> Grasp:

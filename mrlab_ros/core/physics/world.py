@@ -29,8 +29,10 @@ from mrlab_ros.core.physics.surfaces import Surface
 from mrlab_ros.core.physics.world_state import SceneObject, WorldState
 from mrlab_ros.core.playback.states import State
 
-# Clearance and snapshots run every SLOW_STEPS steps.
+# Clearance and snapshots run every SLOW_STEPS steps; every ROOM_STEPS, a multiple of it, what has
+# left the room is looked for.
 SLOW_STEPS = 12
+ROOM_STEPS = 60
 # A gap longer than this between two calls of advance(), ns, counts as a stall, not as silence of
 # an arm.
 STALL_NS = SECOND // 50
@@ -297,7 +299,9 @@ class World:
             if robot.pending is not None:
                 self._rewind.restore(robot, now_ns)
         if self._count % SLOW_STEPS == 0:
-            self._rewind.record(now_ns, self._inventory.motions())
+            if self._count % ROOM_STEPS == 0:
+                self._inventory.keep_in_room()
+            self._rewind.record(now_ns, self._inventory.motions)
             for robot in present:
                 self._rewind.retrace(robot, now_ns)
                 self._collisions.check_clearance(robot, now_ns)

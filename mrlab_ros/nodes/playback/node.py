@@ -92,6 +92,8 @@ class PlaybackNode(Node):
         self._telemetry = self.create_publisher(msg.Telemetry, "telemetry", qos.STREAM)
         self._targets = self.create_publisher(msg.GraspTargets, "targets", qos.LATCHED)
         self.create_subscription(msg.Collision, "collision", self._on_collision, qos.LATCHED)
+        self._grasp: msg.Grasp | None = None
+        self._grasps = self.create_subscription(msg.Grasp, "grasp", self._on_grasp, qos.LATCHED)
         for kind, name, callback in (
             (Trigger, "play", self._play),
             (Trigger, "pause", self._pause),
@@ -180,6 +182,8 @@ class PlaybackNode(Node):
         last = self.player.last
         if last is None or last.trajectory is None or not self.playback.moving:
             return
+        # What was said of a grasp does not outlive the physics that said it.
+        grasp = self._grasp if self._grasps.get_publisher_count() else None
         self._telemetry.publish(
             telemetry_to_message(
                 now_ns,
@@ -187,6 +191,7 @@ class PlaybackNode(Node):
                 last.trajectory,
                 last.sample,
                 self.model.chain.tool0(last.sample.positions),
+                grasp,
                 sent=last.sent,
                 lost=last.lost,
                 error_ns=last.error_ns,
@@ -324,3 +329,6 @@ class PlaybackNode(Node):
                 self.playback.collide(now_ns, f"{contact.link} touches {contact.other}")
             else:
                 self.playback.clear(now_ns)
+
+    def _on_grasp(self, message: msg.Grasp) -> None:
+        self._grasp = message

@@ -3,15 +3,16 @@
 from __future__ import annotations
 
 import math
+import random
 
 import numpy as np
 import pytest
 from physics_cell import LIP, PADS, TYPES, Cell, gantry
 
+from mrlab_ros.adapters.bullet.objects import LOOKED_AT
 from mrlab_ros.core.geometry import Pose
 from mrlab_ros.core.physics.engine import Kind
 from mrlab_ros.core.physics.grasp import Grasp
-from mrlab_ros.core.physics.settings import Settings
 from mrlab_ros.core.physics.simulated_robot import GripperProgram
 from mrlab_ros.core.physics.surfaces import Surface
 
@@ -64,6 +65,22 @@ def fingers_meet_the_sides_of_what_they_hold(cell):
     for position in cell.world.fingers("a").values():
         # The pads are 85 mm apart when open, the cube is 50 mm wide.
         assert 0.0425 - position == pytest.approx(0.025, abs=0.0005)
+
+
+@scene
+def three_fingers_meet_the_side_of_what_they_hold(cell):
+    cell.put("round", (0.0, 0.0, 0.04))
+    # The middle of their pads is 127.5 mm in front of tool0.
+    grasp = 0.055 + 0.1275
+    cell.add("a", "centric_gripper", at=(0.0, 0.0, grasp + ABOVE))
+    cell.go("a", (0.0, 0.0, grasp), 0.4)
+    cell.close("a", 0.9)
+    for position in cell.world.fingers("a").values():
+        # The pads are 27.5 mm from the middle when open, the rod's radius is 20 mm.
+        assert 0.0275 - position == pytest.approx(0.02, abs=0.0005)
+    cell.go("a", (0.0, 0.0, grasp + 0.1), 0.4)
+    assert cell.grasps("a") == HELD
+    assert not cell.hits()
 
 
 @scene
@@ -147,14 +164,13 @@ def a_held_bar_moved_into_a_wall_collides(cell):
 
 @scene
 def a_held_bar_swept_at_six_metres_a_second_meets_a_plate(cell):
-    cell = Cell(cell.library, Settings(hold="infinite"))
+    cell.infinite()
     bar = pick(cell, "bar", lift=0.4)
     plate = cell.put("plate", (1.2, 0.0, 0.4), rpy=(0.0, math.pi / 2, 0.0))
     at = Pose((1.2, 0.0, 0.42), (0.0, math.sqrt(0.5), 0.0, math.sqrt(0.5)))
     cell.world.move(plate, at, (0, 0, 0), (0, 0, 0), held=True)
     cell.go("a", (2.4, 0.0, 0.42 + PADS), 0.4, even=True)
     assert cell.hits()[0] == ("a", "gripper_base_link", bar, plate)
-    cell.engine.close()
 
 
 @scene
@@ -302,13 +318,12 @@ def what_is_slick_slips_where_a_rough_one_holds(cell):
 
 @scene
 def with_an_infinite_hold_nothing_slips(cell):
-    cell = Cell(cell.library, Settings(hold="infinite"))
+    cell.infinite()
     lead = pick(cell, "heavy", lift=0.3)
     cell.wait(0.2)
     assert cell.grasps("a") == HELD
     assert "it slips" in cell.reasons("a")
     assert cell.place(lead)[2] > 0.3
-    cell.engine.close()
 
 
 @scene
@@ -454,7 +469,10 @@ def a_ball_from_twenty_metres_stays_above_a_thin_mesh(cell):
             x, y, z = cell.place(name)
             if max(abs(x), abs(y)) < 1.0:
                 lowest[name] = min(lowest[name], z)
-    assert min(lowest.values()) > 0.5, lowest
+    assert min(lowest.values()) > 0.5 - LOOKED_AT, lowest
+    # It lies on the mesh, not in it.
+    cell.wait(1.0)
+    assert cell.place(names[2])[2] > 0.502
 
 
 @scene
@@ -471,20 +489,83 @@ def what_is_thrown_at_twenty_metres_a_second_stays_in_the_room(cell):
     assert all(cell.place(thing.name)[0] < 1.0 for thing in cell.world.objects)
 
 
+@scene
+def cubes_are_picked_off_a_conveyor(cell):
+    speed, low, high = 0.15, 0.055 + PADS, 0.055 + PADS + ABOVE
+    cell.put("belt", (0.0, 0.0, 0.01))
+    cubes = [cell.put("parcel", (-0.2 * k, 0.0, 0.045)) for k in range(3)]
+
+    def go(to, seconds):
+        """Move evenly while the belt goes on."""
+        start = cell.at["a"]
+        for k in range(1, round(10 * seconds) + 1):
+            for cube in cubes:
+                motion = cell.world.motion(cube)
+                if not cell.world.object(cube).held_by and abs(motion.pose.position[1]) < 0.1:
+                    cell.world.move(cube, motion.pose, (speed, 0, 0), (0, 0, 0), held=False)
+            share = k / round(10 * seconds)
+            way = [a + share * (b - a) for a, b in zip(start, to, strict=False)]
+            cell.go("a", way, 0.1, even=True)
+
+    cell.add("a", at=(0.0, 0.0, high))
+    for cube in cubes[:2]:
+        x = cell.place(cube)[0]
+        go((x + 0.3 * speed, 0.0, high), 0.3)
+        go((x + 0.6 * speed, 0.0, low), 0.3)
+        cell.close("a", 0.0)
+        go((x + 1.4 * speed, 0.0, low), 0.8)
+        assert cell.world.object(cube).held_by == "a"
+        go((x + 1.4 * speed, 0.0, high), 0.3)
+        go((x, 0.3, high), 0.5)
+        cell.open("a", 0.3)
+    assert cell.grasps("a") == [OPEN, *[CLOSING, HOLDING, OPEN] * 2]
+    assert not cell.hits()
+    # The third one rides on as if nothing had been.
+    assert cell.world.motion(cubes[2]).linear == pytest.approx((speed, 0.0, 0.0), abs=0.02)
+
+
+@scene
+def a_held_part_that_meets_the_edge_of_a_tray_collides(cell):
+    tray = cell.put("tray", (0.0, 0.3, 0.005))
+    cube = pick(cell, "cube", lift=0.02, yaw=math.pi / 2)
+    cell.go("a", (0.0, 0.22, 0.045 + PADS), 0.8)
+    assert cell.hits()[0] == ("a", "gripper_base_link", cube, tray)
+
+
+@scene
+def a_part_goes_over_the_edge_into_a_tray(cell):
+    tray = cell.put("tray", (0.0, 0.3, 0.005))
+    cube = pick(cell, "cube", lift=0.15, yaw=math.pi / 2)
+    cell.go("a", (0.0, 0.3, 0.175 + PADS), 0.5)
+    cell.go("a", (0.0, 0.3, 0.0352 + PADS), 0.5)
+    cell.open("a", 0.3)
+    cell.go("a", (0.0, 0.3, 0.2 + PADS), 0.4)
+    assert not cell.hits()
+    assert cell.place(cube) == pytest.approx((0.0, 0.3, 0.035), abs=0.002)
+    assert cell.place(tray) == pytest.approx((0.0, 0.3, 0.005), abs=0.002)
+
+
+# The hash of what happened in each scene when it was run first.
+DIGESTS: dict[str, str] = {}
+
+
+def played(name: str, library, stalls: random.Random | None = None) -> str:
+    """Play a scene; return the hash of what happened."""
+    cell = Cell(library, stalls=stalls)
+    SCENES[name](cell)
+    digest = cell.digest()
+    cell.engine.close()
+    return digest
+
+
 @pytest.mark.parametrize("name", list(SCENES))
 def test_a_scene_has_its_events(name, library):
-    cell = Cell(library)
-    SCENES[name](cell)
-    cell.engine.close()
+    DIGESTS[name] = played(name, library)
 
 
 @pytest.mark.slow
 @pytest.mark.parametrize("name", list(SCENES))
-def test_a_scene_is_the_same_in_five_runs(name, library):
-    digests = set()
-    for _ in range(RUNS):
-        cell = Cell(library)
-        SCENES[name](cell)
-        digests.add(cell.digest())
-        cell.engine.close()
-    assert len(digests) == 1
+def test_a_scene_is_the_same_in_five_runs_and_under_load(name, library):
+    again = [None, *(random.Random(seed) for seed in range(RUNS - 2))]
+    first = DIGESTS.get(name) or played(name, library)
+    assert {played(name, library, stalls) for stalls in again} == {first}

@@ -407,7 +407,7 @@ def test_objects_that_leave_the_room_are_removed():
     lab = Lab()
     lab.world.spawn("ball", "ball", Pose((0.0, 0.0, 5.0)))
     lab.engine.motions["ball"] = BodyState(Pose((0.0, 0.0, -50.0)))
-    lab.go(0.0, 100 * MS)
+    lab.go(0.0, 300 * MS)
     assert [e.name for e in lab.of(ObjectRemoved)] == ["ball"]
     assert not lab.world.objects
 
