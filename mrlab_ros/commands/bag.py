@@ -16,6 +16,7 @@ from mrlab_ros.core.errors import BadInput
 
 if TYPE_CHECKING:
     from mrlab_ros.adapters.bags.reader import Bag
+    from mrlab_ros.core.recording.report import SessionReport
 
 app = typer.Typer(help="Inspect, report and repair bags.", no_args_is_help=True)
 BagArgument = Annotated[
@@ -96,35 +97,59 @@ def report(
     out: Annotated[
         Path | None,
         typer.Option(
-            help="Folder for report.txt, .json, .png and .html, a page with the session in 3D."
+            help="A page to write, such as report.html, or a folder for report.txt, .json, .png "
+            "and .html."
+        ),
+    ] = None,
+    reference: Annotated[
+        Path | None,
+        typer.Option(
+            help="Compare the runs with the trajectory in this file; not given: with what was "
+            "played."
         ),
     ] = None,
     as_json: AsJson = False,
 ) -> None:
-    """Report what happened: states, collisions, grasps, tracking error, latency, per robot."""
+    """Report who did what, when, with what result: one row a run, technical figures last."""
     from mrlab_ros.adapters.bags.reader import Bag
-    from mrlab_ros.adapters.bags.session import read_session
-    from mrlab_ros.core.recording.report import report_lines
+    from mrlab_ros.adapters.bags.session import model_that_played, read_session
+    from mrlab_ros.core.recording.report_text import report_lines
 
     found = Bag(path_of(bag))
-    session = read_session(found)
-    text = "\n".join(report_lines(session)) + "\n"
+    compared = None
+    if reference is not None:
+        from mrlab_ros.commands.reference import reference_of
+
+        compared = reference_of(reference, model_that_played(found))
+    session = read_session(found, compared)
+    lines = [f"{found.path.name}, {_began(found)}", *report_lines(session)]
+    text = "\n".join(lines) + "\n"
     said = {"bag": str(found.path.resolve()), **session.facts()}
     facts = json.dumps(said, indent=2) + "\n"
     if out is not None:
-        from mrlab_ros.adapters.bags.plot import draw
-
-        out.mkdir(parents=True, exist_ok=True)
-        (out / "report.txt").write_text(text)
-        (out / "report.json").write_text(facts)
-        draw(session, f"{found.path.name}, {_began(found)}", out / "report.png")
-        from mrlab_ros.adapters.pages.session import session_page
-        from mrlab_ros.ros import share
-
-        shown = session_page(found, share.directory(), session)
-        (out / "report.html").write_text(shown, encoding="utf-8")
-        print(f"wrote report.txt, .json, .png and .html to {out}", file=sys.stderr)
+        _write_report(found, session, out, text, facts)
     sys.stdout.write(facts if as_json else text)
+
+
+def _write_report(bag: Bag, session: SessionReport, out: Path, text: str, facts: str) -> None:
+    """Write the page, or the folder with all forms of the report."""
+    from mrlab_ros.adapters.pages.session import session_page
+    from mrlab_ros.ros import share
+
+    page = session_page(bag, share.directory(), session)
+    if out.suffix.lower() in (".html", ".htm"):
+        out.parent.mkdir(parents=True, exist_ok=True)
+        out.write_text(page, encoding="utf-8")
+        print(f"wrote {out}", file=sys.stderr)
+        return
+    from mrlab_ros.adapters.bags.plot import draw
+
+    out.mkdir(parents=True, exist_ok=True)
+    (out / "report.txt").write_text(text)
+    (out / "report.json").write_text(facts)
+    draw(session, f"{bag.path.name}, {_began(bag)}", out / "report.png")
+    (out / "report.html").write_text(page, encoding="utf-8")
+    print(f"wrote report.txt, .json, .png and .html to {out}", file=sys.stderr)
 
 
 def _began(bag: Bag) -> str:

@@ -7,7 +7,9 @@ from pathlib import Path
 from types import SimpleNamespace
 from typing import Any
 
+import numpy as np
 import pytest
+import scipy.io
 from mrlab_msgs import msg
 from PIL import Image
 from rclpy.serialization import serialize_message
@@ -91,7 +93,7 @@ def test_the_report_tells_states_contacts_grasps_errors_and_latency(bag, tmp_pat
     assert robot["grasps"][0]["detail"] == "cube_1"
     assert facts["latency"]["published to bridged"]["p50"] == 0.001
     text = (tmp_path / "out" / "report.txt").read_text()
-    assert "holds cube_1 for 0.50 s" in text
+    assert "grasped cube_1" in text
     assert text == run("bag", "report", bag)
     with Image.open(tmp_path / "out" / "report.png") as picture:
         # The halt's mark and the colour of playing are there.
@@ -99,11 +101,28 @@ def test_the_report_tells_states_contacts_grasps_errors_and_latency(bag, tmp_pat
         assert tuple(bytes.fromhex(STATES["PLAYING"][1:])) in colours
         assert picture.width > 1000
     page = (tmp_path / "out" / "report.html").read_text()
-    assert "wrist_3_link touched table at frame 2" in page
+    assert "hit table with wrist_3_link at frame 2" in page
     assert 'class="state playing"' in page
     shown = tmp_path / "shown.html"
     run("show", tmp_path / "out", "--out", shown)
-    assert "wrist_3_link touched table at frame 2" in shown.read_text()
+    assert "hit table with wrist_3_link at frame 2" in shown.read_text()
+    run("bag", "report", bag, "--out", tmp_path / "one" / "page.html")
+    assert "hit table with wrist_3_link" in (tmp_path / "one" / "page.html").read_text()
+    (run_,) = facts["runs"]
+    assert (run_["robot"], run_["trajectory"], run_["result"]) == ("ur5e_1", "wave", "open")
+    assert [each["deed"] for each in run_["actions"]] == ["hit", "grasped"]
+    assert run_["deviation"]["most"] == pytest.approx(3.141592653589793 - 3.0)
+
+
+def test_a_reference_takes_the_place_of_what_was_played(bag, tmp_path):
+    wave = np.outer(np.linspace(0, 0.2, 50), np.ones(6))
+    scipy.io.savemat(tmp_path / "ref.mat", {"q": wave, "fs": 10.0})
+    # The bag's robot of one joint is no ur5e: nothing is compared, and nothing fails.
+    facts = json.loads(run("bag", "report", bag, "--json", "--reference", tmp_path / "ref.mat"))
+    assert facts["runs"][0]["deviation"] is None
+    scipy.io.savemat(tmp_path / "ref.mat", {"q": wave[:, :2], "fs": 10.0})
+    with pytest.raises(BadInput, match="is refused for ur5e"):
+        run("bag", "report", bag, "--reference", tmp_path / "ref.mat")
 
 
 def test_info_says_what_is_in_the_bag(bag):

@@ -23,6 +23,7 @@ TYPES = {
 # s; what physics sends sixty times a second is drawn thirty times
 OBJECT_INTERVAL = 1 / 30
 PACKAGE = "package://"
+OWN = "package://mrlab_ros/"
 
 
 def read_motion(bag: Bag) -> RecordedMotion:
@@ -107,14 +108,22 @@ def _pose(pose: Any) -> list[float]:
 
 
 @contextmanager
-def mesh_files(bag: Bag) -> Iterator[Any]:
-    """Yield what returns the file of a mesh URI: the bag carries its meshes as attachments."""
+def mesh_files(bag: Bag, share: Path) -> Iterator[Any]:
+    """Yield what returns the file of a mesh URI: the bag carries its meshes as attachments.
+
+    share: this package's folder, for bags of earlier versions, which lack the meshes of objects.
+    """
+    attached = {name for file in bag.files for name in file.attachments}
+    share = share.resolve()
     with tempfile.TemporaryDirectory() as folder:
 
         def resolve(uri: str) -> Path:
             name = f"meshes/{uri.removeprefix(PACKAGE)}"
             if not uri.startswith(PACKAGE):
                 raise BadInput(f"the mesh '{uri}' has no {PACKAGE} address")
+            own = (share / uri.removeprefix(OWN)).resolve()
+            if uri.startswith(OWN) and name not in attached and own.is_relative_to(share):
+                return own
             path = Path(folder) / f"{len(list(Path(folder).iterdir()))}{Path(uri).suffix}"
             path.write_bytes(bag.attachment(name).data)
             return path

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import math
 from collections.abc import Callable
 from typing import Any
@@ -10,9 +11,13 @@ import numpy as np
 import orjson
 from rosbags.typesys import Stores, get_types_from_msg, get_typestore
 
+from mrlab_ros.adapters.bags.courses import Reference, Samples, add_courses
 from mrlab_ros.adapters.bags.mcap_file import Message
 from mrlab_ros.adapters.bags.reader import Bag
 from mrlab_ros.core.clock import SECOND, PlaybackClock
+from mrlab_ros.core.errors import BadInput
+from mrlab_ros.core.geometry import Pose
+from mrlab_ros.core.recording.moves import ObjectTrack, Placed, Target, Targets
 from mrlab_ros.core.recording.report import (
     GRASP_STATES,
     HOLDING,
@@ -24,7 +29,13 @@ from mrlab_ros.core.recording.report import (
     Series,
     SessionReport,
 )
+from mrlab_ros.core.recording.run_finding import runs_of
 
+JOINTS = "sensor_msgs/msg/JointState"
+DESCRIPTION = "/robot_description"
+FINGERS = "/finger_states"
+# s; what physics sends sixty times a second is read thirty times.
+OBJECT_INTERVAL = 1 / 30
 # The values of LatencyHop.hop.
 HOPS = ("published to bridged", "bridged to received", "published to received")
 # Joint states of one robot that are compared with the trajectory; of more, every k-th.
@@ -53,19 +64,36 @@ class Decoder:
         return read(data[4:], 0, known.cls, self._store)[0]
 
 
-def read_session(bag: Bag) -> SessionReport:
-    """Return what happened in the session that `bag` recorded."""
+def read_session(bag: Bag, reference: Reference | None = None) -> SessionReport:
+    """Return what happened in the session that `bag` recorded.
+
+    reference: what the runs are compared with; None: the trajectory that each played.
+    """
     reader = _Reader(bag)
     for message in bag.messages(topics=reader.topics):
         reader.take(message)
-    return reader.report
+    report = reader.report
+    report.runs = runs_of(report, reader.objects, reader.targets)
+    add_courses(report, reader.samples, reader.descriptions, reader.courses, reference)
+    return report
+
+
+def model_that_played(bag: Bag) -> str:
+    """Return the model of the first robot of a bag; raise BadInput where it has none."""
+    decode = Decoder(bag.definitions())
+    kind = "mrlab_msgs/msg/Robots"
+    topics = {topic.name for topic in bag.topics.values() if topic.type == kind}
+    for message in bag.messages(topics=topics):
+        for robot in decode(kind, message.data).robots:
+            return str(robot.model)
+    raise BadInput(f"{bag.path} names no robot, so nothing in it can be compared with a file")
 
 
 class _Reader:
     def __init__(self, bag: Bag) -> None:
         self._bag = bag
         self._decode = Decoder(bag.definitions())
-        self._courses = {
+        self.courses = {
             name.removeprefix("trajectories/").removesuffix(".json"): _course(
                 bag.attachment(name).data
             )
@@ -73,11 +101,7 @@ class _Reader:
             for name in file.attachments
             if name.startswith("trajectories/")
         }
-        counts = [
-            topic.messages
-            for topic in bag.topics.values()
-            if topic.type == "sensor_msgs/msg/JointState"
-        ]
+        counts = [topic.messages for topic in bag.topics.values() if topic.type == JOINTS]
         step = math.ceil(max(counts, default=0) / COMPARED) or 1
         self.report = SessionReport(
             bag.duration,
@@ -85,26 +109,45 @@ class _Reader:
             step=step,
             troubles=[*bag.troubles, *(gap.describe(bag.start_ns) for gap in bag.gaps())],
         )
+        self.objects: dict[str, ObjectTrack] = {}
+        self.targets: dict[str, Targets] = {}
+        self.samples: dict[str, Samples] = {}
+        # URDFs by robot.
+        self.descriptions: dict[str, str] = {}
+        self._seen = -1.0
         self._readers: dict[str, Callable[[float, RobotReport, Any], None]] = {
             "mrlab_msgs/msg/PlaybackState": self._state,
             "mrlab_msgs/msg/Telemetry": self._telemetry,
             "mrlab_msgs/msg/Collision": self._collision,
             "mrlab_msgs/msg/Grasp": self._grasp,
+            "mrlab_msgs/msg/GraspTargets": self._targets,
         }
         self._general: dict[str, Callable[[float, Any], None]] = {
             "mrlab_msgs/msg/Robots": self._robots,
             "mrlab_msgs/msg/RobotSystems": self._systems,
             "mrlab_msgs/msg/Contacts": self._contacts,
             "mrlab_msgs/msg/Latency": self._latency,
+            "mrlab_msgs/msg/SceneObjects": self._objects,
         }
-        known = {*self._readers, *self._general, "sensor_msgs/msg/JointState"}
-        self.topics = {topic.name for topic in bag.topics.values() if topic.type in known}
+        known = {*self._readers, *self._general, JOINTS}
+        self.topics = {
+            topic.name
+            for topic in bag.topics.values()
+            if topic.type in known or topic.name.endswith(DESCRIPTION)
+        }
 
     def take(self, message: Message) -> None:
         kind = self._bag.topics[message.topic].type
         time = (message.log_time_ns - self._bag.start_ns) / SECOND
         if kind in self._general:
-            self._general[kind](time, self._decode(kind, message.data))
+            if kind != "mrlab_msgs/msg/SceneObjects" or time - self._seen >= OBJECT_INTERVAL:
+                self._general[kind](time, self._decode(kind, message.data))
+            return
+        if message.topic.endswith(DESCRIPTION):
+            name = message.topic.removesuffix(DESCRIPTION).strip("/")
+            self.descriptions[name] = self._decode(kind, message.data).data
+            return
+        if message.topic.endswith(FINGERS):
             return
         robot = self.report.robot(message.topic.rsplit("/", 1)[0].strip("/"))
         if kind in self._readers:
@@ -113,11 +156,27 @@ class _Reader:
         robot.joint_states += 1
         if robot.joint_states % self.report.step == 0:
             state = self._decode(kind, message.data)
-            robot.compare(time, _ns(state.header.stamp), np.asarray(state.position), self._courses)
+            stamp_ns, positions = _ns(state.header.stamp), np.asarray(state.position)
+            robot.compare(time, stamp_ns, positions, self.courses)
+            self.samples.setdefault(robot.name, Samples(list(state.name))).add(
+                time, stamp_ns, positions
+            )
 
     def _state(self, time: float, robot: RobotReport, state: Any) -> None:
         clock = PlaybackClock(_ns(state.clock.stamp), state.clock.position, state.clock.rate)
-        robot.add(ReportedState(_ns(state.header.stamp), state.label, state.trajectory_id, clock))
+        robot.add(
+            ReportedState(
+                _ns(state.header.stamp),
+                state.label,
+                state.trajectory_id,
+                clock,
+                time,
+                # Bags of earlier versions do not have these fields.
+                getattr(state, "trajectory_version", 0),
+                getattr(state, "duration", 0.0),
+                getattr(state, "system", ""),
+            )
+        )
         robot.states.add(time, state.label, state.trajectory_id)
 
     def _telemetry(self, time: float, robot: RobotReport, telemetry: Any) -> None:
@@ -142,9 +201,26 @@ class _Reader:
         if label == HOLDING and getattr(grasp, "friction_needed", None):
             robot.bear(grasp.object, grasp)
 
+    def _targets(self, time: float, robot: RobotReport, targets: Any) -> None:
+        self.targets.setdefault(robot.name, Targets()).add(
+            time,
+            tuple(Target(each.time, each.close, _pose(each.tool0)) for each in targets.targets),
+        )
+
+    def _objects(self, time: float, objects: Any) -> None:
+        self._seen = time
+        for thing in objects.objects:
+            in_tool = getattr(thing, "in_tool", None) if thing.held_by else None
+            with contextlib.suppress(BadInput):  # a pose that is none
+                held = None if in_tool is None else _pose(in_tool)
+                place = Placed(_pose(thing.pose), thing.held_by, held)
+                self.objects.setdefault(thing.name, ObjectTrack()).add(time, place)
+
     def _robots(self, time: float, robots: Any) -> None:
         for entry in robots.robots:
-            self.report.robot(entry.name).model = entry.model
+            robot = self.report.robot(entry.name)
+            robot.model = entry.model
+            robot.bases.append((time, _pose(entry.pose)))
 
     def _systems(self, time: float, systems: Any) -> None:
         for system in systems.systems:
@@ -171,6 +247,13 @@ class _Reader:
                 continue
             if hop.topic.endswith("/joint_states") or not hop.topic:
                 series.setdefault(name, Series()).add(time, hop.p50)
+
+
+def _pose(pose: Any) -> Pose:
+    p, q = pose.position, pose.orientation
+    return Pose(
+        (float(p.x), float(p.y), float(p.z)), (float(q.x), float(q.y), float(q.z), float(q.w))
+    )
 
 
 def _ns(stamp: Any) -> int:

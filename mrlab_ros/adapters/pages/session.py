@@ -25,7 +25,7 @@ def session_page(bag: Bag, share: Path, report: SessionReport | None = None) -> 
     title = bag.path.name
     document = session(title, said, motion)
     began = datetime.fromtimestamp(bag.start_ns / 1e9).strftime("%Y-%m-%d %H:%M:%S")
-    with mesh_files(bag) as resolve:
+    with mesh_files(bag, share) as resolve:
         meshes = ingredients.meshes_of((robot["urdf"] for robot in document["robots"]), resolve)
         objects = {thing["mesh"] for thing in document["objects"] if thing["mesh"]}
         meshes |= ingredients.small(objects, resolve)

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import xml.etree.ElementTree as ET
+
 from mrlab_ros.adapters.robots import urdf
 from mrlab_ros.adapters.robots.library import TIP, RobotLibrary
 from mrlab_ros.core.show.document import ShownJoint, ShownRobot
@@ -13,10 +15,14 @@ def shown_robot(model: str, end_effector: str, description: str, tip: str = TIP)
     Raises BadInput where the text is not a URDF or has no such link.
     """
     origin = f"{model}/robot.urdf"
-    root = urdf.parse(description, origin)
-    _, path = urdf.path_to(tip, urdf.joints(root, origin))
-    joints = tuple(_joint(joint) for joint in path if joint.moves)
+    joints = joints_to(urdf.parse(description, origin), tip, origin)
     return ShownRobot(model, end_effector, description, joints)
+
+
+def joints_to(root: ET.Element, tip: str, origin: str) -> tuple[ShownJoint, ...]:
+    """Return the moving joints that lead to the link `tip`, base first; raise BadInput."""
+    _, path = urdf.path_to(tip, urdf.joints(root, origin))
+    return tuple(_joint(joint) for joint in path if joint.moves)
 
 
 def from_library(library: RobotLibrary, model: str, end_effector: str | None) -> ShownRobot:

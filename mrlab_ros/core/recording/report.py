@@ -6,14 +6,15 @@ Times are s from the bag's first message unless a name says otherwise.
 from __future__ import annotations
 
 from bisect import bisect_right
-from collections.abc import Sequence
 from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from mrlab_ros.core.clock import PlaybackClock
+from mrlab_ros.core.clock import SECOND, PlaybackClock
+from mrlab_ros.core.geometry import Pose
+from mrlab_ros.core.recording.runs import Run
 
 Array = NDArray[np.float64]
 PLAYING = "PLAYING"
@@ -80,14 +81,25 @@ class ReferenceTrajectory:
         return found
 
 
+def course_of(
+    courses: dict[str, ReferenceTrajectory], trajectory: str, version: int
+) -> ReferenceTrajectory | None:
+    """Return a version of a trajectory; the first one of a bag has the id alone for a name."""
+    return courses.get(f"{trajectory}@{version}") or courses.get(trajectory)
+
+
 @dataclass(frozen=True)
 class ReportedState:
-    """What a playback_state says for the comparison with the trajectory; stamps ns."""
+    """What a playback_state says; stamps ns. time: s of the session; length: s, 0: unknown."""
 
     stamp_ns: int
     label: str
     trajectory: str
     clock: PlaybackClock
+    time: float = 0.0
+    version: int = 0
+    length: float = 0.0
+    system: str = ""
 
     @property
     def holds_from_ns(self) -> int:
@@ -143,7 +155,7 @@ class Borne:
     def label(self) -> str:
         return (
             f"{self.mass:.3g} kg, friction {self.friction:.2f}, "
-            f"needed {self.friction_needed:.2f}, {self.wrist_moment:.3g} N*m at the wrist"
+            f"needed {self.friction_needed:.2f}, {self.wrist_moment:.2f} N*m at the wrist"
         )
 
 
@@ -162,6 +174,8 @@ class RobotReport:
     # When the arm or the tool touched something, halting or not.
     contacts: list[float] = field(default_factory=list)
     reported: list[ReportedState] = field(default_factory=list)
+    # (time, pose of base_link in world)
+    bases: list[tuple[float, Pose]] = field(default_factory=list)
     joint_states: int = 0
     frames_lost: int = 0
     tracking: Series = field(default_factory=Series)
@@ -191,19 +205,37 @@ class RobotReport:
         self, time: float, stamp_ns: int, positions: Array, courses: dict[str, ReferenceTrajectory]
     ) -> None:
         """Compare a joint state with the trajectory at its stamp; note the largest deviation."""
-        expected = self._expected(stamp_ns, courses)
+        found = self.playing_at(stamp_ns)
+        if found is None:
+            return
+        reported, position = found
+        course = course_of(courses, reported.trajectory, reported.version)
+        expected = None if course is None else course.at(position)
         if expected is not None and expected.shape == positions.shape:
             self.tracking.add(time, float(np.max(np.abs(positions - expected))))
 
-    def _expected(self, stamp_ns: int, courses: dict[str, ReferenceTrajectory]) -> Array | None:
+    def playing_at(self, stamp_ns: int) -> tuple[ReportedState, float] | None:
+        """Return the state at a stamp and the place on its trajectory, s, while it played."""
         number = bisect_right(self._holds, stamp_ns, self._begin) - 1
         if number < self._begin:
             return None
         reported = self.reported[number]
-        course = courses.get(reported.trajectory)
-        if reported.label != PLAYING or reported.clock.rate == 0 or course is None:
+        if reported.label != PLAYING or reported.clock.rate == 0:
             return None
-        return course.at(reported.clock.at(stamp_ns))
+        return reported, reported.clock.at(stamp_ns)
+
+    def position_at(self, time: float) -> float:
+        """Return the place on its trajectory at a time of the session, s; 0 before the first."""
+        number = bisect_right(self.reported, time, key=lambda state: state.time) - 1
+        if number < 0:
+            return 0.0
+        state = self.reported[number]
+        return state.clock.at(state.stamp_ns + round((time - state.time) * SECOND))
+
+    def base_at(self, time: float) -> Pose:
+        """Return where its base stands, in the frame world."""
+        number = bisect_right(self.bases, time, key=lambda base: base[0]) - 1
+        return self.bases[max(number, 0)][1] if self.bases else Pose()
 
     def facts(self, end: float) -> dict[str, Any]:
         """Return everything, ready for JSON."""
@@ -236,6 +268,7 @@ class SessionReport:
     # Every how many joint states one was compared.
     step: int = 1
     troubles: list[str] = field(default_factory=list)
+    runs: list[Run] = field(default_factory=list)
 
     def robot(self, name: str) -> RobotReport:
         if name not in self.robots:
@@ -248,6 +281,7 @@ class SessionReport:
             "duration": self.duration,
             "start_ns": self.start_ns,
             "troubles": self.troubles,
+            "runs": [run.facts() for run in self.runs],
             "compared_every": self.step,
             "robots": [robot.facts(self.duration) for robot in self.robots.values()],
             "systems": {
@@ -256,65 +290,3 @@ class SessionReport:
             },
             "latency": {hop: series.summary() for hop, series in self.latency.items()},
         }
-
-
-def report_lines(report: SessionReport) -> list[str]:
-    """Return the report as lines of text."""
-    count = len(report.robots)
-    lines = [f"{report.duration:.1f} s, {count} robot{'s' * (count != 1)}"]
-    lines += report.troubles
-    for name, changes in report.systems.items():
-        lines += ["", f"system {name}"]
-        lines += _span_lines(changes.spans(report.duration))
-    for robot in report.robots.values():
-        lines += ["", f"{robot.name} ({robot.model or 'model unknown'})"]
-        lines += _course_lines(robot, report.duration)
-        lines.append(
-            f"  {robot.joint_states} joint states, {robot.frames_lost} frames left out, "
-            f"{len(robot.contacts)} contacts"
-        )
-        lines += _figures("tracking error", robot.tracking, "rad", 1.0)
-        lines += _figures("deadline error", robot.deadline, "ms", 1e3)
-        for hop, series in robot.latency.items():
-            lines += _figures(f"latency {hop}", series, "ms", 1e3)
-    if report.latency:
-        lines += ["", "latency of all topics"]
-        for hop, series in report.latency.items():
-            lines += _figures(hop, series, "ms", 1e3)
-    return lines
-
-
-def _course_lines(robot: RobotReport, end: float) -> list[str]:
-    """Return states, collisions and what was held, in order of time."""
-    lines = _span_lines(robot.states.spans(end))
-    lines += [
-        f"  {contact.time:8.2f} s  collision: {contact.link} touched {contact.other} "
-        f"at frame {contact.frame}"
-        for contact in robot.collisions
-    ]
-    lines += [
-        f"  {span.start:8.2f} s  holds {span.detail} for {span.end - span.start:.2f} s"
-        + (f": {robot.borne[span.detail].label}" if span.detail in robot.borne else "")
-        for span in robot.grasps.spans(end)
-        if span.label == HOLDING
-    ]
-    lines += [f"  {span.start:8.2f} s  {span.label}" for span in robot.remarks.spans(end)]
-    return sorted(lines, key=lambda line: float(line.split(maxsplit=1)[0]))
-
-
-def _span_lines(spans: Sequence[Span]) -> list[str]:
-    return [
-        f"  {span.start:8.2f} s  {span.label} for {span.end - span.start:.2f} s"
-        + (f": {span.detail}" if span.detail else "")
-        for span in spans
-    ]
-
-
-def _figures(what: str, series: Series, unit: str, scale: float) -> list[str]:
-    figures = series.summary()
-    if not figures["count"]:
-        return []
-    values = ", ".join(
-        f"{name} {float(figures[name] or 0) * scale:.3g} {unit}" for name in ("p50", "p95", "max")
-    )
-    return [f"  {what}: {values} ({figures['count']})"]

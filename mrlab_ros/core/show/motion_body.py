@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 from mrlab_ros.core.show.packed import unpacked
-from mrlab_ros.core.show.svg import Array, Mark, Strip, strip_svg, time_axis_svg
+from mrlab_ros.core.show.svg import HATCH, Array, Mark, Strip, strip_svg, time_axis_svg
 
 VERDICTS = {"accepted": "Accepted", "refused": "Not accepted", "ambiguous": "A choice is needed"}
 # Paths of 24 x 24: a tick, a cross, a question mark.
@@ -142,15 +142,6 @@ def _plots(document: Mapping[str, Any], times: Array, duration: float) -> str:
             f'{HATCH * (number == 0)}<div class="strips">{rows}</div></details>'
         )
     return f'<section class="plots" aria-label="Plots">{"".join(parts)}</section>'
-
-
-# What the forbidden ranges of all plots are filled with.
-HATCH = (
-    '<svg class="pattern" aria-hidden="true" width="0" height="0"><defs>'
-    '<pattern id="hatch" width="7" height="7" patternUnits="userSpaceOnUse" '
-    'patternTransform="rotate(45)"><rect class="hatch" width="2" height="7"/></pattern>'
-    "</defs></svg>"
-)
 
 
 def _marks(document: Mapping[str, Any], times: Array) -> list[tuple[str, Mark]]:

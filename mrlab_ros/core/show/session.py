@@ -11,7 +11,8 @@ from typing import Any
 
 import numpy as np
 
-from mrlab_ros.core.recording.report import HOLDING, RobotReport, SessionReport
+from mrlab_ros.core.recording.report import SessionReport
+from mrlab_ros.core.recording.runs import severity
 from mrlab_ros.core.show.packed import packed
 
 SCHEMA = "mrlab.session.1"
@@ -127,27 +128,14 @@ def _states(report: SessionReport, name: str) -> list[Any]:
 
 
 def events(report: SessionReport) -> list[dict[str, Any]]:
-    """Return what happened, in order: collisions, grasps, and when robots began to play."""
+    """Return what happened, in order: when runs began and ended, and what was done in them."""
     found: list[dict[str, Any]] = []
-    for robot in report.robots.values():
-        found += _events_of(robot, report.duration)
-    return sorted(found, key=lambda event: event["time"])
+    for run in report.runs:
 
+        def event(time: float, severity: str, text: str, robot: str = run.robot) -> dict[str, Any]:
+            return {"time": time, "robot": robot, "severity": severity, "text": text}
 
-def _events_of(robot: RobotReport, end: float) -> list[dict[str, Any]]:
-    def event(time: float, severity: str, text: str) -> dict[str, Any]:
-        return {"time": time, "robot": robot.name, "severity": severity, "text": text}
-
-    found = [
-        event(one.time, "error", f"{one.link} touched {one.other} at frame {one.frame}")
-        for one in robot.collisions
-    ]
-    for span in robot.grasps.spans(end):
-        if span.label == HOLDING:
-            found.append(event(span.start, "info", f"took {span.detail}"))
-            if span.end < end:
-                found.append(event(span.end, "info", f"let go of {span.detail}"))
-    for span in robot.states.spans(end):
-        if span.label == "PLAYING":
-            found.append(event(span.start, "info", f"played {span.detail}".strip()))
-    return found
+        found.append(event(run.start, "info", f"begins {run.trajectory}"))
+        found += [event(a.time, severity(a), a.text) for a in run.actions]
+        found.append(event(run.end, "info", f"{run.trajectory}: {run.outcome()}"))
+    return sorted(found, key=lambda each: each["time"])

@@ -1,4 +1,4 @@
-"""What a page about a recorded session says without a script: robots over time, events, report."""
+"""What a page about a recorded session says without a script: runs, events, plots, figures."""
 
 from __future__ import annotations
 
@@ -6,8 +6,11 @@ from collections.abc import Mapping
 from html import escape
 from typing import Any
 
-from mrlab_ros.core.recording.report import HOLDING, RobotReport, SessionReport, report_lines
+from mrlab_ros.core.recording.report import HOLDING, RobotReport, SessionReport
+from mrlab_ros.core.recording.report_text import summary
+from mrlab_ros.core.show.runs_body import run_plots, runs_table
 from mrlab_ros.core.show.svg import LEFT, RIGHT, time_axis_svg
+from mrlab_ros.core.show.technical_body import technical
 
 WIDTH = 1280.0  # of a row: it is as wide as the page
 ROW, BAR = 34.0, 20.0  # heights in the strip's own units
@@ -19,8 +22,7 @@ def session_body(
     title: str, document: Mapping[str, Any], report: SessionReport, began: str
 ) -> str:
     """Return the HTML of a SessionDocument. began: date and time, for a person."""
-    count = len(report.robots)
-    facts = f"{began} · {report.duration:.1f} s · {count} robot{'s' * (count != 1)}"
+    facts = f"{began} · {summary(report)}"
     events = document["events"][:MOST_EVENTS]
     troubles = "".join(f"<p>{escape(trouble)}</p>" for trouble in report.troubles)
     return "\n".join(
@@ -29,15 +31,17 @@ def session_body(
             f'<h1>{escape(title)}</h1><p class="facts">{escape(facts)}</p>{troubles}',
             "</header>",
             f'<main class="{"with" if events else "without"}-findings">',
+            runs_table(report),
             '<section id="view" aria-label="3D view"></section>',
             _events(events),
             '<section class="plots" aria-label="Timeline"><details open>'
             "<summary><h2>Robots</h2></summary>",
             *(_row(robot, report.duration) for robot in report.robots.values()),
             time_axis_svg(report.duration, WIDTH),
-            "</details><details><summary><h2>Report</h2></summary>",
-            f"<pre>{escape(chr(10).join(report_lines(report)))}</pre>",
-            "</details></section>",
+            "</details>",
+            run_plots(report),
+            technical(report),
+            "</section>",
             "</main>",
             '<footer class="foot">made by MR-Lab</footer>',
         )
@@ -69,8 +73,8 @@ def _row(robot: RobotReport, duration: float) -> str:
     parts = [
         f"<h3>{escape(robot.name)} ({escape(robot.model or 'model unknown')})</h3>"
         f'<svg class="strip states" viewBox="0 0 {WIDTH:g} {ROW:g}" role="img" '
-        f'data-left="{LEFT:g}" data-width="{WIDTH - LEFT - RIGHT:g}" '
-        f'aria-label="States of {escape(robot.name)} over time">'
+        f'data-left="{LEFT:g}" data-width="{WIDTH - LEFT - RIGHT:g}" data-begin="0" '
+        f'data-duration="{duration:.3f}" aria-label="States of {escape(robot.name)} over time">'
     ]
     for span in robot.states.spans(duration):
         left, width = x(span.start), max(x(span.end) - x(span.start), 0.6)

@@ -16,6 +16,14 @@ LEFT, RIGHT = 52.0, 92.0  # for the axis and for the last value
 TOP, BOTTOM = 8.0, 8.0
 MOST_BLOCKS = 250  # about two units of width each
 
+# What the forbidden ranges of all plots are filled with.
+HATCH = (
+    '<svg class="pattern" aria-hidden="true" width="0" height="0"><defs>'
+    '<pattern id="hatch" width="7" height="7" patternUnits="userSpaceOnUse" '
+    'patternTransform="rotate(45)"><rect class="hatch" width="2" height="7"/></pattern>'
+    "</defs></svg>"
+)
+
 
 @dataclass(frozen=True)
 class Mark:
@@ -29,7 +37,10 @@ class Mark:
 
 @dataclass(frozen=True)
 class Strip:
-    """One signal over time. limits: lower and upper in the same unit, None where there is none."""
+    """One signal over time. limits: lower and upper in the same unit, None where there is none.
+
+    reference: what the values should be, at the same times; drawn dashed behind them.
+    """
 
     name: str
     unit: str
@@ -37,18 +48,20 @@ class Strip:
     limits: tuple[float | None, float | None] = (None, None)
     colour: int = 1
     marks: tuple[Mark, ...] = ()
+    reference: Array | None = None
 
 
-def strip_svg(strip: Strip, times: Array, duration: float) -> str:
+def strip_svg(strip: Strip, times: Array, duration: float, begin: float = 0.0) -> str:
     """Return one strip: the line, the forbidden ranges hatched and labelled, the findings.
 
-    times: (N,) s of strip.values, (N,).
+    times: (N,) s of strip.values, (N,). begin: the time at its left edge, s.
     """
     low, high = _span(strip)
-    place = _Place(duration, low, high)
+    place = _Place(duration, low, high, begin=begin)
     parts = [
         f'<svg class="strip" viewBox="0 0 {WIDTH:g} {HEIGHT:g}" role="img" '
         f'data-left="{LEFT:g}" data-width="{WIDTH - LEFT - RIGHT:g}" '
+        f'data-begin="{begin:.3f}" data-duration="{duration:.3f}" '
         f'aria-label="{escape(_words(strip))}">'
     ]
     parts += [_grid(value, place) for value in _ticks(low, high)]
@@ -59,6 +72,11 @@ def strip_svg(strip: Strip, times: Array, duration: float) -> str:
             f'<rect class="range {mark.severity}" x="{x - 1:.1f}" y="{TOP:g}" '
             f'width="{max(end - x, 0) + 2:.1f}" height="{HEIGHT - TOP - BOTTOM:g}"/>'
         )
+    if strip.reference is not None:
+        parts += [
+            f'<polyline class="reference" points="{points}"/>'
+            for points in _lines(strip.reference, times, place)
+        ]
     finite = np.isfinite(strip.values)
     if finite.any():
         parts += [
@@ -80,14 +98,14 @@ def strip_svg(strip: Strip, times: Array, duration: float) -> str:
     return "".join(parts) + "</svg>"
 
 
-def time_axis_svg(duration: float, width: float = WIDTH) -> str:
-    """Return the axis of time that stands below strips of this width."""
-    place = _Place(duration, 0.0, 1.0, width)
+def time_axis_svg(duration: float, width: float = WIDTH, begin: float = 0.0) -> str:
+    """Return the axis of time that stands below strips of this width; begin: at its left, s."""
+    place = _Place(duration, 0.0, 1.0, width, begin)
+    ticks = [t for t in _ticks(begin, begin + duration, 8) if begin <= t <= begin + duration]
     parts = [f'<svg class="axis" viewBox="0 0 {width:g} 24" aria-hidden="true">']
     parts += [
-        f'<text x="{place.x(t):.1f}" y="15">{_number(t)}{" s" * (t == 0)}</text>'
-        for t in _ticks(0.0, duration, 8)
-        if 0 <= t <= duration
+        f'<text x="{place.x(t):.1f}" y="15">{_number(t)}{" s" * (t == ticks[0])}</text>'
+        for t in ticks
     ]
     return "".join(parts) + "</svg>"
 
@@ -98,9 +116,10 @@ class _Place:
     low: float
     high: float
     width: float = WIDTH
+    begin: float = 0.0
 
     def x(self, time: float) -> float:
-        share = time / self.duration if self.duration else 0.0
+        share = (time - self.begin) / self.duration if self.duration else 0.0
         return LEFT + share * (self.width - LEFT - RIGHT)
 
     def y(self, value: float) -> float:
@@ -111,13 +130,17 @@ class _Place:
 def _span(strip: Strip) -> tuple[float, float]:
     """Return the range of the axis: the values, and a limit that they come near or pass."""
     finite = strip.values[np.isfinite(strip.values)]
+    if strip.reference is not None:
+        finite = np.concatenate([finite, strip.reference[np.isfinite(strip.reference)]])
     low, high = (float(finite.min()), float(finite.max())) if len(finite) else (0.0, 0.0)
     near = 0.35 * (high - low) + 1e-9
     lower, upper = strip.limits
     shown = [low, high]
     shown += [v for v in (lower, upper) if v is not None and low - near <= v <= high + near]
     low, high = min(shown), max(shown)
-    room = 0.08 * (high - low) or max(abs(high) * 0.1, 0.5)
+    # What differs by rounding alone stands still.
+    still = high - low < 1e-6 * max(abs(high), 1.0)
+    room = max(abs(high) * 0.1, 0.5) if still else 0.08 * (high - low)
     return low - room, high + room
 
 
@@ -154,7 +177,8 @@ def _lines(values: Array, times: Array, place: _Place) -> list[str]:
     edges = np.flatnonzero(np.diff(np.concatenate(([False], finite, [False])).astype(np.int8)))
     lines = []
     for begin, end in edges.reshape(-1, 2):
-        x = LEFT + times[begin:end] / (place.duration or 1.0) * (WIDTH - LEFT - RIGHT)
+        since = times[begin:end] - place.begin
+        x = LEFT + since / (place.duration or 1.0) * (WIDTH - LEFT - RIGHT)
         share = (values[begin:end] - place.low) / (place.high - place.low)
         y = HEIGHT - BOTTOM - share * (HEIGHT - TOP - BOTTOM)
         lines.append(" ".join(f"{a:.1f},{b:.1f}" for a, b in zip(x, y, strict=True)))

@@ -57,6 +57,9 @@ class SessionContent:
         self._versions: dict[str, str] = {}
         # The last published scene, unless it is in the bag already.
         self._scene: bytes | None = None
+        # Meshes of objects, and the size of the last message with objects, bytes.
+        self._uris: set[str] = set()
+        self._objects_size = 0
         self._worker = Worker("recorder_content")
         self._trajectories = CatalogueClient(caller.node)
         self._closed = False
@@ -65,14 +68,24 @@ class SessionContent:
             "playback_state": (msg.PlaybackState, self._take_state),
             "robots": (msg.Robots, self._take_scene),
             "converted": (msg.Trajectory, self._take_trajectory),
+            "objects": (msg.SceneObjects, self._take_objects),
         }
         self._later("the parameters", self._take_parameters)
 
     def observe(self, message: Received, kind: str) -> None:
         """Take note of a message that was recorded."""
-        reader = self._readers.get(message.topic.rsplit("/", 1)[-1])
+        name = message.topic.rsplit("/", 1)[-1]
+        reader = self._readers.get(name)
         if reader is not None and not self._closed:
+            if name == "objects" and not self._is_due(message):
+                return
             self._later(message.topic, lambda: self._read(message, kind, *reader))
+
+    def _is_due(self, message: Received) -> bool:
+        """Return whether to look for new objects: they come sixty times a second."""
+        size = len(message.data)
+        due, self._objects_size = size != self._objects_size, size
+        return due
 
     def close(self) -> None:
         """Fetch what is queued, then end."""
@@ -104,9 +117,17 @@ class SessionContent:
         urdf = str(message.data)
         self._attach(f"robots/{robot}.urdf", "model/urdf+xml", urdf.encode())
         for mesh in ElementTree.fromstring(urdf).iter("mesh"):
-            match = PACKAGE.fullmatch(mesh.get("filename", ""))
-            if match is not None:
-                self._guarded(topic, partial(self._attach_mesh, *match.groups()))
+            self._attach_uri(topic, mesh.get("filename", ""))
+
+    def _take_objects(self, topic: str, message: Any) -> None:
+        for uri in {thing.mesh for thing in message.objects} - self._uris:
+            self._uris.add(uri)
+            self._attach_uri(topic, uri)
+
+    def _attach_uri(self, topic: str, uri: str) -> None:
+        match = PACKAGE.fullmatch(uri)
+        if match is not None:
+            self._guarded(topic, partial(self._attach_mesh, *match.groups()))
 
     def _attach_mesh(self, package: str, path: str) -> None:
         name = f"meshes/{package}/{path}"

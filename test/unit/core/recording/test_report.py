@@ -16,8 +16,8 @@ from mrlab_ros.core.recording.report import (
     RobotReport,
     Series,
     SessionReport,
-    report_lines,
 )
+from mrlab_ros.core.recording.report_text import report_lines
 
 SECOND = 1_000_000_000
 COURSE = ReferenceTrajectory(10.0, np.column_stack([np.arange(11.0), -np.arange(11.0)]))
@@ -83,13 +83,11 @@ def test_figures_of_a_series():
     assert series.summary() == {"count": 3, "p50": 2.0, "p95": pytest.approx(2.9), "max": 3.0}
 
 
-def test_the_text_tells_what_happened_in_order():
+def test_the_facts_tell_everything():
     report = SessionReport(20.0, 0, troubles=["x_0.mcap has no index"])
     robot = report.robot("ur5e_1")
     assert report.robot("ur5e_1") is robot
     robot.model = "ur5e"
-    robot.states.add(0.0, "PLAYING", "wave")
-    robot.states.add(10.0, "COLLISION_HALT")
     robot.collisions.append(Contact(10.0, "wrist_3_link", "table", 412))
     robot.grasps.add(2.0, "HOLDING", "cube_1")
     robot.grasps.add(5.0, "OPEN")
@@ -98,18 +96,13 @@ def test_the_text_tells_what_happened_in_order():
             mass=1.5, payload=4.0, friction=0.9, friction_needed=needed, wrist_moment=2.0
         )
         robot.bear("cube_1", grasp)
-    robot.remarks.add(4.0, "cube_1 slipped out of the fingers")
     robot.tracking.add(1.0, 0.5)
+    assert robot.borne["cube_1"].label == (
+        "1.5 kg, friction 0.90, needed 0.50, 2.00 N*m at the wrist"
+    )
     lines = report_lines(report)
-    assert lines[:2] == ["20.0 s, 1 robot", "x_0.mcap has no index"]
-    assert [line.split("  ")[-1] for line in lines[4:9]] == [
-        "PLAYING for 10.00 s: wave",
-        "holds cube_1 for 3.00 s: 1.5 kg, friction 0.90, needed 0.50, 2 N*m at the wrist",
-        "cube_1 slipped out of the fingers",
-        "COLLISION_HALT for 10.00 s",
-        "collision: wrist_3_link touched table at frame 412",
-    ]
-    assert "  tracking error: p50 0.5 rad, p95 0.5 rad, max 0.5 rad (1)" in lines
+    assert lines[:2] == ["20.0 s, 1 robot, 0 runs", "x_0.mcap has no index"]
+    assert "    tracking error: p50 0.5 rad, p95 0.5 rad, max 0.5 rad (1)" in lines
     facts = report.facts()["robots"][0]
     assert facts["collisions"][0]["frame"] == 412
     assert facts["grasps"][0] == {"start": 2.0, "end": 5.0, "label": "HOLDING", "detail": "cube_1"}

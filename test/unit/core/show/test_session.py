@@ -6,7 +6,12 @@ from pathlib import Path
 import numpy as np
 import orjson
 
-from mrlab_ros.core.recording.report import Contact, SessionReport
+from mrlab_ros.core.clock import PlaybackClock
+from mrlab_ros.core.geometry import Pose
+from mrlab_ros.core.recording.moves import ObjectTrack, Placed
+from mrlab_ros.core.recording.report import Contact, ReportedState, SessionReport
+from mrlab_ros.core.recording.run_finding import runs_of
+from mrlab_ros.core.recording.runs import Course, RunJoint
 from mrlab_ros.core.show import session as module
 from mrlab_ros.core.show.packed import unpacked
 from mrlab_ros.core.show.session import RecordedMotion, RecordedObject, Track, session
@@ -25,12 +30,28 @@ def recorded():
     report = SessionReport(duration=10.0, start_ns=0)
     robot = report.robot("ur5e_1")
     robot.model = "ur5e"
+    for time, label, position, rate in (
+        (0.0, "READY", 0.0, 0.0),
+        (2.0, "PLAYING", 0.0, 1.0),
+        (6.0, "COLLISION_HALT", 4.0, 0.0),
+    ):
+        clock = PlaybackClock(round(time * 1e9), position, rate)
+        robot.add(ReportedState(round(time * 1e9), label, "pick", clock, time, length=8.0))
     robot.states.add(0.0, "READY", "pick")
     robot.states.add(2.0, "PLAYING", "pick")
     robot.states.add(6.0, "COLLISION_HALT", "pick")
     robot.grasps.add(3.0, "HOLDING", "<cube>")
     robot.grasps.add(5.0, "OPEN", "")
     robot.collisions.append(Contact(6.0, "forearm_link", "table", 412))
+    cube = ObjectTrack()
+    cube.add(0.0, Placed(Pose((0.5, 0.0, 0.0)), "", None))
+    report.runs = runs_of(report, {"<cube>": cube}, {})
+    times = np.linspace(2.0, 9.0, 50)
+    report.runs[0].joints = (RunJoint("a", lower=-1.0, upper=0.5), RunJoint("b"))
+    report.runs[0].course = Course(
+        times, times - 2, np.column_stack([times / 20, 0 * times]), np.full((50, 2), np.nan),
+        np.column_stack([times / 10, times / 20, 0 * times]),
+    )  # fmt: skip
     motion = RecordedMotion()
     moved = motion.robot("ur5e_1")
     moved.urdf, moved.model, moved.joints = "<robot/>", "ur5e", ["a", "b"]
@@ -60,10 +81,15 @@ def test_the_fields_are_those_of_the_contract():
 def test_events_are_in_order_and_say_what_happened():
     texts = [(e["time"], e["severity"], e["text"]) for e in session("c", *recorded())["events"]]
     assert texts == [
-        (2.0, "info", "played pick"),
-        (3.0, "info", "took <cube>"),
-        (5.0, "info", "let go of <cube>"),
-        (6.0, "error", "forearm_link touched table at frame 412"),
+        (2.0, "info", "begins pick"),
+        (3.0, "info", "grasped <cube>"),
+        (5.0, "info", "released <cube> at 0.500, 0.000, 0.000 m"),
+        (6.0, "error", "hit table with forearm_link at frame 412"),
+        (
+            10.0,
+            "info",
+            "pick: halted by a collision at 4.00 of 8.00 s when the recording ended",
+        ),
     ]
 
 
@@ -104,3 +130,15 @@ def test_the_page_says_it_without_a_script():
     assert "holds &lt;cube&gt;" in text
     assert "<cube>" not in text
     assert 'data-time="6.000"' in text
+    assert 'class="result halted"' in text
+    assert text.count('class="path"') == 1
+    assert "limit 28.65 deg" in text  # 0.5 rad of the first joint, which comes near
+    assert "Technical" in text
+
+
+def test_a_session_in_which_nothing_was_played_says_so():
+    text = session_body(
+        "class", session("class", SessionReport(1.0, 0), RecordedMotion()),
+        SessionReport(1.0, 0), "2026-01-01",
+    )  # fmt: skip
+    assert "No robot played." in text

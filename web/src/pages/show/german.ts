@@ -12,9 +12,24 @@ const WORDS: Readonly<Record<string, string>> = {
   'Torque proxies (nominal, no torque)': 'Moment-Proxys (nominell, kein Drehmoment)',
   Events: 'Ereignisse',
   Robots: 'Roboter',
-  Report: 'Bericht',
+  Runs: 'Läufe',
+  Run: 'Lauf',
+  Robot: 'Roboter',
+  Trajectory: 'Trajektorie',
+  Began: 'Beginn',
+  Took: 'Dauer',
+  Result: 'Ergebnis',
+  'What it did': 'Was geschah',
+  'Way of the tool': 'Weg des Werkzeugs',
+  'from above': 'von oben',
+  'from the side': 'von der Seite',
+  Technical: 'Technik',
+  'deadlines, latency, tracking': 'Fristen, Latenz, Bahntreue',
+  Quantity: 'Größe',
+  Median: 'Median',
+  Most: 'Höchstens',
 }
-const PLACES = 'h2, .verdict b, .findings button b'
+const PLACES = 'h2, h3, th, summary span, .verdict b, .findings button b, .path .title'
 
 /** Put the fixed words of a page, which is written in English, into German. */
 export function translate(page: HTMLElement): void {

@@ -1,0 +1,26 @@
+"""A file with the trajectory that recorded runs are compared with."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from mrlab_ros.adapters.bags.courses import Reference
+from mrlab_ros.adapters.robots.library import RobotLibrary
+from mrlab_ros.commands.convert.batch import convert_file
+from mrlab_ros.core.conversion.options import Options
+from mrlab_ros.core.errors import BadInput
+from mrlab_ros.core.recording.report import ReferenceTrajectory
+from mrlab_ros.ros import share
+
+
+def reference_of(file: Path, model: str) -> Reference:
+    """Return the trajectory in a file for a robot; raise BadInput where it is refused."""
+    library = RobotLibrary(share.directory() / "robots")
+    result = convert_file(file, library.model(model), Options(), None)
+    if result.trajectory is None:
+        raise BadInput(
+            f"the reference {file.name} is refused for {model}: {result.message.rstrip('.')}. "
+            f"Mend it, and name what this writes: mrlab convert {file} --robot {model} --out ."
+        )
+    found = result.trajectory
+    return Reference(file.name, model, ReferenceTrajectory(found.frame_rate, found.positions))

@@ -1,0 +1,191 @@
+"""Finds the runs of a session in what its messages said."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from dataclasses import replace
+from itertools import zip_longest
+
+from mrlab_ros.core.clock import SECOND
+from mrlab_ros.core.geometry import Pose, compose
+from mrlab_ros.core.recording.moves import ObjectTrack, Targets
+from mrlab_ros.core.recording.report import (
+    HOLDING,
+    Contact,
+    ReportedState,
+    RobotReport,
+    SessionReport,
+)
+from mrlab_ros.core.recording.runs import Action, Deed, Result, Run
+
+BEGINS, ENDS = ("ADJUSTING", "PLAYING"), ("COMPLETE", "READY", "IDLE")
+# s: what a robot does so soon after its run, such as opening its gripper, belongs to the run.
+AFTER = 2.0
+# s of a trajectory: a release so near to a programmed one is that one.
+NEAR = 1.0
+# s after its release an object counts as lying where it lies for good.
+SETTLED = 2.0
+
+
+def runs_of(
+    report: SessionReport,
+    objects: dict[str, ObjectTrack],
+    targets: dict[str, Targets],
+) -> list[Run]:
+    """Return the runs of all robots in order of their beginnings, with what was done in each.
+
+    targets: by robot, where its trajectories grasp and release.
+    """
+    found = []
+    for robot in report.robots.values():
+        runs = list(_runs(robot, report.duration))
+        actions = list(_actions(robot, report.duration, objects, targets.get(robot.name)))
+        for run, following in zip_longest(runs, runs[1:]):
+            until = min(run.end + AFTER, following.start if following else math.inf)
+            run.actions = sorted(
+                (each for each in actions if run.start - 0.05 <= each.time < until),
+                key=lambda each: each.time,
+            )
+        found += runs
+    found.sort(key=lambda run: run.start)
+    for number, run in enumerate(found, 1):
+        run.number = number
+    return found
+
+
+def _runs(robot: RobotReport, end: float) -> Iterator[Run]:
+    run: Run | None = None
+    before: ReportedState | None = None
+    for state in robot.reported:
+        if run is not None and before is not None:
+            same = (state.trajectory, state.version) == (run.trajectory, run.version)
+            run.end, run.position = state.time, _position(before, state)
+            if state.label in ENDS or not same:
+                done = state.label == "COMPLETE" and same
+                run.result = Result.COMPLETED if done else Result.STOPPED
+                yield run
+                run = None
+            else:
+                _note(run, before, state)
+        if run is None and state.label in BEGINS and state.trajectory:
+            run = Run(
+                robot.name,
+                robot.model,
+                state.trajectory,
+                state.version,
+                state.system,
+                state.time,
+                end,
+                state.length,
+                position=state.clock.position,
+            )
+            _note(run, None, state)
+        before = state
+    if run is not None and before is not None:
+        run.end = end
+        run.position = before.clock.position
+        if before.label == "PLAYING":
+            run.position = _within(
+                before, before.clock.at(before.stamp_ns + _ns(end - before.time))
+            )
+        run.result = Result.HALTED if before.label == "COLLISION_HALT" else Result.OPEN
+        yield run
+
+
+def _note(run: Run, before: ReportedState | None, state: ReportedState) -> None:
+    """Take note of a change within a run."""
+    if state.label == "COLLISION_HALT" and (before is None or before.label != state.label):
+        run.halts += 1
+    if state.label != "PLAYING":
+        return
+    if not run.speeds or run.speeds[-1] != state.clock.rate:
+        run.speeds.append(state.clock.rate)
+    if before is not None and before.label == "PLAYING" and run.length:
+        reached = before.clock.at(state.clock.stamp_ns)
+        over = reached >= run.length - 1e-6 if state.clock.rate > 0 else reached <= 1e-6
+        run.loops += over and abs(reached - state.clock.position) > run.length / 2
+
+
+def _position(before: ReportedState, state: ReportedState) -> float:
+    """Return where on its trajectory a robot was when a state ended, s."""
+    if state.label in ("PAUSED", "COLLISION_HALT"):
+        return state.clock.position
+    if before.label == "PLAYING":
+        return _within(before, before.clock.at(state.stamp_ns))
+    return before.clock.position
+
+
+def _within(state: ReportedState, position: float) -> float:
+    return min(max(position, 0.0), state.length) if state.length else position
+
+
+def _ns(seconds: float) -> int:
+    return round(seconds * SECOND)
+
+
+def _actions(
+    robot: RobotReport,
+    end: float,
+    objects: dict[str, ObjectTrack],
+    targets: Targets | None,
+) -> Iterator[Action]:
+    for contact in robot.collisions:
+        yield _hit(contact)
+    for remark in robot.remarks.spans(end):
+        if remark.label:
+            yield Action(remark.start, Deed.REMARK, remark.label)
+    spans = robot.grasps.spans(end)
+    for span, following in zip_longest(spans, spans[1:]):
+        if span.label == "EMPTY":
+            yield Action(span.start, Deed.MISSED, "closed the gripper on nothing")
+        if span.label != HOLDING:
+            continue
+        track = objects.get(span.detail)
+        place = None if track is None else track.at(span.start)
+        spot = None if place is None else place.position
+        borne = robot.borne.get(span.detail)
+        carrying = f", {borne.label}" if borne is not None else ""
+        yield Action(
+            span.start, Deed.GRASPED, f"grasped {span.detail}{carrying}", span.detail, place=spot
+        )
+        if following is not None:
+            yield _released(robot, span.detail, span.start, span.end, track, targets)
+
+
+def _hit(contact: Contact) -> Action:
+    text = f"hit {contact.other} with {contact.link} at frame {contact.frame}"
+    return Action(contact.time, Deed.HIT, text, contact.other, contact.link)
+
+
+def _released(
+    robot: RobotReport,
+    name: str,
+    since: float,
+    time: float,
+    track: ObjectTrack | None,
+    targets: Targets | None,
+) -> Action:
+    """Return the release of an object: where it lies then, and where the trajectory puts it."""
+    place = None if track is None else track.at_rest(time, SETTLED)
+    if track is None or place is None:
+        return Action(time, Deed.RELEASED, f"released {name}", name)
+    taken = track.taken_by(time, robot.name)
+    if taken:
+        return Action(time, Deed.RELEASED, f"handed {name} to {taken}", name)
+    target = None
+    in_tool = track.in_tool(since)
+    if targets is not None and in_tool is not None:
+        tool = targets.release(time, robot.position_at(time), NEAR)
+        if tool is not None:
+            target = compose(compose(robot.base_at(time), tool), in_tool).position
+    action = Action(time, Deed.RELEASED, "", name, "", place.position, target)
+    where = f"at {_metres(place)}"
+    if action.off is not None:
+        off = f"{action.off * 1e3:.0f} mm from" if action.off >= 5e-4 else "at"
+        where = f"{off} its programmed place, {where}"
+    return replace(action, text=f"released {name} {where}")
+
+
+def _metres(pose: Pose) -> str:
+    return ", ".join(f"{value + 0.0:.3f}" for value in pose.position) + " m"
