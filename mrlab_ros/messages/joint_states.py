@@ -18,7 +18,6 @@ the four bytes. Encoder and decoder both use this description:
 from __future__ import annotations
 
 import struct
-from functools import lru_cache
 
 from rclpy.serialization import deserialize_message
 from sensor_msgs.msg import JointState
@@ -26,36 +25,10 @@ from sensor_msgs.msg import JointState
 from mrlab_ros.core.clock import SECOND
 from mrlab_ros.core.errors import BadInput
 from mrlab_ros.core.geometry import Array
-
-ENCAPSULATION = b"\x00\x01\x00\x00"
-BODY = len(ENCAPSULATION)
-STAMP = struct.Struct("<iI")
-COUNT = struct.Struct("<I")
-DOUBLE_SIZE = 8
+from mrlab_ros.messages import cdr
+from mrlab_ros.messages.cdr import BODY, COUNT, DOUBLE_SIZE, ENCAPSULATION, STAMP
 
 Numbers = tuple[float, ...]
-
-
-def _aligned(offset: int, size: int) -> int:
-    """Return the first offset from `offset` on that is a multiple of `size` within the body."""
-    return offset + (BODY - offset) % size
-
-
-def _string(text: str) -> bytes:
-    """Return a string with the zeros up to the next count."""
-    data = text.encode() + b"\0"
-    return COUNT.pack(len(data)) + data + bytes(-len(data) % COUNT.size)
-
-
-@lru_cache(maxsize=64)
-def _names(joints: tuple[str, ...]) -> bytes:
-    return COUNT.pack(len(joints)) + b"".join(map(_string, joints))
-
-
-def _doubles_at(offset: int, count: int) -> int:
-    """Return where the numbers begin of a sequence whose count lies at `offset`."""
-    offset += COUNT.size
-    return _aligned(offset, DOUBLE_SIZE) if count else offset
 
 
 class JointStateEncoder:
@@ -67,16 +40,16 @@ class JointStateEncoder:
 
     def __init__(self, frame_id: str, joint_names: tuple[str, ...]) -> None:
         count = len(joint_names)
-        head = ENCAPSULATION + bytes(STAMP.size) + _string(frame_id) + _names(joint_names)
-        position_count = len(head)
-        self._position = _doubles_at(position_count, count)
+        begin = cdr.head(frame_id, joint_names)
+        position_count = len(begin)
+        self._position = cdr.doubles_at(position_count, count)
         self._position_end = velocity_count = self._position + DOUBLE_SIZE * count
-        self._velocity = _doubles_at(velocity_count, count)
+        self._velocity = cdr.doubles_at(velocity_count, count)
         self._velocity_end = effort_count = self._velocity + DOUBLE_SIZE * count
         # rclpy's serialiser adds the gap before a double after the count of the empty efforts;
         # readers of CDR other than ROS's own refuse such a message.
         self._buffer = bytearray(effort_count + COUNT.size)
-        self._buffer[:position_count] = head
+        self._buffer[:position_count] = begin
         COUNT.pack_into(self._buffer, position_count, count)
         COUNT.pack_into(self._buffer, velocity_count, count)
 
@@ -95,11 +68,11 @@ def read(data: bytes, joints: tuple[str, ...]) -> tuple[int, Numbers, Numbers]:
     A message without velocities gives none here. Raises BadInput where the bytes are no joint
     state, or one without these joints.
     """
-    names = _names(joints)
+    names = cdr.names(joints)
     try:
         seconds, nanoseconds = STAMP.unpack_from(data, BODY)
         (length,) = COUNT.unpack_from(data, BODY + STAMP.size)
-        offset = _aligned(BODY + STAMP.size + COUNT.size + length, COUNT.size)
+        offset = cdr.aligned(BODY + STAMP.size + COUNT.size + length, COUNT.size)
         if data[:2] != ENCAPSULATION[:2] or not data.startswith(names, offset):
             return _read_slowly(data, joints)
         positions, offset = _doubles(data, offset + len(names))
@@ -112,7 +85,7 @@ def read(data: bytes, joints: tuple[str, ...]) -> tuple[int, Numbers, Numbers]:
 def _doubles(data: bytes, offset: int) -> tuple[Numbers, int]:
     """Return the sequence whose count lies at `offset`, and the offset after it."""
     (count,) = COUNT.unpack_from(data, offset)
-    begin = _doubles_at(offset, count)
+    begin = cdr.doubles_at(offset, count)
     end = begin + DOUBLE_SIZE * count
     if end > len(data):
         raise struct.error

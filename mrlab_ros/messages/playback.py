@@ -9,7 +9,6 @@ from mrlab_msgs import msg
 from mrlab_ros.core.clock import PlaybackClock
 from mrlab_ros.core.geometry import Array
 from mrlab_ros.core.playback.playback import PlaybackStatus
-from mrlab_ros.core.playback.stream import Sample
 from mrlab_ros.core.trajectory.trajectory import Trajectory
 from mrlab_ros.messages.poses import transform_to_pose_message
 from mrlab_ros.messages.time import make_header, time_to_message
@@ -49,49 +48,6 @@ def status_to_message(
 def unknown_state() -> msg.PlaybackState:
     """Return what stands for the state of a playback that has not published one."""
     return msg.PlaybackState(label="?")
-
-
-def telemetry_to_message(
-    now_ns: int,
-    robot: str,
-    trajectory: Trajectory,
-    sample: Sample,
-    tool0: Array,
-    grasp: msg.Grasp | None,
-    *,
-    sent: int,
-    lost: int,
-    error_ns: int,
-    error_max_ns: int,
-) -> msg.Telemetry:
-    """Return the display values of a joint state.
-
-    tool0: (4, 4) homogeneous transform T_base_tool0. grasp: what physics said last of the
-    gripper; None: there is no physics. sent, lost: frames of this run. error_ns, error_max_ns: how
-    late the last joint state was published, and the latest of the run.
-    """
-    bears = grasp or msg.Grasp()
-    closed = trajectory.gripper_at(sample.position)
-    return msg.Telemetry(
-        header=make_header(now_ns, robot),
-        joint_names=list(trajectory.joint_names),
-        velocities=sample.velocities,
-        effort_proxy=trajectory.channels.effort_proxy[sample.frame],
-        frame=sample.frame,
-        position=sample.position,
-        has_gripper=closed is not None,
-        gripper_closed=bool(closed),
-        tool0=transform_to_pose_message(tool0),
-        held_object=bears.object,
-        held_mass=bears.mass,
-        payload=bears.payload,
-        slip_margin=bears.slip_margin,
-        wrist_moment=bears.wrist_moment,
-        deadline_error=error_ns * 1e-9,
-        deadline_error_max=error_max_ns * 1e-9,
-        frames_sent=sent,
-        frames_lost=lost,
-    )
 
 
 def targets_to_message(

@@ -49,11 +49,17 @@ class LabClock:
         return self._time.simulated
 
     def now_ns(self) -> int:
+        return self.reading()[0]
+
+    def reading(self) -> tuple[int, int]:
+        """Return the time, and the monotonic clock's of the same instant, both ns."""
         ros = self._ros
         with self._lock:
             if ros is not None and ros.ros_time_is_active:
-                return self._time.follow_clock(ros.now().nanoseconds, self._steady_ns())
-            return self._time.follow_wall(*self._read())
+                steady_ns = self._steady_ns()
+                return self._time.follow_clock(ros.now().nanoseconds, steady_ns), steady_ns
+            steady_ns, wall_ns = self._read()
+            return self._time.follow_wall(steady_ns, wall_ns), steady_ns
 
     def _read(self) -> tuple[int, int]:
         """Return steady and wall time of one instant."""

@@ -28,8 +28,8 @@ IDLE_SLEEP_S = 1.0
 TICK_S = 0.002
 # A sleep ends about WAKE_NS late, and preparing a joint state takes about PREPARE_NS: the thread
 # wakes earlier by their sum and publishes when they are due.
-WAKE_NS = 150_000
-PREPARE_NS = 15_000
+WAKE_NS = 100_000
+PREPARE_NS = 12_000
 # Another thread that runs Python delays the deadline thread by at most this time, s. Python's own
 # 5 ms would be half a period at 100 Hz.
 SWITCH_INTERVAL_S = 0.0005
@@ -68,38 +68,34 @@ class Player:
         self.last: Report | None = None
         self._error_ns = self._error_max_ns = 0
 
-    def prepare(self, now_ns: int, *, simulated: bool = False) -> Sample | None:
-        """Return the joint state that is due, or will be within moments; None without one.
+    def prepare(self, due_ns: int, now_ns: int, *, simulated: bool = False) -> Sample | None:
+        """Return the joint state that is due at `due_ns`, maybe moments ahead; None without one.
 
         simulated: the time goes in ticks. What a tick makes due leaves at once and is not late.
         """
-        due_ns = self.playback.due_ns()
-        if due_ns is None:
-            return None
         late = now_ns - due_ns > (LOST_AFTER_NS if simulated else 0)
         return self.playback.tick(now_ns if late else due_ns)
 
-    def send(self, sample: Sample, now_ns: Callable[[], int]) -> None:
-        """Publish a prepared joint state; keep its deadline error."""
+    def send(self, sample: Sample, ahead_ns: int) -> None:
+        """Publish a prepared joint state; keep its deadline error.
+
+        ahead_ns: by how much the lab's clock is ahead of the monotonic one.
+        """
         self._send(sample)
-        playback = self.playback
-        sent = playback.sent
+        trajectory, sent, lost = self.playback.progress()
         if sample.streamed:
-            self._error_ns = now_ns() - sample.due_ns
+            self._error_ns = time.monotonic_ns() + ahead_ns - sample.due_ns
             longest = 0 if sent <= 1 else self._error_max_ns
             self._error_max_ns = max(longest, self._error_ns)
-        self.last = Report(
-            sample,
-            playback.trajectory,
-            sent,
-            playback.lost,
-            self._error_ns,
-            self._error_max_ns,
-        )
+        self.last = Report(sample, trajectory, sent, lost, self._error_ns, self._error_max_ns)
 
     def announce(self, now_ns: int) -> None:
         for status in self.playback.take_statuses():
             self._announce(now_ns, status)
+
+
+def _due(item: tuple[int, Player]) -> int:
+    return item[0]
 
 
 class Scheduler:
@@ -158,31 +154,39 @@ class Scheduler:
         self._prepared.set()
         with self._changed:
             while self._running:
-                now_ns = self._now_ns()
+                now_ns, steady_ns = self._reading()
                 simulated = self.clock.simulated
                 # A tick may be long in coming: nobody waits for it in a loop.
                 early_ns = 0 if simulated else WAKE_NS + PREPARE_NS * len(self._players)
                 horizon_ns = now_ns + early_ns
-                wait_ns = IDLE_SLEEP_S * SECOND
                 batch = []
                 for player in self._players:
                     due_ns = player.playback.due_ns()
-                    if due_ns is None:
-                        continue
-                    if due_ns <= horizon_ns:
+                    if due_ns is not None and due_ns <= horizon_ns:
                         batch.append((due_ns, player))
-                    else:
-                        wait_ns = min(
-                            wait_ns, TICK_S * SECOND if simulated else due_ns - horizon_ns
-                        )
+                ahead_ns = now_ns - steady_ns
                 if batch:
-                    self._serve(batch, early_ns)
+                    self._serve(batch, now_ns, ahead_ns, simulated=simulated)
+                next_ns = self._next_ns()
+                if next_ns is None:
+                    left = IDLE_SLEEP_S
+                elif simulated:
+                    left = TICK_S if next_ns > now_ns else 0.0
                 else:
-                    self._changed.wait(wait_ns / SECOND)
+                    left = (next_ns - early_ns - ahead_ns - time.monotonic_ns()) / SECOND
+                self._changed.wait(max(min(left, IDLE_SLEEP_S), 0.0))
 
-    def _now_ns(self) -> int:
-        """Return the time; where the clock was shifted, shift what is scheduled; hold the lock."""
-        now_ns = self.clock.now_ns()
+    def _next_ns(self) -> int | None:
+        """Return when the next joint state is due; None: not before something changes."""
+        due = [player.playback.due_ns() for player in self._players]
+        return min((ns for ns in due if ns is not None), default=None)
+
+    def _reading(self) -> tuple[int, int]:
+        """Return the time and the monotonic clock's; hold the lock.
+
+        Where the clock was shifted, what is scheduled is shifted as much.
+        """
+        now_ns, steady_ns = self.clock.reading()
         by_ns = self.clock.shifted_ns - self._shifted_ns
         if by_ns:
             self._shifted_ns += by_ns
@@ -192,37 +196,39 @@ class Scheduler:
                     player.announce(now_ns)
                 except Exception:
                     self._print_trouble()
-        return now_ns
+        return now_ns, steady_ns
 
-    def _serve(self, batch: list[tuple[int, Player]], early_ns: int) -> None:
+    def _serve(
+        self, batch: list[tuple[int, Player]], now_ns: int, ahead_ns: int, *, simulated: bool
+    ) -> None:
         """Prepare all joint states that are due, then publish each at its deadline.
 
-        early_ns: how far ahead a deadline may lie, unless the clock was set meanwhile.
+        ahead_ns: by how much the lab's clock, which shows `now_ns`, is ahead of the monotonic
+        clock. The batch goes by the latter: it costs little, and the wall clock may be set
+        meanwhile.
         """
-        now_ns = self.clock.now_ns
-        begin_ns = now_ns()
+        steady_ns = time.monotonic_ns
         ready = []
-        for due_ns, player in sorted(batch, key=lambda item: item[0]):
+        batch.sort(key=_due)
+        for due_ns, player in batch:
             try:
-                sample = player.prepare(begin_ns, simulated=self.clock.simulated)
+                sample = player.prepare(due_ns, now_ns, simulated=simulated)
             except Exception:
                 self._print_trouble()
                 continue
             if sample is not None:
-                ready.append((due_ns, player, sample))
-        for due_ns, player, sample in ready:
-            # By the monotonic clock: the other one may be set meanwhile.
-            left_ns = min(due_ns - now_ns(), early_ns)
-            at_ns = time.monotonic_ns() + left_ns
-            while time.monotonic_ns() < at_ns:
+                ready.append((due_ns - ahead_ns, player, sample))
+        for at_ns, player, sample in ready:
+            while steady_ns() < at_ns:
                 pass
             try:
-                player.send(sample, now_ns)
+                player.send(sample, ahead_ns)
             except Exception:
                 self._print_trouble()
+        now_ns = steady_ns() + ahead_ns
         for _, player in batch:
             try:
-                player.announce(now_ns())
+                player.announce(now_ns)
             except Exception:
                 self._print_trouble()
 
@@ -244,7 +250,7 @@ class Command:
 
     def __enter__(self) -> int:
         self._scheduler._changed.acquire()
-        return self._scheduler._now_ns()
+        return self._scheduler._reading()[0]
 
     def __exit__(self, *exception: object) -> None:
         scheduler = self._scheduler

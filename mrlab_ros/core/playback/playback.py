@@ -7,6 +7,7 @@ state leaves, and calls `tick(now_ns)` then. Changes of state come out of `take_
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import NamedTuple
 
 from mrlab_ros.core.clock import PlaybackClock, checked_position, checked_rate
 from mrlab_ros.core.errors import Misuse
@@ -34,8 +35,7 @@ class PlaybackStatus:
     system: str
 
 
-@dataclass(frozen=True)
-class Kept:
+class Kept(NamedTuple):
     """What a playback knows again after its process was restarted.
 
     position: s on the trajectory. halted: it stood in COLLISION_HALT. begun: it does not stand
@@ -115,15 +115,13 @@ class Playback:
         """The last source frame reached."""
         return self._stream.frame
 
-    @property
-    def sent(self) -> int:
-        """The number of joint states of this run that were sent."""
-        return self._stream.sent
+    def progress(self) -> tuple[Trajectory | None, int, int]:
+        """Return the trajectory and how many of this run's joint states were sent, and left out.
 
-    @property
-    def lost(self) -> int:
-        """The number of joint states of this run that were left out because they were late."""
-        return self._stream.lost
+        Left out are those that were too late.
+        """
+        stream = self._stream
+        return stream.trajectory, stream.sent, stream.lost
 
     def status(self) -> PlaybackStatus:
         """Return the present state as it is published."""
@@ -393,7 +391,9 @@ class Playback:
 
     def take_statuses(self) -> list[PlaybackStatus]:
         """Return the statuses of all changes since the last call, oldest first."""
-        taken, self._statuses = self._statuses, []
+        taken = self._statuses
+        if taken:
+            self._statuses = []
         return taken
 
     # inside ---------------------------------------------------------------------------------

@@ -7,7 +7,8 @@ states: `Playback` decides what the arm does and calls the matching method.
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, replace
+from dataclasses import replace
+from typing import NamedTuple
 
 import numpy as np
 
@@ -28,8 +29,7 @@ ON_TRAJECTORY = 1e-6
 ON_TICK = 1e-6
 
 
-@dataclass(frozen=True)
-class Sample:
+class Sample(NamedTuple):
     """One joint state.
 
     due_ns: its deadline and its stamp, ns. positions, velocities: (J,) rad and rad/s.
@@ -75,6 +75,8 @@ class Stream:
         # The next joint state of the trajectory: its number at this rate, its position (s) and
         # its deadline.
         self._tick, self._next_position, self._due_ns = 0, 0.0, 0
+        # The run that it belongs to: where it begins and where it ends, s; joint states a second.
+        self._run_begin, self._run_end, self._frame_rate = 0.0, 0.0, 1.0
         self._motion: Motion | None = None
         self._motion_start_ns = 0
         self.arrived = self.ended = self.held = False
@@ -150,6 +152,7 @@ class Stream:
         """End the run at `until` (s), which lies ahead; None: at the trajectory's end."""
         self.until = until
         if self.clock.rate != 0:
+            self._begin_run()
             self._schedule(self._tick)
             self.next_ns = self._due_ns
 
@@ -225,7 +228,7 @@ class Stream:
         sample = Sample(due_ns, self.arm, velocities, position, frame, True)
         self.sent += 1
         self._schedule(self._tick + 1)
-        spacing_ns = round(CATCH_UP_SPACING * SECOND / trajectory.frame_rate)
+        spacing_ns = int(CATCH_UP_SPACING * SECOND / self._frame_rate)
         self.next_ns = max(self._due_ns, now_ns + spacing_ns)
         self.ended = position == self.end
         self.held = position == self.until
@@ -245,32 +248,33 @@ class Stream:
         assert self.trajectory is not None
         return self.trajectory
 
-    @property
-    def _step(self) -> float:
-        """Time on the trajectory between two joint states, s; negative backwards."""
-        return self.rate / self._loaded.frame_rate
-
-    @property
-    def _end(self) -> float:
-        """Where this run ends, s."""
-        return self.end if self.until is None else self.until
-
     def _repetition(self, now_ns: int) -> int | None:
         return None if self._standing_ns is None else now_ns + self._standing_ns
 
     def _sample_off_trajectory(self, due_ns: int, velocities: Array) -> Sample:
         return Sample(due_ns, self.arm, velocities, self.clock.position, self.frame, False)
 
+    def _begin_run(self) -> None:
+        """Take what holds until the run's rate, end or trajectory changes."""
+        self._run_begin = self.begin
+        self._run_end = self.end if self.until is None else self.until
+        self._frame_rate = self._loaded.frame_rate
+
+    def _tick_at(self, position: float) -> float:
+        """Return the number of the run's joint state at `position` (s)."""
+        return (position - self._run_begin) * self._frame_rate / self.rate
+
     def _schedule_from(self, position: float, *, skip: bool) -> None:
         """Schedule the first joint state at (or, with skip, after) `position` (s)."""
-        ticks = (position - self.begin) / self._step
-        self._schedule(math.floor(ticks + ON_TICK) + 1 if skip else math.ceil(ticks - ON_TICK))
+        self._begin_run()
+        tick = self._tick_at(position)
+        self._schedule(math.floor(tick + ON_TICK) + 1 if skip else math.ceil(tick - ON_TICK))
         self.next_ns = self._due_ns
 
     def _schedule(self, tick: int) -> None:
         """Make `tick` the next joint state; the last one is exactly at the end of the run."""
-        frame_rate, end = self._loaded.frame_rate, self._end
-        position = self.begin + tick * self.rate / frame_rate
+        frame_rate, end = self._frame_rate, self._run_end
+        position = self._run_begin + tick * self.rate / frame_rate
         left = end - position if self.rate > 0 else position - end
         if left < ON_FRAME / frame_rate:
             position = end
@@ -280,8 +284,8 @@ class Stream:
     def _skip_lost(self, now_ns: int) -> None:
         """Leave out the joint states whose successor is due too, and count them."""
         nearest = min if self.rate > 0 else max
-        reached = nearest(self.clock.at(now_ns), self._end)
-        newest = math.floor((reached - self.begin) / self._step + ON_FRAME)
+        reached = nearest(self.clock.at(now_ns), self._run_end)
+        newest = math.floor(self._tick_at(reached) + ON_FRAME)
         self.lost += max(newest - self._tick, 0)
         self._schedule(max(newest, self._tick))
 

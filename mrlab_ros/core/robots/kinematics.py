@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
+import math
+from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
 
 from mrlab_ros.core.errors import Misuse
-from mrlab_ros.core.geometry import Array
+from mrlab_ros.core.geometry import Array, Pose, Quaternion, Vector, pose_from_transform
 
 
 def _frame_with_z_along(axis: Array) -> Array:
@@ -63,6 +65,55 @@ class KinematicChain:
             turn = np.eye(4) if segment.axis is None else _frame_with_z_along(segment.axis)
             pairs.append((segment.T_parent_joint @ turn, turn.T))
         return tuple(pairs)
+
+    @cached_property
+    def _steps(self) -> tuple[tuple[Vector, Quaternion, bool], ...]:
+        """What lies before each moving joint, its axis on z, and whether it is prismatic.
+
+        A last step, which moves nothing, leads to the tip.
+        """
+        steps: list[tuple[Vector, Quaternion, bool]] = []
+        pending = np.eye(4)
+        for segment, (before, after) in zip(self.segments, self._aligned, strict=True):
+            pending = pending @ before
+            if segment.axis is not None:
+                pose = pose_from_transform(pending)
+                steps.append((pose.position, pose.orientation, segment.prismatic))
+                pending = after
+        pose = pose_from_transform(pending)
+        return (*steps, (pose.position, pose.orientation, True))
+
+    def tip(self, positions: Sequence[float]) -> Pose:
+        """Return the pose of the chain's last link in `base`, for one position a moving joint.
+
+        As tool0(), but without numpy, whose calls take longer than one pose.
+        """
+        if len(positions) != self.joint_count:
+            raise Misuse(f"there are {len(positions)} positions; expected {self.joint_count}")
+        x = y = z = qx = qy = qz = 0.0
+        qw = 1.0
+        for ((px, py, pz), (ax, ay, az, aw), prismatic), value in zip(
+            self._steps, (*positions, 0.0), strict=True
+        ):
+            tx, ty, tz = 2 * (qy * pz - qz * py), 2 * (qz * px - qx * pz), 2 * (qx * py - qy * px)
+            x += px + qw * tx + qy * tz - qz * ty
+            y += py + qw * ty + qz * tx - qx * tz
+            z += pz + qw * tz + qx * ty - qy * tx
+            qx, qy, qz, qw = (
+                qw * ax + qx * aw + qy * az - qz * ay,
+                qw * ay - qx * az + qy * aw + qz * ax,
+                qw * az + qx * ay - qy * ax + qz * aw,
+                qw * aw - qx * ax - qy * ay - qz * az,
+            )
+            if prismatic:
+                x += 2 * (qx * qz + qw * qy) * value
+                y += 2 * (qy * qz - qw * qx) * value
+                z += (1 - 2 * (qx * qx + qy * qy)) * value
+            else:
+                s, c = math.sin(value / 2), math.cos(value / 2)
+                qx, qy, qz, qw = qx * c + qy * s, qy * c - qx * s, qz * c + qw * s, qw * c - qz * s
+        norm = math.copysign(math.hypot(qx, qy, qz, qw), max(qx, qy, qz, qw, key=abs))
+        return Pose((x, y, z), (qx / norm, qy / norm, qz / norm, qw / norm))
 
     def tool0(self, positions: Array) -> Array:
         """Return T_base_tip of the chain's last link, (..., 4, 4), for positions (..., J)."""

@@ -44,6 +44,10 @@ MOST_LOADS = 4
 # What moves, and what has changed, is written into the journal this often, s: a robot whose
 # process was killed stands at most this much behind.
 JOURNAL_PERIOD_S = 0.1
+# What moves publishes its state this often, s, in as many groups one after another: all at once
+# would delay joint states by milliseconds.
+STATE_PERIOD_S = 1.0
+STATE_TURNS = 10
 # How often the claims of robot systems are checked, s.
 LEASE_CHECK_S = 0.5
 
@@ -130,7 +134,8 @@ class PlaybackHostNode(ParameterNode[PlaybackParameters]):
             qos_profile=qos.SERVICES,
         )
         self._telemetry_timer = every(self, 1 / self.parameters.telemetry_rate, self._telemetry)
-        every(self, 1.0, self._states)
+        self._turn = 0
+        every(self, STATE_PERIOD_S / STATE_TURNS, self._states)
         every(self, JOURNAL_PERIOD_S, self._write_journal)
         every(self, LEASE_CHECK_S, self._check_leases)
         self.create_subscription(msg.RobotSystems, "/systems", self._on_systems, qos.LATCHED)
@@ -285,5 +290,6 @@ class PlaybackHostNode(ParameterNode[PlaybackParameters]):
             node.publish_telemetry(now_ns)
 
     def _states(self) -> None:
-        for node in self.nodes.values():
+        self._turn = (self._turn + 1) % STATE_TURNS
+        for node in list(self.nodes.values())[self._turn :: STATE_TURNS]:
             node.publish_state()

@@ -6,7 +6,6 @@ import time
 from collections.abc import Callable
 from concurrent.futures import CancelledError, Future, InvalidStateError
 from contextlib import suppress
-from dataclasses import replace
 from typing import Any
 
 from mrlab_msgs import msg, srv
@@ -29,11 +28,12 @@ from mrlab_ros.messages.joint_states import JointStateEncoder
 from mrlab_ros.messages.playback import (
     status_to_message,
     targets_to_message,
-    telemetry_to_message,
 )
+from mrlab_ros.messages.telemetry import TelemetryEncoder
 from mrlab_ros.ros.answers import answered, create_deferred_service
 from mrlab_ros.ros.calls import NoAnswer
 from mrlab_ros.ros.deadlines import Command, Player, Scheduler
+from mrlab_ros.ros.raw_publish import raw_publish
 from mrlab_ros.ros.worker import Worker
 
 # For what a robot had before a restart, the catalogue is asked this long, s.
@@ -85,7 +85,10 @@ class PlaybackNode(Node):
         self._lab = lab
         self.playback = Playback(model, planner, standing_rate)
         self._encoder = JointStateEncoder(robot, model.joint_names)
-        self._joint_states = self.create_publisher(JointState, "joint_states", qos.STREAM)
+        self._telemetry_encoder = TelemetryEncoder(robot, model.joint_names)
+        self._publish_joint_state = raw_publish(
+            self.create_publisher(JointState, "joint_states", qos.STREAM)
+        )
         self._state = self.create_publisher(
             msg.PlaybackState, "playback_state", qos.LATCHED_EVENTS
         )
@@ -131,7 +134,7 @@ class PlaybackNode(Node):
         if kept is None:
             return self._back
         if last is not None and last.sample.streamed and self.playback.state is State.PLAYING:
-            return replace(kept, position=last.sample.position, arm=last.sample.positions)
+            return kept._replace(position=last.sample.position, arm=last.sample.positions)
         return kept
 
     @property
@@ -185,12 +188,11 @@ class PlaybackNode(Node):
         # What was said of a grasp does not outlive the physics that said it.
         grasp = self._grasp if self._grasps.get_publisher_count() else None
         self._telemetry.publish(
-            telemetry_to_message(
+            self._telemetry_encoder.encode(
                 now_ns,
-                self.robot,
                 last.trajectory,
                 last.sample,
-                self.model.chain.tool0(last.sample.positions),
+                self.model.chain.tip(last.sample.positions.tolist()),
                 grasp,
                 sent=last.sent,
                 lost=last.lost,
@@ -208,7 +210,7 @@ class PlaybackNode(Node):
                 self._announce(now_ns, self.playback.status())
 
     def _send(self, sample: Sample) -> None:
-        self._joint_states.publish(
+        self._publish_joint_state(
             self._encoder.encode(sample.due_ns, sample.positions, sample.velocities)
         )
 

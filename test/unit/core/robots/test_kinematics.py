@@ -8,7 +8,11 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from mrlab_ros.core.errors import Misuse
-from mrlab_ros.core.geometry import inverse_transform, transform_from_xyz_rpy
+from mrlab_ros.core.geometry import (
+    inverse_transform,
+    pose_from_transform,
+    transform_from_xyz_rpy,
+)
 from mrlab_ros.core.robots.kinematics import KinematicChain, Segment
 
 ANGLES = st.floats(-7.0, 7.0)
@@ -84,3 +88,30 @@ def test_moving_one_joint_leaves_the_links_before_it() -> None:
     before, after = chain.links(np.zeros(3)), chain.links(np.array([0.0, 0.0, 1.0]))
     np.testing.assert_array_equal(before["link_2"], after["link_2"])
     assert np.abs(before["tool0"] - after["tool0"]).max() > 0.05
+
+
+@given(st.lists(ANGLES, min_size=4, max_size=4))
+def test_the_tip_is_where_tool0_says(positions: list[float]) -> None:
+    tilted = np.array([1.0, -2.0, 0.5]) / np.linalg.norm([1.0, -2.0, 0.5])
+    places = [transform_from_xyz_rpy([0.1 * i, 0.2, -0.3], [0.4 * i, 1.0, -2.0]) for i in range(6)]
+    chain = KinematicChain(
+        "base_link",
+        (
+            Segment("a", places[0], np.array([0.0, 0.0, 1.0])),
+            Segment("b", places[1], tilted),
+            Segment("c", places[2]),
+            Segment("d", places[3], np.array([0.0, -1.0, 0.0]), prismatic=True),
+            Segment("e", places[4], np.array([1.0, 0.0, 0.0])),
+            Segment("tool0", places[5]),
+        ),
+    )
+    expected = pose_from_transform(chain.tool0(np.array(positions)))
+    found = chain.tip(positions)
+    np.testing.assert_allclose(found.position, expected.position, atol=1e-12)
+    same = np.dot(found.orientation, expected.orientation)
+    assert abs(same) == pytest.approx(1.0, abs=1e-12)
+
+
+def test_a_tip_needs_all_positions() -> None:
+    with pytest.raises(Misuse, match="1 positions; expected 2"):
+        planar(0.4, 0.3).tip([0.0])
