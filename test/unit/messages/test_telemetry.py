@@ -27,12 +27,14 @@ def test_rclpy_reads_what_was_written(robot, joints, gripper):
     velocities = np.linspace(-1, 1, joints)
     sample = Sample(7, positions[1], velocities, 0.01, 1, True)
     encoder = TelemetryEncoder(robot, names)
-    for sent in (1, 2**32 - 1):
+    held = msg.Grasp(object="cube_1", mass=0.2, payload=3.9, slip_margin=-0.1, wrist_moment=0.3)
+    for sent, grasp in ((1, None), (2**32 - 1, held)):
         data = encoder.encode(
             NOW_NS,
             trajectory,
             sample,
             TIP,
+            grasp,
             sent=sent,
             lost=3,
             error_ns=250_000,
