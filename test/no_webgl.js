@@ -1,5 +1,5 @@
 // A WebGL 2 that draws nothing, for browser tests of what a 3D page does rather than shows: software
-// draws a frame in a second on few cores. Every call succeeds at once.
+// draws a frame in a second on few cores. Every call succeeds at once. `blindCalls` counts them.
 ;(() => {
   const NUMBERS = { MAX_TEXTURE_IMAGE_UNITS: 16, MAX_VERTEX_TEXTURE_IMAGE_UNITS: 16, MAX_SAMPLES: 4,
     MAX_TEXTURE_SIZE: 4096, MAX_CUBE_MAP_TEXTURE_SIZE: 4096, MAX_VERTEX_ATTRIBS: 16,
@@ -7,6 +7,8 @@
     MAX_COMBINED_TEXTURE_IMAGE_UNITS: 32, MAX_UNIFORM_BUFFER_BINDINGS: 24, MAX_ARRAY_TEXTURE_LAYERS: 256 }
   const constants = WebGL2RenderingContext
   const named = (value) => Object.keys(NUMBERS).find((name) => constants[name] === value)
+  const canvasSize = (size) => Math.max(size, 1)
+  window.blindCalls = 0
 
   function answers(canvas, attributes) {
     const precision = { precision: 23, rangeMin: 127, rangeMax: 127 }
@@ -38,23 +40,32 @@
         }
         return NUMBERS[named(what)] ?? 0
       },
+      get drawingBufferWidth() {
+        return canvasSize(canvas.width)
+      },
+      get drawingBufferHeight() {
+        return canvasSize(canvas.height)
+      },
     }
+  }
+
+  function blind(canvas, attributes) {
+    const context = answers(canvas, attributes)
+    const nothing = () => {
+      window.blindCalls++
+    }
+    for (const name of Object.getOwnPropertyNames(constants.prototype)) {
+      if (name in context || name === 'constructor') continue
+      if (name in constants) context[name] = constants[name]
+      else context[name] = name.startsWith('create') ? () => ({}) : nothing
+    }
+    return context
   }
 
   const real = HTMLCanvasElement.prototype.getContext
   HTMLCanvasElement.prototype.getContext = function (kind, attributes = {}) {
     if (kind !== 'webgl2') return real.call(this, kind, attributes)
-    this.blind ??= new Proxy(answers(this, attributes), {
-      get(target, name) {
-        if (name in target) return target[name]
-        if (name === 'drawingBufferWidth') return canvasSize(target.canvas.width)
-        if (name === 'drawingBufferHeight') return canvasSize(target.canvas.height)
-        if (name in constants) return constants[name]
-        if (String(name).startsWith('create')) return () => ({})
-        return () => undefined
-      },
-    })
+    this.blind ??= blind(this, attributes)
     return this.blind
   }
-  const canvasSize = (size) => Math.max(size, 1)
 })()

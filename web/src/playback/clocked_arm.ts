@@ -100,6 +100,8 @@ export class ClockedArm {
       if (newest - own < OTHER_CLOCK) return
       this.count = 0
     }
+    // nothing was left to show: what was missed meanwhile is caught up with, eased
+    if (this.source === 'states' && this.shownAt - STREAM_DELAY > newest) this.changed = true
     this.newest = (this.newest + 1) % HISTORY
     this.count = Math.min(this.count + 1, HISTORY)
     this.stamps[this.newest] = own

@@ -1,4 +1,5 @@
-import { Mesh, type Object3D, Vector3 } from 'three'
+import { type Box3, Mesh, type Object3D, Vector3 } from 'three'
+import { RobotBody } from './robot_body'
 
 /** Add the corners of the box about each mesh below `object`, in the frame of `world`, to `into`. */
 export function pushCorners(object: Object3D, world: Object3D, into: Vector3[]): void {
@@ -6,16 +7,25 @@ export function pushCorners(object: Object3D, world: Object3D, into: Vector3[]):
   const inverse = world.matrixWorld.clone().invert()
   object.traverse((node) => {
     if (!(node instanceof Mesh) || !node.visible) return
+    if (node instanceof RobotBody) {
+      node.boxes.forEach((box, i) => {
+        push(box, node.skeleton.bones[i] ?? node)
+      })
+      return
+    }
     node.geometry.computeBoundingBox()
-    const box = node.geometry.boundingBox
-    if (box === null || box.isEmpty()) return
+    if (node.geometry.boundingBox !== null) push(node.geometry.boundingBox, node)
+  })
+
+  function push(box: Box3, frame: Object3D): void {
+    if (box.isEmpty()) return
     for (let corner = 0; corner < 8; corner++) {
       const at = new Vector3(
         corner & 1 ? box.max.x : box.min.x,
         corner & 2 ? box.max.y : box.min.y,
         corner & 4 ? box.max.z : box.min.z,
       )
-      into.push(at.applyMatrix4(node.matrixWorld).applyMatrix4(inverse))
+      into.push(at.applyMatrix4(frame.matrixWorld).applyMatrix4(inverse))
     }
-  })
+  }
 }

@@ -1,7 +1,8 @@
 import { Group, Matrix4, type Object3D, Quaternion, Vector3 } from 'three'
+import { type Instance, Instances, partsOf } from './instances'
 import type { SceneHost } from './lab_scene'
-import { type MeshSource, release } from './meshes'
-import { primitiveOf, type Shape } from './shapes'
+import type { MeshSource } from './meshes'
+import { colourOf, kindOf, primitiveParts, type Shape, scaleOf } from './shapes'
 
 export interface Pose {
   readonly position: { readonly x: number; readonly y: number; readonly z: number }
@@ -49,12 +50,17 @@ interface Entry {
   /** Of the object in the tool0 that holds it. */
   readonly grip: Matrix4
   look: string
+  /** What is drawn of it; null: nothing yet. */
+  instance: Instance | null
   seen: boolean
 }
 
 /** The objects of the scene. One that is held moves with the hand between two messages. */
 export class LabObjects {
   private readonly known = new Map<string, Entry>()
+  private readonly instances: Instances
+  /** Of the primitives: what is freed at the end. */
+  private readonly made: { dispose(): void }[] = []
   private readonly scratch = new Matrix4()
   private readonly scale = new Vector3()
   private readonly unit = new Vector3(1, 1, 1)
@@ -66,7 +72,9 @@ export class LabObjects {
     private readonly meshes: MeshSource,
     private readonly toolOf: (robot: string) => Object3D | undefined,
     private readonly trouble: (sentence: string) => void,
-  ) {}
+  ) {
+    this.instances = new Instances(stage.world)
+  }
 
   /** Take over what is there; what is not among it disappears. */
   set(objects: readonly ShownObject[]): void {
@@ -87,8 +95,8 @@ export class LabObjects {
       if (entry.seen) continue
       changed = true
       this.known.delete(name)
+      this.undress(entry)
       entry.root.removeFromParent()
-      release(entry.root)
     }
     if (changed) this.stage.invalidate()
   }
@@ -102,7 +110,7 @@ export class LabObjects {
     return true
   }
 
-  /** Put what is held where the hands are now. */
+  /** Before each picture: put what is held where the hands are now. */
   follow(): void {
     for (const entry of this.known.values()) {
       const tip = entry.heldBy === '' ? undefined : this.toolOf(entry.heldBy)
@@ -111,20 +119,27 @@ export class LabObjects {
       this.scratch.decompose(entry.root.position, this.quaternion, this.scale)
       entry.root.quaternion.copy(this.quaternion)
     }
+    this.instances.update()
   }
 
   dispose(): void {
-    for (const { root } of this.known.values()) {
-      root.removeFromParent()
-      release(root)
-    }
+    for (const { root } of this.known.values()) root.removeFromParent()
     this.known.clear()
+    this.instances.dispose()
+    for (const each of this.made) each.dispose()
   }
 
   private add(object: ShownObject): Entry {
     const root = new Group()
     root.name = object.name
-    const entry = { root, heldBy: '', grip: new Matrix4(), look: '', seen: true }
+    const entry = {
+      root,
+      heldBy: '',
+      grip: new Matrix4(),
+      look: '',
+      instance: null,
+      seen: true,
+    }
     this.known.set(object.name, entry)
     this.stage.world.add(root)
     return entry
@@ -167,27 +182,52 @@ export class LabObjects {
     const look = `${mesh} ${primitive.type} ${dimensions} ${size.x} ${size.y} ${size.z} ${color.r} ${color.g} ${color.b} ${color.a}`
     if (entry.look === look) return false
     entry.look = look
-    release(entry.root)
-    entry.root.clear()
+    this.undress(entry)
     if (mesh === '') {
-      entry.root.add(primitiveOf(object))
+      this.drawPrimitive(entry, object)
       return true
     }
     this.meshes
       .load(mesh)
+      .then((loaded) => {
+        if (entry.look === look) this.drawMesh(entry, mesh, loaded)
+      })
       .catch((error: unknown) => {
         this.trouble(`${mesh}: ${error instanceof Error ? error.message : String(error)}`)
-        return primitiveOf(object)
+        if (entry.look === look) this.drawPrimitive(entry, object)
       })
-      .then((loaded) => {
-        if (entry.look !== look) return
-        loaded.traverse((node) => {
-          node.castShadow = true
-          node.receiveShadow = true
-        })
-        entry.root.add(loaded)
-        this.stage.invalidate()
-      })
+      .then(() => this.stage.invalidate())
     return true
+  }
+
+  private drawPrimitive(entry: Entry, object: ShownObject): void {
+    const kind = kindOf(object)
+    if (!this.instances.has(kind)) {
+      const parts = primitiveParts(object)
+      for (const { geometry, material } of parts) this.made.push(geometry, material)
+      this.instances.define(kind, parts)
+    }
+    entry.instance = { kind, frame: entry.root, scale: scaleOf(object), colour: colourOf(object) }
+    this.instances.add(entry.instance)
+  }
+
+  private drawMesh(entry: Entry, uri: string, loaded: Object3D): void {
+    if (!this.instances.has(uri)) {
+      const parts = partsOf(loaded)
+      if (parts === null) {
+        // several materials on one mesh: it is drawn by itself
+        entry.root.add(loaded)
+        return
+      }
+      this.instances.define(uri, parts)
+    }
+    entry.instance = { kind: uri, frame: entry.root, scale: this.unit, colour: null }
+    this.instances.add(entry.instance)
+  }
+
+  private undress(entry: Entry): void {
+    if (entry.instance !== null) this.instances.remove(entry.instance)
+    entry.instance = null
+    entry.root.clear()
   }
 }

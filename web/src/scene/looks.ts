@@ -1,7 +1,8 @@
-import { Color, LineBasicMaterial, MeshStandardMaterial } from 'three'
+import { Color, LineBasicMaterial, MeshDepthMaterial, MeshStandardMaterial } from 'three'
+import { bodyMaterial } from './robot_body'
 import type { SceneTheme } from './theme'
 
-/** Materials that say something about a robot rather than what it is made of. */
+/** The materials that robots share. */
 export class Looks {
   readonly grey = new MeshStandardMaterial({ roughness: 0.75, metalness: 0 })
   readonly failing = new MeshStandardMaterial({ roughness: 0.5, metalness: 0 })
@@ -14,6 +15,9 @@ export class Looks {
     polygonOffsetFactor: 2,
     polygonOffsetUnits: 8,
   })
+  /** Of a robot as it is made, and of its shadow. */
+  readonly body = bodyMaterial()
+  readonly shadow = new MeshDepthMaterial()
   readonly missing = new LineBasicMaterial({ color: 0xd6006c })
 
   setTheme(theme: SceneTheme): void {
@@ -26,6 +30,7 @@ export class Looks {
   }
 
   dispose(): void {
-    for (const material of [this.grey, this.failing, this.ghost, this.missing]) material.dispose()
+    const { grey, failing, ghost, body, shadow, missing } = this
+    for (const material of [grey, failing, ghost, body, shadow, missing]) material.dispose()
   }
 }

@@ -12,6 +12,7 @@ import {
 import URDFLoader, { type URDFJoint, type URDFMimicJoint, type URDFRobot } from 'urdf-loader'
 import type { Looks } from './looks'
 import type { MeshSource } from './meshes'
+import { RobotBody } from './robot_body'
 
 const PLACEHOLDER = 0.09 // m, edge of the box that stands for a missing mesh
 
@@ -50,6 +51,8 @@ export class SceneRobot {
   private readonly placeholder = new EdgesGeometry(
     new BoxGeometry(PLACEHOLDER, PLACEHOLDER, PLACEHOLDER),
   )
+  private body: RobotBody | null = null
+  private disposed = false
   private look: Look = 'own'
   private failing = ''
   private readonly turn = new Quaternion()
@@ -108,7 +111,7 @@ export class SceneRobot {
     this.root.traverse((node) => {
       if (node instanceof Mesh) this.adopt(node)
     })
-    this.ready = Promise.all(loading).then(() => undefined)
+    this.ready = Promise.all(loading).then(() => this.merge())
   }
 
   get jointNames(): string[] {
@@ -166,11 +169,14 @@ export class SceneRobot {
     this.look = look
     this.failing = failing
     for (const [mesh, material] of this.own) this.paint(mesh, material)
+    this.paintBody()
     this.changed()
   }
 
   dispose(): void {
+    this.disposed = true
     this.placeholder.dispose()
+    this.body?.release()
     this.root.removeFromParent()
   }
 
@@ -208,8 +214,31 @@ export class SceneRobot {
     })
   }
 
+  /** Draw the links as one mesh from now on. */
+  private merge(): void {
+    if (this.disposed) return
+    this.body = RobotBody.of(this.root, linkAbove, this.looks.body, this.looks.shadow)
+    for (const mesh of [...this.own.keys()]) {
+      if (!isBelow(mesh, this.root)) this.own.delete(mesh)
+    }
+    this.paintBody()
+    this.changed()
+  }
+
+  private paintBody(): void {
+    const { body, looks, look, failing } = this
+    if (body === null) return
+    const ghost = look === 'ghost'
+    body.castShadow = !ghost
+    body.receiveShadow = !ghost
+    body.renderOrder = ghost ? 1 : 0
+    const grey = look === 'grey' || failing !== ''
+    const material = ghost ? looks.ghost : grey ? looks.grey : looks.body
+    body.paint(material, ghost ? '' : failing, looks.failing)
+  }
+
   private paint(mesh: Mesh, own: Material | Material[]): void {
-    const link = linkAbove(mesh)
+    const link = linkAbove(mesh)?.name ?? ''
     const ghost = this.look === 'ghost'
     mesh.castShadow = !ghost
     mesh.receiveShadow = !ghost
@@ -235,9 +264,16 @@ function movable(joint: URDFJoint): Movable {
   }
 }
 
-function linkAbove(object: Object3D): string {
+function linkAbove(object: Object3D): Object3D | null {
   for (let node: Object3D | null = object; node !== null; node = node.parent) {
-    if ('isURDFLink' in node || 'isURDFRobot' in node) return node.name
+    if ('isURDFLink' in node || 'isURDFRobot' in node) return node
   }
-  return ''
+  return null
+}
+
+function isBelow(object: Object3D, root: Object3D): boolean {
+  for (let node: Object3D | null = object; node !== null; node = node.parent) {
+    if (node === root) return true
+  }
+  return false
 }

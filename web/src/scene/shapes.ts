@@ -4,11 +4,13 @@ import {
   Color,
   ConeGeometry,
   CylinderGeometry,
-  Mesh,
+  Matrix4,
   MeshStandardMaterial,
   SphereGeometry,
   SRGBColorSpace,
+  Vector3,
 } from 'three'
+import type { KindPart } from './instances'
 
 /** What an object looks like: the fields of mrlab_msgs/msg/SceneObject that say so. */
 export interface Shape {
@@ -29,35 +31,54 @@ const SPHERE = 2
 const CYLINDER = 3
 const CONE = 4
 
-/** Return the primitive of an object, or the box about it where it has none. */
-export function primitiveOf(shape: Shape): Mesh<BufferGeometry, MeshStandardMaterial> {
-  const { r, g, b, a } = shape.color
-  const material = new MeshStandardMaterial({
-    color: new Color().setRGB(r, g, b, SRGBColorSpace),
-    roughness: 0.6,
-    metalness: 0,
-    opacity: a,
-    transparent: a < 1,
-  })
-  const mesh = new Mesh(geometryOf(shape), material)
-  mesh.castShadow = true
-  mesh.receiveShadow = true
-  return mesh
+/** Return the kind of which an object's primitive is an instance: its shape and how dense it is. */
+export function kindOf({ primitive: { type }, color: { a } }: Shape): string {
+  const known = type === SPHERE || type === CYLINDER || type === CONE ? type : BOX
+  return a < 1 ? `primitive ${known} ${a.toFixed(3)}` : `primitive ${known}`
 }
 
-function geometryOf({ primitive, size }: Shape): BufferGeometry {
+/** Return what the primitives of a kind share: one of size 1 about its centre. */
+export function primitiveParts({ primitive, color }: Shape): KindPart[] {
+  const material = new MeshStandardMaterial({
+    roughness: 0.6,
+    metalness: 0,
+    opacity: color.a,
+    transparent: color.a < 1,
+  })
+  return [{ geometry: geometryOf(primitive.type), material, local: new Matrix4() }]
+}
+
+/** Return what makes an object's primitive of one of size 1. */
+export function scaleOf({ primitive, size }: Shape): Vector3 {
   const [a = 0, b = 0, c = 0] = Array.from(primitive.dimensions)
   switch (primitive.type) {
     case BOX:
-      return new BoxGeometry(a, b, c)
+      return new Vector3(a, b, c)
     case SPHERE:
-      return new SphereGeometry(a, 40, 24)
-    // height, radius; three's stand along y, ROS's along z
+      return new Vector3(a, a, a)
+    // height, radius
     case CYLINDER:
-      return new CylinderGeometry(b, b, a, 40).rotateX(Math.PI / 2)
     case CONE:
-      return new ConeGeometry(b, a, 40).rotateX(Math.PI / 2)
+      return new Vector3(b, b, a)
     default:
-      return new BoxGeometry(size.x, size.y, size.z)
+      return new Vector3(size.x, size.y, size.z)
+  }
+}
+
+export function colourOf({ color: { r, g, b } }: Shape): Color {
+  return new Color().setRGB(r, g, b, SRGBColorSpace)
+}
+
+function geometryOf(type: number): BufferGeometry {
+  switch (type) {
+    case SPHERE:
+      return new SphereGeometry(1, 32, 20)
+    // three's stand along y, ROS's along z
+    case CYLINDER:
+      return new CylinderGeometry(1, 1, 1, 36).rotateX(Math.PI / 2)
+    case CONE:
+      return new ConeGeometry(1, 1, 36).rotateX(Math.PI / 2)
+    default:
+      return new BoxGeometry(1, 1, 1)
   }
 }

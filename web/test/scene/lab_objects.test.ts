@@ -1,4 +1,4 @@
-import { Group, type Object3D } from 'three'
+import { Color, Group, InstancedMesh, Matrix4, type Object3D, Vector3 } from 'three'
 import { expect, test, vi } from 'vitest'
 import { LabObjects, type ShownObject } from '../../src/scene/lab_objects'
 import type { MeshSource } from '../../src/scene/meshes'
@@ -83,5 +83,44 @@ test('a mesh that is missing is said, and its primitive drawn', async () => {
   const { world, objects, said } = scene()
   objects.set([{ ...cube(1), mesh: 'package://p/cup.glb' }])
   await vi.waitFor(() => expect(said).toHaveBeenCalledWith('package://p/cup.glb: 404'))
-  await vi.waitFor(() => expect(world.getObjectByName('cube')?.children).toHaveLength(1))
+  const drawn = () => world.children.find((each) => each instanceof InstancedMesh)
+  await vi.waitFor(() => {
+    objects.follow()
+    expect(drawn()).toMatchObject({ count: 1, visible: true })
+  })
+  objects.set([])
+  objects.follow()
+  expect(drawn()?.visible).toBe(false)
+})
+
+test('objects of one shape are one mesh, each with its size, colour and place', () => {
+  const { world, objects } = scene()
+  const many = Array.from({ length: 40 }, (_, i) => ({
+    ...cube(i),
+    name: `cube_${i}`,
+    color: { r: 0, g: i / 40, b: 0, a: 1 },
+    primitive: { type: 1, dimensions: [i + 1, 1, 1] },
+  }))
+  objects.set(many)
+  objects.follow()
+  const meshes = world.children.filter((each) => each instanceof InstancedMesh)
+  expect(meshes).toHaveLength(1)
+  const [mesh] = meshes as [InstancedMesh]
+  expect(mesh.count).toBe(40)
+  const matrix = new Matrix4()
+  const place = new Vector3()
+  mesh.getMatrixAt(7, matrix)
+  expect(place.setFromMatrixPosition(matrix).x).toBe(7)
+  expect(place.setFromMatrixScale(matrix).x).toBeCloseTo(8)
+  const before = mesh.instanceMatrix.version
+  objects.follow()
+  expect(mesh.instanceMatrix.version, 'what stands is not sent again').toBe(before)
+  // one goes: the others keep what is theirs
+  objects.set(many.filter(({ name }) => name !== 'cube_3'))
+  objects.follow()
+  const colour = new Color()
+  mesh.getMatrixAt(3, matrix)
+  mesh.getColorAt(3, colour)
+  expect(place.setFromMatrixPosition(matrix).x).toBe(4)
+  expect(colour.getHex()).toBe(new Color().setRGB(0, 0.1, 0, 'srgb').getHex())
 })

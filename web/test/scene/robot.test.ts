@@ -1,10 +1,12 @@
 // @vitest-environment jsdom
-import { Mesh, MeshStandardMaterial, Object3D, Vector3 } from 'three'
+import { BoxGeometry, Mesh, MeshStandardMaterial, Object3D, Vector3 } from 'three'
 import { expect, test } from 'vitest'
 import { Course } from '../../src/playback/course'
+import { pushCorners } from '../../src/scene/corners'
 import { Looks } from '../../src/scene/looks'
 import type { MeshSource } from '../../src/scene/meshes'
 import { SceneRobot } from '../../src/scene/robot'
+import { RobotBody } from '../../src/scene/robot_body'
 import { trackOf } from '../../src/scene/tool_path'
 
 const URDF = `<robot name="r">
@@ -91,4 +93,53 @@ test('the track of the tool is in the frame of the base', () => {
   const course = new Course(1, 2, Float64Array.from([0, 0, Math.PI / 2, 0]))
   const track = trackOf(arm, course)
   expect([...track.points].map((n) => Math.round(n * 1000) / 1000)).toEqual([1, 0, 1, 0, 1, 1])
+})
+
+test('its links are one mesh that moves with them', async () => {
+  const steel = new MeshStandardMaterial({ color: 0xff0000, roughness: 0.2, metalness: 1 })
+  const load = () => {
+    const mesh = new Mesh(new BoxGeometry(0.2, 0.2, 0.2), steel)
+    // mirrored, as some descriptions do
+    mesh.scale.y = -1
+    return Promise.resolve(mesh)
+  }
+  const arm = robot({ load })
+  await arm.ready
+  const meshes: Mesh[] = []
+  arm.root.traverse((node) => {
+    if (node instanceof Mesh) meshes.push(node)
+  })
+  const [body] = meshes as [RobotBody]
+  expect(meshes).toHaveLength(1)
+  expect(body).toBeInstanceOf(RobotBody)
+  expect(body.geometry.getAttribute('position').count).toBe(48)
+  expect([...body.geometry.getAttribute('finish').array.slice(0, 2)]).toEqual([51, 255])
+  arm.setPositions([Math.PI / 2, 0.05])
+  arm.root.updateMatrixWorld(true)
+  body.skeleton.update()
+  // the box of tool0 is 1 m wide, 1.05 m along y, 1 m up
+  const at = new Vector3()
+  const low = new Vector3(9, 9, 9)
+  for (let i = 24; i < 48; i++) low.min(body.getVertexPosition(i, at))
+  expect(low.toArray()).toEqual([
+    expect.closeTo(-0.55, 5),
+    expect.closeTo(0.5, 5),
+    expect.closeTo(0.5, 5),
+  ])
+  // its faces still look outwards
+  const index = body.geometry.getIndex()
+  const [a, b, c] = [0, 1, 2].map((i) =>
+    new Vector3().fromBufferAttribute(body.geometry.getAttribute('position'), index?.getX(i) ?? 0),
+  ) as [Vector3, Vector3, Vector3]
+  const outward = b.clone().sub(a).cross(c.clone().sub(a))
+  const normal = new Vector3().fromBufferAttribute(body.geometry.getAttribute('normal'), 0)
+  expect(outward.dot(normal)).toBeGreaterThan(0)
+  const corners: Vector3[] = []
+  pushCorners(arm.root, arm.root, corners)
+  expect(corners).toHaveLength(16)
+  arm.setLook('own', 'tool0')
+  expect(body.geometry.groups).toEqual([
+    { start: 0, count: 36, materialIndex: 0 },
+    { start: 36, count: 36, materialIndex: 1 },
+  ])
 })
