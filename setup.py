@@ -4,7 +4,7 @@ from setuptools import find_packages, setup
 
 package_name = "mrlab_ros"
 # Each is an executable of its own, too; the host runs the node that it is named after.
-NODES = ("bridge", "converter", "coordinator", "lab", "physics", "playback", "recorder")
+NODES = ("bridge", "converter", "coordinator", "frames", "lab", "physics", "playback", "recorder")
 
 
 def data_tree(*folders):

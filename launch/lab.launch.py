@@ -76,6 +76,12 @@ def generate_launch_description():
                 description="simulate contacts and grasps",
             ),
             DeclareLaunchArgument(
+                "frames",
+                default_value="true",
+                choices=flags,
+                description="publish /tf and markers for RViz, Foxglove and recordings",
+            ),
+            DeclareLaunchArgument(
                 "state_dir",
                 default_value="",
                 description="folder for scene and trajectories; empty: a temporary one",
@@ -166,6 +172,7 @@ def processes(context):
         robots=robot_models(value("robots")),
         store=value("store"),
         physics=physics,
+        frames=value("frames") == "true",
         bridge=bridge,
         listen=value("listen"),
         connect=value("connect"),

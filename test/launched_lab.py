@@ -43,8 +43,10 @@ def launched_lab(
 ) -> Iterator[None]:
     """Run a lab on a free ROS domain, which commands then talk to; it has to end well.
 
-    It has no pages, unless the options say where.
+    It has no pages, unless the options say where, and no frames, unless they ask for them.
     """
+    if "--frames" not in options:
+        options = (*options, "--no-frames")
     if "--http" not in options:
         options = (*options, "--no-web")
     monkeypatch.setenv("XDG_RUNTIME_DIR", str(folder))

@@ -2,14 +2,10 @@
 
 from __future__ import annotations
 
-from typing import Any
-
-from geometry_msgs.msg import Point, Quaternion, Transform, TransformStamped, Vector3
+from geometry_msgs.msg import Point, Quaternion
 from geometry_msgs.msg import Pose as PoseMessage
-from mrlab_msgs import msg
 
 from mrlab_ros.core.geometry import Array, Pose, pose_from_transform
-from mrlab_ros.messages.time import make_header
 
 
 def pose_from_message(message: PoseMessage) -> Pose:
@@ -29,20 +25,3 @@ def pose_to_message(pose: Pose) -> PoseMessage:
 def transform_to_pose_message(transform: Array) -> PoseMessage:
     """Return a (4, 4) homogeneous transform as a pose message."""
     return pose_to_message(pose_from_transform(transform))
-
-
-def transforms_to_message(now_ns: int, kind: type[Any], robots: list[msg.Robot]) -> Any:
-    """Return the robots' base transforms, T_world_base, as a message of `kind` (TFMessage)."""
-    transforms = []
-    for robot in robots:
-        p = robot.pose.position
-        transforms.append(
-            TransformStamped(
-                header=make_header(now_ns, "world"),
-                child_frame_id=f"{robot.name}/base_link",
-                transform=Transform(
-                    translation=Vector3(x=p.x, y=p.y, z=p.z), rotation=robot.pose.orientation
-                ),
-            )
-        )
-    return kind(transforms=transforms)

@@ -178,6 +178,21 @@ class PhysicsParameters:
 
 
 @dataclass(frozen=True)
+class FramesParameters:
+    lab_id: str = _lab_id()
+    rate: float = field(
+        Number(between(1, 200), "Hz"),
+        "How often the frames of moving robots are published on /tf; a 3D panel draws at 30.",
+        30.0,
+    )
+    marker_rate: float = field(
+        Number(between(0, 60), "Hz"),
+        "How often the markers of what moves are published at most; 0: no markers.",
+        10.0,
+    )
+
+
+@dataclass(frozen=True)
 class RecorderParameters:
     state_dir: str = _state_dir(
         "Folder for the journal of the recording; empty: a recorder that is killed does not go on."
@@ -274,6 +289,7 @@ NODES: dict[str, type[Any]] = {
     "playback_host": PlaybackParameters,
     "physics": PhysicsParameters,
     "recorder": RecorderParameters,
+    "frames": FramesParameters,
     "bridge": BridgeParameters,
 }
 ALL = tuple(NODES.values())

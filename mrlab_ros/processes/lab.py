@@ -56,6 +56,7 @@ NODES = {
         "coordinator",
         ("/systems", "RobotSystems"),
     ),
+    "frames": NodeEntry("mrlab_ros.nodes.frames.node", "FramesNode", "frames"),
     "lab": NodeEntry("mrlab_ros.nodes.lab.node", "LabNode", "lab", ("/robots", "Robots")),
     "physics": NodeEntry("mrlab_ros.nodes.physics.node", "PhysicsNode", "physics"),
     "playback": NodeEntry("mrlab_ros.nodes.playback.host", "PlaybackHostNode", "playback_host"),
@@ -137,6 +138,7 @@ PROCESSES: tuple[LabProcess | GatewayProcess, ...] = (
     LabProcess("playback", ("playback",)),
     LabProcess("recorder", ("recorder",)),
     LabProcess("physics", ("physics",), wanted=lambda options: options.physics),
+    LabProcess("frames", ("frames",), wanted=lambda options: options.frames),
     LabProcess("bridge", ("bridge",), _bridge_parameters, wanted=lambda options: options.bridge),
     GatewayProcess(),
 )

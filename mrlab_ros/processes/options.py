@@ -29,19 +29,21 @@ class WebOptions:
 class LabOptions:
     """What a lab is started with.
 
-    config: a ROS parameter file. state_dir: the folder for scene and trajectories. robots: models
-    to begin with. listen: where zenoh clients connect; empty: the bridge's default. connect: a
-    router that clients connect to in place of the bridge. keys: a keys folder. insecure: listen
-    beyond this machine without keys. store: URL or folder of uploads and trajectories; empty: in
-    state_dir. socket: on which this user's commands connect; empty: none. web: the gateway; None:
-    no pages. sim_time: the topic /clock gives the time. lab_id: distinguishes this lab from others
-    on the same ROS domain; empty: nothing is ignored.
+    config: a ROS parameter file. state_dir: the folder for scene and trajectories. robots:
+    models to begin with. frames: publish /tf and markers. listen: where zenoh clients connect;
+    empty: the bridge's default. connect: a router that clients connect to in place of the
+    bridge. keys: a keys folder. insecure: listen beyond this machine without keys. store: URL
+    or folder of uploads and trajectories; empty: in state_dir. socket: on which this user's
+    commands connect; empty: none. web: the gateway; None: no pages. sim_time: the topic /clock
+    gives the time. lab_id: distinguishes this lab from others on the same ROS domain; empty:
+    nothing is ignored.
     """
 
     config: Path
     state_dir: Path
     robots: tuple[str, ...] = ()
     physics: bool = True
+    frames: bool = True
     bridge: bool = True
     listen: str = ""
     connect: str = ""

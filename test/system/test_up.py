@@ -127,7 +127,7 @@ def test_the_graph_heals_when_a_process_dies(lab: Lab) -> None:
     after = lab.status()
     assert [robot["name"] for robot in after["robots"]] == ["ur5e_1"]
     restarts = {p["name"]: p["restarts"] for p in after["supervisor"]["processes"]}
-    others = ("playback", "physics", "bridge", "recorder", "web")
+    others = ("playback", "physics", "frames", "bridge", "recorder", "web")
     assert restarts == {"lab": 1, **dict.fromkeys(others, 0)}
     assert "lab ended (SIGKILL); restarts in 0.1 s" in lab.said
 

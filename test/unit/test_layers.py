@@ -37,6 +37,7 @@ INSIDES = re.compile(r"rclpy\.impl|rclpy\.experimental|\.handle\b")
 # The graph. Not ament_index_python: it finds installed files and knows no node.
 GRAPH = {
     "builtin_interfaces",
+    "control_msgs",
     "diagnostic_msgs",
     "geometry_msgs",
     "launch",
@@ -51,6 +52,7 @@ GRAPH = {
     "std_srvs",
     "tf2_msgs",
     "trajectory_msgs",
+    "visualization_msgs",
 }
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 import tempfile
 from collections.abc import Iterator
 from contextlib import contextmanager
@@ -12,6 +13,7 @@ from mrlab_ros.adapters.bags.reader import Bag
 from mrlab_ros.adapters.bags.session import Decoder
 from mrlab_ros.core.clock import SECOND
 from mrlab_ros.core.errors import BadInput
+from mrlab_ros.core.robots.frames import without_frames
 from mrlab_ros.core.show.session import RecordedMotion, RecordedObject, RecordedRobot
 
 TYPES = {
@@ -24,6 +26,8 @@ TYPES = {
 OBJECT_INTERVAL = 1 / 30
 PACKAGE = "package://"
 OWN = "package://mrlab_ros/"
+# Of one robot; /robot_description has all of them.
+DESCRIPTION = re.compile(r"/.+/robot_description")
 
 
 def read_motion(bag: Bag) -> RecordedMotion:
@@ -34,7 +38,7 @@ def read_motion(bag: Bag) -> RecordedMotion:
         topic.name
         for topic in bag.topics.values()
         if topic.type in TYPES
-        and (topic.type != "std_msgs/msg/String" or topic.name.endswith("/robot_description"))
+        and (topic.type != "std_msgs/msg/String" or DESCRIPTION.fullmatch(topic.name))
     }
     before = -1.0
     for message in bag.messages(topics=topics):
@@ -54,9 +58,10 @@ def read_motion(bag: Bag) -> RecordedMotion:
             for thing in data.objects:
                 _take_object(found, time, thing)
         else:
-            robot = found.robot(message.topic.rsplit("/", 1)[0].strip("/"))
+            name = message.topic.rsplit("/", 1)[0].strip("/")
+            robot = found.robot(name)
             if kind == "std_msgs/msg/String":
-                robot.urdf = data.data
+                robot.urdf = without_frames(data.data, name)
             else:
                 _take_joints(robot, time, data)
     return found

@@ -30,6 +30,7 @@ from mrlab_ros.core.recording.report import (
     SessionReport,
 )
 from mrlab_ros.core.recording.run_finding import runs_of
+from mrlab_ros.core.robots.frames import without_frames
 
 JOINTS = "sensor_msgs/msg/JointState"
 DESCRIPTION = "/robot_description"
@@ -145,7 +146,10 @@ class _Reader:
             return
         if message.topic.endswith(DESCRIPTION):
             name = message.topic.removesuffix(DESCRIPTION).strip("/")
-            self.descriptions[name] = self._decode(kind, message.data).data
+            # The topic without a robot's name has all robots at once.
+            if name:
+                text = self._decode(kind, message.data).data
+                self.descriptions[name] = without_frames(text, name)
             return
         if message.topic.endswith(FINGERS):
             return

@@ -12,7 +12,8 @@ from pathlib import Path
 import numpy as np
 
 from mrlab_ros.core.errors import BadInput
-from mrlab_ros.core.geometry import transform_from_xyz_rpy
+from mrlab_ros.core.geometry import Pose, quaternion_from_rpy, transform_from_xyz_rpy
+from mrlab_ros.core.robots.frames import FixedFrame, LinkFrames, MovingFrame
 from mrlab_ros.core.robots.kinematics import KinematicChain, Segment
 from mrlab_ros.core.robots.model import Joint
 
@@ -96,12 +97,24 @@ class UrdfJoint:
     def moves(self) -> bool:
         return self.kind in MOVING
 
+    @property
+    def unit_axis(self) -> tuple[float, float, float]:
+        length = float(np.linalg.norm(self.axis))
+        x, y, z = (value / length for value in self.axis)
+        return x, y, z
+
+    @property
+    def origin(self) -> Pose:
+        """The joint's frame in the parent link's at position 0."""
+        x, y, z = self.xyz
+        roll, pitch, yaw = self.rpy
+        return Pose((x, y, z), quaternion_from_rpy(roll, pitch, yaw))
+
     def segment(self) -> Segment:
         """Return the joint as a segment of a kinematic chain."""
         axis = None
         if self.moves:
-            length = float(np.linalg.norm(self.axis))
-            axis = np.array(self.axis) / length
+            axis = np.array(self.unit_axis)
         return Segment(
             self.child, transform_from_xyz_rpy(self.xyz, self.rpy), axis, self.kind == "prismatic"
         )
@@ -189,3 +202,37 @@ def chain(root: ET.Element, tip: str, origin: str) -> tuple[KinematicChain, tupl
     base, path = path_to(tip, all_joints)
     segments = tuple(joint.segment() for joint in path)
     return KinematicChain(base, segments), tuple(j.limits(origin) for j in path if j.moves)
+
+
+def frames(root: ET.Element, origin: str) -> LinkFrames:
+    """Return the frames of all links of a URDF, named as the links are.
+
+    Raises BadInput where the links are no one tree.
+    """
+    all_joints = joints(root, origin)
+    links = [str(element.get("name")) for element in root.iterfind("link")]
+    children = {joint.child for joint in all_joints}
+    roots = [link for link in links if link not in children]
+    if len(roots) != 1:
+        raise BadInput(f"{origin} has the root links {', '.join(roots)}; expected one")
+    for link in links:
+        path_to(link, all_joints)  # refuses a circle
+    return LinkFrames(
+        roots[0],
+        [FixedFrame(j.parent, j.child, j.origin) for j in all_joints if not j.moves],
+        [_moving_frame(j) for j in all_joints if j.moves],
+    )
+
+
+def _moving_frame(joint: UrdfJoint) -> MovingFrame:
+    mimic = joint.mimic or Mimic(joint.name, 1.0, 0.0)
+    return MovingFrame(
+        joint.parent,
+        joint.child,
+        joint.origin,
+        joint.unit_axis,
+        joint.kind == "prismatic",
+        mimic.joint,
+        mimic.multiplier,
+        mimic.offset,
+    )

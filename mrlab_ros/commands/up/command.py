@@ -50,7 +50,7 @@ if TYPE_CHECKING:
     from rich.console import Console
 
 
-PALETTE = ("cyan", "green", "red", "yellow", "magenta", "bright_blue")
+PALETTE = ("cyan", "green", "red", "yellow", "bright_cyan", "magenta", "bright_blue")
 COLOURS = {SELF: "bold"} | {
     process.name: colour for process, colour in zip(PROCESSES, PALETTE, strict=True)
 }
@@ -78,6 +78,9 @@ def up(
             help="Simulate contacts and grasps; not given: where pybullet is installed.",
         ),
     ] = None,
+    frames: Annotated[
+        bool, typer.Option(help="Publish /tf and markers for RViz, Foxglove and recordings.")
+    ] = True,
     keys: Annotated[
         Path | None,
         typer.Option(
@@ -194,6 +197,7 @@ def up(
             state_dir=folder,
             robots=models,
             physics=with_physics,
+            frames=frames,
             bridge=bridge,
             listen=zenoh_listen,
             connect=zenoh_connect,

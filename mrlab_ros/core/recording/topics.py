@@ -36,6 +36,8 @@ LAB_TOPICS = (
     "/*/grasp",
     "/*/finger_states",
     "/*/robot_description",
+    "/robot_description",
+    "/markers/**",
 )
 # About the live processes, not the session; never replayed.
 OF_THE_PRESENT = (

@@ -14,6 +14,7 @@ from rclpy.publisher import Publisher
 from std_msgs.msg import String
 
 from mrlab_ros.adapters.robots.library import RobotLibrary
+from mrlab_ros.adapters.robots.published import published
 from mrlab_ros.adapters.scenes.files import SceneFiles
 from mrlab_ros.adapters.scenes.state_file import SCENE_FILE, StateFile
 from mrlab_ros.core.errors import LabError
@@ -23,7 +24,7 @@ from mrlab_ros.core.scene.document import RobotEntry, SceneDocument
 from mrlab_ros.core.scene.restore import counted, self_contained, with_pending
 from mrlab_ros.core.scene.robots import PlacedRobot, Scene
 from mrlab_ros.messages import qos
-from mrlab_ros.messages.poses import pose_from_message, transforms_to_message
+from mrlab_ros.messages.poses import pose_from_message
 from mrlab_ros.messages.robots import robot_to_message, robots_to_message, text_to_message
 from mrlab_ros.messages.scenes import robot_entry, system_entry
 from mrlab_ros.nodes import parameters
@@ -37,11 +38,6 @@ from mrlab_ros.ros.clock import LabClock
 from mrlab_ros.ros.parameters import ParameterNode
 from mrlab_ros.ros.spinning import Caller
 from mrlab_ros.ros.timers import every
-
-try:  # not among the ROS wheels; where it is missing, a client places robots by /robots
-    from tf2_msgs.msg import TFMessage
-except ImportError:
-    TFMessage = None
 
 # What robots have loaded and where they stand is written this often where it changed, s.
 SAVE_PERIOD_S = 2.0
@@ -73,9 +69,6 @@ class LabNode(ParameterNode[LabParameters]):
         self._scene = Scene()
         self._descriptions: dict[str, Publisher] = {}
         self._robots = self.create_publisher(msg.Robots, "/robots", qos.LATCHED)
-        self._transforms = (
-            self.create_publisher(TFMessage, "/tf_static", qos.LATCHED) if TFMessage else None
-        )
         # Service responses need a second executor thread: load_scene waits for them.
         self._caller = Caller(self)
         self._identity = Identity(self.parameters.lab_id, self._meet)
@@ -149,14 +142,11 @@ class LabNode(ParameterNode[LabParameters]):
             self._descriptions[name] = self.create_publisher(
                 String, f"/{name}/robot_description", qos.LATCHED
             )
-        self._descriptions[name].publish(text_to_message(description))
+        self._descriptions[name].publish(text_to_message(published(description, name)))
 
     def _announce(self) -> None:
         now_ns = self._lab_clock.now_ns()
-        message = robots_to_message(now_ns, self._scene.robots, self._identity.lab)
-        self._robots.publish(message)
-        if self._transforms is not None:
-            self._transforms.publish(transforms_to_message(now_ns, TFMessage, message.robots))
+        self._robots.publish(robots_to_message(now_ns, self._scene.robots, self._identity.lab))
         self._observer.follow([robot.name for robot in self._scene.robots])
         self._save()
 

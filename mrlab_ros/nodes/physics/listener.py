@@ -24,6 +24,7 @@ from mrlab_ros.core.physics.grasp import Gripper
 from mrlab_ros.core.physics.grasp_load import Tool
 from mrlab_ros.core.physics.simulated_robot import GripperProgram, Playing
 from mrlab_ros.core.physics.world import World
+from mrlab_ros.core.robots.frames import without_frames
 from mrlab_ros.messages import joint_states, qos
 from mrlab_ros.messages import physics as messages
 from mrlab_ros.messages.poses import pose_from_message
@@ -168,7 +169,8 @@ class GraphListener:
     def _on_description(self, name: str, message: String) -> None:
         # A message may arrive after its robot was removed.
         if name in self.robots:
-            self.robots[name].description = message.data
+            # Contacts name links as the robot's own URDF does.
+            self.robots[name].description = without_frames(message.data, name)
             self._build(name)
 
     def _build(self, name: str) -> None:

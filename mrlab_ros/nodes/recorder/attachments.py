@@ -24,6 +24,7 @@ from mrlab_ros.adapters.robots.library import MESH_PREFIX, RobotLibrary
 from mrlab_ros.adapters.trajectories.json_file import chunks
 from mrlab_ros.core.bridge.assets import media_type
 from mrlab_ros.core.errors import LabError
+from mrlab_ros.core.robots.frames import without_frames
 from mrlab_ros.core.trajectory.trajectory import Trajectory
 from mrlab_ros.messages import qos, trajectories
 from mrlab_ros.nodes.catalogue import CatalogueClient
@@ -114,7 +115,9 @@ class SessionContent:
 
     def _describe(self, topic: str, message: Any) -> None:
         robot = topic.split("/")[-2]
-        urdf = str(message.data)
+        if not robot:
+            return  # the description of all robots, each of which comes by itself
+        urdf = without_frames(str(message.data), robot)
         self._attach(f"robots/{robot}.urdf", "model/urdf+xml", urdf.encode())
         for mesh in ElementTree.fromstring(urdf).iter("mesh"):
             self._attach_uri(topic, mesh.get("filename", ""))

@@ -84,12 +84,12 @@ def test_every_process_has_a_colour() -> None:
     assert {process.name for process in PROCESSES} < set(COLOURS)
 
 
-def test_physics_and_bridge_can_be_left_out() -> None:
+def test_physics_frames_and_bridge_can_be_left_out() -> None:
     everything = [process.name for process in lab_processes(options(web=WEB))]
     assert everything == [process.name for process in PROCESSES]
     # Without a bridge the pages would have no lab.
     assert "web" not in [process.name for process in lab_processes(options(web=WEB, bridge=False))]
-    less = lab_processes(options(physics=False, bridge=False))
+    less = lab_processes(options(physics=False, frames=False, bridge=False))
     assert [process.name for process in less] == ["lab", "playback", "recorder"]
     assert NODES["physics"] not in lab_nodes(options(physics=False))
 
@@ -289,7 +289,10 @@ def test_the_launch_file_starts_nothing_for_ever(
 def test_the_launch_file_leaves_out_and_refuses_what_it_is_told_to(
     launched: Callable[..., list[Recorded]], monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    names = [node.kwargs["exec_name"] for node in launched(physics="false", bridge="false")]
+    names = [
+        node.kwargs["exec_name"]
+        for node in launched(physics="false", frames="false", bridge="false")
+    ]
     assert names == ["lab", "playback", "recorder"]
     with pytest.raises(BadInput, match="no robot 'ur6'"):
         launched(robots="ur6", web="false")

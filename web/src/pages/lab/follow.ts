@@ -109,7 +109,9 @@ export class LabFollower {
       }),
       this.on('robots', robotsType, (message) => this.takeRobots(message.robots)),
       this.on('*/robot_description', stringType, (message, { key }) => {
-        this.of(owner(key)).urdf = message.data
+        const name = owner(key)
+        // Links are named as their frames; the scene and the contacts know them by the plain name.
+        this.of(name).urdf = message.data.replaceAll(`="${name}/`, '="')
         this.show()
       }),
       this.on('*/joint_states', jointStateType, (message, { key }) => {

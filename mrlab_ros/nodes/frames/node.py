@@ -1,0 +1,192 @@
+"""The frames node: /tf, /tf_static, one URDF of all robots, and markers, for 3D panels of ROS."""
+
+from __future__ import annotations
+
+import functools
+from collections.abc import Callable
+from typing import Any
+
+from mrlab_msgs import msg
+from rclpy.context import Context
+from rclpy.node import Node
+from rclpy.parameter import Parameter
+from rclpy.qos import QoSProfile
+from rclpy.serialization import deserialize_message
+from sensor_msgs.msg import JointState
+from std_msgs.msg import String
+from tf2_msgs.msg import TFMessage
+
+from mrlab_ros.adapters.robots.published import together
+from mrlab_ros.core.errors import LabError
+from mrlab_ros.core.identity import Identity
+from mrlab_ros.messages import qos
+from mrlab_ros.messages.frames import transforms_to_message
+from mrlab_ros.messages.poses import pose_from_message
+from mrlab_ros.messages.robots import text_to_message
+from mrlab_ros.messages.time import time_from_message
+from mrlab_ros.nodes import parameters
+from mrlab_ros.nodes.frames.markers import MarkerPublishers
+from mrlab_ros.nodes.frames.robots import Batch, ShownRobot
+from mrlab_ros.nodes.parameters import FramesParameters
+from mrlab_ros.ros.clock import LabClock
+from mrlab_ros.ros.parameters import ParameterNode
+from mrlab_ros.ros.raw_streams import Received, TopicPoll
+
+# As tf2's own broadcasters publish.
+TF = QoSProfile(depth=100)
+# The newest joint state is enough; those before it are not even read.
+NEWEST = QoSProfile(depth=1)
+
+Take = Callable[[bytes], None]
+
+
+class FramesNode(ParameterNode[FramesParameters]):
+    """Publishes where each link is, and what else is in the lab, as ROS's own displays take it.
+
+    One thread polls all topics at `rate` and publishes; the node's own executor has nothing to do
+    but its parameters.
+    """
+
+    def __init__(
+        self,
+        *,
+        context: Context | None = None,
+        parameter_overrides: list[Parameter] | None = None,
+    ) -> None:
+        super().__init__(
+            "frames",
+            FramesParameters,
+            parameters.ALL,
+            context=context,
+            parameter_overrides=parameter_overrides,
+        )
+        self._log = self.get_logger()
+        self._identity = Identity(self.parameters.lab_id, self._log.warning)
+        self._lab_clock = LabClock(self)
+        self._robots: dict[str, ShownRobot] = {}
+        self._batch = Batch()
+        # What a topic's messages are given to.
+        self._takers: dict[str, Take] = {}
+        # What changed since the last turn: where robots stand, and what they are.
+        self._placed = self._described = False
+        self._moving = self.create_publisher(TFMessage, "/tf", TF)
+        self._fixed = self.create_publisher(TFMessage, "/tf_static", qos.LATCHED)
+        self._together = self.create_publisher(String, "/robot_description", qos.LATCHED)
+        self._streams = Node(
+            "_frames_streams",
+            context=context,
+            start_parameter_services=False,
+            enable_rosout=False,
+        )
+        self._poll = TopicPoll("frames", 1 / self.parameters.rate, self._turn)
+        rate = self.parameters.marker_rate
+        self._markers = MarkerPublishers(self, rate, self._identity) if rate else None
+        self._subscribe(msg.Robots, "/robots", self._on_robots, qos.LATCHED)
+        if self._markers is not None:
+            for kind, topic, take, quality in self._markers.topics():
+                self._subscribe(kind, topic, take, quality)
+        self._poll.start()
+
+    def destroy_node(self) -> None:
+        self._poll.stop()
+        if self._markers is not None:
+            self._markers.close()
+        self._streams.destroy_node()
+        super().destroy_node()
+
+    def _subscribe(self, kind: Any, topic: str, take: Callable[[Any], None], quality: Any) -> Any:
+        """Give the messages of a topic to `take`; CDR where `kind` is taken raw."""
+        subscription = self._streams.create_subscription(kind, topic, _unused, quality, raw=True)
+        self._takers[topic] = lambda data: take(deserialize_message(data, kind))
+        self._poll.add(subscription, topic)
+        return subscription
+
+    def _forget(self, subscription: Any) -> None:
+        self._poll.remove(subscription)
+        self._takers.pop(subscription.topic_name, None)
+        self._streams.destroy_subscription(subscription)
+
+    # the polling thread -----------------------------------------------------------------------
+
+    def _turn(self, received: list[Received]) -> bool:
+        """Take what has come, then publish what changed; an error must not end the thread."""
+        if not self.context.ok():
+            return False
+        for message in received:
+            take = self._takers.get(message.topic)
+            if take is not None:
+                self._guarded(functools.partial(take, message.data))
+        self._guarded(self._publish)
+        if self._markers is not None:
+            self._guarded(self._markers.publish_due)
+        return True
+
+    def _guarded(self, work: Callable[[], None]) -> None:
+        try:
+            work()
+        except Exception as error:
+            if self.context.ok():
+                said = error if isinstance(error, LabError) else repr(error)
+                self._log.error(f"frames: {said}", throttle_duration_sec=1.0)
+
+    def _publish(self) -> None:
+        if self._placed:
+            self._placed = False
+            fixed = [each for robot in self._robots.values() for each in robot.fixed()]
+            self._fixed.publish(transforms_to_message(self._lab_clock.now_ns(), fixed))
+        if self._described and all(robot.description for robot in self._robots.values()):
+            self._described = False
+            descriptions = {name: robot.description for name, robot in self._robots.items()}
+            self._together.publish(text_to_message(together(descriptions)))
+        moved = self._batch.message(self._robots)
+        if moved is not None:
+            self._moving.publish(moved)
+
+    def _on_robots(self, message: msg.Robots) -> None:
+        if not self._identity.accepts(message.lab):
+            return
+        wanted = {robot.name: robot for robot in message.robots}
+        for name in [name for name in self._robots if name not in wanted]:
+            for subscription in self._robots.pop(name).subscriptions:
+                self._forget(subscription)
+            self._described = True
+        for name, robot in wanted.items():
+            base, joints = pose_from_message(robot.pose), tuple(robot.joint_names)
+            known = self._robots.get(name)
+            if known is None:
+                self._follow(ShownRobot(name, joints, base))
+            else:
+                known.base, known.joint_names = base, joints
+        self._placed = True
+        if self._markers is not None:
+            self._markers.robots(message.robots)
+
+    def _follow(self, robot: ShownRobot) -> None:
+        name = robot.name
+        self._robots[name] = robot
+        arm = self._streams.create_subscription(
+            JointState, f"/{name}/joint_states", _unused, NEWEST, raw=True
+        )
+        self._takers[f"/{name}/joint_states"] = robot.take_arm
+        self._poll.add(arm, f"/{name}/joint_states")
+
+        def take_fingers(message: JointState) -> None:
+            stamp_ns = time_from_message(message.header.stamp)
+            robot.take_fingers(stamp_ns, dict(zip(message.name, message.position, strict=True)))
+
+        def describe(message: String) -> None:
+            robot.describe(message.data)
+            self._placed = self._described = True
+
+        robot.subscriptions = [
+            arm,
+            self._subscribe(JointState, f"/{name}/finger_states", take_fingers, qos.LATCHED),
+            self._subscribe(String, f"/{name}/robot_description", describe, qos.LATCHED),
+        ]
+        if self._markers is not None:
+            for kind, topic, take, quality in self._markers.topics_of(name):
+                robot.subscriptions.append(self._subscribe(kind, topic, take, quality))
+
+
+def _unused(message: Any) -> None:
+    """Required by rclpy; the messages are taken by the thread instead."""
