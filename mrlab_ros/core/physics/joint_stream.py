@@ -196,6 +196,13 @@ class JointStream:
             return max(last_ns + self.delay_ns, self._plays_since_ns or 0)
         return last_ns + self.delay_ns if self._moves else None
 
+    def stands(self, now_ns: int) -> bool:
+        """Return whether the arm stands at the world's time `now_ns`, and no motion is known."""
+        pieces = self._pieces
+        if self._moves or self._streams or len(pieces) > 1:
+            return False
+        return not pieces or (not self._fresh and now_ns - self.delay_ns > pieces[0].end_ns)
+
     def shift(self, by_ns: int) -> None:
         """Go on as before after the clock was set by `by_ns`."""
         if self._last is not None:

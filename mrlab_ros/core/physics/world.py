@@ -22,6 +22,7 @@ from mrlab_ros.core.physics.grasp_load import Tool
 from mrlab_ros.core.physics.grippers import Grippers
 from mrlab_ros.core.physics.joint_stream import Joints, between
 from mrlab_ros.core.physics.objects import Inventory
+from mrlab_ros.core.physics.rest import Rest
 from mrlab_ros.core.physics.scrubbing import Rewind
 from mrlab_ros.core.physics.settings import Settings
 from mrlab_ros.core.physics.simulated_robot import GripperProgram, Playing, Robot
@@ -52,6 +53,7 @@ class World:
         self._inventory = Inventory(self._world_state, catalogue, self._grippers)
         self._collisions = Collisions(self._world_state)
         self._rewind = Rewind(self._world_state, self._grippers)
+        self._rest = Rest(self._world_state)
         self._epoch_ns: int | None = None
         # now_ns of the last call of advance().
         self._called_ns = 0
@@ -168,7 +170,11 @@ class World:
         self, name: str, stamp_ns: int, positions: Sequence[float], velocities: Sequence[float]
     ) -> bool:
         """Add a published joint state; return False where it is out of order."""
-        return self.robot(name).stream.add(stamp_ns, positions, velocities, self.now_ns)
+        robot = self.robot(name)
+        added = robot.stream.add(stamp_ns, positions, velocities, self.now_ns)
+        if not robot.stream.stands(self.now_ns):
+            self._rest.end()
+        return added
 
     def set_program(self, name: str, program: GripperProgram) -> None:
         """Set when the loaded trajectory opens and closes the gripper."""
@@ -178,6 +184,7 @@ class World:
         """Follow the robot's playback; a state applies from its stamp on."""
         robot = self.robot(name)
         robot.queue(playing)
+        self._rest.end()
         ahead_ns = playing.stamp_ns - self._called_ns
         # A stamp too far ahead is of another clock and applies at once.
         foreign = ahead_ns > self._settings.max_catch_up * SECOND
@@ -227,6 +234,17 @@ class World:
 
     # time -----------------------------------------------------------------------------------
 
+    @property
+    def next_ns(self) -> int:
+        """When the next step is due: a world at rest makes every SLOW_STEPS-th only."""
+        return self._stamp(self._next_count)
+
+    @property
+    def _next_count(self) -> int:
+        if self._rest.resting:
+            return (self._count // SLOW_STEPS + 1) * SLOW_STEPS
+        return self._count + 1
+
     def _stamp(self, count: int) -> int:
         assert self._epoch_ns is not None
         return self._epoch_ns + round(count * SECOND / self._settings.step_rate)
@@ -255,8 +273,8 @@ class World:
             self.skipped_ns += behind_ns
             self._shift(behind_ns)
         made = 0
-        while made != most and (stamp_ns := self._stamp(self._count + 1)) <= target_ns:
-            self._count += 1
+        while made != most and (stamp_ns := self.next_ns) <= target_ns:
+            self._count = self._next_count
             self._world_state.now_ns = stamp_ns
             self._step(stamp_ns)
             made += 1
@@ -307,6 +325,7 @@ class World:
                 self._collisions.check_clearance(robot, now_ns)
                 if robot.held:
                     self._grippers.weigh(robot, now_ns, duration * divisions * SLOW_STEPS)
+            self._rest.compare(self._inventory.motions)
 
     def _move_arms(self, now_ns: int) -> list[Moved]:
         """Pose every arm by its joint states; return those that moved."""

@@ -48,7 +48,7 @@ except ModuleNotFoundError as error:
         raise
     raise BadInput(support.missing()) from None
 
-# The world is advanced at least this often, ns: its own step.
+# The world is advanced at least this often, ns, unless it rests: its own step.
 TURN_NS = SECOND // 240
 # After this many steps the lock is released and events are published.
 MOST_STEPS = 24
@@ -158,7 +158,10 @@ class PhysicsNode(ParameterNode[PhysicsParameters]):
                 self._contents.changed |= self._world_publishers.publish_due(now_ns)
                 if made == MOST_STEPS:
                     return 0
-                return int(max(self._world.now_ns + TURN_NS - now_ns, TURN_NS // 4))
+                # How fast /clock goes is not known.
+                simulated = self._lab_clock.simulated
+                next_ns = self._world.now_ns + TURN_NS if simulated else self._world.next_ns
+                return int(max(next_ns - now_ns, TURN_NS // 4))
         except Exception as error:
             if self.context.ok():
                 self.get_logger().error(f"physics: {error!r}", throttle_duration_sec=1.0)

@@ -628,6 +628,44 @@ def test_a_clock_that_is_set_stops_and_rewinds_nothing(by):
     assert lab.world.skipped_ns == 0
 
 
+def test_a_world_at_rest_is_stepped_less_often_and_goes_on_at_once():
+    lab = Lab(gripper=Gripper.FINGERS)
+    world = lab.world
+
+    def steps(duration_ns):
+        before = world.steps
+        lab.now_ns += duration_ns
+        world.advance(lab.now_ns)
+        return world.steps - before
+
+    lab.go(0.1, 500 * MS)
+    # The last joint state says that the arm has arrived.
+    world.joint_state("a", lab.now_ns + MS, lab.at, (0.0, 0.0))
+    steps(SECOND)
+    assert world.next_ns - world.now_ns == 50 * MS
+    assert steps(SECOND) == 20
+    # Its standing pose, said again, changes nothing.
+    world.joint_state("a", lab.now_ns, lab.at, (0.0, 0.0))
+    assert steps(SECOND) == 20
+    # What is put there is looked at.
+    world.spawn("ball", "ball", Pose((2.0, 0.0, 0.5)))
+    assert steps(100 * MS) > 2
+    steps(SECOND)
+    # What a person holds may move at any time.
+    world.move("ball", Pose((2.0, 0, 0.5)), (0, 0, 0), (0, 0, 0), held=True)
+    steps(100 * MS)
+    assert steps(SECOND) == 240
+    world.move("ball", Pose((0.15, 0, 0.5)), (0, 0, 0), (0, 0, 0), held=False)
+    # An arm that moves has every step at once, and halts at what it meets.
+    steps(SECOND)
+    lab.play()
+    lab.now_ns += 10 * MS
+    before = world.steps
+    lab.go(0.12, 200 * MS)
+    assert world.steps - before >= 48
+    assert [event.colliding for event in lab.of(CollisionChanged)][:1] == [True]
+
+
 def test_backwards_the_objects_go_back_along_the_run():
     lab = Lab(gripper=Gripper.FINGERS)
     lab.world.spawn("ball", "ball", Pose((0.0, 0.0, 0.47)))
