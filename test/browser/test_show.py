@@ -13,10 +13,13 @@ from playwright.sync_api import Browser, expect
 from mrlab_ros.adapters.pages import ingredients
 from mrlab_ros.adapters.pages.motion import motion_page
 from mrlab_ros.adapters.robots.library import RobotLibrary
+from mrlab_ros.core.clock import PlaybackClock
 from mrlab_ros.core.conversion.convert import ConversionResult, Outcome
 from mrlab_ros.core.conversion.preview import Preview
 from mrlab_ros.core.diagnostics import Diagnostic, Severity
-from mrlab_ros.core.recording.report import Contact, SessionReport
+from mrlab_ros.core.recording.report import Contact, ReportedState, SessionReport
+from mrlab_ros.core.recording.run_finding import runs_of
+from mrlab_ros.core.recording.runs import Course, RunJoint
 from mrlab_ros.core.show.page import page
 from mrlab_ros.core.show.session import RecordedMotion, RecordedObject, session
 from mrlab_ros.core.show.session_body import session_body
@@ -185,10 +188,18 @@ def recorded() -> str:
     """Return the page of a session: an arm that takes a cube, carries it, and hits a table."""
     report = SessionReport(duration=4.0, start_ns=0)
     told = report.robot("ur5e_1")
+    for time, label in ((0.0, "PLAYING"), (3.0, "COLLISION_HALT")):
+        clock = PlaybackClock(round(time * 1e9), time, float(label == "PLAYING"))
+        told.add(ReportedState(round(time * 1e9), label, "wave", clock, time, length=4.0))
     told.states.add(0.0, "PLAYING", "wave")
     told.states.add(3.0, "COLLISION_HALT", "wave")
     told.grasps.add(1.0, "HOLDING", "cube_1")
     told.collisions.append(Contact(3.0, "forearm_link", "table", 301))
+    report.runs = runs_of(report, {}, {})
+    times = np.linspace(0, 4, 401)
+    run = report.runs[0]
+    run.joints = tuple(map(RunJoint, LIBRARY.model("ur5e").joint_names))
+    run.course = Course(times, times, positions(), positions() + 0.1, positions()[:, :3])
     motion = RecordedMotion()
     robot = motion.robot("ur5e_1")
     robot.urdf = LIBRARY.description("ur5e")
@@ -219,9 +230,13 @@ def test_a_session_is_drawn_and_its_events_lead_there(shown: Open) -> None:
     first = pixels(canvas)
     green = (first[..., 1] > first[..., 0] + 60) & (first[..., 1] > first[..., 2] + 60)
     assert green.sum() > 200
-    watched.page.get_by_role("button", name="touched table").click()
+    watched.page.get_by_role("button", name="hit table").click()
     slider = watched.page.get_by_role("slider")
     expect(slider).to_have_attribute("aria-valuetext", "3.00 s, row 301")
     assert difference(first, pixels(canvas)) > 0.01
+    row = watched.page.get_by_role("row", name="wave")
+    expect(row).to_contain_text("halted by a collision")
+    row.get_by_role("button", name="go to its beginning").click()
+    expect(slider).to_have_attribute("aria-valuetext", "0.00 s, row 1")
     assert watched.errors == []
     assert watched.foreign() == []
