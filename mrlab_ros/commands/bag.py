@@ -70,6 +70,34 @@ def repair(bag: BagArgument, as_json: AsJson = False) -> None:
     )
 
 
+@app.command("import")
+def import_(
+    source: Annotated[
+        Path, typer.Argument(help="Any ROS 2 bag: a folder, an MCAP file, or a .db3 file.")
+    ],
+    bag: Annotated[Path, typer.Argument(help="Folder of the new bag.")],
+    robots: Annotated[
+        list[str] | None,
+        typer.Option(
+            "--robot", help="Model whose joints the bag holds, such as ur5e; repeatable."
+        ),
+    ] = None,
+    as_json: AsJson = False,
+) -> None:
+    """Make a bag of this lab of any ROS 2 bag; its joint states move a robot of the lab."""
+    from mrlab_ros.commands.foreign import imported
+
+    done = imported(source.expanduser(), bag.expanduser(), robots or [])
+    say(
+        done.describe(str(done.folder)),
+        as_json=as_json,
+        bag=str(done.folder),
+        messages=done.messages,
+        robots=done.robots,
+        skipped=done.skipped,
+    )
+
+
 @app.command()
 def extract(
     bag: BagArgument,

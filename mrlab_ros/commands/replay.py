@@ -42,12 +42,34 @@ def replay(
     rate: Annotated[float, typer.Option(help="Speed, 0.1 to 10; 1 is as recorded.")] = 1.0,
     start: Annotated[float, typer.Option(help="Where to begin, s into the bag.")] = 0.0,
     loop: Annotated[bool, typer.Option("--loop", help="Begin again at the end.")] = False,
+    robots: Annotated[
+        list[str] | None,
+        typer.Option(
+            "--robot",
+            help="Model that the joint states of a foreign bag move, such as ur5e; repeatable.",
+        ),
+    ] = None,
 ) -> None:
     """Replay a bag in the running lab: headset, RViz and Foxglove see the session again.
 
     The lab's own robots stand aside meanwhile, and come back afterwards. Keys, on a terminal:
     space pauses, arrows seek, + and - set the rate, q ends. Ends with 0 at the bag's end.
     """
+    path = Path(bag).expanduser()
+    if path.exists():
+        from mrlab_ros.commands.foreign import imported_for_now, is_foreign
+
+        if robots or is_foreign(path):
+            with imported_for_now(path, robots or []) as found:
+                print(found.describe(path.name), flush=True)
+                _replay(str(found.folder), rate, start, loop)
+            return
+    elif robots:
+        raise Misuse(f"there is no bag {path}; --robot is for the bags of others, by their path")
+    _replay(str(path.absolute()) if path.exists() else bag, rate, start, loop)
+
+
+def _replay(bag: str, rate: float, start: float, loop: bool) -> None:
     from mrlab_msgs import msg, srv
     from rich.console import Console
     from rich.live import Live
@@ -55,10 +77,7 @@ def replay(
     from mrlab_ros.client.connect import open_graph
 
     console = Console(highlight=False)
-    path = Path(bag).expanduser()
-    request = srv.Replay.Request(
-        bag=str(path.absolute()) if path.exists() else bag, rate=rate, start=start, loop=loop
-    )
+    request = srv.Replay.Request(bag=bag, rate=rate, start=start, loop=loop)
     with open_graph() as graph:
         watch = graph.watch(msg.RecorderState, "/recorder/state")
         try:

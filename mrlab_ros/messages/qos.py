@@ -67,11 +67,11 @@ def profile(topic: Topic, depth: int) -> QoSProfile:
 
 def message_class(kind: str) -> Any:
     """Return the class of a type such as std_msgs/msg/String; raise BadInput without one."""
-    package, folder, name = kind.split("/")
     try:
+        package, folder, name = kind.split("/")
         return getattr(importlib.import_module(f"{package}.{folder}"), name)
-    except (ImportError, AttributeError):
+    except (ImportError, AttributeError, ValueError):
         raise BadInput(
-            f"the message type {kind} is not installed here; install its package and start the "
-            "lab again"
+            f"the message type {kind or 'without a name'} is not installed here; install its "
+            "package and start the lab again"
         ) from None

@@ -12,10 +12,13 @@ import pytest
 import scipy.io
 from mrlab_msgs import msg
 from PIL import Image
-from rclpy.serialization import serialize_message
+from rclpy.serialization import deserialize_message, serialize_message
+from rosbags.rosbag2 import StoragePlugin, Writer
+from rosbags.typesys import Stores, get_types_from_msg, get_typestore
 from sensor_msgs.msg import JointState
 from typer.testing import CliRunner
 
+from mrlab_ros.adapters.bags.reader import Bag
 from mrlab_ros.adapters.bags.writer import BagWriter
 from mrlab_ros.cli import make_app
 from mrlab_ros.commands.replay import Keyboard, next_rate
@@ -27,6 +30,10 @@ from mrlab_ros.core.recording.metadata import QosProfile, Topic
 from mrlab_ros.messages.definitions import definition
 from mrlab_ros.messages.time import make_header
 
+UR5E = (
+    "shoulder_pan_joint", "shoulder_lift_joint", "elbow_joint",
+    "wrist_1_joint", "wrist_2_joint", "wrist_3_joint",
+)  # fmt: skip
 START_NS = 1_700_000_000_000_000_000
 TRAJECTORY = {"frame_rate": 10.0, "frames": {"q": [[0.0], [90.0], [180.0]]}}
 
@@ -123,6 +130,60 @@ def test_a_reference_takes_the_place_of_what_was_played(bag, tmp_path):
     scipy.io.savemat(tmp_path / "ref.mat", {"q": wave[:, :2], "fs": 10.0})
     with pytest.raises(BadInput, match="is refused for ur5e"):
         run("bag", "report", bag, "--reference", tmp_path / "ref.mat")
+
+
+def foreign(folder: Path, plugin: StoragePlugin, prefix: str = "") -> Path:
+    """A bag of another lab's recorder: an arm's joints in its own order, and a type of its own."""
+    types = get_typestore(Stores.ROS2_HUMBLE)
+    types.register(get_types_from_msg("int32 x\n", "acme_msgs/msg/Secret"))
+    kind = "sensor_msgs/msg/JointState"
+    names = [f"{prefix}{name}" for name in (*UR5E[::-1], "finger")]
+    with Writer(folder, version=9, storage_plugin=plugin) as bag:
+        joints = bag.add_connection("/joint_states", kind, typestore=types)
+        secret = bag.add_connection("/secret", "acme_msgs/msg/Secret", typestore=types)
+        for i in range(3):
+            header = types.types["std_msgs/msg/Header"](
+                types.types["builtin_interfaces/msg/Time"](0, 0), ""
+            )
+            values = np.array([6.0, 5.0, 4.0, 3.0, 2.0, 1.0 + i, 0.0])
+            state = types.types[kind](header, names, values, np.zeros(0), np.zeros(0))
+            stamp = START_NS + i * 10_000_000
+            bag.write(joints, stamp, types.serialize_cdr(state, kind))
+        word = types.types["acme_msgs/msg/Secret"](1)
+        bag.write(secret, START_NS, types.serialize_cdr(word, "acme_msgs/msg/Secret"))
+    return folder
+
+
+@pytest.mark.parametrize("plugin", list(StoragePlugin))
+def test_any_ros_bag_becomes_one_of_the_lab(tmp_path: Path, plugin: StoragePlugin) -> None:
+    source = foreign(tmp_path / "foreign", plugin, "cell/")
+    done = json.loads(run("bag", "import", source, tmp_path / "mine", "--json"))
+    assert (done["robots"], done["skipped"]) == ({"ur5e_1": "ur5e"}, {})
+    found = Bag(tmp_path / "mine")
+    assert "int32 x" in found.definitions()["acme_msgs/msg/Secret"]
+    moved = [
+        deserialize_message(m.data, JointState)
+        for m in found.messages(topics={"/ur5e_1/joint_states"})
+    ]
+    assert [list(m.position) for m in moved] == [[1.0 + i, 2, 3, 4, 5, 6] for i in range(3)]
+    assert list(moved[0].name) == list(UR5E)
+    assert moved[0].header.stamp.sec == START_NS // 10**9
+    assert "robots/ur5e_1.urdf" in found.attachments()
+    page = tmp_path / "page.html"
+    run("show", tmp_path / "mine", "-o", page, "--no-open")
+    assert "ur5e_1" in page.read_text()
+
+
+def test_a_foreign_bag_is_refused_with_what_it_holds(tmp_path: Path) -> None:
+    source = foreign(tmp_path / "foreign", StoragePlugin.SQLITE3)
+    with pytest.raises(BadInput, match="no joint states of kuka_kr3_r540.*/joint_states: wrist_3"):
+        run("bag", "import", source, tmp_path / "mine", "--robot", "kuka_kr3_r540")
+    with pytest.raises(BadInput, match="mrlab bag import makes of it"):
+        run("bag", "info", source)
+    (tmp_path / "no.db3").write_bytes(b"no database")
+    with pytest.raises(BadInput, match="cannot be read as a ROS 2 bag"):
+        run("bag", "import", tmp_path / "no.db3", tmp_path / "other")
+    assert not (tmp_path / "mine").exists()
 
 
 def test_info_says_what_is_in_the_bag(bag):

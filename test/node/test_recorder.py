@@ -22,6 +22,7 @@ from mcap.reader import NonSeekingReader
 from mrlab_msgs import msg, srv
 from rclpy.serialization import serialize_message
 from rosbags.highlevel import AnyReader
+from rosbags.typesys import Stores, get_types_from_msg, get_typestore
 from sensor_msgs.msg import JointState
 from std_msgs.msg import String
 from std_srvs.srv import SetBool, Trigger
@@ -532,3 +533,43 @@ def test_a_bag_of_one_moment_is_not_looped(graph, recorder, states, tmp_path):
     replay(graph, bag="moment", loop=True)
     wait_until_over(states)
     assert ears.of("/ur5e_1/telemetry") == ["now"]
+
+
+def test_a_bag_of_other_definitions_is_brought_to_those_here(graph, recorder, states, tmp_path):
+    """An earlier grasp had no reason and a field more; nobody here knows acme_msgs."""
+    kind, acme = "mrlab_msgs/msg/Grasp", "acme_msgs/msg/Secret"
+    header = definition(kind).split("std_msgs/Header header")[1].split("=" * 80, 1)[1]
+    texts = {
+        kind: f"std_msgs/Header header\nuint8 state\nint32 gone\nstring object\n"
+        f"{'=' * 80}{header}",
+        acme: "int32 x\n",
+    }
+    old = get_typestore(Stores.EMPTY)
+    old.register(get_types_from_msg(texts[kind], kind))
+    stamp = old.types["builtin_interfaces/msg/Time"](0, 0)
+    said = old.types[kind](old.types["std_msgs/msg/Header"](stamp, ""), 2, 7, "cube_1")
+    writer = BagWriter(tmp_path / "older", texts.__getitem__)
+    writer.add_topic(Topic("/ur5e_1/grasp", kind, (QosProfile(),)))
+    writer.add_topic(Topic("/secret", acme, (QosProfile(),)))
+    writer.write("/ur5e_1/grasp", START_NS, bytes(old.serialize_cdr(said, kind)), START_NS)
+    writer.write("/secret", START_NS, b"\0\1\0\0\1\0\0\0", START_NS)
+    writer.close()
+    inbox = graph.listen(msg.Grasp, "/ur5e_1/grasp", qos.STREAM)
+    answer = graph.call(srv.Replay, "/recorder/replay", bag="older", rate=1.0)
+    assert answer.success, answer.message
+    assert "left out /secret: the message type acme_msgs/msg/Secret" in answer.message
+    wait_until_over(states)
+    grasp = inbox.last()
+    assert (grasp.state, grasp.object, grasp.reason) == (msg.Grasp.HOLDING, "cube_1", "")
+
+
+def test_meshes_of_objects_are_in_the_bag(graph, recorder):
+    made = graph.client.create_publisher(msg.SceneObjects, "/objects", qos.STREAM)
+    folder = start(graph, "things", ("/objects",))
+    wait_for(lambda: graph.client.count_subscribers("/objects"), "the recorder")
+    uri = "package://mrlab_ros/config/objects/bin.glb"
+    made.publish(msg.SceneObjects(objects=[msg.SceneObject(name="bin_1", mesh=uri)]))
+    wait_for(lambda: Bag(folder).message_count, "the message on the disk")
+    order(graph, "stop")
+    attached = Bag(folder).attachment("meshes/mrlab_ros/config/objects/bin.glb")
+    assert attached.data == (directory() / "config" / "objects" / "bin.glb").read_bytes()

@@ -122,7 +122,8 @@ def open_file(path: Path) -> BagFile:
                 return BagFile(path, indexed=False, trouble=trouble)
             if beginning != MCAP0_MAGIC:
                 raise BadInput(
-                    f"{path} is no MCAP file: it does not begin with MCAP's magic bytes"
+                    f"{path} is no MCAP file: it does not begin with MCAP's magic bytes; "
+                    "mrlab bag import makes a bag of the lab of other ROS 2 bags"
                 )
             found = _by_index(path, file)
             return found if found is not None else _by_records(path, file)
@@ -204,8 +205,8 @@ def _by_records(path: Path, file: Any) -> BagFile:
                 _take_record(found, code, memoryview(file.read(length)))
             elif code == Opcode.MESSAGE:
                 raise BadInput(
-                    f"{path} has messages outside of chunks and no index; convert it with mcap "
-                    "recover"
+                    f"{path} has messages outside of chunks and no index; make it a bag of the "
+                    "lab with mrlab bag import"
                 )
         except DAMAGE as error:
             found.trouble = f"{path.name} is damaged at byte {offset} ({error})"

@@ -205,7 +205,10 @@ def files_of(path: Path) -> list[Path]:
     files = [path / name for name in listed]
     files += [file for file in mcap_files_in(path) if file.name not in listed]
     if not files:
-        raise BadInput(f"{path} is no bag: it holds no MCAP file; name the folder of a bag")
+        raise BadInput(
+            f"{path} is no bag: it holds no MCAP file; name the folder of a bag, or make one of "
+            "a bag of another kind with mrlab bag import"
+        )
     return files
 
 

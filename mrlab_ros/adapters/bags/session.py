@@ -153,7 +153,10 @@ class _Reader:
             return
         if message.topic.endswith(FINGERS):
             return
-        robot = self.report.robot(message.topic.rsplit("/", 1)[0].strip("/"))
+        name = message.topic.rsplit("/", 1)[0].strip("/")
+        if not name:  # joint states of no robot of the lab, in a bag of others
+            return
+        robot = self.report.robot(name)
         if kind in self._readers:
             self._readers[kind](time, robot, self._decode(kind, message.data))
             return

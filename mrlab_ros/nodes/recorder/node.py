@@ -246,7 +246,8 @@ class RecorderNode(ParameterNode[RecorderParameters]):
         finally:
             self._publish_state()
         self.get_logger().info(f"replays {bag.path}")
-        return f"replays {bag.duration:.1f} s with {bag.message_count} messages"
+        left_out = "".join(f"; left out {name}: {w}" for name, w in replaying.skipped.items())
+        return f"replays {bag.duration:.1f} s with {bag.message_count} messages{left_out}"
 
     def _on_replay_end(self, trouble: str) -> None:
         if trouble:

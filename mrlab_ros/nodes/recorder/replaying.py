@@ -7,16 +7,20 @@ import time
 from collections import deque
 from collections.abc import Callable
 from concurrent.futures import Future, ThreadPoolExecutor
+from typing import Any
 
 from rclpy.node import Node
 from rclpy.publisher import Publisher
 
 from mrlab_ros.adapters.bags.mcap_file import Message
+from mrlab_ros.adapters.bags.migration import Convert, migration
 from mrlab_ros.adapters.bags.reader import Bag
 from mrlab_ros.core.clock import SECOND, checked_position
 from mrlab_ros.core.errors import BadInput, LabError, Misuse
+from mrlab_ros.core.recording.metadata import Topic
 from mrlab_ros.core.recording.timeline import ReplayTimeline, is_state
 from mrlab_ros.core.recording.topics import OF_THE_PRESENT, Topics
+from mrlab_ros.messages.definitions import definition
 from mrlab_ros.messages.qos import message_class, profile
 
 # Messages kept for a subscriber that is slow; of a latched topic, for one that comes late.
@@ -75,12 +79,20 @@ class Replaying:
         self._on_end = on_end
         self._now_ns = now_ns
         present = Topics(OF_THE_PRESENT)
-        self._topics = [topic for topic in bag.topics.values() if topic.name not in present]
+        # What is not replayed, and why, by topic.
+        self.skipped: dict[str, str] = {}
+        self._kinds: dict[str, Any] = {}
+        self._converts: dict[str, Convert] = {}
+        definitions = bag.definitions()
+        for topic in bag.topics.values():
+            if topic.name not in present:
+                self._take(topic, definitions.get(topic.type, ""))
+        self._topics = [topic for topic in bag.topics.values() if topic.name in self._kinds]
         if not self._topics:
+            why = "".join(f"; {name}: {reason}" for name, reason in self.skipped.items())
             raise BadInput(
-                f"{bag.path} holds no topic that can be replayed; record the lab's topics"
+                f"{bag.path} holds no topic that can be replayed; record the lab's topics{why}"
             )
-        self._kinds = {topic.name: message_class(topic.type) for topic in self._topics}
         self._names = frozenset(self._kinds)
         self._state_names = frozenset(topic.name for topic in self._topics if is_state(topic))
         self._publishers: dict[str, Publisher] = {}
@@ -90,6 +102,18 @@ class Replaying:
         self._stopped = False
         self._thread = threading.Thread(target=self._run, name="replay", daemon=True)
         self.messages = 0
+
+    def _take(self, topic: Topic, recorded: str) -> None:
+        """Prepare to publish a topic, or note why not; recorded: its definition in the bag."""
+        try:
+            kind = message_class(topic.type)
+            convert = migration(topic.type, recorded, definition(topic.type)) if recorded else None
+        except BadInput as error:
+            self.skipped[topic.name] = str(error)
+            return
+        self._kinds[topic.name] = kind
+        if convert is not None:
+            self._converts[topic.name] = convert
 
     # what can be asked of it ----------------------------------------------------------------
 
@@ -258,5 +282,7 @@ class Replaying:
         return self._timeline.due_ns((message.log_time_ns - self._bag.start_ns) / SECOND)
 
     def _publish(self, message: Message) -> None:
-        self._publishers[message.topic].publish(message.data)
+        convert = self._converts.get(message.topic)
+        data = message.data if convert is None else convert(message.data)
+        self._publishers[message.topic].publish(data)
         self.messages += 1

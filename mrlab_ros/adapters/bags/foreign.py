@@ -1,0 +1,269 @@
+"""Makes a bag of this lab of any ROS 2 bag: sqlite3 or MCAP, compressed or not, of any recorder.
+
+Messages keep their bytes and the definitions that their bag has. Where joint states are those of
+a robot of the library, that robot is added: in the scene, with its description and its joints.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from rosbags.rosbag2 import Reader
+from rosbags.typesys import Stores, get_types_from_msg, get_typestore
+from rosbags.typesys.store import Typestore
+
+from mrlab_ros.adapters.bags.writer import BagWriter
+from mrlab_ros.adapters.robots import urdf
+from mrlab_ros.adapters.robots.library import RobotLibrary
+from mrlab_ros.core.clock import SECOND
+from mrlab_ros.core.errors import BadInput
+from mrlab_ros.core.recording.joint_mapping import chosen_models, columns_of
+from mrlab_ros.core.recording.metadata import QosProfile, Topic
+
+JOINTS, ROBOTS, TEXT = "sensor_msgs/msg/JointState", "mrlab_msgs/msg/Robots", "std_msgs/msg/String"
+MESH = re.compile(r"package://(.+)")
+# Joint states in which the names of a topic's joints are looked for.
+LOOKED_AT = 200
+# m between robots that a bag does not place.
+APART = 1.5
+
+
+@dataclass
+class Imported:
+    """What became of a bag. robots: model by name; skipped: why, by topic."""
+
+    folder: Path
+    messages: int = 0
+    robots: dict[str, str] = field(default_factory=dict)
+    skipped: dict[str, str] = field(default_factory=dict)
+
+    def describe(self, name: str) -> str:
+        """Return it as a sentence; name: of the bag."""
+        said = f"{name} holds {self.messages} messages"
+        for name, model in self.robots.items():
+            said += f"; the joints move {name} ({model})"
+        for topic, why in self.skipped.items():
+            said += f"; left out {topic}: {why}"
+        return said
+
+
+def import_bag(
+    source: Path,
+    folder: Path,
+    asked: Sequence[str],
+    library: RobotLibrary,
+    definition: Callable[[str], str],
+) -> Imported:
+    """Write the bag `source` to the new folder `folder` as this lab records bags.
+
+    asked: models whose joints the bag holds; empty: found by the names. definition: returns the
+    text of an installed type. Raises BadInput where it is no ROS 2 bag, or has not those joints.
+    """
+    try:
+        with Reader(source) as reader:
+            return _Import(reader, source, asked, library, definition).write(folder)
+    except (BadInput, OSError):
+        raise
+    except Exception as error:  # what damage makes rosbags raise has no common base
+        if isinstance(error, AssertionError) or type(error).__module__.startswith("mrlab_ros"):
+            raise
+        raise BadInput(
+            f"{source} cannot be read as a ROS 2 bag ({error}); expected its folder with "
+            "metadata.yaml, an MCAP file, or a .db3 file"
+        ) from None
+
+
+class _Import:
+    def __init__(
+        self,
+        reader: Reader,
+        source: Path,
+        asked: Sequence[str],
+        library: RobotLibrary,
+        definition: Callable[[str], str],
+    ) -> None:
+        self._reader = reader
+        self._library = library
+        self._installed = definition
+        self._texts: dict[str, str] = {}
+        self._skipped: dict[str, str] = {}
+        known = get_typestore(Stores.ROS2_JAZZY)
+        for connection in reader.connections:
+            why = self._take_text(connection, known)
+            if why:
+                self._skipped[connection.topic] = why
+        self._kept = [c for c in reader.connections if c.topic not in self._skipped]
+        if not self._kept:
+            why = "; ".join(f"{topic}: {why}" for topic, why in self._skipped.items())
+            raise BadInput(f"{source} holds nothing that can be replayed{f' ({why})' * bool(why)}")
+        self._types = get_typestore(Stores.EMPTY)
+        for kind in {ROBOTS, TEXT, JOINTS, *(c.msgtype for c in self._kept)}:
+            self._register(kind)
+        self._models = self._chosen(asked)
+        self._state: dict[str, dict[str, float]] = {topic: {} for topic in self._models}
+
+    def write(self, folder: Path) -> Imported:
+        writer = BagWriter(folder, self._text)
+        done = Imported(folder, skipped=self._skipped)
+        names = self._names()
+        try:
+            for connection in self._kept:
+                writer.add_topic(_topic(connection))
+            for topic, name in names.items():
+                done.robots[name] = self._models[topic]
+            if names:
+                self._add_scene(writer, done.robots)
+            for connection, time_ns, data in self._reader.messages(self._kept):
+                name = names.get(connection.topic, "")
+                # A topic of the same name as the robot's would be written twice.
+                if f"/{name}/joint_states" != connection.topic:
+                    writer.write(connection.topic, time_ns, bytes(data), time_ns)
+                if name:
+                    moved = self._mapped(connection.topic, bytes(data), time_ns)
+                    if moved is not None:
+                        writer.write(f"/{name}/joint_states", time_ns, moved, time_ns)
+            writer.note("mrlab", {"imported_from": str(self._reader.path)})
+        finally:
+            writer.close()
+        done.messages = sum(part.messages for part in writer.facts.parts)
+        return done
+
+    # types ----------------------------------------------------------------------------------
+
+    def _take_text(self, connection: Any, known: Typestore) -> str:
+        """Keep the definition of a topic's type, the bag's own first; return why there is none."""
+        kind = connection.msgtype
+        if connection.ext.serialization_format not in ("", "cdr"):
+            return f"it is {connection.ext.serialization_format}, not CDR"
+        if kind in self._texts:
+            return ""
+        given = connection.msgdef
+        if given.data and given.format.name == "MSG":
+            self._texts[kind] = given.data
+            return ""
+        try:
+            self._texts[kind] = self._installed(kind)
+        except BadInput:
+            if kind not in known.fielddefs:
+                return f"the bag does not define {kind}, and it is not installed here"
+            self._texts[kind] = known.generate_msgdef(kind, ros_version=2)[0]
+        return ""
+
+    def _text(self, kind: str) -> str:
+        if kind not in self._texts:
+            self._texts[kind] = self._installed(kind)
+        return self._texts[kind]
+
+    def _register(self, kind: str) -> None:
+        if kind in self._types.fielddefs:
+            return
+        entries = get_types_from_msg(self._text(kind), kind)
+        self._types.register(
+            {name: e for name, e in entries.items() if name not in self._types.fielddefs}
+        )
+
+    # robots ---------------------------------------------------------------------------------
+
+    def _chosen(self, asked: Sequence[str]) -> dict[str, str]:
+        """Return the model of each topic of joint states; none in a bag of a lab."""
+        if any(connection.msgtype == ROBOTS for connection in self._kept) and not asked:
+            return {}
+        models = {
+            model: self._library.model(model).joint_names
+            for model in (asked or self._library.ids())
+        }
+        topics: dict[str, dict[str, None]] = {}
+        wanted = [c for c in self._kept if c.msgtype == JOINTS]
+        for connection in wanted:
+            names = topics.setdefault(connection.topic, {})
+            for number, (_, _, data) in enumerate(self._reader.messages([connection])):
+                if number >= LOOKED_AT:
+                    break
+                state: Any = self._types.deserialize_cdr(data, JOINTS)
+                names |= dict.fromkeys(state.name)
+        self._joint_names = {topic: list(names) for topic, names in topics.items()}
+        return chosen_models(asked, models, self._joint_names)
+
+    def _names(self) -> dict[str, str]:
+        """Return a robot's name for each topic whose joints are mapped."""
+        counts: dict[str, int] = {}
+        found = {}
+        for topic, model in self._models.items():
+            counts[model] = counts.get(model, 0) + 1
+            found[topic] = f"{model}_{counts[model]}"
+        return found
+
+    def _mapped(self, topic: str, data: bytes, time_ns: int) -> bytes | None:
+        """Return a joint state of the robot alone; None until every joint was reported."""
+        state: Any = self._types.deserialize_cdr(data, JOINTS)
+        known = self._state[topic]
+        known.update(zip(state.name, map(float, state.position), strict=False))
+        joints = self._library.model(self._models[topic]).joint_names
+        columns = columns_of(joints, list(known))
+        if columns is None:
+            return None
+        values = np.array(list(known.values()))[columns]
+        stamp = state.header.stamp
+        if not stamp.sec and not stamp.nanosec:
+            stamp = self._make("builtin_interfaces/msg/Time", *divmod(time_ns, SECOND))
+        header = self._make("std_msgs/msg/Header", stamp, state.header.frame_id)
+        empty = np.zeros(0)
+        moved = self._make(JOINTS, header, list(joints), values, empty, empty)
+        return bytes(self._types.serialize_cdr(moved, JOINTS))
+
+    def _add_scene(self, writer: BagWriter, robots: dict[str, str]) -> None:
+        """Write the robots, their descriptions, meshes and topics."""
+        latched = (QosProfile(durability="transient_local", history="keep_last", depth=1),)
+        start_ns = self._reader.start_time
+        writer.add_topic(Topic("/robots", ROBOTS, latched))
+        entries = []
+        meshes: set[str] = set()
+        for number, (name, model) in enumerate(robots.items()):
+            description = self._library.description(model)
+            writer.add_topic(Topic(f"/{name}/joint_states", JOINTS, (QosProfile(),)))
+            writer.add_topic(Topic(f"/{name}/robot_description", TEXT, latched))
+            said = self._types.serialize_cdr(self._make(TEXT, description), TEXT)
+            writer.write(f"/{name}/robot_description", start_ns, bytes(said), start_ns)
+            writer.attach(f"robots/{name}.urdf", "model/urdf+xml", description.encode(), start_ns)
+            meshes |= {
+                str(mesh.get("filename")) for mesh in urdf.parse(description, name).iter("mesh")
+            }
+            pose = self._make(
+                "geometry_msgs/msg/Pose",
+                self._make("geometry_msgs/msg/Point", 0.0, APART * number, 0.0),
+                self._make("geometry_msgs/msg/Quaternion", 0.0, 0.0, 0.0, 1.0),
+            )
+            joints = list(self._library.model(model).joint_names)
+            entries.append(self._make("mrlab_msgs/msg/Robot", name, model, "", pose, joints))
+        stamp = self._make("builtin_interfaces/msg/Time", *divmod(start_ns, SECOND))
+        header = self._make("std_msgs/msg/Header", stamp, "world")
+        scene = self._make(ROBOTS, header, entries, "")
+        writer.write(
+            "/robots", start_ns, bytes(self._types.serialize_cdr(scene, ROBOTS)), start_ns
+        )
+        for uri in sorted(meshes):
+            match = MESH.fullmatch(uri)
+            if match is not None:
+                content = self._library.mesh_path(uri).read_bytes()
+                writer.attach(f"meshes/{match[1]}", "model/gltf-binary", content, start_ns)
+
+    def _make(self, kind: str, *values: Any) -> Any:
+        return self._types.types[kind](*values)
+
+
+def _topic(connection: Any) -> Topic:
+    qualities = tuple(
+        QosProfile(
+            history=quality.history.name.lower(),
+            depth=quality.depth,
+            reliability=quality.reliability.name.lower(),
+            durability=quality.durability.name.lower(),
+        )
+        for quality in connection.ext.offered_qos_profiles
+    )
+    return Topic(connection.topic, connection.msgtype, qualities, connection.digest or "")
