@@ -35,6 +35,42 @@ class Identity:
     def sentence(self, lab: str) -> str:
         """Return what to say of another lab."""
         return (
-            f"another lab ({lab}) is on this ROS domain; this one ({self.lab}) ignores it. Give "
-            "one of them another ROS_DOMAIN_ID"
+            f"another lab, {lab}, is on this ROS domain; this one, {self.lab}, ignores it, but "
+            "topics and services of one name are shared. Start one of them again with another "
+            "ROS_DOMAIN_ID"
+        )
+
+
+# A coordinator names its systems once a second; a lab that has said nothing for longer is gone, s.
+PRESENT_S = 5.0
+# Services that both labs may answer: what stops an arm, and what changes nothing.
+HARMLESS = re.compile(r"(pause|stop)$|(list|get)_[^/]*$")
+
+
+class Neighbours:
+    """Other labs that are on this ROS domain now.
+
+    lab: the id of this one; without one there are no others.
+    """
+
+    def __init__(self, lab: str) -> None:
+        self._lab = lab
+        self._seen: dict[str, float] = {}
+
+    def notice(self, lab: str, now: float) -> None:
+        """Take a sign of life of `lab`. now: s of any clock that never goes back."""
+        if self._lab and lab and lab != self._lab:
+            self._seen[lab] = now
+
+    def why_not(self, service: str, servers: int, now: float) -> str:
+        """Return why a call would reach more than this lab; empty where it does not, or may."""
+        if servers < 2 or HARMLESS.search(service.rpartition("/")[2]):
+            return ""
+        present = [lab for lab, seen in self._seen.items() if now - seen < PRESENT_S]
+        if not present:
+            return ""
+        return (
+            f"{service} was not called, as another lab on this ROS domain has it too: "
+            f"{'; '.join(present)}. Start one of the labs again with another ROS_DOMAIN_ID; pause "
+            "and stop still reach both"
         )

@@ -220,6 +220,7 @@ class RecorderParameters:
 
 @dataclass(frozen=True)
 class BridgeParameters:
+    lab_id: str = _lab_id()
     allow_list: str = field(TEXT, "YAML file with the rules; empty: config/bridge.yaml.", "")
     prefix: str = field(PREFIX, "What every key begins with.", "")
     mode: str = field(

@@ -2,7 +2,11 @@
 
 from __future__ import annotations
 
+import getpass
+import os
+import platform
 import secrets
+import time
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -57,5 +61,10 @@ class LabOptions:
 
 
 def new_lab_id() -> str:
-    """Return an id that no other lab has."""
-    return secrets.token_hex(4)
+    """Return an id that no other lab has, and that says whose lab it is, where, and since when."""
+    try:
+        user = getpass.getuser()
+    except (KeyError, OSError):
+        user = str(os.getuid())
+    since = time.strftime("%Y-%m-%d %H:%M")
+    return f"{secrets.token_hex(4)} ({user}@{platform.node()}, since {since})"

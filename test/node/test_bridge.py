@@ -11,7 +11,7 @@ from pathlib import Path
 import pytest
 from child_process import HOST, start_child
 from graph import wait_for
-from mrlab_msgs.msg import Robot, Robots
+from mrlab_msgs.msg import Robot, Robots, RobotSystems
 from rclpy.serialization import deserialize_message, serialize_message
 from sensor_msgs.msg import JointState
 from std_msgs.msg import String
@@ -157,6 +157,34 @@ def test_a_service_that_does_not_answer_is_given_up(graph, listed, endpoint):
         _, reason = ask(session, "slow")
     released.set()
     assert "/slow did not answer within 0.1 s" in reason
+
+
+def test_what_two_labs_offer_is_not_called_for_either(graph, listed, endpoint):
+    listed({"services": [{"name": "/*/play"}, {"name": "/*/pause"}]}, lab_id="a1")
+    asked = []
+
+    def answer(request, response):
+        asked.append(request)
+        response.success = True
+        return response
+
+    names = ("ur5e_1/play", "ur5e_1/pause", "ur5e_2/play")
+    for name in (*names, *names[:2]):
+        graph.client.create_service(Trigger, name, answer)
+    systems = graph.client.create_publisher(RobotSystems, "/systems", qos.LATCHED)
+    empty = bytes(serialize_message(Trigger.Request()))
+    with connect(endpoint) as session:
+        wait_for(lambda: sum("SS/ur5e_" in t for t in tokens(session)) == 3, "the services")
+        assert ask(session, "ur5e_1/play", empty)[1] is None
+        systems.publish(RobotSystems(lab="b2 (anna@pc3)"))
+        reason = wait_for(lambda: ask(session, "ur5e_1/play", empty)[1], "a refusal")
+        assert "/ur5e_1/play was not called" in reason
+        assert "b2 (anna@pc3). Start one of the labs again with another ROS_DOMAIN_ID" in reason
+        asked.clear()
+        assert ask(session, "ur5e_1/play", empty)[1] == reason
+        assert asked == []
+        for name in names[1:]:
+            assert ask(session, name, empty)[1] is None
 
 
 def test_what_is_not_named_stays_inside(graph, bridge, session):

@@ -184,8 +184,8 @@ def test_a_second_lab_on_the_domain_is_ignored_and_both_keep_their_robots(graph,
     second = graph.add(LabNode, lab_id="b2")
     wait_for(lambda: {m.lab for m in robots} == {"a1", "b2"}, "the other lab")
     wait_for(lambda: first.lab.lost, "a word on it")
-    assert "another lab (b2)" in first.lab.lost[0]
-    assert "another lab (a1)" in wait_for(lambda: second.lost, "a word there too")[0]
+    assert "another lab, b2," in first.lab.lost[0]
+    assert "another lab, a1," in wait_for(lambda: second.lost, "a word there too")[0]
     load(graph, robot, "wave")
     assert list(first.host.nodes) == [robot]
     # The orders of a system have a name that no other lab's coordinator calls.

@@ -11,7 +11,7 @@ from typing import Any
 
 import yaml
 from diagnostic_msgs.msg import DiagnosticArray  # type: ignore[import-untyped]
-from mrlab_msgs.msg import Latency
+from mrlab_msgs.msg import Latency, RobotSystems
 from rclpy.context import Context
 from rclpy.node import Node
 from rclpy.parameter import Parameter
@@ -36,6 +36,7 @@ from mrlab_ros.core.bridge.links import (
 )
 from mrlab_ros.core.bridge.rules import Direction, ServiceRule, TopicRule
 from mrlab_ros.core.errors import BadInput
+from mrlab_ros.core.identity import Neighbours
 from mrlab_ros.messages import qos
 from mrlab_ros.messages.latency import latency_to_message
 from mrlab_ros.nodes import parameters
@@ -109,6 +110,8 @@ class BridgeNode(ParameterNode[BridgeParameters]):
         self._ledger = Ledger()
         self._outward = Outward(self._bridge, self._ledger)
         self._inward = Inward(self._bridge)
+        self._neighbours = Neighbours(self.parameters.lab_id)
+        self.create_subscription(RobotSystems, "/systems", self._on_systems, qos.LATCHED)
         self._service_routes = Services(self._bridge)
         self._assets = AssetRoutes(self._bridge, share.directory(), self._rules.types)
         self._streams = SpunNode(streams)
@@ -208,6 +211,8 @@ class BridgeNode(ParameterNode[BridgeParameters]):
         self._outward.keep(going_out, thorough=self._checks % THOROUGH == 0)
         self._inward.keep(coming_in, thorough=self._checks % THOROUGH == 0)
         called: dict[str, tuple[ServiceRule, str]] = {}
+        shared: dict[str, str] = {}
+        now = time.monotonic()
         for name, types in self.get_service_names_and_types():
             # A client keeps its service's name in the graph, and the bridge has clients itself.
             for type_name in types:
@@ -215,10 +220,16 @@ class BridgeNode(ParameterNode[BridgeParameters]):
                 if service is None:
                     continue
                 self._bridge.give_way()
-                if self.count_services(name):
+                if servers := self.count_services(name):
                     called.setdefault(name, (service, type_name))
+                    if why_not := self._neighbours.why_not(name, servers, now):
+                        shared[name] = why_not
+        self._service_routes.shared = shared
         self._service_routes.keep(called)
         self._service_routes.refuse_late()
+
+    def _on_systems(self, message: RobotSystems) -> None:
+        self._neighbours.notice(message.lab, time.monotonic())
 
     def _report(self) -> None:
         """Publish the delays from the graph to zenoh since the last report."""

@@ -57,10 +57,14 @@ class ServiceRoute:
 
 
 class Services:
-    """The routes of services."""
+    """The routes of services.
+
+    shared: by service why it is not called now, as another lab would carry out the call too.
+    """
 
     def __init__(self, bridge: BridgeContext) -> None:
         self._bridge = bridge
+        self.shared: dict[str, str] = {}
         # Reentrant: add_done_callback may run at once when the response is already there.
         self._lock = threading.RLock()
         self._routes: dict[str, ServiceRoute] = {}
@@ -129,6 +133,7 @@ class Services:
                 self._refuse(route, query, words)
                 return
             request, why_not = read(query.payload)
+            why_not = why_not or self.shared.get(route.name, "")
             if why_not:
                 self._refuse(route, query, why_not)
                 return
