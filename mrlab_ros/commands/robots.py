@@ -1,4 +1,4 @@
-"""`mrlab robots`: the library of robot models: list, show, check, import, meshes, remove."""
+"""`mrlab robots`: the robot models: list, show, sheet, check, import, meshes, remove."""
 
 from __future__ import annotations
 
@@ -19,7 +19,9 @@ from mrlab_ros.ros import share
 if TYPE_CHECKING:
     from mrlab_ros.adapters.robots.library import RobotLibrary
 
-app = typer.Typer(help="The robots of the library: list, show, check, import, meshes, remove.")
+app = typer.Typer(
+    help="The robots of the library: list, show, sheet, check, import, meshes, remove."
+)
 
 WORDS = {Severity.INFO: "note", Severity.WARNING: "warning", Severity.ERROR: "error"}
 
@@ -213,6 +215,10 @@ def import_robot(
     speed: Annotated[
         float, typer.Option(min=0.0, help="rad/s or m/s of the arm's joints that state none.")
     ] = 0.0,
+    sheet: Annotated[
+        Path | None,
+        typer.Option(help="A .png or .html for the sheet with picture, axes, limits and hand."),
+    ] = None,
     package: Annotated[
         list[str] | None,
         typer.Option(
@@ -228,8 +234,11 @@ def import_robot(
     column opens and closes the hand. The sheet that is printed says what was understood.
     """
     from mrlab_ros.adapters.robots import checks, importing
+    from mrlab_ros.adapters.robots.sheet import checked_format
     from mrlab_ros.adapters.robots.source import find_description
 
+    if sheet is not None:
+        checked_format(sheet)
     path = find_description(source[0])
     library = _library()
     wanted = robot_id or path.name.split(".")[0].lower().replace("-", "_")
@@ -258,7 +267,27 @@ def import_robot(
             f"{finger.upper:g}{follows}{turned}"
         )
     print(f"{wanted} is a robot of the lab; its files: {library.imported / wanted}")
-    print(f"look at it: mrlab robots show {wanted} --out {wanted}.png")
+    if sheet is None:
+        print(f"with a picture of it: mrlab robots sheet {wanted} --out {wanted}.html")
+    else:
+        from mrlab_ros.adapters.robots import sheet as sheets
+
+        sheets.write(library, wanted, sheet.resolve())
+        print(sheet.resolve())
+
+
+@app.command()
+def sheet(
+    robot: Annotated[str, typer.Argument(help="Id of the robot.")],
+    output: Annotated[
+        Path, typer.Option("--out", "--output", "-o", help="A .png, or a .html page to print.")
+    ],
+) -> None:
+    """Draw a robot with its numbered axes beside what the lab knows of it: limits, hand, tip."""
+    from mrlab_ros.adapters.robots import sheet as sheets
+
+    sheets.write(_library(), robot, output.resolve())
+    print(output.resolve())
 
 
 @app.command()

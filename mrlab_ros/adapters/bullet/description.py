@@ -89,7 +89,8 @@ class Description:
         return link
 
     def neighbours(self) -> Iterator[tuple[str, str]]:
-        """Yield each pair of links that may overlap: one rigid group, or joined by one joint."""
+        """Yield each pair of links that may overlap: one rigid group, joined by one joint, or both
+        of the hand, whose fingers may close on each other and on the palm."""
         for i, a in enumerate(self.links):
             for b in self.links[i + 1 :]:
                 ga, gb = self._group(a), self._group(b)
@@ -97,7 +98,7 @@ class Description:
                     x in self._parent and self._group(self._parent[x].parent) == y
                     for x, y in ((ga, gb), (gb, ga))
                 )
-                if ga == gb or joined or {ga, gb} <= self.finger_links:
+                if ga == gb or joined or {a, b} <= self.grip_links:
                     yield a, b
 
     def _below(self, link: str) -> float:

@@ -5,13 +5,15 @@ from __future__ import annotations
 import re
 import xml.etree.ElementTree as ET
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from mrlab_ros.adapters.robots import urdf
 from mrlab_ros.core.errors import BadInput
 
 # Names of joints and links that belong to a hand.
 HAND_NAME = re.compile(r"finger|grip|jaw|knuckle|claw|thumb", re.IGNORECASE)
+# Names of links that may be a whole hand, which the last joint of the arm turns.
+WHOLE_HAND = re.compile(r"grip", re.IGNORECASE)
 # Names of a frame between the fingers.
 TIP_NAME = re.compile(r"tcp|tool|grasp|(^|_)ee(_|$)|end_effector", re.IGNORECASE)
 # An arm has at least this many more joints than whatever branches off it.
@@ -92,8 +94,18 @@ class _Tree:
                 )
         below = tuple(self.below(arm[-1].child))
         used = {joint.name for joint in (*arm, *below)}
-        still = tuple(joint for joint in self.joints if joint.moves and joint.name not in used)
-        return Split(arm, tip, below, still, why)
+        still = [joint for joint in self.joints if joint.moves and joint.name not in used]
+        endless = self._endless(below)
+        still += endless
+        below = tuple(replace(j, kind="fixed") if j in endless else j for j in below)
+        return Split(arm, tip, below, tuple(still), why)
+
+    def _endless(self, below: tuple[urdf.UrdfJoint, ...]) -> list[urdf.UrdfJoint]:
+        """Return what turns endlessly in a hand beside its fingers: a gear that is shown."""
+        followed = {joint.mimic.joint for joint in below if joint.mimic is not None}
+        driven = [joint for joint in below if joint.moves and joint.mimic is None]
+        endless = [j for j in driven if j.kind == "continuous" and j.name not in followed]
+        return endless if len(endless) < len(driven) else []
 
     def depth(self, joint: urdf.UrdfJoint) -> int:
         """Return the most driven joints on a way down that begins with `joint`."""
@@ -110,7 +122,9 @@ class _Tree:
             ways.sort(key=self.depth, reverse=True)
             first, second = self.depth(ways[0]), self.depth(ways[1]) if len(ways) > 1 else 0
             if len(ways) > 1 and first - second < LONGER_BY:
-                if first > LONGER_BY and not any(HAND_NAME.search(j.name) for j in ways):
+                # What branches into shorter chains than the one that leads there is a hand.
+                arms = first > LONGER_BY and first >= len(arm)
+                if arms and not any(HAND_NAME.search(j.name) for j in ways):
                     raise BadInput(
                         f"{self.origin}: at link '{link}' chains of {first} and {second} joints "
                         "begin; the lab moves one arm: name the last link of it with --tip, such "
@@ -118,7 +132,7 @@ class _Tree:
                     )
                 break
             joint = ways[0]
-            if arm and (HAND_NAME.search(joint.name) or HAND_NAME.search(joint.child)):
+            if arm and self._of_hand(joint):
                 if joint.moves:
                     break
                 if not self._arm_below(joint):
@@ -135,9 +149,20 @@ class _Tree:
             )
         return self._split(tuple(arm), self._tip(arm[-1].child), why)
 
+    def _of_hand(self, joint: urdf.UrdfJoint) -> bool:
+        """Return whether a joint is named as one of a hand: it, or the link that it moves.
+
+        A joint that turns a link named gripper, in which other joints move, is the arm's last.
+        """
+        if HAND_NAME.search(joint.name):
+            return True
+        if not HAND_NAME.search(joint.child):
+            return False
+        whole = joint.moves and WHOLE_HAND.search(joint.child)
+        return not (whole and any(j.moves and j.mimic is None for j in self.below(joint.child)))
+
     def _driven_arm(self, joint: urdf.UrdfJoint) -> bool:
-        named = HAND_NAME.search(joint.name) or HAND_NAME.search(joint.child)
-        return joint.moves and joint.mimic is None and not named
+        return joint.moves and joint.mimic is None and not self._of_hand(joint)
 
     def _moves_below(self, joint: urdf.UrdfJoint) -> bool:
         return any(below.moves for below in self.below(joint.child))
@@ -164,8 +189,8 @@ class _Tree:
         named = [at for at in rigid[1:] if TIP_NAME.search(at)]
         if named:
             return named[-1]
-        # Along the chain of single fixed joints: a flange, not a camera beside it.
-        while len(ways := [j for j in self._below.get(link, ()) if not j.moves]) == 1:
+        # Along the chain of single fixed joints: a flange, not a sensor beside fingers.
+        while len(ways := self._below.get(link, [])) == 1 and not ways[0].moves:
             link = ways[0].child
         return link
 

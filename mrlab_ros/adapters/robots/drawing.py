@@ -83,6 +83,17 @@ def colour(mesh: trimesh.Trimesh) -> Array:
 
 def _picture(parts: list[trimesh.Trimesh], path: Path) -> None:
     from matplotlib.figure import Figure
+
+    figure = Figure(figsize=(9, 9))
+    axes: Any = figure.add_axes(
+        (-0.03, 0, 1, 1), projection="3d", proj_type="persp", focal_length=2
+    )
+    paint(axes, parts)
+    figure.savefig(path)
+
+
+def paint(axes: Any, parts: list[trimesh.Trimesh]) -> float:
+    """Draw meshes into matplotlib's 3D axes; return half of the drawn cube's side, m."""
     from mpl_toolkits.mplot3d.art3d import Poly3DCollection
 
     low, high = np.array([[part.bounds[0], part.bounds[1]] for part in parts]).transpose(1, 0, 2)
@@ -102,18 +113,14 @@ def _picture(parts: list[trimesh.Trimesh], path: Path) -> None:
         shaded = colour(part) * (SHADE + (1 - SHADE) * lit)[:, None]
         triangles.append(vertices[faces])
         colours.append(shaded[owner])
-    figure = Figure(figsize=(9, 9))
-    axes: Any = figure.add_axes(
-        (-0.03, 0, 1, 1), projection="3d", proj_type="persp", focal_length=2
-    )
-    paint = np.concatenate(colours)
+    paints = np.concatenate(colours)
     axes.add_collection3d(
         Poly3DCollection(
-            np.concatenate(triangles), facecolors=paint, edgecolors=paint, linewidths=0.25
+            np.concatenate(triangles), facecolors=paints, edgecolors=paints, linewidths=0.25
         )
     )
     for name, middle in zip("xyz", (low + high) / 2, strict=True):
         axes.set(**{f"{name}lim": (middle - half, middle + half), f"{name}label": f"{name}, m"})
     axes.set_box_aspect((1, 1, 1))
     axes.view_init(math.degrees(math.asin(VIEW[2])), math.degrees(math.atan2(VIEW[1], VIEW[0])))
-    figure.savefig(path)
+    return half

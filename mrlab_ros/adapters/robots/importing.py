@@ -23,14 +23,16 @@ from mrlab_ros.adapters.robots.assembly import Assembly
 from mrlab_ros.adapters.robots.hand import Finger, fingers
 from mrlab_ros.adapters.robots.library import MESH_PREFIX, RobotLibrary
 from mrlab_ros.adapters.robots.source import description_text, packages_around
-from mrlab_ros.core.diagnostics import Diagnostic, finding
+from mrlab_ros.core.diagnostics import Diagnostic, Severity, finding
 from mrlab_ros.core.errors import BadInput
 from mrlab_ros.core.geometry import Array
-from mrlab_ros.core.robots.model import RobotModel
+from mrlab_ros.core.robots.model import Joint, RobotModel
 from mrlab_ros.core.robots.reach import reach
 
 # Of a continuous joint that states none, rad/s: slower than any arm of a few kilogrammes.
 ASSUMED_SPEED = np.pi
+# Share of a joint's range by which its home is away from the ends at least.
+HOME_MARGIN = 0.05
 ID = re.compile(r"[a-z][a-z0-9_]{0,47}")
 
 
@@ -114,6 +116,7 @@ def import_robot(
         body = ET.tostring(root, encoding="unicode")
         (folder / "robot.urdf").write_text(f'<?xml version="1.0"?>\n{body}\n', encoding="utf-8")
         facts = _facts(root, robot_id, parts, source)
+        facts["notes"] += [one.message for one in found if one.severity is not Severity.INFO]
         (folder / "robot.yaml").write_text(
             yaml.safe_dump(facts, sort_keys=False, allow_unicode=True), encoding="utf-8"
         )
@@ -255,10 +258,20 @@ def _copy_meshes(root: ET.Element, robot_id: str, folder: Path, find: MeshFinder
                 mesh.set("filename", f"{MESH_PREFIX}{robot_id}/meshes/{names[uri, solid]}")
 
 
+def _home(joint: Joint) -> float:
+    """Return 0, or the middle of the limits where 0 is not well inside them.
+
+    At the end of its range a joint often folds the arm into itself.
+    """
+    margin = (joint.upper - joint.lower) * HOME_MARGIN
+    inside = joint.lower + margin <= 0 <= joint.upper - margin
+    return 0.0 if inside else (joint.lower + joint.upper) / 2
+
+
 def _facts(root: ET.Element, robot_id: str, parts: Split, source: Path) -> dict[str, Any]:
-    """Return the content of robot.yaml; home is 0 if the limits allow it, else their middle."""
+    """Return the content of robot.yaml."""
     chain, joints = urdf.chain(root, parts.tip, source.name)
-    home = [0.0 if j.lower <= 0 <= j.upper else (j.lower + j.upper) / 2 for j in joints]
+    home = [_home(joint) for joint in joints]
     model = RobotModel(robot_id, "", "", "", 0.0, 0.0, joints, np.array(home), chain)
     facts: dict[str, Any] = {
         "id": robot_id,
@@ -269,6 +282,7 @@ def _facts(root: ET.Element, robot_id: str, parts: Split, source: Path) -> dict[
         "reach": round(reach(model, "flange"), 4),
         "reach_definition": "flange",
         "tip_link": parts.tip,
+        "arm": parts.why,
         "home_deg": [round(degrees(angle), 6) for angle in home],
         "sources": [{"file": source.name}],
         "notes": [

@@ -90,6 +90,37 @@ def test_a_jaw_at_the_end_of_the_chain_is_the_hand() -> None:
     assert names(split(robot(*arm(5), base, jaw), "tried"))[1] == ["drive"]
 
 
+def test_five_fingers_of_any_name_are_a_hand() -> None:
+    chains = [
+        joint(f"J{finger}{k}", f"f{finger}{k - 1}" if k else "palm", f"f{finger}{k}")
+        for finger in range(5)
+        for k in range(4)
+    ]
+    parts = split(robot(*arm(6), *chains), "tried")
+    assert (len(parts.arm), len(parts.hand)) == (6, 20)
+    # A torso that branches into longer chains than its own is asked about.
+    with pytest.raises(BadInput, match="chains of 4 and 4 joints begin"):
+        split(robot(*arm(2), *chains), "tried")
+
+
+def test_a_wrist_that_turns_a_link_named_gripper_is_of_the_arm() -> None:
+    jaw = joint("jaw", "gripper_link", "moving_jaw")
+    parts = split(robot(*arm(5, last="gripper_link"), jaw), "tried")
+    assert names(parts) == ([f"axis_{i}" for i in range(1, 6)], ["jaw"])
+    # Where nothing moves in it, it is the hand itself.
+    assert names(split(robot(*arm(5, last="gripper_link")), "tried"))[1] == ["axis_5"]
+
+
+def test_a_gear_that_turns_endlessly_in_a_hand_stands_still() -> None:
+    gear = joint("gripper", "palm", "propeller", "continuous", f'<axis xyz="{Y}"/>')
+    parts = split(robot(*arm(6), gear, *TWO_FINGERS), "tried")
+    assert names(parts)[1] == ["finger_1", "finger_2"]
+    assert [j.name for j in parts.still] == ["gripper"]
+    assert [f.name for f in fingers(parts.below, {}, "tried")] == ["finger_1", "finger_2"]
+    with pytest.raises(BadInput, match="'gripper' of the hand has the limits 0 to 0"):
+        hand_of(gear)
+
+
 def test_a_slide_at_the_end_of_an_arm_is_its_last_axis() -> None:
     quill = (
         '<joint name="quill" type="prismatic"><parent link="palm"/><child link="flange"/>'
