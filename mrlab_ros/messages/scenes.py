@@ -25,7 +25,8 @@ SYSTEM_STANDING = (SystemState.PLAYING, SystemState.PAUSED, SystemState.COLLISIO
 def robot_entry(robot: PlacedRobot, state: msg.PlaybackState | None, now_ns: int) -> RobotEntry:
     """Return a robot with what its playback has loaded; state: None where that is unknown."""
     entry = RobotEntry(robot.name, robot.model, robot.end_effector or "", robot.pose)
-    if state is None or not state.trajectory_id:
+    # Without a version it is in no catalogue: somebody else's goal, or a stream.
+    if state is None or not state.trajectory_version:
         return entry
     standing = State(state.state) in STANDING
     return RobotEntry(

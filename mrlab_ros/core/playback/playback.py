@@ -6,19 +6,27 @@ state leaves, and calls `tick(now_ns)` then. Changes of state come out of `take_
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import NamedTuple
 
-from mrlab_ros.core.clock import PlaybackClock, checked_position, checked_rate
-from mrlab_ros.core.errors import Misuse
+from mrlab_ros.core.clock import SECOND, PlaybackClock, checked_position, checked_rate
+from mrlab_ros.core.errors import LabError, Misuse
 from mrlab_ros.core.geometry import Array
-from mrlab_ros.core.playback.planner import MotionPlanner
+from mrlab_ros.core.playback import goal as goals
+from mrlab_ros.core.playback import live
+from mrlab_ros.core.playback.planner import Motion, MotionPlanner
 from mrlab_ros.core.playback.states import MOVING, TABLE, Event, State
 from mrlab_ros.core.playback.stream import Sample, Stream
 from mrlab_ros.core.robots.model import RobotModel
 from mrlab_ros.core.state_machine import Machine
 from mrlab_ros.core.trajectory.fit import check_fits
 from mrlab_ros.core.trajectory.trajectory import Trajectory
+
+# Of a playback that follows a stream of joint commands.
+LIVE_MESSAGE = "follows joint commands"
+# A refused joint command is named in the status this often, ns.
+REFUSAL_NS = SECOND
 
 
 @dataclass(frozen=True)
@@ -75,6 +83,10 @@ class Playback:
         # None: physics has said nothing yet.
         self._touching: bool | None = None
         self._play_on_arrival = False
+        self._set_points = live.SetPoints(model)
+        # When the last joint command came, accepted or not, and when one was refused last.
+        self._commanded_ns: int | None = None
+        self._refused_ns = 0
         self._statuses: list[PlaybackStatus] = []
         self._announce("")
 
@@ -213,6 +225,12 @@ class Playback:
         """
         self._require_owner(by)
         self._machine.check(Event.PLAY)
+        if self.is_live:
+            # The stream goes on, if it still comes; else it ends again.
+            self._commanded_ns = now_ns
+            self._set_points.rest()
+            self._go_live(now_ns, live.Straight(self.arm, self.arm, live.SHORTEST))
+            return
         position = self.clock.position
         if until is not None:
             checked_position(until, self._loaded().duration)
@@ -226,6 +244,100 @@ class Playback:
             self._follow(now_ns if start_ns is None else start_ns, position, Event.PLAY)
         else:
             self._approach(now_ns, position, Event.STAGE, play_on_arrival=True)
+
+    # what others say where to go --------------------------------------------------------------
+
+    def pursue(self, now_ns: int, goal: goals.Goal) -> Trajectory:
+        """Follow a goal's points from where the arm stands, in place of what it does now.
+
+        Returns the trajectory that was made of it, which plays once at rate 1. Raises WrongGoal
+        for a bad goal and Misuse where the state or a system forbids it; then nothing has changed.
+        """
+        self._require_owner("")
+        if not self.moving:
+            self._machine.check(Event.LOAD)
+        trajectory, start_ns = goals.trajectory(goal, self.model, self.arm, now_ns)
+        self._replace(now_ns, trajectory)
+        self._stream.rate, self.loop = 1.0, False
+        self._follow(start_ns, 0.0, Event.PLAY)
+        return trajectory
+
+    def command(
+        self,
+        now_ns: int,
+        names: Sequence[str],
+        positions: Sequence[float],
+        velocities: Sequence[float] = (),
+    ) -> bool:
+        """Go to a set-point of a stream; return whether the stream begins with it.
+
+        A stream may begin wherever a trajectory could be loaded. It ends in PAUSED when nothing
+        comes for live.SILENCE s. Raises LabError; what is refused moves nothing, and the status
+        says it once.
+        """
+        came_ns, self._commanded_ns = self._commanded_ns, now_ns
+        silent = came_ns is None or now_ns - came_ns > live.SILENCE * SECOND
+        try:
+            begins = self._take_command(now_ns, names, positions, velocities, silent)
+        except LabError as error:
+            # A stream of thousands is not refused a thousand times.
+            if now_ns - self._refused_ns > REFUSAL_NS:
+                self._refused_ns = now_ns
+                self._announce(f"refused: {error}")
+            raise
+        if self._refused_ns:
+            self._refused_ns = 0
+            self._announce(LIVE_MESSAGE)
+        return begins
+
+    def _take_command(
+        self,
+        now_ns: int,
+        names: Sequence[str],
+        positions: Sequence[float],
+        velocities: Sequence[float],
+        silent: bool,
+    ) -> bool:
+        self._require_owner("")
+        target = self._set_points.checked(names, positions, velocities)
+        if self.is_live and self.state is State.PLAYING:
+            self._stream.track(now_ns, self._set_points.motion(now_ns, self.arm, target))
+            return False
+        self._machine.check(Event.LOAD)
+        if self.is_live and not silent:
+            raise Misuse(
+                f"is in {self.state.name} and ignores the joint commands: play goes on with them, "
+                f"and so does a stream that begins again after {live.SILENCE:g} s"
+            )
+        self._replace(now_ns, self._set_points.place(self.arm))
+        self._set_points.rest()
+        self._go_live(now_ns, self._set_points.motion(now_ns, self.arm, target))
+        return True
+
+    @property
+    def is_live(self) -> bool:
+        """Whether a stream of joint commands stands in for a trajectory."""
+        trajectory = self.trajectory
+        return (
+            trajectory is not None
+            and trajectory.version == goals.UNPUBLISHED
+            and trajectory.id == live.LIVE
+        )
+
+    def _replace(self, now_ns: int, trajectory: Trajectory) -> None:
+        """Load what begins where the arm is; what moves is given up without a stop."""
+        if self.moving:
+            self._machine.fire(Event.PAUSE)
+            self._stream.halt(now_ns)
+        self._machine.fire(Event.LOAD)
+        self._stream.trajectory = trajectory
+        self._stream.stand(now_ns, 0.0)
+
+    def _go_live(self, now_ns: int, motion: Motion) -> None:
+        self._machine.fire(Event.PLAY)
+        self._stream.stand(now_ns, 0.0)
+        self._stream.track(now_ns, motion)
+        self._announce(LIVE_MESSAGE)
 
     def stage(self, now_ns: int, position: float, by: str = "") -> float:
         """Move to `position` (s) and wait there in PAUSED; return how long that takes, s.
@@ -370,6 +482,8 @@ class Playback:
         stream, state = self._stream, self._machine.state
         if stream.next_ns is None or now_ns < stream.next_ns:
             return None
+        if state is State.PLAYING and stream.tracks:
+            return self._live_sample(now_ns)
         if state is State.PLAYING:
             sample = stream.trajectory_sample(now_ns)
             if stream.ended:
@@ -384,9 +498,20 @@ class Playback:
             return sample
         return stream.standing_sample(now_ns)
 
+    def _live_sample(self, now_ns: int) -> Sample:
+        sample = self._stream.approach_sample(now_ns)
+        came_ns = self._commanded_ns
+        silent = came_ns is None or now_ns - came_ns > live.SILENCE * SECOND
+        if silent and self._stream.arrived:
+            self._halt(now_ns, Event.HELD, "no joint command comes any more")
+        return sample
+
     def shift(self, by_ns: int) -> None:
         """Go on as before after the clock was set by `by_ns`."""
         self._stream.shift(by_ns)
+        self._set_points.shift(by_ns)
+        if self._commanded_ns is not None:
+            self._commanded_ns += by_ns
         self._announce(self._message)
 
     def take_statuses(self) -> list[PlaybackStatus]:

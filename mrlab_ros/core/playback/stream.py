@@ -122,6 +122,20 @@ class Stream:
         self.stand(now_ns, position)
         self._motion, self._motion_start_ns = motion, now_ns
 
+    def track(self, now_ns: int, motion: Motion) -> None:
+        """Follow `motion`, which begins where the arm is; the one before it is given up."""
+        if self._motion is None:
+            self.next_ns = now_ns
+        self._motion, self._motion_start_ns = motion, now_ns
+        # It arrives with its own end: what leaves first is no older than its beginning.
+        if self.next_ns is not None:
+            self.next_ns = max(self.next_ns, now_ns)
+
+    @property
+    def tracks(self) -> bool:
+        """Whether the arm follows a motion instead of the trajectory."""
+        return self._motion is not None
+
     def follow(self, start_ns: int, position: float) -> None:
         """Follow the trajectory from `position` (s) on, which the clock shows at `start_ns`.
 

@@ -174,7 +174,8 @@ class MarkerPublishers:
             return
         self._paths[robot] = wanted
         self._show(robot, "path", [])
-        if message.trajectory_id:
+        # Without a version it is in no catalogue: somebody else's goal, or a stream.
+        if message.trajectory_version:
             self._work.send(lambda: self._draw_path(robot, wanted))
 
     def _draw_path(self, robot: str, wanted: str) -> None:

@@ -257,6 +257,7 @@ class PlaybackHostNode(ParameterNode[PlaybackParameters]):
             host=self._host,
             lab=self._identity.lab,
             kept=self._kept_of(robot, model),
+            warn=self.get_logger().warning,
             context=self.context,
         )
         self.nodes[robot] = node

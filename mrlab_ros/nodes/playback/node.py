@@ -30,6 +30,7 @@ from mrlab_ros.messages.playback import (
     targets_to_message,
 )
 from mrlab_ros.messages.telemetry import TelemetryEncoder
+from mrlab_ros.nodes.playback.commanders import Commanders
 from mrlab_ros.ros.answers import answered, create_deferred_service
 from mrlab_ros.ros.calls import NoAnswer
 from mrlab_ros.ros.deadlines import Command, Player, Scheduler
@@ -59,11 +60,13 @@ class PlaybackNode(Node):
         host: str,
         lab: str = "",
         kept: Kept | None = None,
+        warn: Callable[[str], None] = lambda said: None,
         context: Context | None = None,
     ) -> None:
         """Make the node; the scheduler serves its playback from now on.
 
-        host, lab: the node that plays the robot, and the id of its lab. kept: what the robot had
+        host, lab: the node that plays the robot, and the id of its lab. warn: takes a sentence of
+        what was refused where nobody can be answered. kept: what the robot had
         before the process was restarted; come_back() loads it.
         """
         # A lab of fifty robots has fifty of these nodes: each does without rosout and the
@@ -110,11 +113,15 @@ class PlaybackNode(Node):
         create_deferred_service(self, srv.LoadTrajectory, "load", self._begin_load)
         self._back = kept
         self._announced = True
+        self._commanders: Commanders | None = None
         if kept is not None:
             with scheduler.command() as now_ns:
                 self.playback.stand_at(now_ns, kept.arm)
         self.player = Player(self.playback, self._send, self._announce)
         scheduler.add(self.player)
+        self._commanders = Commanders(
+            self, robot, self.playback, self.player, self._command, self._driven, warn
+        )
 
     def come_back(self, done: Callable[[str], None]) -> None:
         """Load what the robot had before the restart, in its own thread, and stand there.
@@ -177,6 +184,8 @@ class PlaybackNode(Node):
         for answer in list(self._loading):
             with suppress(InvalidStateError):
                 answer.set_exception(CancelledError())
+        if self._commanders is not None:
+            self._commanders.close()
         self._scheduler.remove(self.player)
         self.destroy_node()
 
@@ -217,6 +226,13 @@ class PlaybackNode(Node):
     def _announce(self, now_ns: int, status: PlaybackStatus) -> None:
         self._announced = True
         self._state.publish(status_to_message(now_ns, self.robot, status, self._host, self._lab))
+        if self._commanders is not None:
+            self._commanders.note(status)
+
+    def _driven(self, now_ns: int, trajectory: Trajectory | None) -> None:
+        """Take that a goal or a stream stands in for what was loaded."""
+        self._back = None
+        self._announce_targets(now_ns, trajectory)
 
     def _announce_targets(self, now_ns: int, trajectory: Trajectory | None) -> None:
         tool0 = self.model.chain.tool0

@@ -147,7 +147,8 @@ class SessionContent:
 
     def _take_state(self, topic: str, state: Any) -> None:
         version = f"{state.trajectory_id}@{state.trajectory_version}"
-        if not state.trajectory_id or version in self._asked:
+        # Without a version it is in no catalogue: a goal of somebody else's, or a stream.
+        if not state.trajectory_version or version in self._asked:
             return
         # Asked for once: the state comes every second, and the converter may be gone.
         self._asked.add(version)

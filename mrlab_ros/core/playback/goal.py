@@ -1,0 +1,264 @@
+"""A goal of joint points, as MoveIt sends one, made into a trajectory from where the arm stands.
+
+What is checked and how it is interpolated is what ros2_controllers' joint_trajectory_controller
+does: linear between positions, cubic with velocities, quintic with accelerations as well. Limits
+are checked beyond that.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from enum import Enum
+from itertools import pairwise
+
+import numpy as np
+
+from mrlab_ros.core.clock import SECOND
+from mrlab_ros.core.errors import BadInput
+from mrlab_ros.core.geometry import Array
+from mrlab_ros.core.robots.model import RobotModel
+from mrlab_ros.core.trajectory.trajectory import Channels, Source, Trajectory
+
+# Joint states a second.
+FRAME_RATE = 100.0
+# The longest goal, s.
+LONGEST = 600.0
+# Rounding that a joint's limits allow for: rad (m), and share of the velocity limit.
+AT_LIMIT = 1e-6
+VELOCITY_SLACK = 0.01
+# A last velocity below this is standstill, rad/s.
+STANDSTILL = 1e-4
+# No trajectory of the catalogue has version 0: this one cannot be fetched there.
+UNPUBLISHED = 0
+FOLLOWED = "follow_joint_trajectory"
+
+
+class Code(Enum):
+    """Why a goal ended; the values are those of control_msgs/FollowJointTrajectory."""
+
+    SUCCESSFUL = 0
+    INVALID_GOAL = -1
+    INVALID_JOINTS = -2
+    OLD_HEADER_TIMESTAMP = -3
+    PATH_TOLERANCE_VIOLATED = -4
+    GOAL_TOLERANCE_VIOLATED = -5
+
+
+class WrongGoal(BadInput):
+    """A goal that cannot be carried out."""
+
+    def __init__(self, code: Code, text: str) -> None:
+        super().__init__(text)
+        self.code = code
+
+
+@dataclass(frozen=True)
+class Point:
+    """Where the joints are at `time` (s from the goal's start); rad, rad/s, rad/s^2, or none."""
+
+    time: float
+    positions: Sequence[float]
+    velocities: Sequence[float] = ()
+    accelerations: Sequence[float] = ()
+    effort: Sequence[float] = ()
+
+
+@dataclass(frozen=True)
+class Goal:
+    """joint_names: the order of the points' values. stamp_ns: of the start; 0: now."""
+
+    joint_names: Sequence[str]
+    points: Sequence[Point]
+    stamp_ns: int = 0
+
+
+def trajectory(goal: Goal, model: RobotModel, arm: Array, now_ns: int) -> tuple[Trajectory, int]:
+    """Return what leads from `arm`, (J,) rad, along the goal's points, and when it starts, ns.
+
+    Of a goal whose start has passed, what lies ahead is left. Raises WrongGoal.
+    """
+    order = _order(goal.joint_names, model)
+    if not goal.points:
+        raise _wrong("the goal has no points; expected one or more")
+    times = np.array([point.time for point in goal.points])
+    _check_times(times)
+    rows = {
+        kind: _rows(goal.points, kind, order)
+        for kind in ("positions", "velocities", "accelerations")
+    }
+    if any(point.effort for point in goal.points):
+        raise _wrong(
+            "the points have efforts, which a position controller cannot follow; drop them"
+        )
+    positions = rows["positions"]
+    if positions is None:
+        raise _wrong("the points have no positions; expected one a joint")
+    _check_positions(positions, model, goal.points)
+    velocities = rows["velocities"]
+    if velocities is not None and np.abs(velocities[-1]).max() > STANDSTILL:
+        joint = int(np.abs(velocities[-1]).argmax())
+        raise _wrong(
+            f"at the last point {model.joint_names[joint]} has the velocity "
+            f"{velocities[-1][joint]:.3g} rad/s; expected 0: the arm stands there"
+        )
+    start_ns = goal.stamp_ns or now_ns
+    passed = (now_ns - start_ns) / SECOND
+    if passed > times[-1]:
+        raise WrongGoal(
+            Code.OLD_HEADER_TIMESTAMP,
+            f"the goal ended {passed - times[-1]:.3f} s ago; set header.stamp to a later time, or "
+            "to 0 to start at once",
+        )
+    if passed > 0:
+        start_ns, times = now_ns, times - passed
+    ahead = times > 0
+    if not ahead.any():
+        # One point at 0, which JTC takes as a set-point: as fast as the joints may.
+        ahead[-1] = True
+    knots = np.concatenate([[0.0], np.maximum(times[ahead], 1 / FRAME_RATE)])
+    frames, speeds = _sampled(
+        knots,
+        np.vstack([arm, positions[ahead]]),
+        None if velocities is None else np.vstack([np.zeros_like(arm), velocities[ahead]]),
+        None
+        if velocities is None or rows["accelerations"] is None
+        else np.vstack([np.zeros_like(arm), rows["accelerations"][ahead]]),
+    )
+    _check_motion(frames, speeds, model)
+    return unpublished(FOLLOWED, model, frames, speeds), start_ns
+
+
+def unpublished(name: str, model: RobotModel, positions: Array, velocities: Array) -> Trajectory:
+    """Return a trajectory that no catalogue has; positions and velocities are (N, J)."""
+    return Trajectory(
+        id=name,
+        robot_model=model.id,
+        end_effector=None,
+        joint_names=model.joint_names,
+        frame_rate=FRAME_RATE,
+        positions=positions,
+        gripper=None,
+        channels=Channels(velocities, np.zeros_like(positions)),
+        source=Source("", "", ""),
+        version=UNPUBLISHED,
+    )
+
+
+def check_limits(positions: Array, model: RobotModel, where: str) -> None:
+    """Raise WrongGoal where a joint of `positions`, (J,) rad, is beyond its limits, or none."""
+    for joint, value in zip(model.joints, positions.tolist(), strict=True):
+        if not joint.lower - AT_LIMIT <= value <= joint.upper + AT_LIMIT:
+            raise _wrong(
+                f"{joint.name} is {value:.4g} rad{where}; expected {joint.lower:.4g} to "
+                f"{joint.upper:.4g}"
+            )
+
+
+def _wrong(text: str) -> WrongGoal:
+    return WrongGoal(Code.INVALID_GOAL, text)
+
+
+def _order(names: Sequence[str], model: RobotModel) -> list[int]:
+    """Return for each joint of the model its place in `names`."""
+    known = model.joint_names
+    if sorted(names) != sorted(known):
+        missing = [joint for joint in known if joint not in names]
+        foreign = [name for name in names if name not in known]
+        twice = sorted({name for name in names if list(names).count(name) > 1})
+        said = [
+            f"{what} {', '.join(which)}"
+            for what, which in (("without", missing), ("with", foreign), ("twice", twice))
+            if which
+        ]
+        raise WrongGoal(
+            Code.INVALID_JOINTS,
+            f"the joint names are {'; '.join(said)}; expected each of {', '.join(known)} once, in "
+            "any order",
+        )
+    return [list(names).index(joint) for joint in known]
+
+
+def _check_times(times: Array) -> None:
+    if not np.isfinite(times).all() or times[0] < 0:
+        raise _wrong(f"the first point is at {times[0]:g} s; expected 0 or later")
+    for number, (before, after) in enumerate(pairwise(times.tolist())):
+        if after <= before:
+            raise _wrong(
+                f"point {number} is at {before:g} s and point {number + 1} at {after:g} s; "
+                "expected times that increase"
+            )
+    if times[-1] > LONGEST:
+        raise _wrong(f"the goal takes {times[-1]:g} s; expected {LONGEST:g} at most")
+
+
+def _rows(points: Sequence[Point], kind: str, order: list[int]) -> Array | None:
+    """Return the values of all points, (N, J) in the model's order; None where none has any."""
+    values = [list(getattr(point, kind)) for point in points]
+    if not any(values):
+        return None
+    for number, row in enumerate(values):
+        if len(row) != len(order):
+            raise _wrong(
+                f"point {number} has {len(row)} {kind}; expected {len(order)}, one a joint"
+            )
+    rows = np.array(values, dtype=np.float64)[:, order]
+    if not np.isfinite(rows).all():
+        number = int(np.flatnonzero(~np.isfinite(rows).all(axis=1))[0])
+        raise _wrong(f"point {number} has {kind} that are NaN or infinite; expected numbers")
+    return rows
+
+
+def _check_positions(positions: Array, model: RobotModel, points: Sequence[Point]) -> None:
+    for number, row in enumerate(positions):
+        check_limits(row, model, f" at point {number} ({points[number].time:g} s)")
+
+
+def _check_motion(frames: Array, speeds: Array, model: RobotModel) -> None:
+    """Raise WrongGoal where the arm would leave a limit or be too fast between the points."""
+    most = np.array([joint.max_velocity for joint in model.joints])
+    steps = np.abs(np.diff(frames, axis=0)) * FRAME_RATE
+    fastest = np.maximum(steps, np.abs(speeds[1:]))
+    if (fastest > most * (1 + VELOCITY_SLACK)).any():
+        frame, joint = np.unravel_index(int((fastest / most).argmax()), fastest.shape)
+        raise _wrong(
+            f"{model.joint_names[joint]} moves at {fastest[frame, joint]:.3g} rad/s at "
+            f"{(frame + 1) / FRAME_RATE:g} s; expected {most[joint]:.3g} at most: give that way "
+            "more time. The motion begins where the arm stands"
+        )
+    for frame in (frames.argmax(axis=0).tolist()) + (frames.argmin(axis=0).tolist()):
+        if frame:
+            check_limits(frames[frame], model, f" at {frame / FRAME_RATE:g} s, between two points")
+
+
+def _sampled(
+    knots: Array, positions: Array, velocities: Array | None, accelerations: Array | None
+) -> tuple[Array, Array]:
+    """Return positions and velocities (N, J) at the frame rate; it ends with the last knot."""
+    count = max(int(np.ceil(knots[-1] * FRAME_RATE - 1e-9)), 1)
+    at = np.minimum(np.arange(count + 1) / FRAME_RATE, knots[-1])
+    segment = np.clip(np.searchsorted(knots, at, side="right") - 1, 0, len(knots) - 2)
+    length = np.diff(knots)[segment][:, None]
+    s = (at - knots[segment])[:, None] / length
+    p0, p1 = positions[segment], positions[segment + 1]
+    if velocities is None:
+        frames, speeds = p0 + s * (p1 - p0), (p1 - p0) / length
+        speeds[0] = speeds[-1] = 0.0
+    else:
+        v0, v1 = velocities[segment] * length, velocities[segment + 1] * length
+        if accelerations is None:
+            way = p1 - p0
+            b, c = 3 * way - 2 * v0 - v1, v0 + v1 - 2 * way
+            frames = p0 + s * (v0 + s * (b + s * c))
+            speeds = (v0 + s * (2 * b + s * 3 * c)) / length
+        else:
+            a0 = accelerations[segment] * length**2
+            a1 = accelerations[segment + 1] * length**2
+            way = p1 - p0
+            c3 = 10 * way - 6 * v0 - 4 * v1 - 1.5 * a0 + 0.5 * a1
+            c4 = -15 * way + 8 * v0 + 7 * v1 + 1.5 * a0 - a1
+            c5 = 6 * way - 3 * (v0 + v1) - 0.5 * (a0 - a1)
+            frames = p0 + s * (v0 + s * (a0 / 2 + s * (c3 + s * (c4 + s * c5))))
+            speeds = (v0 + s * (a0 + s * (3 * c3 + s * (4 * c4 + s * 5 * c5)))) / length
+    frames[0], frames[-1] = positions[0], positions[-1]
+    return frames, speeds

@@ -1,0 +1,199 @@
+"""Who else drives a robot: an action, a topic of trajectories, a stream of joint commands."""
+
+from __future__ import annotations
+
+from collections import deque
+from collections.abc import Callable
+from typing import Any
+
+from control_msgs.action import FollowJointTrajectory
+from rclpy.node import Node
+from rclpy.qos import QoSProfile, ReliabilityPolicy
+from rclpy.timer import Timer
+from sensor_msgs.msg import JointState
+from trajectory_msgs.msg import JointTrajectory
+
+from mrlab_ros.core.errors import LabError
+from mrlab_ros.core.playback.goal import Code, WrongGoal
+from mrlab_ros.core.playback.playback import Playback, PlaybackStatus
+from mrlab_ros.core.playback.pursuit import Bounds, Outcome, Pursuit
+from mrlab_ros.core.trajectory.trajectory import Trajectory
+from mrlab_ros.messages import qos
+from mrlab_ros.messages.goals import (
+    bounds_from_goal,
+    feedback_to_message,
+    goal_from_message,
+    result_to_message,
+)
+from mrlab_ros.ros.actions import GoalServer
+from mrlab_ros.ros.deadlines import Command, Player
+from mrlab_ros.ros.timers import every
+
+# How often feedback is sent and a goal's end is looked for, s.
+FEEDBACK_PERIOD_S = 0.05
+# Best effort takes what reliable publishers send, too.
+COMMANDS = QoSProfile(depth=10, reliability=ReliabilityPolicy.BEST_EFFORT)
+
+
+class Commanders:
+    """Takes goals and set-points for one robot's playback.
+
+    All but note() runs in the node's executor. command: locks the scheduler. loaded: is called
+    with what was loaded by a goal or a stream. warn: takes a sentence.
+    """
+
+    def __init__(
+        self,
+        node: Node,
+        robot: str,
+        playback: Playback,
+        player: Player,
+        command: Callable[[], Command],
+        loaded: Callable[[int, Trajectory | None], None],
+        warn: Callable[[str], None],
+    ) -> None:
+        self._node = node
+        self._robot = robot
+        self._playback = playback
+        self._player = player
+        self._command = command
+        self._loaded = loaded
+        self._warn = warn
+        self._goal: Any = None
+        self._pursuit: Pursuit | None = None
+        self._timer: Timer | None = None
+        # Changes of state that the goal's watch has not seen yet.
+        self._statuses: deque[PlaybackStatus] = deque()
+        self._last_warning = ""
+        self._server = GoalServer(
+            node,
+            FollowJointTrajectory,
+            "follow_joint_trajectory",
+            self._on_goal,
+            self._on_cancel,
+        )
+        node.create_subscription(
+            JointTrajectory, "joint_trajectory", self._on_trajectory, qos.EVENTS
+        )
+        node.create_subscription(JointState, "joint_command", self._on_set_point, COMMANDS)
+
+    def close(self) -> None:
+        """End the goal that is followed; call it before the node is destroyed."""
+        self._end(Outcome(Code.INVALID_GOAL, f"{self._robot} was removed"), "abort")
+        self._server.close()
+
+    def note(self, status: PlaybackStatus) -> None:
+        """Take a change of the playback's state, in any thread."""
+        if self._pursuit is not None:
+            self._statuses.append(status)
+
+    def _pursue(self, message: JointTrajectory, bounds: Bounds) -> None:
+        """Begin to follow a goal in place of the one before it; raise LabError where it is bad."""
+        bounds.check(self._playback.model.joint_names)
+        with self._command() as now_ns:
+            trajectory = self._playback.pursue(now_ns, goal_from_message(message))
+            start_ns = self._playback.clock.stamp_ns
+            # What is announced from here on is of the new goal.
+            self._statuses.clear()
+            replaced, self._pursuit = self._pursuit, Pursuit(trajectory, start_ns, bounds)
+        if replaced is not None and self._goal is not None:
+            text = "a new goal came: this one is given up"
+            self._finish(self._goal, Outcome(Code.INVALID_GOAL, text), "abort")
+        self._goal = None
+        self._loaded(now_ns, trajectory)
+
+    def _on_goal(self, goal: Any) -> None:
+        request = goal.request
+        try:
+            if request.multi_dof_trajectory.points:
+                raise WrongGoal(
+                    Code.INVALID_GOAL, "the goal has a multi_dof_trajectory; expected none"
+                )
+            self._pursue(request.trajectory, bounds_from_goal(request))
+        except LabError as error:
+            code = error.code if isinstance(error, WrongGoal) else Code.INVALID_GOAL
+            self._warn(f"{self._robot} refuses a goal: {error}")
+            self._finish(goal, Outcome(code, str(error)), "abort")
+            return
+        self._goal = goal
+        if self._timer is None:
+            self._timer = every(self._node, FEEDBACK_PERIOD_S, self._watch)
+
+    def _on_cancel(self, goal: Any) -> None:
+        """Hold in place; the next watch ends the goal, when its client knows of the cancelling."""
+        if self._goal is None or goal.goal_id != self._goal.goal_id:
+            return
+        with self._command() as now_ns:
+            if self._playback.moving:
+                self._playback.pause(now_ns)
+
+    def _on_trajectory(self, message: JointTrajectory) -> None:
+        try:
+            self._pursue(message, Bounds())
+            self._pursuit = None  # nobody waits for its end
+        except LabError as error:
+            self._warn(f"{self._robot} refuses a joint_trajectory: {error}")
+
+    def _on_set_point(self, message: JointState) -> None:
+        begins, refused = False, ""
+        with self._command() as now_ns:
+            try:
+                begins = self._playback.command(
+                    now_ns, message.name, message.position, message.velocity
+                )
+                trajectory = self._playback.trajectory
+            except LabError as error:
+                refused = str(error)
+        if begins:
+            self._loaded(now_ns, trajectory)
+        # The same refusal comes with every set-point; its numbers differ.
+        kind = refused.split(":")[0]
+        if kind != self._last_warning:
+            self._last_warning = kind
+            if refused:
+                self._warn(f"{self._robot}: {refused}")
+
+    def _watch(self) -> None:
+        goal, pursuit, last = self._goal, self._pursuit, self._player.last
+        if goal is None or pursuit is None:
+            self._stop_watching()
+            return
+        if goal.is_cancel_requested:
+            self._end(Outcome(Code.SUCCESSFUL, "cancelled: the arm holds where it is"), "canceled")
+            return
+        while self._statuses:
+            pursuit.note(self._statuses.popleft())
+        if last is None:
+            return
+        now_ns = self._now_ns()
+        instant = pursuit.instant(now_ns, last.sample.due_ns, last.sample.positions)
+        outcome = pursuit.outcome(now_ns, instant)
+        joints = pursuit.trajectory.joint_names
+        goal.publish_feedback(feedback_to_message(now_ns, self._robot, joints, instant))
+        if outcome is None:
+            return
+        if outcome.code is not Code.SUCCESSFUL:
+            with self._command() as now_ns:
+                ours = self._playback.trajectory is pursuit.trajectory
+                if ours and self._playback.moving:
+                    self._playback.pause(now_ns)
+        self._end(outcome, "succeed" if outcome.code is Code.SUCCESSFUL else "abort")
+
+    def _now_ns(self) -> int:
+        with self._command() as now_ns:
+            return now_ns
+
+    def _end(self, outcome: Outcome, how: str) -> None:
+        goal, self._goal, self._pursuit = self._goal, None, None
+        self._statuses.clear()
+        self._stop_watching()
+        if goal is not None:
+            self._finish(goal, outcome, how)
+
+    def _finish(self, goal: Any, outcome: Outcome, how: str) -> None:
+        self._server.finish(goal, result_to_message(outcome), how)
+
+    def _stop_watching(self) -> None:
+        if self._timer is not None:
+            self._node.destroy_timer(self._timer)
+            self._timer = None

@@ -1,0 +1,198 @@
+"""The action, the topic and the stream by which others drive a robot, in a graph."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import pytest
+import small_lab
+from action_msgs.msg import GoalStatus
+from builtin_interfaces.msg import Duration
+from control_msgs.action import FollowJointTrajectory
+from control_msgs.msg import JointTolerance
+from graph import Graph, wait_for
+from mrlab_msgs import msg
+from rclpy.action import ActionClient
+from rclpy.action.client import ClientGoalHandle
+from rclpy.qos import QoSProfile
+from sensor_msgs.msg import JointState
+from small_lab import LIBRARY, labels, listen_state, spawn
+from std_srvs.srv import Trigger
+from trajectory_msgs.msg import JointTrajectory, JointTrajectoryPoint
+
+from mrlab_ros.messages import qos
+
+Result = FollowJointTrajectory.Result
+
+
+@pytest.fixture
+def stage(graph: Graph):
+    small_lab.start(graph)
+    robot = spawn(graph)
+    return graph, robot, LIBRARY.model("ur5e")
+
+
+def path(model, *at: tuple[float, float]) -> JointTrajectory:
+    return JointTrajectory(
+        joint_names=list(model.joint_names),
+        points=[
+            JointTrajectoryPoint(
+                positions=(model.home + way).tolist(),
+                time_from_start=Duration(sec=int(time), nanosec=round(time % 1 * 1e9)),
+            )
+            for time, way in at
+        ],
+    )
+
+
+class Client:
+    """An action client as MoveIt's."""
+
+    def __init__(self, graph: Graph, robot: str) -> None:
+        self.feedback: list[Any] = []
+        self._client = ActionClient(
+            graph.client, FollowJointTrajectory, f"/{robot}/follow_joint_trajectory"
+        )
+        assert self._client.wait_for_server(timeout_sec=15.0)
+
+    def send(self, goal: FollowJointTrajectory.Goal) -> ClientGoalHandle:
+        sent = self._client.send_goal_async(
+            goal, feedback_callback=lambda message: self.feedback.append(message.feedback)
+        )
+        wait_for(sent.done, "the goal's acceptance")
+        return sent.result()
+
+    @staticmethod
+    def result(handle: ClientGoalHandle) -> Any:
+        asked = handle.get_result_async()
+        wait_for(asked.done, "the goal's end")
+        return asked.result()
+
+
+def goal(trajectory: JointTrajectory, **fields: Any) -> FollowJointTrajectory.Goal:
+    return FollowJointTrajectory.Goal(trajectory=trajectory, **fields)
+
+
+def test_a_goal_is_followed_with_feedback_and_ends_with_a_result(stage) -> None:
+    graph, robot, model = stage
+    joints = graph.listen(JointState, f"/{robot}/joint_states", qos.STREAM)
+    client = Client(graph, robot)
+    tolerance = [JointTolerance(name=name, position=0.05) for name in model.joint_names]
+    handle = client.send(
+        goal(path(model, (0.2, 0.1), (0.6, 0.3)), path_tolerance=tolerance,
+             goal_tolerance=tolerance, goal_time_tolerance=Duration(sec=2))
+    )  # fmt: skip
+    assert handle.accepted
+    done = client.result(handle)
+    assert (done.status, done.result.error_code) == (GoalStatus.STATUS_SUCCEEDED, 0)
+    assert done.result.error_string == "Goal successfully reached!"
+    wait_for(lambda: joints[-1].position[0] == pytest.approx(model.home[0] + 0.3), "the place")
+    told = client.feedback[-1]
+    assert told.joint_names == list(model.joint_names)
+    assert told.desired.positions[0] - told.actual.positions[0] == told.error.positions[0]
+
+
+@pytest.mark.parametrize(
+    ("change", "code", "words"),
+    [
+        ({"joint_names": ["a"]}, Result.INVALID_JOINTS, "with a"),
+        ({"points": []}, Result.INVALID_GOAL, "no points"),
+    ],
+)
+def test_a_bad_goal_is_aborted_with_code_and_sentence_and_disturbs_none(
+    stage, change, code, words
+) -> None:
+    graph, robot, model = stage
+    client = Client(graph, robot)
+    first = client.send(goal(path(model, (0.8, 0.2))))
+    bad = path(model, (1.0, 0.1))
+    for name, value in change.items():
+        setattr(bad, name, value)
+    done = client.result(client.send(goal(bad)))
+    assert (done.status, done.result.error_code) == (GoalStatus.STATUS_ABORTED, code)
+    assert words in done.result.error_string
+    assert client.result(first).status == GoalStatus.STATUS_SUCCEEDED
+
+
+def test_a_cancelled_goal_holds_and_a_new_one_replaces_it(stage) -> None:
+    graph, robot, model = stage
+    states = listen_state(graph, robot)
+    client = Client(graph, robot)
+    handle = client.send(goal(path(model, (5.0, 0.5))))
+    wait_for(lambda: "PLAYING" in labels(states), "the motion")
+    cancelled = handle.cancel_goal_async()
+    wait_for(cancelled.done, "the cancelling")
+    assert cancelled.result().goals_canceling
+    assert client.result(handle).status == GoalStatus.STATUS_CANCELED
+    wait_for(lambda: states.last().label == "PAUSED", "the hold")
+    second = client.send(goal(path(model, (5.0, 0.1))))
+    third = client.send(goal(path(model, (0.3, 0.05))))
+    done = client.result(second)
+    assert done.status == GoalStatus.STATUS_ABORTED
+    assert "a new goal came" in done.result.error_string
+    assert client.result(third).status == GoalStatus.STATUS_SUCCEEDED
+
+
+def test_a_halt_and_a_stop_abort_a_goal(stage) -> None:
+    graph, robot, model = stage
+    states = listen_state(graph, robot)
+    client = Client(graph, robot)
+    handle = client.send(goal(path(model, (5.0, 0.5))))
+    wait_for(lambda: "PLAYING" in labels(states), "the motion")
+    assert graph.call(Trigger, f"/{robot}/stop").success
+    done = client.result(handle)
+    assert (done.status, done.result.error_string) == (
+        GoalStatus.STATUS_ABORTED,
+        "the robot was stopped",
+    )
+    handle = client.send(goal(path(model, (5.0, 0.5))))
+    physics = graph.client.create_publisher(msg.Collision, f"/{robot}/collision", qos.LATCHED)
+    physics.publish(msg.Collision(colliding=True, contact=msg.Contact(link="a", other="b")))
+    done = client.result(handle)
+    assert done.result.error_code == Result.PATH_TOLERANCE_VIOLATED
+    assert "a touches b" in done.result.error_string
+
+
+def test_a_trajectory_on_the_topic_is_played(stage) -> None:
+    graph, robot, model = stage
+    states = listen_state(graph, robot)
+    publisher = graph.client.create_publisher(
+        JointTrajectory, f"/{robot}/joint_trajectory", qos.EVENTS
+    )
+    wait_for(publisher.get_subscription_count, "the playback")
+    publisher.publish(path(model, (0.2, 0.1)))
+    wait_for(lambda: "COMPLETE" in labels(states), "the end")
+    assert states.last().trajectory_id == "follow_joint_trajectory"
+    assert states.last().trajectory_version == 0, "it is in no catalogue"
+
+
+@pytest.mark.parametrize("reliability", ["RELIABLE", "BEST_EFFORT"])
+def test_a_stream_of_set_points_moves_the_robot(stage, reliability) -> None:
+    from rclpy.qos import ReliabilityPolicy
+
+    graph, robot, model = stage
+    states = listen_state(graph, robot)
+    joints = graph.listen(JointState, f"/{robot}/joint_states", qos.STREAM)
+    publisher = graph.client.create_publisher(
+        JointState,
+        f"/{robot}/joint_command",
+        QoSProfile(depth=1, reliability=ReliabilityPolicy[reliability]),
+    )
+    wait_for(publisher.get_subscription_count, "the playback")
+    command = JointState(name=list(model.joint_names), position=(model.home + 0.05).tolist())
+
+    def moved():
+        publisher.publish(command)
+        return joints and joints[-1].position[0] == pytest.approx(model.home[0] + 0.05)
+
+    wait_for(moved, "the robot at the set-point")
+    assert "PLAYING" in labels(states)
+    assert states.last().trajectory_id == "live"
+    command.position = [99.0] * 6
+
+    def refused():
+        publisher.publish(command)
+        return "refused: shoulder_pan_joint is 99 rad" in states.last().message
+
+    wait_for(refused, "the refusal in the robot's state")
+    wait_for(lambda: states.last().label == "PAUSED", "the end of the stream")

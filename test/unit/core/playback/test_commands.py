@@ -1,0 +1,275 @@
+"""A playback driven by others: goals of points, and streams of set-points."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from mrlab_ros.adapters.robots.library import RobotLibrary
+from mrlab_ros.adapters.robots.ruckig_planner import RuckigPlanner
+from mrlab_ros.core.clock import SECOND
+from mrlab_ros.core.errors import BadInput, LabError, Misuse
+from mrlab_ros.core.playback.goal import Code, Goal, Point, WrongGoal
+from mrlab_ros.core.playback.playback import Playback
+from mrlab_ros.core.playback.pursuit import Bounds, Pursuit
+from mrlab_ros.core.playback.states import State
+
+UR5E = RobotLibrary(Path(__file__).parents[4] / "robots", Path("/nowhere")).model("ur5e")
+NAMES = UR5E.joint_names
+HOME = UR5E.home
+TICK = SECOND // 100
+
+
+class Stage:
+    """A playback and its time."""
+
+    def __init__(self) -> None:
+        self.playback = Playback(UR5E, RuckigPlanner(), 2.0)
+        self.now_ns = 1_000 * SECOND
+        self.samples = []
+
+    def run(self, seconds: float) -> None:
+        """Let time pass, and keep what is sent."""
+        end_ns = self.now_ns + round(seconds * SECOND)
+        while True:
+            due_ns = self.playback.due_ns()
+            if due_ns is None or due_ns > end_ns:
+                break
+            self.now_ns = max(self.now_ns, due_ns)
+            sample = self.playback.tick(self.now_ns)
+            if sample is not None:
+                self.samples.append(sample)
+        self.now_ns = end_ns
+
+    def command(self, way: float, **changes) -> bool:
+        return self.playback.command(self.now_ns, NAMES, (HOME + way).tolist(), **changes)
+
+    def stream(self, ways, period=0.02) -> None:
+        for way in ways:
+            self.command(way)
+            self.run(period)
+
+    def goal(self, *at: tuple[float, float]):
+        goal = Goal(NAMES, [Point(time, (HOME + way).tolist()) for time, way in at])
+        return self.playback.pursue(self.now_ns, goal)
+
+    @property
+    def states(self):
+        return [status.state for status in self.playback.take_statuses()]
+
+    def fastest(self) -> float:
+        arms = np.array([sample.positions for sample in self.samples])
+        times = np.array([sample.due_ns for sample in self.samples]) / SECOND
+        steps, passed = np.abs(np.diff(arms, axis=0)), np.diff(times)
+        # A new goal begins at the instant of a joint state that was sent, with the same pose.
+        assert not steps[passed == 0].any()
+        return float((steps[passed > 0] / passed[passed > 0, None]).max())
+
+
+@pytest.fixture
+def stage() -> Stage:
+    return Stage()
+
+
+def test_a_goal_is_followed_to_its_last_point(stage: Stage) -> None:
+    stage.goal((1.0, 0.5))
+    assert stage.playback.state is State.PLAYING
+    stage.run(1.1)
+    assert stage.states[-3:] == [State.PLAYING, State.COMPLETE, State.READY]
+    assert stage.playback.arm == pytest.approx(HOME + 0.5)
+
+
+def test_a_new_goal_replaces_the_one_that_is_followed_from_where_the_arm_is(stage: Stage) -> None:
+    stage.goal((1.0, 0.5))
+    stage.run(0.5)
+    stage.goal((1.0, 0.0))
+    stage.run(1.1)
+    assert stage.playback.arm == pytest.approx(HOME)
+    assert stage.fastest() < 0.6
+
+
+def test_a_bad_goal_changes_nothing(stage: Stage) -> None:
+    stage.goal((1.0, 0.5))
+    stage.run(0.2)
+    stage.states  # noqa: B018
+    with pytest.raises(WrongGoal):
+        stage.goal((0.01, 2.0))
+    assert not stage.states
+    stage.run(1.0)
+    assert stage.playback.arm == pytest.approx(HOME + 0.5)
+
+
+def test_a_goal_is_refused_to_a_member_of_a_system_and_in_a_halt(stage: Stage) -> None:
+    stage.playback.claim(stage.now_ns, "cell")
+    with pytest.raises(Misuse, match="driven by system 'cell'"):
+        stage.goal((1.0, 0.5))
+    stage.playback.release(stage.now_ns, "cell")
+    stage.goal((1.0, 0.5))
+    stage.run(0.2)
+    stage.playback.collide(stage.now_ns, "touches")
+    with pytest.raises(Misuse, match="cannot load in COLLISION_HALT"):
+        stage.goal((1.0, 0.2))
+
+
+def test_a_stream_moves_the_arm_at_once_and_ends_in_a_pause(stage: Stage) -> None:
+    assert stage.command(0.0)
+    ways = [0.4 * np.sin(0.02 * i) for i in range(100)]
+    stage.stream(ways)
+    assert stage.playback.state is State.PLAYING
+    assert stage.playback.arm == pytest.approx(HOME + ways[-1], abs=0.01)
+    assert len(stage.samples) >= 150, "the joint states keep their rate"
+    stage.run(1.0)
+    assert stage.playback.state is State.PAUSED
+    assert "no joint command" in stage.playback.status().message
+    assert stage.playback.arm == pytest.approx(HOME + ways[-1])
+
+
+def test_the_first_set_point_is_approached_slowly_wherever_it_is(stage: Stage) -> None:
+    stage.command(1.5)
+    stage.stream([1.5] * 150)
+    assert stage.playback.arm == pytest.approx(HOME + 1.5)
+    assert stage.fastest() <= 0.31 * 3.15
+
+
+def test_a_jump_is_refused_and_the_stream_goes_on(stage: Stage) -> None:
+    stage.stream([0.0] * 10)
+    with pytest.raises(BadInput, match="jumps: shoulder_pan_joint by 1 rad"):
+        stage.command(1.0)
+    assert stage.playback.status().message.startswith("refused: the joint command jumps")
+    stage.stream([0.01 * i for i in range(10)])
+    assert stage.playback.status().message == "follows joint commands"
+    assert stage.playback.state is State.PLAYING
+    assert stage.fastest() < 3.15
+
+
+@pytest.mark.parametrize(
+    ("names", "positions", "velocities", "words"),
+    [
+        (["a"], [1.0], [], "names a; expected each of shoulder_pan_joint"),
+        (NAMES, [0.0] * 5, [], "5 positions; expected 6"),
+        (NAMES, [float("nan")] * 6, [], "shoulder_pan_joint is NaN"),
+        (NAMES, [99.0] * 6, [], "shoulder_pan_joint is 99 rad in the joint command"),
+        (NAMES, HOME.tolist(), [99.0] * 6, "moves shoulder_pan_joint at 99 rad/s"),
+        (NAMES, HOME.tolist(), [float("nan")] * 6, "nan rad/s"),
+        (NAMES, HOME.tolist(), [1.0], "1 velocities; expected 6"),
+    ],
+)
+def test_a_bad_set_point_is_refused_and_moves_nothing(
+    stage: Stage, names, positions, velocities, words
+) -> None:
+    with pytest.raises(LabError, match=words):
+        stage.playback.command(stage.now_ns, names, positions, velocities)
+    assert stage.playback.state is State.IDLE
+    stage.run(0.1)
+    assert stage.playback.arm == pytest.approx(HOME)
+
+
+def test_without_names_the_values_are_in_the_robot_s_order(stage: Stage) -> None:
+    stage.playback.command(stage.now_ns, [], (HOME + 0.1).tolist())
+    stage.run(0.4)
+    assert stage.playback.arm == pytest.approx(HOME + 0.1)
+
+
+def test_pause_holds_although_the_stream_goes_on_and_play_takes_it_up(stage: Stage) -> None:
+    stage.stream([0.0] * 5)
+    stage.playback.pause(stage.now_ns)
+    for _ in range(50):
+        with pytest.raises(Misuse, match="is in PAUSED and ignores the joint commands"):
+            stage.command(0.1)
+        stage.run(0.02)
+    assert stage.playback.arm == pytest.approx(HOME)
+    stage.playback.play(stage.now_ns)
+    stage.stream([0.1] * 50)
+    assert stage.playback.arm == pytest.approx(HOME + 0.1)
+    stage.playback.stop(stage.now_ns)
+    assert stage.playback.state is State.READY
+    stage.run(1.0)
+    assert stage.command(0.1), "a stream that begins again is taken"
+
+
+def test_a_collision_ends_a_stream(stage: Stage) -> None:
+    stage.stream([0.01 * i for i in range(10)])
+    stage.playback.collide(stage.now_ns, "forearm_link touches floor")
+    with pytest.raises(Misuse, match="COLLISION_HALT"):
+        stage.command(0.1)
+    where = stage.playback.arm
+    stage.run(1.0)
+    assert (stage.playback.arm == where).all()
+
+
+def test_a_stream_is_not_taken_while_a_trajectory_plays(stage: Stage) -> None:
+    stage.goal((1.0, 0.5))
+    with pytest.raises(Misuse, match="cannot load in PLAYING"):
+        stage.command(0.0)
+
+
+def follow(stage: Stage, bounds: Bounds):
+    trajectory = stage.goal((1.0, 0.5))
+    pursuit = Pursuit(trajectory, stage.now_ns, bounds)
+
+    def outcome():
+        for status in stage.playback.take_statuses():
+            pursuit.note(status)
+        sample = stage.samples[-1]
+        instant = pursuit.instant(stage.now_ns, sample.due_ns, sample.positions)
+        return pursuit.outcome(stage.now_ns, instant)
+
+    stage.playback.take_statuses()
+    return outcome
+
+
+def test_a_pursuit_ends_with_what_happened(stage: Stage) -> None:
+    tight = Bounds(path=dict.fromkeys(NAMES, 0.01), goal=dict.fromkeys(NAMES, 0.01), time=0.5)
+    outcome = follow(stage, tight)
+    stage.run(0.5)
+    assert outcome() is None
+    stage.run(0.6)
+    assert outcome().code is Code.SUCCESSFUL
+
+
+@pytest.mark.parametrize(
+    ("bounds", "disturb", "after", "code", "words"),
+    [
+        (
+            Bounds(path=dict.fromkeys(NAMES, 0.05)), "pause", 0.3, Code.PATH_TOLERANCE_VIOLATED,
+            "off the path, since the robot was paused",
+        ),
+        (Bounds(time=0.5), "pause", 2.0, Code.GOAL_TOLERANCE_VIOLATED, "was not reached"),
+        (Bounds(), "stop", 0.0, Code.INVALID_GOAL, "was stopped"),
+        (Bounds(), "collide", 0.0, Code.PATH_TOLERANCE_VIOLATED, "halted: it touches"),
+        (Bounds(), "goal", 0.0, Code.INVALID_GOAL, "another trajectory"),
+    ],
+)  # fmt: skip
+def test_a_pursuit_that_is_disturbed(stage: Stage, bounds, disturb, after, code, words) -> None:
+    outcome = follow(stage, bounds)
+    stage.run(0.3)
+    if disturb == "goal":
+        stage.goal((1.0, 0.0))
+    elif disturb == "collide":
+        stage.playback.collide(stage.now_ns, "it touches")
+    else:
+        getattr(stage.playback, disturb)(stage.now_ns)
+    stage.run(after)
+    found = outcome()
+    assert found.code is code
+    assert words in found.text
+
+
+def test_without_tolerances_a_pause_ends_nothing(stage: Stage) -> None:
+    outcome = follow(stage, Bounds())
+    stage.run(0.3)
+    stage.playback.pause(stage.now_ns)
+    stage.run(2.0)
+    assert outcome() is None
+    stage.playback.play(stage.now_ns)
+    stage.run(1.0)
+    assert outcome().code is Code.SUCCESSFUL
+
+
+def test_tolerances_name_joints() -> None:
+    with pytest.raises(WrongGoal, match="a tolerance is for x"):
+        Bounds(path={"x": 1.0}).check(NAMES)
+    with pytest.raises(WrongGoal, match="is nan"):
+        Bounds(goal={NAMES[0]: float("nan")}).check(NAMES)

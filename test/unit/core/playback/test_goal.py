@@ -1,0 +1,120 @@
+"""Goals of joint points: what is refused, and what the trajectory made of them is."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from mrlab_ros.adapters.robots.library import RobotLibrary
+from mrlab_ros.core.clock import SECOND
+from mrlab_ros.core.playback.goal import FRAME_RATE, Code, Goal, Point, WrongGoal, trajectory
+
+UR5E = RobotLibrary(Path(__file__).parents[4] / "robots", Path("/nowhere")).model("ur5e")
+ARM = UR5E.home
+NOW = 1_000 * SECOND
+
+
+def points(*at: tuple[float, float], speeds: list[float] | None = None) -> list[Point]:
+    """Return points (time, rad that every joint is from where the arm stands)."""
+    return [
+        Point(time, (ARM + way).tolist(), () if speeds is None else [speeds[i]] * 6)
+        for i, (time, way) in enumerate(at)
+    ]
+
+
+def goal(*at: tuple[float, float], **changes: object) -> Goal:
+    return replace(Goal(UR5E.joint_names, points(*at)), **changes)  # type: ignore[arg-type]
+
+
+def test_points_without_velocities_are_joined_by_straight_lines() -> None:
+    found, start_ns = trajectory(goal((1.0, 0.5), (2.0, 0.2)), UR5E, ARM, NOW)
+    assert (start_ns, found.frame_count) == (NOW, 201)
+    assert found.positions[0] == pytest.approx(ARM)
+    assert found.positions[50] == pytest.approx(ARM + 0.25)
+    assert found.positions[100] == pytest.approx(ARM + 0.5)
+    assert (found.positions[-1] == ARM + 0.2).all(), "ends exactly at the last point"
+
+
+def test_velocities_make_the_way_cubic_and_accelerations_quintic() -> None:
+    smooth = replace(goal(), points=points((1.0, 0.5), (2.0, 0.0), speeds=[0.0, 0.0]))
+    found, _ = trajectory(smooth, UR5E, ARM, NOW)
+    assert found.positions[50] == pytest.approx(ARM + 0.25)
+    assert found.positions[25] == pytest.approx(ARM + 0.5 * (3 / 16 - 2 / 64))
+    with_accelerations = [replace(p, accelerations=[0.0] * 6) for p in smooth.points]
+    found, _ = trajectory(replace(smooth, points=with_accelerations), UR5E, ARM, NOW)
+    s = 0.25
+    assert found.positions[25] == pytest.approx(ARM + 0.5 * (10 * s**3 - 15 * s**4 + 6 * s**5))
+    numeric = np.gradient(found.positions, 1 / FRAME_RATE, axis=0)
+    assert found.channels.velocities[1:-1] == pytest.approx(numeric[1:-1], abs=1e-2)
+
+
+def test_the_joints_may_come_in_any_order() -> None:
+    turned = [replace(p, positions=list(p.positions)[::-1]) for p in points((1.0, 0.3))]
+    found, _ = trajectory(Goal(UR5E.joint_names[::-1], turned), UR5E, ARM, NOW)
+    assert found.positions[-1] == pytest.approx(ARM + 0.3)
+
+
+def test_a_goal_in_the_future_waits_and_one_that_began_goes_on_from_there() -> None:
+    _, start_ns = trajectory(goal((1.0, 0.1), stamp_ns=NOW + SECOND), UR5E, ARM, NOW)
+    assert start_ns == NOW + SECOND
+    late = goal((1.0, 0.1), (2.0, 0.2), (3.0, 0.3), stamp_ns=NOW - 3 * SECOND // 2)
+    found, start_ns = trajectory(late, UR5E, ARM, NOW)
+    assert start_ns == NOW
+    assert found.duration == pytest.approx(1.5)
+    assert found.positions[50] == pytest.approx(ARM + 0.2)
+
+
+def test_a_first_point_at_zero_is_where_the_arm_is() -> None:
+    found, _ = trajectory(goal((0.0, 0.001), (1.0, 0.2)), UR5E, ARM, NOW)
+    assert found.positions[0] == pytest.approx(ARM)
+    assert found.positions[-1] == pytest.approx(ARM + 0.2)
+
+
+NAN = float("nan")
+BAD = [
+    (Goal(UR5E.joint_names, []), Code.INVALID_GOAL, "no points"),
+    (Goal([], points((1, 0))), Code.INVALID_JOINTS, "without shoulder_pan_joint"),
+    (Goal([*UR5E.joint_names[:5], "x"], points((1, 0))), Code.INVALID_JOINTS, "with x"),
+    (Goal(UR5E.joint_names[:5], points((1, 0))), Code.INVALID_JOINTS, "without wrist_3_joint"),
+    (
+        Goal([*UR5E.joint_names, "elbow_joint"], points((1, 0))),
+        Code.INVALID_JOINTS,
+        "twice elbow_joint",
+    ),
+    (goal((1.0, 0.1), (1.0, 0.2)), Code.INVALID_GOAL, "times that increase"),
+    (goal((-1.0, 0.1)), Code.INVALID_GOAL, "at -1 s"),
+    (goal((700.0, 0.1)), Code.INVALID_GOAL, "takes 700 s"),
+    (goal((1.0, NAN)), Code.INVALID_GOAL, "NaN"),
+    (goal((1.0, 50.0)), Code.INVALID_GOAL, r"shoulder_pan_joint is 50 rad at point 0 \(1 s\)"),
+    (goal((0.01, 1.0)), Code.INVALID_GOAL, "rad/s at 0.01 s; expected 3.14 at most"),
+    (goal((0.0, 1.0)), Code.INVALID_GOAL, "The motion begins where the arm stands"),
+    (
+        Goal(UR5E.joint_names, [Point(1.0, [0.0] * 5)]),
+        Code.INVALID_GOAL,
+        "5 positions; expected 6",
+    ),
+    (Goal(UR5E.joint_names, [Point(1.0, ())]), Code.INVALID_GOAL, "no positions"),
+    (
+        Goal(UR5E.joint_names, points((1.0, 0.1), speeds=[0.2])),
+        Code.INVALID_GOAL,
+        "has the velocity 0.2 rad/s; expected 0",
+    ),
+    (
+        Goal(UR5E.joint_names, [Point(1.0, ARM.tolist(), effort=[1.0] * 6)]),
+        Code.INVALID_GOAL,
+        "have efforts",
+    ),
+    (goal((1.0, 0.1), stamp_ns=NOW - 2 * SECOND), Code.OLD_HEADER_TIMESTAMP, "ended 1.000 s ago"),
+]
+
+
+@pytest.mark.parametrize(("wrong", "code", "words"), BAD)
+def test_a_bad_goal_is_refused_with_its_code_and_a_sentence(
+    wrong: Goal, code: Code, words: str
+) -> None:
+    with pytest.raises(WrongGoal, match=words) as refused:
+        trajectory(wrong, UR5E, ARM, NOW)
+    assert refused.value.code is code
