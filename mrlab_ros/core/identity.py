@@ -41,7 +41,8 @@ class Identity:
         )
 
 
-# A coordinator names its systems once a second; a lab that has said nothing for longer is gone, s.
+# A coordinator that met another lab names its systems once a second; a lab that has said nothing
+# for longer is gone, s.
 PRESENT_S = 5.0
 # Services that both labs may answer: what stops an arm, and what changes nothing.
 HARMLESS = re.compile(r"(pause|stop)$|(list|get)_[^/]*$")

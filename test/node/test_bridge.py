@@ -187,6 +187,20 @@ def test_what_two_labs_offer_is_not_called_for_either(graph, listed, endpoint):
             assert ask(session, name, empty)[1] is None
 
 
+def test_what_another_lab_says_of_itself_stays_inside(graph, endpoint):
+    graph.add(BridgeNode, listen=[endpoint], discovery_period=0.02, lab_id="a1")
+    robots = graph.client.create_publisher(Robots, "/robots", qos.LATCHED_EVENTS)
+    got = []
+    with connect(endpoint) as session:
+        wait_for(lambda: any("robots" in t for t in tokens(session)), "the topic")
+        session.declare_subscriber("robots", lambda sample: got.append(bytes(sample.payload)))
+        wait_for(lambda: heard(session, "robots"), "the bridge to hear of the subscriber")
+        for lab in ("a1", "b2", ""):
+            robots.publish(Robots(lab=lab))
+        wait_for(lambda: len(got) >= 2, "what is of this lab")
+        assert [deserialize_message(message, Robots).lab for message in got] == ["a1", ""]
+
+
 def test_what_is_not_named_stays_inside(graph, bridge, session):
     graph.client.create_publisher(String, "secret", qos.LATCHED).publish(String(data="x"))
     graph.client.create_service(Trigger, "ur5e_1/command_members", lambda q, r: r)

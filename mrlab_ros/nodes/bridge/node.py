@@ -11,7 +11,7 @@ from typing import Any
 
 import yaml
 from diagnostic_msgs.msg import DiagnosticArray  # type: ignore[import-untyped]
-from mrlab_msgs.msg import Latency, RobotSystems
+from mrlab_msgs.msg import Latency, Robots, RobotSystems
 from rclpy.context import Context
 from rclpy.node import Node
 from rclpy.parameter import Parameter
@@ -108,10 +108,11 @@ class BridgeNode(ParameterNode[BridgeParameters]):
         )
         self._bridge = BridgeContext(self._session, streams, prefix, self._warn_once)
         self._ledger = Ledger()
-        self._outward = Outward(self._bridge, self._ledger)
+        self._outward = Outward(self._bridge, self._ledger, self.parameters.lab_id)
         self._inward = Inward(self._bridge)
         self._neighbours = Neighbours(self.parameters.lab_id)
-        self.create_subscription(RobotSystems, "/systems", self._on_systems, qos.LATCHED)
+        for said, topic in ((Robots, "/robots"), (RobotSystems, "/systems")):
+            self.create_subscription(said, topic, self._on_lab, qos.LATCHED)
         self._service_routes = Services(self._bridge)
         self._assets = AssetRoutes(self._bridge, share.directory(), self._rules.types)
         self._streams = SpunNode(streams)
@@ -228,7 +229,7 @@ class BridgeNode(ParameterNode[BridgeParameters]):
         self._service_routes.keep(called)
         self._service_routes.refuse_late()
 
-    def _on_systems(self, message: RobotSystems) -> None:
+    def _on_lab(self, message: Robots | RobotSystems) -> None:
         self._neighbours.notice(message.lab, time.monotonic())
 
     def _report(self) -> None:

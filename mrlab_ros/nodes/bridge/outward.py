@@ -9,7 +9,9 @@ from __future__ import annotations
 import time
 from dataclasses import dataclass
 from functools import partial
+from typing import Any
 
+from rclpy.serialization import deserialize_message
 from rclpy.subscription import Subscription
 
 from mrlab_ros.adapters.zenoh_session import Declared, Publisher
@@ -42,9 +44,11 @@ class OutRoute:
 class Outward:
     """The routes from the graph to zenoh."""
 
-    def __init__(self, bridge: BridgeContext, ledger: Ledger) -> None:
+    def __init__(self, bridge: BridgeContext, ledger: Ledger, lab: str) -> None:
+        """lab: the id of this lab; what another lab says of itself is not forwarded."""
         self._bridge = bridge
         self._ledger = ledger
+        self._lab = lab
         self._caps = RateCaps()
         self._routes: dict[str, OutRoute] = {}
         self._must_arrive = Sender("bridge_sender", bridge.warn_once)
@@ -99,6 +103,8 @@ class Outward:
         publisher = session.publisher(key, rule, rule.history if qos.latched else 0)
         token = session.token(rules.topic_token(session.zid, Direction.OUT, key, type_name, qos))
         on_message = self._emitter(name, publisher, count)
+        if self._lab and "lab" in kind.get_fields_and_field_types():
+            on_message = self._own(kind, on_message)
         if rule.congestion is Congestion.BLOCK:
             on_message = self._queued(on_message)
         if rule.max_rate:
@@ -139,6 +145,17 @@ class Outward:
                 warn_of_loss(error)
 
         return emit
+
+    def _own(self, kind: Any, emit: OnMessage) -> OnMessage:
+        """Forward what names this lab, or none."""
+        own = self._lab.encode()
+
+        def emit_own(payload: bytes, published_ns: int) -> None:
+            # Most messages need not be decoded for that.
+            if own in payload or not deserialize_message(payload, kind).lab:
+                emit(payload, published_ns)
+
+        return emit_own
 
     def _queued(self, emit: OnMessage) -> OnMessage:
         send = self._must_arrive.send

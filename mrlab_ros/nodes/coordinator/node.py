@@ -316,8 +316,11 @@ class CoordinatorNode(ParameterNode[CoordinatorParameters]):
         return now_ns
 
     def _renew(self) -> None:
-        """Name the systems once a second: that keeps the claims on their robots."""
-        if any(self._systems):
+        """Name the systems once a second: that keeps the claims on their robots.
+
+        Without systems it is a sign of life for another lab on this domain.
+        """
+        if any(self._systems) or self._identity.others:
             self._publish()
 
     def _restore(self) -> None:
