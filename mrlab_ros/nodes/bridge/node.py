@@ -111,8 +111,9 @@ class BridgeNode(ParameterNode[BridgeParameters]):
         self._outward = Outward(self._bridge, self._ledger, self.parameters.lab_id)
         self._inward = Inward(self._bridge)
         self._neighbours = Neighbours(self.parameters.lab_id)
-        for said, topic in ((Robots, "/robots"), (RobotSystems, "/systems")):
-            self.create_subscription(said, topic, self._on_lab, qos.LATCHED)
+        if self.parameters.lab_id:
+            for said, topic in ((Robots, "/robots"), (RobotSystems, "/systems")):
+                self.create_subscription(said, topic, self._on_lab, qos.LATCHED)
         self._service_routes = Services(self._bridge)
         self._assets = AssetRoutes(self._bridge, share.directory(), self._rules.types)
         self._streams = SpunNode(streams)
