@@ -133,6 +133,9 @@ def main() -> None:
     for number in (signal.SIGINT, signal.SIGTERM):
         signal.signal(number, signal.default_int_handler)
     signal.signal(signal.SIGHUP, hang_up)
+    if sys.argv[1:] == ["--version"]:  # at once: no command needs to be known for it
+        print(f"mrlab {__version__}")
+        return
     try:
         make_app(sys.argv[1:])(prog_name="mrlab")
     except LabError as error:

@@ -18,13 +18,13 @@ import reprlib
 from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
 from dataclasses import MISSING, dataclass
 from enum import Enum
-from typing import Any, Generic, Protocol, TypeVar
-
-import numpy as np
-from numpy.typing import NDArray
+from typing import TYPE_CHECKING, Any, Generic, Protocol, TypeVar
 
 from mrlab_ros.core import naming
 from mrlab_ros.core.errors import BadInput
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
 
 T = TypeVar("T")
 T_co = TypeVar("T_co", covariant=True)
@@ -267,6 +267,8 @@ class Matrix:
         return f"a list of rows of {self.columns} {'whole ' * self.whole}numbers each"
 
     def read(self, value: object) -> NDArray[Any]:
+        import numpy as np  # here: commands read records without matrices, and want to be quick
+
         if not isinstance(value, list | tuple):
             raise ValueError
         try:

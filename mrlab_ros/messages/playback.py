@@ -45,11 +45,6 @@ def status_to_message(
     )
 
 
-def unknown_state() -> msg.PlaybackState:
-    """Return what stands for the state of a playback that has not published one."""
-    return msg.PlaybackState(label="?")
-
-
 def targets_to_message(
     now_ns: int, robot: str, trajectory: Trajectory | None, tool0: Callable[[Array], Array]
 ) -> msg.GraspTargets:

@@ -14,12 +14,12 @@ from enum import Enum
 from typing import Any
 
 from mrlab_ros.core.bridge.assets import ASSETS, SCHEMA
+from mrlab_ros.core.bridge.keys import key_of
 from mrlab_ros.core.bridge.links import LOCAL_PROTOCOL
 from mrlab_ros.core.bridge.rules import (
     Direction,
     Role,
     Rules,
-    key_of,
 )
 
 TOKENS = "@/*/@ros2_lv/**"

@@ -250,11 +250,6 @@ def checked_prefix(prefix: str) -> str:
     return checked("the bridge's prefix", prefix, PREFIX)
 
 
-def key_of(name: str, prefix: str = "") -> str:
-    """Return the zenoh key of a topic or service name, such as ur5e_1/joint_states."""
-    return f"{prefix}{name}" if prefix else name[1:]
-
-
 @dataclass(frozen=True)
 class TopicQos:
     """The QoS of a topic as its liveliness token holds it."""

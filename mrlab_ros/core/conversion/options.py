@@ -2,11 +2,10 @@
 
 from __future__ import annotations
 
+import itertools
 import math
 import re
 from dataclasses import dataclass
-
-import numpy as np
 
 from mrlab_ros.core.diagnostics import Refused, finding
 
@@ -122,7 +121,7 @@ def indices(text: str, count: int, noun: str) -> list[int]:
 
 def columns_text(indices: list[int]) -> str:
     """Return columns, from 0, as MATLAB writes them: 2:7, or [1 3 4]."""
-    if len(indices) > 1 and (np.diff(indices) == 1).all():
+    if len(indices) > 1 and all(b - a == 1 for a, b in itertools.pairwise(indices)):
         return f"{indices[0] + 1}:{indices[-1] + 1}"
     numbers = " ".join(str(i + 1) for i in indices)
     return numbers if len(indices) == 1 else f"[{numbers}]"

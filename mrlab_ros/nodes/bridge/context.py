@@ -13,7 +13,7 @@ from rclpy.qos import DurabilityPolicy, QoSProfile, ReliabilityPolicy
 from rclpy.topic_endpoint_info import TopicEndpointInfo
 
 from mrlab_ros.adapters.zenoh_session import Session
-from mrlab_ros.core.bridge import rules
+from mrlab_ros.core.bridge.keys import key_of
 from mrlab_ros.core.bridge.rules import Direction, TopicQos, TopicRule
 
 
@@ -44,7 +44,7 @@ class BridgeContext:
     counts: dict[str, Count] = field(default_factory=dict)
 
     def key(self, name: str) -> str:
-        return rules.key_of(name, self.prefix)
+        return key_of(name, self.prefix)
 
     def count(self, key: str, type_name: str, direction: str) -> Count:
         return self.counts.setdefault(key, Count(type_name, direction))

@@ -6,6 +6,8 @@ import ast
 import inspect
 import re
 import shlex
+import subprocess
+import sys
 from collections.abc import Iterator
 from functools import cache
 from pathlib import Path
@@ -177,3 +179,19 @@ def test_what_the_lab_answers_is_to_be_had_as_json(name: str) -> None:
     command, _ = resolved([name])
     for each in getattr(command, "commands", {name: command}).values():
         assert "--json" in options_of(each), each.name
+
+
+def test_help_needs_neither_ros_nor_numpy() -> None:
+    """What is imported with a command is waited for also where it only prints its help.
+
+    Those that start a lab, or examine this machine, take their time anyway.
+    """
+    program = (
+        "import sys; from mrlab_ros.cli import COMMANDS, make_app\n"
+        "for name in set(COMMANDS) - {'up', 'demo', 'doctor'}: make_app([name])\n"
+        "print([name for name in ('numpy', 'rclpy', 'mrlab_msgs', 'ssl') if name in sys.modules])"
+    )
+    done = subprocess.run(
+        [sys.executable, "-c", program], capture_output=True, text=True, check=True
+    )
+    assert done.stdout.strip() == "[]"

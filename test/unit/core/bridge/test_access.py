@@ -18,6 +18,7 @@ from mrlab_ros.core.bridge.access import (
     overlap,
     role_rules,
 )
+from mrlab_ros.core.bridge.keys import key_of
 from mrlab_ros.core.bridge.rules import Direction, Role
 
 ROOT = Path(__file__).parents[4]
@@ -52,10 +53,10 @@ def test_each_role_may_call_what_the_list_gives_it_and_no_more(role, prefix):
     rules = role_rules(SHIPPED, role, prefix)
     for service in SHIPPED.services:
         name = service.name.replace("*", "ur5e_1")
-        allowed = permits(rules, "query", "ingress", br.key_of(name, prefix))
+        allowed = permits(rules, "query", "ingress", key_of(name, prefix))
         assert allowed == role.may(service.role), service.name
-    assert not permits(rules, "query", "ingress", br.key_of("/**", prefix))
-    assert not permits(rules, "query", "ingress", br.key_of("/*/command_members", prefix))
+    assert not permits(rules, "query", "ingress", key_of("/**", prefix))
+    assert not permits(rules, "query", "ingress", key_of("/*/command_members", prefix))
 
 
 @pytest.mark.parametrize("role", Role)

@@ -8,6 +8,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from mrlab_ros.core.bridge import rules as br
+from mrlab_ros.core.bridge.keys import key_of
 from mrlab_ros.core.errors import BadInput
 
 JOINTS = "sensor_msgs/msg/JointState"
@@ -100,8 +101,8 @@ def test_the_shipped_list_carries_the_lab_and_keeps_the_rest_inside():
 
 
 def test_keys_are_those_of_the_stock_bridge():
-    assert br.key_of("/ur5e_1/joint_states") == "ur5e_1/joint_states"
-    assert br.key_of("/robots", "campus/lab_1") == "campus/lab_1/robots"
+    assert key_of("/ur5e_1/joint_states") == "ur5e_1/joint_states"
+    assert key_of("/robots", "campus/lab_1") == "campus/lab_1/robots"
 
 
 @pytest.mark.parametrize("prefix", ["/lab", "lab/", "a//b", "a b", "*", "lab/**", "@x"])
