@@ -2,6 +2,7 @@ import type { Object3D, Vector3 } from 'three'
 import { type Link, LinkError, type ServiceType } from '../link/link'
 import type { TrajectoryInfo } from '../protocol/mrlab_msgs'
 import type { Words } from '../words/en'
+import type { Drawings } from './drawings/drawings'
 import type { Surroundings } from './panels/panel'
 import type { Place, Support } from './placement/supports'
 
@@ -29,8 +30,15 @@ export interface RoomContext extends Surroundings {
   readonly supports: readonly Support[]
   readonly bases: Iterable<Place>
   readonly leftHanded: boolean
+  readonly drawings: Drawings
+  /** Return the object nearest to a robot's fingers; empty: none is near. */
+  objectAt(robot: string): string
+  /** Return the robot whose fingers are at a place of the scene; empty: none is. */
+  robotAt(place: Vector3): string
   /** m: how far away text is read; a screen shows less of a room than eyes do. */
   readonly readAt: number
+  /** Have the board painted anew. */
+  repaintBoard(): void
   /** Tell the person a sentence, where they look; warns: something is wrong, which it is by default. */
   say(text: string, warns?: boolean): void
 }

@@ -12,12 +12,14 @@ import type { Words } from '../words/en'
 import { Alignment, SEATED } from './anchor/alignment'
 import { SceneAnchor } from './anchor/anchor'
 import type { Entry } from './context'
+import { Drawings } from './drawings/drawings'
 import { soundFeedback } from './feedback'
 import { followedScene } from './follow/followed_scene'
 import { listen } from './follow/listen'
 import { RoomRobots } from './follow/robots'
 import { ObjectHandles } from './handles/object_handles'
 import { Targets } from './input/targets'
+import { Stats } from './latency/stats'
 import { Mouse } from './mouse'
 import { Overlays } from './overlays'
 import { Board } from './panels/board'
@@ -76,7 +78,9 @@ export class Room {
   private readonly targets: Targets
   private readonly meshes = new MeshLibrary()
   private readonly overlays: Overlays
-  private readonly objects: ObjectHandles
+  readonly objects: ObjectHandles
+  readonly drawings: Drawings
+  readonly stats: Stats
   private readonly spawning: Spawning
   private readonly alignment: Alignment
   private readonly mouse: Mouse
@@ -105,6 +109,7 @@ export class Room {
     const context = contextOf(this, parts, this.sound.feedback)
     const { targets } = this
     this.board = new Board(context)
+    this.stats = new Stats(context, this.board.panel.group)
     this.boardPlace = new BoardPlace(this.board, context)
     this.stage.panels.add(this.board.panel.group)
     targets.add(this.board.panel)
@@ -112,6 +117,11 @@ export class Room {
     this.anchor = new SceneAnchor(this.stage.anchor)
     this.objects = new ObjectHandles(this.scene, context, targets)
     this.overlays = new Overlays(link, this.scene, this.stage.world)
+    this.drawings = new Drawings(
+      this.scene,
+      () => this.follower,
+      (text) => this.board.say(text),
+    )
     this.creation = new Creation(() => this.board.panel.repaint())
     this.robots = new RoomRobots(this.scene, this.overlays, context, targets, {
       touched: (name) => this.creation.touch(name),
@@ -153,6 +163,8 @@ export class Room {
       anchor: this.anchor,
       scan: this.scan,
       viewer: this,
+      objects: this.objects,
+      stats: this.stats,
       surfaces: () => this.surfaces.length,
     })
     this.undo = [
@@ -199,9 +211,11 @@ export class Room {
     this.mouse.dispose()
     this.follower.dispose()
     this.overlays.dispose()
+    this.drawings.dispose()
     this.objects.dispose()
     this.robots.dispose()
     this.panels.dispose()
+    this.stats.dispose()
     this.board.panel.dispose()
     this.scene.dispose()
     this.sound.dispose()
@@ -253,6 +267,7 @@ export class Room {
     this.robots.update(now, step)
     this.objects.update(now)
     if (this.follower.pose(Math.min(ahead, MOST_AHEAD_S))) this.stage.invalidate()
+    if (this.drawings.update()) this.stage.invalidate()
     this.scene.update()
     this.overlays.setPicked(this.creation.picked)
     this.overlays.update(now)
@@ -262,6 +277,7 @@ export class Room {
     this.stage.lightAbout(this.handles.values())
     if (this.stage.draw(now)) this.frames++
     this.frameMs = performance.now() - began
+    this.stats.frame(now, this.frameMs)
   }
 
   private track(frame: XRFrame, space: XRReferenceSpace, now: number): void {

@@ -1,3 +1,4 @@
+import { Vector3 } from 'three'
 import type { RoomContext } from './context'
 import type { Feedback } from './panels/panel'
 import type { Room, RoomParts } from './room'
@@ -5,6 +6,8 @@ import type { Room, RoomParts } from './room'
 /** m */
 const READ_AT = 0.9
 const READ_AT_SCREEN = 1.5
+
+const tip = new Vector3()
 
 /** Return what the parts of a room share; what changes is read from the room. */
 export function contextOf(room: Room, parts: RoomParts, feedback: Feedback): RoomContext {
@@ -27,12 +30,23 @@ export function contextOf(room: Room, parts: RoomParts, feedback: Feedback): Roo
     get bases() {
       return room.robots.bases()
     },
+    get drawings() {
+      return room.drawings
+    },
+    objectAt: (name) => {
+      const robot = room.scene.robot(name)
+      return robot === undefined
+        ? ''
+        : room.objects.nearest(tip.setFromMatrixPosition(robot.tip.matrixWorld))
+    },
+    robotAt: (place) => room.robots.fingersAt(place),
     get leftHanded() {
       return room.settings.leftHanded.value
     },
     get readAt() {
       return room.inside.value ? READ_AT : READ_AT_SCREEN
     },
+    repaintBoard: () => room.board.panel.repaint(),
     say: (text, warns) => room.board.say(text, warns),
   }
 }

@@ -47,6 +47,7 @@ interface Entry {
   readonly base: Group
   robot: SceneRobot
   urdf: string
+  readonly joints: readonly string[]
   readonly patch: Mesh<PlaneGeometry, ShaderMaterial>
   readonly marks: GraspMarks
   targets: readonly ShownTarget[]
@@ -108,6 +109,19 @@ export class LabScene {
   /** Return the joints of a robot in the order in which setJoints wants them. */
   robot(name: string): SceneRobot | undefined {
     return this.robots.get(name)?.robot
+  }
+
+  /** Return another of a robot, as a ghost, that stands where it does; the caller disposes of it. */
+  ghost(name: string): SceneRobot | undefined {
+    const entry = this.robots.get(name)
+    if (entry === undefined) return undefined
+    const { urdf, joints, base } = entry
+    const ghost = new SceneRobot(urdf, joints, this.meshes, this.looks, () =>
+      this.stage.invalidate(),
+    )
+    ghost.setLook('ghost')
+    base.add(ghost.root)
+    return ghost
   }
 
   /** Return the frame of a robot's base. */
@@ -233,6 +247,7 @@ export class LabScene {
       base,
       robot,
       urdf: shown.urdf,
+      joints: shown.joint_names,
       patch,
       marks,
       targets: [],

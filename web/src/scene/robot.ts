@@ -4,17 +4,20 @@ import {
   Group,
   LineSegments,
   type Material,
+  Matrix4,
   Mesh,
   type Object3D,
   Quaternion,
-  type Vector3,
+  Vector3,
 } from 'three'
 import URDFLoader, { type URDFJoint, type URDFMimicJoint, type URDFRobot } from 'urdf-loader'
+import { Chain, type ChainJoint } from './chain'
 import type { Looks } from './looks'
 import type { MeshSource } from './meshes'
 import { RobotBody } from './robot_body'
 
 const PLACEHOLDER = 0.09 // m, edge of the box that stands for a missing mesh
+const ONE = new Vector3(1, 1, 1)
 
 interface Movable {
   readonly joint: URDFJoint
@@ -143,6 +146,33 @@ export class SceneRobot {
   /** Move the fingers of the end effector: 0 is open, their upper limit closed. */
   setGripper(closed: boolean): void {
     for (const finger of this.fingers) this.move(finger, closed ? finger.upper : finger.lower)
+  }
+
+  /** Return the chain from its base to its tip, with the arm's joints in the order of its positions;
+   * other joints stay as they are now. */
+  chain(): Chain {
+    const places = new Map(this.ordered.map((found, place) => [found?.joint, place] as const))
+    const joints: ChainJoint[] = []
+    const between = new Matrix4()
+    const path: Object3D[] = []
+    for (let node: Object3D | null = this.tip; node !== null && node !== this.root; ) {
+      path.unshift(node)
+      node = node.parent
+    }
+    for (const node of path) {
+      const found = [...this.movables.values()].find(({ joint }) => joint === node)
+      const place = found === undefined ? undefined : places.get(found.joint)
+      if (found === undefined || place === undefined) {
+        node.updateMatrix()
+        between.multiply(node.matrix)
+        continue
+      }
+      const rest = new Matrix4().compose(found.restPosition, found.restTurn, ONE)
+      const { axis, prismatic, lower, upper } = found
+      joints.push({ rest: between.clone().multiply(rest), axis, prismatic, lower, upper, place })
+      between.identity()
+    }
+    return new Chain(joints, between)
   }
 
   /** Return how high above its base the highest joint is, m, as it was last drawn. */

@@ -1,6 +1,6 @@
 // @vitest-environment jsdom
 import { BoxGeometry, Mesh, MeshStandardMaterial, Object3D, Vector3 } from 'three'
-import { expect, test } from 'vitest'
+import { describe, expect, it, test } from 'vitest'
 import { Course } from '../../src/playback/course'
 import { pushCorners } from '../../src/scene/corners'
 import { Looks } from '../../src/scene/looks'
@@ -142,4 +142,35 @@ test('its links are one mesh that moves with them', async () => {
     { start: 0, count: 36, materialIndex: 0 },
     { start: 36, count: 36, materialIndex: 1 },
   ])
+})
+
+describe('the chain from base to tool', () => {
+  it('says where the tool is without moving the robot', () => {
+    const arm = robot()
+    arm.setPositions([0.3, 0.05])
+    const chain = arm.chain()
+    const at = new Vector3()
+    for (const positions of [
+      [0, 0],
+      [1.1, 0.04],
+      [-0.7, 0.1],
+    ]) {
+      chain.tool(positions, at)
+      arm.setPositions(positions)
+      expect(at.distanceTo(placeOf(arm.root.links.tool0))).toBeLessThan(1e-9)
+    }
+  })
+
+  it('finds the farthest place within the limits', () => {
+    const chain = robot().chain()
+    const at = new Vector3()
+    const scratch = new Float64Array(2)
+    // straight ahead at 0; the slide goes to its end across it
+    chain.farthest(new Vector3(1, 0, 0), scratch, at)
+    expect(at.x).toBeCloseTo(Math.hypot(1, 0.1), 6)
+    // behind it the joint's limits of 1 rad hold
+    chain.farthest(new Vector3(-1, 0, 0), scratch, at)
+    expect(at.x).toBeCloseTo(Math.cos(1) - 0.1 * Math.sin(1), 6)
+    expect(Math.abs(scratch[0] ?? 0)).toBeLessThanOrEqual(1)
+  })
 })

@@ -186,6 +186,21 @@ export class LabFollower {
     return this.kept.get(name)?.course ?? null
   }
 
+  /** Return the frames of a trajectory, such as quintic@3. Rejects where they cannot be had. */
+  framesOf(trajectory: string): Promise<Course> {
+    return this.courses.of(trajectory)
+  }
+
+  /** Return the joints of a robot, base first. */
+  joints(name: string): readonly string[] {
+    return this.kept.get(name)?.robot?.joint_names ?? []
+  }
+
+  /** Return where a robot is on its trajectory now, s. */
+  positionOf(name: string): number {
+    return this.kept.get(name)?.player.position() ?? 0
+  }
+
   dispose(): void {
     for (const undo of this.undo) undo()
   }

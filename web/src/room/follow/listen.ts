@@ -2,6 +2,7 @@ import { effect } from '@preact/signals'
 import type { LabFollower } from '../../pages/lab/follow'
 import type { Entry, RoomContext } from '../context'
 import type { Board } from '../panels/board'
+import { keepBag } from '../panels/lab_tab'
 import type { RobotPanels } from '../panels/robot_panels'
 
 /** What shows how the lab stands. */
@@ -27,6 +28,11 @@ export function listen({ context, follower, board, panels, halt }: Listeners): (
       const { hops } = words.room
       board.standing =
         phase === 'open' ? '' : phase === 'connecting' ? hops.connecting : hops[phase](reason)
+    }),
+    effect(() => {
+      const recorder = follower.recorder.value
+      if (recorder !== null) keepBag(recorder)
+      repaint()
     }),
     effect(() => {
       void follower.systems.value

@@ -1,3 +1,4 @@
+import { Vector3 } from 'three'
 import type { LabScene, ShownRobot } from '../../scene/lab_scene'
 import type { RoomContext } from '../context'
 import { RobotHandle } from '../handles/robot_handle'
@@ -5,6 +6,11 @@ import type { Pointer } from '../input/pointer'
 import type { Targets } from '../input/targets'
 import type { Overlays } from '../overlays'
 import type { Place } from '../placement/supports'
+
+/** m from a robot's tip */
+const AT_FINGERS = 0.08
+
+const tip = new Vector3()
 
 /** What is told of the robots by who takes hold of them. */
 export interface RobotTouch {
@@ -36,6 +42,18 @@ export class RoomRobots {
     }
   }
 
+  /** Return the robot whose fingers are at a place of the scene; empty: none is. */
+  fingersAt(place: Vector3): string {
+    for (const name of this.handles.keys()) {
+      const robot = this.scene.robot(name)
+      if (robot === undefined || robot.tip === robot.tool) continue
+      if (tip.setFromMatrixPosition(robot.tip.matrixWorld).distanceTo(place) < AT_FINGERS) {
+        return name
+      }
+    }
+    return ''
+  }
+
   /** Take over the robots that there are. */
   set(robots: readonly ShownRobot[]): void {
     this.scene.setRobots(robots)
@@ -54,6 +72,7 @@ export class RoomRobots {
       if (robots.some((robot) => robot.name === name)) continue
       this.drop(name, handle)
       this.overlays.forget(name)
+      this.context.drawings.forget(name)
     }
   }
 

@@ -1,5 +1,10 @@
 import { Matrix4, type Ray, Vector3 } from 'three'
-import { moveObjectType, type SceneObject } from '../../protocol/mrlab_msgs'
+import {
+  attachType,
+  detachType,
+  moveObjectType,
+  type SceneObject,
+} from '../../protocol/mrlab_msgs'
 import type { LabScene } from '../../scene/lab_scene'
 import { order, type RoomContext } from '../context'
 import type { Pointer } from '../input/pointer'
@@ -30,6 +35,8 @@ export class ObjectHandle implements Target {
   private samples = 0
   private toldAt = 0
   private object: SceneObject
+  /** Whether a gripper is about to let go of it. */
+  private detaching = false
 
   constructor(
     object: SceneObject,
@@ -37,6 +44,16 @@ export class ObjectHandle implements Target {
     private readonly context: RoomContext,
   ) {
     this.object = object
+  }
+
+  get free(): boolean {
+    return this.object.held_by === ''
+  }
+
+  /** Return how far its surface is from a place of the scene, about, m. */
+  distanceTo(place: Vector3): number {
+    const { x, y, z } = this.object.size
+    return Math.max(this.centre(centre).distanceTo(place) - Math.min(x, y, z) / 2, 0)
   }
 
   /** Take over where it is. */
@@ -63,15 +80,19 @@ export class ObjectHandle implements Target {
     if (signal.kind === 'enter') this.context.feedback('hover', signal)
     else if (signal.kind === 'down' && this.holder === null) {
       this.context.feedback('press', signal)
-      this.holder = pointer
+      // where it is before it is held, and goes with the hand from
       this.near = this.reaches(pointer.place)
       this.centre(centre)
+      this.holder = pointer
       this.distance = at.subVectors(centre, pointer.ray.origin).dot(pointer.ray.direction)
       this.offset.copy(centre).sub(this.hand(pointer, at))
       this.samples = 0
+      this.takeFromGripper()
     } else if ((signal.kind === 'up' || signal.kind === 'cancel') && this.holder === pointer) {
+      const hand = this.context.robotAt(this.centre(centre))
       this.holder = null
-      this.tell(false, signal.kind === 'up')
+      if (hand === '') this.tell(false, signal.kind === 'up')
+      else this.giveTo(hand)
     }
   }
 
@@ -85,9 +106,27 @@ export class ObjectHandle implements Target {
     this.times[sample] = now
     this.position.toArray(this.places, sample * 3)
     this.scene.moveObject(this.object.name, this.pose(), '')
-    if (now - this.toldAt < PERIOD) return
+    if (now - this.toldAt < PERIOD || this.detaching) return
     this.toldAt = now
     this.tell(true, false)
+  }
+
+  /** A hand takes what a gripper holds. */
+  private takeFromGripper(): void {
+    const { held_by: robot } = this.object
+    if (robot === '' || robot === 'hand') return
+    this.detaching = true
+    order(this.context, 'physics/detach', detachType, { robot }).then(() => {
+      this.detaching = false
+    })
+  }
+
+  /** Have a gripper take it out of the hand, where it is; refused, it falls. */
+  private giveTo(robot: string): void {
+    const request = { robot, object: this.object.name }
+    order(this.context, 'physics/attach', attachType, request).then((answer) => {
+      if (answer === null) this.tell(false, false)
+    })
   }
 
   private get radius(): number {

@@ -1,9 +1,13 @@
+import type { Vector3 } from 'three'
 import type { SceneObject } from '../../protocol/mrlab_msgs'
 import type { ShownObject } from '../../scene/lab_objects'
 import type { LabScene } from '../../scene/lab_scene'
 import type { RoomContext } from '../context'
 import type { Targets } from '../input/targets'
 import { ObjectHandle } from './object_handle'
+
+/** m */
+const NEAR = 0.15
 
 /** A handle for each object of the scene. */
 export class ObjectHandles {
@@ -15,7 +19,12 @@ export class ObjectHandles {
     private readonly targets: Targets,
   ) {}
 
+  get count(): number {
+    return this.handles.size
+  }
+
   set(objects: readonly ShownObject[]): void {
+    const before = this.handles.size
     const here = new Set<string>()
     for (const object of objects as readonly SceneObject[]) {
       here.add(object.name)
@@ -28,6 +37,20 @@ export class ObjectHandles {
       this.handles.delete(name)
       this.targets.remove(handle)
     }
+    if (this.handles.size !== before) this.context.repaintBoard()
+  }
+
+  /** Return the free object nearest to a place of the scene; empty: none is near. */
+  nearest(place: Vector3): string {
+    let found = ''
+    let least = NEAR
+    for (const [name, handle] of this.handles) {
+      const distance = handle.free ? handle.distanceTo(place) : Number.POSITIVE_INFINITY
+      if (distance >= least) continue
+      least = distance
+      found = name
+    }
+    return found
   }
 
   /** Before each picture. now: s. */

@@ -2,6 +2,8 @@ import type { LabFollower } from '../../pages/lab/follow'
 import type { Alignment, Viewer } from '../anchor/alignment'
 import type { SceneAnchor } from '../anchor/anchor'
 import type { RoomContext } from '../context'
+import type { ObjectHandles } from '../handles/object_handles'
+import type { Stats } from '../latency/stats'
 import type { Spawning } from '../placement/spawning'
 import type { RoomScan } from '../room-scan/scan'
 import type { Visit } from '../session/visit'
@@ -12,6 +14,7 @@ import type { Creation } from '../systems/creation'
 import { systemsTab } from '../systems/systems_tab'
 import type { Tab } from './board'
 import { objectsTab, robotsTab } from './catalogue_tabs'
+import { labTab } from './lab_tab'
 
 const OBJECT_AWAY = 0.8 // m
 
@@ -28,6 +31,8 @@ export interface BoardParts {
   readonly anchor: SceneAnchor
   readonly scan: RoomScan
   readonly viewer: Viewer
+  readonly objects: ObjectHandles
+  readonly stats: Stats
   /** Surfaces that the lab knows. */
   surfaces(): number
 }
@@ -51,8 +56,10 @@ export function boardTabs(parts: BoardParts): readonly Tab[] {
       context,
       () => spawning.types,
       () => spawning.before(OBJECT_AWAY),
+      () => ({ here: parts.objects.count, most: spawning.most }),
     ),
     systemsTab(context, creation, follower),
+    labTab(context, follower, parts.stats),
     roomTab(context, {
       lines,
       get grid() {

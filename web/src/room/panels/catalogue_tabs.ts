@@ -44,6 +44,7 @@ export function objectsTab(
   context: RoomContext,
   types: () => readonly ObjectType[],
   poseFor: () => Pose,
+  count: () => { readonly here: number; readonly most: number },
 ): Tab {
   const page = { value: 0 }
   return {
@@ -76,6 +77,9 @@ export function objectsTab(
         const colour = `rgb(${r * 255} ${g * 255} ${b * 255})`
         pen.box(left + (width - side) / 2, top + 18, side, side, colour)
       })
+      const { here, most } = count()
+      const words = context.words.room.objectCount(here, most)
+      pen.lines(EDGE + 250 + GAP, BOTTOM - HIT / 2 - 12, words, TEXT.small, 250, 'second', 2)
       pen.button('clear_objects', EDGE, BOTTOM - HIT, 250, context.words.room.clearObjects, () => {
         order(context, 'physics/clear_objects', triggerType, {})
       })

@@ -1,12 +1,19 @@
 import { fits } from '../../pages/lab/catalogue'
 import type { RobotView } from '../../pages/lab/followed_robot'
 import { RATES } from '../../playback/player'
-import { loadTrajectoryType, removeType, setEndEffectorType } from '../../protocol/mrlab_msgs'
+import {
+  attachType,
+  detachType,
+  loadTrajectoryType,
+  removeType,
+  setEndEffectorType,
+} from '../../protocol/mrlab_msgs'
 import { triggerType } from '../../protocol/std_srvs'
 import { order, type RoomContext } from '../context'
 import { type Choice, PagedList } from './paged_list'
 import { Panel } from './panel'
 import { GAP, HIT, PANEL_THEME, type Pen, TEXT } from './pen'
+import { comparable, drawShow } from './show_view'
 import { type Mark, Timeline, type Track } from './timeline'
 
 const WIDTH = 640
@@ -17,7 +24,7 @@ const TRACK: Track = { x: EDGE, y: 208, width: WIDTH - 2 * EDGE, height: HIT }
 const TIME_PERIOD = 0.25
 const NOTICE_S = 8
 
-type View = 'control' | 'motions' | 'end_effectors'
+type View = 'control' | 'motions' | 'end_effectors' | 'show' | 'compare'
 
 /** The panel at a robot: its motions, play, timeline, rate, end effector, and why it halted. */
 export class ControlPanel {
@@ -77,13 +84,19 @@ export class ControlPanel {
     const { player } = this.robot
     const shown = this.view === 'control' && this.loaded
     this.timeline.update(shown ? player : null, now)
-    if (shown && player.playing && now - this.paintedAt > TIME_PERIOD) this.panel.repaint()
+    const counts = (shown && player.playing) || this.compares
+    if (counts && now - this.paintedAt > TIME_PERIOD) this.panel.repaint()
     this.panel.update()
   }
 
   dispose(): void {
     this.panel.dispose()
     this.timeline.dispose()
+  }
+
+  /** Whether it shows how far the robot is from its ghost. */
+  private get compares(): boolean {
+    return this.view === 'show' && this.context.drawings.reference(this.name) !== null
   }
 
   private get loaded(): boolean {
@@ -114,6 +127,8 @@ export class ControlPanel {
     pen.chip(WIDTH - EDGE, 42, w.states[state], PANEL_THEME.states[state], halted)
     if (this.view === 'motions') this.drawMotions(pen)
     else if (this.view === 'end_effectors') this.drawEndEffectors(pen)
+    else if (this.view === 'show') this.drawShow(pen)
+    else if (this.view === 'compare') this.drawCompare(pen)
     else this.drawControl(pen)
   }
 
@@ -187,18 +202,56 @@ export class ControlPanel {
       },
       { chosen: this.telemetry },
     )
-    pen.button('remove', EDGE, row + HIT + GAP, third, w.remove, () => {
+    const last = row + HIT + GAP
+    pen.button('show', EDGE, last, third, w.show, open('show'))
+    const grip = holding !== '' ? w.letGo : w.giveInHand
+    pen.button('hand', EDGE + third + GAP, last, third, grip, () => this.useHand(), {
+      enabled: robot.end_effector !== '',
+    })
+    pen.button('remove', EDGE + 2 * (third + GAP), last, third, w.remove, () => {
       const { link } = this.context
       order({ link, say: this.say }, 'lab/remove_robot', removeType, { name: robot.name })
     })
-    pen.text(
-      EDGE + third + GAP,
-      row + HIT + GAP + HIT / 2,
-      w.carryHint,
-      TEXT.small,
-      undefined,
-      'second',
-    )
+  }
+
+  /** Let the gripper lose what it holds, or fix to it what is nearest to its fingers. */
+  private useHand(): void {
+    const { link, objectAt } = this.context
+    const { holding } = this.robot
+    const robot = this.name
+    const teller = { link, say: this.say }
+    if (holding !== '') {
+      order(teller, 'physics/detach', detachType, { robot })
+      return
+    }
+    const object = objectAt(robot)
+    if (object === '') this.say(this.context.words.room.nothingNear)
+    else order(teller, 'physics/attach', attachType, { robot, object })
+  }
+
+  private drawShow(pen: Pen): void {
+    drawShow(pen, EDGE, this.context, this.robot, {
+      compare: () => {
+        this.view = 'compare'
+        this.list.page = 0
+      },
+      back: () => {
+        this.view = 'control'
+      },
+    })
+  }
+
+  private drawCompare(pen: Pen): void {
+    const back = () => {
+      this.view = 'show'
+    }
+    this.list.draw(pen, EDGE, comparable(this.context, this.robot), this.context.words.room.back, {
+      back,
+      choose: (id) => {
+        back()
+        this.context.drawings.compare(this.name, id)
+      },
+    })
   }
 
   private drawTimeline(pen: Pen): void {

@@ -7,6 +7,8 @@ const WIDTH = 640
 const ROW = 62
 const TOP = 96
 const EDGE = 26
+/** Of what the gripper bears. */
+const GRASP = 62
 /** Samples of a graph: 12 s. */
 const SAMPLES = 120
 /** s between two samples and two paintings. */
@@ -28,7 +30,7 @@ export class TelemetryPanel {
   ) {
     this.angles = new Float64Array(joints.length)
     this.graph = new Float64Array(joints.length * SAMPLES).fill(Number.NaN)
-    const height = TOP + joints.length * ROW + 46
+    const height = TOP + joints.length * ROW + 46 + GRASP
     this.panel = new Panel(WIDTH, height, (pen) => this.draw(pen), context)
   }
 
@@ -83,6 +85,22 @@ export class TelemetryPanel {
     })
     const y = TOP + this.joints.length * ROW + 20
     pen.text(EDGE, y, `${proxies}: ${w.room.proxyNote}`, TEXT.small, undefined, 'second')
+    if (this.newest !== null) this.drawGrasp(pen, this.newest, y + 34)
+  }
+
+  /** What the gripper bears, as physics says; nothing where it holds nothing. */
+  private drawGrasp(pen: Pen, grasp: Telemetry, y: number): void {
+    if (grasp.held_object === '') return
+    const w = this.context.words.room
+    const payload = grasp.payload > 0 ? grasp.payload.toFixed(1) : ''
+    const heavy = grasp.payload > 0 && grasp.held_mass > grasp.payload
+    const holds = w.holdsNow(grasp.held_object, grasp.held_mass.toFixed(2), payload)
+    const warning = PANEL_THEME.states.PAUSED
+    pen.text(EDGE, y, holds, TEXT.small, undefined, heavy ? warning : 'ink', 600)
+    const moment = grasp.wrist_moment.toFixed(1)
+    const slips = grasp.slip_margin < 0
+    const bears = slips ? w.slips(moment) : w.bears(grasp.slip_margin.toFixed(1), moment)
+    pen.text(EDGE, y + 28, bears, TEXT.small, undefined, slips ? warning : 'second')
   }
 
   private drawGraph(pen: Pen, joint: number, y: number, colour: string): void {

@@ -15,6 +15,8 @@ const at = new Vector3()
 /** Puts new robots and objects before the eyes. */
 export class Spawning {
   types: readonly ObjectType[] = []
+  /** Objects that there may be at once; 0: not known. */
+  most = 0
   private readonly undo: Unsubscribe
 
   /** listed: the types of objects are there. */
@@ -56,8 +58,9 @@ export class Spawning {
     if (this.types.length > 0) return
     this.context.link
       .call('physics/list_catalogue', listCatalogueType, {})
-      .then(({ types }) => {
+      .then(({ types, limit }) => {
         this.types = types
+        this.most = limit
         this.listed()
       })
       // without physics there are no objects; the offer tells when it is there

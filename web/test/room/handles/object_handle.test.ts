@@ -1,0 +1,73 @@
+import { Group, Ray, Vector3 } from 'three'
+import { expect, test, vi } from 'vitest'
+import { FakeLink } from '../../../src/link/fake'
+import {
+  attachType,
+  detachType,
+  moveObjectType,
+  sceneObjectType,
+} from '../../../src/protocol/mrlab_msgs'
+import type { RoomContext } from '../../../src/room/context'
+import { ObjectHandle } from '../../../src/room/handles/object_handle'
+import type { Pointer } from '../../../src/room/input/pointer'
+import type { LabScene } from '../../../src/scene/lab_scene'
+
+function carried(heldBy: string, robotAt: string) {
+  const link = new FakeLink()
+  const done = () => ({ success: true, message: '' })
+  link.answer('physics/attach', attachType, done)
+  link.answer('physics/detach', detachType, done)
+  link.answer('physics/move_object', moveObjectType, done)
+  const context = {
+    link,
+    world: new Group(),
+    feedback: () => undefined,
+    say: vi.fn(),
+    robotAt: () => robotAt,
+  } as unknown as RoomContext
+  const object = sceneObjectType.create({ name: 'cube_1', held_by: heldBy })
+  object.pose.position.x = 2
+  object.size.x = object.size.y = object.size.z = 0.05
+  const moveObject = vi.fn()
+  const handle = new ObjectHandle(object, { moveObject } as unknown as LabScene, context)
+  const ray = new Ray(new Vector3(1, 0, 0), new Vector3(1, 0, 0))
+  const pointer = { ray, place: ray.origin } as unknown as Pointer
+  handle.on({ kind: 'down', pointer, button: 'select' })
+  handle.update(1)
+  const services = () => link.calls.map(({ service }) => service)
+  return { handle, pointer, link, services, moveObject }
+}
+
+test('what is let go between the fingers of a gripper is fixed to it', async () => {
+  const { handle, pointer, link, services } = carried('', 'ur5e_1')
+  handle.on({ kind: 'up', pointer, button: 'select' })
+  await vi.waitFor(() => expect(services()).toContain('physics/attach'))
+  expect(link.calls.at(-1)?.request).toEqual({ robot: 'ur5e_1', object: 'cube_1' })
+  // it is not let go first: until the gripper has it, it would fall
+  const moved = link.calls.filter(({ service }) => service === 'physics/move_object')
+  expect(moved.map(({ request }) => (request as { held: boolean }).held)).toEqual([true])
+})
+
+test('what is let go elsewhere is fixed to nothing', async () => {
+  const { handle, pointer, services } = carried('', '')
+  handle.on({ kind: 'up', pointer, button: 'select' })
+  await vi.waitFor(() => expect(services()).toHaveLength(2))
+  expect(services()).not.toContain('physics/attach')
+})
+
+test('a hand takes what a gripper holds, once that has let go', async () => {
+  const { handle, services } = carried('ur5e_1', '')
+  expect(services()).toEqual(['physics/detach'])
+  await vi.waitFor(() => {
+    handle.update(2)
+    expect(services()).toContain('physics/move_object')
+  })
+})
+
+test('it is taken where it is, and goes as far as the hand', () => {
+  const { handle, pointer, moveObject } = carried('', '')
+  expect(moveObject.mock.lastCall?.[1].position).toMatchObject({ x: 2, y: 0, z: 0 })
+  pointer.ray.origin.set(1, 0.3, 0)
+  handle.update(2)
+  expect(moveObject.mock.lastCall?.[1].position).toMatchObject({ x: 2, y: 0.3, z: 0 })
+})
