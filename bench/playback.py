@@ -14,6 +14,7 @@ import os
 import subprocess
 import sys
 import time
+from collections.abc import Callable
 from typing import Any
 
 import numpy as np
@@ -90,7 +91,7 @@ def deadline_thread(robots: int, rate: float, seconds: float) -> dict[str, Any]:
     }
 
 
-def plain_timers(robots: int, rate: float, seconds: float) -> dict[str, Any]:
+def plain_timers(robots: int, rate: float, seconds: float, name: str = "robot") -> dict[str, Any]:
     """Play with one rclpy timer a robot; its call k is due (k + 1)/f after it was made."""
     node = rclpy.create_node("bench")
     model = RobotLibrary(share.directory() / "robots").model("ur5e")
@@ -101,7 +102,7 @@ def plain_timers(robots: int, rate: float, seconds: float) -> dict[str, Any]:
     executor.add_node(node)
     running = [robots]
     for i in range(robots):
-        publisher = node.create_publisher(JointState, f"robot_{i}/joint_states", qos.STREAM)
+        publisher = node.create_publisher(JointState, f"{name}_{i + 1}/joint_states", qos.STREAM)
         state = {"frame": 0, "start": time.monotonic_ns() + period}
 
         def tick(state: dict[str, int] = state, publisher: Any = publisher) -> None:
@@ -138,20 +139,25 @@ def ordinary_thread(robots: int, rate: float, seconds: float) -> dict[str, Any]:
     return deadline_thread(robots, rate, seconds)
 
 
-METHODS = {
+METHODS: dict[str, Callable[..., dict[str, Any]]] = {
     "deadline thread": deadline_thread,
     "without priority": ordinary_thread,
     "rclpy timers": plain_timers,
 }
 
 
-def run_case(method: str, robots: int, rate: float, seconds: float) -> dict[str, Any]:
-    """Run one case in a process of its own and return its row."""
-    case = json.dumps([method, robots, rate, seconds])
+def in_process(*case: Any) -> dict[str, Any]:
+    """Run one case, a method and its arguments, in a process of its own; return its figures."""
     done = subprocess.run(
-        [sys.executable, __file__, "--case", case], stdout=subprocess.PIPE, check=True
+        [sys.executable, __file__, "--case", json.dumps(case)], stdout=subprocess.PIPE, check=True
     )
-    result = json.loads(done.stdout)
+    result: dict[str, Any] = json.loads(done.stdout)
+    return result
+
+
+def run_case(method: str, robots: int, rate: float, seconds: float) -> dict[str, Any]:
+    """Run one case and return its row."""
+    result = in_process(method, robots, rate, seconds)
     errors = report.percentiles(result["errors_ms"])
     return {
         "method": method,
@@ -172,9 +178,9 @@ def main() -> None:
     parser.add_argument("--case", help=argparse.SUPPRESS)
     options = parser.parse_args()
     if options.case:
-        method, robots, rate, seconds = json.loads(options.case)
+        method, *arguments = json.loads(options.case)
         rclpy.init()
-        sys.stdout.write(json.dumps(METHODS[method](robots, rate, seconds)))
+        sys.stdout.write(json.dumps(METHODS[method](*arguments)))
         sys.stdout.flush()
         os._exit(0)
     seconds = 2.0 if options.quick else 10.0

@@ -1,8 +1,10 @@
 """Playback inside a whole lab: what it costs, and how late joint states leave.
 
-Thirteen robots at 100 Hz with telemetry, read by physics, the bridge, a recording and a client.
-CPU is each process's own, in percent of one core; lateness is what telemetry says of every robot
-ten times a second. `--no-priority` takes the real-time priority away from the playback process.
+Thirteen robots at 100 Hz with telemetry, read by physics, the bridge, a recording and a client:
+first as the lab plays them, then without the playback process's real-time priority, then stopped,
+while a process with one plain rclpy timer a robot publishes the same joint states. CPU is each
+process's own, in percent of one core; lateness is what telemetry says of every robot ten times a
+second, and of the timers that of every joint state.
 """
 
 from __future__ import annotations
@@ -11,6 +13,7 @@ import os
 import socket
 import tempfile
 import time
+from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
@@ -18,6 +21,7 @@ import psutil
 import rclpy
 import report
 from mrlab_msgs import msg, srv
+from playback import in_process
 from safety import Bench, motion
 from sensor_msgs.msg import JointState
 from std_srvs.srv import SetBool, Trigger
@@ -30,32 +34,35 @@ from mrlab_ros.processes.supervisor import Supervisor
 
 MODEL = "ur5e"
 ROBOTS = 13
+RATE = 100.0
 SETTLE_S = 6.0
 
 
-def measure(
-    names: list[str], pids: list[int], late: list[float], seconds: float
-) -> list[dict[str, Any]]:
-    """Return each process's share of a core, and how late joint states left, ms."""
-    processes = [psutil.Process(pid) for pid in pids]
-    late.clear()
-    before, began = [sum(p.cpu_times()[:2]) for p in processes], time.monotonic()
-    time.sleep(seconds)
+def measure(pids: dict[str, int], seconds: float, wait: Callable[[float], Any]) -> dict[str, Any]:
+    """Return each process's share of a core, %, while `wait(seconds)` lasts, and what it returns.
+
+    That is under the key "".
+    """
+    processes = {name: psutil.Process(pid) for name, pid in pids.items()}
+    before = {name: sum(p.cpu_times()[:2]) for name, p in processes.items()}
+    began = time.monotonic()
+    result = wait(seconds)
     taken = time.monotonic() - began
-    found = report.percentiles(late)
-    rows = []
-    for name, process, used in zip(names, processes, before, strict=True):
-        here = name == "playback"
-        rows.append(
-            {
-                "process": name,
-                "CPU %": 100 * (sum(process.cpu_times()[:2]) - used) / taken,
-                "late p50 ms": found["p50"] if here else "",
-                "p99 ms": found["p99"] if here else "",
-                "max ms": found["max"] if here else "",
-            }
-        )
-    return rows
+    used = {name: sum(p.cpu_times()[:2]) - before[name] for name, p in processes.items()}
+    return {"": result, **{f"{name} %": 100 * used[name] / taken for name in used}}
+
+
+def row(method: str, late: list[float], own: float, found: dict[str, Any]) -> dict[str, Any]:
+    """Return a row. late: ms. own: CPU of the process that publishes, %."""
+    share = report.percentiles(late)
+    return {
+        "joint states by": method,
+        "late p50 ms": share["p50"],
+        "p99 ms": share["p99"],
+        "max ms": share["max"],
+        "its CPU %": own,
+        **{name: value for name, value in found.items() if name not in ("", "playback %")},
+    }
 
 
 def without_priority(pid: int) -> None:
@@ -64,7 +71,7 @@ def without_priority(pid: int) -> None:
         os.sched_setscheduler(thread.id, os.SCHED_OTHER, os.sched_param(0))
 
 
-def run(folder: Path, seconds: float, *, priority: bool, record: bool) -> list[dict[str, Any]]:
+def run(folder: Path, seconds: float, *, record: bool) -> list[dict[str, Any]]:
     (folder / "trajectories").mkdir()
     with (folder / "trajectories" / "short.npz").open("wb") as file:
         write(motion("short", 60_000), file)
@@ -103,19 +110,30 @@ def run(folder: Path, seconds: float, *, priority: bool, record: bool) -> list[d
             bench.ask(srv.StartRecording, "/recorder/start", bag=str(folder / "bag"))
         bench.ask(Trigger, "/cell/play")
         time.sleep(SETTLE_S)
-        pids = [state.pid for state in supervisor.states]
-        if not priority:
-            without_priority(pids[[p.name for p in processes].index("playback")])
-        before = count[0]
-        rows = measure([p.name for p in processes], pids, late, seconds)
-        print(f"{(count[0] - before) / seconds:.0f} joint states a second reached the client")
+        states = zip(processes, supervisor.states, strict=True)
+        pids = {process.name: state.pid for process, state in states}
+        rows = []
+        for method in ("deadline thread", "without priority"):
+            if rows:
+                without_priority(pids["playback"])
+            late.clear()
+            before = count[0]
+            found = measure(pids, seconds, time.sleep)
+            rows.append(row(method, list(late), found["playback %"], found))
+            arrived = (count[0] - before) / seconds
+            print(f"{method}: {arrived:.0f} joint states a second reached the client")
+        bench.ask(Trigger, "/cell/stop")
+        found = measure(
+            pids, seconds, lambda s: in_process("rclpy timers", ROBOTS, RATE, s, MODEL)
+        )
+        timers = found[""]
+        rows.append(row("rclpy timers", timers["errors_ms"], 100 * timers["cpu"], found))
         bench.close()
     return rows
 
 
 def main() -> None:
     parser = report.options(__doc__)
-    parser.add_argument("--no-priority", action="store_true")
     parser.add_argument("--no-recording", action="store_true")
     options = parser.parse_args()
     os.environ.setdefault("ROS_AUTOMATIC_DISCOVERY_RANGE", "LOCALHOST")
@@ -124,11 +142,9 @@ def main() -> None:
         rows = run(
             Path(folder),
             10.0 if options.quick else 30.0,
-            priority=not options.no_priority,
             record=not options.no_recording,
         )
-    title = f"{ROBOTS} robots in a whole lab" + ", no priority" * options.no_priority
-    report.show(title, rows, options.json)
+    report.show(f"{ROBOTS} robots in a whole lab", rows, options.json)
     rclpy.shutdown()
 
 

@@ -194,15 +194,13 @@ class PlaybackNode(Node):
         last = self.player.last
         if last is None or last.trajectory is None or not self.playback.moving:
             return
-        # What was said of a grasp does not outlive the physics that said it.
-        grasp = self._grasp if self._grasps.get_publisher_count() else None
         self._telemetry.publish(
             self._telemetry_encoder.encode(
                 now_ns,
                 last.trajectory,
                 last.sample,
                 self.model.chain.tip(last.sample.positions.tolist()),
-                grasp,
+                self._grasp,
                 sent=last.sent,
                 lost=last.lost,
                 error_ns=last.error_ns,
@@ -214,6 +212,9 @@ class PlaybackNode(Node):
         """Publish the present state again, while the robot moves."""
         if not self.playback.moving:
             return
+        # What was said of a grasp does not outlive the physics that said it.
+        if not self._grasps.get_publisher_count():
+            self._grasp = None
         with self._command() as now_ns:
             if self.playback.moving:
                 self._announce(now_ns, self.playback.status())
