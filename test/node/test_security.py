@@ -172,24 +172,6 @@ def test_each_way_to_log_in_lets_its_people_in(graph, folders, start, connect, l
         wait_for(lambda session=session: ask(session, "robots")[0], f"the state for {role}")
 
 
-def test_quic_takes_the_same_keys_and_rules(graph, keys, start, endpoint):
-    quic = endpoint.replace("tls/", "quic/")
-    start(keys, listen=[quic])
-    graph.client.create_publisher(Robots, "robots", qos.LATCHED).publish(Robots())
-    called = serve(graph, ["ur5e_1/play"])
-    with zenoh.open(configuration(keys.client_file("display"), quic)) as viewer:
-        wait_for(lambda: ask(viewer, "robots")[0], "the state")
-        wait_for(lambda: offered(viewer, "ur5e_1/play"), "the service")
-        assert ask(viewer, "ur5e_1/play") == ([], [])
-        with zenoh.open(configuration(keys.client_file("operator"), quic)) as operator:
-            assert ask(operator, "ur5e_1/play")[0]
-    assert called == ["ur5e_1/play"]
-    stranger = configuration(keys.client_file("display"), quic)
-    stranger.insert_json5("transport/link/tls/enable_mtls", "false")
-    with pytest.raises(zenoh.ZError, match="Unable to connect"):
-        zenoh.open(stranger).close()
-
-
 def test_whoever_may_connect_receives_streams_states_and_who_is_there(graph, people):
     joints = graph.client.create_publisher(JointState, JOINTS, qos.STREAM)
     graph.client.create_publisher(Robots, "robots", qos.LATCHED).publish(Robots())

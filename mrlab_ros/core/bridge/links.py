@@ -104,7 +104,13 @@ def check_endpoints(listen: tuple[str, ...], insecure: bool, keys: bool = False)
                 "as tcp/127.0.0.1:7447"
             )
         protocol, address = endpoint.split("/", 1)
-        encrypted = protocol in ("tls", "quic")
+        if protocol == "quic":
+            raise BadInput(
+                f"the bridge is to listen on {endpoint}; of QUIC links it can bound neither the "
+                "number nor the bytes of one person, who could take the lab from all others; "
+                f"listen on tls/{address}"
+            )
+        encrypted = protocol == "tls"
         if keys and not encrypted:
             raise BadInput(
                 f"the lab has keys, and the bridge is to listen on {endpoint}, where nobody "

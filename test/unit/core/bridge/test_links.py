@@ -22,7 +22,13 @@ def test_an_open_endpoint_needs_the_flag(endpoint):
     links.check_endpoints((endpoint,), insecure=True)
 
 
-@pytest.mark.parametrize("endpoint", ["tls/0.0.0.0:7447", "quic/[::]:7447"])
+@pytest.mark.parametrize("keys", [True, False])
+def test_links_that_cannot_be_bounded_are_refused(keys):
+    with pytest.raises(BadInput, match=r"quic/\[::\]:7447.* listen on tls/\[::\]:7447"):
+        links.check_endpoints(("quic/[::]:7447",), insecure=True, keys=keys)
+
+
+@pytest.mark.parametrize("endpoint", ["tls/0.0.0.0:7447", "tls/[::]:7447"])
 def test_encryption_and_keys_go_together(endpoint):
     links.check_endpoints((endpoint,), insecure=False, keys=True)
     with pytest.raises(BadInput, match="needs keys"):
