@@ -1,4 +1,4 @@
-"""`mrlab robots`: the robot models: list, show, sheet, check, import, meshes, remove."""
+"""`mrlab robots`: the robot models: list, show, sheet, check, import, export, ..."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ if TYPE_CHECKING:
     from mrlab_ros.adapters.robots.library import RobotLibrary
 
 app = typer.Typer(
-    help="The robots of the library: list, show, sheet, check, import, meshes, remove."
+    help="The robots of the library: list, show, sheet, check, import, export, meshes, remove."
 )
 
 WORDS = {Severity.INFO: "note", Severity.WARNING: "warning", Severity.ERROR: "error"}
@@ -288,6 +288,22 @@ def sheet(
 
     sheets.write(_library(), robot, output.resolve())
     print(output.resolve())
+
+
+@app.command()
+def export(
+    robot: Annotated[str, typer.Argument(help="Id of the robot.")],
+    output: Annotated[
+        Path, typer.Option("--out", "--output", "-o", help="A new folder for the files.")
+    ],
+    end_effector: Annotated[
+        str, typer.Option("--end-effector", "--tool", help="Id of an end effector.")
+    ] = "",
+) -> None:
+    """Write a robot for other programs: a URDF with OBJ and STL meshes and relative paths."""
+    from mrlab_ros.adapters.robots import exporting
+
+    print(exporting.export(_library(), robot, end_effector or None, output.resolve()))
 
 
 @app.command()

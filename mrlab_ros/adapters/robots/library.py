@@ -125,11 +125,7 @@ class RobotLibrary:
         for link in root.iterfind("link"):
             for visual in link.findall("visual"):
                 link.remove(visual)
-            if link.find("inertial") is None:
-                inertial = ET.SubElement(link, "inertial")
-                ET.SubElement(inertial, "mass", value="1e-06")
-                moments = {"ixx": 1e-9, "iyy": 1e-9, "izz": 1e-9, "ixy": 0, "ixz": 0, "iyz": 0}
-                ET.SubElement(inertial, "inertia", {k: str(v) for k, v in moments.items()})
+        state_masses(root)
         for mesh in root.iterfind("link/collision/geometry/mesh"):
             mesh.set("filename", str(self.mesh_path(str(mesh.get("filename")))))
         return ET.tostring(root, encoding="unicode")
@@ -205,6 +201,16 @@ class RobotLibrary:
             home=home,
             chain=chain,
         )
+
+
+def state_masses(root: ET.Element) -> None:
+    """Give each link without one a mass of almost nothing: engines take 1 kg for a frame."""
+    for link in root.iterfind("link"):
+        if link.find("inertial") is None:
+            inertial = ET.SubElement(link, "inertial")
+            ET.SubElement(inertial, "mass", value="1e-06")
+            moments = {"ixx": 1e-9, "iyy": 1e-9, "izz": 1e-9, "ixy": 0, "ixz": 0, "iyz": 0}
+            ET.SubElement(inertial, "inertia", {k: str(v) for k, v in moments.items()})
 
 
 def _read(path: Path) -> str:

@@ -13,6 +13,7 @@ import pybullet
 import pytest
 
 from mrlab_ros.adapters.bullet.engine import BulletEngine
+from mrlab_ros.adapters.robots.exporting import export
 from mrlab_ros.adapters.robots.library import RobotLibrary
 from mrlab_ros.adapters.yaml_files import read_yaml
 from mrlab_ros.core.clock import SECOND, PlaybackClock
@@ -349,10 +350,27 @@ def test_plain_bullet_has_nothing_to_say_of_a_shipped_description(robot, capfd, 
     path = tmp_path / "robot.urdf"
     # Bullet reads no .glb.
     path.write_text(re.sub(r"<visual>.*?</visual>", "", text, flags=re.S))
+    assert said_of(path, capfd) == ""
+
+
+def said_of(path, capfd) -> str:
+    """Return what plain Bullet says while it loads a URDF."""
     client = pybullet.connect(pybullet.DIRECT)
     capfd.readouterr()
-    pybullet.loadURDF(str(path), useFixedBase=True, physicsClientId=client)
+    body = pybullet.loadURDF(str(path), useFixedBase=True, physicsClientId=client)
     sys.stdout.flush()
     said = capfd.readouterr()
+    assert pybullet.getVisualShapeData(body, physicsClientId=client) or "visual" not in str(path)
     pybullet.disconnect(client)
-    assert said.out + said.err == ""
+    return said.out + said.err
+
+
+HANDED = [("ur5e", hand) for hand in LIBRARY.end_effectors()]
+
+
+@pytest.mark.parametrize(("robot", "hand"), [*((r, None) for r in LIBRARY.ids()), *HANDED])
+def test_plain_bullet_loads_an_exported_robot_with_what_is_seen(robot, hand, capfd, tmp_path):
+    path = export(LIBRARY, robot, hand, tmp_path / "visual")
+    assert said_of(path, capfd) == ""
+    with pytest.raises(BadInput, match="visual holds something already; name a new folder"):
+        export(LIBRARY, robot, hand, tmp_path / "visual")
