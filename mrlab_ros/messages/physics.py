@@ -28,7 +28,7 @@ from mrlab_ros.core.physics.simulated_robot import GripperProgram, Playing
 from mrlab_ros.core.physics.surfaces import Surface
 from mrlab_ros.core.physics.world_state import SceneObject
 from mrlab_ros.core.playback.states import State
-from mrlab_ros.core.scene.placement import Support, support_of
+from mrlab_ros.core.scene.placement import Support, Thing, support_of
 from mrlab_ros.messages.poses import pose_from_message, pose_to_message
 from mrlab_ros.messages.time import make_header, time_from_message, time_to_message
 
@@ -223,6 +223,12 @@ def surface_from_message(message: msg.Surface) -> Surface:
         np.array(message.triangles, dtype=np.int64).astype(np.int32).reshape(-1, 3),
         message.source,
     )
+
+
+def things_from_message(message: msg.SceneObjects) -> tuple[Thing, ...]:
+    """Return the objects that a robot must not be put into: those that nobody holds."""
+    free = (thing for thing in message.objects if not thing.held_by)
+    return tuple(Thing.of(pose_from_message(t.pose), (t.size.x, t.size.y, t.size.z)) for t in free)
 
 
 def supports_from_message(message: msg.Surfaces) -> tuple[Support, ...]:

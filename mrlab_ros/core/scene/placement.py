@@ -25,6 +25,11 @@ BASE_RADIUS = 0.12
 SPACING = 0.75
 # Two bases on one surface that is no floor: arms there may meet, but not stand in each other.
 BESIDE = 0.45
+# What a robot's base takes of its reach beside objects, and the part of its reach that its arm may
+# take at home: over objects that are lower than the base's share of the reach it passes.
+BASE_SHARE, HOME_SHARE = 0.2, 0.6
+# An object that reaches so little above a surface, m, is not in the way there.
+FLAT = 0.002
 # Surfaces so much above a place are above the robot's base, not in it.
 HEADROOM = 0.05
 # Candidates lie on rings about the viewer.
@@ -100,6 +105,38 @@ class Standing:
 
 
 @dataclass(frozen=True)
+class Thing:
+    """An object that is there. radius: of the upright cylinder around it; low, high: its ends."""
+
+    x: float
+    y: float
+    radius: float
+    low: float
+    high: float
+
+    @classmethod
+    def of(cls, pose: Pose, size: tuple[float, float, float]) -> Thing:
+        """Return an object by its pose and the edges of the box around it, in its own frame."""
+        x, y, z = size
+        edges = [
+            rotate(pose.orientation, e) for e in ((x, 0.0, 0.0), (0.0, y, 0.0), (0.0, 0.0, z))
+        ]
+        across, deep, up = (sum(abs(edge[axis]) for edge in edges) / 2 for axis in range(3))
+        px, py, pz = pose.position
+        return cls(px, py, math.hypot(across, deep), pz - up, pz + up)
+
+    def leaves(self, x: float, y: float, height: float, reach: float) -> bool:
+        """Return whether a robot of this reach at a place touches it neither with its base nor
+        with its arm at home; reach 0: only the base counts."""
+        if self.high <= height + FLAT or self.low > height + 2 * max(reach, BASE_RADIUS):
+            return True
+        base = max(BASE_RADIUS, BASE_SHARE * reach)
+        tall = reach and self.high > height + BASE_SHARE * reach
+        needed = self.radius + (max(HOME_SHARE * reach, base) if tall else base)
+        return math.hypot(x - self.x, y - self.y) >= needed
+
+
+@dataclass(frozen=True)
 class Viewer:
     """Where somebody stands and looks: the place of the eyes and the direction of their x."""
 
@@ -130,7 +167,12 @@ def named_support(name: str, supports: Sequence[Support]) -> Support:
     )
 
 
-def place_on(support: Support, supports: Sequence[Support], standing: Sequence[Standing]) -> Pose:
+def place_on(
+    support: Support,
+    supports: Sequence[Support],
+    standing: Sequence[Standing],
+    things: Sequence[Thing] = (),
+) -> Pose:
     """Return the clear place on a surface that is nearest to its middle; raise Misuse."""
     middle = support.outline.mean(axis=0)
     reach = float(np.hypot(*(support.outline - middle).T).max())
@@ -139,9 +181,11 @@ def place_on(support: Support, supports: Sequence[Support], standing: Sequence[S
         for angle in (math.tau * i / count for i in range(count)):
             x = float(middle[0]) + radius * math.cos(angle)
             y = float(middle[1]) + radius * math.sin(angle)
-            if _is_clear(support, x, y, 0.0, supports, standing):
+            if _is_clear(support, x, y, 0.0, supports, standing, things):
                 return Pose((x, y, support.height))
-    raise Misuse(f"no free place is on {support.name}; remove a robot there, or give a pose")
+    raise Misuse(
+        f"no free place is on {support.name}; remove a robot or an object there, or give a pose"
+    )
 
 
 def place_before(
@@ -150,6 +194,7 @@ def place_before(
     supports: Sequence[Support],
     standing: Sequence[Standing],
     only: Support | None = None,
+    things: Sequence[Thing] = (),
 ) -> Pose:
     """Return the best place before a viewer, facing them; raise Misuse where there is none.
 
@@ -170,12 +215,15 @@ def place_before(
                 cost += 0.5 * math.dist((x, y, support.height), gaze)
             if best is not None and cost >= best[0]:
                 continue
-            if _is_clear(support, x, y, reach, supports, standing):
+            if _is_clear(support, x, y, reach, supports, standing, things):
                 best = cost, _facing(x, y, support.height, viewer)
     if best is not None:
         return best[1]
     where = only.name if only is not None else f"the {FARTHEST:g} m before the viewer"
-    raise Misuse(f"no free place is on {where}; turn around, remove a robot there, or give a pose")
+    raise Misuse(
+        f"no free place is on {where}; turn around, remove a robot or an object there, or give a "
+        "pose"
+    )
 
 
 def _candidates(viewer: Viewer, *, anywhere: bool) -> Iterator[tuple[float, float, float, float]]:
@@ -212,6 +260,7 @@ def _is_clear(
     reach: float,
     supports: Iterable[Support],
     standing: Iterable[Standing],
+    things: Iterable[Thing],
 ) -> bool:
     if not support.holds(x, y, BASE_RADIUS):
         return False
@@ -229,7 +278,9 @@ def _is_clear(
             needed = BESIDE
         if apart < needed:
             return False
-    return True
+    # On a table there is no room to keep the arm away from what stands there.
+    free = reach if support.name == FLOOR else 0.0
+    return all(thing.leaves(x, y, support.height, free) for thing in things)
 
 
 def _facing(x: float, y: float, z: float, viewer: Viewer) -> Pose:

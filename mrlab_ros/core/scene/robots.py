@@ -16,6 +16,7 @@ from mrlab_ros.core.scene.placement import (
     SPACING,
     Standing,
     Support,
+    Thing,
     Viewer,
     named_support,
     place_before,
@@ -74,14 +75,15 @@ class Scene:
             if (name := f"{model}_{number}") not in self._robots
         )
 
-    def free_pose(self, reach: float) -> Pose:
-        """Return the place nearest to the origin on the floor that keeps clear of all robots."""
+    def free_pose(self, reach: float, things: Sequence[Thing] = ()) -> Pose:
+        """Return the place nearest to the origin on the floor that keeps clear of all robots, and
+        of these objects."""
         for x, y in _cells():
             if all(
                 math.hypot(x - r.pose.position[0], y - r.pose.position[1])
                 >= SPACING * (reach + r.reach)
                 for r in self._robots.values()
-            ):
+            ) and all(thing.leaves(x, y, 0.0, reach) for thing in things):
                 return Pose((x, y, 0.0))
         raise Misuse(
             f"no free place within {GRID_RADIUS * GRID:g} m of the origin; remove a robot, or "
@@ -89,7 +91,12 @@ class Scene:
         )
 
     def free_pose_on(
-        self, reach: float, surface: str, viewer: Pose | None, supports: Sequence[Support]
+        self,
+        reach: float,
+        surface: str,
+        viewer: Pose | None,
+        supports: Sequence[Support],
+        things: Sequence[Thing] = (),
     ) -> Pose:
         """Return a clear pose on a level surface of the room, facing the viewer if one is given.
 
@@ -99,11 +106,11 @@ class Scene:
         standing = [Standing(robot.pose.position, robot.reach) for robot in self._robots.values()]
         if viewer is not None:
             only = named_support(surface, supports) if surface else None
-            return place_before(Viewer.of(viewer), reach, supports, standing, only)
+            return place_before(Viewer.of(viewer), reach, supports, standing, only, things)
         support = named_support(surface, supports)
         if support.name == FLOOR:
-            return self.free_pose(reach)
-        return place_on(support, supports, standing)
+            return self.free_pose(reach, things)
+        return place_on(support, supports, standing, things)
 
     def spawn(self, robot: PlacedRobot) -> PlacedRobot:
         """Add `robot`; raise BadInput where its name or its position cannot be used."""

@@ -245,8 +245,8 @@ class LabNode(ParameterNode[LabParameters]):
     def _automatic_pose(self, request: Any) -> Pose:
         reach = self._library.model(request.model).reach
         viewer = pose_from_message(request.viewer) if request.has_viewer else None
-        supports = self._observer.supports
-        return self._scene.free_pose_on(reach, request.surface, viewer, supports)
+        seen = self._observer
+        return self._scene.free_pose_on(reach, request.surface, viewer, seen.supports, seen.things)
 
     @answered
     def _on_place(self, request: Any, response: Any) -> str:

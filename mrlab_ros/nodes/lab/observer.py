@@ -9,13 +9,14 @@ from functools import partial
 
 from mrlab_msgs import msg
 from rclpy.node import Node
+from rclpy.serialization import deserialize_message
 from rclpy.subscription import Subscription
 
 from mrlab_ros.core.errors import LabError
 from mrlab_ros.core.identity import Identity
-from mrlab_ros.core.scene.placement import Support
+from mrlab_ros.core.scene.placement import Support, Thing
 from mrlab_ros.messages import qos
-from mrlab_ros.messages.physics import supports_from_message
+from mrlab_ros.messages.physics import supports_from_message, things_from_message
 
 POLL_PERIOD_S = 0.02
 
@@ -42,12 +43,24 @@ class Observer:
         )
 
         node.create_subscription(msg.Surfaces, "/surfaces", self._on_surfaces, qos.LATCHED)
+        # Read only where it is asked for: it comes thirty times a second.
+        self._objects = b""
+        node.create_subscription(
+            msg.SceneObjects, "/objects", self._on_objects, qos.LATCHED, raw=True
+        )
 
     @property
     def supports(self) -> tuple[Support, ...]:
         """The level surfaces of the room that physics published last."""
         with self._lock:
             return self._supports
+
+    @property
+    def things(self) -> tuple[Thing, ...]:
+        """The objects that physics published last, but for those that are held."""
+        if not self._objects:
+            return ()
+        return things_from_message(deserialize_message(self._objects, msg.SceneObjects))
 
     def follow(self, robots: Collection[str]) -> None:
         """Observe exactly these robots; forget the others."""
@@ -95,6 +108,9 @@ class Observer:
             if robot in self._subscriptions:
                 self._states[robot] = message
                 self.received += 1
+
+    def _on_objects(self, data: bytes) -> None:
+        self._objects = data
 
     def _on_surfaces(self, message: msg.Surfaces) -> None:
         try:

@@ -18,6 +18,7 @@ from mrlab_ros.core.scene.placement import (
     SPACING,
     Standing,
     Support,
+    Thing,
     Viewer,
     named_support,
     place_before,
@@ -99,6 +100,32 @@ def test_two_robots_fit_on_a_table():
     second = place_before(viewer(), REACH, (TABLE,), (Standing(first.position, REACH),), TABLE)
     assert second.position[2] == 0.72
     assert math.dist(first.position, second.position) >= BESIDE
+
+
+def test_what_stands_on_a_table_is_not_stood_on():
+    cube = Thing.of(Pose((1.0, 0.0, 0.745)), (0.05, 0.05, 0.05))
+    pose = place_on(TABLE, (TABLE,), (), (cube,))
+    assert math.dist(pose.position[:2], (1.0, 0.0)) >= BASE_RADIUS + 0.025
+    before = place_before(viewer(), REACH, (TABLE,), (), TABLE, (cube,))
+    assert math.dist(before.position[:2], (1.0, 0.0)) >= BASE_RADIUS + 0.025
+    everywhere = Thing.of(Pose((1.0, 0.0, 0.745)), (5.0, 5.0, 0.05))
+    with pytest.raises(Misuse, match="remove a robot or an object there"):
+        place_on(TABLE, (TABLE,), (), (everywhere,))
+
+
+def test_a_thing_is_as_wide_as_it_lies():
+    lying = Thing.of(Pose((1, 2, 0.1), (0.0, math.sqrt(0.5), 0.0, math.sqrt(0.5))), (0.1, 0.2, 2))
+    assert (lying.low, lying.high) == pytest.approx((0.05, 0.15))
+    assert lying.radius == pytest.approx(math.hypot(1.0, 0.1))
+    # A low one: only the base must be clear of it. A tall one: the arm at home too.
+    flat, tall = Thing(0, 0, 0.1, 0, 0.05), Thing(0, 0, 0.1, 0, 0.8)
+    assert flat.leaves(0.3, 0, 0.0, 0.85)
+    assert not flat.leaves(0.2, 0, 0.0, 0.85)
+    assert tall.leaves(0.62, 0, 0.0, 0.85)
+    assert not tall.leaves(0.5, 0, 0.0, 0.85)
+    # What lies in the floor or hangs far above is not in the way.
+    assert Thing(0, 0, 1, -0.1, 0.0).leaves(0, 0, 0.0, 0.85)
+    assert Thing(0, 0, 1, 2.0, 2.2).leaves(0, 0, 0.0, 0.85)
 
 
 def test_a_named_surface_is_taken_even_behind_the_viewer_or_without_one():

@@ -12,7 +12,7 @@ from hypothesis import strategies as st
 from mrlab_ros.core.errors import BadInput, Misuse
 from mrlab_ros.core.geometry import Pose
 from mrlab_ros.core.naming import RESERVED
-from mrlab_ros.core.scene.placement import SPACING
+from mrlab_ros.core.scene.placement import BASE_RADIUS, SPACING, Thing
 from mrlab_ros.core.scene.robots import PlacedRobot, Scene
 
 
@@ -30,6 +30,14 @@ def test_robots_placed_automatically_keep_their_distance(reaches):
     for a, b in itertools.combinations(scene.robots, 2):
         distance = math.dist(a.pose.position, b.pose.position)
         assert distance >= SPACING * (a.reach + b.reach) - 1e-9
+
+
+@given(st.lists(st.tuples(st.floats(-1, 1), st.floats(-1, 1), st.floats(0.01, 1)), max_size=8))
+def test_robots_placed_automatically_stand_in_no_object(cylinders):
+    things = [Thing(x, y, 0.1, 0.0, high) for x, y, high in cylinders]
+    x, y, _ = Scene().free_pose_on(0.9, "", None, (), things).position
+    for thing in things:
+        assert math.dist((x, y), (thing.x, thing.y)) >= 0.1 + BASE_RADIUS
 
 
 def test_names_are_given_in_order_and_given_back():
