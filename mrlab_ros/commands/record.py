@@ -17,6 +17,8 @@ if TYPE_CHECKING:
 REFRESH = 0.25
 # A working recorder publishes its state once a second; without one for this long it has gone, s.
 SILENCE = 5.0
+# A bag of such a name is a command that was meant otherwise.
+COMMANDS = {"stop": "mrlab record --stop", "start": "mrlab record"}
 # A bag of hours is closed by then, s.
 STOP_TIMEOUT_S = 30.0
 
@@ -52,6 +54,8 @@ def record(
     if stop:
         _end(bag, as_json=as_json)
         return
+    if bag is not None and (meant := COMMANDS.get(str(bag))) is not None:
+        raise Misuse(f"'{bag}' is no name for a bag; use {meant}, or the whole path of the bag")
     console = Console(highlight=False)
     request = srv.StartRecording.Request(
         bag=str(bag.absolute()) if bag else "",
