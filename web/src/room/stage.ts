@@ -16,6 +16,7 @@ import {
 } from 'three'
 import { OrbitControls } from 'three/examples/jsm/controls/OrbitControls.js'
 import { RoomEnvironment } from 'three/examples/jsm/environments/RoomEnvironment.js'
+import { XREstimatedLight } from 'three/examples/jsm/webxr/XREstimatedLight.js'
 import { Floor } from '../scene/floor'
 import type { SceneHost } from '../scene/lab_scene'
 import { NoWebGL } from '../scene/renderer'
@@ -31,6 +32,8 @@ const LONGEST_PAUSE = 0.4
 const SMOOTH = 0.04
 /** 0 is sharp everywhere; three's 1 blurs text. */
 const FOVEATION = 0.4
+/** Of the sun beside an estimate of the real light. */
+const FAINT_SUN = 0.5
 
 const place = new Vector3()
 
@@ -84,6 +87,7 @@ export class RoomStage implements SceneHost {
     this.world.add(this.floor.group, this.shadowFloor)
     this.scene.add(this.anchor, this.panels)
     this.lightUp()
+    this.followLight()
     this.camera.position.set(0, EYES, 0.9)
     this.controls = new OrbitControls(this.camera, this.canvas)
     this.controls.target.set(0, 0.85, -0.8)
@@ -198,6 +202,26 @@ export class RoomStage implements SceneHost {
     this.camera.aspect = width / height
     this.camera.updateProjectionMatrix()
     this.invalidate()
+  }
+
+  /** Light the robots as the real room is lit, where the device says how. */
+  private followLight(): void {
+    const real = new XREstimatedLight(this.renderer)
+    const { scene, sun } = this
+    const { environment } = scene
+    const { intensity } = sun
+    real.addEventListener('estimationstart', () => {
+      scene.add(real)
+      if (real.environment !== null) scene.environment = real.environment
+      // its shadow stays
+      sun.intensity = FAINT_SUN
+    })
+    real.addEventListener('estimationend', () => {
+      scene.remove(real)
+      scene.environment = environment
+      sun.intensity = intensity
+    })
+    this.undo.push(() => real.removeFromParent())
   }
 
   private lightUp(): void {

@@ -37,9 +37,18 @@ export class Stats {
     this.panel.group.visible = false
     board.add(this.panel.group)
     const { link } = context
-    this.undo = link.subscribe('*/joint_states', jointStateType, (_, { stamp }) => {
-      this.ages.add(link.labTime() - stamp)
+    // what the lab kept for who comes late is old, and was not long on its way
+    let since = link.labTime()
+    const opened = link.onStatus(({ phase }) => {
+      if (phase === 'open') since = link.labTime()
     })
+    const heard = link.subscribe('*/joint_states', jointStateType, (_, { stamp }) => {
+      if (stamp >= since) this.ages.add(link.labTime() - stamp)
+    })
+    this.undo = () => {
+      opened()
+      heard()
+    }
   }
 
   get shown(): boolean {

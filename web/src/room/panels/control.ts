@@ -21,7 +21,7 @@ const HEIGHT = 500
 const EDGE = 26
 const TRACK: Track = { x: EDGE, y: 208, width: WIDTH - 2 * EDGE, height: HIT }
 /** s between two paintings of the time that goes on. */
-const TIME_PERIOD = 0.25
+const TIME_PERIOD = 0.5
 const NOTICE_S = 8
 
 type View = 'control' | 'motions' | 'end_effectors' | 'show' | 'compare'

@@ -15,6 +15,7 @@ import type { Hit, Signal, Target } from '../input/target'
 import { Pen, TEXELS, type Zone } from './pen'
 
 const MM = 0.001
+const AFTER_NAMES = 12
 const normal = new Vector3()
 const local = new Vector3()
 
@@ -63,8 +64,12 @@ export class Panel implements Target {
       map: this.texture,
       alphaTest: 0.5,
       toneMapped: false,
+      // after what is seen through and the names of robots: nothing is written across a panel
+      transparent: true,
     })
-    this.group.add(new Mesh(this.geometry, this.material))
+    const face = new Mesh(this.geometry, this.material)
+    face.renderOrder = AFTER_NAMES
+    this.group.add(face)
   }
 
   /** Have it painted before the next picture. */

@@ -47,7 +47,8 @@ export function drawShow(
     reference.jointNames.forEach((joint, i) => {
       const x = edge + (i % 2) * (half + GAP)
       const row = y + HIT + 64 + Math.floor(i / 2) * 28
-      const off = `${((reference.joints[i] as number) * DEG).toFixed(2)}°`
+      const deg = Math.round((reference.joints[i] as number) * DEG * 100) / 100
+      const off = `${(deg === 0 ? 0 : deg).toFixed(2)}°`
       const ink = i === reference.worst() ? 'ink' : 'second'
       pen.text(x, row, joint, TEXT.small, half - 110, ink)
       pen.text(x + half, row, off, TEXT.small, 100, ink, 600, 'right')

@@ -8,6 +8,9 @@ export const WANTED = [
   'hit-test',
 ] as const
 
+/** What makes the picture better where a device has it, and is not missed where not. */
+export const EXTRA = ['light-estimation'] as const
+
 export type Feature = (typeof WANTED)[number]
 export type Mode = 'immersive-ar' | 'immersive-vr'
 

@@ -1,5 +1,5 @@
 import type { WebGLRenderer } from 'three'
-import { type Feature, type Mode, missingOf, REQUIRED, WANTED } from './features'
+import { EXTRA, type Feature, type Mode, missingOf, REQUIRED, WANTED } from './features'
 
 const FRAME_RATE = 72
 
@@ -20,7 +20,7 @@ export async function enter(
   if (xr === undefined) throw new DOMException('this browser has no WebXR', 'NotSupportedError')
   const session = await xr.requestSession(mode, {
     requiredFeatures: [...REQUIRED],
-    optionalFeatures: [...WANTED],
+    optionalFeatures: [...WANTED, ...EXTRA],
   })
   session.addEventListener('end', onEnd, { once: true })
   await renderer.xr.setSession(session)
