@@ -41,20 +41,33 @@ def show(
     """Write a page that shows FILE in 3D: a motion, a file that was refused, or a session.
 
     The page is one file without anything from outside: it opens from a disk, a stick or a mail.
+    For a file that is refused it is written all the same, and the command ends as mrlab convert.
     """
     path = output or Path(f"{file.name.split('.')[0] or 'motion'}.html")
     if path.suffix.lower() not in (".html", ".htm"):
         raise Misuse(f"the page is '{path.name}'; expected a name that ends in .html")
-    text = _page(file, robot, end_effector, options)
+    text, result = _page(file, robot, end_effector, options)
     path.parent.mkdir(parents=True, exist_ok=True)
     path.write_text(text, encoding="utf-8")
     print(f"{path} ({len(text) / 1e6:.2f} MB)")
     desktop = os.environ.get("DISPLAY") or os.environ.get("WAYLAND_DISPLAY")
     if opened and desktop and sys.stdout.isatty():
         typer.launch(str(path.resolve()))
+    if result is not None and result.trajectory is None:
+        from mrlab_ros.commands.convert import report
+        from mrlab_ros.commands.convert.outcomes import EXIT_CODES
+
+        words = ["mrlab", "show", str(file), "--robot", robot]
+        words += ["--end-effector", end_effector] if end_effector else []
+        words += ["--out", str(output)] if output else []
+        report.show(result, None, words, options)
+        raise typer.Exit(EXIT_CODES[result.outcome])
 
 
-def _page(file: Path, robot: str, end_effector: str, options: Options) -> str:
+def _page(
+    file: Path, robot: str, end_effector: str, options: Options
+) -> tuple[str, ConversionResult | None]:
+    """Return the page, and what became of the file; None for a recorded session."""
     from mrlab_ros.adapters.pages.motion import motion_page
     from mrlab_ros.adapters.robots.library import RobotLibrary
     from mrlab_ros.ros import share
@@ -64,7 +77,7 @@ def _page(file: Path, robot: str, end_effector: str, options: Options) -> str:
     if recorded is not None:
         from mrlab_ros.adapters.pages.session import session_page
 
-        return session_page(recorded, folder)
+        return session_page(recorded, folder), None
     library = RobotLibrary(folder / "robots")
     result = _of_trajectory_file(file)
     if result is None:
@@ -79,7 +92,7 @@ def _page(file: Path, robot: str, end_effector: str, options: Options) -> str:
     if result.trajectory is not None:
         robot = robot or result.trajectory.robot_model
         end_effector = end_effector or result.trajectory.end_effector or ""
-    return motion_page(result, robot, end_effector or None, library, folder)
+    return motion_page(result, robot, end_effector or None, library, folder), result
 
 
 def _recorded(file: Path) -> Bag | None:

@@ -14,9 +14,9 @@ ROOT = Path(__file__).parents[2]
 QUINTIC = ROOT / "examples" / "quintic_ur5e.mat"
 
 
-def run(*arguments: object) -> str:
+def run(*arguments: object, code: int = 0) -> str:
     done = CliRunner().invoke(make_app(), ["show", *map(str, arguments)], catch_exceptions=False)
-    assert done.exit_code == 0, done.output
+    assert done.exit_code == code, done.output
     return done.output
 
 
@@ -35,7 +35,9 @@ def test_a_refused_file_is_shown_with_its_findings(tmp_path):
     q = np.zeros((200, 6))
     q[100:, 2] = 5.0
     scipy.io.savemat(file, {"q": q, "fs": 100.0})
-    run(file, "--robot", "ur5e", "-o", page)
+    said = run(file, "--robot", "ur5e", "-o", page, code=1)
+    assert str(page) in said
+    assert "rejected  bad.mat" in said
     text = page.read_text()
     assert "Not accepted" in text
     assert 'data-finding="1"' in text
