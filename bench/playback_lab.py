@@ -11,14 +11,12 @@ from __future__ import annotations
 
 import os
 import socket
-import tempfile
 import time
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
 import psutil
-import rclpy
 import report
 from mrlab_msgs import msg, srv
 from playback import in_process
@@ -71,7 +69,7 @@ def without_priority(pid: int) -> None:
         os.sched_setscheduler(thread.id, os.SCHED_OTHER, os.sched_param(0))
 
 
-def run(folder: Path, seconds: float, *, record: bool) -> list[dict[str, Any]]:
+def run(folder: Path, seconds: float) -> list[dict[str, Any]]:
     (folder / "trajectories").mkdir()
     with (folder / "trajectories" / "short.npz").open("wb") as file:
         write(motion("short", 60_000), file)
@@ -106,8 +104,7 @@ def run(folder: Path, seconds: float, *, record: bool) -> list[dict[str, Any]]:
         members = [msg.SystemMember(robot=robot) for robot in names]
         bench.ask(srv.CreateSystem, "/coordinator/create_system", name="cell", members=members)
         bench.ask(SetBool, "/cell/set_loop", data=True)
-        if record:
-            bench.ask(srv.StartRecording, "/recorder/start", bag=str(folder / "bag"))
+        bench.ask(srv.StartRecording, "/recorder/start", bag=str(folder / "bag"))
         bench.ask(Trigger, "/cell/play")
         time.sleep(SETTLE_S)
         states = zip(processes, supervisor.states, strict=True)
@@ -132,21 +129,5 @@ def run(folder: Path, seconds: float, *, record: bool) -> list[dict[str, Any]]:
     return rows
 
 
-def main() -> None:
-    parser = report.options(__doc__)
-    parser.add_argument("--no-recording", action="store_true")
-    options = parser.parse_args()
-    os.environ.setdefault("ROS_AUTOMATIC_DISCOVERY_RANGE", "LOCALHOST")
-    rclpy.init()
-    with tempfile.TemporaryDirectory() as folder:
-        rows = run(
-            Path(folder),
-            10.0 if options.quick else 30.0,
-            record=not options.no_recording,
-        )
-    report.show(f"{ROBOTS} robots in a whole lab", rows, options.json)
-    rclpy.shutdown()
-
-
 if __name__ == "__main__":
-    main()
+    report.whole_lab(__doc__, f"{ROBOTS} robots in a whole lab", run, 10.0, 30.0)

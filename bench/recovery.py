@@ -11,12 +11,10 @@ import os
 import signal
 import socket
 import sys
-import tempfile
 import time
 from pathlib import Path
 from typing import Any
 
-import rclpy
 import report
 import zenoh
 from mrlab_msgs import msg, srv
@@ -104,7 +102,7 @@ def until(commands: Commands, name: str) -> float:
     return time.monotonic() - began
 
 
-def run(folder: Path, rounds: int) -> list[dict[str, Any]]:
+def run(folder: Path, rounds: float) -> list[dict[str, Any]]:
     (folder / "trajectories").mkdir()
     with (folder / "trajectories" / "short.npz").open("wb") as file:
         write(motion("short", 6_000), file)
@@ -129,7 +127,7 @@ def run(folder: Path, rounds: int) -> list[dict[str, Any]]:
         for blow in ("kill -9", "freeze 3 s"):
             for name in names:
                 took = []
-                for _ in range(rounds):
+                for _ in range(round(rounds)):
                     until(commands, "play")
                     # Until it plays; and a process that has just begun is restarted later.
                     time.sleep(SETTLE_S)
@@ -157,15 +155,5 @@ def run(folder: Path, rounds: int) -> list[dict[str, Any]]:
     return rows
 
 
-def main() -> None:
-    options = report.options(__doc__).parse_args()
-    os.environ.setdefault("ROS_AUTOMATIC_DISCOVERY_RANGE", "LOCALHOST")
-    rclpy.init()
-    with tempfile.TemporaryDirectory() as folder:
-        rows = run(Path(folder), 1 if options.quick else 5)
-    report.show("From a blow to the next command that works", rows, options.json)
-    rclpy.shutdown()
-
-
 if __name__ == "__main__":
-    main()
+    report.whole_lab(__doc__, "From a blow to the next command that works", run, 1, 5)

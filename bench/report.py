@@ -6,7 +6,8 @@ import argparse
 import json
 import os
 import platform
-from collections.abc import Sequence
+import tempfile
+from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -21,6 +22,29 @@ def options(description: str) -> argparse.ArgumentParser:
     parser.add_argument("--quick", action="store_true", help="end within 60 s")
     parser.add_argument("--json", type=Path, metavar="FILE", help="also write the figures here")
     return parser
+
+
+def whole_lab(
+    description: str,
+    title: str,
+    run: Callable[[Path, float], list[dict[str, Any]]],
+    quick: float,
+    full: float,
+) -> None:
+    """Run a benchmark of a lab in a folder of its own, and show its rows.
+
+    run: gets the folder, and `quick` or `full` as the options say.
+    """
+    # Here: most benchmarks need no ROS.
+    import rclpy
+
+    given = options(description).parse_args()
+    os.environ.setdefault("ROS_AUTOMATIC_DISCOVERY_RANGE", "LOCALHOST")
+    rclpy.init()
+    with tempfile.TemporaryDirectory() as folder:
+        rows = run(Path(folder), quick if given.quick else full)
+    show(title, rows, given.json)
+    rclpy.shutdown()
 
 
 def percentiles(values: Sequence[float]) -> dict[str, float]:

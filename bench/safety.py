@@ -10,7 +10,6 @@ from __future__ import annotations
 
 import os
 import signal
-import tempfile
 import threading
 import time
 from collections.abc import Iterator
@@ -19,7 +18,6 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-import rclpy
 import report
 from mrlab_msgs import msg, srv
 from rclpy.client import Client
@@ -223,15 +221,5 @@ def run(folder: Path, seconds: float) -> list[dict[str, Any]]:
     return rows
 
 
-def main() -> None:
-    options = report.options(__doc__).parse_args()
-    os.environ.setdefault("ROS_AUTOMATIC_DISCOVERY_RANGE", "LOCALHOST")
-    rclpy.init()
-    with tempfile.TemporaryDirectory() as folder:
-        rows = run(Path(folder), 8.0 if options.quick else 30.0)
-    report.show("Safety path: what a client waits for", rows, options.json)
-    rclpy.shutdown()
-
-
 if __name__ == "__main__":
-    main()
+    report.whole_lab(__doc__, "Safety path: what a client waits for", run, 8.0, 30.0)
