@@ -97,6 +97,13 @@ class Sessions:
         if found is not None:
             self.lab.put(presence.KEY, found)
 
+    def tell_of(self, actor: LinkSession, service: str) -> None:
+        """Tell all other clients who called a service."""
+        deed = {"op": "did", "who": actor.person.name, "service": service}
+        for client in self._clients.values():
+            if client.session is not actor and client.socket is not None:
+                client.session.text(deed)
+
     def _see_off(self, session: LinkSession) -> None:
         gone = self.displays.leave(session.token, session.person)
         if gone is not None:

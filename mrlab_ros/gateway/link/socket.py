@@ -38,6 +38,9 @@ SILENCE_S = 15.0
 # The same of a hidden page, whose timers a browser slows down to one a minute.
 HIDDEN_SILENCE_S = 150.0
 HEARTBEAT_S = 1.0
+# Who stands before a robot that stops is told who did it. `success` follows the CDR header.
+PAUSE = "/pause"
+SUCCESS = 4
 
 log = logging.getLogger("mrlab.gateway")
 router = APIRouter()
@@ -273,6 +276,8 @@ class _Socket:
             session.respond(
                 frame.request, sessions.visibility.response(session.person, frame.key, payload)
             )
+            if frame.key.endswith(PAUSE) and payload[SUCCESS : SUCCESS + 1] == b"\x01":
+                sessions.tell_of(session, frame.key)
         except TimedOut as error:
             session.fail(frame.request, "timeout", str(error))
         except NoAnswer as error:

@@ -1,4 +1,5 @@
 import {
+  type Deed,
   type LabOffer,
   type Link,
   LinkError,
@@ -25,6 +26,7 @@ export class FakeLink implements Link {
   readonly published: { key: string; message: unknown }[] = []
   private readonly statusListeners = new Set<(status: LinkStatus) => void>()
   private readonly offerListeners = new Set<(offer: LabOffer) => void>()
+  private readonly deedListeners = new Set<(deed: Deed) => void>()
   private readonly subscriptions = new Set<{
     pattern: RegExp
     listener: (payload: Uint8Array, sample: Sample) => void
@@ -40,6 +42,16 @@ export class FakeLink implements Link {
   onOffer(listener: (offer: LabOffer) => void): Unsubscribe {
     this.offerListeners.add(listener)
     return () => this.offerListeners.delete(listener)
+  }
+
+  onDeed(listener: (deed: Deed) => void): Unsubscribe {
+    this.deedListeners.add(listener)
+    return () => this.deedListeners.delete(listener)
+  }
+
+  /** Let somebody else have done something. */
+  did(deed: Deed): void {
+    for (const listener of this.deedListeners) listener(deed)
   }
 
   subscribe<T>(

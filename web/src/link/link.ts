@@ -22,6 +22,8 @@ export interface Link {
   /** What the lab offers now; empty while it is not there. */
   readonly offer: LabOffer
   onOffer(listener: (offer: LabOffer) => void): Unsubscribe
+  /** Be told what others of this gateway did: that they paused a robot or a system. */
+  onDeed(listener: (deed: Deed) => void): Unsubscribe
   /** The lab's time now, s since the epoch, by the clock offset that the socket measures. */
   labTime(): number
   close(): void
@@ -35,6 +37,12 @@ export interface LinkStatus {
   readonly reason: string
   /** Round trip, s; NaN until measured. */
   readonly roundTrip: number
+}
+
+/** Who did something, by their name, and with which service, such as ur5e_1/pause. */
+export interface Deed {
+  readonly who: string
+  readonly service: string
 }
 
 /** What the lab offers: key -> type. latched: topics that deliver their newest message first. */

@@ -11,6 +11,7 @@ import {
   writeReceived,
 } from './frames'
 import {
+  type Deed,
   type LabOffer,
   type Link,
   LinkError,
@@ -59,6 +60,7 @@ class SocketLink implements Link {
   private currentOffer = NOTHING
   private readonly statusListeners = new Set<(status: LinkStatus) => void>()
   private readonly offerListeners = new Set<(offer: LabOffer) => void>()
+  private readonly deedListeners = new Set<(deed: Deed) => void>()
   private readonly offset = new ClockOffset()
   private readonly records = new ReliableReceiver()
   private readonly services = new Services((frame) => this.send(frame))
@@ -114,6 +116,11 @@ class SocketLink implements Link {
   onOffer(listener: (offer: LabOffer) => void): Unsubscribe {
     this.offerListeners.add(listener)
     return () => this.offerListeners.delete(listener)
+  }
+
+  onDeed(listener: (deed: Deed) => void): Unsubscribe {
+    this.deedListeners.add(listener)
+    return () => this.deedListeners.delete(listener)
   }
 
   subscribe<T>(
@@ -218,6 +225,9 @@ class SocketLink implements Link {
         break
       case 'refused':
         console.error(`${text.key}: ${text.message}`)
+        break
+      case 'did':
+        for (const listener of this.deedListeners) listener(text)
         break
     }
   }
@@ -360,6 +370,7 @@ type Text =
     }
   | { op: 'pong'; asked: number; came: number; answered: number }
   | { op: 'refused'; key: string; code: string; message: string }
+  | { op: 'did'; who: string; service: string }
 
 /** Return this machine's time, s since 1970; it never jumps while the page lives. */
 function ownTime(): number {

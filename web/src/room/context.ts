@@ -35,6 +35,11 @@ export interface RoomContext extends Surroundings {
   objectAt(robot: string): string
   /** Return the robot whose fingers are at a place of the scene; empty: none is. */
   robotAt(place: Vector3): string
+  readonly seated: boolean
+  /** Nothing glides or pulses. */
+  readonly still: boolean
+  /** Robots are being chosen: a press takes one into the system, and carries none. */
+  readonly choosing: boolean
   /** m: how far away text is read; a screen shows less of a room than eyes do. */
   readonly readAt: number
   /** Have the board painted anew. */

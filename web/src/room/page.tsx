@@ -3,13 +3,15 @@ import { useEffect, useRef } from 'preact/hooks'
 import { trajectoryUrl } from '../api/api'
 import { useLink } from '../link/use_link'
 import './room.css'
+import type { Session } from '../api/types'
 import { Button } from '../design/button'
 import { Notice } from '../design/notice'
 import type { Link } from '../link/link'
-import { checkSignIn, useApi } from '../pages/shell/session'
+import { checkSignIn, session, useApi } from '../pages/shell/session'
 import { courseOf } from '../playback/course'
 import { language, words } from '../words/words'
 import type { Entry } from './context'
+import type { Person } from './people/people_tab'
 import type { Room } from './room'
 import { type Ability, abilityOf } from './session/features'
 import { hopsOf, refusalOf } from './why/hops'
@@ -22,6 +24,13 @@ function picture(url: string | null): HTMLImageElement | null {
   const image = new Image()
   image.src = url
   return image
+}
+
+/** Return who is signed in, as they are in the room. */
+function personOf(current: Session | null): Person {
+  const role = current?.user?.role
+  const part = role === 'instructor' ? 2 : role === 'operator' ? 1 : 0
+  return { name: current?.user?.name ?? '', part }
 }
 
 /** The lab in a person's room; without a headset, seen from the desktop. link: opened by who shows
@@ -68,6 +77,7 @@ function RoomView({ link }: { link: Link }) {
           link,
           words: words.value,
           ...parts,
+          person: personOf(session.value),
           courseOf: async (id) => courseOf(await api.motion(trajectoryUrl(id, 'motion'))),
         })
         room.value = made

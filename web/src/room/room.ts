@@ -1,8 +1,7 @@
 import { signal } from '@preact/signals'
 import { Matrix4, Quaternion, Vector3 } from 'three'
 import type { Link } from '../link/link'
-import { commandsOf } from '../pages/lab/commands'
-import { LabFollower } from '../pages/lab/follow'
+import type { LabFollower } from '../pages/lab/follow'
 import type { CourseOf } from '../pages/lab/followed_robot'
 import { type TrajectoryInfo, trajectoryCatalogueType } from '../protocol/mrlab_msgs'
 import { LabScene } from '../scene/lab_scene'
@@ -11,10 +10,12 @@ import type { ShownSurface } from '../scene/surfaces'
 import type { Words } from '../words/en'
 import { Alignment, SEATED } from './anchor/alignment'
 import { SceneAnchor } from './anchor/anchor'
+import { TouchAlignment } from './anchor/touch_alignment'
 import type { Entry } from './context'
 import { Drawings } from './drawings/drawings'
 import { soundFeedback } from './feedback'
 import { followedScene } from './follow/followed_scene'
+import { roomFollower } from './follow/follower'
 import { listen } from './follow/listen'
 import { RoomRobots } from './follow/robots'
 import { ObjectHandles } from './handles/object_handles'
@@ -25,17 +26,22 @@ import { Overlays } from './overlays'
 import { Board } from './panels/board'
 import { BoardPlace } from './panels/board_place'
 import { boardTabs } from './panels/board_tabs'
-import { PANEL_THEME } from './panels/pen'
 import { RobotPanels } from './panels/robot_panels'
+import { pauseNews } from './people/pausing'
+import { People } from './people/people'
+import type { Person } from './people/people_tab'
 import { Spawning } from './placement/spawning'
 import { type Support, supportsOf } from './placement/supports'
 import { contextOf } from './room_context'
 import { orderSurfaces, RoomScan } from './room-scan/scan'
 import type { Feature, Mode } from './session/features'
 import { Visit } from './session/visit'
-import { Settings } from './settings/settings'
+import { applySettings } from './settings/apply'
+import { deviceId, randomId, Settings } from './settings/settings'
 import { RoomStage } from './stage'
 import { Creation } from './systems/creation'
+import { SystemPanels } from './systems/system_panels'
+import { Guide } from './tour/guide'
 
 /** s between a frame's start and the instant at which it is seen, where the device does not tell. */
 const AHEAD_S = 0.015
@@ -51,6 +57,8 @@ export interface RoomParts {
   readonly words: Words
   readonly robots: readonly Entry[]
   readonly endEffectors: readonly Entry[]
+  /** Who is signed in here. */
+  readonly person: Person
   readonly courseOf: CourseOf
 }
 
@@ -62,6 +70,7 @@ export class Room {
   readonly follower: LabFollower
   readonly board: Board
   readonly panels: RobotPanels
+  readonly systems: SystemPanels
   readonly stage: RoomStage
   readonly scan: RoomScan
   readonly anchor: SceneAnchor
@@ -70,9 +79,14 @@ export class Room {
   readonly visit: Visit
   readonly creation: Creation
   readonly settings = new Settings()
+  readonly people: People
+  readonly touching: TouchAlignment
+  readonly guide: Guide
   /** Frames drawn, and ms of JavaScript of the newest one. */
   frames = 0
   frameMs = 0
+  /** Of the room, those that have an end. */
+  surfaces: readonly ShownSurface[] = []
   supports: readonly Support[] = supportsOf([])
   trajectories: readonly TrajectoryInfo[] = []
   private readonly targets: Targets
@@ -81,13 +95,12 @@ export class Room {
   readonly objects: ObjectHandles
   readonly drawings: Drawings
   readonly stats: Stats
-  private readonly spawning: Spawning
-  private readonly alignment: Alignment
+  readonly spawning: Spawning
+  readonly alignment: Alignment
   private readonly mouse: Mouse
   private readonly boardPlace: BoardPlace
   private readonly sound: ReturnType<typeof soundFeedback>
   private readonly undo: readonly (() => void)[]
-  private surfaces: readonly ShownSurface[] = []
   private last = 0
 
   /** Throws NoWebGL where the browser has none. */
@@ -105,7 +118,8 @@ export class Room {
       for (const pointer of this.visit.pointers()) pointer.forget(target)
     })
     this.mouse = new Mouse(this.stage, this.targets.all)
-    this.visit = new Visit(this.stage, this.targets, () => this.left())
+    const marked = (point: Vector3) => this.touching.touch(point)
+    this.visit = new Visit(this.stage, this.targets, marked, () => this.left())
     const context = contextOf(this, parts, this.sound.feedback)
     const { targets } = this
     this.board = new Board(context)
@@ -114,6 +128,7 @@ export class Room {
     this.stage.panels.add(this.board.panel.group)
     targets.add(this.board.panel)
     this.panels = new RobotPanels(context, this.stage.panels, this.scene, targets)
+    this.systems = new SystemPanels(context, this.stage.panels, this.scene, targets)
     this.anchor = new SceneAnchor(this.stage.anchor)
     this.objects = new ObjectHandles(this.scene, context, targets)
     this.overlays = new Overlays(link, this.scene, this.stage.world)
@@ -127,21 +142,19 @@ export class Room {
       touched: (name) => this.creation.touch(name),
       stick: (pointer, axis) => this.visit.inputs?.stick(pointer, axis) ?? 0,
     })
-    this.scan = new RoomScan(this.stage.world, (surfaces) => orderSurfaces(context, surfaces))
+    const device = deviceId()
+    this.scan = new RoomScan(this.stage.world, (surfaces) => {
+      orderSurfaces(context, device, surfaces)
+    })
+    const repaint = () => this.board.panel.repaint()
+    const display = `${device}.${randomId(3)}`
+    this.people = new People(link, this.stage.world, display, words, repaint)
+    const { anchor, panels } = this.stage
+    this.touching = new TouchAlignment(this.anchor, anchor, this.scan, panels, context)
     const bases = () => this.robots.bases()
     this.alignment = new Alignment(this.stage, this.anchor, this.scan, bases)
     this.spawning = new Spawning(context, this, () => this.board.panel.repaint())
-    this.follower = new LabFollower(link, {
-      commands: (name) => commandsOf(link, name),
-      word: (state) => words.states[state],
-      colour: (state) => PANEL_THEME.states[state],
-      stir: () => undefined,
-      courseOf: (id) =>
-        parts.courseOf(id).catch((error: Error) => {
-          this.board.say(error.message)
-          throw error
-        }),
-    })
+    this.follower = roomFollower(link, context, parts.courseOf)
     this.follower.attach(
       followedScene({
         scene: this.scene,
@@ -151,23 +164,11 @@ export class Room {
         setSurfaces: (surfaces) => this.setSurfaces(surfaces),
       }),
     )
-    this.board.tabs = boardTabs({
-      context,
-      spawning: this.spawning,
-      creation: this.creation,
-      follower: this.follower,
-      settings: this.settings,
-      stage: this.stage,
-      visit: this.visit,
-      alignment: this.alignment,
-      anchor: this.anchor,
-      scan: this.scan,
-      viewer: this,
-      objects: this.objects,
-      stats: this.stats,
-      surfaces: () => this.surfaces.length,
-    })
+    this.guide = new Guide(context, this, targets)
+    this.board.tabs = boardTabs(context, this, parts.person)
     this.undo = [
+      pauseNews(link, (who, names) => context.say(words.room.pausedBy(who, names.join(', ')))),
+      applySettings(this.settings, this.visit, () => this.repaint()),
       link.subscribe('trajectories', trajectoryCatalogueType, ({ trajectories }) => {
         this.trajectories = trajectories
         this.panels.repaint()
@@ -177,6 +178,7 @@ export class Room {
         follower: this.follower,
         board: this.board,
         panels: this.panels,
+        systems: this.systems,
         halt: () => this.sound.halt(),
       }),
     ]
@@ -198,7 +200,11 @@ export class Room {
 
   /** Enter with a headset; must be called by a person's tap. */
   async enter(mode: Mode): Promise<void> {
-    const session = await this.visit.enter(mode, performance.now() / 1000)
+    const session = await this.visit.enter(
+      mode,
+      performance.now() / 1000,
+      this.settings.seated.value,
+    )
     this.alignment.begin(session)
     this.showSurfaces()
     this.board.panel.repaint()
@@ -207,6 +213,9 @@ export class Room {
   dispose(): void {
     this.visit.leave()
     for (const undo of this.undo) undo()
+    this.people.dispose()
+    this.touching.dispose()
+    this.guide.dispose()
     this.spawning.dispose()
     this.mouse.dispose()
     this.follower.dispose()
@@ -216,6 +225,7 @@ export class Room {
     this.robots.dispose()
     this.panels.dispose()
     this.stats.dispose()
+    this.systems.dispose()
     this.board.panel.dispose()
     this.scene.dispose()
     this.sound.dispose()
@@ -230,6 +240,7 @@ export class Room {
 
   /** The robots are there, or others. */
   private came(): void {
+    this.creation.keep((name) => this.handles.has(name))
     const waits = this.alignment.due && !this.inside.value && this.handles.size > 0
     if (waits) this.alignment.align(SEATED)
   }
@@ -241,7 +252,17 @@ export class Room {
     this.board.panel.repaint()
   }
 
+  private repaint(): void {
+    this.board.panel.repaint()
+    this.guide.panel.panel.repaint()
+    this.panels.repaint()
+    this.systems.repaint()
+    this.stage.invalidate()
+  }
+
   private left(): void {
+    this.people.leave()
+    this.touching.cancel()
     this.anchor.end()
     this.alignment.align(SEATED)
     this.showSurfaces()
@@ -270,10 +291,14 @@ export class Room {
     if (this.drawings.update()) this.stage.invalidate()
     this.scene.update()
     this.overlays.setPicked(this.creation.picked)
-    this.overlays.update(now)
-    if (this.boardPlace.update(this, now, step, this.inside.value)) this.stage.invalidate()
+    this.overlays.update(this.settings.still.value ? 0 : now)
+    if (this.boardPlace.update(this, now, step, this.inside.value ? null : this.stage.camera))
+      this.stage.invalidate()
     this.board.update(now)
+    this.guide.update(this.visit.inputs)
+    if (this.people.update(now, step)) this.stage.invalidate()
     this.panels.update(now, step)
+    this.systems.update(now, step)
     this.stage.lightAbout(this.handles.values())
     if (this.stage.draw(now)) this.frames++
     this.frameMs = performance.now() - began
@@ -291,6 +316,8 @@ export class Room {
       }
     }
     this.scan.update(frame, space, now)
-    this.visit.inputs?.update(frame, space, now)
+    const { inputs } = this.visit
+    inputs?.update(frame, space, now)
+    if (inputs !== null) this.people.tell(this, inputs)
   }
 }

@@ -43,6 +43,15 @@ export function contextOf(room: Room, parts: RoomParts, feedback: Feedback): Roo
     get leftHanded() {
       return room.settings.leftHanded.value
     },
+    get seated() {
+      return room.settings.seated.value
+    },
+    get still() {
+      return room.settings.still.value
+    },
+    get choosing() {
+      return room.creation.on
+    },
     get readAt() {
       return room.inside.value ? READ_AT : READ_AT_SCREEN
     },

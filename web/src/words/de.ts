@@ -432,9 +432,75 @@ export const de: Words = {
     systemHint:
       'Mehrere Roboter auf einer Zeitachse: drücke den Knopf, dann berühre sie der Reihe nach.',
     pick: 'Roboter wählen',
-    touchInOrder: 'Zeige auf den Sockel jedes Roboters, in der Reihenfolge, in der sie spielen.',
+    touchInOrder:
+      'Berühre jeden Roboter mit Finger oder Controller, oder zeige auf ihn: in der Reihenfolge, in der sie spielen.',
     nonePicked: 'noch keiner',
+    people: 'Leute',
+    you: 'du',
+    alone: 'Niemand sonst ist mit einem Headset im Raum.',
+    andMore: (count: number) => `und ${count} weitere`,
+    parts: { 0: 'sieht zu', 1: 'steuert', 2: 'lehrt' },
+    pauseAll: 'Alle anhalten',
+    pausedAll: (count: number) => `Angehalten: ${count}. Alle hier erfahren, dass du es warst.`,
+    nothingMoves: 'Gerade bewegt sich nichts.',
+    pausedBy: (who: string, names: string) => `${who} hat ${names} angehalten.`,
+    align: 'An zwei Punkten ausrichten',
+    undoAlign: 'Ausrichtung zurück',
+    alignFirst:
+      'Berühre den ersten Punkt mit Finger oder Controllerspitze, dann kneife oder drücke den Abzug. Alle Headsets nehmen dieselben zwei Punkte, in derselben Reihenfolge.',
+    alignSecond: 'Nun berühre ebenso den zweiten Punkt. Das Labor blickt vom ersten zu ihm.',
+    alignNear:
+      'Diese Punkte liegen zu nah beieinander. Nimm einen, der mindestens einen halben Meter weg ist.',
+    alignDone: 'Ausgerichtet. Wer dieselben Punkte berührt, sieht das Labor am selben Ort.',
+    alignUndone: 'Die Szene steht, wo sie vorher stand.',
+    settings: 'Optionen',
+    leftHandedAbout: 'Tafeln stehen auf der anderen Seite, für die linke Hand.',
+    seated: 'Im Sitzen',
+    seatedAbout:
+      'Tafeln kommen tiefer, in virtueller Realität auch der Boden. Roboter trägt der Strahl.',
+    contrast: 'Hoher Kontrast',
+    contrastAbout: 'Tafeln in Schwarz, Weiß und Gelb.',
+    still: 'Weniger Bewegung',
+    stillAbout: 'Nichts pulsiert oder gleitet; Tafeln springen an ihren Ort.',
+    tour: {
+      title: (number: number, count: number) => `Erste Schritte · ${number} von ${count}`,
+      next: 'Weiter',
+      end: 'Beenden',
+      again: 'Erste Schritte zeigen',
+      about:
+        'Roboter stellen, Bewegung laden, abspielen, scrubben und einen befreien, der anhielt.',
+      steps: {
+        place: 'Stelle einen Roboter auf: wähle einen im Reiter Roboter. Er steht dann vor dir.',
+        load: 'Drücke Bewegungen auf der Tafel des Roboters und wähle eine.',
+        play: 'Drücke Abspielen. Geh um den Roboter herum, während er sich bewegt.',
+        scrub: 'Zieh den Knopf auf der Zeitachse: der Roboter geht an jeden Zeitpunkt.',
+        halt: 'Trage ein Ding in den Arm: er hält an und sagt, was er traf. Trag es weg, dann Abspielen.',
+      },
+      gestures: {
+        controller: {
+          place: 'Auf ein Bild zeigen, Abzug drücken',
+          load: 'Auf Bewegungen zeigen, Abzug drücken',
+          play: 'Auf Abspielen zeigen, Abzug drücken',
+          scrub: 'Abzug auf dem Knopf halten und ziehen',
+          halt: 'Griff an einem Ding halten und tragen',
+        },
+        hand: {
+          place: 'Auf ein Bild zeigen und kneifen, oder antippen',
+          load: 'Bewegungen antippen, oder zeigen und kneifen',
+          play: 'Abspielen antippen, oder zeigen und kneifen',
+          scrub: 'Den Knopf kneifen und ziehen',
+          halt: 'Ein Ding kneifen und tragen',
+        },
+      },
+    },
     dissolve: 'Auflösen',
+    members: (count: number) =>
+      `${count} Roboter auf einer Zeitachse; ihre eigenen Tafeln sind weggelegt.`,
+    takeOut: 'Roboter herausnehmen',
+    asksTakeOut: (robot: string) =>
+      `Ohne ${robot} wird das System aufgelöst: seine Roboter bleiben, wo sie sind, und jeder hat wieder seine eigene Tafel.`,
+    asksDissolve:
+      'Das System auflösen? Seine Roboter bleiben, wo sie sind, und jeder hat wieder seine eigene Tafel.',
     surfaces: (count: number) =>
       count === 0
         ? 'Der Raum hat noch keine Flächen: Roboter stehen am Boden und gehen durch Tische.'
@@ -449,6 +515,7 @@ export const de: Words = {
     grid: 'Bodenraster',
     leftHanded: 'Linkshändig',
     scan: 'Raum einrichten',
+    forgetSurfaces: 'Alle Flächen vergessen',
     bringHere: 'Szene hierher holen',
     leave: 'Verlassen',
   },

@@ -427,9 +427,73 @@ export const en = {
     systemHint:
       'Several robots on one timeline: press the button, then touch each robot in order.',
     pick: 'Choose robots',
-    touchInOrder: 'Point at the base of each robot, in the order in which they are to play.',
+    touchInOrder:
+      'Touch each robot with a finger or a controller, or point at it: in the order in which they are to play.',
     nonePicked: 'none yet',
+    people: 'People',
+    you: 'you',
+    alone: 'Nobody else is in the room with a headset.',
+    andMore: (count: number) => `and ${count} more`,
+    parts: { 0: 'watches', 1: 'drives', 2: 'teaches' },
+    pauseAll: 'Pause all',
+    pausedAll: (count: number) => `Paused: ${count}. Everybody here is told that it was you.`,
+    nothingMoves: 'Nothing moves now.',
+    pausedBy: (who: string, names: string) => `${who} paused ${names}.`,
+    align: 'Align by two points',
+    undoAlign: 'Undo the alignment',
+    alignFirst:
+      'Touch the first point with the finger or the tip of the controller, then pinch or pull the trigger. All headsets take the same two points, in the same order.',
+    alignSecond: 'Now touch the second point in the same way. The lab looks from the first to it.',
+    alignNear:
+      'These points are too near to each other. Touch one that is half a metre away or more.',
+    alignDone: 'Aligned. Who touches the same points sees the lab in the same place.',
+    alignUndone: 'The scene stands where it stood before.',
+    settings: 'Settings',
+    leftHandedAbout: 'Panels stand on the other side, for the left hand to press.',
+    seated: 'Seated',
+    seatedAbout:
+      'Panels come lower; in virtual reality the floor does too. Carry robots by the ray.',
+    contrast: 'High contrast',
+    contrastAbout: 'Panels in black, white and yellow.',
+    still: 'Reduced motion',
+    stillAbout: 'Nothing pulses or glides; panels move at once.',
+    tour: {
+      title: (number: number, count: number) => `First steps · ${number} of ${count}`,
+      next: 'Next',
+      end: 'End the tour',
+      again: 'Show the first steps',
+      about: 'Place a robot, load a motion, play it, scrub, and free a robot that halted.',
+      steps: {
+        place: 'Place a robot: choose one on the tab Robots. It comes to stand before you.',
+        load: 'Press Motions on the panel of the robot, and choose one.',
+        play: 'Press Play. Walk around the robot while it moves.',
+        scrub: 'Drag the knob on the timeline: the robot goes to any instant.',
+        halt: 'Carry something into the arm: it halts and says what it met. Move that away, then Play.',
+      },
+      gestures: {
+        controller: {
+          place: 'Point at a picture, pull the trigger',
+          load: 'Point at Motions, pull the trigger',
+          play: 'Point at Play, pull the trigger',
+          scrub: 'Hold the trigger on the knob and move',
+          halt: 'Hold the grip at a thing and carry it',
+        },
+        hand: {
+          place: 'Point at a picture and pinch, or poke it',
+          load: 'Poke Motions, or point and pinch',
+          play: 'Poke Play, or point and pinch',
+          scrub: 'Pinch the knob and move',
+          halt: 'Pinch a thing and carry it',
+        },
+      },
+    },
     dissolve: 'Dissolve',
+    members: (count: number) => `${count} robots on one timeline; their own panels are put away.`,
+    takeOut: 'Take a robot out',
+    asksTakeOut: (robot: string) =>
+      `Without ${robot} the system is dissolved: its robots stay where they are, and each has its own panel again.`,
+    asksDissolve:
+      'Dissolve the system? Its robots stay where they are, and each has its own panel again.',
     surfaces: (count: number) =>
       count === 0
         ? 'The room has no surfaces yet: robots stand on the floor and pass through tables.'
@@ -443,6 +507,7 @@ export const en = {
     grid: 'Floor grid',
     leftHanded: 'Left-handed',
     scan: 'Set up the room',
+    forgetSurfaces: 'Forget all surfaces',
     bringHere: 'Bring the scene here',
     leave: 'Leave',
   },

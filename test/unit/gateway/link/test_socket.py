@@ -292,6 +292,25 @@ async def test_a_role_that_may_not_call_is_refused_and_the_lab_not_asked(stage: 
 
 
 @scene
+async def test_all_other_pages_are_told_who_paused_what(stage: Stage) -> None:
+    stage.lab.serve("ur5e_1/pause", TRIGGER, lambda request: {"success": True})
+    stage.lab.serve("ur5e_2/pause", TRIGGER, lambda request: {"success": False})
+    eva, ben = (
+        stage.side(stage.cookie(who, role))
+        for who, role in (("eva", Role.INSTRUCTOR), ("ben", Role.STUDENT))
+    )
+    for side in (eva, ben):
+        side.hello()
+        await side.welcome()
+    eva.call("ur5e_2/pause", 1)
+    await eva.until(lambda: len(eva.records) == 1)
+    eva.call("ur5e_1/pause", 2)
+    await ben.until(lambda: ben.of("did"))
+    assert ben.of("did") == [{"op": "did", "who": "eva", "service": "ur5e_1/pause"}]
+    assert not eva.of("did")
+
+
+@scene
 async def test_only_what_comes_in_may_be_published(stage: Stage) -> None:
     side = stage.side()
     side.hello()

@@ -48,6 +48,14 @@ export class SceneAnchor {
     this.wanted = true
   }
 
+  /** Put the group at a place of the floor space, and hold it there from the next frame on. */
+  put(position: Vector3, turn: Quaternion): void {
+    this.group.position.copy(position)
+    this.group.quaternion.copy(turn)
+    this.release()
+    this.wanted = true
+  }
+
   /** Follow the anchor; make one where it is wanted. */
   update(frame: XRFrame, space: XRReferenceSpace): void {
     if (this.wanted) {

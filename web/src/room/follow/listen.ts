@@ -4,6 +4,7 @@ import type { Entry, RoomContext } from '../context'
 import type { Board } from '../panels/board'
 import { keepBag } from '../panels/lab_tab'
 import type { RobotPanels } from '../panels/robot_panels'
+import type { SystemPanels } from '../systems/system_panels'
 
 /** What shows how the lab stands. */
 export interface Listeners {
@@ -11,12 +12,20 @@ export interface Listeners {
   readonly follower: LabFollower
   readonly board: Board
   readonly panels: RobotPanels
+  readonly systems: SystemPanels
   /** A robot has begun to halt. */
   halt(): void
 }
 
 /** Keep the panels as the lab is; returns how to end it. */
-export function listen({ context, follower, board, panels, halt }: Listeners): () => void {
+export function listen({
+  context,
+  follower,
+  board,
+  panels,
+  systems,
+  halt,
+}: Listeners): () => void {
   const { words, robots, endEffectors } = context
   const repaint = () => board.panel.repaint()
   const undo = [
@@ -35,7 +44,7 @@ export function listen({ context, follower, board, panels, halt }: Listeners): (
       repaint()
     }),
     effect(() => {
-      void follower.systems.value
+      systems.show(follower.systems.value)
       repaint()
     }),
     // pictures of the catalogue come later than the panel

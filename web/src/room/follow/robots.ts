@@ -14,7 +14,7 @@ const tip = new Vector3()
 
 /** What is told of the robots by who takes hold of them. */
 export interface RobotTouch {
-  /** A base was pressed and let go in place. */
+  /** A robot was touched while robots are chosen. */
   touched(name: string): void
   /** Return the stick of a pointer's controller. */
   stick(pointer: Pointer, axis: 'x' | 'y'): number

@@ -6,13 +6,14 @@ import { upright } from '../frames'
 import type { Pointer } from '../input/pointer'
 import type { Hit, Signal, Target } from '../input/target'
 import { isClear, isOn, landing, type Place } from '../placement/supports'
+import { ArmShape } from '../systems/arm_shape'
 
 /** m: what of a robot's base can be taken hold of. */
 const RADIUS = 0.18
 const HEIGHT = 0.32
 const RING = 0.27
 const REACH = 0.09
-/** m: a press that moves less is a touch. */
+/** m: a press that moves less carries nothing. */
 const TOUCH = 0.03
 /** m: bases keep this distance from each other. */
 const APART = 0.35
@@ -40,6 +41,7 @@ interface Holder {
 /** A robot's base: it is carried with one pointer, turned with two or with a stick, and stays
  * upright on what is below it. */
 export class RobotHandle implements Target {
+  private readonly shape: ArmShape | null
   private readonly ring: Mesh<RingGeometry, MeshBasicMaterial>
   private readonly holders: Holder[] = []
   private readonly place: Place = { x: 0, y: 0, z: 0, support: 'floor' }
@@ -54,7 +56,7 @@ export class RobotHandle implements Target {
   private releasedAt = Number.NEGATIVE_INFINITY
   private now = 0
 
-  /** touched: it was pressed and let go in place. stick: of a pointer's controller. */
+  /** touched: it was touched while robots are chosen. stick: of a pointer's controller. */
   constructor(
     readonly name: string,
     readonly base: Object3D,
@@ -64,6 +66,8 @@ export class RobotHandle implements Target {
     private readonly stick: (pointer: Pointer, axis: 'x' | 'y') => number,
   ) {
     const look = { color: 0x6cb6ff, transparent: true, opacity: 0.9, depthWrite: false }
+    const links = scene.robot(name)?.root.links
+    this.shape = links === undefined ? null : new ArmShape(links)
     this.ring = new Mesh(new RingGeometry(RING - 0.025, RING, 48), new MeshBasicMaterial(look))
     this.ring.position.z = 0.003
     this.ring.visible = false
@@ -75,6 +79,7 @@ export class RobotHandle implements Target {
   }
 
   cast(ray: Ray, hit: Hit): boolean {
+    if (this.context.choosing && this.shape?.cast(ray, hit)) return true
     inverse.copy(this.base.matrixWorld).invert()
     local.copy(ray).applyMatrix4(inverse)
     if (!meetsBase(local, meets)) return false
@@ -83,7 +88,15 @@ export class RobotHandle implements Target {
     return true
   }
 
+  /** While robots are chosen a fingertip touches the whole arm. */
+  face(point: Vector3, hit: Hit): number {
+    if (!this.context.choosing || this.shape === null) return Number.NaN
+    hit.point.copy(point)
+    return this.shape.distance(point)
+  }
+
   reaches(point: Vector3): boolean {
+    if (this.context.choosing) return false
     inverse.copy(this.base.matrixWorld).invert()
     meets.copy(point).applyMatrix4(inverse)
     const out = Math.hypot(meets.x, meets.y) - RADIUS
@@ -102,7 +115,8 @@ export class RobotHandle implements Target {
         break
       case 'down':
         this.context.feedback('press', signal)
-        this.grab(pointer)
+        if (this.context.choosing) this.touched(this.name)
+        else this.grab(pointer)
         break
       case 'up':
       case 'cancel': {
@@ -110,7 +124,6 @@ export class RobotHandle implements Target {
         if (index < 0) break
         this.holders.splice(index, 1)
         if (this.holders.length > 0) this.hold(this.holders[0] as Holder)
-        else if (!this.moved && signal.kind === 'up') this.touched(this.name)
         else if (this.moved) this.release()
         break
       }

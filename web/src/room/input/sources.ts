@@ -8,9 +8,19 @@ const DEAD_ZONE = 0.2
 
 interface Source {
   readonly source: XRInputSource
+  /** Whether its place was measured at least once: a device that only ever guesses is believed. */
+  measured: boolean
   readonly ray: RayPointer
-  readonly touch: TouchPointer | null
+  readonly touch: TouchPointer
   readonly look: PointerLook
+}
+
+/** A source in a frame. */
+interface Tracked {
+  frame: XRFrame
+  space: XRReferenceSpace
+  source: XRInputSource
+  pose: XRPose | undefined
 }
 
 /** The controllers and hands of a session as pointers. */
@@ -19,13 +29,19 @@ export class XrInputs {
   private readonly matrix = new Matrix4()
   private readonly quaternion = new Quaternion()
   private readonly scale = new Vector3()
+  private readonly thumb = new Vector3()
+  /** Reused for each source of each frame. */
+  private readonly at = {} as Tracked
+  private readonly finger = new Vector3()
   private readonly undo: (() => void)[] = []
 
-  /** targets: what there is to point at now. */
+  /** targets: what there is to point at now. marked: gets where a press on nothing was made, in the
+   * floor space, and says whether that was what it was for. */
   constructor(
     private readonly session: XRSession,
     private readonly parent: Object3D,
     private readonly targets: readonly Target[],
+    private readonly marked: (point: Vector3) => boolean,
   ) {
     const sources = () => this.follow()
     session.addEventListener('inputsourceschange', sources)
@@ -34,8 +50,14 @@ export class XrInputs {
       ['select', 'select'],
       ['squeeze', 'grip'],
     ] as const) {
-      const start = ({ inputSource }: XRInputSourceEvent) =>
-        this.sources.get(inputSource)?.ray.press(button)
+      const start = ({ inputSource }: XRInputSourceEvent) => {
+        const source = this.sources.get(inputSource)
+        if (source === undefined) return
+        // over a panel a press is the panel's; elsewhere it may mark a point of the room
+        const free = source.ray.hovered === null && source.touch.hovered === null
+        if (free && this.marked(source.touch.place)) return
+        source.ray.press(button)
+      }
       const end = ({ inputSource }: XRInputSourceEvent) =>
         this.sources.get(inputSource)?.ray.release(button)
       session.addEventListener(`${event}start`, start)
@@ -52,33 +74,74 @@ export class XrInputs {
   *pointers(): Iterable<Pointer> {
     for (const { ray, touch } of this.sources.values()) {
       yield ray
-      if (touch !== null) yield touch
+      yield touch
     }
+  }
+
+  /** Whether hands are tracked, and no controllers held. */
+  get hasHands(): boolean {
+    for (const { source } of this.sources.values()) if (source.hand !== undefined) return true
+    return false
+  }
+
+  /** Return where a hand or its controller is, in the floor space; null: it is not tracked. */
+  hand(side: 'left' | 'right'): Vector3 | null {
+    for (const { source, ray } of this.sources.values()) {
+      if (source.handedness === side && ray.tracked) return ray.place
+    }
+    return null
   }
 
   /** Read the poses of a frame and point. now: s. */
   update(frame: XRFrame, space: XRReferenceSpace, now: number): void {
     for (const each of this.sources.values()) {
       const { source, ray, touch, look } = each
-      if (touch !== null) {
-        const tip = source.hand?.get('index-finger-tip')
-        const joint = tip === undefined ? undefined : frame.getJointPose?.(tip, space)
-        if (joint != null) setPlace(touch.place, joint.transform.position)
-        touch.aim(now, joint != null, this.targets)
-      }
       const pose = frame.getPose(source.targetRaySpace, space)
       if (pose !== undefined) {
         this.matrix.fromArray(pose.transform.matrix)
         this.matrix.decompose(ray.ray.origin, this.quaternion, this.scale)
         ray.ray.direction.set(0, 0, -1).applyQuaternion(this.quaternion)
-        const grip = source.gripSpace ? frame.getPose(source.gripSpace, space) : undefined
-        if (grip === undefined) ray.place.copy(ray.ray.origin)
-        else setPlace(ray.place, grip.transform.position)
       }
-      const touching = touch?.hovered != null
-      ray.aim(now, pose !== undefined, this.targets, touching)
+      const at = this.at
+      at.frame = frame
+      at.space = space
+      at.source = source
+      at.pose = pose
+      if (pose !== undefined && !pose.emulatedPosition) each.measured = true
+      const guessed = each.measured && pose?.emulatedPosition === true
+      const here = pose !== undefined && !guessed
+      touch.aim(now, this.moveTip(at, ray, touch) && here, this.targets)
+      this.moveHold(at, ray)
+      const touching = touch.hovered !== null
+      // what is dragged does not follow a guess
+      const follows = ray.captured === null ? pose !== undefined : here
+      ray.aim(now, follows, this.targets, touching)
       look.update(ray, pose !== undefined && !touching)
     }
+  }
+
+  /** Move a fingertip, of a controller its tip; return whether it is tracked. */
+  private moveTip(at: Tracked, ray: RayPointer, touch: TouchPointer): boolean {
+    const { source, pose } = at
+    if (source.hand === undefined) {
+      touch.place.copy(ray.ray.origin)
+      return pose !== undefined
+    }
+    return joint(at, 'index-finger-tip', touch.place)
+  }
+
+  /** Move where a pointer holds things: between thumb and finger, or the grip. */
+  private moveHold(at: Tracked, ray: RayPointer): void {
+    const { frame, space, source } = at
+    if (source.hand !== undefined) {
+      if (!joint(at, 'index-finger-tip', this.finger) || !joint(at, 'thumb-tip', this.thumb))
+        return
+      ray.place.lerpVectors(this.thumb, this.finger, 0.5)
+      return
+    }
+    const grip = source.gripSpace ? frame.getPose(source.gripSpace, space) : undefined
+    if (grip === undefined) ray.place.copy(ray.ray.origin)
+    else setPlace(ray.place, grip.transform.position)
   }
 
   /** Return the stick of a pointer's controller: x to the right, y towards the user, 0 at rest. */
@@ -93,8 +156,9 @@ export class XrInputs {
 
   /** Let a controller be felt; hands have nothing to feel with. ms. */
   pulse(pointer: Pointer, strength: number, duration: number): void {
-    for (const { source, ray } of this.sources.values()) {
-      if (ray === pointer) source.gamepad?.hapticActuators?.[0]?.pulse(strength, duration)
+    for (const { source, ray, touch } of this.sources.values()) {
+      if (ray === pointer || touch === pointer)
+        source.gamepad?.hapticActuators?.[0]?.pulse(strength, duration)
     }
   }
 
@@ -109,21 +173,36 @@ export class XrInputs {
     for (const source of now) {
       if (this.sources.has(source) || source.targetRayMode === 'gaze') continue
       const hand = source.handedness as Hand
-      const touch = source.hand ? new TouchPointer('touch', hand) : null
+      const touch = new TouchPointer('touch', hand)
       const look = new PointerLook(source.hand ? 0.25 : 0.35)
       this.parent.add(look.group)
-      this.sources.set(source, { source, ray: new RayPointer('ray', hand), touch, look })
+      this.sources.set(source, {
+        source,
+        measured: false,
+        ray: new RayPointer('ray', hand),
+        touch,
+        look,
+      })
     }
   }
 
   private remove({ source, ray, touch, look }: Source): void {
     this.sources.delete(source)
     ray.drop()
-    touch?.drop()
+    touch.drop()
     look.dispose()
   }
 }
 
 function setPlace(into: Vector3, { x, y, z }: DOMPointReadOnly): void {
   into.set(x, y, z)
+}
+
+/** Write where a joint of a hand is; false: it is not seen. */
+function joint({ frame, space, source }: Tracked, name: XRHandJoint, into: Vector3): boolean {
+  const found = source.hand?.get(name)
+  const pose = found === undefined ? undefined : frame.getJointPose?.(found, space)
+  if (pose == null) return false
+  setPlace(into, pose.transform.position)
+  return true
 }

@@ -1,16 +1,9 @@
-import type { LabFollower } from '../../pages/lab/follow'
-import type { Alignment, Viewer } from '../anchor/alignment'
-import type { SceneAnchor } from '../anchor/anchor'
 import type { RoomContext } from '../context'
-import type { ObjectHandles } from '../handles/object_handles'
-import type { Stats } from '../latency/stats'
-import type { Spawning } from '../placement/spawning'
-import type { RoomScan } from '../room-scan/scan'
-import type { Visit } from '../session/visit'
+import { type Person, peopleTab } from '../people/people_tab'
+import type { Room } from '../room'
+import { orderSurfaces } from '../room-scan/scan'
 import { roomLines, roomTab } from '../settings/room_tab'
-import type { Settings } from '../settings/settings'
-import type { RoomStage } from '../stage'
-import type { Creation } from '../systems/creation'
+import { settingsTab } from '../settings/settings_tab'
 import { systemsTab } from '../systems/systems_tab'
 import type { Tab } from './board'
 import { objectsTab, robotsTab } from './catalogue_tabs'
@@ -18,34 +11,15 @@ import { labTab } from './lab_tab'
 
 const OBJECT_AWAY = 0.8 // m
 
-/** What the tabs of the board show and switch. */
-export interface BoardParts {
-  readonly context: RoomContext
-  readonly spawning: Spawning
-  readonly creation: Creation
-  readonly follower: LabFollower
-  readonly settings: Settings
-  readonly stage: RoomStage
-  readonly visit: Visit
-  readonly alignment: Alignment
-  readonly anchor: SceneAnchor
-  readonly scan: RoomScan
-  readonly viewer: Viewer
-  readonly objects: ObjectHandles
-  readonly stats: Stats
-  /** Surfaces that the lab knows. */
-  surfaces(): number
-}
-
-/** Return the tabs of the board. */
-export function boardTabs(parts: BoardParts): readonly Tab[] {
-  const { context, spawning, creation, follower, settings, stage, visit } = parts
+/** Return the tabs of the board of a room. own: who is signed in. */
+export function boardTabs(context: RoomContext, room: Room, own: Person): readonly Tab[] {
+  const { spawning, creation, follower, settings, stage, visit, touching } = room
   const lines = () => {
     const standing = {
-      surfaces: parts.surfaces(),
+      surfaces: room.surfaces.length,
       insideFor: visit.lasts(performance.now() / 1000),
-      scanned: parts.scan.count,
-      hold: parts.anchor.hold,
+      scanned: room.scan.count,
+      hold: room.anchor.hold,
       missing: visit.missing,
     }
     return roomLines(standing, context.words.room)
@@ -56,20 +30,28 @@ export function boardTabs(parts: BoardParts): readonly Tab[] {
       context,
       () => spawning.types,
       () => spawning.before(OBJECT_AWAY),
-      () => ({ here: parts.objects.count, most: spawning.most }),
+      () => ({ here: room.objects.count, most: spawning.most }),
     ),
     systemsTab(context, creation, follower),
-    labTab(context, follower, parts.stats),
+    peopleTab(context, room.people, follower, own),
+    labTab(context, follower, room.stats),
     roomTab(context, {
       lines,
       get grid() {
         return stage.grid
       },
       toggleGrid: () => stage.setGrid(!stage.grid),
-      get leftHanded() {
-        return settings.leftHanded.value
+      get canAlign() {
+        return visit.session !== null
       },
-      toggleHand: () => settings.leftHanded.toggle(),
+      get aligning() {
+        return touching.awaited !== 'nothing'
+      },
+      align: () => (touching.awaited === 'nothing' ? touching.begin() : touching.cancel()),
+      get canUndo() {
+        return touching.canUndo
+      },
+      undoAlign: () => touching.undo(),
       get scan() {
         const { session } = visit
         if (session?.initiateRoomCapture === undefined) return null
@@ -77,8 +59,13 @@ export function boardTabs(parts: BoardParts): readonly Tab[] {
           session.initiateRoomCapture?.().catch((error: Error) => context.say(error.message))
         }
       },
-      bringHere: () => parts.alignment.align(parts.viewer),
+      bringHere: () => room.alignment.align(room),
+      forgetSurfaces: () => {
+        orderSurfaces(context, '', [])
+        room.scan.tellAgain()
+      },
       leave: () => visit.leave(),
     }),
+    settingsTab(context, settings, () => room.guide.begin()),
   ]
 }

@@ -55,6 +55,10 @@ export class ControlPanel {
     return this.robot.robot.name
   }
 
+  get scrubs(): number {
+    return this.timeline.scrubs
+  }
+
   get joints(): readonly string[] {
     return this.robot.robot.joint_names
   }
@@ -103,11 +107,6 @@ export class ControlPanel {
     return (this.robot.playback?.frame_count ?? 0) > 0
   }
 
-  /** Who is told to play, pause and so on: the system where the robot is in one. */
-  private get driver(): string {
-    return this.robot.playback?.system || this.name
-  }
-
   private readonly say = (text: string): void => {
     this.notice = text
     this.noticedAt = this.now
@@ -115,7 +114,7 @@ export class ControlPanel {
   }
 
   private trigger(verb: string): void {
-    order({ link: this.context.link, say: this.say }, `${this.driver}/${verb}`, triggerType, {})
+    order({ link: this.context.link, say: this.say }, `${this.name}/${verb}`, triggerType, {})
   }
 
   private draw(pen: Pen): void {
@@ -138,7 +137,6 @@ export class ControlPanel {
     const motion = playback?.trajectory_id ?? ''
     const hand = robot.end_effector === '' ? '' : ` + ${robot.end_effector}`
     const parts = [`${robot.model}${hand}`, motion || w.noMotion]
-    if (playback?.system) parts.push(this.context.words.lab.inSystem(playback.system))
     pen.text(EDGE, 82, parts.join(' · '), TEXT.small, undefined, 'second')
     if (state === 'COLLISION_HALT') {
       pen.box(EDGE, 104, WIDTH - 2 * EDGE, 92, PANEL_THEME.states.COLLISION_HALT)

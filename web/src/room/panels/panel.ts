@@ -41,6 +41,8 @@ export class Panel implements Target {
   private zones: readonly Zone[] = []
   private hovered = ''
   private active: Zone | null = null
+  /** Where a drag was last, 0 to 1. */
+  private share = 0
   private due = true
   /** How many pointers are over it: it does not move away under one. */
   pointers = 0
@@ -148,14 +150,14 @@ export class Panel implements Target {
         return
       case 'move':
         if (this.active === null) this.over(this.zoneAt(hit), signal)
-        else if (this.active.drags) this.active.press(shareOf(this.active, hit), false)
+        else if (this.active.drags) this.drag(this.active, hit)
         return
       case 'down':
         if (signal.button !== 'select') return
         this.active = this.zoneAt(hit)
         if (this.active === null) return
         this.surroundings.feedback('press', signal)
-        if (this.active.drags) this.active.press(shareOf(this.active, hit), false)
+        if (this.active.drags) this.drag(this.active, hit)
         this.repaint()
         return
       case 'up': {
@@ -168,9 +170,13 @@ export class Panel implements Target {
         }
         return
       }
-      case 'cancel':
+      case 'cancel': {
+        const { active } = this
         this.active = null
         this.repaint()
+        // what was dragged stays where it was last; a button that was not let go does nothing
+        if (active?.drags) active.press(this.share, true)
+      }
     }
   }
 
@@ -179,6 +185,11 @@ export class Panel implements Target {
     this.texture.dispose()
     this.geometry.dispose()
     this.material.dispose()
+  }
+
+  private drag(zone: Zone, hit: Hit): void {
+    this.share = shareOf(zone, hit)
+    zone.press(this.share, false)
   }
 
   /** Fill u and v, mm from the left top corner; return whether the point is before the panel. */

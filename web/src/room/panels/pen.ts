@@ -1,5 +1,11 @@
 import { THEMES } from '../../design/tokens'
 
+type Theme = {
+  readonly [key in keyof typeof THEMES.dark]: (typeof THEMES.dark)[key] extends readonly string[]
+    ? readonly string[]
+    : Readonly<Record<keyof (typeof THEMES.dark)[key], string>>
+}
+
 const FONT = 'system-ui, -apple-system, "Segoe UI", Roboto, "Liberation Sans", sans-serif'
 /** Texels a mm: 1 mm is 3.8 arc minutes at 0.9 m, more than a headset shows. */
 export const TEXELS = 2
@@ -10,7 +16,27 @@ export const HIT = 60
 export const GAP = 12
 
 /** The room is read before white walls and dark desks alike: the panels are dark in every theme. */
-export const PANEL_THEME = THEMES.dark
+export let PANEL_THEME: Theme = THEMES.dark
+
+const CONTRAST: Theme = {
+  ...THEMES.dark,
+  colours: {
+    ...THEMES.dark.colours,
+    page: '#000000',
+    card: '#000000',
+    ink: '#FFFFFF',
+    second: '#FFFFFF',
+    border: '#FFFFFF',
+    hairline: '#FFFFFF',
+    accent: '#FFE600',
+    on_accent: '#000000',
+  },
+}
+
+/** Paint panels in black and white, or as usual; what is painted already is to be painted anew. */
+export function setContrast(high: boolean): void {
+  PANEL_THEME = high ? CONTRAST : THEMES.dark
+}
 
 /** A part of a panel that can be pressed, mm from the left top corner. */
 export interface Zone {
@@ -33,6 +59,8 @@ export interface ButtonLook {
   readonly enabled?: boolean
   readonly small?: boolean
   readonly picture?: CanvasImageSource | null
+  /** A tick before the words: it is on. */
+  readonly tick?: boolean
 }
 
 export type Ink = 'ink' | 'second' | 'accent' | 'border'
@@ -126,7 +154,13 @@ export class Pen {
     width: number,
     words: string,
     act: () => void,
-    { primary = false, chosen = false, enabled = true, small = false }: ButtonLook = {},
+    {
+      primary = false,
+      chosen = false,
+      enabled = true,
+      small = false,
+      tick = false,
+    }: ButtonLook = {},
     height = HIT,
   ): void {
     this.face(id, x, y, width, height, { primary, chosen, enabled })
@@ -136,7 +170,8 @@ export class Pen {
         ? PANEL_THEME.colours.on_accent
         : PANEL_THEME.colours.ink
     const size = small ? TEXT.small : TEXT.body
-    this.text(x + width / 2, y + height / 2 + 1, words, size, width - 14, ink, 600, 'center')
+    const shown = tick ? `✓ ${words}` : words
+    this.text(x + width / 2, y + height / 2 + 1, shown, size, width - 14, ink, 600, 'center')
     this.zone({
       id,
       x,

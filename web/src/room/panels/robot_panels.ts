@@ -14,6 +14,7 @@ const LEAST_SIDE = 0.72
 const TOWARDS = 0.3
 const BELOW_EYES = 0.32
 const LOWEST = 0.75
+const LOWEST_SEATED = 0.5
 const BETWEEN = 0.66
 
 const UP = new Vector3(0, 1, 0)
@@ -46,17 +47,14 @@ export class RobotPanels {
     return this.entries.get(name)?.control
   }
 
-  /** Take over the robots there are; return whether one has begun to halt. A robot of a system is
-   * driven by its system: of those only the first member has a panel. */
+  /** Take over the robots there are; return whether one has begun to halt. The members of a system
+   * have no panels of their own: the system's has all of them. */
   show(views: readonly RobotView[]): boolean {
     let halts = false
-    const systems = new Set<string>()
     const wanted = new Set<string>()
     for (const view of views) {
       const { name } = view.robot
-      const system = view.playback?.system ?? ''
-      if (system !== '' && systems.has(system)) continue
-      systems.add(system)
+      if (view.playback?.system) continue
       wanted.add(name)
       const entry = this.entries.get(name)
       if (entry === undefined) this.add(view)
@@ -68,6 +66,13 @@ export class RobotPanels {
     }
     for (const [name, entry] of this.entries) if (!wanted.has(name)) this.remove(name, entry)
     return halts
+  }
+
+  /** How often timelines were dragged. */
+  get scrubs(): number {
+    let count = 0
+    for (const { control } of this.entries.values()) count += control.scrubs
+    return count
   }
 
   repaint(): void {
@@ -109,7 +114,7 @@ export class RobotPanels {
     const robot = this.scene.robot(name)
     entry.control.panel.group.visible = frame !== undefined
     if (frame === undefined || robot === undefined) return
-    const { head, leftHanded } = this.context
+    const { head, leftHanded, seated } = this.context
     base.setFromMatrixPosition(frame.matrixWorld)
     at.setFromMatrixPosition(robot.tip.matrixWorld)
     entry.reach = Math.max(entry.reach, 0.8 * at.distanceTo(base))
@@ -120,9 +125,9 @@ export class RobotPanels {
     at.copy(base)
       .addScaledVector(side, Math.max(entry.reach, LEAST_SIDE))
       .addScaledVector(toHead, TOWARDS)
-    at.y = Math.max(head.y - BELOW_EYES, LOWEST)
+    at.y = Math.max(head.y - BELOW_EYES, seated ? LOWEST_SEATED : LOWEST)
     const held = entry.control.panel.pointers > 0
-    if (entry.stand.update(at, head, now, step, held, this.context.readAt)) this.context.stir()
+    if (entry.stand.update(at, head, now, step, held, this.context)) this.context.stir()
   }
 
   private updateTelemetry(name: string, entry: Entry, now: number): void {

@@ -1,4 +1,5 @@
 import { MathUtils, type Object3D, Quaternion, Vector3 } from 'three'
+import type { RoomContext } from '../context'
 
 const LARGEST = 2
 /** rad and m: a panel that is this far from where it should be follows, after so long, s. */
@@ -29,14 +30,14 @@ export class Stand {
   constructor(private readonly panel: Object3D) {}
 
   /** at: where it should be, in the floor space, m. now, step: s. held: a pointer is over it.
-   * readAt: m, the distance for which text is made; it grows with more. Returns whether it moves. */
+   * It grows with more than `readAt`; with `still` it does not glide. Returns whether it moves. */
   update(
     at: Vector3,
     head: Vector3,
     now: number,
     step: number,
     held: boolean,
-    readAt: number,
+    { readAt, still }: Pick<RoomContext, 'readAt' | 'still'>,
   ): boolean {
     back.subVectors(at, head)
     const distance = back.length()
@@ -67,7 +68,7 @@ export class Stand {
     }
     const moves = now - this.movedAt < 3 * EASE
     if (moves) {
-      const share = 1 - Math.exp((-4 * step) / EASE)
+      const share = still ? 1 : 1 - Math.exp((-4 * step) / EASE)
       this.panel.position.lerp(this.place, share)
       this.panel.quaternion.slerp(this.turn, share)
     }

@@ -29,6 +29,8 @@ export class Timeline {
   private readonly flat = new MeshBasicMaterial({ toneMapped: false })
   private readonly bar = new Mesh(new PlaneGeometry(1, 1), this.flat)
   private readonly knob = new Mesh(new CircleGeometry(0.5, 24), this.flat)
+  /** How often it was dragged and let go. */
+  scrubs = 0
   private scrub: number | null = null
   private soughtAt = 0
   private now = 0
@@ -102,6 +104,7 @@ export class Timeline {
 
   private seek(player: RemotePlayer, position: number, final: boolean): void {
     this.scrub = final ? null : position
+    if (final) this.scrubs++
     this.repaint()
     if (!final && this.now - this.soughtAt < SEEK_PERIOD) return
     this.soughtAt = this.now

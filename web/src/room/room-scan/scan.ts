@@ -52,6 +52,11 @@ export class RoomScan {
     return this.known.size
   }
 
+  /** Tell all once more: the lab has forgotten them. */
+  tellAgain(): void {
+    if (this.known.size > 0) this.changedAt = this.lookedAt
+  }
+
   /** Look at a frame; now: s. */
   update(frame: XRFrame, space: XRReferenceSpace, now: number): void {
     if (now - this.lookedAt < PERIOD) return
@@ -179,7 +184,7 @@ function ros(x: number, y: number, z: number): { x: number; y: number; z: number
   return { x: corner.x, y: corner.y, z: corner.z }
 }
 
-/** Give physics the surfaces of the room. */
-export function orderSurfaces(context: RoomContext, surfaces: Surface[]): void {
-  order(context, 'physics/set_surfaces', setSurfacesType, { source: '', surfaces })
+/** Give physics the surfaces that a headset measured: those of others stay. */
+export function orderSurfaces(context: RoomContext, source: string, surfaces: Surface[]): void {
+  order(context, 'physics/set_surfaces', setSurfacesType, { source, surfaces })
 }

@@ -1,10 +1,14 @@
 import { signal } from '@preact/signals'
+import type { Vector3 } from 'three'
 import type { Pointer } from '../input/pointer'
 import { XrInputs } from '../input/sources'
 import type { Targets } from '../input/targets'
 import type { RoomStage } from '../stage'
 import type { Feature, Mode } from './features'
 import { enter, type RoomSession } from './session'
+
+/** m by which standing eyes are above sitting ones. */
+const LIFT = 0.4
 
 /** Somebody's stay in the room with a headset: its session and what it points with. */
 export class Visit {
@@ -13,11 +17,14 @@ export class Visit {
   inputs: XrInputs | null = null
   private current: RoomSession | null = null
   private enteredAt = Number.NaN
+  /** The session's own floor space. */
+  private floor: XRReferenceSpace | null = null
 
-  /** left: a session has ended. */
+  /** marked: as of XrInputs. left: a session has ended. */
   constructor(
     private readonly stage: RoomStage,
     private readonly targets: Targets,
+    private readonly marked: (point: Vector3) => boolean,
     private readonly left: () => void,
   ) {}
 
@@ -41,15 +48,27 @@ export class Visit {
   }
 
   /** Enter with a headset; must be called by a person's tap. now: s. */
-  async enter(mode: Mode, now: number): Promise<XRSession> {
+  async enter(mode: Mode, now: number, seated: boolean): Promise<XRSession> {
     this.current = await enter(this.stage.renderer, mode, () => this.end())
     const { session } = this.current
-    this.inputs = new XrInputs(session, this.stage.scene, this.targets.all)
+    this.inputs = new XrInputs(session, this.stage.scene, this.targets.all, this.marked)
     this.stage.controls.enabled = false
     this.stage.setPassthrough(this.passthrough)
+    this.floor = this.stage.renderer.xr.getReferenceSpace()
+    this.seat(seated)
     this.enteredAt = now
     this.inside.value = true
     return session
+  }
+
+  /** Let who sits see from where they would stand; the real floor stays where it is seen. */
+  seat(seated: boolean): void {
+    if (this.floor === null) return
+    const lift = seated && !this.passthrough
+    const space = lift
+      ? this.floor.getOffsetReferenceSpace(new XRRigidTransform({ x: 0, y: -LIFT, z: 0 }))
+      : this.floor
+    this.stage.renderer.xr.setReferenceSpace(space)
   }
 
   leave(): void {
@@ -65,6 +84,7 @@ export class Visit {
     this.inputs?.dispose()
     this.inputs = null
     this.current = null
+    this.floor = null
     this.enteredAt = Number.NaN
     this.stage.controls.enabled = true
     this.stage.setPassthrough(false)

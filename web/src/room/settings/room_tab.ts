@@ -36,12 +36,19 @@ export interface RoomSwitches {
   lines(): readonly string[]
   readonly grid: boolean
   toggleGrid(): void
-  readonly leftHanded: boolean
-  toggleHand(): void
+  /** Whether headsets can be aligned here by touch. */
+  readonly canAlign: boolean
+  /** Whether a touch is awaited. */
+  readonly aligning: boolean
+  align(): void
+  readonly canUndo: boolean
+  undoAlign(): void
   /** null: the device has no room scan of its own. */
   readonly scan: (() => void) | null
   /** Bring the scene's origin to the floor before the person. */
   bringHere(): void
+  /** Have the lab forget the surfaces of all headsets, of those too that left. */
+  forgetSurfaces(): void
   leave(): void
 }
 
@@ -55,17 +62,27 @@ export function roomTab(context: RoomContext, room: RoomSwitches): Tab {
       for (const line of room.lines())
         y = pen.lines(EDGE, y, line, TEXT.small, undefined, 'second') + 4
       const width = (BOARD_WIDTH - 2 * EDGE - GAP) / 2
-      const top = BOTTOM - 3 * (HIT + GAP)
+      const top = BOTTOM - 4 * (HIT + GAP)
       const right = EDGE + width + GAP
+      const second = top + HIT + GAP
+      const third = second + HIT + GAP
       pen.button('grid', EDGE, top, width, w.grid, () => room.toggleGrid(), { chosen: room.grid })
-      pen.button('left_handed', right, top, width, w.leftHanded, () => room.toggleHand(), {
-        chosen: room.leftHanded,
-      })
-      pen.button('scan', EDGE, top + HIT + GAP, width, w.scan, () => room.scan?.(), {
+      pen.button('scan', right, top, width, w.scan, () => room.scan?.(), {
         enabled: room.scan !== null,
       })
-      pen.button('bring', right, top + HIT + GAP, width, w.bringHere, () => room.bringHere())
-      pen.button('leave', EDGE, top + 2 * (HIT + GAP), width, w.leave, () => room.leave())
+      pen.button('align', EDGE, second, width, w.align, () => room.align(), {
+        chosen: room.aligning,
+        enabled: room.canAlign,
+      })
+      pen.button('undo_align', right, second, width, w.undoAlign, () => room.undoAlign(), {
+        enabled: room.canUndo,
+      })
+      pen.button('bring', EDGE, third, width, w.bringHere, () => room.bringHere())
+      pen.button('forget', right, third, width, w.forgetSurfaces, () => room.forgetSurfaces())
+      const fourth = third + HIT + GAP
+      pen.button('leave', EDGE, fourth, width, w.leave, () => room.leave(), {
+        enabled: room.canAlign,
+      })
     },
   }
 }

@@ -6,8 +6,13 @@ const PREFIX = 'mrlab.room.'
 export class Switch {
   private readonly on = signal(false)
 
-  constructor(private readonly key: string) {
-    this.on.value = localStorage.getItem(PREFIX + key) === 'yes'
+  /** usually: how it stands before anybody chose. */
+  constructor(
+    private readonly key: string,
+    usually = false,
+  ) {
+    const kept = localStorage.getItem(PREFIX + key)
+    this.on.value = kept === null ? usually : kept === 'yes'
   }
 
   get value(): boolean {
@@ -27,4 +32,25 @@ export class Switch {
 /** What a person chose for their own eyes and hands; kept in the browser. */
 export class Settings {
   readonly leftHanded = new Switch('left')
+  readonly seated = new Switch('seated')
+  readonly contrast = new Switch('contrast', matchMedia('(prefers-contrast: more)').matches)
+  readonly still = new Switch('still', matchMedia('(prefers-reduced-motion: reduce)').matches)
+  /** Whether the tour was taken or skipped. */
+  readonly toured = new Switch('toured')
+}
+
+/** Return the id of this headset or browser, the same each time; other pages of it have it too. */
+export function deviceId(): string {
+  const key = `${PREFIX}device`
+  const kept = localStorage.getItem(key)
+  if (kept !== null && /^[0-9a-f]{12}$/.test(kept)) return kept
+  const made = randomId(6)
+  localStorage.setItem(key, made)
+  return made
+}
+
+/** Return so many random bytes in hexadecimal; works without HTTPS too. */
+export function randomId(bytes: number): string {
+  const values = crypto.getRandomValues(new Uint8Array(bytes))
+  return [...values].map((value) => value.toString(16).padStart(2, '0')).join('')
 }

@@ -27,6 +27,14 @@ export class Creation {
     this.changed()
   }
 
+  /** Forget robots that are gone. */
+  keep(here: (name: string) => boolean): void {
+    const left = this.names.filter(here)
+    if (left.length === this.names.length) return
+    this.names.splice(0, this.names.length, ...left)
+    this.changed()
+  }
+
   /** A robot was touched: it comes last, or goes out again. */
   touch(name: string): void {
     if (!this.active) return

@@ -1,15 +1,11 @@
 import type { LabFollower } from '../../pages/lab/follow'
-import {
-  createSystemMember,
-  createSystemType,
-  type RobotSystem,
-  removeType,
-} from '../../protocol/mrlab_msgs'
-import { triggerType } from '../../protocol/std_srvs'
+import { createSystemMember, createSystemType } from '../../protocol/mrlab_msgs'
 import { order, type RoomContext } from '../context'
 import { BOARD_WIDTH, EDGE, type Tab, TOP } from '../panels/board'
-import { GAP, HIT, type Pen, TEXT } from '../panels/pen'
+import { GAP, HIT, TEXT } from '../panels/pen'
 import type { Creation } from './creation'
+
+const MOST_LISTED = 6
 
 /** Making robot systems by touch, and what there is of them. */
 export function systemsTab(context: RoomContext, creation: Creation, follower: LabFollower): Tab {
@@ -39,39 +35,13 @@ export function systemsTab(context: RoomContext, creation: Creation, follower: L
         })
         y += 200
       }
-      for (const { system } of follower.systems.value.slice(0, 2)) {
-        drawSystem(pen, context, system, y)
-        y += HIT + 44
+      for (const { system } of follower.systems.value.slice(0, MOST_LISTED)) {
+        const robots = system.members.map(({ robot }) => robot).join(', ')
+        pen.text(EDGE, y, `${system.name} · ${robots}`, TEXT.small, undefined, 'second')
+        y += 34
       }
     },
   }
-}
-
-function drawSystem(pen: Pen, context: RoomContext, system: RobotSystem, y: number): void {
-  const { name, members, label } = system
-  const w = context.words.room
-  const robots = members.map(({ robot }) => robot).join(', ')
-  pen.text(
-    EDGE,
-    y,
-    `${name} · ${label.toLowerCase()} · ${robots}`,
-    TEXT.small,
-    undefined,
-    'second',
-  )
-  const moving = system.state === 2 || system.state === 3
-  const verb = moving ? 'pause' : 'play'
-  const width = (BOARD_WIDTH - 2 * EDGE - 2 * GAP) / 3
-  const call = (service: string) => () => {
-    order(context, `${name}/${service}`, triggerType, {})
-  }
-  pen.button(`${name} play`, EDGE, y + 18, width, moving ? w.pause : w.play, call(verb), {
-    primary: true,
-  })
-  pen.button(`${name} stop`, EDGE + width + GAP, y + 18, width, w.stop, call('stop'))
-  pen.button(`${name} dissolve`, EDGE + 2 * (width + GAP), y + 18, width, w.dissolve, () => {
-    order(context, 'coordinator/dissolve_system', removeType, { name })
-  })
 }
 
 async function create(

@@ -1,0 +1,25 @@
+import type { Link } from '../../link/link'
+import { commandsOf } from '../../pages/lab/commands'
+import { LabFollower } from '../../pages/lab/follow'
+import type { CourseOf } from '../../pages/lab/followed_robot'
+import type { RoomContext } from '../context'
+import { PANEL_THEME } from '../panels/pen'
+
+/** Return what follows the lab for a room; says which motion could not be fetched. */
+export function roomFollower(
+  link: Link,
+  { words, say }: Pick<RoomContext, 'words' | 'say'>,
+  courseOf: CourseOf,
+): LabFollower {
+  return new LabFollower(link, {
+    commands: (name) => commandsOf(link, name),
+    word: (state) => words.states[state],
+    colour: (state) => PANEL_THEME.states[state],
+    stir: () => undefined,
+    courseOf: (id) =>
+      courseOf(id).catch((error: Error) => {
+        say(error.message)
+        throw error
+      }),
+  })
+}

@@ -1,0 +1,67 @@
+import type { Link } from '../../link/link'
+import { LinkError } from '../../link/link'
+import type { LabFollower } from '../../pages/lab/follow'
+import { RobotSystem } from '../../protocol/mrlab_msgs'
+import { triggerType } from '../../protocol/std_srvs'
+
+/** s: what several pauses do one after the other is one deed. */
+const TOGETHER = 1.5
+
+/** Return who moves now: systems, and robots that are in none. */
+export function movingNow({ robots, systems }: Pick<LabFollower, 'robots' | 'systems'>): string[] {
+  const alone = robots.value
+    .filter(({ state, playback }) => {
+      const moves = state === 'PLAYING' || state === 'ADJUSTING'
+      return moves && !playback?.system
+    })
+    .map(({ robot }) => robot.name)
+  const together = systems.value
+    .filter(({ system: { state } }) => {
+      return state === RobotSystem.PLAYING || state === RobotSystem.STAGING
+    })
+    .map(({ system }) => system.name)
+  return [...together, ...alone]
+}
+
+/** Pause every robot and system that moves. Returns which were paused, and why others were not. */
+export async function pauseAll(
+  link: Pick<Link, 'call'>,
+  follower: Pick<LabFollower, 'robots' | 'systems'>,
+): Promise<{ readonly paused: readonly string[]; readonly failed: readonly string[] }> {
+  const names = movingNow(follower)
+  const paused: string[] = []
+  const failed: string[] = []
+  await Promise.all(
+    names.map(async (name) => {
+      try {
+        const { success, message } = await link.call(`${name}/pause`, triggerType, {})
+        if (success) paused.push(name)
+        else failed.push(`${name}: ${message}`)
+      } catch (error) {
+        if (!(error instanceof LinkError)) throw error
+        failed.push(`${name}: ${error.message}`)
+      }
+    }),
+  )
+  return { paused, failed }
+}
+
+/** Says who paused what, in one sentence for pauses that come together. */
+export function pauseNews(
+  link: Link,
+  say: (who: string, names: readonly string[]) => void,
+  now: () => number = () => performance.now() / 1000,
+): () => void {
+  let who = ''
+  let names: string[] = []
+  let last = Number.NEGATIVE_INFINITY
+  return link.onDeed((deed) => {
+    const name = deed.service.slice(0, deed.service.lastIndexOf('/'))
+    const time = now()
+    if (deed.who !== who || time - last > TOGETHER) names = []
+    who = deed.who
+    last = time
+    if (!names.includes(name)) names = [...names, name]
+    say(who, names)
+  })
+}

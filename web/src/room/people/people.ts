@@ -1,0 +1,140 @@
+import { type Object3D, Quaternion, type Vector3 } from 'three'
+import type { Link } from '../../link/link'
+import { type Presence, presenceType } from '../../protocol/mrlab_msgs'
+import type { Words } from '../../words/en'
+import type { Viewer } from '../anchor/alignment'
+import { poseInWorld } from '../frames'
+import { Avatar, AvatarShapes, type Part, partOf } from './avatar'
+
+/** s between two of our own messages: less than 20 a second. */
+const PERIOD = 0.055
+/** s without news after which an avatar is gone. */
+const GONE = 4
+const LEVEL = new Quaternion()
+
+interface Person {
+  readonly avatar: Avatar
+  seenAt: number
+}
+
+/** Where one's hands are; null: that one is not tracked. */
+export interface Hands {
+  hand(side: 'left' | 'right'): Vector3 | null
+}
+
+/** Somebody who is here. */
+export interface Present {
+  readonly name: string
+  readonly part: Part
+}
+
+/** Who else is in the room, and telling them where we are. */
+export class People {
+  private readonly people = new Map<string, Person>()
+  private readonly shapes = new AvatarShapes()
+  private readonly own = presenceType.create()
+  private readonly undo: () => void
+  private toldAt = Number.NEGATIVE_INFINITY
+  private now = 0
+
+  /** id: of this display, unique in the lab. changed: somebody came or left. */
+  constructor(
+    private readonly link: Link,
+    private readonly world: Object3D,
+    readonly id: string,
+    private readonly words: Words,
+    private readonly changed: () => void,
+  ) {
+    this.own.id = id
+    this.own.header.frame_id = 'world'
+    this.undo = link.subscribe('presence', presenceType, (message) => this.take(message))
+  }
+
+  /** The others. */
+  get present(): Present[] {
+    return [...this.people.values()].map(({ avatar: { name, part } }) => ({ name, part }))
+  }
+
+  /** Before each picture: move the others, and let go of who is silent. Returns whether somebody is
+   * drawn. now, step: s. */
+  update(now: number, step: number): boolean {
+    this.now = now
+    for (const [id, { avatar, seenAt }] of this.people) {
+      if (now - seenAt > GONE) this.remove(id)
+      else avatar.update(step)
+    }
+    return this.people.size > 0
+  }
+
+  /** Tell the others where we are; call it in each frame with a headset. */
+  tell({ head, look }: Viewer, hands: Hands): void {
+    if (this.now - this.toldAt < PERIOD) return
+    this.toldAt = this.now
+    const { own, world } = this
+    own.head = poseInWorld(world, head, look)
+    const left = hands.hand('left')
+    own.has_left = left !== null
+    if (left !== null) own.left = poseInWorld(world, left, LEVEL)
+    const right = hands.hand('right')
+    own.has_right = right !== null
+    if (right !== null) own.right = poseInWorld(world, right, LEVEL)
+    this.send(false)
+  }
+
+  /** Tell the others that we leave; nothing where they never saw us. */
+  leave(): void {
+    if (this.toldAt === Number.NEGATIVE_INFINITY) return
+    this.toldAt = Number.NEGATIVE_INFINITY
+    this.send(true)
+  }
+
+  dispose(): void {
+    this.undo()
+    this.leave()
+    for (const id of [...this.people.keys()]) this.remove(id)
+    this.shapes.dispose()
+  }
+
+  private send(away: boolean): void {
+    const { own, link } = this
+    const time = link.labTime()
+    const { stamp } = own.header
+    stamp.sec = Math.floor(time)
+    stamp.nanosec = Math.floor((time - stamp.sec) * 1e9)
+    own.away = away
+    link.publish('presence', presenceType, own)
+  }
+
+  private take(message: Presence): void {
+    if (message.id === this.id) return
+    if (message.away) {
+      this.remove(message.id)
+      return
+    }
+    const part = partOf(message)
+    // who is nameless comes over the lab's own network, without a sign-in
+    const name = message.name || message.id.slice(0, 8)
+    let person = this.people.get(message.id)
+    if (person !== undefined && (person.avatar.part !== part || person.avatar.name !== name)) {
+      this.remove(message.id)
+      person = undefined
+    }
+    if (person === undefined) {
+      const avatar = new Avatar(this.shapes, name, part, this.words.room.parts[part])
+      person = { avatar, seenAt: this.now }
+      this.people.set(message.id, person)
+      this.world.add(avatar.group)
+      this.changed()
+    }
+    person.seenAt = this.now
+    person.avatar.take(message)
+  }
+
+  private remove(id: string): void {
+    const person = this.people.get(id)
+    if (person === undefined) return
+    this.people.delete(id)
+    person.avatar.dispose()
+    this.changed()
+  }
+}

@@ -1,0 +1,228 @@
+import { STATE_NAMES, type StateName } from '../../design/tokens'
+import type { SystemView } from '../../pages/lab/follow'
+import { RATES } from '../../playback/player'
+import { RobotSystem, removeType, setModeType } from '../../protocol/mrlab_msgs'
+import { triggerType } from '../../protocol/std_srvs'
+import { order, type RoomContext } from '../context'
+import { PagedList } from '../panels/paged_list'
+import { Panel } from '../panels/panel'
+import { GAP, HIT, PANEL_THEME, type Pen, TEXT } from '../panels/pen'
+import { Timeline, type Track } from '../panels/timeline'
+import { type Segment, segmentsOf } from './segments'
+
+const WIDTH = 640
+const HEIGHT = 560
+const EDGE = 26
+const WIDE = WIDTH - 2 * EDGE
+const SEGMENTS = { top: 118, height: 126 } as const
+/** mm: a segment's bar, and the least row that has room for its words. */
+const BAR = 10
+const LABELLED = 30
+const TRACK: Track = { x: EDGE, y: 248, width: WIDE, height: HIT }
+const ROW = 340
+/** s between two paintings of the time that goes on. */
+const TIME_PERIOD = 0.25
+const NOTICE_S = 8
+const MOVING: ReadonlySet<number> = new Set([RobotSystem.STAGING, RobotSystem.PLAYING])
+
+type View = 'control' | 'members' | 'confirm'
+
+/** Return the state whose colour a system has. */
+function stateOf({ label }: RobotSystem): StateName {
+  if (label === 'STAGING') return 'ADJUSTING'
+  return STATE_NAMES.find((name) => name === label) ?? 'READY'
+}
+
+/** The one panel of a robot system: its timeline with a segment for each member. */
+export class SystemPanel {
+  readonly panel: Panel
+  private view: View = 'control'
+  /** Who is to be taken out; empty: the system is to be dissolved. */
+  private leaving = ''
+  private notice = ''
+  private noticedAt = 0
+  private paintedAt = 0
+  private now = 0
+  private shown: SystemView
+  private readonly list = new PagedList()
+  private readonly timeline: Timeline
+
+  constructor(
+    private readonly context: RoomContext,
+    shown: SystemView,
+  ) {
+    this.shown = shown
+    this.panel = new Panel(WIDTH, HEIGHT, (pen) => this.draw(pen), context)
+    const repaint = () => this.panel.repaint()
+    this.timeline = new Timeline(this.panel.group, WIDTH, HEIGHT, TRACK, repaint)
+  }
+
+  get name(): string {
+    return this.shown.system.name
+  }
+
+  get members(): readonly { readonly robot: string }[] {
+    return this.shown.system.members
+  }
+
+  /** Take over how the system stands. */
+  show(view: SystemView): void {
+    this.shown = view
+    this.panel.repaint()
+  }
+
+  /** Before each picture. now: s. */
+  update(now: number): void {
+    this.now = now
+    if (this.notice !== '' && now - this.noticedAt > NOTICE_S) {
+      this.notice = ''
+      this.panel.repaint()
+    }
+    const { player } = this.shown
+    const control = this.view === 'control'
+    this.timeline.update(control ? player : null, now)
+    if (control && player.playing && now - this.paintedAt > TIME_PERIOD) this.panel.repaint()
+    this.panel.update()
+  }
+
+  dispose(): void {
+    this.panel.dispose()
+    this.timeline.dispose()
+  }
+
+  private readonly say = (text: string): void => {
+    this.notice = text
+    this.noticedAt = this.now
+    this.panel.repaint()
+  }
+
+  private trigger(verb: string): void {
+    order({ link: this.context.link, say: this.say }, `${this.name}/${verb}`, triggerType, {})
+  }
+
+  private open(view: View): void {
+    this.view = view
+    this.panel.repaint()
+  }
+
+  private draw(pen: Pen): void {
+    this.paintedAt = this.now
+    const { system } = this.shown
+    const { states } = this.context.words
+    const state = stateOf(system)
+    pen.text(EDGE, 42, system.name, TEXT.head, 330, 'ink', 700)
+    const halted = state === 'COLLISION_HALT'
+    pen.chip(WIDTH - EDGE, 42, states[state], PANEL_THEME.states[state], halted)
+    if (this.view === 'members') this.drawMembers(pen)
+    else if (this.view === 'confirm') this.drawConfirm(pen)
+    else this.drawControl(pen, system)
+  }
+
+  private drawControl(pen: Pen, system: RobotSystem): void {
+    const { player } = this.shown
+    const w = this.context.words.room
+    const { parallel, sequential } = this.context.words.lab
+    const sequence = system.mode === RobotSystem.SEQUENTIAL
+    const about = this.notice || system.message || w.members(system.members.length)
+    const ink = this.notice ? PANEL_THEME.states.PAUSED : 'second'
+    pen.lines(EDGE, 80, about, TEXT.small, undefined, ink, 2)
+    for (const segment of segmentsOf(system.members, system.duration))
+      this.drawSegment(pen, segment)
+    this.timeline.draw(pen, player, [], '')
+    const moving = MOVING.has(system.state)
+    pen.button(
+      'play',
+      EDGE,
+      ROW,
+      206,
+      moving ? w.pause : w.play,
+      () => this.trigger(moving ? 'pause' : 'play'),
+      { primary: true },
+    )
+    pen.button('stop', EDGE + 206 + GAP, ROW, 116, w.stop, () => this.trigger('stop'))
+    const rates = EDGE + 206 + 116 + 2 * GAP
+    pen.button('slower', rates, ROW, HIT, '−', () => this.changeRate(-1))
+    const rate = `${player.rate} ×`
+    pen.text(rates + HIT + 51, ROW + HIT / 2, rate, TEXT.body, 90, 'ink', 600, 'center')
+    pen.button('faster', WIDTH - EDGE - HIT, ROW, HIT, '+', () => this.changeRate(1))
+    const half = (WIDE - GAP) / 2
+    const second = ROW + HIT + GAP
+    const set = (mode: number) => () => {
+      const { link } = this.context
+      order({ link, say: this.say }, `${this.name}/set_mode`, setModeType, { mode })
+    }
+    pen.button('parallel', EDGE, second, half, parallel, set(RobotSystem.PARALLEL), {
+      chosen: !sequence,
+    })
+    const right = EDGE + half + GAP
+    pen.button('sequential', right, second, half, sequential, set(RobotSystem.SEQUENTIAL), {
+      chosen: sequence,
+    })
+    const third = second + HIT + GAP
+    pen.button('members', EDGE, third, half, w.takeOut, () => this.open('members'))
+    pen.button('dissolve', right, third, half, w.dissolve, () => {
+      this.leaving = ''
+      this.open('confirm')
+    })
+  }
+
+  private drawSegment(pen: Pen, { row, rows, from, to, label, waits }: Segment): void {
+    const height = Math.min(SEGMENTS.height / rows, 44)
+    const y = SEGMENTS.top + row * height
+    const x = EDGE + from * WIDE
+    const width = Math.max((to - from) * WIDE, 6)
+    const { joints } = PANEL_THEME
+    pen.box(x, y + height - BAR, width, BAR - 2, joints[row % joints.length] as string)
+    if (height < LABELLED) return
+    const words = waits === '' ? label : `${label} · ${waits}`
+    const middle = y + height - BAR - 11
+    // the words begin with the segment, or end with it where they would leave the panel
+    if (from < 0.6) pen.text(x, middle, words, TEXT.small, undefined, 'ink', 600)
+    else pen.text(x + width, middle, words, TEXT.small, x + width - EDGE, 'ink', 600, 'right')
+  }
+
+  private drawMembers(pen: Pen): void {
+    const entries = this.shown.system.members.map(({ robot, trajectory_id }, i) => ({
+      id: robot,
+      words: `${i + 1}  ${robot}`,
+      note: trajectory_id,
+    }))
+    this.list.draw(pen, EDGE, entries, this.context.words.room.back, {
+      back: () => this.open('control'),
+      choose: (robot) => {
+        this.leaving = robot
+        this.open('confirm')
+      },
+    })
+  }
+
+  private drawConfirm(pen: Pen): void {
+    const w = this.context.words.room
+    const asks = this.leaving === '' ? w.asksDissolve : w.asksTakeOut(this.leaving)
+    pen.lines(EDGE, 120, asks, TEXT.body, undefined, 'ink', 6)
+    const half = (WIDE - GAP) / 2
+    const y = HEIGHT - EDGE - HIT
+    pen.button(
+      'confirm',
+      EDGE,
+      y,
+      half,
+      w.dissolve,
+      () => {
+        const { link } = this.context
+        const request = { name: this.name }
+        order({ link, say: this.say }, 'coordinator/dissolve_system', removeType, request)
+        this.open('control')
+      },
+      { primary: true },
+    )
+    pen.button('back', EDGE + half + GAP, y, half, w.back, () => this.open('control'))
+  }
+
+  private changeRate(step: number): void {
+    const { player } = this.shown
+    const index = RATES.findIndex((rate) => rate >= player.rate - 1e-9)
+    const next = RATES[Math.min(Math.max(index + step, 0), RATES.length - 1)]
+    if (next !== undefined) player.setRate(next)
+  }
+}

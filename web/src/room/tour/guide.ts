@@ -1,0 +1,60 @@
+import type { Vector3 } from 'three'
+import type { RoomContext } from '../context'
+import type { XrInputs } from '../input/sources'
+import type { Targets } from '../input/targets'
+import type { Room } from '../room'
+import { type Seen, Tour } from './tour'
+import { TourPanel } from './tour_panel'
+
+/** Leads a newcomer through the first steps, and watches that they are done. */
+export class Guide {
+  readonly tour: Tour
+  readonly panel: TourPanel
+
+  constructor(
+    private readonly context: RoomContext,
+    private readonly room: Room,
+    private readonly targets: Targets,
+  ) {
+    const { settings, board, stage } = room
+    this.tour = new Tour(settings.toured.value, () => {
+      settings.toured.value = true
+    })
+    this.panel = new TourPanel(context, this.tour, board.panel.group, stage.panels)
+    targets.add(this.panel.panel)
+  }
+
+  /** Begin anew. */
+  begin(): void {
+    this.tour.begin()
+    this.panel.panel.repaint()
+  }
+
+  /** Before each picture. inputs: of a headset; null: there is none. */
+  update(inputs: XrInputs | null): void {
+    // before the lab has said which robots there are, none is new
+    const watches = this.tour.step !== null && this.room.follower.known.value
+    if (watches && this.tour.see(this.seen())) this.panel.panel.repaint()
+    const side = this.context.leftHanded ? 'left' : 'right'
+    const hand: Vector3 | null = inputs?.hand(side) ?? null
+    const means = inputs === null ? 'mouse' : inputs.hasHands ? 'hand' : 'controller'
+    this.panel.update(means, hand)
+  }
+
+  dispose(): void {
+    this.targets.remove(this.panel.panel)
+    this.panel.dispose()
+  }
+
+  private seen(): Seen {
+    const robots = this.room.follower.robots.value
+    seen.robots = robots.length
+    seen.loaded = robots.some(({ playback }) => (playback?.frame_count ?? 0) > 0)
+    seen.playing = robots.some(({ state }) => state === 'PLAYING')
+    seen.halted = robots.some(({ state }) => state === 'COLLISION_HALT')
+    seen.scrubs = this.room.panels.scrubs
+    return seen
+  }
+}
+
+const seen = { robots: 0, loaded: false, playing: false, halted: false, scrubs: 0 }
