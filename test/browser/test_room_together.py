@@ -71,10 +71,10 @@ class Headset:
         return found
 
     def touch(self, robot: str) -> None:
-        """Touch a robot's arm from the front and go away again."""
+        """Touch a robot's stretched arm from above and go away again."""
         x, y, z = self.arm(robot)
-        for away in (0.14, 0.1, 0.02, 0.14, 0.4):
-            self.reach((x, y, z + away))
+        for away in (0.18, 0.12, 0.02, 0.14, 0.5):
+            self.reach((x, y + away, z))
 
 
 @pytest.fixture
