@@ -203,7 +203,7 @@ def test_two_people_make_a_system_by_touch_see_each_other_and_use_their_hands(
     first.reach((x, y + 0.1, z + 0.2))
     page.evaluate(f"{hand}.poseId = 'pinch'; {hand}.updatePinchValue(1)")
     first.wait_for(f"room.handles.get('{pair[0]}').holders.length === 1")
-    first.reach((x + 0.25, y + 0.1, z + 0.5))
+    first.reach((x - 0.3, y + 0.1, z + 0.2))
     first.wait_for(f"room.handles.get('{pair[0]}').carried")
     # The hand goes out of view in mid-drag: the robot stands where it was last known.
     page.evaluate(f"{hand}.connected = false")

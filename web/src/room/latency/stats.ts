@@ -19,7 +19,7 @@ const BELOW = 0.4 // m, of its middle below that of the board
 export class Stats {
   private readonly ages = new Ages()
   private readonly undo: () => void
-  private readonly panel: Panel
+  readonly panel: Panel
   private closedAt = 0
   private frames = 0
   private rate = 0

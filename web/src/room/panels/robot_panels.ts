@@ -112,7 +112,8 @@ export class RobotPanels {
   private place(name: string, entry: Entry, now: number, step: number): void {
     const frame = this.scene.base(name)
     const robot = this.scene.robot(name)
-    entry.control.panel.group.visible = frame !== undefined
+    // out of the way of who touches robots one after the other
+    entry.control.panel.group.visible = frame !== undefined && !this.context.choosing
     if (frame === undefined || robot === undefined) return
     const { head, leftHanded, seated } = this.context
     base.setFromMatrixPosition(frame.matrixWorld)

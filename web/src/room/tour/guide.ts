@@ -6,6 +6,9 @@ import type { Room } from '../room'
 import { type Seen, Tour } from './tour'
 import { TourPanel } from './tour_panel'
 
+/** mm that the figures of time take below the board. */
+const STATS = 172
+
 /** Leads a newcomer through the first steps, and watches that they are done. */
 export class Guide {
   readonly tour: Tour
@@ -38,6 +41,8 @@ export class Guide {
     const side = this.context.leftHanded ? 'left' : 'right'
     const hand: Vector3 | null = inputs?.hand(side) ?? null
     const means = inputs === null ? 'mouse' : inputs.hasHands ? 'hand' : 'controller'
+    // below the figures, where those are shown
+    this.panel.hang(this.room.stats.panel.group.visible ? STATS : 0)
     this.panel.update(means, hand)
   }
 

@@ -30,9 +30,14 @@ export class TourPanel {
     private readonly floor: Object3D,
   ) {
     this.panel = new Panel(BOARD_WIDTH, HEIGHT, (pen) => this.draw(pen), context)
-    this.panel.group.position.set(0, -(BOARD_HEIGHT / 2 + BELOW + HEIGHT / 2) * MM, 0)
+    this.hang(0)
     this.panel.group.visible = tour.step !== null
     board.add(this.panel.group)
+  }
+
+  /** Hang so far below the board, mm, beside the usual. */
+  hang(lower: number): void {
+    this.panel.group.position.y = -(BOARD_HEIGHT / 2 + BELOW + HEIGHT / 2 + lower) * MM
   }
 
   /** Before each picture. hand: where the working one is; null: there is none. */
