@@ -23,6 +23,8 @@ setup(
         *data_tree("config", "robots", "launch", "examples", "web/dist"),
     ],
     install_requires=["setuptools"],
+    # By which `colcon test` knows that the tests are pytest's.
+    extras_require={"test": ["pytest"]},
     zip_safe=False,
     maintainer="MR-Lab maintainers",
     maintainer_email="mrlab@example.org",

@@ -1,15 +1,27 @@
-"""The lab under ROS's own launcher: ros2 launch mrlab_ros lab.launch.py [robots:=ur5e]."""
+"""The lab under ROS's own launcher: ros2 launch mrlab_ros lab.launch.py robots:=ur5e rviz:=true
 
+`ros2 launch mrlab_ros lab.launch.py -s` lists the arguments. The processes, their parameters and
+the parameter file are those of `mrlab up`.
+"""
+
+import sys
 import tempfile
 from pathlib import Path
 
 from launch import LaunchDescription
-from launch.actions import DeclareLaunchArgument, ExecuteProcess, OpaqueFunction
+from launch.actions import (
+    DeclareLaunchArgument,
+    ExecuteProcess,
+    OpaqueFunction,
+    RegisterEventHandler,
+)
+from launch.event_handlers import OnProcessExit
 from launch.substitutions import LaunchConfiguration
 from launch_ros.actions import Node
 
 from mrlab_ros.adapters.bullet.support import missing
 from mrlab_ros.commands.up.web import checked_web, prepare_keys
+from mrlab_ros.core.errors import BadInput
 from mrlab_ros.processes import physics_support
 from mrlab_ros.processes.lab import (
     HOST_EXECUTABLE,
@@ -19,124 +31,60 @@ from mrlab_ros.processes.lab import (
     robot_models,
 )
 from mrlab_ros.processes.options import LabOptions, new_lab_id
+from mrlab_ros.ros import share
 
 # A process that ends is started again after this time, s, and at most so many times: the launcher
 # cannot know that a process refuses its configuration and would start it for ever.
-RESPAWN_DELAY_S = 1.0
-RESPAWN_MAX_RETRIES = 10
+RESPAWN = {"respawn": True, "respawn_delay": 1.0, "respawn_max_retries": 10}
+SHOWN = {"output": "screen", "emulate_tty": True}
+FLAGS = ["true", "false"]
+
+# By name: default and description; those whose default is true or false take nothing else.
+ARGUMENTS = {
+    "config": ("", "ROS parameter file; empty: the shipped config/lab.yaml"),
+    "robots": ("", "robots to begin with, such as ur5e,kuka_kr3_r540"),
+    "scene": ("", "scene to load when the lab is ready, such as handover; it replaces the robots"),
+    "remap": ("", "names to remap in the lab's nodes, such as /clock:=/sim/clock, with commas"),
+    "physics": ("false" if missing() else "true", "simulate contacts and grasps"),
+    "frames": ("true", "publish /tf and markers for RViz, Foxglove and recordings"),
+    "rviz": ("false", "start RViz with config/mrlab.rviz"),
+    "record": ("", "bag to record into from when the lab is ready"),
+    "bridge": ("true", "carry the graph over zenoh"),
+    "listen": (
+        "",
+        "where zenoh clients connect; empty: tcp/127.0.0.1:7447, with keys tls/0.0.0.0:7447",
+    ),
+    "connect": ("", "with keys: a secured router that lets people in (mrlab keys router)"),
+    "keys": ("", "keys folder (mrlab keys init); empty: no keys, this machine only"),
+    "insecure": ("false", "listen beyond this machine without keys"),
+    "web": ("true", "serve the pages for browsers and headsets"),
+    "http": (
+        "",
+        "where the pages are served, HOST:PORT; empty: 127.0.0.1:8080, with keys 0.0.0.0:8080",
+    ),
+    "https_cert": ("", "certificate for HTTPS (PEM, whole chain), if not that of keys"),
+    "https_key": ("", "the private key of https_cert (PEM)"),
+    "public_url": ("", "address of a reverse proxy that offers the pages; people sign in"),
+    "oidc": ("", "YAML file of an OpenID Connect provider by which people sign in"),
+    "web_limits": ("", "YAML file of how many pages there may be and what each may send"),
+    "state_dir": ("", "folder for scene and trajectories; empty: a temporary one"),
+    "store": ("", "uploads and trajectories: a folder or URL; empty: in state_dir"),
+    "use_sim_time": ("false", "the topic /clock gives the time"),
+}
 
 
 def generate_launch_description():
     """Declare the arguments; the processes follow from their values."""
-    flags = ["true", "false"]
-    return LaunchDescription(
-        [
-            DeclareLaunchArgument(
-                "config",
-                default_value="",
-                description="ROS parameter file; empty: the shipped config/lab.yaml",
-            ),
-            DeclareLaunchArgument(
-                "robots",
-                default_value="",
-                description="robots to begin with, such as ur5e,kuka_kr3_r540",
-            ),
-            DeclareLaunchArgument(
-                "bridge",
-                default_value="true",
-                choices=flags,
-                description="carry the graph over zenoh",
-            ),
-            DeclareLaunchArgument(
-                "keys",
-                default_value="",
-                description="keys folder (mrlab keys init); empty: no keys, this machine only",
-            ),
-            DeclareLaunchArgument(
-                "listen",
-                default_value="",
-                description="where zenoh clients connect; empty: tcp/127.0.0.1:7447, with keys "
-                "tls/0.0.0.0:7447",
-            ),
-            DeclareLaunchArgument(
-                "connect",
-                default_value="",
-                description="with keys: a secured router that lets people in (mrlab keys router)",
-            ),
-            DeclareLaunchArgument(
-                "insecure",
-                default_value="false",
-                choices=flags,
-                description="listen beyond this machine without keys",
-            ),
-            DeclareLaunchArgument(
-                "physics",
-                default_value="false" if missing() else "true",
-                choices=flags,
-                description="simulate contacts and grasps",
-            ),
-            DeclareLaunchArgument(
-                "frames",
-                default_value="true",
-                choices=flags,
-                description="publish /tf and markers for RViz, Foxglove and recordings",
-            ),
-            DeclareLaunchArgument(
-                "state_dir",
-                default_value="",
-                description="folder for scene and trajectories; empty: a temporary one",
-            ),
-            DeclareLaunchArgument(
-                "store",
-                default_value="",
-                description="uploads and trajectories: a folder or URL; empty: in state_dir",
-            ),
-            DeclareLaunchArgument(
-                "use_sim_time",
-                default_value="false",
-                choices=flags,
-                description="the topic /clock gives the time",
-            ),
-            DeclareLaunchArgument(
-                "web",
-                default_value="true",
-                choices=flags,
-                description="serve the pages for browsers and headsets",
-            ),
-            DeclareLaunchArgument(
-                "http",
-                default_value="",
-                description="where the pages are served, HOST:PORT; empty: 127.0.0.1:8080, with "
-                "keys 0.0.0.0:8080",
-            ),
-            DeclareLaunchArgument(
-                "https_cert",
-                default_value="",
-                description="certificate for HTTPS (PEM, whole chain), if not that of keys",
-            ),
-            DeclareLaunchArgument(
-                "https_key",
-                default_value="",
-                description="the private key of https_cert (PEM)",
-            ),
-            DeclareLaunchArgument(
-                "public_url",
-                default_value="",
-                description="address of a reverse proxy that offers the pages; people sign in",
-            ),
-            DeclareLaunchArgument(
-                "oidc",
-                default_value="",
-                description="YAML file of an OpenID Connect provider by which people sign in",
-            ),
-            DeclareLaunchArgument(
-                "web_limits",
-                default_value="",
-                description="YAML file of how many pages there may be and what each may send",
-            ),
-            OpaqueFunction(function=processes),
-        ]
-    )
+    declared = [
+        DeclareLaunchArgument(
+            name,
+            default_value=default,
+            description=description,
+            **({"choices": FLAGS} if default in FLAGS else {}),
+        )
+        for name, (default, description) in ARGUMENTS.items()
+    ]
+    return LaunchDescription([*declared, OpaqueFunction(function=processes)])
 
 
 def processes(context):
@@ -145,17 +93,19 @@ def processes(context):
     def value(name):
         return LaunchConfiguration(name).perform(context).strip()
 
+    def given(name):
+        return value(name) == "true"
+
     def path(name):
         return Path(value(name)).expanduser().absolute() if value(name) else None
 
-    keys, insecure = path("keys"), value("insecure") == "true"
-    bridge = value("bridge") == "true"
+    keys = path("keys")
     web = None
-    if bridge and value("web") == "true":
+    if given("bridge") and given("web"):
         web = checked_web(
             value("http"),
             keys=keys,
-            insecure=insecure,
+            insecure=given("insecure"),
             certificate=path("https_cert"),
             certificate_key=path("https_key"),
             public_url=value("public_url").rstrip("/"),
@@ -164,7 +114,7 @@ def processes(context):
         )
         if keys is not None:
             prepare_keys(keys)
-    physics, _ = physics_support.wanted(value("physics") == "true")
+    physics, _ = physics_support.wanted(given("physics"))
     options = LabOptions(
         lab_id=new_lab_id(),
         config=parameter_file(path("config")),
@@ -172,14 +122,14 @@ def processes(context):
         robots=robot_models(value("robots")),
         store=value("store"),
         physics=physics,
-        frames=value("frames") == "true",
-        bridge=bridge,
+        frames=given("frames"),
+        bridge=given("bridge"),
         listen=value("listen"),
         connect=value("connect"),
         keys=keys,
-        insecure=insecure,
+        insecure=given("insecure"),
         web=web,
-        sim_time=value("use_sim_time") == "true",
+        sim_time=given("use_sim_time"),
     )
     found = lab_processes(options)
     nodes = [
@@ -188,27 +138,62 @@ def processes(context):
             executable=HOST_EXECUTABLE,
             exec_name=process.name,
             arguments=list(process.arguments(options)),
-            output="screen",
-            emulate_tty=True,
-            respawn=True,
-            respawn_delay=RESPAWN_DELAY_S,
-            respawn_max_retries=RESPAWN_MAX_RETRIES,
+            remappings=remappings(value("remap")),
+            **SHOWN,
+            **RESPAWN,
         )
         for process in found
         if isinstance(process, LabProcess)
     ]
-    # No ROS node: the launcher would give it ROS arguments.
+    # No ROS nodes: the launcher would give them ROS arguments.
     programs = [
-        ExecuteProcess(
-            cmd=list(process.command(options)),
-            name=process.name,
-            output="screen",
-            emulate_tty=True,
-            respawn=True,
-            respawn_delay=RESPAWN_DELAY_S,
-            respawn_max_retries=RESPAWN_MAX_RETRIES,
-        )
+        ExecuteProcess(cmd=list(process.command(options)), name=process.name, **SHOWN, **RESPAWN)
         for process in found
         if not isinstance(process, LabProcess)
     ]
-    return [*nodes, *programs]
+    names = [node for process in found for node in process.nodes]
+    ready = ExecuteProcess(
+        cmd=[sys.executable, "-m", "mrlab_ros.processes.ready", str(len(options.robots)), *names],
+        name="ready",
+        **SHOWN,
+    )
+    return [
+        *nodes,
+        *programs,
+        RegisterEventHandler(
+            OnProcessExit(
+                target_action=ready,
+                on_exit=lambda event, _: [] if event.returncode else after(value),
+            )
+        ),
+        ready,
+        *([rviz()] if given("rviz") else []),
+    ]
+
+
+def after(value):
+    """Return what is started when the lab is ready."""
+    commands = {}
+    if value("scene"):
+        commands["scene"] = ("scene", "load", value("scene"))
+    if value("record"):
+        commands["record"] = ("record", value("record"))
+    return [
+        ExecuteProcess(cmd=[sys.executable, "-m", "mrlab_ros.cli", *words], name=name, **SHOWN)
+        for name, words in commands.items()
+    ]
+
+
+def rviz():
+    """Return RViz with all displays of the lab."""
+    config = share.directory() / "config" / "mrlab.rviz"
+    return Node(package="rviz2", executable="rviz2", arguments=["-d", str(config)], **SHOWN)
+
+
+def remappings(text):
+    """Return the pairs in a list such as /a:=/b,/c:=/d; raise BadInput for anything else."""
+    pairs = [tuple(part.strip().split(":=")) for part in text.split(",") if part.strip()]
+    for pair in pairs:
+        if len(pair) != 2 or not all(pair):
+            raise BadInput(f"remap is '{text}'; expected FROM:=TO, several with commas between")
+    return pairs

@@ -340,8 +340,13 @@ class Setup:
         """
         libraries = [VENV / "lib"] + sorted(self.site.glob("ros_*.libs"))
         packages = "lib/python{}/site-packages".format(self.python["version"])
-        # colcon's symlink install leaves an egg-link in build/; the sources are the package.
-        paths = [*(INSTALL / name / packages for name in MESSAGES), ROOT]
+        # colcon's symlink install leaves the package's metadata in build/, by which the executables
+        # of `ros2 run` and `ros2 launch` find their functions; the sources are the package.
+        paths = [
+            *(INSTALL / name / packages for name in MESSAGES),
+            ROOT,
+            ROOT / "build" / "mrlab_ros",
+        ]
         libraries[:0] = [INSTALL / name / "lib" for name in MESSAGES]
         env = dict(os.environ)
         env.pop("PYTHONHOME", None)
@@ -354,6 +359,9 @@ class Setup:
                 "AMENT_PREFIX_PATH": ":".join(map(str, self.prefixes())),
                 "CMAKE_PREFIX_PATH": str(VENV),
                 "PYTHONPATH": ":".join(map(str, paths)),
+                "ROS_DISTRO": "jazzy",
+                "ROS_VERSION": "2",
+                "ROS_PYTHON_VERSION": "3",
             }
         )
         return env
@@ -367,6 +375,9 @@ class Setup:
             "_ROS_WHEELS_BOOTSTRAP_COMPLETE",
             "CMAKE_PREFIX_PATH",
             "PYTHONPATH",
+            "ROS_DISTRO",
+            "ROS_VERSION",
+            "ROS_PYTHON_VERSION",
         ):
             lines.append("export {}='{}'".format(key, env[key]))
         # The caller's own packages stay known, so that robots can be imported by their names.

@@ -190,7 +190,7 @@ class Graph(GraphClient):
         self._context = Context()
         rclpy.init(args=[], context=self._context, signal_handler_options=SignalHandlerOptions.NO)
         self.node: Node = rclpy.create_node(
-            "mrlab_command",
+            "_mrlab_command",
             context=self._context,
             start_parameter_services=False,
             enable_rosout=False,

@@ -107,7 +107,7 @@ def test_what_a_student_did_comes_back(endpoint: str, tmp_path: Path) -> None:
             *MRLAB, "replay", str(bag), "--rate", "10", stdout=subprocess.PIPE, text=True
         )
         try:
-            wait_for(lambda: publishers() == {"recorder_streams"}, "the playback aside")
+            wait_for(lambda: publishers() == {"_recorder_streams"}, "the playback aside")
             state.wait(lambda s: s.state == s.REPLAYING, DEADLINE, "the replay")
             assert state.value.bag == str(bag)
             assert "the replay is over" in replay.communicate(timeout=DEADLINE)[0]

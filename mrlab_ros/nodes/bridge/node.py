@@ -100,7 +100,7 @@ class BridgeNode(ParameterNode[BridgeParameters]):
         self._logged: set[str] = set()
         # The forwarding publishers, subscriptions and clients are on a node of their own.
         streams = Node(
-            "bridge_streams",
+            "_bridge_streams",
             context=context,
             start_parameter_services=False,
             enable_rosout=False,

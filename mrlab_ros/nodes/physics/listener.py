@@ -79,7 +79,7 @@ class GraphListener:
         # The names in the newest /robots; None before the first one.
         self.known_robots: frozenset[str] | None = None
         self._node = Node(
-            "physics_listener",
+            "_physics_listener",
             context=node.context,
             start_parameter_services=False,
             enable_rosout=False,

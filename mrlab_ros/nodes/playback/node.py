@@ -70,9 +70,10 @@ class PlaybackNode(Node):
         before the process was restarted; come_back() loads it.
         """
         # A lab of fifty robots has fifty of these nodes: each does without rosout and the
-        # services for parameters, of which it has none.
+        # services for parameters, of which it has none. It is hidden: `ros2 param list` waits 5 s
+        # for each visible node without those services.
         super().__init__(
-            "playback",
+            "_playback",
             namespace=robot,
             context=context,
             start_parameter_services=False,

@@ -59,7 +59,7 @@ class RecorderNode(ParameterNode[RecorderParameters]):
         )
         # The raw topics are on a node that no executor spins.
         self._streams = Node(
-            "recorder_streams",
+            "_recorder_streams",
             context=context,
             start_parameter_services=False,
             enable_rosout=False,

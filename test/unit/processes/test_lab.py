@@ -5,7 +5,6 @@ from __future__ import annotations
 import ast
 import importlib.util
 import json
-import secrets
 import sys
 import types
 from collections.abc import Callable
@@ -215,40 +214,73 @@ class Configuration(Recorded):
         return context[self.args[0]]
 
 
+Launched = Callable[..., list[Recorded]]
+LAUNCH = ROOT / "launch"
+MODULES = {
+    "launch": ("LaunchDescription",),
+    "launch.actions": (
+        "DeclareLaunchArgument",
+        "ExecuteProcess",
+        "OpaqueFunction",
+        "RegisterEventHandler",
+    ),
+    "launch.event_handlers": ("OnProcessExit",),
+    "launch.substitutions": (),
+    "launch_ros": (),
+    "launch_ros.actions": ("Node",),
+}
+
+
 @pytest.fixture
-def launched(monkeypatch: pytest.MonkeyPatch) -> Callable[..., list[Recorded]]:
-    """Return what makes the launch file's processes; ROS's launcher is not on PyPI."""
-    for name, kinds in (
-        ("launch", ("LaunchDescription",)),
-        ("launch.actions", ("DeclareLaunchArgument", "ExecuteProcess", "OpaqueFunction")),
-        ("launch.substitutions", ()),
-        ("launch_ros", ()),
-        ("launch_ros.actions", ("Node",)),
-    ):
+def launcher(monkeypatch: pytest.MonkeyPatch) -> Callable[[str], Launched]:
+    """Return what makes a launch file's processes; ROS's launcher is not on PyPI."""
+    for name, kinds in MODULES.items():
         module = types.ModuleType(name)
         for kind in kinds:
             setattr(module, kind, type(kind, (Recorded,), {}))
         monkeypatch.setitem(sys.modules, name, module)
     sys.modules["launch.substitutions"].LaunchConfiguration = Configuration  # type: ignore[attr-defined]
-    spec = importlib.util.spec_from_file_location("lab_launch", ROOT / "launch" / "lab.launch.py")
-    assert spec is not None
-    assert spec.loader is not None
-    module = importlib.util.module_from_spec(spec)
-    spec.loader.exec_module(module)
 
-    def run(**values: str) -> list[Recorded]:
-        *declared, opaque = module.generate_launch_description().args[0]
-        context = {each.args[0]: each.kwargs["default_value"] for each in declared}
-        assert values.keys() <= context.keys()
-        processes: list[Recorded] = opaque.kwargs["function"]({**context, **values})
-        return processes
+    def load(file: str) -> Launched:
+        spec = importlib.util.spec_from_file_location("under_test", LAUNCH / file)
+        assert spec is not None
+        assert spec.loader is not None
+        module = importlib.util.module_from_spec(spec)
+        spec.loader.exec_module(module)
 
-    return run
+        def run(**values: str) -> list[Recorded]:
+            *declared, opaque = module.generate_launch_description().args[0]
+            context = {each.args[0]: each.kwargs.get("default_value") for each in declared}
+            assert values.keys() <= context.keys()
+            context.update(values)
+            assert None not in context.values(), "an argument without a default is missing"
+            processes: list[Recorded] = opaque.kwargs["function"](context)
+            return processes
+
+        return run
+
+    return load
+
+
+@pytest.fixture
+def launched(launcher: Callable[[str], Launched]) -> Launched:
+    return launcher("lab.launch.py")
+
+
+def named(processes: list[Recorded], name: str) -> Recorded:
+    return next(p for p in processes if p.kwargs.get("name") == name)
+
+
+def hosts(processes: list[Recorded]) -> list[Recorded]:
+    """Return the processes of the lab's own nodes."""
+    return [p for p in processes if p.kwargs.get("package") == "mrlab_ros"]
 
 
 def test_the_launch_file_starts_the_same_processes_as_up(
-    launched: Callable[..., list[Recorded]], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+    launcher: Callable[[str], Launched], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
+    monkeypatch.setattr("mrlab_ros.processes.options.new_lab_id", lambda: "0a1b")
+    launched = launcher("lab.launch.py")
     Keys.create(tmp_path / "keys", [], Login.CERTIFICATE, now())
     port = free_port(0)
     chosen = options(
@@ -260,8 +292,7 @@ def test_the_launch_file_starts_the_same_processes_as_up(
         web=WebOptions("127.0.0.1", port),
         lab_id="0a1b",
     )
-    monkeypatch.setattr(secrets, "token_hex", lambda count: "0a1b")
-    *nodes, web = launched(
+    found = launched(
         state_dir=str(tmp_path),
         robots="ur5e",
         listen="tls/127.0.0.1:7000",
@@ -269,31 +300,58 @@ def test_the_launch_file_starts_the_same_processes_as_up(
         http=f"127.0.0.1:{port}",
     )
     *specs, gateway = [process.spec(chosen) for process in lab_processes(chosen)]
+    web, nodes = named(found, "web"), hosts(found)
     assert (web.kwargs["name"], tuple(web.kwargs["cmd"])) == (gateway.name, gateway.argv)
     assert [node.kwargs["exec_name"] for node in nodes] == [spec.name for spec in specs]
     assert [tuple(node.kwargs["arguments"]) for node in nodes] == [spec.argv[3:] for spec in specs]
     for node in nodes:
-        assert (node.kwargs["package"], node.kwargs["executable"]) == ("mrlab_ros", "host")
+        assert node.kwargs["executable"] == "host"
         # A name here would rename every node of the process.
         assert "name" not in node.kwargs
 
 
-def test_the_launch_file_starts_nothing_for_ever(
-    launched: Callable[..., list[Recorded]],
-) -> None:
-    for node in launched(http="127.0.0.1:0"):
-        assert node.kwargs["respawn"] is True
-        assert node.kwargs["respawn_max_retries"] > 0
+def test_the_launch_file_starts_nothing_for_ever(launched: Launched) -> None:
+    found = launched(http="127.0.0.1:0")
+    for process in (*hosts(found), named(found, "web")):
+        assert process.kwargs["respawn"] is True
+        assert process.kwargs["respawn_max_retries"] > 0
+    assert "respawn" not in named(found, "ready").kwargs
+
+
+def test_the_launch_file_says_when_the_lab_is_ready_and_then_goes_on(launched: Launched) -> None:
+    found = launched(robots="ur5e,ur5e", web="false", scene="handover", record="/class.bag")
+    ready = named(found, "ready")
+    nodes = [node for process in lab_processes(options()) for node in process.nodes]
+    expected = [n for n in nodes if n != "physics" or not physics_support.missing()]
+    assert ready.kwargs["cmd"][2:] == ["mrlab_ros.processes.ready", "2", *expected]
+    (handler,) = next(p for p in found if type(p).__name__ == "RegisterEventHandler").args
+    assert handler.kwargs["target_action"] is ready
+    then = handler.kwargs["on_exit"]
+    commands = then(types.SimpleNamespace(returncode=0), None)
+    assert [c.kwargs["cmd"][3:] for c in commands] == [
+        ["scene", "load", "handover"],
+        ["record", "/class.bag"],
+    ]
+    assert then(types.SimpleNamespace(returncode=1), None) == []
+
+
+def test_the_launch_file_remaps_and_shows_the_lab_in_rviz(launched: Launched) -> None:
+    found = launched(web="false", rviz="true", remap="/clock:=/sim/clock, /a:=/b")
+    pairs = [("/clock", "/sim/clock"), ("/a", "/b")]
+    assert all(node.kwargs["remappings"] == pairs for node in hosts(found))
+    rviz = next(p for p in found if p.kwargs.get("package") == "rviz2")
+    option, config = rviz.kwargs["arguments"]
+    assert option == "-d"
+    assert Path(config).name == "mrlab.rviz"
+    with pytest.raises(BadInput, match="expected FROM:=TO"):
+        launched(web="false", remap="/clock")
 
 
 def test_the_launch_file_leaves_out_and_refuses_what_it_is_told_to(
-    launched: Callable[..., list[Recorded]], monkeypatch: pytest.MonkeyPatch
+    launched: Launched, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    names = [
-        node.kwargs["exec_name"]
-        for node in launched(physics="false", frames="false", bridge="false")
-    ]
-    assert names == ["lab", "playback", "recorder"]
+    less = launched(physics="false", frames="false", bridge="false")
+    assert [node.kwargs["exec_name"] for node in hosts(less)] == ["lab", "playback", "recorder"]
     with pytest.raises(BadInput, match="no robot 'ur6'"):
         launched(robots="ur6", web="false")
     with pytest.raises(BadInput, match="no parameter file"):
@@ -301,6 +359,28 @@ def test_the_launch_file_leaves_out_and_refuses_what_it_is_told_to(
     monkeypatch.setattr(physics_support, "missing", lambda: "pybullet is not installed")
     with pytest.raises(BadInput, match="there is no physics"):
         launched(physics="true", web="false")
+
+
+def test_a_robot_is_launched_into_a_running_lab(launcher: Callable[[str], Launched]) -> None:
+    run = launcher("robot.launch.py")
+    (command,) = run(model="ur5e", x="1.5", yaw="90", end_effector="vacuum_cup", name="left")
+    assert command.kwargs["cmd"][3:] == [
+        *("spawn", "ur5e", "--yaw", "90", "--at", "1.5,0"),
+        *("--name", "left", "--tool", "vacuum_cup"),
+    ]
+    (command,) = run(model="ur5e")
+    assert command.kwargs["cmd"][3:] == ["spawn", "ur5e", "--yaw", "0"]
+    with pytest.raises(AssertionError, match="without a default"):
+        run()
+
+
+@pytest.mark.parametrize("file", ["lab.launch.py", "robot.launch.py"])
+def test_ros_s_own_launcher_takes_the_launch_files(file: str) -> None:
+    pytest.importorskip("launch_ros", reason="ROS's launcher is not on PyPI")
+    from launch.launch_description_sources import get_launch_description_from_any_launch_file
+
+    found = get_launch_description_from_any_launch_file(str(LAUNCH / file))
+    assert found.get_launch_arguments()
 
 
 def test_a_file_given_as_the_state_folder_is_refused(tmp_path):

@@ -1,0 +1,46 @@
+"""Put a robot into a running lab: ros2 launch mrlab_ros robot.launch.py model:=ur5e [x:=1 y:=0].
+
+It is what `mrlab spawn` does, so that a launch file of your own can include it once a robot.
+"""
+
+import sys
+
+from launch import LaunchDescription
+from launch.actions import DeclareLaunchArgument, ExecuteProcess, OpaqueFunction
+from launch.substitutions import LaunchConfiguration
+
+# By name: default (None: has to be given) and description.
+ARGUMENTS = {
+    "model": (None, "a robot model, such as ur5e; mrlab robots lists them"),
+    "name": ("", "its name; empty: the model and a number"),
+    "x": ("", "where its base goes, m; empty, and y too: a free place"),
+    "y": ("", "where its base goes, m"),
+    "yaw": ("0", "turn about the vertical, degrees"),
+    "end_effector": ("", "an end effector, such as parallel_gripper; empty: none"),
+}
+
+
+def generate_launch_description():
+    """Declare the arguments; the command follows from their values."""
+    declared = [
+        DeclareLaunchArgument(
+            name,
+            description=description,
+            **({} if default is None else {"default_value": default}),
+        )
+        for name, (default, description) in ARGUMENTS.items()
+    ]
+    return LaunchDescription([*declared, OpaqueFunction(function=spawn)])
+
+
+def spawn(context):
+    """Return the command that puts the robot into the lab."""
+    values = {name: LaunchConfiguration(name).perform(context).strip() for name in ARGUMENTS}
+    options = ["--yaw", values["yaw"]]
+    if values["x"] or values["y"]:
+        options += ["--at", f"{values['x'] or 0},{values['y'] or 0}"]
+    for argument, option in (("name", "--name"), ("end_effector", "--tool")):
+        if values[argument]:
+            options += [option, values[argument]]
+    command = [sys.executable, "-m", "mrlab_ros.cli", "spawn", values["model"], *options]
+    return [ExecuteProcess(cmd=command, name="spawn", output="screen")]

@@ -1,0 +1,119 @@
+"""What ROS's own tools read of the package: rosdep keys, tests for colcon, hidden nodes."""
+
+from __future__ import annotations
+
+import ast
+import xml.etree.ElementTree as ET
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+from colcon_core.package_descriptor import PackageDescriptor
+from colcon_core.task.python import get_setup_data
+from colcon_core.task.python.test import has_test_dependency
+
+ROOT = Path(__file__).parents[2]
+SOURCES = sorted((ROOT / "mrlab_ros").rglob("*.py"))
+
+# Keys with a rule for Ubuntu 24.04 in rosdistro's rosdep/base.yaml and rosdep/python.yaml.
+# As of 22 August 2026.
+ROSDEP_KEYS = {
+    "liburdfdom-tools",
+    "octave",
+    "python3-cryptography",
+    "python3-h5py",
+    "python3-hypothesis",
+    "python3-jsonschema",
+    "python3-matplotlib",
+    "python3-numpy",
+    "python3-orjson",
+    "python3-pil",
+    "python3-psutil",
+    "python3-pytest",
+    "python3-pytest-timeout",
+    "python3-rich",
+    "python3-rosbags-pip",
+    "python3-scipy",
+    "python3-trimesh-pip",
+    "python3-typer",
+    "python3-yaml",
+    "python3-yourdfpy-pip",
+}
+# Packages of Jazzy's distribution.yaml.
+DISTRIBUTION = {
+    "ament_index_python",
+    "builtin_interfaces",
+    "control_msgs",
+    "diagnostic_msgs",
+    "geometry_msgs",
+    "launch",
+    "launch_ros",
+    "rcl_interfaces",
+    "rclpy",
+    "robot_state_publisher",
+    "rosidl_parser",
+    "sensor_msgs",
+    "shape_msgs",
+    "std_msgs",
+    "std_srvs",
+    "tf2_msgs",
+    "trajectory_msgs",
+    "visualization_msgs",
+    "xacro",
+}
+OURS = {"mrlab_msgs"}
+
+
+def dependencies() -> set[str]:
+    root = ET.parse(ROOT / "package.xml").getroot()
+    return {e.text or "" for e in root if e.tag.endswith("depend")}
+
+
+def test_rosdep_knows_what_the_package_depends_on() -> None:
+    assert dependencies() - OURS <= ROSDEP_KEYS | DISTRIBUTION
+
+
+def test_the_packages_of_messages_that_are_imported_are_named() -> None:
+    imported = {
+        (node.module or "").partition(".")[0]
+        for path in SOURCES
+        for node in ast.walk(ast.parse(path.read_text()))
+        if isinstance(node, ast.ImportFrom)
+    }
+    messages = {name for name in imported if name.endswith("_msgs") or name == "rcl_interfaces"}
+    assert messages <= dependencies()
+
+
+def test_colcon_finds_the_tests() -> None:
+    package = PackageDescriptor(ROOT)
+    package.metadata["get_python_setup_options"] = lambda env: setup_options()
+    assert has_test_dependency(get_setup_data(package, {}), "pytest")
+
+
+def setup_options() -> dict[str, object]:
+    """Return what setup.py says, as far as it is written down."""
+    calls = (n for n in ast.walk(ast.parse((ROOT / "setup.py").read_text())))
+    call = next(n for n in calls if isinstance(n, ast.Call) and ast.unparse(n.func) == "setup")
+    found = {}
+    for keyword in call.keywords:
+        try:
+            found[str(keyword.arg)] = ast.literal_eval(keyword.value)
+        except ValueError:
+            continue
+    return found
+
+
+def bare_nodes() -> Iterator[tuple[str, str]]:
+    """Yield file and name of each node without parameter services."""
+    for path in SOURCES:
+        for call in ast.walk(ast.parse(path.read_text())):
+            if isinstance(call, ast.Call) and any(
+                k.arg == "start_parameter_services" for k in call.keywords
+            ):
+                yield path.name, ast.unparse(call.args[0]).removeprefix("f").strip("'\"")
+
+
+@pytest.mark.parametrize(("file", "name"), list(bare_nodes()))
+def test_a_node_without_parameters_is_hidden(file: str, name: str) -> None:
+    """`ros2 param list` waits 5 s for each visible node that has none."""
+    assert name.startswith("_"), f"{name} in {file}"
