@@ -340,13 +340,10 @@ class Setup:
         """
         libraries = [VENV / "lib"] + sorted(self.site.glob("ros_*.libs"))
         packages = "lib/python{}/site-packages".format(self.python["version"])
-        # colcon's symlink install leaves the package's metadata in build/, by which the executables
-        # of `ros2 run` and `ros2 launch` find their functions; the sources are the package.
-        paths = [
-            *(INSTALL / name / packages for name in MESSAGES),
-            ROOT,
-            ROOT / "build" / "mrlab_ros",
-        ]
+        # colcon's symlink install leaves the package's metadata in build/, by which what ros2 runs
+        # finds its functions; the sources are the package.
+        paths = [INSTALL / name / packages for name in MESSAGES]
+        paths += [ROOT, ROOT / "build" / "mrlab_ros"]
         libraries[:0] = [INSTALL / name / "lib" for name in MESSAGES]
         env = dict(os.environ)
         env.pop("PYTHONHOME", None)
