@@ -6,12 +6,11 @@ along the coordinate axes; the generator carries each link into its own frame.
 
 from __future__ import annotations
 
-import itertools
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 
 import numpy as np
-from solids import Array, Solid, block, disc, lathe, rod
+from solids import Array, Solid, block, disc, lathe
 
 
 @dataclass(frozen=True)
@@ -79,20 +78,6 @@ def cone(
     return lathe(axis, [(-0.001, start), (radii[0], start), (radii[1], end), (-0.001, end)], edge)
 
 
-def motor(axis: str, start: float, end: float, radius: float) -> Solid:
-    """Return a servo motor: a ribbed can with a connector box at its end."""
-    way = 1 if end > start else -1
-    length = abs(end - start)
-    can = drum(axis, start, end, radius, radius * 0.22)
-    for share in (0.3, 0.42, 0.54, 0.66):
-        place = start + way * share * length
-        groove = drum(axis, place, place + 0.035 * length, radius * 1.2, 0.0) - drum(
-            axis, place - length, place + length, radius * 0.93, 0.0
-        )
-        can = can - groove
-    return can
-
-
 def bolts(axis: str, place: float, circle: float, count: int, radius: float) -> Solid:
     """Return the heads of a circle of screws on the plane at `place`."""
     i, j, k = {"x": (1, 2, 0), "y": (0, 2, 1), "z": (0, 1, 2)}[axis]
@@ -119,31 +104,3 @@ def cap(axis: str, place: float, outwards: int, radius: float, thick: float = 0.
     face = drum(axis, place - outwards * thick, place + outwards * thick, radius, thick * 0.6)
     ditch = drum(axis, place + outwards * thick * 0.4, place + outwards * 3 * thick, radius * 0.72)
     return face - (ditch - drum(axis, place - 1, place + 1, radius * 0.66, 0))
-
-
-def hose(points: Sequence[Sequence[float]], radius: float) -> Solid:
-    """Return a hose through the points, as a chain of capsules."""
-    pieces = [rod(a, b, radius) for a, b in itertools.pairwise(points)]
-    result = pieces[0]
-    for piece in pieces[1:]:
-        result = result.blend(piece, radius * 0.3)
-    return result
-
-
-def curve(points: Sequence[Sequence[float]], steps: int = 6) -> list[list[float]]:
-    """Return points on a smooth curve through `points` (Catmull-Rom)."""
-    p = np.array([points[0], *points, points[-1]], float)
-    result = []
-    for n in range(1, len(p) - 2):
-        for t in np.arange(steps) / steps:
-            a, b, c, d = p[n - 1 : n + 3]
-            result.append(
-                0.5
-                * (
-                    2 * b
-                    + (c - a) * t
-                    + (2 * a - 5 * b + 4 * c - d) * t**2
-                    + (3 * b - a - 3 * c + d) * t**3
-                )
-            )
-    return [list(q) for q in [*result, p[-1]]]

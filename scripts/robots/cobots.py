@@ -1,4 +1,4 @@
-"""Bodies of the Universal Robots UR5e and the KUKA LBR iisy 15 R930.
+"""The body of the Universal Robots UR5e.
 
 Sizes: robots/<id>/robot.yaml names the descriptions they were measured on.
 """
@@ -6,23 +6,16 @@ Sizes: robots/<id>/robot.yaml names the descriptions they were measured on.
 from __future__ import annotations
 
 from body import (
-    BLACK,
-    GREY,
-    LIGHT_GREY,
     RUBBER,
-    STEEL,
     UR_BLUE,
     UR_DARK,
     UR_SILVER,
-    WHITE,
     Body,
     bolts,
-    cap,
     cone,
     drum,
-    slab,
 )
-from solids import Solid, ball, disc, lathe, strap
+from solids import Solid, disc, lathe
 
 
 def _ur_joint(radius: float, low: float, high: float, stub: float, way: int) -> Solid:
@@ -123,72 +116,4 @@ def ur5e() -> Body:
     flange = flange - drum("y", 0.2269, 0.3, 0.0157, 0)
     body.add("wrist_3_link", UR_SILVER, flange.moved(wrist, 0, z2))
     body.add("wrist_3_link", RUBBER, bolts("y", 0.2325, 0.025, 4, 0.0033).moved(wrist, 0, z2))
-    return body
-
-
-def lbr_iisy15() -> Body:
-    """LBR iisy 15 R930: white rounded housings that bulge at the joints, dark seams."""
-    body = Body()
-    z = 0.3
-    base = drum("z", 0.0, 0.181, 0.102, 0.02)
-    rear = slab((-0.19, -0.066, 0.004), (0.0, 0.066, 0.168), 0.03)
-    foot = slab((-0.136, -0.136, 0.0), (0.136, 0.136, 0.02), 0.006)
-    for angle in (45, 135, 225, 315):
-        corner = disc("z", 0.034, 0.03, 0.006).moved(0.148, 0, 0.015).turned("z", angle)
-        foot = foot.cut(disc("z", 0.007, 0.2).moved(0.152, 0, 0).turned("z", angle)) - (
-            corner.moved(0, 0, 0.03)
-        )
-    body.add("base_link", WHITE, base.blend(rear, 0.04).blend(foot & disc("z", 0.172, 1), 0.025))
-    body.add("base_link", GREY, slab((-0.2, -0.05, 0.03), (-0.185, 0.05, 0.14), 0.006))
-    for y in (-0.025, 0.025):
-        plug = drum("x", -0.235, -0.19, 0.014, 0.003).moved(0, y, 0.06)
-        body.add("base_link", BLACK, plug)
-    body.add("base_link", BLACK, drum("z", 0.174, 0.1835, 0.0975, 0.002))
-
-    tower = cone("z", 0.1845, 0.33, (0.0965, 0.0955), 0.012).blend(
-        drum("y", -0.07, 0.0965, 0.0945, 0.03).moved(0, 0, z), 0.012
-    )
-    arm = drum("y", -0.0955, 0.0, 0.0965, 0.004).moved(0, 0, z)
-    body.add("link_1", WHITE, tower.blend(arm, 0.01))
-    body.add("link_1", BLACK, cap("y", 0.0975, 1, 0.052, 0.003).moved(0, 0, z))
-    body.add("link_1", BLACK, drum("y", -0.1, -0.094, 0.0905, 0.001).moved(0, 0, z))
-
-    elbow = 0.385
-    hub = drum("y", -0.249, -0.0985, 0.0975, 0.035).moved(0, -0.0, z)
-    far = drum("y", -0.238, -0.122, 0.084, 0.035).moved(elbow, 0, z)
-    web = strap("y", (0.02, 0), (0.365, 0), (0.079, 0.069), 0.125, 0.05).moved(0, -0.182, z)
-    body.add("link_2", WHITE, hub.blend(web, 0.02).blend(far, 0.014))
-    body.add("link_2", BLACK, cap("y", -0.2495, -1, 0.05, 0.003).moved(0, 0, z))
-    body.add("link_2", BLACK, cap("y", -0.2385, -1, 0.042, 0.003).moved(elbow, 0, z))
-    body.add("link_2", BLACK, drum("y", -0.124, -0.118, 0.078, 0.001).moved(elbow, 0, z))
-
-    lower = drum("y", -0.1185, 0.07, 0.0835, 0.035).moved(elbow, 0, z)
-    front = drum("x", elbow, 0.497, 0.0765, 0.006).moved(0, 0, z)
-    body.add("link_3", WHITE, lower.blend(front, 0.022))
-    body.add("link_3", BLACK, cap("y", 0.0705, 1, 0.042, 0.003).moved(elbow, 0, z))
-    body.add("link_3", BLACK, drum("x", 0.493, 0.5, 0.0705, 0.001).moved(0, 0, z))
-
-    wrist = 0.752
-    start = drum("x", 0.5005, 0.6, 0.0765, 0.03).moved(0, 0, z)
-    side = drum("y", 0.078, 0.145, 0.072, 0.03).moved(wrist, 0, z)
-    web = strap("y", (0.6, 0), (wrist, 0), (0.066, 0.066), 0.06, 0.026).moved(0, 0.112, z)
-    bend = ball(0.073).moved(0.575, 0.035, z)
-    body.add("link_4", WHITE, start.blend(bend, 0.012).blend(web, 0.03).blend(side, 0.014))
-    body.add("link_4", BLACK, cap("y", 0.1455, 1, 0.04, 0.003).moved(wrist, 0, z))
-    body.add("link_4", BLACK, drum("y", 0.0775, 0.0835, 0.0655, 0.001).moved(wrist, 0, z))
-
-    ball_part = drum("y", -0.068, 0.078, 0.0715, 0.035).moved(wrist, 0, z)
-    nose = drum("x", wrist, 0.8335, 0.0705, 0.006).moved(0, 0, z)
-    body.add("link_5", WHITE, ball_part.blend(nose, 0.016))
-    body.add("link_5", BLACK, cap("y", -0.0685, -1, 0.04, 0.003).moved(wrist, 0, z))
-    body.add("link_5", BLACK, drum("x", 0.83, 0.8365, 0.066, 0.001).moved(0, 0, z))
-
-    hand = drum("x", 0.837, 0.915, 0.067, 0.01).moved(0, 0, z)
-    grip = slab((0.858, 0.0, z - 0.028), (0.924, 0.112, z + 0.028), 0.02)
-    body.add("link_6", WHITE, hand.blend(grip, 0.02))
-    face = drum("x", 0.91, 0.93, 0.0315, 0.001) - drum("x", 0.924, 1, 0.0155, 0)
-    body.add("link_6", STEEL, face.moved(0, 0, z))
-    body.add("link_6", LIGHT_GREY, drum("x", 0.908, 0.9185, 0.06, 0.002).moved(0, 0, z))
-    body.add("link_6", BLACK, bolts("x", 0.9295, 0.025, 7, 0.0033).moved(0, 0, z))
-    body.add("link_6", BLACK, drum("x", 0.872, 0.908, 0.017, 0.003).moved(0, 0.1055, z))
     return body

@@ -11,20 +11,20 @@ import argparse
 import shutil
 import struct
 from collections.abc import Callable
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
 import cobots
+import cuts
 import glb
 import hulls
-import kuka_large
-import kuka_medium
-import kuka_small
+import kuka
+import measured
 import numpy as np
 import tools
 import yaml
-from body import BLACK, Body
+from body import BLACK, Body, Material
 from figure import SKIN, figure
 from mesher import GRID, Mesh, contour, creased, decimated
 from solids import Array, Solid
@@ -34,22 +34,11 @@ from mrlab_ros.core.geometry import inverse_transform, transform_from_xyz_rpy
 
 ROBOTS = Path(__file__).resolve().parents[2] / "robots"
 TRIANGLES = 15_200  # a model; the files of a robot stay below 400 kB
+CASTINGS = 0.76  # of a model's triangles; their many edges need more corners
 CELLS = 56  # along the longest side of a part
 FIGURE = "figure"  # the person of 1.8 m beside the robots in pictures
 
 BODIES: dict[str, Callable[[], Body]] = {
-    "kuka_kr3_r540": kuka_small.kr3_r540,
-    "kuka_kr6_r900_sixx": kuka_small.kr6_r900_sixx,
-    "kuka_kr10_r900_2": kuka_small.kr10_r900_2,
-    "kuka_kr16_r1610_2": kuka_medium.kr16_r1610_2,
-    "kuka_kr20_r1810_2": kuka_medium.kr20_r1810_2,
-    "kuka_kr50_r2100": kuka_medium.kr50_r2100,
-    "kuka_kr70_r2100": kuka_medium.kr70_r2100,
-    "kuka_kr120_r2500_pro": kuka_large.kr120_r2500_pro,
-    "kuka_kr150_r2700_2": kuka_large.kr150_r2700_2,
-    "kuka_kr300_r2700_2": kuka_large.kr300_r2700_2,
-    "kuka_kr560_r3100_2": kuka_large.kr560_r3100_2,
-    "kuka_lbr_iisy15_r930": cobots.lbr_iisy15,
     "ur5e": cobots.ur5e,
     "parallel_gripper": tools.parallel_gripper,
     "centric_gripper": tools.centric_gripper,
@@ -94,13 +83,6 @@ def _stl(path: Path, triangles: Array) -> None:
     )
 
 
-def _hull_files(
-    folder: Path, link: str, parts: list[tuple[Solid, Array]], seen: Array, pose: Array
-) -> list[str]:
-    """Write the convex hulls of a link and return the names of their files."""
-    return _written(folder, link, hulls.cover_all(parts, seen), pose)
-
-
 def _written(folder: Path, link: str, corners: list[Array], pose: Array) -> list[str]:
     names = []
     for number, vertices in enumerate(corners):
@@ -108,6 +90,76 @@ def _written(folder: Path, link: str, corners: list[Array], pose: Array) -> list
         names.append(f"{link}_hull_{number}.stl")
         _stl(folder / names[-1], hulls.triangles(np.round(placed, 5) + 0.0))
     return names
+
+
+@dataclass(frozen=True, eq=False)
+class Shape:
+    """A link as it is written: its pieces in its own frame, and what its hulls must hold.
+
+    shells: solids with the triangles of their surfaces; seen: lists of corners of what is drawn,
+    one of each part; pose: from the frame of shells and seen to the link's frame.
+    """
+
+    pieces: list[tuple[Material, Mesh]]
+    shells: list[tuple[Solid, Array]]
+    seen: list[Array]
+    pose: Array
+
+
+def described(body: Body, poses: dict[str, Array], budget: float) -> dict[str, Shape]:
+    """Return the shapes of a body that is modelled in the base frame."""
+    raw = []
+    for link, parts in body.links.items():
+        for part in parts:
+            cell = max(float((part.solid.high - part.solid.low).max()) / CELLS, 0.0006)
+            raw.append((link, part, contour(part.solid, cell)))
+    weight = np.array([_area(mesh) ** 0.5 for _, _, mesh in raw])
+    shapes: dict[str, Shape] = {}
+    for link in body.links:
+        shape = Shape([], [], [], inverse_transform(poses[link]))
+        groups: dict[str, tuple[Material, list[Mesh]]] = {}
+        for (owner, part, mesh), share in zip(raw, weight / weight.sum(), strict=True):
+            if owner == link:
+                small = creased(decimated(mesh, max(int(share * budget), 60)))
+                shape.seen.append(small.vertices)
+                shape.shells.append((part.solid, mesh.vertices[mesh.faces]))
+                group = groups.setdefault(part.material.name, (part.material, []))
+                group[1].append(_placed(small, shape.pose))
+        shape.pieces.extend((material, _joined(meshes)) for material, meshes in groups.values())
+        shapes[link] = shape
+    return shapes
+
+
+def from_outlines(
+    robot: str, links: dict[str, measured.Link], figures: dict[str, Any], budget: float
+) -> dict[str, Shape]:
+    """Return the shapes of a robot whose castings are measured, each in its link's frame."""
+    castings = {}
+    for link in links:
+        own = [] if link == figures["joints"][0]["parent"] else [np.eye(4)]
+        axes = own + [
+            transform_from_xyz_rpy(joint["xyz"], joint["rpy"])
+            for joint in figures["joints"]
+            if joint["parent"] == link and joint["type"] != "fixed"
+        ]
+        castings[link] = measured.surface(robot, link, axes)
+    weight = {link: _area(mesh) ** 0.5 for link, (_, mesh) in castings.items()}
+    shapes = {}
+    for link, (solid, mesh) in castings.items():
+        small = decimated(mesh, int(budget * CASTINGS * weight[link] / sum(weight.values())))
+        pieces = [
+            (material, creased(piece)) for material, piece in measured.painted(small, links[link])
+        ]
+        shape = Shape(pieces, [(solid, mesh.vertices[mesh.faces])], [small.vertices], np.eye(4))
+        for part in links[link].parts:
+            cell = max(float((part.solid.high - part.solid.low).max()) / CELLS, 0.0006)
+            part_mesh = contour(part.solid, cell)
+            drawn = creased(decimated(part_mesh, 400))
+            shape.pieces.append((part.material, drawn))
+            shape.shells.append((part.solid, part_mesh.vertices[part_mesh.faces]))
+            shape.seen.append(drawn.vertices)
+        shapes[link] = shape
+    return shapes
 
 
 def make(place: Path, source: str, target: str, out: Path) -> None:
@@ -118,44 +170,29 @@ def make(place: Path, source: str, target: str, out: Path) -> None:
     """
     folder = out / place
     figures = yaml.safe_load((ROBOTS / place / source).read_text())
-    body = BODIES[figures["id"]]()
-    poses = zero_poses(figures)
+    name = figures["id"]
+    budget = TRIANGLES if source == "robot.yaml" else TRIANGLES / 3
+    if name in kuka.ROBOTS:
+        shapes = from_outlines(name, kuka.ROBOTS[name], figures, budget)
+    else:
+        shapes = described(BODIES[name](), zero_poses(figures), budget)
     # Written aside and renamed at the end: a model is complete at any time.
     meshes = folder / "meshes.new"
     shutil.rmtree(meshes, ignore_errors=True)
     meshes.mkdir(parents=True)
-    raw = []
-    for link, parts in body.links.items():
-        for part in parts:
-            cell = max(float((part.solid.high - part.solid.low).max()) / CELLS, 0.0006)
-            raw.append((link, part, contour(part.solid, cell)))
-    weight = np.array([_area(mesh) ** 0.5 for _, _, mesh in raw])
-    budget = TRIANGLES if source == "robot.yaml" else TRIANGLES / 3
     files: dict[str, LinkFiles] = {}
-    triangles = 0
-    for link, parts in body.links.items():
-        pose = inverse_transform(poses[link])
-        by_material: dict[str, list[Mesh]] = {}
-        seen = []
-        materials = {part.material.name: part.material for part in parts}
-        for (owner, part, mesh), share in zip(raw, weight / weight.sum(), strict=True):
-            if owner == link:
-                small = creased(decimated(mesh, max(int(share * budget), 60)))
-                seen.append(small.vertices)
-                by_material.setdefault(part.material.name, []).append(_placed(small, pose))
-        pieces = [(materials[name], _joined(group)) for name, group in by_material.items()]
-        triangles += sum(len(mesh.faces) for _, mesh in pieces)
-        glb.write(meshes / f"{link}.glb", pieces)
-        shells = [
-            (part.solid, mesh.vertices[mesh.faces]) for owner, part, mesh in raw if owner == link
-        ]
+    for link, shape in shapes.items():
+        glb.write(meshes / f"{link}.glb", shape.pieces)
         if link in figures.get("boxes", {}):
             # Pad and slide are boxes of the URDF; the jaw is convex, so it is its own hull.
-            own = [vertices for part, vertices in zip(parts, seen, strict=True)
+            parts = BODIES[name]().links[link]
+            own = [vertices for part, vertices in zip(parts, shape.seen, strict=True)
                    if part.material is BLACK]  # fmt: skip
-            names = _written(meshes, link, own, pose)
+            names = _written(meshes, link, own, shape.pose)
         else:
-            names = _hull_files(meshes, link, shells, np.concatenate(seen), pose)
+            cover = cuts.cover_all if name in kuka.ROBOTS else hulls.cover_all
+            corners = cover(shape.shells, np.concatenate(shape.seen))
+            names = _written(meshes, link, corners, shape.pose)
         files[link] = LinkFiles(f"{link}.glb", tuple(names))
     text = urdf(figures, files, f"package://mrlab_ros/robots/{place.as_posix()}/meshes")
     shutil.rmtree(folder / "meshes", ignore_errors=True)
@@ -163,7 +200,8 @@ def make(place: Path, source: str, target: str, out: Path) -> None:
     (folder / target).write_text(text)
     size = sum(file.stat().st_size for file in meshes.glob("*.glb"))
     count = sum(len(file.collision) for file in files.values())
-    print(f"{figures['id']}: {triangles} triangles, {size / 1e3:.0f} kB, {count} hulls")
+    triangles = sum(len(mesh.faces) for shape in shapes.values() for _, mesh in shape.pieces)
+    print(f"{name}: {triangles} triangles, {size / 1e3:.0f} kB, {count} hulls")
 
 
 def _joined(meshes: list[Mesh]) -> Mesh:
@@ -181,7 +219,7 @@ def main() -> None:
     parser.add_argument("ids", nargs="*", metavar="ID", help="models, or figure; none: all")
     parser.add_argument("--out", type=Path, default=ROBOTS, help="the library to write to")
     chosen = parser.parse_args()
-    known = [*BODIES, FIGURE]
+    known = [*kuka.ROBOTS, *BODIES, FIGURE]
     unknown = sorted(set(chosen.ids) - set(known))
     if unknown:
         parser.error(f"no body is described for {', '.join(unknown)}; known: {', '.join(known)}")

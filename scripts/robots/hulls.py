@@ -69,7 +69,7 @@ def cover_all(parts: list[tuple[Solid, Array]], seen: Array) -> list[Array]:
     m, of the thinned meshes that are drawn, which stray a little from these surfaces.
     """
     solids = [solid for solid, _ in parts]
-    return _Cover(solids, np.concatenate([faces for _, faces in parts])).hulls(seen)
+    return Cover(solids, np.concatenate([faces for _, faces in parts])).hulls(seen)
 
 
 class _Field:
@@ -108,12 +108,21 @@ class _Field:
         return np.asarray(self.surface[self.tree.query(point)[1]])
 
 
-class _Cover:
-    def __init__(self, solids: list[Solid], faces: Array) -> None:
+class Cover:
+    """A body as points, and hulls of them that keep the tolerances.
+
+    cells: of the grid along the longest side; fine: cells between the places on a hull at which
+    its distance from the body is measured.
+    """
+
+    def __init__(
+        self, solids: list[Solid], faces: Array, cells: int = 140, fine: float = 1.0
+    ) -> None:
+        self.fine = fine
         low = np.min([solid.low for solid in solids], axis=0)
         high = np.max([solid.high for solid in solids], axis=0)
         self.span = float((high - low).max())
-        self.cell = min(max(self.span / 140, 0.003), 0.009)
+        self.cell = min(max(self.span / cells, 0.003), 0.009)
         surface = _thinned(samples(faces, self.cell), self.cell / 2)
         self.field = _Field(solids, surface, self.cell)
         self.pieces = [piece for solid in solids for piece in solid.pieces]
@@ -144,9 +153,13 @@ class _Cover:
             else:
                 middle = self.shell[bare.argmax()]
                 near = np.linalg.norm(self.points - middle, axis=1) < 4 * self.cell
-                best = self._finished(self.points[near])
+                best = self.finished(self.points[near])
             np.minimum(self.outside, best.away, out=self.outside)
             taken.append(best)
+        return self.completed(taken, seen)
+
+    def completed(self, taken: list[Hull], seen: Array) -> list[Array]:
+        """Return the vertices of fewer hulls, which hold the surface and what is seen of it."""
         found = [hull.vertices for hull in self._merged(self._needed(taken))]
         return self._mended(self._mended(found, self.field.surface, BARE), seen, SEEN_BARE)
 
@@ -212,8 +225,8 @@ class _Cover:
         """Return the hull of both point sets, or None where it stands off the body."""
         points = np.concatenate([one, other])
         points = points[ConvexHull(points).vertices]
-        for spacing in (0.03, self.cell):
-            if len(points) > MOST_VERTICES or self._gap(points, spacing)[0] > FINISHED_GAP:
+        for spacing in (0.03, self.fine * self.cell):
+            if len(points) > MOST_VERTICES or self.gap(points, spacing)[0] > FINISHED_GAP:
                 return None
         return self._measured(points)
 
@@ -287,11 +300,11 @@ class _Cover:
             if hull is None or weight[keep].sum() < least:
                 return None
             corners = hull.points[hull.vertices]
-            gap, worst = self._gap(corners, max(3 * self.cell, 0.01))
+            gap, worst = self.gap(corners, max(3 * self.cell, 0.01))
             if gap <= LARGEST_GAP:
-                gap, worst = self._gap(corners, self.cell)
+                gap, worst = self.gap(corners, self.cell)
             if gap <= LARGEST_GAP:
-                return self._finished(corners)
+                return self.finished(corners)
             near = self.field.nearest(worst)
             lift = (worst - near) @ DIRECTIONS.T
             height = near @ DIRECTIONS.T + np.minimum(LARGEST_GAP * 0.3, lift * 0.5)
@@ -304,13 +317,14 @@ class _Cover:
             keep = keep[below[:, int((weight[keep] @ below).argmax())]]
         return None
 
-    def _gap(self, corners: Array, spacing: float) -> tuple[float, Array]:
+    def gap(self, corners: Array, spacing: float) -> tuple[float, Array]:
         """Return how far the hull of the corners stands off the body, m, and where."""
         points = samples(corners[ConvexHull(corners).simplices], spacing)
         gaps = self.field(points)
         return float(gaps.max()), points[gaps.argmax()]
 
-    def _finished(self, corners: Array) -> Hull:
+    def finished(self, corners: Array) -> Hull:
+        """Return a hull of few corners around the points."""
         return self._measured(np.round(_wrapped(corners), 6))
 
     def _measured(self, vertices: Array) -> Hull:

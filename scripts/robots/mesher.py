@@ -1,4 +1,4 @@
-"""Turns solids into triangle meshes: dual contouring, decimation, normals with creases."""
+"""Turns solids into triangle meshes: dual contouring, smoothing, decimation, creased normals."""
 
 from __future__ import annotations
 
@@ -13,6 +13,8 @@ from solids import Array, Solid
 
 Faces = NDArray[np.int64]
 CREASE_DEG = 38.0
+ALIKE_DEG = 22.0  # between faces that are smoothed together; sharper edges stay
+SMOOTHINGS, FITTINGS = 8, 12  # rounds of normals, then of vertices
 GRID = 1e-5  # m; positions are rounded to it, so that the last bits of a sum do not matter
 
 
@@ -127,6 +129,43 @@ def _split(quad: Faces, vertices: Array) -> Faces:
     two = np.where(straight, quad[:, [0, 2, 3]], quad[:, [1, 2, 3]])
     faces = np.concatenate([one, two])
     return faces[(faces != np.roll(faces, 1, axis=1)).all(axis=1)]
+
+
+def smoothed(mesh: Mesh) -> Mesh:
+    """Return the mesh with walls made even and edges kept.
+
+    Each face's normal becomes the mean of those around it that point alike; then the vertices
+    move to where the faces have these normals.
+    """
+    faces, vertices, count = mesh.faces, mesh.vertices.copy(), len(mesh.faces)
+    of_vertex = coo_matrix(
+        (np.ones(faces.size), (np.repeat(np.arange(count), 3), faces.ravel())),
+        shape=(count, len(vertices)),
+    ).tocsr()
+    beside = of_vertex @ of_vertex.T
+    row = np.repeat(np.arange(count), np.diff(beside.indptr))
+    a, b, c = (vertices[faces[:, i]] for i in range(3))
+    normal = np.cross(b - a, c - a)
+    area = np.linalg.norm(normal, axis=1)
+    normal /= np.maximum(area, 1e-30)[:, None]
+    alike = 2 * (1 - np.cos(np.radians(ALIKE_DEG)))
+    for _ in range(SMOOTHINGS):
+        off = ((normal[row] - normal[beside.indices]) ** 2).sum(axis=1)
+        beside.data = area[beside.indices] * np.exp(-off / alike)
+        normal = beside @ normal
+        normal /= np.maximum(np.linalg.norm(normal, axis=1, keepdims=True), 1e-30)
+    degree = np.bincount(faces.ravel(), minlength=len(vertices))[:, None]
+    for _ in range(FITTINGS):
+        middle = vertices[faces].mean(axis=1)
+        shift = np.zeros_like(vertices)
+        for i in range(3):
+            height = ((middle - vertices[faces[:, i]]) * normal).sum(axis=1)
+            for k in range(3):
+                shift[:, k] += np.bincount(
+                    faces[:, i], weights=height * normal[:, k], minlength=len(vertices)
+                )
+        vertices += shift / np.maximum(degree, 1)
+    return Mesh(vertices, faces, mesh.normals)
 
 
 def decimated(mesh: Mesh, triangles: int) -> Mesh:

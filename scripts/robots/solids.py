@@ -207,40 +207,6 @@ def rod(a: Point, b: Point, radius: float, radius_b: float | None = None) -> Sol
     return Solid(distance, ends.min(axis=0), ends.max(axis=0))
 
 
-def strap(
-    axis: str, a: Point, b: Point, radii: tuple[float, float], length: float, edge: float = 0.0
-) -> Solid:
-    """Return the hull of two circles, extruded along `axis` about the origin, rims rounded.
-
-    a, b: the centres in the flat plane (xz for y, yz for x, xy for z).
-    """
-    i, j, k = _planes(axis)
-    start, way = np.array(a, float), np.array(b, float) - np.array(a, float)
-    reach = float(np.linalg.norm(way))
-    along = way / reach
-    across = np.array([-along[1], along[0]])
-    ra, rb = radii
-    lean = (ra - rb) / reach
-    upright = float(np.sqrt(1 - lean * lean))
-
-    def distance(p: Array) -> Array:
-        flat = p[:, [i, j]] - start
-        y, x = flat @ along, np.abs(flat @ across)
-        k_side = upright * y - lean * x
-        near = np.hypot(x, y) - ra
-        far = np.hypot(x, y - reach) - rb
-        side = x * upright + y * lean - ra
-        d = np.where(k_side < 0, near, np.where(k_side > upright * reach, far, side))
-        return _extruded(d, p[:, k], length / 2, edge)
-
-    low, high = np.zeros(3), np.zeros(3)
-    for axis_index, n in ((i, 0), (j, 1)):
-        low[axis_index] = min(a[n] - ra, b[n] - rb)
-        high[axis_index] = max(a[n] + ra, b[n] + rb)
-    low[k], high[k] = -length / 2, length / 2
-    return Solid(distance, low, high)
-
-
 def plate(
     axis: str, outline: Sequence[Point], length: float, edge: float = 0.0, corner: float = 0.0
 ) -> Solid:
