@@ -13,6 +13,7 @@ from mrlab_ros.core.diagnostics import Diagnostic, Severity, finding
 from mrlab_ros.core.errors import BadInput
 
 MOST_JOINTS = 16
+MOST_LINKS = 300
 # No arm is larger than this, m; a larger one was probably exported in millimetres.
 LARGEST_ARM = 20.0
 MESH_FORMATS = (".stl", ".dae", ".obj", ".glb", ".gltf")
@@ -82,7 +83,9 @@ def _check_numbers(root: ET.Element, origin: str) -> None:
             for element in link.iter(tag):
                 value = element.get(name)
                 if value is not None:
-                    urdf.numbers(value, count, f"{where}: {tag} {name}")
+                    read = urdf.numbers(value, count, f"{where}: {tag} {name}")
+                    if name == "scale" and not all(read):
+                        raise BadInput(f"{where}: the mesh scale is '{value}'; expected no 0")
         for geometry in link.iter("geometry"):
             shape = next(iter(geometry), None)
             if shape is None or shape.tag not in SHAPES:
@@ -97,9 +100,20 @@ def _check_numbers(root: ET.Element, origin: str) -> None:
 
 
 def check_tree(root: ET.Element, origin: str) -> tuple[Diagnostic, ...]:
-    """Return the findings on what is joined to what: without an error it is one tree of links."""
+    """Return the findings on what is joined to what: without an error it is one tree of links.
+
+    Raises BadInput where two have one name, a link hangs on two joints or below itself, or there
+    are more links than a robot has.
+    """
     joints = urdf.joints(root, origin)
     links = [str(element.get("name")) for element in root.iterfind("link")]
+    if len(links) > MOST_LINKS:
+        raise BadInput(f"{origin} has {len(links)} links; expected {MOST_LINKS} at most")
+    _once([joint.name for joint in joints], f"{origin}: two joints are named")
+    _once(links, f"{origin}: two links are named")
+    _once([joint.child for joint in joints], f"{origin}: two joints have the child")
+    for joint in joints:
+        urdf.path_to(joint.child, joints)
     found = [
         finding("robot_no_link", where=f"joint {joint.name}", joint=joint.name, link=end)
         for joint in joints
@@ -110,6 +124,12 @@ def check_tree(root: ET.Element, origin: str) -> tuple[Diagnostic, ...]:
     if len(roots) != 1:
         found.append(finding("robot_roots", found=", ".join(roots) or "none"))
     return tuple(found)
+
+
+def _once(names: list[str], what: str) -> None:
+    twice = next((name for name in names if names.count(name) > 1), None)
+    if twice is not None:
+        raise BadInput(f"{what} '{twice}'; expected one tree of links, with a name each")
 
 
 def _check_count(joints: tuple[urdf.UrdfJoint, ...]) -> list[Diagnostic]:

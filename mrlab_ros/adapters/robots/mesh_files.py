@@ -8,6 +8,13 @@ from collections.abc import Callable, Iterator
 from pathlib import Path
 from urllib.parse import unquote
 
+import numpy as np
+
+from mrlab_ros.core.geometry import Array
+
+# Of a mesh that collides: Bullet takes a minute for a million triangles, and halts wait for it.
+MOST_TRIANGLES, MOST_BYTES = 20_000, 1_000_000
+CORNERS = 500  # of the hull of a larger one, at most
 IMAGES = (".png", ".jpg", ".jpeg", ".bmp", ".tga", ".tif", ".tiff", ".gif", ".webp", ".dds")
 TAKEN = (*IMAGES, ".mtl", ".bin")
 
@@ -61,7 +68,9 @@ def copy(path: Path, folder: Path, prefix: str) -> str:
 
 
 def readable_by_physics(path: Path) -> bool:
-    """Return whether pybullet reads the file: an OBJ, or an STL that is not text."""
+    """Return whether pybullet reads the file soon: a small OBJ, or an STL that is not text."""
+    if path.stat().st_size > MOST_BYTES:
+        return False
     suffix = path.suffix.lower()
     if suffix != ".stl":
         return suffix == ".obj"
@@ -72,12 +81,31 @@ def readable_by_physics(path: Path) -> bool:
 
 
 def as_stl(path: Path, folder: Path, prefix: str) -> str:
-    """Write a mesh file's triangles as a binary STL into `folder`; return its name."""
+    """Write a mesh file's triangles as a binary STL into `folder`; return its name.
+
+    Of more than MOST_TRIANGLES their convex hull, which is what physics takes of each mesh.
+    """
     import trimesh
 
     name = f"{prefix}_{path.stem}.stl"
-    trimesh.load_scene(path).to_mesh().export(folder / name)
+    mesh = trimesh.load_scene(path).to_mesh()
+    if len(mesh.faces) > MOST_TRIANGLES:
+        mesh = trimesh.Trimesh(_extreme(np.asarray(mesh.vertices))).convex_hull
+    mesh.export(folder / name)
     return name
+
+
+def _extreme(vertices: Array) -> Array:
+    """Return the vertices that reach furthest in one of CORNERS even directions."""
+    k = np.arange(CORNERS) + 0.5
+    z = 1 - 2 * k / CORNERS
+    turn = np.pi * (1 + np.sqrt(5)) * k
+    across = np.sqrt(1 - z * z)
+    directions = np.stack([across * np.cos(turn), across * np.sin(turn), z])
+    # In parts: every vertex times every direction would be gigabytes of a large mesh.
+    best = [int((vertices @ way).argmax()) for way in directions.T]
+    kept: Array = vertices[np.unique(best)]
+    return kept
 
 
 def _renamed(names: dict[str, str]) -> Callable[[re.Match[str]], str]:

@@ -18,6 +18,8 @@ from mrlab_ros.core.robots.kinematics import KinematicChain, Segment
 from mrlab_ros.core.robots.model import Joint
 
 MOVING = ("revolute", "continuous", "prismatic")
+# Of joints and links, characters: Bullet ends the process on one of a few thousand.
+LONGEST_NAME = 200
 XACRO = "{http://www.ros.org/wiki/xacro}"
 
 
@@ -66,7 +68,8 @@ def numbers(text: str, count: int, where: str) -> list[float]:
     except ValueError:
         values = []
     if len(values) != count or not np.isfinite(values).all():
-        raise BadInput(f"{where} is '{text}'; expected {count} numbers") from None
+        expected = f"{count} finite numbers" if count > 1 else "a finite number"
+        raise BadInput(f"{where} is '{text}'; expected {expected}") from None
     return values
 
 
@@ -140,6 +143,13 @@ def joints(root: ET.Element, origin: str) -> tuple[UrdfJoint, ...]:
 
 def _joint(element: ET.Element, origin: str) -> UrdfJoint:
     name, kind = element.get("name", ""), element.get("type", "")
+    parent, child = (_attribute(element, end, "link", origin) for end in ("parent", "child"))
+    for given in (name, parent, child):
+        if len(given) > LONGEST_NAME:
+            raise BadInput(
+                f"{origin}: a name is {len(given)} characters long, '{given[:40]}...'; expected "
+                f"{LONGEST_NAME} at most"
+            )
     where = f"{origin}: joint '{name}'"
     if kind not in (*MOVING, "fixed"):
         raise BadInput(f"{where} is of type '{kind}'; expected fixed, {', '.join(MOVING)}")
@@ -154,8 +164,8 @@ def _joint(element: ET.Element, origin: str) -> UrdfJoint:
     joint = UrdfJoint(
         name=name,
         kind=kind,
-        parent=_attribute(element, "parent", "link", origin),
-        child=_attribute(element, "child", "link", origin),
+        parent=parent,
+        child=child,
         xyz=numbers(xyz, 3, f"{where}: origin xyz"),
         rpy=numbers(rpy, 3, f"{where}: origin rpy"),
         axis=numbers(direction, 3, f"{where}: axis"),

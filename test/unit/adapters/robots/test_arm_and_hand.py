@@ -345,3 +345,41 @@ def test_a_package_with_several_descriptions_lists_them(
     with pytest.raises(BadInput, match="made.urdf.xacro, other.urdf.xacro; name the one you want"):
         find_description("made_description")
     assert find_description("made_description/made.urdf.xacro").is_file()
+
+
+@pytest.mark.parametrize(
+    ("joints", "why"),
+    [
+        ((joint("a", "base", "b"), joint("b", "b", "c"), joint("c", "c", "b")), "the child 'b'"),
+        ((joint("a", "base", "b"), joint("b", "c", "d"), joint("c", "d", "c")), "below itself"),
+        ((joint("a", "base", "b"), joint("a", "b", "c")), "two joints are named 'a'"),
+        ((joint("a" * 5000, "base", "b"),), "a name is 5000 characters long"),
+        (
+            tuple(joint(f"j{i}", f"l{i}", f"l{i + 1}", "fixed") for i in range(400)),
+            "401 links; expected 300",
+        ),
+    ],
+)
+def test_what_is_no_tree_is_refused(
+    joints: tuple[str, ...], why: str, tmp_path: Path, library: RobotLibrary
+) -> None:
+    file = tmp_path / "wrong.urdf"
+    file.write_text(ET.tostring(robot(*joints), encoding="unicode"))
+    with pytest.raises(BadInput, match=why):
+        import_robot(file, "wrong", library, {})
+    assert "wrong" not in library.ids()
+
+
+def test_a_huge_mesh_collides_as_its_hull(tmp_path: Path, library: RobotLibrary) -> None:
+    import trimesh
+
+    trimesh.creation.icosphere(subdivisions=6, radius=0.1).export(tmp_path / "ball.stl")
+    root = robot(*arm(3))
+    shape = '<collision><geometry><mesh filename="ball.stl"/></geometry></collision>'
+    next(e for e in root.iterfind("link") if e.get("name") == "palm").append(ET.fromstring(shape))
+    (tmp_path / "round.urdf").write_text(ET.tostring(root, encoding="unicode"))
+    import_robot(tmp_path / "round.urdf", "round", library, {})
+    (file,) = (library.imported / "round" / "meshes").iterdir()
+    hull = trimesh.load_mesh(file)
+    assert len(hull.faces) < 1200
+    assert hull.volume == pytest.approx(4 / 3 * np.pi * 0.1**3, rel=0.03)
