@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Render docs/images/room.webp, the animation of the room in README, of a lab that it starts.
+"""Render docs/images/room.webp, an animation of the room, of a lab that it starts.
 
 Needs Chromium, the built pages and what the tests need; takes some minutes where there is no GPU.
 """

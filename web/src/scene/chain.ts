@@ -15,7 +15,10 @@ export interface ChainJoint {
 
 /** Sweeps over the joints after which the farthest place has settled. */
 const SWEEPS = 6
-const STARTS = 2
+/** Starts of a search: a joint's best depends on the others, and one start finds no more than a hill. */
+const STARTS = 6
+/** Spreads the joints of a start; the golden ratio repeats nothing. */
+const SPREAD = 0.6180339887498949
 
 const turn = new Quaternion()
 const move = new Matrix4()
@@ -59,13 +62,15 @@ export class Chain {
   }
 
   /** Write the place farthest along a direction that the tool reaches within its limits. Each joint
-   * in turn goes to where it is farthest, its others held, from two starts. scratch: as long as the
+   * in turn goes to where it is farthest, its others held, from several starts. scratch: as long as the
    * positions. */
   farthest(direction: Vector3, scratch: Float64Array, into: Vector3): Vector3 {
     let most = Number.NEGATIVE_INFINITY
     for (let start = 0; start < STARTS; start++) {
-      for (const { place, lower, upper } of this.joints) {
-        if (place >= 0) scratch[place] = lower + ((start + 0.5) / STARTS) * (upper - lower)
+      for (let i = 0; i < this.joints.length; i++) {
+        const { place, lower, upper } = this.joints[i] as ChainJoint
+        const share = ((start + 0.5) / STARTS + i * SPREAD * (start + 1)) % 1
+        if (place >= 0) scratch[place] = lower + share * (upper - lower)
       }
       for (let sweep = 0; sweep < SWEEPS; sweep++) this.sweep(direction, scratch)
       this.tool(scratch, tried)

@@ -74,3 +74,44 @@ it('a ghost says how far the robot is from another motion', () => {
   expect(reference.tool).toBeCloseTo(0, 9)
   expect(reference.most).toBeCloseTo(4 * Math.sin(0.125), 9)
 })
+
+it('finds how far an arm of six joints reaches, all around', () => {
+  // lengths and twists of a UR5e
+  const links = [
+    [0, 0, 0.1625, Math.PI / 2],
+    [-0.425, 0, 0, 0],
+    [-0.3922, 0, 0, 0],
+    [0, 0, 0.1333, Math.PI / 2],
+    [0, 0, 0.0997, -Math.PI / 2],
+    [0, 0, 0.0996, 0],
+  ] as const
+  let before = new Matrix4()
+  const joints = links.map(([x, y, z, twist], place) => {
+    const rest = before
+    before = new Matrix4().makeTranslation(x, y, z).multiply(new Matrix4().makeRotationX(twist))
+    const limit = 2 * Math.PI
+    return {
+      rest,
+      axis: new Vector3(0, 0, 1),
+      prismatic: false,
+      lower: -limit,
+      upper: limit,
+      place,
+    }
+  })
+  const base = new Group()
+  const envelope = new Envelope(new Chain(joints, before), 6, base, -9)
+  while (envelope.update());
+  const places = (base.children[0] as Mesh).geometry.getAttribute('position')
+  let least = 9
+  let most = 0
+  for (let i = 10 * 40; i < 11 * 40; i++) {
+    const out = Math.hypot(places.getX(i), places.getY(i))
+    least = Math.min(least, out)
+    most = Math.max(most, out)
+  }
+  // half way up: its 0.82 m and the wrist's offsets; its first joint turns all around
+  expect(least).toBeGreaterThan(0.9)
+  expect(most).toBeLessThan(1.05)
+  expect(most - least).toBeLessThan(0.03)
+})
