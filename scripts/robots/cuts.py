@@ -6,6 +6,8 @@ the only region to start from, and it took minutes a link. Cuts take seconds.
 
 from __future__ import annotations
 
+from contextlib import suppress
+
 import numpy as np
 from hulls import LARGEST_GAP, Cover
 from scipy.spatial import ConvexHull, QhullError
@@ -28,7 +30,11 @@ def cover_all(parts: list[tuple[Solid, Array]], seen: Array) -> list[Array]:
     """
     solid, faces = parts[0]
     cover = Cover([solid], faces, CELLS, FINE)
-    return cover.completed([cover.finished(part) for part in _parts(cover, cover.shell)], seen)
+    taken = []
+    for part in _parts(cover, cover.shell):
+        with suppress(QhullError):  # flat: the hulls beside it hold it, or it is mended
+            taken.append(cover.finished(part))
+    return cover.completed(taken, seen)
 
 
 def _parts(cover: Cover, points: Array) -> list[Array]:
