@@ -9,6 +9,9 @@ export const EDGE = 26
 export const TOP = 112
 export const BOTTOM = BOARD_HEIGHT - 62
 const NOTICE_S = 10
+/** mm between two tabs; and letters that a tab's margins take. */
+const TAB_GAP = 8
+const TAB_MARGIN = 2.5
 
 /** A page of the board. */
 export interface Tab {
@@ -66,16 +69,20 @@ export class Board {
   }
 
   private draw(pen: Pen): void {
-    const count = Math.max(this.tabs.length, 1)
-    const width = (BOARD_WIDTH - 2 * EDGE - (count - 1) * GAP) / count
+    // each as wide as its word needs, in any language
+    const room = BOARD_WIDTH - 2 * EDGE - (this.tabs.length - 1) * TAB_GAP
+    const letters = this.tabs.reduce((sum, { words }) => sum + words.length + TAB_MARGIN, 0)
+    let x = EDGE
     this.tabs.forEach(({ id, words }, i) => {
+      const width = (room * (words.length + TAB_MARGIN)) / Math.max(letters, 1)
       const open = () => {
         this.chosen = i
       }
-      pen.button(`tab ${id}`, EDGE + i * (width + GAP), 24, width, words, open, {
+      pen.button(`tab ${id}`, x, 24, width, words, open, {
         chosen: i === this.chosen,
         small: true,
       })
+      x += width + TAB_GAP
     })
     this.tabs[this.chosen]?.draw(pen)
     const text = this.notice || this.stands
