@@ -104,7 +104,11 @@ def test_the_whole_robot_agrees_with_the_chain(tool: str) -> None:
             "tree",
         ),
         ('axis xyz="0 2 0"', 'axis xyz="0 0 0"', "'slide': the axis is '0 0 0'; expected a dir"),
-        ('axis xyz="0 2 0"', 'axis xyz="0 nan 1"', "'slide': axis is '0 nan 1'; expected 3 numb"),
+        (
+            'axis xyz="0 2 0"',
+            'axis xyz="0 nan 1"',
+            "'slide': axis is '0 nan 1'; expected 3 finite numb",
+        ),
         ('radius="0.2"', 'radius="wide"', "cannot be put together: ValueError: could not convert"),
         ('<box size="0.1 0.2 0.3"/>', "", "cannot be put together"),
         ('<parent link="palm"/><child link="wheel"/>', "", "'spin'> has no <parent link=...>"),
