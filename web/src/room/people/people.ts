@@ -121,12 +121,13 @@ export class People {
     }
     if (person === undefined) {
       const avatar = new Avatar(this.shapes, name, part, this.words.room.parts[part])
-      person = { avatar, seenAt: this.now }
+      person = { avatar, seenAt: 0 }
       this.people.set(message.id, person)
       this.world.add(avatar.group)
       this.changed()
     }
-    person.seenAt = this.now
+    // not the last frame's time: where software draws, frames are seconds apart
+    person.seenAt = performance.now() / 1000
     person.avatar.take(message)
   }
 
