@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 
 import numpy as np
 
@@ -77,16 +77,23 @@ class Collisions:
         if any(contact_rules.counts(self._world_state, robot, touch) for touch in robot.touches):
             return
         nearest = far
-        for kind, other in robot.partners:
+        for kind, other in self._all_near(robot) if robot.inherited else robot.partners:
             # Links of one arm are always close to each other; it is enough that they do not touch.
             if kind is Kind.SELF or (kind is Kind.OBJECT and other == robot.held):
                 continue
             nearest = min(nearest, self._engine.distance(robot.name, kind, other, far))
         if robot.clearance.apart(now_ns, nearest):
             robot.partners.clear()
+            robot.inherited = False
             self._world_state.events.append(
                 CollisionChanged(now_ns, robot.name, False, None, nearest)
             )
+
+    def _all_near(self, robot: Robot) -> Iterator[tuple[Kind, str]]:
+        """Yield everything that an arm may have hit."""
+        yield from ((Kind.SURFACE, n) for n in self._world_state.surfaces.keys() - robot.tolerated)
+        yield from ((Kind.OBJECT, n) for n in self._world_state.objects.keys() - robot.leaving)
+        yield from ((Kind.ROBOT, n) for n in self._world_state.robots.keys() - {robot.name})
 
     # the room -------------------------------------------------------------------------------
 

@@ -137,6 +137,8 @@ class Robot:
     tolerated: set[str] = field(default_factory=set)
     touches: list[Touch] = field(default_factory=list)
     raise_again: bool = False
+    # The halt began in another world, before a restart: what the arm hit there is not known.
+    inherited: bool = False
     # Speed of the arm's fastest point as a share of its speed at full stretch, and the joint
     # velocities for which it was computed.
     share: float = 1.0
@@ -200,7 +202,7 @@ class Robot:
             if self.playing.state is State.COLLISION_HALT and self.clearance.touched():
                 # Physics restarted during a halt: announce the collision again so that its end
                 # is announced too.
-                self.raise_again = True
+                self.raise_again = self.inherited = True
                 # What the arm stands in is what halted it.
                 self.tolerated.clear()
             yield before

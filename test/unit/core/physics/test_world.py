@@ -12,7 +12,7 @@ from mrlab_ros.core.geometry import Pose, compose, inverse, relative
 from mrlab_ros.core.physics import catalogue
 from mrlab_ros.core.physics import surfaces as rooms
 from mrlab_ros.core.physics.clearance import Clearance, Halt
-from mrlab_ros.core.physics.engine import BodyState
+from mrlab_ros.core.physics.engine import BodyState, Kind
 from mrlab_ros.core.physics.events import CollisionChanged, GraspChanged, ObjectRemoved
 from mrlab_ros.core.physics.grasp import Grasp, Gripper
 from mrlab_ros.core.physics.joint_stream import JointStream
@@ -99,6 +99,21 @@ def test_moving_the_obstacle_away_clears_too_and_playing_into_it_again_halts_aga
     lab.play()
     lab.go(0.461, 20 * MS)
     assert [event.colliding for event in lab.of(CollisionChanged)] == [True, False, True, True]
+
+
+def test_a_halt_of_another_world_stays_while_the_arm_is_close_to_anything():
+    """It stands where it halted, a hair from what it hit before physics was started anew."""
+    lab = Lab()
+    lab.world.spawn("post", "post", Pose((0.5, 0.0, 0.5)))
+    settings = Settings()
+    gap = lab.engine.distance("a", Kind.OBJECT, "post", 1.0)
+    lab.go(gap - settings.clear_margin / 2, 10 * MS)
+    lab.play(state=State.COLLISION_HALT)
+    lab.go(lab.at[0], 2000 * MS)
+    assert not lab.of(CollisionChanged)
+    lab.go(gap - 3 * settings.clear_margin, 100 * MS)
+    lab.go(lab.at[0], 600 * MS)
+    assert [event.colliding for event in lab.of(CollisionChanged)] == [False]
 
 
 @pytest.mark.parametrize(("x", "told"), [(0.3, [False]), (0.46, [True, False])])
