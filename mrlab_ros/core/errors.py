@@ -19,5 +19,9 @@ class Misuse(LabError):
     """A call that the present state does not allow; nothing was changed."""
 
 
+class Unreached(LabError):
+    """Who was asked did not answer in time; whether it did what was asked is not known."""
+
+
 class IllegalEvent(Misuse):
     """A state machine was asked for an event that its present state does not know."""

@@ -9,13 +9,13 @@ from typing import Any
 
 from rclpy.client import Client
 
-from mrlab_ros.core.errors import LabError
+from mrlab_ros.core.errors import Unreached
 
 # How often a call that waits checks whether its service is there, s.
 PRESENCE_PERIOD_S = 0.05
 
 
-class NoAnswer(LabError):
+class NoAnswer(Unreached):
     """A node of the lab did not answer in time."""
 
 

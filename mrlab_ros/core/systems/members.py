@@ -70,7 +70,8 @@ class Loaded:
 class Fleet(Protocol):
     """The members of one system. Every call reaches all robots at once, within one time-out.
 
-    Where a member cannot be reached or refuses, the methods raise LabError, but for reach().
+    Where a member cannot be reached the methods raise Unreached, where one refuses another
+    LabError, but for reach().
     """
 
     def claim(self, robots: Sequence[str]) -> list[Loaded]:

@@ -7,13 +7,13 @@ system's line, so members stay together through pauses, seeks and changes of rat
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Callable, Collection, Iterable, Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import replace
 from enum import Enum
 
 from mrlab_ros.core.clock import SECOND, PlaybackClock, checked_position, checked_rate
-from mrlab_ros.core.errors import LabError, Misuse
+from mrlab_ros.core.errors import LabError, Misuse, Unreached
 from mrlab_ros.core.playback.states import MOVING, State
 from mrlab_ros.core.state_machine import Machine
 from mrlab_ros.core.systems.claims import Claims
@@ -145,11 +145,18 @@ class RobotSystem:
         return self._stage(now_ns, SystemEvent.STAGE)
 
     def pause(self, now_ns: int) -> None:
-        """Let all members stand where they are; play goes on from there."""
+        """Let all members stand where they are; play goes on from there.
+
+        One that does not answer is lost until it does; the message names it.
+        """
         self._machine.check(SystemEvent.PAUSE)
-        self._freeze(now_ns)
+        lost = ""
+        try:
+            self._freeze(now_ns)
+        except Unreached:
+            lost = f"; {self.message}"
         self._machine.fire(SystemEvent.PAUSE)
-        self.message = "paused"
+        self.message = f"paused{lost}"
 
     def stop(self, now_ns: int) -> None:
         """End the run; the next play begins at the start of the timeline.
@@ -354,7 +361,12 @@ class RobotSystem:
             self._freeze(now_ns)
         self._timeline.seek(position)
         orders = [Order(m.robot, Command.SEEK, position=m.position) for m in self._timeline]
-        self._drive(now_ns, orders)
+        try:
+            self._drive(now_ns, orders)
+        except Unreached:
+            if self.state is not SystemState.READY:
+                self._timeline.seek(self.clock.position)
+            raise
         self.clock = PlaybackClock(now_ns, position, 0.0)
         self._machine.fire(event)
         self.message = f"at {position:g} s"
@@ -396,20 +408,42 @@ class RobotSystem:
             self._rewind(now_ns)
             return
         self.message = f"{member.robot} lost its playback; play goes on from here"
+        self._stand(now_ns)
+
+    def _miss(self, now_ns: int, orders: Sequence[Order]) -> None:
+        """Let all stand where they are: members did not answer, and are lost until they do."""
+        self._machine.fire(SystemEvent.LOSE)
+        setting_out = {o.robot for o in orders if o.command in (Command.STAGE, Command.PLAY)}
+        lost = self._stand(now_ns, setting_out, RETRY_TIMEOUT_S)
+        names = f"{', '.join(m.robot for m in lost)} did not answer; " if lost else ""
+        self.message = f"{names}play goes on from here"
+
+    def _stand(
+        self, now_ns: int, setting_out: Collection[str] = (), timeout: float | None = None
+    ) -> list[Member]:
+        """Let the timeline and all members that move stand in place; return those lost.
+
+        setting_out: robots that may move as well. timeout: as Fleet.reach() takes it.
+        """
         position = self._position(now_ns)
         self.clock = PlaybackClock(now_ns, position, 0.0)
         self._timeline.place(position)
-        for other in self._timeline:
-            other.ordered = False
-        moving = [m for m in self._timeline if m.playback_state in MOVING]
-        orders = [Order(m.robot, Command.PAUSE) for m in moving]
-        for other, reply in zip(moving, self._fleet.reach(orders), strict=True):
+        for member in self._timeline:
+            member.ordered = False
+        moving = [
+            m for m in self._timeline if m.playback_state in MOVING or m.robot in setting_out
+        ]
+        replies = self._fleet.reach([Order(m.robot, Command.PAUSE) for m in moving], timeout)
+        lost = []
+        for member, reply in zip(moving, replies, strict=True):
             # One that did not answer is lost as well, until it reports itself again.
             if reply is None:
-                other.playback_state = State.IDLE
+                member.playback_state = State.IDLE
+                lost.append(member)
             else:
-                self._take([reply], [other])
+                self._take([reply], [member])
         self._clear()
+        return lost
 
     def _take_back(self, now_ns: int, member: Member) -> None:
         """Claim a member that came back; the next play moves it to its place."""
@@ -498,12 +532,18 @@ class RobotSystem:
         return min(max(self.clock.at(now_ns), 0.0), self.duration)
 
     def _drive(self, now_ns: int, orders: Sequence[Order]) -> list[Reply]:
-        """Send the orders; where one fails, bring all members to rest and raise its error."""
+        """Send the orders; where one fails, let all members stand and raise its error.
+
+        They stand in place where a member did not answer; where one refused, the run is over.
+        """
         if not orders:
             return []
         try:
             replies = self._fleet.drive(orders)
         except LabError as error:
+            if isinstance(error, Unreached) and not self._machine.ignores(SystemEvent.LOSE):
+                self._miss(now_ns, orders)
+                raise
             self._come_to_rest(now_ns, SystemEvent.ABORT, str(error))
             raise
         self._take(replies, [self.members[order.robot] for order in orders])

@@ -169,12 +169,18 @@ class RosFleet:
         by_host: dict[str, list[Order]] = {}
         for order in orders:
             by_host.setdefault(self._members[order.robot].host(), []).append(order)
-        answers = call_all(
+        answers = call_each(
             [(self._hosts.client(host), self._request(part)) for host, part in by_host.items()],
             ORDER_TIMEOUT_S,
         )
         replies = {}
-        for answer in answers:
+        for part, answer in zip(by_host.values(), answers, strict=True):
+            if isinstance(answer, NoAnswer):
+                robots = ", ".join(order.robot for order in part)
+                raise NoAnswer(
+                    f"the playback of {robots} did not answer within {ORDER_TIMEOUT_S:g} s; try "
+                    "again, mrlab status says how it is"
+                ) from answer
             if not answer.success:
                 raise Misuse(answer.message)
             stamp_ns = time_from_message(answer.stamp)

@@ -210,7 +210,8 @@ class CoordinatorNode(ParameterNode[CoordinatorParameters]):
 
     def _pause(self, system: RobotSystem, request: Any) -> str:
         system.pause(self._now_ns())
-        return f"paused at {system.clock.position:.3f} s"
+        lost = system.message.removeprefix("paused")
+        return f"paused at {system.clock.position:.3f} s{lost}"
 
     def _stop(self, system: RobotSystem, request: Any) -> str:
         system.stop(self._now_ns())

@@ -10,7 +10,7 @@ from fakes import SECOND, StraightPlanner, make_model, make_trajectory
 from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
-from mrlab_ros.core.errors import BadInput, IllegalEvent, LabError, Misuse
+from mrlab_ros.core.errors import BadInput, IllegalEvent, LabError, Misuse, Unreached
 from mrlab_ros.core.playback.playback import Playback
 from mrlab_ros.core.playback.states import State
 from mrlab_ros.core.systems.members import (
@@ -28,10 +28,6 @@ from mrlab_ros.core.trajectory.trajectory import Trajectory
 
 MS = SECOND // 1000
 PERIOD = 10 * MS
-
-
-class Frozen(LabError):
-    """A robot did not answer in time."""
 
 
 class World:
@@ -88,7 +84,7 @@ class World:
         for order in orders:
             try:
                 replies += self.drive([order])
-            except Frozen:
+            except Unreached:
                 replies.append(None)
             except LabError:
                 replies.append(Reply(State.IDLE, 0.0, stamp_ns=self.now))
@@ -96,7 +92,7 @@ class World:
 
     def _answer(self, robot: str) -> None:
         if robot in self.frozen:
-            raise Frozen(f"{robot} did not answer")
+            raise Unreached(f"{robot} did not answer")
 
     def drive(self, orders: Sequence[Order]) -> list[Reply]:
         replies = []
@@ -492,6 +488,79 @@ def test_a_stop_that_does_not_reach_a_member_is_repeated_until_it_does():
     world.system.play(world.now)
     world.run_until(SystemState.READY)
     assert world.frames("b") == list(range(51))
+
+
+def freeze(world: World, seconds: float = 0.3) -> float:
+    """Let the process of `b` freeze in a run; return where the timeline is, s."""
+    world.system.play(world.now)
+    world.run_until(SystemState.PLAYING)
+    world.advance(seconds)
+    world.frozen = {"b"}
+    return world.system.clock.at(world.now)
+
+
+def thaw(world: World) -> None:
+    """Let `b` run again; it has missed every order, and plays on."""
+    world.frozen = set()
+    world.system.member_changed(
+        world.now, "b", world.playbacks["b"].state, 0.3, owner="cell", trajectory_id="b"
+    )
+
+
+@pytest.mark.parametrize("killed", [False, True])
+def test_a_pause_that_does_not_reach_a_member_pauses_in_place(killed):
+    world = make(TWO)
+    place = freeze(world)
+    world.system.pause(world.now)
+    assert world.system.state is SystemState.PAUSED
+    assert world.system.message == "paused; b did not answer; play goes on from here"
+    assert world.system.clock.position == pytest.approx(place)
+    assert world.playbacks["a"].state is State.PAUSED
+    world.now += 5 * SECOND
+    world.system.poll(world.now)
+    world.system.pause(world.now)
+    with pytest.raises(Unreached):
+        world.system.play(world.now)
+    assert world.system.state is SystemState.PAUSED
+    if killed:
+        lose(world, "b")
+    thaw(world)
+    assert world.playbacks["b"].state is not State.PLAYING
+    assert world.playbacks["b"].system == "cell"
+    world.sent = {"a": [], "b": []}
+    world.system.play(world.now)
+    world.run_until(SystemState.READY)
+    assert world.system.message == "played to the end"
+    assert world.frames("a")[0] == pytest.approx(place * 100, abs=1)
+    assert world.frames("b")[-1] == 50
+
+
+def test_a_refused_seek_that_does_not_reach_a_member_leaves_the_system_where_it_was():
+    world = make(TWO)
+    place = freeze(world)
+    with pytest.raises(Unreached):
+        world.system.seek(world.now, 0.05)
+    assert world.system.state is SystemState.PAUSED
+    assert world.system.clock.position == pytest.approx(place)
+    thaw(world)
+    world.frozen = {"b"}
+    with pytest.raises(Unreached):
+        world.system.seek(world.now, 0.05)
+    assert world.system.state is SystemState.PAUSED
+    assert world.system.clock.position == pytest.approx(place)
+    assert world.system.members["a"].position == pytest.approx(place)
+
+
+def test_a_member_that_does_not_answer_its_start_pauses_the_system():
+    world = make({"a": 101, "b": 51}, Mode.SEQUENTIAL)
+    freeze(world)
+    world.advance(0.2)
+    with pytest.raises(Unreached):
+        world.advance(1.0)
+    assert world.system.state is SystemState.PAUSED
+    assert world.playbacks["a"].state is State.PAUSED
+    assert world.system.clock.position > 0.5
+    assert "b did not answer; play goes on from here" in world.system.message
 
 
 def test_a_member_that_loops_by_itself_does_not_keep_the_system_from_ending():
