@@ -101,7 +101,7 @@ def test_what_a_student_did_comes_back(endpoint: str, tmp_path: Path) -> None:
         def publishers() -> set[str]:
             return {e.node_name for e in graph.node.get_publishers_info_by_topic(JOINTS)}
 
-        wait_for(lambda: publishers() == {"playback"}, "the lab's own playback")
+        wait_for(lambda: publishers() == {"_playback"}, "the lab's own playback")
         state = graph.watch(msg.RecorderState, "/recorder/state")
         replay = start_child(
             *MRLAB, "replay", str(bag), "--rate", "10", stdout=subprocess.PIPE, text=True
@@ -118,7 +118,7 @@ def test_what_a_student_did_comes_back(endpoint: str, tmp_path: Path) -> None:
         assert heard[first : first + len(recorded)] == recorded
         assert set(recorded) & set(watcher.heard)
         watcher.close()
-        wait_for(lambda: publishers() == {"playback"}, "the lab's own playback back")
+        wait_for(lambda: publishers() == {"_playback"}, "the lab's own playback back")
         robot = graph.watch(msg.PlaybackState, "/ur5e_1/playback_state")
         robot.wait(
             lambda s: (s.label, s.trajectory_id) == ("READY", "quintic_ur5e"),
