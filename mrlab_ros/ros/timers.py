@@ -20,5 +20,17 @@ STEADY = Clock(clock_type=ClockType.STEADY_TIME)
 def every(
     node: Node, period: float, callback: Callable[[], object], group: CallbackGroup | None = None
 ) -> Timer:
-    """Call `callback` in the node's executor every `period` s."""
-    return node.create_timer(period, callback, callback_group=group, clock=STEADY)
+    """Call `callback` in the node's executor every `period` s.
+
+    What it raises because the context was shut down beneath it is no mistake, and the executor
+    would log it as a fatal one.
+    """
+
+    def call() -> None:
+        try:
+            callback()
+        except Exception:
+            if node.context.ok():
+                raise
+
+    return node.create_timer(period, call, callback_group=group, clock=STEADY)
