@@ -4,12 +4,14 @@ from __future__ import annotations
 
 import json
 import time
+from collections.abc import Callable
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
 from mrlab_ros.core.errors import LabError, Misuse
+from mrlab_ros.core.recording.states import RecorderState
 
 if TYPE_CHECKING:
     from mrlab_ros.ros.graph import GraphClient, Watch
@@ -17,6 +19,8 @@ if TYPE_CHECKING:
 REFRESH = 0.25
 # A working recorder publishes its state once a second; without one for this long it has gone, s.
 SILENCE = 5.0
+# A recorder that died is back by then: the supervisor starts it again, s.
+RETURN = 20.0
 # A bag of such a name is a command that was meant otherwise.
 COMMANDS = {"stop": "mrlab record --stop", "start": "mrlab record"}
 # A bag of hours is closed by then, s.
@@ -70,7 +74,7 @@ def record(
             begun = True
             if as_json:
                 print(json.dumps({"bag": answer.bag}), flush=True)
-                _follow(watch, _print_state, answer.bag)
+                _follow(watch, _print_state, _print_message, answer.bag)
                 return
             console.print(
                 f"records into {answer.bag}; Ctrl-C ends it, or mrlab record --stop",
@@ -78,7 +82,10 @@ def record(
             )
             with Live(console=console, auto_refresh=False, transient=True) as live:
                 _follow(
-                    watch, lambda *states: live.update(_line(*states), refresh=True), answer.bag
+                    watch,
+                    lambda *states: live.update(_line(*states), refresh=True),
+                    lambda said: console.print(said, soft_wrap=True),
+                    answer.bag,
                 )
         except KeyboardInterrupt:
             if not begun:
@@ -87,7 +94,7 @@ def record(
                 raise typer.Exit(130) from None
             said = _stop(graph)
             if as_json:
-                print(json.dumps({"message": said}))
+                _print_message(said)
             else:
                 console.print(said, soft_wrap=True)
 
@@ -110,33 +117,49 @@ def _end(bag: Path | None, *, as_json: bool) -> None:
     print(json.dumps({"bag": state.bag, "message": said}) if as_json else said)
 
 
-def _follow(watch: Watch[Any], show: Any, bag: str) -> None:
-    """Show the progress until the recording ends; raise LabError where it ended by itself."""
-    from mrlab_msgs import msg
+def _follow(watch: Watch[Any], show: Any, say: Callable[[str], None], bag: str) -> None:
+    """Show the progress until the recording ends; raise LabError where it ended by itself.
 
+    A recorder that was killed and restarted goes on in the same bag: it is waited for. say: takes
+    a sentence where that happens.
+    """
     last, received_at, began = None, time.monotonic(), False
+    waiting, said = False, ""
     while True:
         state = watch.value
         if state is not last:
             before, last, received_at = last, state, time.monotonic()
             # What is latched from before this recording says nothing of it.
-            if state.state == msg.RecorderState.RECORDING and state.bag == bag:
+            if state.state == RecorderState.RECORDING.value and state.bag == bag:
                 show(state, before if began else None)
-                began = True
+                if state.message and state.message != said:
+                    say(f"{state.message}; the recording goes on in {bag}")
+                elif waiting:
+                    say(f"the recorder is back; the recording goes on in {bag}")
+                began, waiting, said = True, False, state.message
             elif began:
                 raise LabError(
                     state.message
                     or f"the recording into {bag} has ended: another client stopped it, or the "
                     "recorder was restarted; mrlab bag info shows what it holds"
                 )
-        if time.monotonic() - received_at > SILENCE:
-            said = state.message if state is not None else ""
+        silent = time.monotonic() - received_at
+        if silent > SILENCE and not began and state is not None and state.message:
+            raise LabError(state.message)
+        if silent > RETURN:
             raise LabError(
-                said
-                or f"the recorder has been silent for {SILENCE:g} s; what it wrote into {bag} "
-                "stays readable; mrlab status shows what runs"
+                f"the recorder has been silent for {RETURN:g} s; what it wrote into {bag} stays "
+                "readable; a restarted recorder goes on in that bag: mrlab record --stop ends it; "
+                "mrlab status shows what runs"
             )
+        if silent > SILENCE and not waiting:
+            waiting = True
+            say(f"the recorder has been silent for {SILENCE:g} s; waits for it to be restarted")
         time.sleep(REFRESH)
+
+
+def _print_message(said: str) -> None:
+    print(json.dumps({"message": said}), flush=True)
 
 
 def _print_state(state: Any, _: Any) -> None:
@@ -156,7 +179,18 @@ def _stop(graph: GraphClient) -> str:
     """End the recording; raise LabError where the recorder does not answer."""
     from std_srvs.srv import Trigger
 
-    answer = graph.order(Trigger, "/recorder/stop", Trigger.Request(), timeout=STOP_TIMEOUT_S)
+    from mrlab_ros.ros.calls import NoAnswer
+
+    try:
+        answer = graph.call(
+            Trigger, "/recorder/stop", Trigger.Request(), STOP_TIMEOUT_S, find_timeout=RETURN
+        )
+    except NoAnswer as error:
+        raise NoAnswer(
+            f"{error}; a restarted recorder goes on in its bag: mrlab record --stop ends it"
+        ) from None
+    if not answer.success:
+        raise Misuse(answer.message)
     return str(answer.message)
 
 
