@@ -162,6 +162,8 @@ class BagWriter:
                 "write"
             ) from None
         try:
+            for part in self.facts.parts:
+                self._earlier_bytes += (folder / part.path).stat().st_size
             self._keep_reserve()
             self._begin_part()
         except OSError as error:

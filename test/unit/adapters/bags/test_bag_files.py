@@ -15,6 +15,7 @@ from hypothesis import strategies as st
 from mcap.writer import Writer
 from rosbags.highlevel import AnyReader
 
+from mrlab_ros.adapters.bags.empty import remove_empty
 from mrlab_ros.adapters.bags.reader import Bag
 from mrlab_ros.adapters.bags.repair import refresh_metadata, repair
 from mrlab_ros.adapters.bags.writer import (
@@ -486,3 +487,48 @@ def test_a_renamed_folder_ends_the_recording_at_once_and_the_bag_is_whole(tmp_pa
     with pytest.raises(DiskTrouble):
         writer.close()
     assert read(tmp_path / "moved") == messages
+
+
+def test_a_bag_that_goes_on_counts_its_earlier_bytes(tmp_path):
+    folder = tmp_path / "class"
+    first = begin(folder)
+    fill(first, 100)
+    first.close()
+    size = Bag(folder).size
+    writer = BagWriter(folder, lambda kind: DEFINITION, after=Bag(folder).facts())
+    assert writer.facts.messages == 100
+    assert writer.size > size
+    writer.close()
+
+
+def test_only_a_bag_without_messages_makes_room_for_another(tmp_path):
+    folder = tmp_path / "class"
+    writer = begin(folder)
+    assert not remove_empty(folder), "it is being written"
+    # As a recorder leaves it that is killed now.
+    writer.flush()
+    writer._file.close()
+    assert remove_empty(folder)
+    writer = begin(folder)
+    fill(writer, 1)
+    writer.close()
+    assert not remove_empty(folder)
+    other = tmp_path / "mine"
+    other.mkdir()
+    (other / "notes.txt").write_text("mine")
+    assert not remove_empty(other)
+    (other / "notes.txt").rename(other / "mine_0.mcap")
+    assert not remove_empty(other)
+    assert not remove_empty(tmp_path / "nowhere")
+
+
+def test_a_file_whose_messages_cannot_be_read_is_not_empty(tmp_path):
+    folder = tmp_path / "class"
+    writer = begin(folder)
+    fill(writer, 1000)
+    writer.close()
+    path = folder / "class_0.mcap"
+    whole = path.read_bytes()
+    path.write_bytes(whole[: len(whole) // 4])
+    assert Bag(folder).message_count == 0
+    assert not remove_empty(folder)
