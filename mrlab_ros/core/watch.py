@@ -18,22 +18,26 @@ class Sign:
     """What a process says of itself.
 
     restarts: how often it was started again. last_exit: how it ended before, such as SIGKILL.
-    lost: what could not be brought back, a sentence each.
+    lost: what could not be brought back, a sentence each; None: that is not known yet. failed:
+    what went wrong since, newest first.
     """
 
     process: str
     restarts: int = 0
     last_exit: str = ""
-    lost: tuple[str, ...] = ()
+    lost: tuple[str, ...] | None = ()
+    failed: tuple[str, ...] = ()
 
     def sentence(self, age: float) -> str:
         """Return what to show of a process that runs for `age` s; empty: nothing is amiss."""
-        lost = "; ".join(self.lost)
+        lost = "; ".join(self.lost or ())
         if self.restarts and age < RESTART_SHOWN_S:
             ended = f" ({self.last_exit})" if self.last_exit else ""
             said = f"lost: {lost}" if lost else "nothing was lost"
-            return f"it died{ended} and was restarted {age:.0f} s ago; {said}"
-        return lost
+            if self.lost is None:
+                said = "what was lost is being determined"
+            lost = f"it died{ended} and was restarted {age:.0f} s ago; {said}"
+        return "; ".join(text for text in (*self.failed, lost) if text)
 
 
 class Watch:

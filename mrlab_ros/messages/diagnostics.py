@@ -11,6 +11,8 @@ from mrlab_ros.messages.time import make_header
 
 # What the names of the lab's processes begin with on /diagnostics.
 PREFIX = "mrlab: "
+# What a process says of itself alone, and never of another.
+RESTARTS = "restarts"
 
 
 def signs_to_message(
@@ -21,14 +23,16 @@ def signs_to_message(
     age: how long it runs, s.
     """
     trouble = own.sentence(age)
+    level = DiagnosticStatus.WARN if trouble else DiagnosticStatus.OK
     values = {
-        "restarts": str(own.restarts),
+        RESTARTS: str(own.restarts),
         "last_exit": own.last_exit,
-        **{f"lost {number}": text for number, text in enumerate(own.lost, 1)},
+        **{f"failed {number}": text for number, text in enumerate(own.failed, 1)},
+        **{f"lost {number}": text for number, text in enumerate(own.lost or (), 1)},
     }
     statuses = [
         DiagnosticStatus(
-            level=DiagnosticStatus.WARN if trouble else DiagnosticStatus.OK,
+            level=DiagnosticStatus.ERROR if own.failed else level,
             name=f"{PREFIX}{own.process}",
             message=trouble or "runs",
             hardware_id="mrlab",
@@ -52,7 +56,7 @@ def living_in(message: DiagnosticArray) -> list[str]:
     return [
         status.name.removeprefix(PREFIX)
         for status in message.status
-        if status.name.startswith(PREFIX) and status.level != DiagnosticStatus.ERROR
+        if status.name.startswith(PREFIX) and any(v.key == RESTARTS for v in status.values)
     ]
 
 

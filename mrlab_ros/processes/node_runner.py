@@ -101,6 +101,9 @@ def run(names: list[str]) -> int:
             watcher.lost = [
                 text for node in spun.values() for text in getattr(node.node, "lost", ())
             ]
+            watcher.failed = [
+                text for node in spun.values() for text in getattr(node.node, "failed", ())
+            ]
             time.sleep(POLL_PERIOD_S)
         return 0
     except WrongParameters as error:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import os
 import time
 from collections.abc import Iterable
+from dataclasses import replace
 
 from diagnostic_msgs.msg import DiagnosticArray
 from rclpy.context import Context
@@ -23,7 +24,8 @@ TOPIC = "/diagnostics"
 class Watcher:
     """A hidden node with a thread of its own: a busy node is no dead process.
 
-    lost: what could not be brought back after a restart, a sentence each.
+    lost: what could not be brought back after a restart, a sentence each; None: not known yet.
+    failed: what went wrong since, newest first.
     """
 
     def __init__(
@@ -41,7 +43,8 @@ class Watcher:
             int(environment.get(RESTARTS, "0")) if restarts is None else restarts,
             environment.get(LAST_EXIT, "") if last_exit is None else last_exit,
         )
-        self.lost: Iterable[str] = ()
+        self.lost: Iterable[str] | None = None
+        self.failed: Iterable[str] = ()
         self._watch = Watch(process)
         self._began = time.monotonic()
         self._node = Node(
@@ -66,8 +69,11 @@ class Watcher:
 
     def _give_sign(self) -> None:
         now = time.monotonic()
-        sign = Sign(
-            self._sign.process, self._sign.restarts, self._sign.last_exit, tuple(self.lost)
+        lost = self.lost
+        sign = replace(
+            self._sign,
+            lost=None if lost is None else tuple(lost),
+            failed=tuple(self.failed),
         )
         message = signs_to_message(
             time.time_ns(), sign, now - self._began, self._watch.silent(now)

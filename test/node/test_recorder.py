@@ -30,7 +30,9 @@ from std_srvs.srv import SetBool, Trigger
 from mrlab_ros.adapters.bags.reader import Bag
 from mrlab_ros.adapters.bags.repair import repair
 from mrlab_ros.adapters.bags.writer import BagWriter
+from mrlab_ros.adapters.journal import Journal
 from mrlab_ros.adapters.trajectories.json_file import chunks, parse
+from mrlab_ros.core.recording import journal as entries
 from mrlab_ros.core.recording.metadata import QosProfile, Topic
 from mrlab_ros.messages import qos
 from mrlab_ros.messages.definitions import definition
@@ -196,7 +198,7 @@ def test_one_thing_at_a_time_and_each_refusal_says_why(graph, recorder, tmp_path
     assert f"a recording into {folder} runs" in refused(srv.StartRecording, "start")
     assert f"a recording into {folder} runs" in refused(srv.Replay, "replay", bag="x", rate=1.0)
     order(graph, "stop")
-    assert "exists already" in refused(srv.StartRecording, "start", bag="class")
+    assert "exists already" in refused(srv.StartRecording, "start", bag="file")
     assert "holds no topic" in refused(srv.Replay, "replay", bag="class", rate=1.0)
 
 
@@ -290,9 +292,10 @@ def test_a_killed_recorder_goes_on_in_the_same_bag_and_states_the_gap(
             lambda: states and states.last().state == State.RECORDING and states.last().messages,
             "the recording again",
         )
+        earlier = Bag(bag).message_count
         assert Path(states.last().bag) == bag
         assert "the recorder was restarted" in states.last().message
-        wait_for(lambda: states.last().messages > 500, "more messages")
+        wait_for(lambda: states.last().messages > earlier + 500, "more messages")
         order(graph, "stop")
         assert states.last() is not None
     finally:
@@ -573,3 +576,28 @@ def test_meshes_of_objects_are_in_the_bag(graph, recorder):
     order(graph, "stop")
     attached = Bag(folder).attachment("meshes/mrlab_ros/config/objects/bin.glb")
     assert attached.data == (directory() / "config" / "objects" / "bin.glb").read_bytes()
+
+
+def test_a_recording_that_goes_on_counts_the_bag_and_a_failure_is_told(graph, tmp_path):
+    writer = BagWriter(tmp_path / "class", definition)
+    writer.add_topic(Topic("/counted", "std_msgs/msg/String", (QosProfile(),)))
+    for number in range(7):
+        data = serialize_message(String(data=str(number)))
+        writer.write("/counted", START_NS + number, data, START_NS)
+    writer.close()
+    journal = Journal.of(str(tmp_path), "recorder", pytest.fail)
+    journal.save(entries.plain(tmp_path / "class", ["/counted"], 0.0))
+    journal.close()
+    node = graph.add(
+        RecorderNode, bag_dir=str(tmp_path), state_dir=str(tmp_path), topics=["/counted"]
+    )
+    assert "s are missing" in node.lost[0]
+    assert "holds 7 messages" in order(graph, "stop")
+    folder = start(graph, "next")
+    assert node.lost == []
+    folder.rename(tmp_path / "moved")
+    wait_for(lambda: node.failed, "the failure")
+    assert "was renamed or removed" in node.failed[0]
+    start(graph, "last")
+    assert node.failed == []
+    order(graph, "stop")

@@ -14,6 +14,7 @@ from rclpy.node import Node
 from rclpy.parameter import Parameter
 from std_srvs.srv import SetBool, Trigger
 
+from mrlab_ros.adapters.bags.empty import remove_empty
 from mrlab_ros.adapters.bags.reader import Bag, default_folder
 from mrlab_ros.adapters.bags.writer import BagWriter
 from mrlab_ros.adapters.journal import Journal
@@ -78,6 +79,8 @@ class RecorderNode(ParameterNode[RecorderParameters]):
         self._trouble = ""
         # What was not recorded because of a restart, a sentence each.
         self.lost: list[str] = []
+        # Why the newest recording ended by itself; empty again once another one begins.
+        self.failed: list[str] = []
         self._state = self.create_publisher(msg.RecorderState, "~/state", qos.LATCHED)
         for kind, name, callback in (
             (srv.StartRecording, "start", self._start),
@@ -123,8 +126,12 @@ class RecorderNode(ParameterNode[RecorderParameters]):
         split = Split(request.split_duration, self.parameters.split_size * MEGABYTE)
         topics = Topics(list(request.topics) or list(self.parameters.topics))
         name = request.bag or time.strftime("session_%Y-%m-%d_%H-%M-%S")
-        writer = BagWriter(self._folder / Path(name).expanduser(), definition, versions())
+        folder = self._folder / Path(name).expanduser()
+        remove_empty(folder)
+        writer = BagWriter(folder, definition, versions())
         writer.note("mrlab", writer.facts.custom)
+        # They are about earlier bags.
+        self.lost, self.failed = [], []
         self._record(writer, topics, split, "")
         self._journal.save(entries.plain(writer.folder, topics.patterns, request.split_duration))
         response.bag = str(writer.folder)
@@ -207,7 +214,7 @@ class RecorderNode(ParameterNode[RecorderParameters]):
         self.get_logger().error(str(error))
         with self._lock:
             self._machine.fire(RecorderEvent.FAIL)
-            self._trouble = str(error)
+            self._trouble, self.failed = str(error), [str(error)]
             self._recording = None
             content, self._content = self._content, None
         self._journal.save({})
@@ -343,6 +350,10 @@ class RecorderNode(ParameterNode[RecorderParameters]):
                 recording.close()
             if replaying is not None:
                 self._close(replaying)
+        except LabError as error:
+            with self._lock:
+                self._trouble, self.failed = str(error), [str(error)]
+            raise
         finally:
             if self.context.ok():
                 self._publish_state()

@@ -94,10 +94,12 @@ class Recording:
         self._lock = threading.Lock()
         # Of the clock that never goes back: the other one may be set while a recording runs.
         self._began_ns = self._part_ns = self._flushed_ns = self._noted_ns = time.monotonic_ns()
+        # How long ago a recorder that was killed began this bag, s.
+        facts = writer.facts
+        self._earlier = max(time.time_ns() - facts.start_ns, 0) / SECOND if facts.messages else 0.0
         self._closed = False
         # Why the recording ended by itself.
         self._trouble: LabError | None = None
-        self.messages = 0
         self._poll = TopicPoll("recorder", POLL_PERIOD_S, self._take)
 
     def start(self) -> None:
@@ -114,11 +116,17 @@ class Recording:
 
     @property
     def position(self) -> float:
-        """Time since the recording began, s."""
-        return (time.monotonic_ns() - self._began_ns) / SECOND
+        """Time since the recording began, s, of which a killed recorder may have missed some."""
+        return self._earlier + (time.monotonic_ns() - self._began_ns) / SECOND
+
+    @property
+    def messages(self) -> int:
+        """Messages of the bag, also those of a recorder that was killed."""
+        return self._writer.facts.messages
 
     @property
     def size(self) -> int:
+        """Bytes of the bag."""
         return self._writer.size
 
     def discover(self) -> None:
@@ -215,7 +223,6 @@ class Recording:
     def _write(self, message: Received) -> None:
         received_ns, topic, data, published_ns, sequence = message
         self._writer.write(topic, received_ns, data, published_ns, sequence & 0xFFFFFFFF)
-        self.messages += 1
 
     def _present(self, messages: list[Received], *, last: bool) -> list[Received]:
         """Return what to write: of what latched topics said before, the newest alone."""

@@ -35,3 +35,15 @@ def test_a_restarted_process_says_how_it_ended_and_what_was_lost():
     sign = Sign("lab", 1, "SIGKILL", ("the system cell",))
     assert sign.sentence(5.0).endswith("lost: the system cell")
     assert sign.sentence(61.0) == "the system cell"
+
+
+def test_nothing_is_called_unlost_before_it_is_known():
+    sign = Sign("recorder", 1, "SIGKILL", None)
+    assert sign.sentence(5.0).endswith("5 s ago; what was lost is being determined")
+    assert Sign("recorder", lost=None).sentence(5.0) == ""
+
+
+def test_what_failed_since_comes_before_what_was_lost():
+    sign = Sign("recorder", 1, "SIGKILL", ("2 s of class",), ("the disk is full",))
+    assert sign.sentence(61.0) == "the disk is full; 2 s of class"
+    assert sign.sentence(5.0).startswith("the disk is full; it died (SIGKILL)")
