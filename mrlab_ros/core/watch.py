@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 
 # Time between two signs of life, and after how long a silent process counts as dead, s.
@@ -9,8 +10,17 @@ PERIOD_S = 1.0
 SILENT_AFTER_S = 3.0
 # A process that has been silent for so long is not reported any more, s.
 FORGOTTEN_AFTER_S = 60.0
-# For so long after a restart a process says that it was restarted, s.
+# For so long a process says that it was restarted, or that it did not run, s.
 RESTART_SHOWN_S = 60.0
+FREEZE_SHOWN_S = 60.0
+
+
+@dataclass(frozen=True)
+class Freeze:
+    """How long a process did not run, to within half of PERIOD_S, and how long ago that was, s."""
+
+    duration: float
+    ago: float
 
 
 @dataclass(frozen=True)
@@ -19,7 +29,7 @@ class Sign:
 
     restarts: how often it was started again. last_exit: how it ended before, such as SIGKILL.
     lost: what could not be brought back, a sentence each; None: that is not known yet. failed:
-    what went wrong since, newest first.
+    what went wrong since, newest first. freeze: the last one, of a minute.
     """
 
     process: str
@@ -27,6 +37,7 @@ class Sign:
     last_exit: str = ""
     lost: tuple[str, ...] | None = ()
     failed: tuple[str, ...] = ()
+    freeze: Freeze | None = None
 
     def sentence(self, age: float) -> str:
         """Return what to show of a process that runs for `age` s; empty: nothing is amiss."""
@@ -37,7 +48,11 @@ class Sign:
             if self.lost is None:
                 said = "what was lost is being determined"
             lost = f"it died{ended} and was restarted {age:.0f} s ago; {said}"
-        return "; ".join(text for text in (*self.failed, lost) if text)
+        frozen = ""
+        if self.freeze is not None:
+            duration, ago = self.freeze.duration, self.freeze.ago
+            frozen = f"it did not run for about {duration:.0f} s, until {ago:.0f} s ago"
+        return "; ".join(text for text in (*self.failed, frozen, lost) if text)
 
 
 class Watch:
@@ -47,10 +62,32 @@ class Watch:
         """process: the one that watches; it lives."""
         self._process = process
         self._heard: dict[str, float] = {}
+        self._looked: float | None = None
+        # How long this process did not run, and until when, s.
+        self._frozen = (0.0, -math.inf)
 
     def hear(self, process: str, now: float) -> None:
         """Note a sign of life of `process`."""
         self._heard[process] = now
+
+    def look(self, now: float) -> None:
+        """Note that this process runs; call it every PERIOD_S.
+
+        Others are not silent for the time in which it did not: it has missed what they said.
+        """
+        gap = 0.0 if self._looked is None else now - self._looked
+        self._looked = now
+        if gap <= 2 * PERIOD_S:
+            return
+        missed = gap - PERIOD_S / 2
+        self._heard = {name: min(heard + missed, now) for name, heard in self._heard.items()}
+        if gap >= SILENT_AFTER_S:
+            self._frozen = (missed, now)
+
+    def freeze(self, now: float) -> Freeze | None:
+        """Return when this process did not run; None: not lately."""
+        duration, until = self._frozen
+        return Freeze(duration, now - until) if now - until < FREEZE_SHOWN_S else None
 
     def silent(self, now: float) -> dict[str, float]:
         """Return for how long each silent process has been so, s, where this one reports them.

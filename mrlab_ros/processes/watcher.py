@@ -69,11 +69,13 @@ class Watcher:
 
     def _give_sign(self) -> None:
         now = time.monotonic()
+        self._watch.look(now)
         lost = self.lost
         sign = replace(
             self._sign,
             lost=None if lost is None else tuple(lost),
             failed=tuple(self.failed),
+            freeze=self._watch.freeze(now),
         )
         message = signs_to_message(
             time.time_ns(), sign, now - self._began, self._watch.silent(now)

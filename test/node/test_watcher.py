@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import time
+
 from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus
 from graph import Graph, wait_for
 
@@ -29,6 +31,9 @@ def test_a_process_that_falls_silent_is_reported_by_another(graph: Graph):
         wait_for(lambda: "died (SIGKILL)" in said["playback"], "the restart")
         wait_for(lambda: "lost: ur5e_1 has lost wave" in said["playback"], "what was lost")
         assert said["lab"] == ""
+        # As if it had not run since.
+        lab._watch.look(time.monotonic() - 5.0)
+        wait_for(lambda: "did not run for about" in said["lab"], "the freeze")
     finally:
         for watcher in (lab, playback):
             watcher.close()

@@ -47,3 +47,39 @@ def test_what_failed_since_comes_before_what_was_lost():
     sign = Sign("recorder", 1, "SIGKILL", ("2 s of class",), ("the disk is full",))
     assert sign.sentence(61.0) == "the disk is full; 2 s of class"
     assert sign.sentence(5.0).startswith("the disk is full; it died (SIGKILL)")
+
+
+def test_a_process_that_did_not_run_blames_nobody_for_what_it_missed_and_says_so():
+    watch = Watch("lab")
+    watch.look(95.0)
+    watch.hear("playback", 95.5)
+    watch.hear("physics", 92.6)
+    # From 95.8 to 99.8.
+    watch.look(99.8)
+    assert watch.silent(99.8) == {}
+    freeze = watch.freeze(102.8)
+    assert freeze is not None
+    sign = Sign("lab", freeze=freeze)
+    assert sign.sentence(500.0) == "it did not run for about 4 s, until 3 s ago"
+    # One that is silent still is reported as ever.
+    for now in (100.8, 101.8, 102.8, 103.8):
+        watch.look(now)
+        watch.hear("playback", now)
+    assert watch.silent(103.8).keys() == {"physics"}
+    assert watch.freeze(160.0) is None
+
+
+def test_a_process_that_runs_late_for_a_moment_was_not_frozen():
+    watch = Watch("lab")
+    for now in (95.0, 96.9, 99.1):
+        watch.look(now)
+    assert watch.freeze(99.1) is None
+
+
+def test_what_a_process_said_when_it_woke_is_no_older_for_its_freeze():
+    watch = Watch("lab")
+    watch.look(90.0)
+    watch.hear("playback", 99.0)
+    watch.look(99.0)
+    assert watch.silent(101.0) == {}
+    assert watch.silent(102.5).keys() == {"playback"}
