@@ -25,6 +25,7 @@ from mrlab_ros.core.recording.states import TABLE, RecorderEvent, RecorderState,
 from mrlab_ros.core.recording.timeline import ReplayTimeline
 from mrlab_ros.core.recording.topics import Split, Topics
 from mrlab_ros.core.state_machine import Machine
+from mrlab_ros.core.watch import RESTART_SHOWN_S
 from mrlab_ros.messages import qos
 from mrlab_ros.messages.definitions import definition
 from mrlab_ros.messages.recorder import recorder_state_to_message
@@ -77,6 +78,7 @@ class RecorderNode(ParameterNode[RecorderParameters]):
         # A bag that is replayed once the live nodes have left; its state is published before.
         self._preparing: Bag | None = None
         self._trouble = ""
+        self._made_at = time.monotonic()
         # What was not recorded because of a restart, a sentence each.
         self.lost: list[str] = []
         # Why the newest recording ended by itself; empty again once another one begins.
@@ -130,8 +132,10 @@ class RecorderNode(ParameterNode[RecorderParameters]):
         remove_empty(folder)
         writer = BagWriter(folder, definition, versions())
         writer.note("mrlab", writer.facts.custom)
-        # They are about earlier bags.
-        self.lost, self.failed = [], []
+        # They are about earlier bags. While the restart is reported, its loss is.
+        self.failed = []
+        if time.monotonic() - self._made_at > RESTART_SHOWN_S:
+            self.lost = []
         self._record(writer, topics, split, "")
         self._journal.save(entries.plain(writer.folder, topics.patterns, request.split_duration))
         response.bag = str(writer.folder)
