@@ -19,6 +19,9 @@ from mrlab_ros.ros.spinning import SpunNode
 from mrlab_ros.ros.timers import every
 
 TOPIC = "/diagnostics"
+# Others find a process again, that they had given up while it did not run, within this time, s:
+# it announces itself every 3 s.
+RENEWED_FOR_S = 10.0
 
 
 class Watcher:
@@ -70,14 +73,27 @@ class Watcher:
     def _give_sign(self) -> None:
         now = time.monotonic()
         self._watch.look(now)
+        freeze = self._watch.freeze(now)
+        if freeze is not None and freeze.ago < RENEWED_FOR_S:
+            self._renew_names()
         lost = self.lost
         sign = replace(
             self._sign,
             lost=None if lost is None else tuple(lost),
             failed=tuple(self.failed),
-            freeze=self._watch.freeze(now),
+            freeze=freeze,
         )
         message = signs_to_message(
             time.time_ns(), sign, now - self._began, self._watch.silent(now)
         )
         self._topic.publish(message)
+
+    def _renew_names(self) -> None:
+        """Name the nodes of this process to others again.
+
+        The middleware names them when one of its ends is made or ends, and to who is new. Others
+        that gave the process up while it did not run count as neither.
+        """
+        self._node.destroy_publisher(
+            self._node.create_publisher(DiagnosticArray, TOPIC, qos.EVENTS)
+        )

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import time
 
+import pytest
 from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus
 from graph import Graph, wait_for
 
@@ -12,7 +13,9 @@ from mrlab_ros.messages.diagnostics import troubles_in
 from mrlab_ros.processes.watcher import Watcher
 
 
-def test_a_process_that_falls_silent_is_reported_by_another(graph: Graph):
+def test_a_process_that_falls_silent_is_reported_by_another(
+    graph: Graph, monkeypatch: pytest.MonkeyPatch
+):
     said: dict[str, str] = {}
     graph.client.create_subscription(
         DiagnosticArray,
@@ -31,9 +34,16 @@ def test_a_process_that_falls_silent_is_reported_by_another(graph: Graph):
         wait_for(lambda: "died (SIGKILL)" in said["playback"], "the restart")
         wait_for(lambda: "lost: ur5e_1 has lost wave" in said["playback"], "what was lost")
         assert said["lab"] == ""
+        # The middleware names the nodes again when an end is made.
+        made: list[str] = []
+        make = lab._node.create_publisher
+        monkeypatch.setattr(
+            lab._node, "create_publisher", lambda *args: made.append(args[1]) or make(*args)
+        )
         # As if it had not run since.
         lab._watch.look(time.monotonic() - 5.0)
         wait_for(lambda: "did not run for about" in said["lab"], "the freeze")
+        assert made
     finally:
         for watcher in (lab, playback):
             watcher.close()
