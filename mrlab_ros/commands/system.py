@@ -129,7 +129,7 @@ def _trajectory(graph: GraphClient, folder: Path, member: MemberEntry) -> str:
     from mrlab_ros.core.conversion.options import Options
 
     name = member.trajectory
-    if not is_file(name):
+    if not name or not is_file(name):
         return name
     lab = Lab(graph)
     return in_catalogue(lab, lab.robot(member.robot), str(folder / name), Options())

@@ -63,3 +63,7 @@ def test_a_refused_file_converts_nothing(systems, monkeypatch, tmp_path):
     with pytest.raises(Misuse, match="no robot 'kuka_1'"):
         system.create(file)
     assert not converted
+
+
+def test_a_member_without_a_trajectory_keeps_what_its_robot_has_loaded(tmp_path):
+    assert system._trajectory(None, tmp_path, MemberEntry("ur5e_1")) == ""

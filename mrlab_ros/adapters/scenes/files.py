@@ -78,7 +78,9 @@ def content(path: Path) -> object:
         raise BadInput(f"{path.name} cannot be read: {error.strerror}") from None
     except (ValueError, yaml.YAMLError, RecursionError) as error:
         kind = "JSON" if path.suffix == ".json" else "YAML"
-        raise BadInput(f"{path.name} is not {kind}: {' '.join(str(error).split())}") from None
+        # Marks of the parser name what it read, which is no file to it.
+        found = " ".join(str(error).split()).replace('in "<byte string>", ', "in ")
+        raise BadInput(f"{path.name} is not {kind}: {found}") from None
 
 
 def write(path: Path, scene: SceneDocument) -> None:

@@ -70,6 +70,7 @@ def test_a_saved_scene_hides_the_shipped_one_and_leaves_no_other_file(tmp_path):
         ("[]", "bad.yaml is empty; expected a mapping"),
         ("5", "is 5; expected a mapping"),
         ("[", "is not YAML"),
+        ("a: [1,\nb\n", r"is not YAML: [^<>]* in line 3, column 1"),
         ("\x00\x01", "is not YAML"),
     ],
 )
