@@ -374,7 +374,8 @@ def test_the_process_ends_when_asked_and_tells_what_it_carried(graph, endpoint, 
         text=True,
         cwd=ROOT,
     )
-    assert "carries" in process.stdout.readline()
+    # Fast DDS may say before that another process has a port of its shared memory.
+    assert any("carries" in line for line in process.stdout)
     with connect(endpoint) as session:
         wait_for(lambda: any("joint_states" in t for t in tokens(session)), "the topic on zenoh")
     process.send_signal(number)

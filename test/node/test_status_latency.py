@@ -109,5 +109,5 @@ def test_only_the_nodes_of_this_lab_are_expected():
     assert {"bridge", "physics", "lab", "playback_host"} <= set(everything)
     kept = {"processes": [{"name": name} for name in ("lab", "playback", "recorder")]}
     without = set(expected_nodes(kept, in_replay=False))
-    assert set(everything) - without == {"bridge", "physics"}
+    assert set(everything) - without == {"bridge", "frames", "physics"}
     assert set(expected_nodes(None, in_replay=True)) == {"bridge", "recorder"}

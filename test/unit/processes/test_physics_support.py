@@ -45,7 +45,8 @@ def test_without_pybullet_physics_is_refused_or_left_out_in_words(monkeypatch):
 def test_the_node_and_the_command_end_with_the_same_sentence():
     node = "from mrlab_ros.processes import host\nhost.main(['physics'])"
     command = (
-        "import sys\nfrom mrlab_ros import cli\nsys.argv[1:] = ['up', '--physics']\ncli.main()"
+        "import sys\nfrom mrlab_ros import cli\n"
+        "sys.argv[1:] = ['up', '--physics', '--no-web']\ncli.main()"
     )
     for code, status in ((node, WRONG_CONFIGURATION), (command, 1)):
         done = subprocess.run(
