@@ -9,7 +9,10 @@ from mrlab_msgs import msg
 
 @dataclass(frozen=True)
 class Motion:
-    """A trajectory of the catalogue. frame_rate: Hz; duration: s; warnings: sentences."""
+    """A trajectory of the catalogue. frame_rate: Hz; duration: s; warnings: sentences.
+
+    version: grows with each conversion under the same id; 0: not known.
+    """
 
     id: str
     robot_model: str
@@ -17,6 +20,7 @@ class Motion:
     frame_count: int
     duration: float
     warnings: tuple[str, ...] = ()
+    version: int = 0
 
 
 def motion_of(info: msg.TrajectoryInfo) -> Motion:
@@ -28,4 +32,5 @@ def motion_of(info: msg.TrajectoryInfo) -> Motion:
         info.frame_count,
         info.duration,
         tuple(warning.message for warning in info.warnings),
+        info.version,
     )

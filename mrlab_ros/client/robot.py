@@ -81,7 +81,7 @@ class LabRobot:
         """
         follower = self.follower
         state = follower.state
-        if motion is not None and state.trajectory_id != _id(motion):
+        if motion is not None and not self._has_loaded(motion):
             self.load(motion)
         if speed is not None and speed != state.rate:
             self.set_speed(speed)
@@ -90,6 +90,18 @@ class LabRobot:
         since = len(follower.states)
         self.resume()
         return Run(follower, since, self._robots)
+
+    def _has_loaded(self, motion: Motion | str) -> bool:
+        """Return whether the newest version of `motion` is loaded: a file may change."""
+        state = self.follower.state
+        if state.trajectory_id != _id(motion):
+            return False
+        newest = (
+            motion.version
+            if isinstance(motion, Motion)
+            else next((info.version for info in self._graph.catalogue() if info.id == motion), 0)
+        )
+        return bool(newest == state.trajectory_version)
 
     def run(self) -> Run | None:
         """Return the run that goes on; None where the robot stands."""

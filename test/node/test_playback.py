@@ -169,10 +169,10 @@ def test_a_collision_halts_and_its_end_pauses(graph, lab):
     graph.call(Trigger, f"/{robot}/play")
     wait_for(lambda: states.last().label == "PLAYING" and states.last().frame > 5, "frames")
     collision = graph.client.create_publisher(msg.Collision, f"/{robot}/collision", qos.LATCHED)
-    contact = msg.Contact(link="forearm_link", other="cube_1")
+    contact = msg.Contact(link="tool0", held="bar_1", other="cube_1")
     collision.publish(msg.Collision(colliding=True, contact=contact))
     wait_for(lambda: states.last().label == "COLLISION_HALT", "the halt")
-    assert states.last().message == "forearm_link touches cube_1"
+    assert states.last().message == "the held bar_1 touches cube_1"
     answer = graph.call(Trigger, f"/{robot}/clear_halt")
     assert not answer.success
     assert "still touches" in answer.message

@@ -15,6 +15,7 @@ import numpy as np
 import pytest
 import scipy.io
 from child_process import start_child
+from graph import wait_for
 from launched_lab import DEADLINE, MRLAB, launched_lab
 from page_blocks import Block, blocks, pattern, plain
 from typer.testing import CliRunner
@@ -206,6 +207,30 @@ def test_the_python_api_drives_a_robot(lab: None, tmp_path: Path) -> None:
         robot.stop()
         with pytest.raises(Misuse, match="ended before its last frame: stopped"):
             run.wait(DEADLINE)
+
+
+def wait_until_at(positions: np.ndarray[Any, Any], samples: list[Any]) -> None:
+    """Wait for the joint states of a robot that has come to `positions`."""
+    wait_for(lambda: np.allclose(samples[-1].positions, positions, atol=1e-9), "the last frame")
+
+
+def test_a_file_that_changed_is_played_anew_under_its_name(lab: None, tmp_path: Path) -> None:
+    path = tmp_path / "again.mat"
+    samples: list[Any] = []
+    with Lab() as lab_:
+        robot = lab_.robot("ur5e_1")
+        robot.watch(samples.append)
+        for end in (0.2, -0.2):
+            q = motion()
+            q[:, 0] *= end / q[-1, 0]
+            scipy.io.savemat(path, {"q": q, "fs": RATE})
+            ok("play", "ur5e_1", str(path), "--speed", "4")
+            wait_until_at(q[-1], samples)
+        q[:, 0] /= 2
+        scipy.io.savemat(path, {"q": q, "fs": RATE})
+        lab_.convert(path, robot)
+        ok("play", "ur5e_1", "again", "--speed", "4")
+        wait_until_at(q[-1], samples)
 
 
 def test_status_says_who_drives_and_folds(lab: None, monkeypatch: pytest.MonkeyPatch) -> None:

@@ -346,7 +346,8 @@ class PlaybackNode(Node):
         with self._command() as now_ns:
             if message.colliding:
                 contact = message.contact
-                self.playback.collide(now_ns, f"{contact.link} touches {contact.other}")
+                what = f"the held {contact.held}" if contact.held else contact.link
+                self.playback.collide(now_ns, f"{what} touches {contact.other}")
             else:
                 self.playback.clear(now_ns)
 
