@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from typing import Any
 
 import pytest
@@ -15,6 +16,7 @@ from mrlab_msgs import msg
 from rclpy.action import ActionClient
 from rclpy.action.client import ClientGoalHandle
 from rclpy.qos import QoSProfile
+from rclpy.task import Future
 from sensor_msgs.msg import JointState
 from small_lab import LIBRARY, labels, listen_state, spawn
 from std_srvs.srv import Trigger
@@ -50,23 +52,42 @@ class Client:
 
     def __init__(self, graph: Graph, robot: str) -> None:
         self.feedback: list[Any] = []
+        self._node = graph.client
         self._client = ActionClient(
             graph.client, FollowJointTrajectory, f"/{robot}/follow_joint_trajectory"
         )
         assert self._client.wait_for_server(timeout_sec=15.0)
 
     def send(self, goal: FollowJointTrajectory.Goal) -> ClientGoalHandle:
-        sent = self._client.send_goal_async(
-            goal, feedback_callback=lambda message: self.feedback.append(message.feedback)
+        sent = self.ask(
+            lambda: self._client.send_goal_async(
+                goal, feedback_callback=lambda message: self.feedback.append(message.feedback)
+            )
         )
         wait_for(sent.done, "the goal's acceptance")
         return sent.result()
 
-    @staticmethod
-    def result(handle: ClientGoalHandle) -> Any:
-        asked = handle.get_result_async()
+    def result(self, handle: ClientGoalHandle) -> Any:
+        asked = self.ask(handle.get_result_async)
         wait_for(asked.done, "the goal's end")
         return asked.result()
+
+    def ask(self, request: Callable[[], Future]) -> Future:
+        """Send a request from the thread that takes its response.
+
+        rclpy's action client knows a request only after it was sent: a response that another
+        thread takes before is dropped.
+        """
+        sent: list[Future] = []
+
+        def send() -> None:
+            timer.cancel()
+            sent.append(request())
+
+        timer = self._node.create_timer(0.001, send)
+        wait_for(lambda: sent, "the request")
+        self._node.destroy_timer(timer)
+        return sent[0]
 
 
 def goal(trajectory: JointTrajectory, **fields: Any) -> FollowJointTrajectory.Goal:
@@ -120,7 +141,7 @@ def test_a_cancelled_goal_holds_and_a_new_one_replaces_it(stage) -> None:
     client = Client(graph, robot)
     handle = client.send(goal(path(model, (5.0, 0.5))))
     wait_for(lambda: "PLAYING" in labels(states), "the motion")
-    cancelled = handle.cancel_goal_async()
+    cancelled = client.ask(handle.cancel_goal_async)
     wait_for(cancelled.done, "the cancelling")
     assert cancelled.result().goals_canceling
     assert client.result(handle).status == GoalStatus.STATUS_CANCELED
