@@ -68,7 +68,9 @@ def play(
             _check_no_file_options(options, "what is loaded")
             run = found.run() or found.play(speed=speed, loop=loop)
         if not wait:
-            console.print(f"{robot} plays {run.follower.state.trajectory_id}")
+            # The state that names a motion just loaded may still be on its way.
+            name = motion if trajectory else run.follower.state.trajectory_id
+            console.print(f"{robot} plays {name}")
             return
         try:
             follow(console, run, as_json=as_json)
