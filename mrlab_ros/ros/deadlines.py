@@ -140,8 +140,10 @@ class Scheduler:
             self._changed.notify()
 
     def remove(self, player: Player) -> None:
+        """Serve `player` no more; one that was never added is left alone."""
         with self._changed:
-            self._players.remove(player)
+            if player in self._players:
+                self._players.remove(player)
 
     def command(self, *players: Player) -> Command:
         """Return the lock for a command to `players` (default: all); enter it to know the time."""

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import threading
+
 import numpy as np
 import pytest
 import small_lab
@@ -13,10 +15,12 @@ from sensor_msgs.msg import JointState
 from small_lab import LIBRARY, TRAJECTORIES, labels, listen_state, load, spawn
 from std_srvs.srv import SetBool, Trigger
 
+from mrlab_ros.core.errors import LabError
 from mrlab_ros.messages import qos
 from mrlab_ros.messages.joint_states import JointStateEncoder
 from mrlab_ros.messages.time import make_header, time_from_message
 from mrlab_ros.nodes.lab.node import LabNode
+from mrlab_ros.nodes.playback import node
 from mrlab_ros.nodes.playback.host import PlaybackHostNode
 
 
@@ -196,6 +200,25 @@ def test_a_new_playback_host_finds_the_robots_and_starts_idle(graph, lab):
     graph.add(PlaybackHostNode)
     states = graph.listen(msg.PlaybackState, f"/{robot}/playback_state", qos.LATCHED)
     wait_for(lambda: states and states[-1].label == "IDLE", "a fresh playback")
+
+
+def test_a_playback_that_fails_while_it_is_made_leaves_nothing_in_the_graph(
+    graph, lab, monkeypatch
+):
+    failed = []
+
+    def fail(*_: object) -> None:
+        failed.append(graph.client.count_services("/ur5e_1/load"))
+        raise LabError("no commander today")
+
+    monkeypatch.setattr(node, "Commanders", fail)
+    robot = spawn(graph)
+    wait_for(lambda: failed, "the failure")
+    assert failed == [1]
+    wait_for(lambda: f"load {robot}" not in {t.name for t in threading.enumerate()}, "its end")
+    wait_for(lambda: not graph.client.count_services(f"/{robot}/load"), "its services gone")
+    wait_for(lambda: not graph.client.count_publishers(f"/{robot}/telemetry"), "its topics gone")
+    assert not lab.host.nodes
 
 
 @pytest.mark.parametrize(

@@ -88,8 +88,22 @@ class PlaybackNode(Node):
         self._host = host
         self._lab = lab
         self.playback = Playback(model, planner, standing_rate)
-        self._encoder = JointStateEncoder(robot, model.joint_names)
-        self._telemetry_encoder = TelemetryEncoder(robot, model.joint_names)
+        self.player = Player(self.playback, self._send, self._announce)
+        self._grasp: msg.Grasp | None = None
+        self._back = kept
+        self._announced = True
+        self._commanders: Commanders | None = None
+        try:
+            self._offer(warn)
+        except BaseException:
+            # Half made, it would stay in the graph until the garbage collector comes.
+            self.close()
+            raise
+
+    def _offer(self, warn: Callable[[str], None]) -> None:
+        """Create the topics and services, and begin to play."""
+        self._encoder = JointStateEncoder(self.robot, self.model.joint_names)
+        self._telemetry_encoder = TelemetryEncoder(self.robot, self.model.joint_names)
         self._publish_joint_state = raw_publish(
             self.create_publisher(JointState, "joint_states", qos.STREAM)
         )
@@ -99,7 +113,6 @@ class PlaybackNode(Node):
         self._telemetry = self.create_publisher(msg.Telemetry, "telemetry", qos.STREAM)
         self._targets = self.create_publisher(msg.GraspTargets, "targets", qos.LATCHED)
         self.create_subscription(msg.Collision, "collision", self._on_collision, qos.LATCHED)
-        self._grasp: msg.Grasp | None = None
         self._grasps = self.create_subscription(msg.Grasp, "grasp", self._on_grasp, qos.LATCHED)
         for kind, name, callback in (
             (Trigger, "play", self._play),
@@ -112,16 +125,12 @@ class PlaybackNode(Node):
         ):
             self.create_service(kind, name, callback, qos_profile=qos.SERVICES)
         create_deferred_service(self, srv.LoadTrajectory, "load", self._begin_load)
-        self._back = kept
-        self._announced = True
-        self._commanders: Commanders | None = None
-        if kept is not None:
-            with scheduler.command() as now_ns:
-                self.playback.stand_at(now_ns, kept.arm)
-        self.player = Player(self.playback, self._send, self._announce)
-        scheduler.add(self.player)
+        if self._back is not None:
+            with self._scheduler.command() as now_ns:
+                self.playback.stand_at(now_ns, self._back.arm)
+        self._scheduler.add(self.player)
         self._commanders = Commanders(
-            self, robot, self.playback, self.player, self._command, self._driven, warn
+            self, self.robot, self.playback, self.player, self._command, self._driven, warn
         )
 
     def come_back(self, done: Callable[[str], None]) -> None:
