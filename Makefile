@@ -23,7 +23,7 @@ demo: setup
 
 test:
 	@python3 scripts/bootstrap.py --dev --test-tools
-	@$(ENV) exec python -m pytest -n 2 --dist loadgroup $(ARGS)
+	@$(ENV) exec python -m pytest -n 2 --dist loadfile --no-loadscope-reorder $(ARGS)
 
 lint:
 	@python3 scripts/bootstrap.py --dev

@@ -5,10 +5,12 @@ from __future__ import annotations
 import os
 from collections.abc import Iterator
 from pathlib import Path
+from typing import Any
 
 import domain_coordinator
 import pytest
 from hypothesis import settings
+from xdist.scheduler import LoadFileScheduling
 
 # How long an example takes is the machine's affair: a timing is a benchmark, never a test.
 settings.register_profile("lab", deadline=None)
@@ -19,14 +21,14 @@ settings.load_profile("lab")
 FAST_FOLDERS = ("unit", "fuzz")
 
 
-# What runs in one process when several share the work: a folder with a lab for all of its files,
-# else a file. The labs come last, so that none runs beside tests that do not need it.
+# The labs come last, so that none runs beside tests that do not need it.
 ORDER = ("node", "fuzz", "unit", "browser", "system")
+# What one lab serves whole.
+ONE_LAB = "test/browser/"
 
 
-@pytest.hookimpl(tryfirst=True)  # before pytest-xdist reads the marks
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
-    """Mark the `fast` tests, put the folders in ORDER, and say what runs in one process."""
+    """Mark the `fast` tests and put the folders in ORDER."""
     root = Path(__file__).parent
 
     def folder(item: pytest.Item) -> str:
@@ -36,8 +38,18 @@ def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
     for item in items:
         if folder(item) in FAST_FOLDERS and item.get_closest_marker("slow") is None:
             item.add_marker(pytest.mark.fast)
-        together = "browser" if folder(item) == "browser" else item.path.relative_to(root)
-        item.add_marker(pytest.mark.xdist_group(str(together)))
+
+
+class _Files(LoadFileScheduling):
+    """Hands whole files to the processes that share the work, and a folder that shares a lab."""
+
+    def _split_scope(self, nodeid: str) -> str:
+        return ONE_LAB if nodeid.startswith(ONE_LAB) else str(super()._split_scope(nodeid))
+
+
+def pytest_xdist_make_scheduler(config: pytest.Config, log: Any) -> _Files | None:
+    """Keep what shares a lab in one process; its mark for that does nothing since pytest 9.1."""
+    return _Files(config, log) if config.getvalue("dist") == "loadfile" else None
 
 
 @pytest.fixture(scope="session", autouse=True)
