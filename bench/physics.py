@@ -81,7 +81,7 @@ class Lab:
     def __init__(self, models: list[str], objects: int, *, counted: bool = False) -> None:
         types = catalogue.parse(read_yaml(ROOT / "config" / "objects.yaml"))
         self.engine = CountedEngine() if counted else BulletEngine(resolve)
-        self.world = World(self.engine, types, Settings())
+        self.world = World(self.engine, types, Settings(attach_reach=1000.0))
         self.now_ns = 0
         self._motions = []
         for i, model_id in enumerate(models):

@@ -26,6 +26,10 @@ PAD_RADIUS = 0.008
 NO_GRIP = 99.0
 # Friction less than this is needed by no grasp, so that the margin stays finite.
 LEAST = 1e-3
+# A load that differs by less than this share, and by less than these, is much the same.
+SAME = 0.05
+SAME_FRICTION = 1e-4
+SAME_MOMENT = 0.005  # N*m
 # Two fingers whose contacts are closer to one line than this (sine) oppose each other.
 ON_A_LINE = 0.35
 
@@ -80,8 +84,8 @@ class Load:
         friction = abs(self.friction_needed - other.friction_needed)
         moment = abs(self.wrist_moment - other.wrist_moment)
         return (
-            friction <= 0.02 + 0.1 * other.friction_needed
-            and moment <= 0.05 + 0.1 * other.wrist_moment
+            friction <= SAME_FRICTION + SAME * other.friction_needed
+            and moment <= SAME_MOMENT + SAME * other.wrist_moment
         )
 
 
@@ -111,7 +115,9 @@ def bears(
     """Return what a grasp bears.
 
     tool0: its origin in world; thing: the held object; acceleration: m/s^2 of its centre; mass:
-    kg; friction: of the object's surface; force: N of all fingers together, or of the cup.
+    kg; friction: of the object's surface; force: N of all fingers together, or of the cup. What
+    pulls and peels at a cup takes from its friction, so it counts as friction needed: the margin
+    is by how much the load may grow before the cup slips or comes off.
     """
     load = scale(subtract(GRAVITY, acceleration), mass)
     turn = hand.pose.orientation
@@ -123,7 +129,8 @@ def bears(
         axis = axes[0]
         across, twist = _apart(load, axis)[1], dot(moment, axis)
         peel = _length(subtract(moment, scale(axis, twist)))
-        pressing, radius = force - dot(load, axis) - peel / grip.spread, grip.spread
+        pull = dot(load, axis) + peel / grip.spread
+        pressing, radius = force - pull, grip.spread
     else:
         axis, pair = _common(axes)
         along, rest = _apart(load, axis)
@@ -131,14 +138,12 @@ def bears(
         across = rest if pair else along
         # What pushes on one finger must not open it.
         opening = _length(along if pair else rest)
-        pressing = force if opening <= force / 2 else 0.0
+        pressing, pull = (force if opening <= force / 2 else 0.0), 0.0
         radius = PAD_RADIUS if pair else max(grip.spread, PAD_RADIUS)
     wanted = math.hypot(_length(across), twist / radius)
-    needed = wanted / pressing if pressing > wanted / NO_GRIP else NO_GRIP
-    needed = max(needed, LEAST)
-    excess = (wanted - mu * max(pressing, 0.0)) / mass
-    if needed == NO_GRIP:
-        excess = _length(load) / mass
+    gone = pressing <= wanted / NO_GRIP
+    needed = NO_GRIP if gone else max((wanted + mu * pull) / (pressing + pull), LEAST)
+    excess = _length(load) / mass if gone else (wanted - mu * pressing) / mass
     wrist = _wrist_moment(tool0, thing, mass)
     size = _length(across)
     way = scale(across, 1.0 / size) if size > 0 else (0.0, 0.0, 0.0)

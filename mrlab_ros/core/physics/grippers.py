@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 
 from mrlab_ros.core.clock import SECOND
@@ -35,8 +36,11 @@ class Grippers:
 
     # by service -----------------------------------------------------------------------------
 
-    def attach(self, name: str, object_name: str) -> None:
-        """Fix an object to a robot's gripper where it is; raise Misuse where it cannot be."""
+    def attach(self, name: str, object_name: str, reach: float) -> None:
+        """Fix an object to a robot's gripper where it is; raise Misuse where it cannot be.
+
+        reach: m, how far it may be from the nearest link of the hand.
+        """
         robot, thing = self._world_state.robot(name), self._world_state.object(object_name)
         if not thing.graspable:
             raise Misuse(f"'{object_name}' is fixed to the room; choose an object that moves")
@@ -44,6 +48,13 @@ class Grippers:
             raise Misuse(f"'{name}' holds '{robot.held}' already; detach that first")
         if robot.placed is None:
             raise Misuse(f"'{name}' has not moved yet; wait for its first joint state")
+        away = self._away(robot, thing)
+        if away > reach:
+            raise Misuse(
+                f"'{object_name}' is {away:.2f} m away from the hand of '{name}'; at most "
+                f"{reach:g} m is in its reach (attach_reach). Bring the hand to the object, or "
+                "the object to the hand, and attach it then"
+            )
         self._seize(robot, thing)
 
     def detach(self, name: str) -> str:
@@ -54,6 +65,18 @@ class Grippers:
         held = robot.held
         self.lose(robot)
         return held
+
+    def _away(self, robot: Robot, thing: SceneObject) -> float:
+        """Return how far an object's box is from the nearest link of a hand, m."""
+        pose = self._engine.object(thing.name).pose
+        nearest = math.inf
+        for link in robot.arm.tool_links | {robot.arm.hand, robot.tool_link}:
+            at = self._engine.link(robot.name, link).pose.position
+            inside = relative(pose, Pose(at)).position
+            sides = zip(thing.type.low, inside, thing.type.high, strict=True)
+            beside = [max(low - x, 0.0, x - high) for low, x, high in sides]
+            nearest = min(nearest, math.hypot(*beside))
+        return nearest
 
     # holding --------------------------------------------------------------------------------
 
@@ -163,7 +186,8 @@ class Grippers:
         if found is not None and self._may_take(robot, found[0]):
             self._seize(robot, *found)
         elif shut and robot.grasp is Grasp.CLOSING:
-            robot.reason = reason
+            # What was touched may be gone by now: why it was not held.
+            robot.reason = reason or robot.reason
             robot.fire(GraspEvent.SHUT)
             self.announce(robot)
         elif reason and robot.gripper is Gripper.VACUUM:

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 
-from mrlab_ros.core.clock import SECOND
 from mrlab_ros.core.geometry import (
     Pose,
     Vector,
@@ -22,8 +21,6 @@ from mrlab_ros.core.physics.grasp_load import Grip, Load, attached, bears, remar
 from mrlab_ros.core.physics.simulated_robot import Held, Robot
 from mrlab_ros.core.physics.world_state import SceneObject, WorldState
 
-# A load is announced again at most so often, ns.
-TOLD_NS = SECOND // 2
 # An object that slid so far between the fingers, m, falls: a pad is 25 mm high.
 SLID = 0.012
 # The normal of a contact that supports an object points up by more than this cosine.
@@ -80,7 +77,7 @@ class Holding:
 
     def remark(self, robot: Robot, reason: str) -> None:
         """Say something of a gripper whose state stays."""
-        if reason != robot.reason:
+        if reason != robot.reason and robot.may_remark(self._world_state.now_ns):
             robot.reason = reason
             self._world_state.events.append(LoadChanged(self._state(robot)))
 
@@ -114,9 +111,10 @@ class Holding:
         if held.load is None:
             return
         said = remark(held.load, robot.name)
-        due = now_ns - robot.told_ns >= TOLD_NS and not held.load.about(robot.told)
-        if due or said[:8] != robot.reason[:8]:
-            robot.told, robot.told_ns, robot.reason = held.load, now_ns, said
+        lifted = held.lifted or not self._stands(robot)
+        news = lifted != held.lifted or said[:8] != robot.reason[:8]
+        if (news or not held.load.about(robot.told)) and robot.may_remark(now_ns):
+            robot.told, robot.reason, held.lifted = held.load, said, lifted
             self._world_state.events.append(LoadChanged(self._state(robot)))
 
     def _load(self, robot: Robot, thing: SceneObject, acceleration: Vector) -> Load | None:
@@ -140,6 +138,11 @@ class Holding:
             robot.tool.cup_force if vacuum else robot.arm.grip_force,
         )
 
+    @staticmethod
+    def _stands(robot: Robot) -> bool:
+        """Return whether what is held stands on something, which bears its weight."""
+        return any(touch.held and touch.normal[2] > SUPPORTS for touch in robot.touches)
+
     def slip(self, robot: Robot, duration: float) -> str:
         """Let what friction does not hold slide for `duration` s.
 
@@ -153,8 +156,7 @@ class Holding:
             load.excess <= 0 and held.slip_speed <= 0
         ):
             return ""
-        if any(touch.held and touch.normal[2] > SUPPORTS for touch in robot.touches):
-            # It stands on something, which bears its weight.
+        if self._stands(robot):
             held.slip_speed = 0.0
             return ""
         numbers = f"friction {load.friction:.2f}, needed {load.friction_needed:.2f}"

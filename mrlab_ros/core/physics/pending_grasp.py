@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import math
+
 from mrlab_ros.core.clock import SECOND
 from mrlab_ros.core.geometry import Pose, compose
 from mrlab_ros.core.physics.engine import BodyState
@@ -48,5 +50,6 @@ class PendingGrasp:
             self._since_ns = now_ns
         if now_ns - self._since_ns < CLOSING_NS:
             return False
-        world.attach(self.robot, self.name)
+        # It was in the hand like this before.
+        world.attach(self.robot, self.name, math.inf)
         return True

@@ -63,6 +63,11 @@ class Settings:
         "whatever it bears.",
         "friction",
     )
+    attach_reach: float = field(
+        Number(above(0, 1000), "m"),
+        "How far from a robot's hand an object may be that is attached to it by service.",
+        0.2,
+    )
     max_objects: int = field(
         Integer(between(1, 10_000)),
         "Objects that can be active at once; a new one replaces the oldest that nothing holds.",

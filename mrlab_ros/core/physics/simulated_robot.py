@@ -22,6 +22,8 @@ from mrlab_ros.core.state_machine import Machine
 
 # In these states the trajectory commands the gripper; in the others the gripper keeps its state.
 COMMANDING = (State.PLAYING, State.PAUSED, State.COLLISION_HALT)
+# Loads and reasons announced in a second while the gripper's state stays, at most.
+REMARKS = 2
 # Deviation of the clock of a playback that was not sought, s.
 SEEK_TOLERANCE = 0.03
 
@@ -100,7 +102,8 @@ class Held:
 
     in_hand: T_hand_object. grip: None where it was attached by service, and never slips. reach:
     m, from the hand to its furthest point. velocity: m/s of its centre when its load was last
-    looked at, None after a jump. slip_speed: m/s; slid: m in the hand.
+    looked at, None after a jump. slip_speed: m/s; slid: m in the hand. lifted: it has left what it
+    stood on.
     """
 
     in_hand: Pose
@@ -110,6 +113,7 @@ class Held:
     load: Load | None = None
     slip_speed: float = 0.0
     slid: float = 0.0
+    lifted: bool = False
 
 
 @dataclass(eq=False)
@@ -156,9 +160,10 @@ class Robot:
     pressed: dict[tuple[Kind, str, str], Pressed] = field(default_factory=dict)
     # What is to be said of the gripper; empty: nothing.
     reason: str = ""
-    # The load that was announced last, and when.
+    # The load that was announced last.
     told: Load | None = None
-    told_ns: int = 0
+    # When a load or a reason was announced while the state stayed: the last REMARKS times.
+    remarked_ns: deque[int] = field(default_factory=lambda: deque(maxlen=REMARKS))
     pending: tuple[int, Snapshot] | None = None
 
     def __post_init__(self) -> None:
@@ -216,7 +221,7 @@ class Robot:
         self.watch.reset()
         self.closing_since_ns += by_ns
         self.held_since_ns += by_ns
-        self.told_ns += by_ns
+        self.remarked_ns = deque((at + by_ns for at in self.remarked_ns), maxlen=REMARKS)
         self.pressed = {
             key: replace(pressed, seen_ns=pressed.seen_ns + by_ns)
             for key, pressed in self.pressed.items()
@@ -250,6 +255,15 @@ class Robot:
         """Fire an event of the gripper; return whether its state changed."""
         before = self._grasp.state
         return self._grasp.fire(event) is not before
+
+    def may_remark(self, now_ns: int) -> bool:
+        """Return whether a load or a reason may be announced while the state stays, and count it:
+        REMARKS a second at most."""
+        full = len(self.remarked_ns) == REMARKS
+        if full and now_ns - self.remarked_ns[0] < SECOND:
+            return False
+        self.remarked_ns.append(now_ns)
+        return True
 
     def finger_velocities(self) -> list[float]:
         """Return the commanded finger velocities: closing, opening, or 0 around a held object."""

@@ -196,9 +196,13 @@ class World:
         for before in robot.apply_due(shown_ns):
             self._rewind.follow(robot, before)
 
-    def attach(self, name: str, object_name: str) -> None:
-        """Fix an object to a robot's gripper where it is, by service."""
-        self._grippers.attach(name, object_name)
+    def attach(self, name: str, object_name: str, reach: float | None = None) -> None:
+        """Fix an object to a robot's gripper where it is, by service.
+
+        reach: m, how far from the hand it may be; None: the setting attach_reach.
+        """
+        limit = self._settings.attach_reach if reach is None else reach
+        self._grippers.attach(name, object_name, limit)
 
     def detach(self, name: str) -> str:
         """Detach what a robot holds, by service; return the object's name."""

@@ -187,7 +187,7 @@ def test_attaching_moves_nothing_and_the_held_object_follows_the_hand(world):
     drive(world, "a", np.zeros((3, 1)))
     world.spawn("cube", pose=Pose((0.9, 0.06, 0.55)))
     before = world.motion("cube_1").pose
-    world.attach("a", "cube_1")
+    world.attach("a", "cube_1", reach=2.0)
     drive(world, "a", np.zeros((4, 1)), start_ns=30 * MS)
     after = world.motion("cube_1").pose
     assert np.abs(np.subtract(after.position, before.position)).max() < 1e-4
@@ -213,7 +213,7 @@ def test_what_sleeps_on_something_held_falls_when_a_seek_takes_that_away(world):
     for i in range(2):
         world.spawn("cube", pose=Pose((0.0, 0.0, 0.0255 + 0.05 * i)))
     drive(world, "a", np.full((20, 1), 0.5))
-    world.attach("a", "cube_1")
+    world.attach("a", "cube_1", reach=2.0)
     drive(world, "a", np.full((400, 1), 0.5), start_ns=SECOND)
     assert world.motion("cube_2").pose.position[2] == pytest.approx(0.075, abs=0.002)
     drive(world, "a", np.full((80, 1), 2.5), start_ns=6 * SECOND)
@@ -237,7 +237,7 @@ def test_a_vacuum_cup_holds_what_it_touches_and_another_robot_takes_it_over(worl
     world.playback("a", replace(playing, state=State.PAUSED))
     world.add_robot("b", beam(), ("j",), Pose((1.0, 1.0, 0.0)), Gripper.NONE)
     drive(world, "b", np.zeros((3, 1)), start_ns=610 * MS)
-    world.attach("b", "cube_1")
+    world.attach("b", "cube_1", reach=2.0)
     assert world.robot("a").grasp is Grasp.EMPTY
     world.remove_robot("b")
     world.advance(SECOND)

@@ -73,7 +73,7 @@ def test_it_moves_with_the_hand_and_is_attached_where_no_finger_closes_on_it(wor
 
 def test_it_is_done_where_the_fingers_hold_it_or_it_is_gone(world, grasp):
     add_robot(world)
-    world.attach("a", "ball")
+    world.attach("a", "ball", reach=4.0)
     assert grasp.check(world, 10, absent=False)
     world.remove("ball")
     assert grasp.check(world, 20, absent=False)

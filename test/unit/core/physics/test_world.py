@@ -269,7 +269,7 @@ def test_closing_on_nothing_is_an_empty_grasp():
 
 
 def test_attaching_by_hand_takes_from_another_and_detaching_leaves_an_empty_grasp():
-    lab = Lab(gripper=Gripper.FINGERS)
+    lab = Lab(gripper=Gripper.FINGERS, settings=Settings(attach_reach=0.5))
     lab.world.add_robot("b", "<robot/>", ("j1", "j2"), Pose((1.0, 0, 0)), Gripper.FINGERS)
     lab.world.joint_state("b", lab.now_ns, [0, 0], [0, 0])
     lab.world.spawn("ball", "ball", Pose((0.5, 0.0, 0.5)))
@@ -394,7 +394,7 @@ def test_the_oldest_free_object_makes_room_and_that_is_announced():
     lab = Lab(settings=Settings(max_objects=3))
     for i in range(3):
         lab.world.spawn("ball", f"ball_{i}", Pose((0.0, 1.0 + i, 0.5)))
-    lab.world.attach("a", "ball_0")
+    lab.world.attach("a", "ball_0", reach=1.0)
     lab.world.spawn("ball", "", Pose((0.0, 5.0, 0.5)))
     assert [o.name for o in lab.world.objects] == ["ball_0", "ball_2", "ball_3"]
     (removed,) = [e for e in lab.world.take_events() if isinstance(e, ObjectRemoved)]
