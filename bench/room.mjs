@@ -5,24 +5,27 @@
  * A real lab with four robots that play, twenty objects and four panels; Chromium with an emulated
  * Quest 3, both eyes drawn. WebGL's own calls do nothing, so the figures leave the GPU and its driver
  * out. `mrlab` must be set up in .venv:  node bench/room.mjs [--minutes 10] [--json FILE]
+ *     [--profile FILE.cpuprofile]
  */
 import { writeFileSync } from 'node:fs'
 import { cpus, loadavg } from 'node:os'
 import { parseArgs } from 'node:util'
 import { startLab } from './room_bench/lab.mjs'
 import { bytesOf, openRoom } from './room_bench/page.mjs'
+import { measureCpu, measureProfile } from './room_bench/profile.mjs'
 import { fillScene, measureFrames, measureMemory, measureScrub } from './room_bench/scene.mjs'
 
 const { values: options } = parseArgs({
   options: {
     minutes: { type: 'string', default: '0.5' },
     json: { type: 'string' },
-    url: { type: 'string', default: '' },
+    profile: { type: 'string', default: '' },
   },
 })
 
 const lab = await startLab()
 const figures = []
+let largest = []
 const note = (what, value, unit, mark) => {
   figures.push({ what, value, unit, mark, meets: mark === null ? null : value < mark })
 }
@@ -35,6 +38,12 @@ try {
     const plain = await measureFrames(page)
     note('JavaScript a frame, p50', plain.p50, 'ms', null)
     note('JavaScript a frame, p95', plain.p95, 'ms', 2)
+    const cpu = await measureCpu(page)
+    note('CPU time of a frame with the emulated headset, p50', cpu.p50, 'ms', null)
+    note('CPU time of a frame with the emulated headset, p95', cpu.p95, 'ms', 2)
+    const profile = await measureProfile(page, client, options.profile)
+    note("CPU time of the room's scripts a frame, messages with it, mean", profile.own, 'ms', null)
+    largest = profile.largest.slice(0, 12)
     note('whole frame callback with the emulated headset, p95', plain.callbackP95, 'ms', null)
     await client.send('Emulation.setCPUThrottlingRate', { rate: 4 })
     const slow = await measureFrames(page)
@@ -69,6 +78,10 @@ for (const { what, value, unit, mark, meets } of figures) {
   const number = value < 100 ? value.toFixed(2) : value.toFixed(0)
   const beside = mark === null ? '' : `  ${meets ? 'meets' : 'MISSES'} < ${mark}`
   console.log(`  ${what.padEnd(width)}  ${number.padStart(9)} ${unit.padEnd(6)}${beside}`)
+}
+if (options.profile) {
+  console.log('Where the time of the scripts goes, ms a frame:')
+  for (const [where, spent] of largest) console.log(`  ${spent.toFixed(3)}  ${where}`)
 }
 console.log(machine)
 if (options.json) writeFileSync(options.json, JSON.stringify({ machine, figures }, null, 1))

@@ -1,4 +1,4 @@
-import { existsSync, globSync, readFileSync } from 'node:fs'
+import { existsSync, readdirSync, readFileSync } from 'node:fs'
 import { createRequire } from 'node:module'
 import { join } from 'node:path'
 import { gzipSync } from 'node:zlib'
@@ -6,16 +6,19 @@ import { ROOT } from './lab.mjs'
 
 const TEST = join(ROOT, 'test')
 const IWER = join(ROOT, 'web', 'node_modules', 'iwer', 'build', 'iwer.min.js')
-const DRIVER = '.venv/lib/python*/site-packages/playwright/driver/package/index.js'
+const LIBRARIES = join(ROOT, '.venv', 'lib')
+const DRIVER = 'site-packages/playwright/driver/package/index.js'
 const BROWSERS = ['/usr/bin/chromium', '/usr/bin/chromium-browser', '/usr/bin/google-chrome']
 
 /** Return the Playwright that came with the tests' requirements. */
 function playwright() {
-  const [found] = globSync(DRIVER, { cwd: ROOT })
+  const found = readdirSync(LIBRARIES)
+    .map((python) => join(LIBRARIES, python, DRIVER))
+    .find((path) => existsSync(path))
   if (found === undefined) {
     throw new Error('no Playwright in .venv: run ./setup --dev, which installs what the tests need')
   }
-  return createRequire(import.meta.url)(join(ROOT, found))
+  return createRequire(import.meta.url)(found)
 }
 
 /** Times each frame callback of the session, and gathers what the room says of its frames. */

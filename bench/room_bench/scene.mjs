@@ -61,7 +61,8 @@ export async function fillScene(page, lab) {
   )
 }
 
-function quantile(values, share) {
+/** Return the value below which a share of values lies. */
+export function quantile(values, share) {
   const sorted = [...values].sort((a, b) => a - b)
   return sorted[Math.min(Math.floor(share * sorted.length), sorted.length - 1)]
 }

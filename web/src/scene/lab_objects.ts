@@ -110,12 +110,12 @@ export class LabObjects {
     return true
   }
 
-  /** Before each picture: put what is held where the hands are now. */
+  /** Before each picture: put what is held where the hands are now. Matrices are current. */
   follow(): void {
     for (const entry of this.known.values()) {
       const tip = entry.heldBy === '' ? undefined : this.toolOf(entry.heldBy)
       if (tip === undefined) continue
-      this.worldOf(tip).multiply(entry.grip)
+      this.inWorld(tip).multiply(entry.grip)
       this.scratch.decompose(entry.root.position, this.quaternion, this.scale)
       entry.root.quaternion.copy(this.quaternion)
     }
@@ -148,6 +148,10 @@ export class LabObjects {
   /** Return the pose of a frame in the world, in the scratch matrix. */
   private worldOf(frame: Object3D): Matrix4 {
     frame.updateWorldMatrix(true, false)
+    return this.inWorld(frame)
+  }
+
+  private inWorld(frame: Object3D): Matrix4 {
     this.scratch.copy(this.stage.world.matrixWorld).invert()
     return this.scratch.multiply(frame.matrixWorld)
   }

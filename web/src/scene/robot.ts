@@ -6,7 +6,7 @@ import {
   type Material,
   Matrix4,
   Mesh,
-  type Object3D,
+  Object3D,
   Quaternion,
   Vector3,
 } from 'three'
@@ -29,6 +29,8 @@ interface Movable {
   readonly upper: number
   readonly lower: number
   value: number
+  /** It was moved at least once. */
+  placed: boolean
 }
 
 export type Look = 'own' | 'grey' | 'ghost'
@@ -59,6 +61,9 @@ export class SceneRobot {
   private look: Look = 'own'
   private failing = ''
   private readonly turn = new Quaternion()
+  /** No joint has moved since its frames were last computed, below `above`. */
+  private settled = false
+  private readonly above = new Matrix4()
 
   /** jointNames: in the order in which positions come. changed: a picture is due. */
   constructor(
@@ -86,6 +91,7 @@ export class SceneRobot {
       )
     }
     this.root = loader.parse(urdf)
+    this.root.updateMatrixWorld = () => this.settle()
     for (const joint of Object.values(this.root.joints)) {
       joint.ignoreLimits = true
       if (joint.jointType !== 'fixed') this.movables.set(joint.urdfName, movable(joint))
@@ -210,9 +216,23 @@ export class SceneRobot {
     this.root.removeFromParent()
   }
 
+  /** Compute where its frames are, unless nothing has moved: most of the nodes of a scene are links. */
+  private settle(): void {
+    const { root } = this
+    const above = root.parent?.matrixWorld
+    if (this.settled && above?.equals(this.above)) return
+    Object3D.prototype.updateMatrixWorld.call(root, true)
+    this.settled = true
+    this.body?.follow()
+    if (above !== undefined) this.above.copy(above)
+  }
+
   private move(found: Movable, value: number): void {
     const { joint, axis } = found
+    if (found.value === value && found.placed) return
+    found.placed = true
     found.value = value
+    this.settled = false
     if (found.prismatic) {
       joint.position.copy(axis).applyQuaternion(found.restTurn).multiplyScalar(value)
       joint.position.add(found.restPosition)
@@ -220,7 +240,7 @@ export class SceneRobot {
       this.turn.setFromAxisAngle(axis, value)
       joint.quaternion.multiplyQuaternions(found.restTurn, this.turn)
     }
-    joint.matrixWorldNeedsUpdate = true
+    joint.updateMatrix()
     for (const { movable: follower, multiplier, offset } of found.followers) {
       this.move(follower, value * multiplier + offset)
     }
@@ -236,6 +256,7 @@ export class SceneRobot {
   }
 
   private adopt(object: Object3D): void {
+    this.settled = false
     object.traverse((node) => {
       if (!(node instanceof Mesh)) return
       const material = node.material as Material | Material[]
@@ -251,8 +272,21 @@ export class SceneRobot {
     for (const mesh of [...this.own.keys()]) {
       if (!isBelow(mesh, this.root)) this.own.delete(mesh)
     }
+    this.rest()
     this.paintBody()
     this.changed()
+  }
+
+  /** Leave out of each frame what no longer changes: the place of a link in its joint, and links
+   * that the body draws. */
+  private rest(): void {
+    this.settled = false
+    this.root.traverse((node) => {
+      node.updateMatrix()
+      node.matrixAutoUpdate = false
+    })
+    if (this.body === null) return
+    for (const child of this.root.children) child.visible = child === this.body || isDrawn(child)
   }
 
   private paintBody(): void {
@@ -291,6 +325,7 @@ function movable(joint: URDFJoint): Movable {
     upper: joint.limit.upper,
     lower: joint.limit.lower,
     value: 0,
+    placed: false,
   }
 }
 
@@ -299,6 +334,12 @@ function linkAbove(object: Object3D): Object3D | null {
     if ('isURDFLink' in node || 'isURDFRobot' in node) return node
   }
   return null
+}
+
+/** Return whether an object or what is below it can be drawn. */
+function isDrawn(object: Object3D): boolean {
+  const own = object instanceof Mesh || object instanceof LineSegments
+  return own || object.children.some(isDrawn)
 }
 
 function isBelow(object: Object3D, root: Object3D): boolean {

@@ -25,6 +25,17 @@ const MOST_LINKS = 255
 
 const point = new Vector3()
 
+/** The links as bones; those of a robot that stands are sent to the processor of vertices once. */
+class Links extends Skeleton {
+  moved = true
+
+  override update(): void {
+    if (!this.moved) return
+    this.moved = false
+    super.update()
+  }
+}
+
 /** A mesh of a link that can be drawn as a part of the body. */
 interface Part {
   readonly mesh: Mesh
@@ -59,7 +70,7 @@ export class RobotBody extends SkinnedMesh<BufferGeometry, Material | Material[]
     }
     // a link is all that a skeleton asks of a bone: where it is
     this.bind(
-      new Skeleton(
+      new Links(
         links as Bone[],
         links.map(() => new Matrix4()),
       ),
@@ -100,6 +111,11 @@ export class RobotBody extends SkinnedMesh<BufferGeometry, Material | Material[]
     }
     root.add(body)
     return body
+  }
+
+  /** Its links have moved. */
+  follow(): void {
+    ;(this.skeleton as Links).moved = true
   }
 
   /** Draw it with a material; `failing` names a link that gets another one. */

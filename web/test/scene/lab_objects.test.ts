@@ -55,11 +55,13 @@ test('what is held goes with the hand between two messages', () => {
   objects.set([cube(1)])
   objects.set([cube(1, 'arm')])
   hand.position.x = 5
+  world.updateMatrixWorld()
   objects.follow()
   const shown = world.getObjectByName('cube')
   expect(shown?.position.x).toBeCloseTo(3)
   objects.set([cube(9)])
   hand.position.x = 6
+  world.updateMatrixWorld()
   objects.follow()
   expect(shown?.position.x).toBeCloseTo(9)
 })

@@ -144,6 +144,30 @@ test('its links are one mesh that moves with them', async () => {
   ])
 })
 
+test('a robot that stands is left as it was, until a joint or its base moves', async () => {
+  const arm = robot()
+  await arm.ready
+  const base = new Object3D()
+  base.add(arm.root)
+  const { tool0 } = arm.root.links
+  const x = () => {
+    base.updateMatrixWorld(true)
+    return tool0?.matrixWorld.elements[12]
+  }
+  expect(x()).toBeCloseTo(1)
+  tool0?.matrixWorld.setPosition(7, 0, 0) // to see whether it is computed anew
+  expect(x()).toBe(7)
+  arm.setPositions([0, 0])
+  expect(x()).toBeCloseTo(1)
+  tool0?.matrixWorld.setPosition(7, 0, 0)
+  arm.setPositions([0, 0])
+  expect(x()).toBe(7)
+  arm.setPositions([0, 0.5])
+  expect(x()).toBeCloseTo(1)
+  base.position.x = 2
+  expect(x()).toBeCloseTo(3)
+})
+
 describe('the chain from base to tool', () => {
   it('says where the tool is without moving the robot', () => {
     const arm = robot()

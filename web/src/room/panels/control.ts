@@ -10,9 +10,10 @@ import {
 } from '../../protocol/mrlab_msgs'
 import { triggerType } from '../../protocol/std_srvs'
 import { order, type RoomContext } from '../context'
+import { type ControlActions, drawButtons, drawStatus } from './control_view'
 import { type Choice, PagedList } from './paged_list'
 import { Panel } from './panel'
-import { GAP, HIT, PANEL_THEME, type Pen, TEXT } from './pen'
+import { HIT, PANEL_THEME, type Pen, TEXT } from './pen'
 import { comparable, drawShow } from './show_view'
 import { type Mark, Timeline, type Track } from './timeline'
 
@@ -20,8 +21,8 @@ const WIDTH = 640
 const HEIGHT = 500
 const EDGE = 26
 const TRACK: Track = { x: EDGE, y: 208, width: WIDTH - 2 * EDGE, height: HIT }
-/** s between two paintings of the time that goes on. */
-const TIME_PERIOD = 0.5
+/** s between two paintings of how far a robot is from its ghost. */
+const COMPARE_PERIOD = 0.5
 const NOTICE_S = 8
 
 type View = 'control' | 'motions' | 'end_effectors' | 'show' | 'compare'
@@ -40,6 +41,16 @@ export class ControlPanel {
   private robot: RobotView
   private readonly list = new PagedList()
   private readonly timeline: Timeline
+  private readonly actions: ControlActions = {
+    trigger: (verb) => this.trigger(verb),
+    changeRate: (step) => this.changeRate(step),
+    open: (view) => this.open(view),
+    toggleTelemetry: () => {
+      this.telemetry = !this.telemetry
+    },
+    useHand: () => this.useHand(),
+    remove: () => this.remove(),
+  }
 
   constructor(
     private readonly context: RoomContext,
@@ -47,8 +58,9 @@ export class ControlPanel {
   ) {
     this.robot = robot
     this.panel = new Panel(WIDTH, HEIGHT, (pen) => this.draw(pen), context)
-    const repaint = () => this.panel.repaint()
-    this.timeline = new Timeline(this.panel.group, WIDTH, HEIGHT, TRACK, repaint)
+    const rowAt = (position: number) => this.rowAt(position)
+    const stir = () => context.stir()
+    this.timeline = new Timeline(this.panel.group, WIDTH, HEIGHT, TRACK, rowAt, stir)
   }
 
   get name(): string {
@@ -75,7 +87,7 @@ export class ControlPanel {
     if (robot.playback?.trajectory_id !== before.playback?.trajectory_id) {
       this.collisions.length = 0
     }
-    this.panel.repaint()
+    if (halted || !looksAlike(robot, before)) this.panel.repaint()
   }
 
   /** Before each picture. now: s. */
@@ -88,8 +100,10 @@ export class ControlPanel {
     const { player } = this.robot
     const shown = this.view === 'control' && this.loaded
     this.timeline.update(shown ? player : null, now)
-    const counts = (shown && player.playing) || this.compares
-    if (counts && now - this.paintedAt > TIME_PERIOD) this.panel.repaint()
+    if (this.compares && now - this.paintedAt > COMPARE_PERIOD) {
+      this.paintedAt = now
+      this.panel.repaint()
+    }
     this.panel.update()
   }
 
@@ -117,11 +131,15 @@ export class ControlPanel {
     order({ link: this.context.link, say: this.say }, `${this.name}/${verb}`, triggerType, {})
   }
 
+  private remove(): void {
+    const teller = { link: this.context.link, say: this.say }
+    order(teller, 'lab/remove_robot', removeType, { name: this.name })
+  }
+
   private draw(pen: Pen): void {
-    this.paintedAt = this.now
-    const { robot, state } = this.robot
+    const { state } = this.robot
     const w = this.context.words
-    pen.text(EDGE, 42, robot.name, TEXT.head, 330, 'ink', 700)
+    pen.text(EDGE, 42, this.name, TEXT.head, 330, 'ink', 700)
     const halted = state === 'COLLISION_HALT'
     pen.chip(WIDTH - EDGE, 42, w.states[state], PANEL_THEME.states[state], halted)
     if (this.view === 'motions') this.drawMotions(pen)
@@ -132,84 +150,11 @@ export class ControlPanel {
   }
 
   private drawControl(pen: Pen): void {
-    const { robot, playback, state, player, touching, holding } = this.robot
-    const w = this.context.words.room
-    const motion = playback?.trajectory_id ?? ''
-    const hand = robot.end_effector === '' ? '' : ` + ${robot.end_effector}`
-    const parts = [`${robot.model}${hand}`, motion || w.noMotion]
-    pen.text(EDGE, 82, parts.join(' · '), TEXT.small, undefined, 'second')
-    if (state === 'COLLISION_HALT') {
-      pen.box(EDGE, 104, WIDTH - 2 * EDGE, 92, PANEL_THEME.states.COLLISION_HALT)
-      const ink = PANEL_THEME.colours.on_halt
-      pen.text(EDGE + 16, 132, touching || w.cleared, TEXT.body, 550, ink, 700)
-      const next = touching ? w.moveClear : w.playOn
-      pen.text(EDGE + 16, 168, next, TEXT.small, 550, ink, 600)
-    } else if (this.notice !== '') {
-      pen.lines(EDGE, 122, this.notice, TEXT.small, undefined, PANEL_THEME.states.PAUSED, 3)
-    } else if (playback?.message) {
-      pen.lines(EDGE, 122, playback.message, TEXT.small, undefined, 'second', 3)
-    } else if (holding) {
-      pen.text(EDGE, 122, this.context.words.lab.holds(holding), TEXT.small)
-    }
-    if (this.loaded) this.drawTimeline(pen)
-    else pen.text(EDGE, 238, w.chooseMotion, TEXT.body)
-    const moving = state === 'PLAYING' || state === 'ADJUSTING'
-    const top = 290
-    pen.button(
-      'play',
-      EDGE,
-      top,
-      206,
-      moving ? w.pause : w.play,
-      () => this.trigger(moving ? 'pause' : 'play'),
-      { primary: true, enabled: this.loaded },
-    )
-    pen.button('stop', EDGE + 206 + GAP, top, 116, w.stop, () => this.trigger('stop'), {
-      enabled: this.loaded,
-    })
-    const rates = EDGE + 206 + 116 + 2 * GAP
-    pen.button('slower', rates, top, HIT, '−', () => this.changeRate(-1), { enabled: this.loaded })
-    const rate = `${player.rate} ×`
-    pen.text(rates + HIT + 51, top + HIT / 2, rate, TEXT.body, 90, 'ink', 600, 'center')
-    pen.button('faster', WIDTH - EDGE - HIT, top, HIT, '+', () => this.changeRate(1), {
-      enabled: this.loaded,
-    })
-    const third = (WIDTH - 2 * EDGE - 2 * GAP) / 3
-    const row = top + HIT + GAP
-    const open = (view: View) => () => {
-      this.view = view
-      this.list.page = 0
-    }
-    pen.button('motions', EDGE, row, third, w.motions, open('motions'), { primary: !this.loaded })
-    pen.button(
-      'end_effector',
-      EDGE + third + GAP,
-      row,
-      third,
-      w.endEffector,
-      open('end_effectors'),
-    )
-    pen.button(
-      'telemetry',
-      EDGE + 2 * (third + GAP),
-      row,
-      third,
-      w.telemetry,
-      () => {
-        this.telemetry = !this.telemetry
-      },
-      { chosen: this.telemetry },
-    )
-    const last = row + HIT + GAP
-    pen.button('show', EDGE, last, third, w.show, open('show'))
-    const grip = holding !== '' ? w.letGo : w.giveInHand
-    pen.button('hand', EDGE + third + GAP, last, third, grip, () => this.useHand(), {
-      enabled: robot.end_effector !== '',
-    })
-    pen.button('remove', EDGE + 2 * (third + GAP), last, third, w.remove, () => {
-      const { link } = this.context
-      order({ link, say: this.say }, 'lab/remove_robot', removeType, { name: robot.name })
-    })
+    const { context, robot, notice, loaded, telemetry } = this
+    const shown = { notice, loaded, telemetry }
+    drawStatus(pen, EDGE, context, robot, shown)
+    if (loaded) this.timeline.draw(pen, robot.player, this.marks())
+    drawButtons(pen, EDGE, context, robot, shown, this.actions)
   }
 
   /** Let the gripper lose what it holds, or fix to it what is nearest to its fingers. */
@@ -229,20 +174,13 @@ export class ControlPanel {
 
   private drawShow(pen: Pen): void {
     drawShow(pen, EDGE, this.context, this.robot, {
-      compare: () => {
-        this.view = 'compare'
-        this.list.page = 0
-      },
-      back: () => {
-        this.view = 'control'
-      },
+      compare: () => this.open('compare'),
+      back: () => this.open('control'),
     })
   }
 
   private drawCompare(pen: Pen): void {
-    const back = () => {
-      this.view = 'show'
-    }
+    const back = () => this.open('show')
     this.list.draw(pen, EDGE, comparable(this.context, this.robot), this.context.words.room.back, {
       back,
       choose: (id) => {
@@ -252,21 +190,31 @@ export class ControlPanel {
     })
   }
 
-  private drawTimeline(pen: Pen): void {
-    const { player, playback, targets } = this.robot
+  /** What is marked on the timeline: grasps, releases and collisions. */
+  private marks(): Mark[] {
     const w = this.context.words.room
     const { colours, states } = PANEL_THEME
-    const marks: Mark[] = [
-      ...targets.map(({ time, close }) => ({
+    return [
+      ...this.robot.targets.map(({ time, close }) => ({
         time,
         colour: colours.second,
         words: close ? w.grasps : w.releases,
       })),
       ...this.collisions.map((time) => ({ time, colour: states.COLLISION_HALT, words: '' })),
     ]
-    const rate = playback?.frame_rate ?? 0
-    const frame = Math.round(this.timeline.position(player) * rate)
-    this.timeline.draw(pen, player, marks, w.frame(frame + 1, playback?.frame_count ?? 0))
+  }
+
+  /** Say which row of the motion is at a position, s. */
+  private rowAt(position: number): string {
+    const { playback } = this.robot
+    const row = Math.round(position * (playback?.frame_rate ?? 0)) + 1
+    return this.context.words.room.frame(row, playback?.frame_count ?? 0)
+  }
+
+  private open(view: View): void {
+    this.view = view
+    this.list.page = 0
+    this.panel.repaint()
   }
 
   private changeRate(step: number): void {
@@ -304,9 +252,7 @@ export class ControlPanel {
 
   /** A page of a list; choosing one returns to the controls. */
   private drawList(pen: Pen, entries: readonly Choice[], choose: (id: string) => void): void {
-    const back = () => {
-      this.view = 'control'
-    }
+    const back = () => this.open('control')
     this.list.draw(pen, EDGE, entries, this.context.words.room.back, {
       back,
       choose: (id) => {
@@ -315,4 +261,26 @@ export class ControlPanel {
       },
     })
   }
+}
+
+/** Return whether a panel says the same of two: the lab says how a robot stands once a second, and a
+ * panel that is painted costs a frame. */
+function looksAlike(one: RobotView, other: RobotView): boolean {
+  const a = one.playback
+  const b = other.playback
+  return (
+    one.state === other.state &&
+    one.holding === other.holding &&
+    one.touching === other.touching &&
+    one.targets === other.targets &&
+    one.robot.model === other.robot.model &&
+    one.robot.end_effector === other.robot.end_effector &&
+    a?.trajectory_id === b?.trajectory_id &&
+    a?.trajectory_version === b?.trajectory_version &&
+    a?.frame_count === b?.frame_count &&
+    a?.frame_rate === b?.frame_rate &&
+    a?.duration === b?.duration &&
+    a?.rate === b?.rate &&
+    a?.message === b?.message
+  )
 }

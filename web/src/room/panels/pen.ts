@@ -6,7 +6,7 @@ type Theme = {
     : Readonly<Record<keyof (typeof THEMES.dark)[key], string>>
 }
 
-const FONT = 'system-ui, -apple-system, "Segoe UI", Roboto, "Liberation Sans", sans-serif'
+export const FONT = 'system-ui, -apple-system, "Segoe UI", Roboto, "Liberation Sans", sans-serif'
 /** Texels a mm: 1 mm is 3.8 arc minutes at 0.9 m, more than a headset shows. */
 export const TEXELS = 2
 /** Heights of text, mm: for reading at 0.9 m. */
@@ -104,11 +104,13 @@ export class Pen {
     context.textAlign = align
     context.textBaseline = 'middle'
     let shown = words
-    while (shown.length > 1 && context.measureText(shown).width > most) {
+    let wide = context.measureText(shown).width
+    while (shown.length > 1 && wide > most) {
       shown = `${shown.slice(0, -2).trimEnd()}…`
+      wide = context.measureText(shown).width
     }
     context.fillText(shown, x, y)
-    return context.measureText(shown).width
+    return wide
   }
 
   /** Write several lines from `y` on; return the place below them. */

@@ -20,8 +20,6 @@ const BAR = 10
 const LABELLED = 30
 const TRACK: Track = { x: EDGE, y: 248, width: WIDE, height: HIT }
 const ROW = 340
-/** s between two paintings of the time that goes on. */
-const TIME_PERIOD = 0.25
 const NOTICE_S = 8
 const MOVING: ReadonlySet<number> = new Set([RobotSystem.STAGING, RobotSystem.PLAYING])
 
@@ -41,7 +39,6 @@ export class SystemPanel {
   private leaving = ''
   private notice = ''
   private noticedAt = 0
-  private paintedAt = 0
   private now = 0
   private shown: SystemView
   private readonly list = new PagedList()
@@ -53,8 +50,9 @@ export class SystemPanel {
   ) {
     this.shown = shown
     this.panel = new Panel(WIDTH, HEIGHT, (pen) => this.draw(pen), context)
-    const repaint = () => this.panel.repaint()
-    this.timeline = new Timeline(this.panel.group, WIDTH, HEIGHT, TRACK, repaint)
+    const { group } = this.panel
+    const stir = () => context.stir()
+    this.timeline = new Timeline(group, WIDTH, HEIGHT, TRACK, () => '', stir)
   }
 
   get name(): string {
@@ -81,7 +79,6 @@ export class SystemPanel {
     const { player } = this.shown
     const control = this.view === 'control'
     this.timeline.update(control ? player : null, now)
-    if (control && player.playing && now - this.paintedAt > TIME_PERIOD) this.panel.repaint()
     this.panel.update()
   }
 
@@ -106,7 +103,6 @@ export class SystemPanel {
   }
 
   private draw(pen: Pen): void {
-    this.paintedAt = this.now
     const { system } = this.shown
     const { states } = this.context.words
     const state = stateOf(system)
@@ -128,7 +124,7 @@ export class SystemPanel {
     pen.lines(EDGE, 80, about, TEXT.small, undefined, ink, 2)
     for (const segment of segmentsOf(system.members, system.duration))
       this.drawSegment(pen, segment)
-    this.timeline.draw(pen, player, [], '')
+    this.timeline.draw(pen, player, [])
     const moving = MOVING.has(system.state)
     pen.button(
       'play',
