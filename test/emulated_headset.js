@@ -35,8 +35,14 @@
     computeHitTestResults() {
       return []
     }
-    computeDepthBuffer() {
-      return null
+    // m to the real room by place in the picture, 0 to 1 from its left and top; null: not measured
+    computeDepthBuffer(_view, _projection, width, height) {
+      if (headset.depth === null) return null
+      const data = new Float32Array(width * height)
+      for (let i = 0; i < data.length; i++) {
+        data[i] = headset.depth(((i % width) + 0.5) / width, (Math.floor(i / width) + 0.5) / height)
+      }
+      return { data: data.buffer, width, height, rawValueToMeters: 1 }
     }
   }
 
@@ -44,5 +50,5 @@
   device.installRuntime({ forceInstall: true })
   device.installSEM(MadeUpRoom)
   device.position.set(0, 1.6, 0)
-  window.headset = { device, planes, plane }
+  window.headset = { device, planes, plane, depth: null }
 })()

@@ -21,6 +21,7 @@ import { Floor } from '../scene/floor'
 import type { SceneHost } from '../scene/lab_scene'
 import { NoWebGL } from '../scene/renderer'
 import { onTheme, type SceneTheme, themeNow } from '../scene/theme'
+import { Occlusion } from './depth/occlusion'
 import { stand } from './frames'
 
 /** m above the floor, of the eyes of the desktop view. */
@@ -49,6 +50,7 @@ export class RoomStage implements SceneHost {
   readonly camera = new PerspectiveCamera(60, 1, 0.02, 60)
   readonly renderer: WebGLRenderer
   readonly controls: OrbitControls
+  readonly occlusion: Occlusion
   readonly canvas = document.createElement('canvas')
   theme: SceneTheme = themeNow()
   private readonly floor = new Floor()
@@ -80,6 +82,7 @@ export class RoomStage implements SceneHost {
     this.renderer.xr.enabled = true
     this.renderer.xr.setReferenceSpaceType('local-floor')
     this.renderer.xr.setFoveation(FOVEATION)
+    this.occlusion = new Occlusion(this.renderer, this.world)
     container.append(this.canvas)
     stand(this.world)
     this.anchor.add(this.world)
@@ -135,6 +138,7 @@ export class RoomStage implements SceneHost {
     }
     this.stirred = false
     this.drawnAt = now
+    this.occlusion.update(now)
     this.renderer.render(this.scene, this.camera)
     return true
   }
@@ -183,6 +187,7 @@ export class RoomStage implements SceneHost {
     for (const undo of this.undo) undo()
     this.renderer.setAnimationLoop(null)
     this.controls.dispose()
+    this.occlusion.dispose()
     this.floor.dispose()
     this.shadowFloor.geometry.dispose()
     this.shadowFloor.material.dispose()

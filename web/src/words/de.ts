@@ -462,6 +462,8 @@ export const de: Words = {
     contrastAbout: 'Tafeln in Schwarz, Weiß und Gelb.',
     still: 'Weniger Bewegung',
     stillAbout: 'Nichts pulsiert oder gleitet; Tafeln springen an ihren Ort.',
+    occlusion: 'Von Echtem verdeckt',
+    occlusionAbout: 'Wo das Headset Tiefe misst; ab dem nächsten Betreten.',
     tour: {
       title: (number: number, count: number) => `Erste Schritte · ${number} von ${count}`,
       next: 'Weiter',

@@ -457,6 +457,8 @@ export const en = {
     contrastAbout: 'Panels in black, white and yellow.',
     still: 'Reduced motion',
     stillAbout: 'Nothing pulses or glides; panels move at once.',
+    occlusion: 'Hide behind real things',
+    occlusionAbout: 'Where the headset measures depth; from the next time you enter.',
     tour: {
       title: (number: number, count: number) => `First steps · ${number} of ${count}`,
       next: 'Next',

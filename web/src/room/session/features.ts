@@ -10,8 +10,10 @@ export const WANTED = [
 
 /** What makes the picture better where a device has it, and is not missed where not. */
 export const EXTRA = ['light-estimation'] as const
+/** Asked for in passthrough where a person wants robots hidden behind real things. */
+export const DEPTH = 'depth-sensing'
 
-export type Feature = (typeof WANTED)[number]
+export type Feature = (typeof WANTED)[number] | typeof DEPTH
 export type Mode = 'immersive-ar' | 'immersive-vr'
 
 /** Why there is no way into the room from here; empty: there is one. */
@@ -43,8 +45,10 @@ export async function abilityOf({ secure, xr }: XrPlatform): Promise<Ability> {
   return { mode: null, hindrance: 'no_device' }
 }
 
-/** Return which of the wanted features a session does not have; one that does not tell has all. */
-export function missingOf(granted: readonly string[] | undefined): Feature[] {
+/** Return which of the wanted features a session does not have; one that does not tell has all.
+ * depth: whether depth was asked for, too. */
+export function missingOf(granted: readonly string[] | undefined, depth = false): Feature[] {
   if (granted === undefined) return []
-  return WANTED.filter((feature) => !granted.includes(feature))
+  const wanted: readonly Feature[] = depth ? [...WANTED, DEPTH] : WANTED
+  return wanted.filter((feature) => !granted.includes(feature))
 }

@@ -1,5 +1,5 @@
 import type { WebGLRenderer } from 'three'
-import { EXTRA, type Feature, type Mode, missingOf, REQUIRED, WANTED } from './features'
+import { DEPTH, EXTRA, type Feature, type Mode, missingOf, REQUIRED, WANTED } from './features'
 
 const FRAME_RATE = 72
 
@@ -10,22 +10,31 @@ export interface RoomSession {
   readonly missing: readonly Feature[]
 }
 
-/** Enter. Must be called by a person's tap. Rejects as `navigator.xr.requestSession` does. */
+/** Enter. Must be called by a person's tap. Rejects as `navigator.xr.requestSession` does. depth: ask
+ * how far real things are, where they are seen. */
 export async function enter(
   renderer: WebGLRenderer,
   mode: Mode,
+  depth: boolean,
   onEnd: () => void,
 ): Promise<RoomSession> {
   const { xr } = navigator
   if (xr === undefined) throw new DOMException('this browser has no WebXR', 'NotSupportedError')
-  const session = await xr.requestSession(mode, {
+  const asked = depth && mode === 'immersive-ar'
+  const wanted: XRSessionInit = {
     requiredFeatures: [...REQUIRED],
     optionalFeatures: [...WANTED, ...EXTRA],
-  })
+  }
+  if (asked) {
+    wanted.optionalFeatures?.push(DEPTH)
+    // the format is the device's choice: each is read as a number
+    wanted.depthSensing = { usagePreference: ['gpu-optimized'], dataFormatPreference: [] }
+  }
+  const session = await xr.requestSession(mode, wanted)
   session.addEventListener('end', onEnd, { once: true })
   await renderer.xr.setSession(session)
   await settle(session)
-  return { session, mode, missing: missingOf(session.enabledFeatures) }
+  return { session, mode, missing: missingOf(session.enabledFeatures, asked) }
 }
 
 /** Run at 72 Hz where the device offers that: each picture then has 13.9 ms. */

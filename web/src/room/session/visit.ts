@@ -17,6 +17,7 @@ export class Visit {
   inputs: XrInputs | null = null
   private current: RoomSession | null = null
   private enteredAt = Number.NaN
+  private depth = false
   /** The session's own floor space. */
   private floor: XRReferenceSpace | null = null
 
@@ -49,7 +50,7 @@ export class Visit {
 
   /** Enter with a headset; must be called by a person's tap. now: s. */
   async enter(mode: Mode, now: number, seated: boolean): Promise<XRSession> {
-    this.current = await enter(this.stage.renderer, mode, () => this.end())
+    this.current = await enter(this.stage.renderer, mode, this.depth, () => this.end())
     const { session } = this.current
     this.inputs = new XrInputs(session, this.stage.scene, this.targets.all, this.marked)
     this.stage.controls.enabled = false
@@ -69,6 +70,12 @@ export class Visit {
       ? this.floor.getOffsetReferenceSpace(new XRRigidTransform({ x: 0, y: -LIFT, z: 0 }))
       : this.floor
     this.stage.renderer.xr.setReferenceSpace(space)
+  }
+
+  /** Hide robots and objects behind real things; asked for when somebody enters. */
+  hide(behind: boolean): void {
+    this.depth = behind
+    this.stage.occlusion.wanted = behind
   }
 
   leave(): void {

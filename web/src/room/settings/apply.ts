@@ -11,6 +11,7 @@ export function applySettings(settings: Settings, visit: Visit, repaint: () => v
       repaint()
     }),
     effect(() => visit.seat(settings.seated.value)),
+    effect(() => visit.hide(settings.occlusion.value)),
   ]
   return () => {
     for (const each of undo) each()

@@ -35,6 +35,8 @@ export class Settings {
   readonly seated = new Switch('seated')
   readonly contrast = new Switch('contrast', matchMedia('(prefers-contrast: more)').matches)
   readonly still = new Switch('still', matchMedia('(prefers-reduced-motion: reduce)').matches)
+  /** Whether real things hide what is behind them. */
+  readonly occlusion = new Switch('occlusion')
   /** Whether the tour was taken or skipped. */
   readonly toured = new Switch('toured')
 }

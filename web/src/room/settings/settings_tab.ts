@@ -14,6 +14,7 @@ export function settingsTab(context: RoomContext, settings: Settings, tour: () =
     ['seated', settings.seated, w.seated, w.seatedAbout],
     ['contrast', settings.contrast, w.contrast, w.contrastAbout],
     ['still', settings.still, w.still, w.stillAbout],
+    ['occlusion', settings.occlusion, w.occlusion, w.occlusionAbout],
   ]
   return {
     id: 'settings',

@@ -32,4 +32,6 @@ it('what a session did not grant is known; one that does not tell is believed', 
   ])
   expect(missingOf([...WANTED])).toEqual([])
   expect(missingOf(undefined)).toEqual([])
+  expect(missingOf([...WANTED], true)).toEqual(['depth-sensing'])
+  expect(missingOf([...WANTED, 'depth-sensing'], true)).toEqual([])
 })
