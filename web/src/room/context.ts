@@ -1,4 +1,4 @@
-import type { Object3D, Vector3 } from 'three'
+import type { Object3D, PerspectiveCamera, Vector3 } from 'three'
 import { type Link, LinkError, type ServiceType } from '../link/link'
 import type { TrajectoryInfo } from '../protocol/mrlab_msgs'
 import type { Words } from '../words/en'
@@ -40,8 +40,10 @@ export interface RoomContext extends Surroundings {
   readonly still: boolean
   /** Robots are being chosen: a press takes one into the system, and carries none. */
   readonly choosing: boolean
-  /** m: how far away text is read; a screen shows less of a room than eyes do. */
+  /** m: how far away text is read. */
   readonly readAt: number
+  /** What the screen of a person without a headset shows; null: somebody is inside. */
+  readonly screen: PerspectiveCamera | null
   /** Have the board painted anew. */
   repaintBoard(): void
   /** Tell the person a sentence, where they look; warns: something is wrong, which it is by default. */

@@ -14,7 +14,7 @@ import type { Entry } from './context'
 import type { Person } from './people/people_tab'
 import type { Room } from './room'
 import { type Ability, abilityOf } from './session/features'
-import { hopsOf, refusalOf } from './why/hops'
+import { type Hop, hopsOf, refusalOf } from './why/hops'
 
 /** s between two looks at what is not there. */
 const PERIOD_S = 1
@@ -24,6 +24,11 @@ function picture(url: string | null): HTMLImageElement | null {
   const image = new Image()
   image.src = url
   return image
+}
+
+/** Return whether a hop is no more than worth knowing: it covers nothing of the room. */
+function isAside({ id, severity }: Hop): boolean {
+  return id === 'headset' && severity === 'info'
 }
 
 /** Return who is signed in, as they are in the room. */
@@ -161,6 +166,11 @@ function RoomView({ link }: { link: Link }) {
           </Button>
         )}
         {inside && <p class="room-line small">{w.inside}</p>}
+        {hops.filter(isAside).map(({ id, words: text }) => (
+          <p key={id} class="room-line small" data-hop={id}>
+            {text}
+          </p>
+        ))}
       </div>
       <div class="room-hops">
         {trouble.value && (
@@ -168,11 +178,13 @@ function RoomView({ link }: { link: Link }) {
             <p>{trouble.value}</p>
           </Notice>
         )}
-        {hops.map(({ id, severity, words: text }) => (
-          <Notice key={id} severity={severity}>
-            <p data-hop={id}>{text}</p>
-          </Notice>
-        ))}
+        {hops
+          .filter((hop) => !isAside(hop))
+          .map(({ id, severity, words: text }) => (
+            <Notice key={id} severity={severity}>
+              <p data-hop={id}>{text}</p>
+            </Notice>
+          ))}
       </div>
     </section>
   )

@@ -5,7 +5,6 @@ import type { Room, RoomParts } from './room'
 
 /** m */
 const READ_AT = 0.9
-const READ_AT_SCREEN = 1.5
 
 const tip = new Vector3()
 
@@ -52,8 +51,9 @@ export function contextOf(room: Room, parts: RoomParts, feedback: Feedback): Roo
     get choosing() {
       return room.creation.on
     },
-    get readAt() {
-      return room.inside.value ? READ_AT : READ_AT_SCREEN
+    readAt: READ_AT,
+    get screen() {
+      return room.inside.value ? null : room.stage.camera
     },
     repaintBoard: () => room.board.panel.repaint(),
     say: (text, warns) => room.board.say(text, warns),

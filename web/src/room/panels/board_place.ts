@@ -1,4 +1,4 @@
-import { MathUtils, type PerspectiveCamera, type Quaternion, Vector3 } from 'three'
+import { type Quaternion, Vector3 } from 'three'
 import type { Viewer } from '../anchor/alignment'
 import type { RoomContext } from '../context'
 import type { Board } from './board'
@@ -8,11 +8,8 @@ import { Stand } from './stand'
 const ASIDE = (75 * Math.PI) / 180
 const ASIDE_S = 1.5
 const SIDE = (36 * Math.PI) / 180
-/** rad: half of what the board takes of the view, on a screen. */
-const HALF_SCREEN = (15.5 * Math.PI) / 180
 /** m */
 const AWAY = 0.95
-const AWAY_SCREEN = 1.35
 const BELOW_EYES = 0.22
 
 const at = new Vector3()
@@ -27,7 +24,7 @@ export class BoardPlace {
     private readonly board: Board,
     private readonly context: RoomContext,
   ) {
-    this.stand = new Stand(board.panel.group)
+    this.stand = new Stand(board.panel.group, 'top')
   }
 
   /** Take where somebody looks as straight ahead. */
@@ -35,33 +32,19 @@ export class BoardPlace {
     this.yaw = yawOf(look)
   }
 
-  /** Before each picture. now, step: s. screen: the camera of the view without a headset. Returns
-   * whether the board moves. */
-  update(
-    { head, look }: Viewer,
-    now: number,
-    step: number,
-    screen: PerspectiveCamera | null,
-  ): boolean {
+  /** Before each picture. now, step: s. Returns whether the board moves. */
+  update({ head, look }: Viewer, now: number, step: number): boolean {
     const yaw = yawOf(look)
     const off = Math.abs(Math.atan2(Math.sin(yaw - this.yaw), Math.cos(yaw - this.yaw)))
-    if (off < ASIDE) this.asideSince = Number.NaN
+    if (this.context.screen !== null) this.yaw = yaw
+    else if (off < ASIDE) this.asideSince = Number.NaN
     else if (Number.isNaN(this.asideSince)) this.asideSince = now
     else if (now - this.asideSince > ASIDE_S) this.yaw = yaw
-    const { leftHanded } = this.context
-    const aside = screen === null ? SIDE : Math.min(SIDE, halfView(screen) - HALF_SCREEN)
-    const side = this.yaw + (leftHanded ? -aside : aside)
-    at.set(-Math.sin(side), 0, -Math.cos(side)).multiplyScalar(
-      screen === null ? AWAY : AWAY_SCREEN,
-    )
+    const side = this.yaw + (this.context.leftHanded ? -SIDE : SIDE)
+    at.set(-Math.sin(side), 0, -Math.cos(side)).multiplyScalar(AWAY)
     at.add(head).setY(head.y - BELOW_EYES)
     return this.stand.update(at, head, now, step, this.board.panel.pointers > 0, this.context)
   }
-}
-
-/** Return half of what a camera sees from left to right, rad. */
-function halfView({ fov, aspect }: PerspectiveCamera): number {
-  return Math.atan(Math.tan(MathUtils.degToRad(fov) / 2) * aspect)
 }
 
 /** Return the heading of a look about the vertical, rad; 0 looks along -z. */

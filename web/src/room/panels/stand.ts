@@ -1,5 +1,6 @@
 import { MathUtils, type Object3D, Quaternion, Vector3 } from 'three'
 import type { RoomContext } from '../context'
+import { dock, type Edge } from './dock'
 
 const LARGEST = 2
 /** rad and m: a panel that is this far from where it should be follows, after so long, s. */
@@ -27,18 +28,27 @@ export class Stand {
   private movedAt = Number.NEGATIVE_INFINITY
   private here = false
 
-  constructor(private readonly panel: Object3D) {}
+  /** edge: where it goes on a screen that is taller than wide. */
+  constructor(
+    private readonly panel: Object3D,
+    private readonly edge: Edge = 'bottom',
+  ) {}
 
   /** at: where it should be, in the floor space, m. now, step: s. held: a pointer is over it.
-   * It grows with more than `readAt`; with `still` it does not glide. Returns whether it moves. */
+   * It grows with more than `readAt`; with `still` it does not glide. On a screen it lies flat in the
+   * picture. Returns whether it moves. */
   update(
     at: Vector3,
     head: Vector3,
     now: number,
     step: number,
     held: boolean,
-    { readAt, still }: Pick<RoomContext, 'readAt' | 'still'>,
+    { readAt, still, screen }: Pick<RoomContext, 'readAt' | 'still' | 'screen'>,
   ): boolean {
+    if (screen !== null) {
+      this.here = false
+      return dock(this.panel, at, screen, this.edge)
+    }
     back.subVectors(at, head)
     const distance = back.length()
     if (distance < NEAREST && distance > 1e-3) {
@@ -51,6 +61,7 @@ export class Stand {
     turned.multiply(tilt.setFromAxisAngle(X, -pitch))
     if (!this.here) {
       this.here = true
+      this.movedAt = Number.NEGATIVE_INFINITY
       this.place.copy(wanted)
       this.turn.copy(turned)
       this.panel.position.copy(wanted)
