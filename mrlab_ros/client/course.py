@@ -48,6 +48,14 @@ def halted(robot: str, why: str, robots: Collection[str] = ()) -> str:
     robots: the names of those in the scene, which are no objects.
     """
     contact = CONTACT.search(why)
+    if why and contact is None:
+        # It was taken elsewhere already; what it touches there is not said.
+        return (
+            f"{robot} is still in its collision halt ({why}), which ends once its arm has been "
+            "clear for a moment. Where the arm touches something there too, take that away: "
+            f"mrlab objects list, or place the robot elsewhere: mrlab place {robot} --at X,Y. "
+            f"Then play on with: mrlab resume {robot}"
+        )
     other = contact.group(1) if contact else ""
     away = f"place the robot elsewhere: mrlab place {robot} --at X,Y"
     if OBJECT.fullmatch(other) and other not in robots:

@@ -12,7 +12,7 @@ from mrlab_msgs import msg, srv
 from sensor_msgs.msg import JointState  # type: ignore[import-untyped]
 from std_srvs.srv import SetBool, Trigger
 
-from mrlab_ros.client.course import Course
+from mrlab_ros.client.course import Course, halted
 from mrlab_ros.client.follow import Follower
 from mrlab_ros.client.motion import Motion
 from mrlab_ros.core.errors import LabError, Misuse
@@ -181,9 +181,13 @@ class LabRobot:
     def _say(self, kind: Any, verb: str, request: Any) -> str:
         """Call a service of the robot; raise Misuse, with its name, where it refuses."""
         answer = self._graph.call(kind, f"/{self.name}/{verb}", request)
-        if not answer.success:
-            raise Misuse(f"{self.name}: {answer.message}")
-        return str(answer.message)
+        if answer.success:
+            return str(answer.message)
+        state = self.follower.state
+        halt = state.state == msg.PlaybackState.COLLISION_HALT
+        if halt and verb in ("play", "load") and f"in {state.label}" in answer.message:
+            raise Misuse(halted(self.name, state.message, self._robots()))
+        raise Misuse(f"{self.name}: {answer.message}")
 
 
 class Run:

@@ -22,6 +22,7 @@ from typing import Any
 import numpy as np
 import zenoh
 from rosbags.interfaces import Nodetype
+from rosbags.serde import SerdeError
 from rosbags.typesys import Stores, get_types_from_msg, get_typestore
 from rosbags.typesys.store import Typestore
 from zenoh import ext
@@ -85,6 +86,20 @@ def typestore(messages: dict[str, str], services: dict[str, str]) -> Typestore:
     return store
 
 
+def decode(store: Typestore, payload: bytes, kind: str) -> Any:
+    """Return the message of type `kind` in `payload`, CDR; raise SerdeError where it is none.
+
+    ROS counts padding before an empty list of numbers, which it then does not write: an answer may
+    be followed by bytes that mean nothing, which rosbags takes for a mistake.
+    """
+    for end in range(len(payload), 4, -4):
+        try:
+            return store.deserialize_cdr(payload[:end], kind)
+        except SerdeError:
+            continue
+    return store.deserialize_cdr(payload, kind)
+
+
 def connect(endpoint: str, file: Path | None = None) -> zenoh.Session:
     """Open a session with the lab's bridge; exit with the reason where that fails.
 
@@ -116,6 +131,8 @@ def watch(
     session: zenoh.Session, store: Typestore, key: str, kind: str, latched: bool, count: int
 ) -> int:
     """Print the messages of a topic; of a latched one, first the newest from before now."""
+    if kind not in store.types:
+        sys.exit(f"the lab has no message type {kind}; docs/protocol.md lists each key's")
     done = threading.Event()
     seen = 0
 
@@ -123,7 +140,7 @@ def watch(
         nonlocal seen
         if done.is_set():
             return
-        print(store.deserialize_cdr(sample.payload.to_bytes(), kind), flush=True)
+        print(decode(store, sample.payload.to_bytes(), kind), flush=True)
         seen += 1
         if seen == count:
             done.set()
@@ -144,14 +161,16 @@ def call(
     """Call a service and print its answer; return 0 where it succeeded."""
     request = None
     # The halves of a service are registered as messages, so that they find their package's own.
-    kind = kind.replace("/srv/", "/msg/")
+    service, kind = kind, kind.replace("/srv/", "/msg/")
+    if f"{kind}_Response" not in store.types:
+        sys.exit(f"the lab has no service type {service}; docs/protocol.md lists each key's")
     if f"{kind}_Request" in store.types:
         request = store.serialize_cdr(fill(store, f"{kind}_Request", values), f"{kind}_Request")
     for reply in session.get(key, payload=request and bytes(request), timeout=70.0):
         if reply.ok is None:
             print(reply.err.payload.to_string(), file=sys.stderr)
             return 1
-        answer = store.deserialize_cdr(reply.ok.payload.to_bytes(), f"{kind}_Response")
+        answer = decode(store, reply.ok.payload.to_bytes(), f"{kind}_Response")
         print(answer)
         return 0 if getattr(answer, "success", True) else 1
     print(
@@ -163,11 +182,14 @@ def call(
 
 
 def fill(store: Typestore, kind: str, values: dict[str, Any]) -> Any:
-    """Return a message with `values` in it and zeros elsewhere; exit where a field is unknown."""
+    """Return a message with `values` in it and zeros elsewhere, in an orientation no turn; exit
+    where a field is unknown or its value cannot be."""
     definition = dict(store.get_msgdef(kind).fields)
     strangers = set(values) - set(definition)
     if strangers:
         sys.exit(f"{kind} has no field {', '.join(strangers)}; it has {', '.join(definition)}")
+    if kind == "geometry_msgs/msg/Quaternion" and not values:
+        values = {"w": 1.0}
     parts = {name: part(store, field, values.get(name)) for name, field in definition.items()}
     return store.types[kind](**parts)
 
@@ -176,11 +198,20 @@ def part(store: Typestore, field: Any, value: Any) -> Any:
     """Return `value` as a field holds it; None becomes a number, text, array or message of 0."""
     form, detail = field
     if form is Nodetype.NAME:
+        if not isinstance(value or {}, dict):
+            sys.exit(f"{value} is no {detail}; give its fields, such as {{...}} in JSON")
         return fill(store, detail, value or {})
     if form is Nodetype.BASE:
         name = detail[0]
-        return value if value is not None else "" if name == "string" else np.zeros(1, name)[0]
+        if name == "string":
+            return "" if value is None else str(value)
+        try:
+            return np.zeros(1, name)[0] if value is None else np.dtype(name).type(value)
+        except (TypeError, ValueError, OverflowError):
+            sys.exit(f"{value!r} is no {name}")
     (inner, inner_detail), length = detail
+    if not isinstance(value or [], list):
+        sys.exit(f"{value!r} is no list; give it in JSON, such as [1, 2]")
     values = value or [None] * (length if form is Nodetype.ARRAY else 0)
     parts = [part(store, (inner, inner_detail), each) for each in values]
     numbers = inner is Nodetype.BASE and inner_detail[0] != "string"

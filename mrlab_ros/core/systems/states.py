@@ -122,6 +122,10 @@ def reason(state: SystemState, event: SystemEvent) -> str:
         return "wait until all members were reached, or dissolve the system"
     if event is SystemEvent.STEP and state in ACTIVE:
         return "pause first"
+    if state is SystemState.COLLISION_HALT and event in (SystemEvent.STAGE, SystemEvent.PAUSE):
+        return (
+            "stop it, which takes its arms back to where they began, then play once all are clear"
+        )
     if event is SystemEvent.SET_MODE:
         halted = state is SystemState.COLLISION_HALT
         return "wait until all members are clear, then stop" if halted else "stop first"
