@@ -510,6 +510,7 @@ def test_the_bag_s_trajectories_can_be_fetched_while_it_is_replayed(graph, recor
 
 
 def test_a_replay_ends_when_asked_and_refuses_to_run_beside_another(graph, recorder, session):
+    assert order(graph, "list_bags").splitlines() == ["class"]
     replay(graph, rate=0.1)
     answer = graph.call(srv.Replay, "/recorder/replay", bag="class", rate=1.0)
     assert "is being replayed; stop that first" in answer.message

@@ -15,6 +15,7 @@ from rclpy.parameter import Parameter
 from std_srvs.srv import SetBool, Trigger
 
 from mrlab_ros.adapters.bags.empty import remove_empty
+from mrlab_ros.adapters.bags.listing import bags_in
 from mrlab_ros.adapters.bags.reader import Bag, default_folder
 from mrlab_ros.adapters.bags.writer import BagWriter
 from mrlab_ros.adapters.journal import Journal
@@ -89,6 +90,7 @@ class RecorderNode(ParameterNode[RecorderParameters]):
             (Trigger, "stop", self._stop),
             (Trigger, "split", self._split),
             (srv.Replay, "replay", self._replay),
+            (Trigger, "list_bags", self._list_bags),
             (Trigger, "pause", self._pause),
             (Trigger, "resume", self._resume),
             (srv.Seek, "seek", self._seek),
@@ -227,6 +229,10 @@ class RecorderNode(ParameterNode[RecorderParameters]):
             content.close()
 
     # replaying ------------------------------------------------------------------------------
+
+    @answered
+    def _list_bags(self, _request: Any, _response: Any) -> str:
+        return "\n".join(bags_in(self._folder))
 
     @answered
     def _replay(self, request: Any, response: Any) -> str:

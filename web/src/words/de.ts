@@ -412,7 +412,7 @@ export const de: Words = {
     endRecording: 'Aufzeichnung beenden',
     replayed: 'Wiedergeben',
     endReplay: 'Wiedergabe beenden',
-    noBags: 'Was von hier aufgezeichnet wird, steht hier und kann wiedergegeben werden.',
+    noBags: 'Das Labor hat noch keine Aufnahme.',
     stats: 'Verzögerung und Bildzeit',
     statsFrame: (ms: string, rate: string) => `${ms} ms je Bild, ${rate} Bilder je Sekunde`,
     statsAge: (p50: string, p95: string) => `Gelenkwerte sind ${p50} ms alt, 95 % unter ${p95} ms`,

@@ -409,7 +409,7 @@ export const en = {
     endRecording: 'End the recording',
     replayed: 'Replay',
     endReplay: 'End the replay',
-    noBags: 'What is recorded from here is listed here and can be replayed.',
+    noBags: 'The lab has no recording yet.',
     stats: 'Latency and frame time',
     statsFrame: (ms: string, rate: string) => `${ms} ms a frame, ${rate} frames a second`,
     statsAge: (p50: string, p95: string) => `Joint states are ${p50} ms old, 95 % under ${p95} ms`,

@@ -16,6 +16,7 @@ from mcap.writer import Writer
 from rosbags.highlevel import AnyReader
 
 from mrlab_ros.adapters.bags.empty import remove_empty
+from mrlab_ros.adapters.bags.listing import bags_in
 from mrlab_ros.adapters.bags.reader import Bag
 from mrlab_ros.adapters.bags.repair import refresh_metadata, repair
 from mrlab_ros.adapters.bags.writer import (
@@ -532,3 +533,21 @@ def test_a_file_whose_messages_cannot_be_read_is_not_empty(tmp_path):
     path.write_bytes(whole[: len(whole) // 4])
     assert Bag(folder).message_count == 0
     assert not remove_empty(folder)
+
+
+def test_bags_are_listed_newest_first_and_nothing_else_is(tmp_path):
+    for age, name in enumerate(("new", "middle", "old")):
+        writer = begin(tmp_path / name)
+        fill(writer, 2)
+        writer.close()
+        for file in (tmp_path / name).glob("*.mcap"):
+            os.utime(file, (1_700_000_000 - age, 1_700_000_000 - age))
+    loose = tmp_path / "loose.mcap"
+    loose.write_bytes(next((tmp_path / "old").glob("*.mcap")).read_bytes())
+    os.utime(loose, (1_600_000_000, 1_600_000_000))
+    (tmp_path / "notes").mkdir()
+    (tmp_path / "notes.txt").write_text("no bag")
+    (tmp_path / "away").symlink_to(tmp_path / "gone")
+    assert bags_in(tmp_path) == ["new", "middle", "old", "loose.mcap"]
+    assert bags_in(tmp_path, most=2) == ["new", "middle"]
+    assert bags_in(tmp_path / "gone") == []

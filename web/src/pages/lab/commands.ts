@@ -40,6 +40,13 @@ export function trigger(link: Link, service: string): Promise<boolean> {
   return order<Record<string, never>, TriggerResponse>(link, service, triggerType, {})
 }
 
+/** Return the names of the bags that the lab can replay, newest first. Rejects with why it says none. */
+export async function listBagsOf(link: Link): Promise<readonly string[]> {
+  const { success, message } = await link.call('recorder/list_bags', triggerType, {})
+  if (!success) throw new LinkError('refused', message)
+  return message === '' ? [] : message.split('\n')
+}
+
 /** Return what a robot, a robot system or the recorder's replay is told. */
 export function commandsOf(link: Link, name: string): Commands {
   const play = name === 'recorder' ? 'resume' : 'play'

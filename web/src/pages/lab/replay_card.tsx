@@ -1,8 +1,8 @@
-import { useState } from 'preact/hooks'
+import { useEffect, useState } from 'preact/hooks'
 import { Button } from '../../design/button'
 import { RecorderState, replayType } from '../../protocol/mrlab_msgs'
 import { words } from '../../words/words'
-import { order, trigger } from './commands'
+import { listBagsOf, order, trigger } from './commands'
 import { useLab } from './context'
 import type { LabFollower } from './follow'
 import { Timeline } from './timeline'
@@ -13,6 +13,14 @@ export function ReplayCard({ follower }: { follower: LabFollower }) {
   const w = words.value.lab
   const { link, may } = useLab()
   const state = follower.recorder.value
+  const [bags, setBags] = useState<readonly string[]>([])
+  const doing = state?.state
+  // each recording adds one
+  useEffect(() => {
+    if (!may.replay || doing !== RecorderState.STOPPED) return
+    // a name can be typed all the same
+    listBagsOf(link).then(setBags, () => setBags([]))
+  }, [link, may.replay, doing])
   const replaying =
     state?.state === RecorderState.REPLAYING || state?.state === RecorderState.PAUSED
   if (!may.replay && !replaying && state?.state !== RecorderState.RECORDING) return null
@@ -45,8 +53,15 @@ export function ReplayCard({ follower }: { follower: LabFollower }) {
               class="input"
               value={bag}
               placeholder="class.bag"
+              list="lab-bags"
+              autocomplete="off"
               onInput={(event) => setBag(event.currentTarget.value)}
             />
+            <datalist id="lab-bags">
+              {bags.map((each) => (
+                <option key={each} value={each} />
+              ))}
+            </datalist>
             <Button type="submit" disabled={!bag.trim()}>
               {w.replay}
             </Button>

@@ -2,7 +2,6 @@ import { effect } from '@preact/signals'
 import type { LabFollower } from '../../pages/lab/follow'
 import type { Entry, RoomContext } from '../context'
 import type { Board } from '../panels/board'
-import { keepBag } from '../panels/lab_tab'
 import type { RobotPanels } from '../panels/robot_panels'
 import type { SystemPanels } from '../systems/system_panels'
 
@@ -39,9 +38,7 @@ export function listen({
         phase === 'open' ? '' : phase === 'connecting' ? hops.connecting : hops[phase](reason)
     }),
     effect(() => {
-      const recorder = follower.recorder.value
-      if (recorder !== null) keepBag(recorder)
-      repaint()
+      if (follower.recorder.value !== null) repaint()
     }),
     effect(() => {
       systems.show(follower.systems.value)

@@ -1,3 +1,4 @@
+import { listBagsOf } from '../../pages/lab/commands'
 import type { LabFollower } from '../../pages/lab/follow'
 import {
   listScenesType,
@@ -13,23 +14,8 @@ import { BOARD_WIDTH, BOTTOM, EDGE, type Tab, TOP } from './board'
 import { GAP, HIT, PANEL_THEME, type Pen, TEXT } from './pen'
 
 const ROWS = 3
-const KEY = 'mrlab.room.bags'
-const MOST_BAGS = 6
 const COLUMN = (BOARD_WIDTH - 2 * EDGE - GAP) / 2
 const RIGHT = EDGE + COLUMN + GAP
-
-/** Bags that were recorded while this browser looked on, newest first: the lab lists none. */
-function knownBags(): string[] {
-  const kept: unknown = JSON.parse(localStorage.getItem(KEY) ?? '[]')
-  return Array.isArray(kept) ? kept.filter((each) => typeof each === 'string') : []
-}
-
-/** Remember a bag that is being recorded. */
-export function keepBag({ state, bag }: RecorderState): void {
-  if (state !== RecorderState.RECORDING || bag === '') return
-  const bags = [bag, ...knownBags().filter((each) => each !== bag)]
-  localStorage.setItem(KEY, JSON.stringify(bags.slice(0, MOST_BAGS)))
-}
 
 /** Return a name for a scene that is saved now. */
 export function sceneName(date: Date): string {
@@ -43,8 +29,20 @@ export function labTab(context: RoomContext, follower: LabFollower, stats: Stats
   const { link } = context
   const w = context.words.room
   let scenes: readonly string[] = []
+  let bags: readonly string[] = []
   let listed = false
-  let first = 0
+  /** What the recorder did when its bags were listed: each recording adds one. */
+  let listedWhile = -1
+  let firstScene = 0
+  let firstBag = 0
+  const listBags = () => {
+    listBagsOf(link)
+      .then((found) => {
+        bags = found
+        context.repaintBoard()
+      })
+      .catch((error: Error) => context.say(error.message))
+  }
   const list = () => {
     listed = true
     link
@@ -66,28 +64,48 @@ export function labTab(context: RoomContext, follower: LabFollower, stats: Stats
     if (listed && scenes.length === 0) {
       pen.lines(EDGE, TOP + 116, w.noScenes, TEXT.small, COLUMN, 'second')
     }
-    first = Math.min(first, Math.max(scenes.length - ROWS, 0))
-    scenes.slice(first, first + ROWS).forEach((name, i) => {
-      const y = TOP + 26 + (i + 1) * (HIT + GAP)
+    firstScene = drawRows(pen, EDGE, scenes, firstScene, 'scenes', (name, y) => {
       const load = () => {
         order(context, 'lab/load_scene', sceneFileType, { name })
       }
       pen.button(`load ${name}`, EDGE, y, COLUMN, w.loadScene(name), load, { small: true })
     })
-    if (scenes.length <= ROWS) return
+  }
+
+  /** Draw a part of a list, with buttons to the parts before and after it; returns where it begins. */
+  function drawRows(
+    pen: Pen,
+    x: number,
+    entries: readonly string[],
+    from: number,
+    id: string,
+    draw: (entry: string, y: number, index: number) => void,
+  ): number {
+    const first = Math.min(from, Math.max(entries.length - 1, 0))
+    entries.slice(first, first + ROWS).forEach((entry, i) => {
+      draw(entry, TOP + 26 + (i + 1) * (HIT + GAP), first + i)
+    })
+    if (entries.length <= ROWS) return first
     const y = TOP + 26 + (ROWS + 1) * (HIT + GAP)
     const turn = (by: number) => () => {
-      first = Math.max(first + by, 0)
+      const next = Math.max(first + by, 0)
+      if (id === 'scenes') firstScene = next
+      else firstBag = next
     }
-    pen.button('scenes back', EDGE, y, 80, '‹', turn(-ROWS), { enabled: first > 0 })
-    const more = { enabled: first + ROWS < scenes.length }
-    pen.button('scenes on', EDGE + 80 + GAP, y, 80, '›', turn(ROWS), more)
+    pen.button(`${id} back`, x, y, 80, '‹', turn(-ROWS), { enabled: first > 0 })
+    const more = { enabled: first + ROWS < entries.length }
+    pen.button(`${id} on`, x + 80 + GAP, y, 80, '›', turn(ROWS), more)
+    return first
   }
 
   function drawRecordings(pen: Pen): void {
     const state = follower.recorder.value
     const doing = state?.state ?? RecorderState.STOPPED
     const lab = context.words.lab
+    if (doing !== listedWhile) {
+      listedWhile = doing
+      listBags()
+    }
     pen.text(RIGHT, TOP + 4, lab.recordings, TEXT.body, COLUMN, 'ink', 700)
     const y = TOP + 26
     const stop = () => {
@@ -102,22 +120,14 @@ export function labTab(context: RoomContext, follower: LabFollower, stats: Stats
         const request = { bag: '', topics: [], split_duration: 0 }
         order(context, 'recorder/start', startRecordingType, request)
       })
-      const bags = knownBags()
       if (bags.length === 0) pen.lines(RIGHT, y + 90, w.noBags, TEXT.small, COLUMN, 'second')
-      bags.slice(0, ROWS).forEach((bag, i) => {
-        const short = bag.slice(bag.lastIndexOf('/') + 1)
-        const words = `${w.replayed} ${short}`
-        pen.button(
-          `replay ${i}`,
-          RIGHT,
-          y + (i + 1) * (HIT + GAP),
-          COLUMN,
-          words,
-          () => {
-            order(context, 'recorder/replay', replayType, { bag, rate: 1, start: 0, loop: false })
-          },
-          { small: true },
-        )
+      firstBag = drawRows(pen, RIGHT, bags, firstBag, 'bags', (bag, at, i) => {
+        const replay = () => {
+          order(context, 'recorder/replay', replayType, { bag, rate: 1, start: 0, loop: false })
+        }
+        pen.button(`replay ${i}`, RIGHT, at, COLUMN, `${w.replayed} ${bag}`, replay, {
+          small: true,
+        })
       })
     } else drawReplay(pen, y, doing === RecorderState.REPLAYING, stop)
   }
