@@ -27,6 +27,8 @@ mrlab convert run.mat --robot ur5e — what is in a file, and is it right for th
 
 mrlab show run.mat --robot ur5e — see it move, as one HTML file
 
+mrlab check run.mat --robot ur5e --scene table — is it ready for a robot, and why not?
+
 mrlab play ur5e_1 run.mat — play it (in a second terminal, same ROS_DOMAIN_ID)
 
 mrlab pause ur5e_1, resume, stop, seek, place, remove — one robot; mrlab system for several
@@ -49,6 +51,7 @@ COMMANDS = {
     "demo": "demo.command:demo",
     "convert": "convert.command:convert",
     "show": "show:show",
+    "check": "check.command:check",
     "play": "play:play",
     "spawn": "robot:spawn",
     "remove": "robot:remove",

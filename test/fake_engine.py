@@ -16,6 +16,7 @@ from mrlab_ros.core.physics.engine import (
     Hit,
     Kind,
     LinkPairs,
+    Near,
     Touch,
 )
 
@@ -137,6 +138,17 @@ class FakeEngine:
         if kind is Kind.OBJECT and other in self.motions:
             return min(self._gap(arm, other), limit)
         return limit
+
+    def nearest(
+        self,
+        arm: str,
+        kind: Kind,
+        other: str,
+        limit: float,
+        without: frozenset[str] = frozenset(),
+    ) -> Near | None:
+        distance = self.distance(arm, kind, other, limit)
+        return Near(distance, "tip") if distance < limit else None
 
     def add_object(self, name: str, body: Body, motion: BodyState) -> None:
         self.motions[name] = motion

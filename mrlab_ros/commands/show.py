@@ -70,6 +70,7 @@ def _page(
     """Return the page, and what became of the file; None for a recorded session."""
     from mrlab_ros.adapters.pages.motion import motion_page
     from mrlab_ros.adapters.robots.library import RobotLibrary
+    from mrlab_ros.commands.convert.one_file import converted
     from mrlab_ros.ros import share
 
     folder = share.directory()
@@ -79,16 +80,7 @@ def _page(
 
         return session_page(recorded, folder), None
     library = RobotLibrary(folder / "robots")
-    result = _of_trajectory_file(file)
-    if result is None:
-        if not robot:
-            raise Misuse(
-                f"'{file.name}' does not say which robot it is for; add --robot, one of: "
-                f"{', '.join(library.ids())}"
-            )
-        from mrlab_ros.commands.convert import batch
-
-        result = batch.convert_file(file, library.model(robot), options, end_effector or None)
+    result = converted(file, robot, end_effector, options, library)
     if result.trajectory is not None:
         robot = robot or result.trajectory.robot_model
         end_effector = end_effector or result.trajectory.end_effector or ""
@@ -122,19 +114,3 @@ def _bag_of_report(file: Path) -> Path | None:
     if not bag.exists():
         raise BadInput(f"{path} is of the bag {bag}, which is not there; name the bag itself")
     return bag
-
-
-def _of_trajectory_file(file: Path) -> ConversionResult | None:
-    """Return the trajectory in a file that the lab wrote as JSON, or None: it is another file."""
-    if file.suffix.lower() != ".json":
-        return None
-    from mrlab_ros.adapters.trajectories import json_file
-    from mrlab_ros.core.conversion.convert import ConversionResult, Outcome
-
-    try:
-        trajectory = json_file.parse(file.read_bytes(), file.name)
-    except OSError as error:
-        raise BadInput(f"{file} cannot be read: {error.strerror}") from None
-    return ConversionResult(
-        file.name, Outcome.ACCEPTED, trajectory, (), tuple(trajectory.warnings)
-    )

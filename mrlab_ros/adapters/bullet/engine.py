@@ -38,6 +38,7 @@ from mrlab_ros.core.physics.engine import (
     Hit,
     Kind,
     LinkPairs,
+    Near,
     Touch,
 )
 
@@ -211,25 +212,44 @@ class BulletEngine:
         return found
 
     def distance(self, arm: str, kind: Kind, other: str, limit: float) -> float:
+        near = self.nearest(arm, kind, other, limit)
+        return limit if near is None else near.distance
+
+    def nearest(
+        self,
+        arm: str,
+        kind: Kind,
+        other: str,
+        limit: float,
+        without: frozenset[str] = frozenset(),
+    ) -> Near | None:
         robot = self._arms[arm]
         body = self._body(kind, other)
         if body is None:
-            return limit
-        nearest = limit
+            return None
+        own = kind is Kind.SELF
+        nearest, least, held_nearest = None, limit, ""
         close = pybullet.getClosestPoints(robot.body, body, limit, physicsClientId=self._client)
         for p in close:
-            own = kind is Kind.SELF
             if own and (p[3] == p[4] or (p[3], p[4]) in robot.ignored):
                 continue
-            if own or p[3] in robot.moving:
-                nearest = min(nearest, p[8])
+            if p[8] >= least or not (own or p[3] in robot.moving):
+                continue
+            if robot.links[p[3]] not in without:
+                nearest, least = p, p[8]
         for held in self._held_by(arm):
-            if (kind, other) != (Kind.OBJECT, held) and kind is not Kind.SELF:
+            if (kind, other) != (Kind.OBJECT, held) and not own:
                 near = pybullet.getClosestPoints(
                     self._objects.body(held), body, limit, physicsClientId=self._client
                 )
-                nearest = min([nearest, *(p[8] for p in near)])
-        return nearest
+                for p in near:
+                    if p[8] < least:
+                        nearest, least, held_nearest = p, p[8], held
+        if nearest is None:
+            return None
+        link = self._held[held_nearest].link if held_nearest else robot.links[nearest[3]]
+        others = self._arms[other].links if kind in (Kind.ROBOT, Kind.SELF) else {}
+        return Near(least, link, held_nearest, others.get(nearest[4], ""))
 
     def _body(self, kind: Kind, name: str) -> int | None:
         if kind is Kind.OBJECT:

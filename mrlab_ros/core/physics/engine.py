@@ -152,6 +152,20 @@ class Touch:
 
 
 @dataclass(frozen=True)
+class Near:
+    """Where an arm is nearest to something. distance: m, negative where they overlap.
+
+    held: the object in its hand that is nearest; empty: the arm's link itself. other_link: of
+    another robot, or of the arm itself.
+    """
+
+    distance: float
+    link: str
+    held: str = ""
+    other_link: str = ""
+
+
+@dataclass(frozen=True)
 class Hit:
     """Where a ray meets an object. share: of the ray's length; normal: unit, out of the object."""
 
@@ -215,6 +229,18 @@ class Engine(Protocol):
     def distance(self, arm: str, kind: Kind, other: str, limit: float) -> float:
         """Return the distance from the arm's moving links and what it holds to something, m, at
         most `limit`."""
+        ...
+
+    def nearest(
+        self,
+        arm: str,
+        kind: Kind,
+        other: str,
+        limit: float,
+        without: frozenset[str] = frozenset(),
+    ) -> Near | None:
+        """Return where the arm's moving links and what it holds are nearest to something; None
+        where that is further than `limit`, m. without: links that do not count."""
         ...
 
     def add_object(self, name: str, body: Body, motion: BodyState) -> None: ...

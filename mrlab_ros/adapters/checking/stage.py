@@ -1,0 +1,170 @@
+"""A world for a rehearsal: robots of the library and the objects of a scene, without a graph."""
+
+from __future__ import annotations
+
+import hashlib
+import importlib.metadata
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from mrlab_ros.adapters.bullet import support
+from mrlab_ros.adapters.robots.library import RobotLibrary
+from mrlab_ros.adapters.scenes.object_meshes import ObjectMeshes
+from mrlab_ros.adapters.yaml_files import read_yaml
+from mrlab_ros.core.checking.joints import StatedLimits
+from mrlab_ros.core.checking.motion import CheckedRobot
+from mrlab_ros.core.checking.recording import Rehearsed
+from mrlab_ros.core.checking.rehearsal import DISTANCE_PERIOD, FARTHEST, Actor, Rehearsal
+from mrlab_ros.core.checking.report import digest
+from mrlab_ros.core.errors import BadInput
+from mrlab_ros.core.geometry import Pose, compose
+from mrlab_ros.core.physics import catalogue
+from mrlab_ros.core.physics.catalogue import Catalogue, ObjectType
+from mrlab_ros.core.physics.grasp import Gripper
+from mrlab_ros.core.physics.settings import Settings
+from mrlab_ros.core.physics.world import World
+from mrlab_ros.core.scene import document as scene_document
+from mrlab_ros.core.scene.document import SceneDocument
+
+
+@dataclass(frozen=True)
+class Played:
+    """What a rehearsal recorded, and the types of the objects in it, by name."""
+
+    recorded: Rehearsed
+    objects: dict[str, ObjectType]
+    fingers: dict[str, tuple[str, ...]]
+
+    @property
+    def graspable(self) -> tuple[str, ...]:
+        return tuple(name for name, kind in self.objects.items() if kind.mass > 0)
+
+
+class Stage:
+    """The library, the catalogue and the settings that every rehearsal of a command shares.
+
+    share: the package's folder.
+    """
+
+    def __init__(self, share: Path, library: RobotLibrary) -> None:
+        self.library = library
+        self._physics = read_yaml(share / "config" / "physics.yaml")
+        self._settings = Settings.from_mapping(self._physics)
+        self._plain_types = read_yaml(share / "config" / "objects.yaml")
+        meshes = ObjectMeshes(share, self._settings.max_triangles)
+        self._types: Catalogue = catalogue.parse(self._plain_types, meshes)
+
+    def robot(self, name: str, model: str, end_effector: str, pose: Pose) -> CheckedRobot:
+        """Return a robot to check; raise BadInput for an unknown model or end effector."""
+        found = self.library.model(model)
+        self.library.description(model, end_effector or None)
+        return CheckedRobot(name, found, end_effector, pose, self._stated(model))
+
+    def _stated(self, model: str) -> dict[str, StatedLimits]:
+        """Return what robot.yaml states of the joints: acceleration, rad/s^2, jerk, rad/s^3."""
+        stated = {}
+        for joint in self.library.facts(model).get("joints", ()):
+            limits = [joint.get(key) for key in ("acceleration", "jerk")]
+            numbers = [None if value is None else float(value) for value in limits]
+            stated[str(joint.get("name"))] = StatedLimits(*numbers)
+        return stated
+
+    def inputs(self, robots: Sequence[CheckedRobot], scene: SceneDocument) -> dict[str, Any]:
+        """Return what a rehearsal depends on beside the motions, as digests."""
+        return {
+            "robots": {
+                robot.name: {
+                    "model": robot.model.id,
+                    "end_effector": robot.end_effector,
+                    "position": robot.pose.position,
+                    "orientation": robot.pose.orientation,
+                    "urdf": _sha256(
+                        self.library.description(robot.model.id, robot.end_effector or None)
+                    ),
+                }
+                for robot in robots
+            },
+            "scene": digest(scene_document.plain(scene)),
+            "objects": digest(self._plain_types),
+            "physics": digest(self._physics),
+            "engine": f"pybullet {_version()}",
+            "distance_period": DISTANCE_PERIOD,
+            "distance_farthest": FARTHEST,
+        }
+
+    def rehearse(
+        self,
+        robots: Sequence[CheckedRobot],
+        actors: Sequence[Actor],
+        scene: SceneDocument,
+        *,
+        drawn: bool = True,
+    ) -> Played:
+        """Play the actors, one for each robot, among the scene's objects and surfaces.
+
+        Raises BadInput where pybullet is missing or the scene names what there is not.
+        """
+        missing = support.missing()
+        if missing:
+            raise BadInput(missing)
+        from mrlab_ros.adapters.bullet.engine import BulletEngine
+
+        engine = BulletEngine(self.library.mesh_path)
+        try:
+            world = World(engine, self._types, self._settings)
+            world.set_surfaces(scene.surfaces)
+            for robot in robots:
+                self._add(world, robot)
+            for thing in scene.objects:
+                world.spawn(thing.type, thing.name, thing.pose, automatic=thing.automatic)
+            rehearsal = Rehearsal(world, engine, actors, drawn=drawn)
+            rehearsal.place()
+            for thing in scene.objects:
+                if thing.held_by and thing.in_hand is not None:
+                    hand = world.hand(thing.held_by).pose
+                    held = compose(hand, thing.in_hand)
+                    world.move(thing.name, held, (0.0, 0.0, 0.0), (0.0, 0.0, 0.0), held=True)
+                    world.attach(thing.held_by, thing.name, math.inf)
+            types = {thing.name: thing.type for thing in world.objects}
+            fingers = {r.name: tuple(world.fingers(r.name)) for r in robots}
+            return Played(rehearsal.run(), types, fingers)
+        finally:
+            engine.close()
+
+    def _add(self, world: World, robot: CheckedRobot) -> None:
+        model, tool = robot.model.id, robot.end_effector
+        world.add_robot(
+            robot.name,
+            self.library.description(model, tool or None),
+            robot.model.joint_names,
+            robot.pose,
+            self._gripper(tool),
+            self.library.never_touch(model),
+            self.library.hand_facts(model, tool),
+        )
+
+    def _gripper(self, end_effector: str) -> Gripper:
+        """Return how a robot holds; without an end effector, by the fingers of its own, if any."""
+        if not end_effector:
+            return Gripper.FINGERS
+        kind = str(self.library.end_effector_facts(end_effector).get("class", ""))
+        return Gripper.VACUUM if "vacuum" in kind else Gripper.FINGERS
+
+
+def first_link(robot: CheckedRobot) -> str:
+    """Return the first link of a robot that moves."""
+    return next(s.link for s in robot.model.chain.segments if s.axis is not None)
+
+
+def _sha256(text: str) -> str:
+    return hashlib.sha256(text.encode()).hexdigest()
+
+
+def _version() -> str:
+    try:
+        return importlib.metadata.version("pybullet")
+    except importlib.metadata.PackageNotFoundError:
+        return "missing"

@@ -1,0 +1,1 @@
+"""`mrlab check`: evidence of a motion before a robot moves."""

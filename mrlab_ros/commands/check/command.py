@@ -1,0 +1,80 @@
+"""`mrlab check`: evidence of a motion before a robot moves, without a running lab."""
+
+from __future__ import annotations
+
+import re
+import sys
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from mrlab_ros.commands.convert.options import with_options
+from mrlab_ros.core.conversion.options import Options
+from mrlab_ros.core.errors import LabError, Misuse
+
+COULD_NOT = 2
+LENGTH = re.compile(r"\s*([0-9.]+)\s*(mm|cm|m)?\s*")
+UNITS = {"mm": 1e-3, "cm": 1e-2, "m": 1.0, None: 1.0}
+
+
+@with_options
+def check(
+    options: Options,
+    file: Annotated[
+        Path, typer.Argument(help="Workspace, table or trajectory file; or a cell (.yaml).")
+    ],
+    robot: Annotated[str, typer.Option(help="Robot that the motion is for, such as ur5e.")] = "",
+    tool: Annotated[
+        str,
+        typer.Option(
+            "--tool", "--end-effector", help="End effector; empty: that of the scene, or none."
+        ),
+    ] = "",
+    scene: Annotated[
+        str, typer.Option(help="Scene that it moves in: a name, or a file; empty: a floor alone.")
+    ] = "",
+    points: Annotated[
+        Path | None,
+        typer.Option(help="CSV of points that tool0 shall pass, in order: x, y, z, m in world."),
+    ] = None,
+    within: Annotated[str, typer.Option(help="How near it shall pass them, such as 5mm.")] = "5mm",
+    closest: Annotated[
+        str, typer.Option(help="What comes nearer without touching is a warning, such as 10mm.")
+    ] = "10mm",
+    out: Annotated[
+        Path | None, typer.Option("--out", "-o", help="Write a page with 3D and plots: FILE.html.")
+    ] = None,
+    as_json: Annotated[bool, typer.Option("--json", help="Print the report as JSON.")] = False,
+) -> None:
+    """Say whether a motion is ready for a robot, and why not: limits, collisions, grasps.
+
+    The motion goes through the lab's physics headless, faster than real time. Ends with 0: nothing
+    refuses it, 1: a finding does, 2: it could not be checked. The same inputs give the same hash.
+    """
+    from mrlab_ros.commands.check import run
+
+    try:
+        if out is not None and out.suffix.lower() not in (".html", ".htm"):
+            raise Misuse(f"the page is '{out.name}'; expected a name that ends in .html")
+        request = run.Request(
+            file, robot, tool, scene, points, metres(within, "within"),
+            metres(closest, "closest"), out, as_json, options,
+        )  # fmt: skip
+        code = run.run(request)
+    except LabError as error:
+        print(f"mrlab: {error}", file=sys.stderr)
+        raise typer.Exit(COULD_NOT) from None
+    raise typer.Exit(code)
+
+
+def metres(text: str, option: str) -> float:
+    """Return a length with its unit in m; raise Misuse where it is none."""
+    match = LENGTH.fullmatch(text)
+    try:
+        value = float(match[1]) * UNITS[match[2]] if match else -1.0
+    except ValueError:
+        value = -1.0
+    if not 0 <= value <= 10:
+        raise Misuse(f"--{option} is '{text}'; expected a length up to 10 m, such as 5mm or 0.005")
+    return value

@@ -1,0 +1,122 @@
+"""How `mrlab check` reports to a person: verdict, findings, conditions, figures, hash."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any
+
+from rich.console import Console
+from rich.table import Table
+
+from mrlab_ros.core.checking.evidence import thing
+from mrlab_ros.core.checking.findings import Finding
+from mrlab_ros.core.checking.hardware import CLAIM, State
+from mrlab_ros.core.checking.report import CheckReport, RobotReport
+from mrlab_ros.core.design import OUTCOME_STYLES, SEVERITY_STYLES
+
+MARKS = {State.OK: "ok", State.NOT: "NOT", State.UNKNOWN: "unknown"}
+STYLES = {
+    State.OK: OUTCOME_STYLES["accepted"],
+    State.NOT: OUTCOME_STYLES["rejected"],
+    State.UNKNOWN: OUTCOME_STYLES["ambiguous"],
+}
+MOST_FINDINGS, MOST_CLEARANCES = 40, 8
+
+
+def show(report: CheckReport, document: Mapping[str, Any]) -> None:
+    """Print the report."""
+    console = Console(highlight=False)
+    style = OUTCOME_STYLES["rejected" if report.refusing else "accepted"]
+    verdict, _, rest = report.words.partition(":")
+    console.print(f"[{style}]{verdict}[/]", end="")
+    console.print(f":{rest}", markup=False, soft_wrap=True)
+    if report.findings:
+        console.print()
+        _findings(console, report)
+    for robot in report.robots:
+        _robot(console, robot, several=len(report.robots) > 1)
+    _distances(console, report)
+    console.print(f"\n{CLAIM}", markup=False)
+    console.print(f"report {document['hash']}", markup=False, soft_wrap=True)
+
+
+def _findings(console: Console, report: CheckReport) -> None:
+    several = len(report.robots) > 1
+    table = Table("", "time", *(["robot"] if several else []), "link", "finding", box=None)
+    table.add_column("value", justify="right")
+    table.add_column("limit", justify="right")
+    for found in report.findings[:MOST_FINDINGS]:
+        severity = found.severity.name.lower()
+        table.add_row(
+            f"[{SEVERITY_STYLES[severity]}]{severity}[/]",
+            _time(found),
+            *([found.robot] if several else []),
+            found.link,
+            f"{_plain(found.message)}\n[dim]{_plain(found.remedy)}[/]",
+            _number(found.value, found.unit),
+            _number(found.limit, found.unit),
+        )
+    console.print(table)
+    left = len(report.findings) - MOST_FINDINGS
+    if left > 0:
+        console.print(f"  and {left} more; --json has all")
+
+
+def _robot(console: Console, robot: RobotReport, *, several: bool) -> None:
+    name = f"{robot.name}: " if several else ""
+    console.print(f"\n[bold]{name}ready for hardware[/]")
+    table = Table(box=None, show_header=False)
+    for condition in robot.hardware:
+        mark = f"[{STYLES[condition.state]}]{MARKS[condition.state]}[/]"
+        table.add_row(mark, condition.name, f"[dim]{_plain(condition.words)}[/]")
+    console.print(table)
+    f = robot.figures
+    if f:
+        smooth = f["smoothness_sparc"]
+        words = [
+            f"cycle {f['cycle_time']:.2f} s of {f['duration']:.2f} s",
+            f"tool at most {f['tool_speed']:.2f} m/s over {f['path_length']:.2f} m",
+            f"conditioning at least {f['least_conditioning']:.2g}",
+        ]
+        if smooth is not None:
+            words.append(f"smoothness (SPARC) {smooth:.2f}")
+        console.print("  " + "; ".join(words), markup=False)
+
+
+def _distances(console: Console, report: CheckReport) -> None:
+    near = [c for c in report.clearances if not c.far][:MOST_CLEARANCES]
+    if near:
+        console.print("\n[bold]least distances[/]")
+        table = Table(box=None, show_header=False)
+        for one in near:
+            who = one.held or one.link
+            who = f"{one.robot} {who}" if len(report.robots) > 1 else who
+            what = thing(one.kind, one.other, one.other_link)
+            table.add_row(f"{1e3 * max(one.distance, 0.0):.0f} mm", who, what, f"{one.time:.2f} s")
+        console.print(table)
+    for grasp in report.grasps:
+        if grasp.object and grasp.state.name == "HOLDING":
+            mass = f", {grasp.load.mass:.3g} kg" if grasp.load else ""
+            console.print(
+                f"  {grasp.time:.2f} s {grasp.robot} holds {grasp.object}{mass}", markup=False
+            )
+
+
+def _time(found: Finding) -> str:
+    if found.time is None:
+        return ""
+    if found.end is None or found.end - found.time < 0.01:
+        return f"{found.time:.2f} s"
+    return f"{found.time:.2f}-{found.end:.2f} s"
+
+
+def _number(value: float | None, unit: str) -> str:
+    if value is None:
+        return ""
+    if unit == "m" and abs(value) < 0.1:
+        return f"{1e3 * value:.3g} mm"
+    return f"{value:.3g} {unit}".strip()
+
+
+def _plain(text: str) -> str:
+    return text.replace("[", r"\[")

@@ -1,0 +1,77 @@
+"""`mrlab check` as a whole, in this process: exit codes, words, JSON, page, hash."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+import pytest
+from typer.testing import CliRunner
+
+from mrlab_ros.cli import make_app
+
+pytestmark = pytest.mark.slow
+
+ROOT = Path(__file__).parents[3]
+QUINTIC = str(ROOT / "examples" / "quintic_ur5e.mat")
+PICK = str(ROOT / "examples" / "pick_and_place_ur5e.mat")
+
+
+def check(*words):
+    return CliRunner().invoke(make_app(["check"]), ["check", *map(str, words)])
+
+
+def test_a_grasp_in_its_scene_is_ready_and_told(tmp_path):
+    points = tmp_path / "points.csv"
+    points.write_text("x,y,z\n0.42596,-0.29826,0.18\n0.0,0.0,3.0\n")
+    given = (PICK, "--robot", "ur5e", "--scene", "pick_and_place")
+    found = json.loads(check(*given, "--json").stdout)
+    assert found["verdict"] == "ready"
+    assert ("holding", "cube_1") in {(g["state"], g["object"]) for g in found["grasps"]}
+    assert {c["other"] for c in found["clearances"]} >= {"cube_1", "bin_1", "floor"}
+    other = check(*given, "--points", points, "--within", "3cm", "--json")
+    assert other.exit_code == 1
+    misses = [f for f in json.loads(other.stdout)["findings"] if f["code"] == "misses_point"]
+    assert ["point 2" in f["message"] for f in misses] == [True]
+
+
+def test_a_collision_refuses_and_the_page_and_the_report_have_one_hash(tmp_path):
+    given = (QUINTIC, "--robot", "ur5e", "--scene", "obstacle_course")
+    page = tmp_path / "page.html"
+    said = check(*given, "--out", page)
+    assert said.exit_code == 1
+    assert said.stdout.startswith("not ready: at 3.1")
+    found = json.loads(check(*given, "--json").stdout)
+    hits = [f for f in found["findings"] if f["code"] == "collision"]
+    assert {"pedestal_1", "pillar_2"} <= {w for f in hits for w in f["message"].split()}
+    assert all(f["link"] and f["time"] > 3 and f["value"] > 0 and f["remedy"] for f in hits)
+    assert found["hash"] in said.stdout.replace("\n", "")
+    text = page.read_text()
+    assert found["hash"] in text
+    assert "wrist_3_link touches pedestal_1" in text
+
+
+@pytest.mark.parametrize(
+    ("words", "sentence"),
+    [
+        (("--robot", "ur6e"), "did you mean 'ur5e'"),
+        (("--robot", "ur5e", "--scene", "tabel"), "did you mean 'table'"),
+        (("--robot", "ur5e", "--tool", "hammer"), "there is no end effector 'hammer'"),
+        (("--robot", "kuka_kr3_r540", "--scene", "table"), "has no robot kuka_kr3_r540"),
+        ((), "add --robot"),
+        (("--robot", "ur5e", "--within", "5 miles"), "expected a length"),
+        (("--robot", "ur5e", "--points", "nowhere.csv"), "cannot be read"),
+        (("--robot", "ur5e", "--out", "page.pdf"), "ends in .html"),
+    ],
+)
+def test_what_cannot_be_checked_ends_with_2_and_a_sentence(words, sentence):
+    said = check(QUINTIC, *words)
+    assert said.exit_code == 2
+    assert sentence in said.stderr
+    assert said.stderr.startswith("mrlab: ")
+
+
+def test_a_missing_file_ends_with_2_too():
+    said = check("nowhere.mat", "--robot", "ur5e")
+    assert said.exit_code == 2
+    assert "there is no file nowhere.mat" in said.stderr
