@@ -2,7 +2,8 @@
 
 What is checked and how it is interpolated is what ros2_controllers' joint_trajectory_controller
 does: linear between positions, cubic with velocities, quintic with accelerations as well. Limits
-are checked beyond that.
+are checked beyond that, and an arm that moves changes its velocity without a jump also where the
+points have positions alone.
 """
 
 from __future__ import annotations
@@ -27,6 +28,8 @@ LONGEST = 600.0
 # Rounding that a joint's limits allow for: rad (m), and share of the velocity limit.
 AT_LIMIT = 1e-6
 VELOCITY_SLACK = 0.01
+# How fast an arm that moves takes on the velocity of a goal without velocities, rad/s^2 (m/s^2).
+BLEND_ACCELERATION = 6.0
 # A last velocity below this is standstill, rad/s.
 STANDSTILL = 1e-4
 # No trajectory of the catalogue has version 0: this one cannot be fetched there.
@@ -73,11 +76,16 @@ class Goal:
     stamp_ns: int = 0
 
 
-def trajectory(goal: Goal, model: RobotModel, arm: Array, now_ns: int) -> tuple[Trajectory, int]:
-    """Return what leads from `arm`, (J,) rad, along the goal's points, and when it starts, ns.
+def trajectory(
+    goal: Goal, model: RobotModel, arm: Array, now_ns: int, velocities: Array | None = None
+) -> Trajectory:
+    """Return what leads from `arm`, (J,) rad, at `now_ns` along the goal's points.
 
-    Of a goal whose start has passed, what lies ahead is left. Raises WrongGoal.
+    velocities: (J,) rad/s, of the arm at `now_ns`; None: it stands. The way to the first point
+    takes the time until then, also where the goal's start lies ahead. Of a goal whose start has
+    passed, what lies ahead is left. Raises WrongGoal.
     """
+    moving = np.zeros_like(arm) if velocities is None else velocities
     order = _order(goal.joint_names, model)
     if not goal.points:
         raise _wrong("the goal has no points; expected one or more")
@@ -95,38 +103,40 @@ def trajectory(goal: Goal, model: RobotModel, arm: Array, now_ns: int) -> tuple[
     if positions is None:
         raise _wrong("the points have no positions; expected one a joint")
     _check_positions(positions, model, goal.points)
-    velocities = rows["velocities"]
-    if velocities is not None and np.abs(velocities[-1]).max() > STANDSTILL:
-        joint = int(np.abs(velocities[-1]).argmax())
+    speeds = rows["velocities"]
+    if speeds is not None and np.abs(speeds[-1]).max() > STANDSTILL:
+        joint = int(np.abs(speeds[-1]).argmax())
         raise _wrong(
             f"at the last point {model.joint_names[joint]} has the velocity "
-            f"{velocities[-1][joint]:.3g} rad/s; expected 0: the arm stands there"
+            f"{speeds[-1][joint]:.3g} rad/s; expected 0: the arm stands there"
         )
-    start_ns = goal.stamp_ns or now_ns
-    passed = (now_ns - start_ns) / SECOND
+    passed = (now_ns - (goal.stamp_ns or now_ns)) / SECOND
     if passed > times[-1]:
         raise WrongGoal(
             Code.OLD_HEADER_TIMESTAMP,
             f"the goal ended {passed - times[-1]:.3f} s ago; set header.stamp to a later time, or "
             "to 0 to start at once",
         )
-    if passed > 0:
-        start_ns, times = now_ns, times - passed
+    times = times - passed
+    if times[-1] > LONGEST:
+        raise _wrong(f"the goal ends in {times[-1]:g} s; expected {LONGEST:g} at most")
     ahead = times > 0
     if not ahead.any():
-        # One point at 0, which JTC takes as a set-point: as fast as the joints may.
+        # One point at 0, which JTC takes as a set-point; here only a small step is one.
         ahead[-1] = True
     knots = np.concatenate([[0.0], np.maximum(times[ahead], 1 / FRAME_RATE)])
-    frames, speeds = _sampled(
+    frames, along = _sampled(
         knots,
         np.vstack([arm, positions[ahead]]),
-        None if velocities is None else np.vstack([np.zeros_like(arm), velocities[ahead]]),
+        None if speeds is None else np.vstack([moving, speeds[ahead]]),
         None
-        if velocities is None or rows["accelerations"] is None
+        if speeds is None or rows["accelerations"] is None
         else np.vstack([np.zeros_like(arm), rows["accelerations"][ahead]]),
     )
-    _check_motion(frames, speeds, model)
-    return unpublished(FOLLOWED, model, frames, speeds), start_ns
+    if speeds is None and moving.any():
+        _blend(frames, along, moving, knots[1], positions[ahead][0])
+    _check_motion(frames, along, model)
+    return unpublished(FOLLOWED, model, frames, along)
 
 
 def unpublished(name: str, model: RobotModel, positions: Array, velocities: Array) -> Trajectory:
@@ -188,8 +198,6 @@ def _check_times(times: Array) -> None:
                 f"point {number} is at {before:g} s and point {number + 1} at {after:g} s; "
                 "expected times that increase"
             )
-    if times[-1] > LONGEST:
-        raise _wrong(f"the goal takes {times[-1]:g} s; expected {LONGEST:g} at most")
 
 
 def _rows(points: Sequence[Point], kind: str, order: list[int]) -> Array | None:
@@ -224,7 +232,7 @@ def _check_motion(frames: Array, speeds: Array, model: RobotModel) -> None:
         raise _wrong(
             f"{model.joint_names[joint]} moves at {fastest[frame, joint]:.3g} rad/s at "
             f"{(frame + 1) / FRAME_RATE:g} s; expected {most[joint]:.3g} at most: give that way "
-            "more time. The motion begins where the arm stands"
+            "more time. The motion begins where the arm is, with the velocity that it has there"
         )
     for frame in (frames.argmax(axis=0).tolist()) + (frames.argmin(axis=0).tolist()):
         if frame:
@@ -262,3 +270,25 @@ def _sampled(
             speeds = (v0 + s * (a0 + s * (3 * c3 + s * (4 * c4 + s * 5 * c5)))) / length
     frames[0], frames[-1] = positions[0], positions[-1]
     return frames, speeds
+
+
+def _blend(frames: Array, speeds: Array, moving: Array, end: float, point: Array) -> None:
+    """Begin the straight line to `point`, (J,) rad at `end` s, with the velocities `moving`.
+
+    frames, speeds: (N, J), changed in place. The velocity changes evenly, then stays, so that the
+    arm is at the point in time and no joint is faster than before or after.
+    """
+    way = point - frames[0]
+    change = np.maximum(np.abs(moving), np.abs(way / end - moving)).max()
+    lasts = min(change / BLEND_ACCELERATION, end)
+    after = (way - moving * lasts / 2) / (end - lasts / 2)
+    count = int(np.searchsorted(np.arange(len(frames)) / FRAME_RATE, end - 1e-9))
+    at = (np.arange(count) / FRAME_RATE)[:, None]
+    bends = at < lasts
+    share = at / lasts
+    frames[:count] = np.where(
+        bends,
+        frames[0] + at * (moving + share * (after - moving) / 2),
+        point - after * (end - at),
+    )
+    speeds[:count] = np.where(bends, moving + share * (after - moving), after)

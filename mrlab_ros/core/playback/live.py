@@ -39,9 +39,9 @@ class Straight:
     duration: float
 
     def at(self, elapsed: float) -> tuple[Array, Array]:
-        if elapsed >= self.duration:
+        if elapsed > self.duration:
             return self.goal, np.zeros_like(self.goal)
-        share = max(elapsed, 0.0) / self.duration
+        share = min(max(elapsed, 0.0) / self.duration, 1.0)
         way = self.goal - self.start
         return self.start + share * way, way / self.duration
 

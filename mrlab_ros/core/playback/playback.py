@@ -248,17 +248,23 @@ class Playback:
     # what others say where to go --------------------------------------------------------------
 
     def pursue(self, now_ns: int, goal: goals.Goal) -> Trajectory:
-        """Follow a goal's points from where the arm stands, in place of what it does now.
+        """Follow a goal's points from where the arm is, in place of what it does now.
 
-        Returns the trajectory that was made of it, which plays once at rate 1. Raises WrongGoal
-        for a bad goal and Misuse where the state or a system forbids it; then nothing has changed.
+        An arm that moves goes on with the velocity that it has. Returns the trajectory that was
+        made of it, which plays once at rate 1. Raises WrongGoal for a bad goal and Misuse where
+        the state or a system forbids it; then nothing has changed.
         """
         self._require_owner("")
         if not self.moving:
             self._machine.check(Event.LOAD)
-        trajectory, start_ns = goals.trajectory(goal, self.model, self.arm, now_ns)
+        start_ns, arm, velocities = now_ns, self.arm, None
+        if self.moving:
+            start_ns, arm, velocities = self._stream.motion(now_ns)
+        trajectory = goals.trajectory(goal, self.model, arm, start_ns, velocities)
         self._replace(now_ns, trajectory)
         self._stream.rate, self.loop = 1.0, False
+        if velocities is not None:
+            self._stream.go_on_from(start_ns)
         self._follow(start_ns, 0.0, Event.PLAY)
         return trajectory
 

@@ -79,6 +79,7 @@ class Stream:
         self._run_begin, self._run_end, self._frame_rate = 0.0, 0.0, 1.0
         self._motion: Motion | None = None
         self._motion_start_ns = 0
+        self._last: Sample | None = None
         self.arrived = self.ended = self.held = False
 
     # what the arm does ----------------------------------------------------------------------
@@ -170,6 +171,22 @@ class Stream:
             self._schedule(self._tick)
             self.next_ns = self._due_ns
 
+    def motion(self, now_ns: int) -> tuple[int, Array, Array | None]:
+        """Return when the arm was sent last, where it is, and its velocities, or now and None.
+
+        ns, (J,) rad, (J,) rad/s; None: it stands, or nothing was sent in the last two periods.
+        """
+        last = self._last
+        if last is None or not 0 <= now_ns - last.due_ns <= 2 * self.period_ns:
+            return now_ns, self.arm, None
+        return last.due_ns, self.arm, last.velocities
+
+    def go_on_from(self, now_ns: int) -> None:
+        """Take the pose that left at `now_ns` as the first of the trajectory just loaded."""
+        self.stand(now_ns, 0.0)
+        self.streamed = 0.0
+        self.sent, self.lost = 1, 0
+
     def shift(self, by_ns: int) -> None:
         """Move what is scheduled by `by_ns`: the clock was set, and no time has passed."""
         self.clock = replace(self.clock, stamp_ns=self.clock.stamp_ns + by_ns)
@@ -177,6 +194,8 @@ class Stream:
         self._motion_start_ns += by_ns
         if self.next_ns is not None:
             self.next_ns += by_ns
+        if self._last is not None:
+            self._last = self._last._replace(due_ns=self._last.due_ns + by_ns)
 
     # where it is ----------------------------------------------------------------------------
 
@@ -239,7 +258,7 @@ class Stream:
         frame, self.arm, velocities = trajectory.at(position)
         if self.rate != 1.0:
             velocities = velocities * self.rate
-        sample = Sample(due_ns, self.arm, velocities, position, frame, True)
+        sample = self._last = Sample(due_ns, self.arm, velocities, position, frame, True)
         self.sent += 1
         self._schedule(self._tick + 1)
         spacing_ns = int(CATCH_UP_SPACING * SECOND / self._frame_rate)
@@ -266,7 +285,8 @@ class Stream:
         return None if self._standing_ns is None else now_ns + self._standing_ns
 
     def _sample_off_trajectory(self, due_ns: int, velocities: Array) -> Sample:
-        return Sample(due_ns, self.arm, velocities, self.clock.position, self.frame, False)
+        self._last = Sample(due_ns, self.arm, velocities, self.clock.position, self.frame, False)
+        return self._last
 
     def _begin_run(self) -> None:
         """Take what holds until the run's rate, end or trajectory changes."""

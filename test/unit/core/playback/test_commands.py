@@ -87,7 +87,35 @@ def test_a_new_goal_replaces_the_one_that_is_followed_from_where_the_arm_is(stag
     stage.goal((1.0, 0.0))
     stage.run(1.1)
     assert stage.playback.arm == pytest.approx(HOME)
-    assert stage.fastest() < 0.6
+    assert stage.fastest() < 0.65
+
+
+@pytest.mark.parametrize("after", [0.5, 0.503])
+@pytest.mark.parametrize("driver", ["goal", "load", "command"])
+def test_a_goal_takes_over_the_velocity_that_the_arm_has(stage: Stage, driver, after) -> None:
+    if driver == "goal":
+        stage.goal((1.0, 0.5))
+    elif driver == "load":
+        stage.goal((1.0, 0.25))
+        stage.run(1.1)
+        stage.playback.play(stage.now_ns)  # goes back to the start first
+        stage.playback.set_rate(stage.now_ns, 2.0)
+    else:
+        stage.stream(0.005 * i for i in range(1, 100))
+        after -= 0.5
+    stage.run(after)
+    assert stage.playback.moving
+    stage.goal((1.0, -0.2))
+    stage.run(1.1)
+    assert stage.playback.arm == pytest.approx(HOME - 0.2)
+    arms = np.array([sample.positions for sample in stage.samples])
+    due = np.array([sample.due_ns for sample in stage.samples])
+    begin = int(np.searchsorted(due, stage.now_ns - round(1.1 * SECOND)))
+    around = slice(begin - 8, begin + 40)
+    assert (np.diff(due[around]) == TICK).all(), "the joint states keep their rhythm"
+    speeds = np.diff(arms[around], axis=0) * 100
+    assert np.abs(np.diff(speeds, axis=0)).max() < 0.1
+    assert np.abs(speeds).max() > 0.2
 
 
 def test_a_bad_goal_changes_nothing(stage: Stage) -> None:

@@ -30,8 +30,8 @@ def goal(*at: tuple[float, float], **changes: object) -> Goal:
 
 
 def test_points_without_velocities_are_joined_by_straight_lines() -> None:
-    found, start_ns = trajectory(goal((1.0, 0.5), (2.0, 0.2)), UR5E, ARM, NOW)
-    assert (start_ns, found.frame_count) == (NOW, 201)
+    found = trajectory(goal((1.0, 0.5), (2.0, 0.2)), UR5E, ARM, NOW)
+    assert found.frame_count == 201
     assert found.positions[0] == pytest.approx(ARM)
     assert found.positions[50] == pytest.approx(ARM + 0.25)
     assert found.positions[100] == pytest.approx(ARM + 0.5)
@@ -40,11 +40,11 @@ def test_points_without_velocities_are_joined_by_straight_lines() -> None:
 
 def test_velocities_make_the_way_cubic_and_accelerations_quintic() -> None:
     smooth = replace(goal(), points=points((1.0, 0.5), (2.0, 0.0), speeds=[0.0, 0.0]))
-    found, _ = trajectory(smooth, UR5E, ARM, NOW)
+    found = trajectory(smooth, UR5E, ARM, NOW)
     assert found.positions[50] == pytest.approx(ARM + 0.25)
     assert found.positions[25] == pytest.approx(ARM + 0.5 * (3 / 16 - 2 / 64))
     with_accelerations = [replace(p, accelerations=[0.0] * 6) for p in smooth.points]
-    found, _ = trajectory(replace(smooth, points=with_accelerations), UR5E, ARM, NOW)
+    found = trajectory(replace(smooth, points=with_accelerations), UR5E, ARM, NOW)
     s = 0.25
     assert found.positions[25] == pytest.approx(ARM + 0.5 * (10 * s**3 - 15 * s**4 + 6 * s**5))
     numeric = np.gradient(found.positions, 1 / FRAME_RATE, axis=0)
@@ -53,24 +53,55 @@ def test_velocities_make_the_way_cubic_and_accelerations_quintic() -> None:
 
 def test_the_joints_may_come_in_any_order() -> None:
     turned = [replace(p, positions=list(p.positions)[::-1]) for p in points((1.0, 0.3))]
-    found, _ = trajectory(Goal(UR5E.joint_names[::-1], turned), UR5E, ARM, NOW)
+    found = trajectory(Goal(UR5E.joint_names[::-1], turned), UR5E, ARM, NOW)
     assert found.positions[-1] == pytest.approx(ARM + 0.3)
 
 
-def test_a_goal_in_the_future_waits_and_one_that_began_goes_on_from_there() -> None:
-    _, start_ns = trajectory(goal((1.0, 0.1), stamp_ns=NOW + SECOND), UR5E, ARM, NOW)
-    assert start_ns == NOW + SECOND
+def test_a_goal_in_the_future_takes_until_then_and_one_that_began_goes_on_from_there() -> None:
+    found = trajectory(goal((0.0, 0.0), (1.0, 0.1), stamp_ns=NOW + SECOND), UR5E, ARM, NOW)
+    assert found.duration == pytest.approx(2.0)
+    assert found.positions[100] == pytest.approx(ARM), "waits at the first point"
+    assert found.positions[-1] == pytest.approx(ARM + 0.1)
     late = goal((1.0, 0.1), (2.0, 0.2), (3.0, 0.3), stamp_ns=NOW - 3 * SECOND // 2)
-    found, start_ns = trajectory(late, UR5E, ARM, NOW)
-    assert start_ns == NOW
+    found = trajectory(late, UR5E, ARM, NOW)
     assert found.duration == pytest.approx(1.5)
     assert found.positions[50] == pytest.approx(ARM + 0.2)
 
 
 def test_a_first_point_at_zero_is_where_the_arm_is() -> None:
-    found, _ = trajectory(goal((0.0, 0.001), (1.0, 0.2)), UR5E, ARM, NOW)
+    found = trajectory(goal((0.0, 0.001), (1.0, 0.2)), UR5E, ARM, NOW)
     assert found.positions[0] == pytest.approx(ARM)
     assert found.positions[-1] == pytest.approx(ARM + 0.2)
+
+
+@pytest.mark.parametrize("speeds", [None, [0.1, 0.0]])
+@pytest.mark.parametrize("accelerations", [None, 0.0])
+@pytest.mark.parametrize("moving", [0.5, -0.5])
+def test_an_arm_that_moves_is_taken_over_without_a_jump(speeds, accelerations, moving) -> None:
+    at = points((1.0, 0.3), (2.0, 0.4), speeds=speeds)
+    if accelerations is not None:
+        at = [replace(p, accelerations=[accelerations] * 6) for p in at]
+    velocities = np.full(6, moving)
+    found = trajectory(Goal(UR5E.joint_names, at), UR5E, ARM, NOW, velocities)
+    assert found.positions[100] == pytest.approx(ARM + 0.3), "is at the first point in time"
+    way = np.diff(found.positions, axis=0)
+    numeric = way * FRAME_RATE
+    assert found.channels.velocities[0] == pytest.approx(velocities)
+    assert numeric[0] == pytest.approx(velocities, abs=0.1)
+    changes = np.abs(np.diff(numeric, axis=0))
+    assert changes[:98].max() < 0.1, "no joint's velocity jumps"
+    middle = (found.channels.velocities[:-1] + found.channels.velocities[1:]) / 2
+    assert numeric[:99] == pytest.approx(middle[:99], abs=0.02)
+
+
+def test_an_arm_that_would_swing_past_a_limit_or_be_too_fast_is_refused() -> None:
+    near = ARM.copy()
+    near[2] = UR5E.joints[2].upper - 0.01
+    there = Goal(UR5E.joint_names, [Point(1.0, near.tolist())])
+    with pytest.raises(WrongGoal, match="between two points"):
+        trajectory(there, UR5E, near, NOW, np.full(6, 1.0))
+    with pytest.raises(WrongGoal, match="with the velocity that it has there"):
+        trajectory(goal((0.05, 0.05)), UR5E, ARM, NOW, np.full(6, -3.0))
 
 
 NAN = float("nan")
@@ -86,11 +117,11 @@ BAD = [
     ),
     (goal((1.0, 0.1), (1.0, 0.2)), Code.INVALID_GOAL, "times that increase"),
     (goal((-1.0, 0.1)), Code.INVALID_GOAL, "at -1 s"),
-    (goal((700.0, 0.1)), Code.INVALID_GOAL, "takes 700 s"),
+    (goal((700.0, 0.1)), Code.INVALID_GOAL, "ends in 700 s"),
     (goal((1.0, NAN)), Code.INVALID_GOAL, "NaN"),
     (goal((1.0, 50.0)), Code.INVALID_GOAL, r"shoulder_pan_joint is 50 rad at point 0 \(1 s\)"),
     (goal((0.01, 1.0)), Code.INVALID_GOAL, "rad/s at 0.01 s; expected 3.14 at most"),
-    (goal((0.0, 1.0)), Code.INVALID_GOAL, "The motion begins where the arm stands"),
+    (goal((0.0, 1.0)), Code.INVALID_GOAL, "The motion begins where the arm is"),
     (
         Goal(UR5E.joint_names, [Point(1.0, [0.0] * 5)]),
         Code.INVALID_GOAL,
@@ -107,6 +138,7 @@ BAD = [
         Code.INVALID_GOAL,
         "have efforts",
     ),
+    (goal((1.0, 0.1), stamp_ns=NOW + 3600 * SECOND), Code.INVALID_GOAL, "ends in 3601 s"),
     (goal((1.0, 0.1), stamp_ns=NOW - 2 * SECOND), Code.OLD_HEADER_TIMESTAMP, "ended 1.000 s ago"),
 ]
 
