@@ -192,6 +192,12 @@ class FakeEngine:
         self.motions[name] = self.object(name)
         del self.held[name]
 
+    def squeezed(self, arm: str, name: str, normal: Vector) -> Vector:
+        return (0.0, 0.0, 0.0)
+
+    def let_pass(self, arm: str, name: str, passes: bool) -> None:
+        self.calls.append(f"let_pass {arm} {name} {passes}")
+
     def below(self, point: Vector) -> float | None:
         return 0.0
 

@@ -66,7 +66,8 @@ class LoadedArm:
 
     index: the number of each link. links: the link that each number counts as: what is fixed to
     a finger is that finger. made_of: its URDF, its joints, its links that never touch. ways: by
-    the number of a finger's link, how it closes.
+    the number of a finger's link, how it closes. present: it was moved to where it stands; before
+    that nothing touches it.
     """
 
     body: int
@@ -82,6 +83,7 @@ class LoadedArm:
     made_of: tuple[str, tuple[str, ...], LinkPairs]
     followers: frozenset[int] = frozenset()
     ways: dict[int, tuple[Way, ...]] = field(default_factory=dict)
+    present: bool = False
 
 
 class Arms:
@@ -120,7 +122,6 @@ class Arms:
         if parked is not None:
             self._parked.remove(parked)
             self._arms[name] = parked
-            self._let_collide(parked, collide=True)
             parked.positions = [0.0] * len(joints)
             self.place(name, pose)
             return parked
@@ -146,7 +147,7 @@ class Arms:
             followers=frozenset(c.follower for c in description.couplings),
         )
         self._free(arm)
-        self._let_collide(arm, collide=True)
+        self._let_collide(arm, collide=False)
         for a, b in description.neighbours():
             self._ignore(arm, arm.index[a], arm.index[b])
         for pair in apart:
@@ -290,6 +291,7 @@ class Arms:
 
     def _let_collide(self, arm: LoadedArm, *, collide: bool) -> None:
         """Let an arm's links collide, or not."""
+        arm.present = collide
         for i in arm.links:
             # As for Bullet's static bodies: the base may overlap the floor.
             group, others = STATIC_GROUP, ALL_GROUPS & ~STATIC_GROUP
@@ -318,6 +320,8 @@ class Arms:
             list(zip(velocities)),
             physicsClientId=self._client,
         )
+        if not arm.present:
+            self._let_collide(arm, collide=True)
 
     def speed(self, name: str) -> float:
         arm = self[name]
@@ -374,6 +378,11 @@ class Arms:
             self._call(
                 pybullet.setCollisionFilterPair, arm.body, other, arm.index[link], -1, int(touch)
             )
+
+    def let_pass(self, arm: LoadedArm, links: Sequence[int], other: int, passes: bool) -> None:
+        """Switch contacts between links of an arm and an object off (`passes`) or on."""
+        for link in links:
+            self._call(pybullet.setCollisionFilterPair, arm.body, other, link, -1, int(not passes))
 
     def grip(self, arm: LoadedArm, link: int, point: Vector, normal: Vector) -> float:
         """Return the cosine between a contact and the way a finger closes, or a tool points.

@@ -45,6 +45,8 @@ from mrlab_ros.core.physics.engine import (
 GRAVITY = 9.80665  # m/s^2, the standard value
 RAY = 100.0  # m, length of the ray that searches the support below a point
 SOLVER_ITERATIONS = 30
+# Cosine between two contacts of an object from which on it is squeezed between them: 60 degrees.
+OPPOSITE = 0.5
 # (m/s)^2: the solver stops when no velocity changes by more than 1 mm/s.
 SOLVER_RESIDUAL = 1e-6
 
@@ -82,6 +84,8 @@ class BulletEngine:
         self._surfaces: dict[str, int] = {}
         self._names: dict[int, tuple[Kind, str]] = {}
         self._held: dict[str, HeldObject] = {}
+        # Arms that pass into objects, by name.
+        self._passing: set[tuple[str, str]] = set()
 
     def close(self) -> None:
         if self._client >= 0:
@@ -110,6 +114,9 @@ class BulletEngine:
     def remove_arm(self, name: str) -> None:
         for held in self._held_by(name):
             self.release(held)
+        for arm, thing in sorted(self._passing):
+            if arm == name:
+                self.let_pass(arm, thing, False)
         self._objects.wake_touching(self._arms[name].body)
         del self._names[self._arms.remove(name)]
 
@@ -174,7 +181,64 @@ class BulletEngine:
         if self._held:
             for held in self._held_by(name):
                 found += self._held_touches(name, held)
+        if self._passing:
+            found += self._passed(name)
         return found
+
+    def _passed(self, name: str) -> list[Touch]:
+        """Return where an arm and what it holds are inside of what they pass into."""
+        arm, found = self._arms[name], []
+        for passing, other in sorted(self._passing):
+            if passing != name:
+                continue
+            body = self._objects.body(other)
+            close = pybullet.getClosestPoints(arm.body, body, 0.0, physicsClientId=self._client)
+            for p in close:
+                if p[3] in arm.moving and (other not in self._held):
+                    grip = self._arms.grip(arm, p[3], p[5], p[7])
+                    link = arm.links[p[3]]
+                    found.append(
+                        Touch(link, Kind.OBJECT, other, "", p[5], p[7], -p[8], 0.0, "", grip)
+                    )
+            for held in self._held_by(name):
+                close = pybullet.getClosestPoints(
+                    self._objects.body(held), body, 0.0, physicsClientId=self._client
+                )
+                link = self._held[held].link
+                found += [
+                    Touch(link, Kind.OBJECT, other, "", p[5], p[7], -p[8], 0.0, held)
+                    for p in close
+                    if held != other
+                ]
+        return found
+
+    def squeezed(self, arm: str, name: str, normal: Vector) -> Vector:
+        own = {self._arms[arm].body, *(self._objects.body(h) for h in self._held_by(arm))}
+        body, client = self._objects.body(name), self._client
+        points = pybullet.getContactPoints(body, physicsClientId=client)
+        others = {p[2] for p in points if p[2] not in own and dot(p[7], normal) > OPPOSITE}
+        deepest, way = 0.0, (0.0, 0.0, 0.0)
+        for other in sorted(others):
+            # The contact points are those of before the step.
+            for p in pybullet.getClosestPoints(body, other, 0.0, physicsClientId=client):
+                if -p[8] > deepest and dot(p[7], normal) > OPPOSITE:
+                    deepest, way = -p[8], scale(p[7], -p[8])
+        return way
+
+    def let_pass(self, arm: str, name: str, passes: bool) -> None:
+        loaded, body = self._arms[arm], self._objects.body(name)
+        if passes:
+            self._passing.add((arm, name))
+        else:
+            self._passing.discard((arm, name))
+        own = self._held[name].arm == arm if name in self._held else False
+        links = [
+            i for i in loaded.moving if not (own and loaded.links[i] in loaded.facts.grip_links)
+        ]
+        self._arms.let_pass(loaded, links, body, passes)
+        for held in self._held_by(arm):
+            if held != name:
+                self._objects.let_pass(held, body, passes)
 
     def _held_by(self, name: str) -> list[str]:
         return [held for held, known in self._held.items() if known.arm == name]
@@ -266,6 +330,9 @@ class BulletEngine:
     def remove_object(self, name: str) -> None:
         if name in self._held:
             self.release(name)
+        for arm, thing in sorted(self._passing):
+            if thing == name:
+                self.let_pass(arm, thing, False)
         del self._names[self._objects.remove(name)]
 
     def object(self, name: str) -> BodyState:
@@ -316,8 +383,13 @@ class BulletEngine:
 
     def release(self, name: str) -> None:
         arm = self._held.pop(name).arm
+        for passing, thing in self._passing:
+            if passing == arm and thing != name:
+                self._objects.let_pass(name, self._objects.body(thing), False)
         self._objects.loosen(name)
         self._arms.let_touch(arm, self._objects.body(name), True)
+        if (arm, name) in self._passing:
+            self.let_pass(arm, name, True)
 
     def _carry(self, duration: float) -> None:
         """Pose what is held with its gripper and set its velocity: a rigid constraint."""

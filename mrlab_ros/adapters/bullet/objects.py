@@ -192,6 +192,12 @@ class Objects:
             body, motion.linear, motion.angular, physicsClientId=self._client
         )
 
+    def let_pass(self, name: str, other: int, passes: bool) -> None:
+        """Switch contacts between two objects off (`passes`) or on."""
+        pybullet.setCollisionFilterPair(
+            self.body(name), other, -1, -1, int(not passes), physicsClientId=self._client
+        )
+
     # held in a hand -------------------------------------------------------------------------
 
     def bounds(self, name: str) -> tuple[Vector, Vector]:

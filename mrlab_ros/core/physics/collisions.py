@@ -2,22 +2,29 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator, Sequence
 
 import numpy as np
 
 from mrlab_ros.core.errors import BadInput
+from mrlab_ros.core.geometry import Pose, add
 from mrlab_ros.core.physics import contact_rules
 from mrlab_ros.core.physics import surfaces as rooms
 from mrlab_ros.core.physics.clearance import Halt
-from mrlab_ros.core.physics.engine import Kind
+from mrlab_ros.core.physics.engine import BodyState, Kind, Touch
 from mrlab_ros.core.physics.events import CollisionChanged, Contact
+from mrlab_ros.core.physics.grasp import Gripper
 from mrlab_ros.core.physics.simulated_robot import Robot
 from mrlab_ros.core.physics.surfaces import Surface
 from mrlab_ros.core.physics.world_state import WorldState
 
 # From this distance on, m, the fingers have left what they released.
 LEFT = 0.002
+# Deeper than this, m, no arm presses an object into anything.
+SQUEEZED = 0.0005
+# How far, m, a cup gives way when it is pressed on something.
+STROKE = 0.005
 
 
 class Collisions:
@@ -50,7 +57,10 @@ class Collisions:
             known = self._contacts.get(key)
             if known is None or touch.impulse > known.touch.impulse:
                 self._contacts[key] = contact
-            if contact_rules.counts(self._world_state, robot, touch):
+            counts = contact_rules.counts(self._world_state, robot, touch)
+            if touch.kind is Kind.OBJECT and self._presses(robot, touch, counts):
+                counts = True
+            if counts:
                 robot.partners.add((touch.kind, touch.other))
                 if first is None or touch.depth > first.touch.depth:
                     first = contact
@@ -62,6 +72,29 @@ class Collisions:
                 )
             robot.raise_again = False
 
+    def _presses(self, robot: Robot, touch: Touch, counts: bool) -> bool:
+        """Return whether an arm presses an object too far into something else.
+
+        An arm gives way to nothing, and neither does the floor. Instead of pushing the object into
+        the floor, the arm passes into the object. counts: whether the touch is a collision anyway.
+        """
+        thing = self._world_state.objects.get(touch.other)
+        if thing is None or thing.held_by:
+            return False
+        if touch.other in robot.passing:
+            cup = robot.gripper is Gripper.VACUUM
+            return touch.depth > (STROKE if cup else self._world_state.settings.set_down)
+        # What fingers may touch they press with little force.
+        if counts or touch.depth > SQUEEZED or touch.link not in robot.finger_links:
+            way = self._engine.squeezed(robot.name, touch.other, touch.normal)
+            if math.hypot(*way) > SQUEEZED:
+                robot.passing.add(touch.other)
+                self._engine.let_pass(robot.name, touch.other, True)
+                pose = self._engine.object(touch.other).pose
+                out = Pose(add(pose.position, way), pose.orientation)
+                self._engine.set_object(touch.other, BodyState(out))
+        return False
+
     def check_clearance(self, robot: Robot, now_ns: int) -> None:
         """Announce a collision that is over; stop tolerating what the arm has left."""
         far = 2 * self._world_state.settings.clear_margin
@@ -69,6 +102,10 @@ class Collisions:
         for name in list(robot.leaving):
             if self._engine.distance(robot.name, Kind.OBJECT, name, LEFT) >= LEFT:
                 robot.leaving.discard(name)
+        for name in list(robot.passing):
+            if self._engine.distance(robot.name, Kind.OBJECT, name, LEFT) >= LEFT:
+                robot.passing.discard(name)
+                self._engine.let_pass(robot.name, name, False)
         for name in list(robot.tolerated):
             if self._engine.distance(robot.name, Kind.SURFACE, name, far) >= far / 2:
                 robot.tolerated.discard(name)

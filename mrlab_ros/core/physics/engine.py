@@ -273,6 +273,20 @@ class Engine(Protocol):
         """Undo hold()."""
         ...
 
+    def squeezed(self, arm: str, name: str, normal: Vector) -> Vector:
+        """Return the way, m, out of what an arm presses an object into; zeros: into nothing.
+
+        normal: unit, of the contact, from the object towards the arm.
+        """
+        ...
+
+    def let_pass(self, arm: str, name: str, passes: bool) -> None:
+        """Let an arm and what it holds pass into an object without moving it, or not any more.
+
+        Its touches are found all the same.
+        """
+        ...
+
     def below(self, point: Vector) -> float | None:
         """Return the height of the first fixed thing below `point`, m; None without one."""
         ...

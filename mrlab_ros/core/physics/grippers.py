@@ -98,6 +98,10 @@ class Grippers:
         robot.lost, robot.reason = robot.held, reason
         self.let_go(robot)
         robot.fire(GraspEvent.LOST)
+        if not robot.closed or robot.gripper is Gripper.NONE:
+            # It was attached by service; the gripper itself was not closed.
+            robot.fire(GraspEvent.OPEN)
+            self._engine.drive_fingers(robot.name, robot.finger_velocities())
         self.announce(robot)
 
     def take_away(self, thing: SceneObject) -> None:
@@ -115,9 +119,15 @@ class Grippers:
             robot.holding.velocity = None
 
     def put_in_hand(
-        self, robot: Robot, thing: SceneObject, in_hand: Pose, grip: Grip | None
+        self,
+        robot: Robot,
+        thing: SceneObject,
+        in_hand: Pose,
+        grip: Grip | None,
+        fingers: Sequence[float],
     ) -> None:
-        """Let a robot hold an object at `in_hand`: T_hand_object."""
+        """Let a robot hold an object at `in_hand`, T_hand_object, its fingers at `fingers`."""
+        self._engine.set_fingers(robot.name, fingers)
         again = robot.held == thing.name
         if again:
             self.let_go(robot)
@@ -162,10 +172,25 @@ class Grippers:
         robot.watch.reset()
         if not closed:
             self.let_go(robot)
-        changed = robot.fire(GraspEvent.CLOSE if closed else GraspEvent.OPEN)
+            # What the fingers only pressed on is released too.
+            robot.leaving |= {
+                touch.other
+                for touch in robot.touches
+                if touch.kind is Kind.OBJECT and touch.link in robot.finger_links
+            }
+        changed = self.command(robot, closed)
         self._engine.drive_fingers(robot.name, robot.finger_velocities())
         if changed:
             self.announce(robot)
+
+    def command(self, robot: Robot, closed: bool) -> bool:
+        """Fire the command to close or open; return whether the state changed.
+
+        A bare flange has nothing to close.
+        """
+        if closed and robot.gripper is Gripper.NONE:
+            return False
+        return robot.fire(GraspEvent.CLOSE if closed else GraspEvent.OPEN)
 
     def _watch(self, robot: Robot, now_ns: int) -> None:
         found: tuple[SceneObject, Grip | None] | None = None
@@ -176,7 +201,9 @@ class Grippers:
             shut = waited > self._world_state.settings.grasp_timeout
         elif robot.gripper is Gripper.FINGERS and robot.grasp is Grasp.CLOSING:
             states = self._engine.fingers(robot.name)
-            stalled = robot.watch.update(now_ns, states, robot.touches)
+            # Fingers do not press on what they pass into.
+            touches = [touch for touch in robot.touches if touch.other not in robot.passing]
+            stalled = robot.watch.update(now_ns, states, touches)
             if stalled:
                 found, reason = self._pinched(robot, now_ns)
             timeout = (

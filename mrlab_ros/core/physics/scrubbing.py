@@ -68,7 +68,10 @@ class Rewind:
             if holding is None:
                 kept[name] = ObjectSnapshot(motion, held_by)
             else:
-                kept[name] = ObjectSnapshot(motion, held_by, holding.in_hand, holding.grip)
+                fingers = tuple(state.position for state in self._engine.fingers(held_by))
+                kept[name] = ObjectSnapshot(
+                    motion, held_by, holding.in_hand, holding.grip, fingers
+                )
         return kept
 
     def retrace(self, robot: Robot, now_ns: int) -> None:
@@ -92,7 +95,7 @@ class Rewind:
                 continue
             if kept.held_by == robot.name and kept.in_hand is not None:
                 if robot.held != name:
-                    self._grippers.put_in_hand(robot, thing, kept.in_hand, kept.grip)
+                    self._grippers.put_in_hand(robot, thing, kept.in_hand, kept.grip, kept.fingers)
             elif not kept.held_by and not thing.held_by:
                 then = after.objects.get(name)
                 pose = kept.motion.pose
@@ -119,12 +122,11 @@ class Rewind:
                     self._engine.set_object(name, kept.motion)
             elif holder is robot or (holder.closed and not holder.held):
                 # In a seek of a whole system a robot gives back what it took from another one.
-                self._grippers.put_in_hand(holder, thing, kept.in_hand, kept.grip)
+                self._grippers.put_in_hand(holder, thing, kept.in_hand, kept.grip, kept.fingers)
         robot.closed = snapshot.closed
         if not robot.held:
             robot.fire(GraspEvent.OPEN)
-            if snapshot.closed:
-                robot.fire(GraspEvent.CLOSE)
+            if snapshot.closed and self._grippers.command(robot, True):
                 robot.closing_since_ns = now_ns
             robot.watch.reset()
         self._engine.drive_fingers(robot.name, robot.finger_velocities())

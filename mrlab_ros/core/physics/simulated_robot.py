@@ -156,6 +156,8 @@ class Robot:
     holding: Held | None = None
     # Objects just released, between the fingers until these have left them.
     leaving: set[str] = field(default_factory=set)
+    # Objects that it pressed into something else: it passes into them until it has left them.
+    passing: set[str] = field(default_factory=set)
     # By kind, name and link: what the held object presses on.
     pressed: dict[tuple[Kind, str, str], Pressed] = field(default_factory=dict)
     # What is to be said of the gripper; empty: nothing.

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import bisect
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from mrlab_ros.core.geometry import Pose
 from mrlab_ros.core.physics.engine import BodyState
@@ -14,12 +14,13 @@ from mrlab_ros.core.physics.grasp_load import Grip
 @dataclass(frozen=True)
 class ObjectSnapshot:
     """An object at one instant. held_by: the robot that held it, with its pose in the hand's
-    frame and its grip; empty: free."""
+    frame, its grip and the positions of the fingers; empty: free."""
 
     motion: BodyState
     held_by: str = ""
     in_hand: Pose | None = None
     grip: Grip | None = None
+    fingers: tuple[float, ...] = ()
 
 
 @dataclass(frozen=True)
@@ -66,6 +67,14 @@ class Snapshots:
         if len(self._taken) > self._count:
             del self._taken[1::2]
             self._spacing *= 2
+
+    def forget(self, robot: str) -> None:
+        """Forget what `robot` held: it is not the same robot any more."""
+        for i, snapshot in enumerate(self._taken):
+            held = snapshot.held_by(robot)
+            if held:
+                left = {n: kept for n, kept in snapshot.objects.items() if n not in held}
+                self._taken[i] = replace(snapshot, objects=left)
 
     def cut(self, position: float) -> None:
         """Remove everything after `position`: the run continues from there, differently."""

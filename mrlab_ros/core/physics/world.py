@@ -132,11 +132,12 @@ class World:
         gripper: Gripper,
         apart: LinkPairs = frozenset(),
         tool: Tool | None = None,
+        reason: str = "",
     ) -> None:
         """Add a robot; its arm is in the world from its first joint state on.
 
         apart: pairs of its links that never touch, though their collision shapes may. tool: what
-        is stated of its hand.
+        is stated of its hand. reason: what is to be said of its gripper.
         """
         if name in self._robots:
             raise Misuse(f"robot '{name}' is in the world already; remove it first")
@@ -146,6 +147,7 @@ class World:
         self._robots[name] = Robot(
             name, joints, pose, arm, gripper, self._settings, tool or Tool()
         )
+        self._robots[name].reason = reason
         self._engine.set_fingers(name, [finger.opened for finger in arm.fingers])
         # Braked: free fingers would slide when the arm swings.
         self._engine.drive_fingers(name, [0.0] * len(arm.fingers))
@@ -159,12 +161,16 @@ class World:
         self._grippers.carry(robot)
         self._collisions.tolerate(robot)
 
-    def remove_robot(self, name: str) -> None:
-        """Remove a robot; what it held is released and falls."""
+    def remove_robot(self, name: str) -> str:
+        """Remove a robot; what it held is released and falls. Return its name; empty: nothing."""
         robot = self.robot(name)
+        held = robot.held
         self._grippers.let_go(robot)
         self._engine.remove_arm(name)
         del self._robots[name]
+        for other in self._robots.values():
+            other.snapshots.forget(name)
+        return held
 
     def joint_state(
         self, name: str, stamp_ns: int, positions: Sequence[float], velocities: Sequence[float]
@@ -304,8 +310,9 @@ class World:
             if robot.queued:
                 self._apply_due(robot, now_ns)
         moved = self._move_arms(now_ns)
-        divisions = self._divisions(moved)
-        duration = 1.0 / self._settings.step_rate / divisions
+        whole = 1.0 / self._settings.step_rate
+        divisions = max(self._divisions(moved), self._inventory.divisions(whole))
+        duration = whole / divisions
         self._inventory.keep_in_hand()
         present = [robot for robot in self._robots.values() if robot.placed is not None]
         for k in range(1, divisions + 1):
@@ -321,6 +328,7 @@ class World:
             if robot.pending is not None:
                 self._rewind.restore(robot, now_ns)
         if self._count % SLOW_STEPS == 0:
+            self._inventory.look_for_fast()
             if self._count % ROOM_STEPS == 0:
                 self._inventory.keep_in_room()
             self._rewind.record(now_ns, self._inventory.motions)

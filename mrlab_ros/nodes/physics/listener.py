@@ -17,6 +17,7 @@ from std_msgs.msg import String
 
 from mrlab_ros.adapters.robots.library import END_EFFECTORS
 from mrlab_ros.adapters.yaml_files import read_yaml
+from mrlab_ros.core.clock import SECOND
 from mrlab_ros.core.errors import LabError
 from mrlab_ros.core.identity import Identity
 from mrlab_ros.core.physics.engine import LinkPairs
@@ -35,7 +36,10 @@ from mrlab_ros.ros.raw_streams import WaitSetThread
 
 @dataclass(eq=False)
 class Followed:
-    """A robot of /robots and what was received of it."""
+    """A robot of /robots and what was received of it.
+
+    let_go: when its last end effector lost what it held, ns, and what is to be said of that.
+    """
 
     robot: msg.Robot
     subscriptions: list[Subscription] = field(default_factory=list)
@@ -43,6 +47,7 @@ class Followed:
     built: tuple[str, str] = ("", "")
     program: GripperProgram = field(default_factory=GripperProgram)
     playing: Playing = field(default_factory=Playing)
+    let_go: tuple[int, str] = (0, "")
 
 
 class GraphListener:
@@ -180,8 +185,14 @@ class GraphListener:
         if not known.description or known.built == wanted:
             return
         with self._lock:
-            if name in self._world.robots:
-                self._world.remove_robot(name)
+            now_ns = self._follow_clock()
+            held = self._world.remove_robot(name) if name in self._world.robots else ""
+            if held:
+                said = f"{held} was let go: {name} was given another end effector"
+                known.let_go = (now_ns, said)
+                self._log.info(said)
+            # Description and end effector come one after the other.
+            since_ns, reason = known.let_go
             try:
                 self._world.add_robot(
                     name,
@@ -191,6 +202,7 @@ class GraphListener:
                     _gripper(known.robot.end_effector),
                     self._never_touch(known.robot.model),
                     self._tool(known.robot.model, known.robot.end_effector),
+                    reason if now_ns - since_ns < SECOND else "",
                 )
                 self._world.set_program(name, known.program)
                 self._world.playback(name, known.playing)

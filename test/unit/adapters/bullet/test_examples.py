@@ -4,9 +4,11 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from physics_stage import HANDOVER, SCENES, Stage
+from physics_stage import HANDOVER, LIBRARY, SCENES, Stage
 
-from mrlab_ros.core.physics.grasp import Grasp
+from mrlab_ros.core.clock import SECOND
+from mrlab_ros.core.physics.events import GraspChanged
+from mrlab_ros.core.physics.grasp import Grasp, Gripper
 
 
 @pytest.fixture
@@ -49,6 +51,40 @@ def test_a_cube_is_picked_carried_and_put_down_as_the_script_says(stages):
     assert stage.place("cube_1") == pytest.approx(
         [0.46 * np.cos(turn), 0.46 * np.sin(turn), 0.025], abs=0.005
     )
+
+
+def test_after_a_seek_the_fingers_are_at_what_is_held_and_without_them_it_falls(stages):
+    stage = stages("pick_and_place", {"ur5e_1": "pick_and_place_ur5e"})
+    stage.play(4.4)
+    held_at = stage.world.fingers("ur5e_1")
+    place = stage.place("cube_1")
+    stage.seek(1.0)
+    assert max(stage.world.fingers("ur5e_1").values()) < 1e-3
+    stage.seek(4.2)
+    assert stage.world.object("cube_1").held_by == "ur5e_1"
+    assert stage.world.fingers("ur5e_1") == pytest.approx(held_at, abs=1e-4)
+    place = stage.place("cube_1")
+
+    robot = stage.world.robot("ur5e_1")
+    assert stage.world.remove_robot("ur5e_1") == "cube_1"
+    bare = LIBRARY.description("ur5e", "")
+    said = "cube_1 was let go"
+    stage.world.add_robot("ur5e_1", bare, robot.joints, robot.pose, Gripper.FINGERS, reason=said)
+    stage.world.set_program("ur5e_1", robot.program)
+    (told,) = [e for e in stage.world.take_events() if isinstance(e, GraspChanged)]
+    assert (told.state, told.object, told.reason) == (Grasp.OPEN, "", said)
+    # Joint states of an arm that stands come seldom; until then it is nowhere.
+    stage.now_ns += SECOND
+    stage.world.advance(stage.now_ns)
+    stage.events.clear()
+    stage.stand(0.5)
+    x, y, z = stage.place("cube_1")
+    assert (x, y) == pytest.approx(tuple(place[:2]), abs=0.002)
+    assert z == pytest.approx(0.025, abs=0.001)
+    # A bare flange has nothing to close.
+    assert not stage.grasps("ur5e_1")
+    stage.seek(4.2)
+    assert stage.world.object("cube_1").held_by == ""
 
 
 @pytest.mark.slow

@@ -108,6 +108,26 @@ def what_is_wider_than_the_opening_is_hit_and_not_held(cell):
 
 
 @scene
+def what_is_met_from_above_is_not_pushed_into_the_floor(cell):
+    low, high = (cell.put("wide", (0.0, 0.0, z)) for z in (0.03, 0.0905))
+    top = 0.121 + PADS
+    cell.add("a", at=(0.0, 0.0, top + 0.04))
+    for k in range(12):
+        # Nothing halts it: it passes into what does not give way.
+        cell.go("a", (0.0, 0.0, top + 0.04 - 0.01 * k), 0.01, even=True)
+        assert cell.place(low)[2] > 0.029
+        assert cell.place(high)[2] > 0.088
+    assert cell.hits()[0][3] == high
+    cell.go("a", (0.0, 0.0, top + 0.04), 0.3)
+    cell.wait(0.3)
+    assert cell.place(low)[2] == pytest.approx(0.03, abs=1e-3)
+    # What it has left it meets again.
+    hits = len(cell.hits())
+    cell.go("a", (0.0, 0.0, top - 0.01), 0.3)
+    assert len(cell.hits()) == hits + 1
+
+
+@scene
 def what_is_too_wide_is_not_held_though_it_stood_between_the_fingers(cell):
     cell.add("a", at=(0.0, 0.0, 0.03 + PADS))
     cell.put("wide", (0.0, 0.0, 0.03))
@@ -449,6 +469,56 @@ def what_is_thrown_flies_with_the_hands_velocity(cell):
     cell.world.set_program("a", GripperProgram(times, closes))
     cell.go("a", (0.62, 0.0, 0.425 + PADS), 0.31, even=True)
     assert cell.world.motion(cube).linear[0] == pytest.approx(2.0, rel=0.02)
+
+
+@scene
+def what_was_attached_is_grasped_and_thrown_after_it_was_detached(cell):
+    cube = cell.put("cube", (0.0, 0.0, 0.025))
+    grasp = 0.025 + PADS
+    cell.add("a", at=(0.0, 0.0, grasp))
+    cell.world.attach("a", cube)
+    cell.go("a", (0.0, 0.0, grasp + 0.1), 0.4)
+    cell.go("a", (0.0, 0.0, grasp), 0.4)
+    cell.world.detach("a")
+    cell.wait(0.2)
+    cell.close("a", 0.9)
+    cell.go("a", (0.0, 0.0, grasp + 0.3), 0.5)
+    cell.open("a", 0.0)
+    # The hand that lets go follows what it threw.
+    cell.go("a", (0.0, 0.3, grasp + 0.3), 0.3)
+    assert cell.grasps("a") == [OPEN, HOLDING, OPEN, CLOSING, HOLDING, OPEN]
+    assert not cell.hits()
+
+
+@scene
+def a_cup_that_is_pressed_on_gives_way_and_pushes_nothing_into_the_floor(cell):
+    carton = cell.put("carton", (0.0, 0.0, 0.1))
+    top = 0.2 + LIP
+    cell.add("a", "vacuum_cup", at=(0.0, 0.0, top + 0.03))
+    cell.go("a", (0.0, 0.0, top - 0.004), 0.3)
+    assert cell.place(carton)[2] > 0.0995
+    assert not cell.hits()
+    cell.close("a", 0.5)
+    assert cell.grasps("a") == HELD
+    cell.open("a", 0.3)
+    cell.go("a", (0.0, 0.0, top - 0.02), 0.3)
+    assert cell.place(carton)[2] > 0.0995
+    assert cell.hits()[0][3] == carton
+
+
+@scene
+def what_flies_at_an_arm_does_not_enter_it(cell):
+    cell.add("a", at=(0.0, 0.0, 0.5))
+    for k, kind in enumerate(("ball", "cube", "plate")):
+        name = cell.put(kind, (1.0 - 0.03 * k, 0.0, 0.75))
+        cell.world.move(name, Pose((1.0, 0.0, 0.75)), (-20.0, 0.0, 0.5), (0, 0, 0), held=False)
+        cell.wait(0.15)
+        cell.world.remove(name)
+        cell.wait(0.3)
+    met = [e.contact.touch for e in cell.events if getattr(e, "colliding", False)]
+    assert [touch.link for touch in met] == ["mast"] * 3
+    # Not even what turns its edge to it: 4 mm are the most that it moves between two looks.
+    assert max(touch.depth for touch in met) < 0.004
 
 
 @scene

@@ -268,7 +268,7 @@ def test_closing_on_nothing_is_an_empty_grasp():
     assert [e.state for e in lab.of(GraspChanged)] == [Grasp.OPEN, Grasp.CLOSING, Grasp.EMPTY]
 
 
-def test_attaching_by_hand_takes_from_another_and_detaching_leaves_an_empty_grasp():
+def test_attaching_by_hand_takes_from_another_and_detaching_leaves_an_open_gripper():
     lab = Lab(gripper=Gripper.FINGERS, settings=Settings(attach_reach=0.5))
     lab.world.add_robot("b", "<robot/>", ("j1", "j2"), Pose((1.0, 0, 0)), Gripper.FINGERS)
     lab.world.joint_state("b", lab.now_ns, [0, 0], [0, 0])
@@ -278,7 +278,7 @@ def test_attaching_by_hand_takes_from_another_and_detaching_leaves_an_empty_gras
     with pytest.raises(Misuse, match="holds 'ball' already"):
         lab.world.attach("a", "ball")
     lab.world.attach("b", "ball")
-    assert lab.world.robot("a").grasp is Grasp.EMPTY
+    assert lab.world.robot("a").grasp is Grasp.OPEN
     assert lab.world.object("ball").held_by == "b"
     assert lab.world.detach("b") == "ball"
     with pytest.raises(Misuse, match="holds nothing"):
