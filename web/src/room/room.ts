@@ -129,7 +129,9 @@ export class Room {
     targets.add(this.board.panel)
     this.panels = new RobotPanels(context, this.stage.panels, this.scene, targets)
     this.systems = new SystemPanels(context, this.stage.panels, this.scene, targets)
-    this.anchor = new SceneAnchor(this.stage.anchor)
+    this.anchor = new SceneAnchor(this.stage.anchor, (hold) => {
+      context.say(hold === 'session' ? words.room.anchorSession : words.room.anchorNone)
+    })
     this.objects = new ObjectHandles(this.scene, context, targets)
     this.overlays = new Overlays(link, this.scene, this.stage.world)
     this.drawings = new Drawings(

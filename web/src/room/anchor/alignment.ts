@@ -33,15 +33,15 @@ export class Alignment {
   begin(session: XRSession): void {
     this.aligned = false
     this.restoring = true
-    this.anchor.restore(session).then((restored) => {
+    this.anchor.restore(session).then(() => {
       this.restoring = false
-      this.aligned = restored
     })
   }
 
   /** Whether the scene waits to be put before the eyes. */
   get due(): boolean {
-    return !this.aligned && !this.restoring
+    if (this.restoring || this.anchor.waits) return false
+    return !this.aligned && !this.anchor.found
   }
 
   /** Put the scene's middle on the floor before somebody. */

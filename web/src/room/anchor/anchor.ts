@@ -5,6 +5,8 @@ import { Matrix4, type Object3D, type Quaternion, Vector3 } from 'three'
 export type Hold = 'kept' | 'session' | 'none'
 
 const KEY = 'mrlab.room.anchor'
+/** ms in which a place of an earlier session is found again, or it is another room. */
+const FOUND_MS = 4000
 const UP = new Vector3(0, 1, 0)
 const matrix = new Matrix4()
 const scale = new Vector3()
@@ -15,23 +17,47 @@ const offset = new Vector3()
  * recentre the anchor's own pose says where the group is now. */
 export class SceneAnchor {
   hold: Hold = 'none'
+  private session: XRSession | null = null
   private anchor: XRAnchor | null = null
   private wanted = false
+  /** Each place counts one: an answer about an older one is about nothing. */
+  private placing = 0
+  /** Until when a restored anchor may be looked for, ms; NaN: it was found, or there is none. */
+  private waitsUntil = Number.NaN
 
-  constructor(private readonly group: Object3D) {}
+  /** refused: the headset does not keep the place, or keeps it for this session alone. */
+  constructor(
+    private readonly group: Object3D,
+    private readonly refused: (hold: Hold) => void,
+  ) {}
 
-  /** Bring back the anchor of an earlier session; false: there is none, or it is not here. */
-  async restore(session: XRSession): Promise<boolean> {
+  /** Whether the anchor of an earlier session is looked for. */
+  get waits(): boolean {
+    return performance.now() < this.waitsUntil
+  }
+
+  /** Whether the group is where an anchor of an earlier session was found. */
+  get found(): boolean {
+    return this.anchor !== null && Number.isNaN(this.waitsUntil)
+  }
+
+  /** Bring back the anchor of an earlier session, where there is one. */
+  async restore(session: XRSession): Promise<void> {
+    this.session = session
+    // what was placed without a headset is no place of this room
+    this.wanted = false
+    const place = ++this.placing
     const handle = localStorage.getItem(KEY)
-    if (handle === null || session.restorePersistentAnchor === undefined) return false
+    if (handle === null || session.restorePersistentAnchor === undefined) return
     try {
-      this.anchor = await session.restorePersistentAnchor(handle)
+      const anchor = await session.restorePersistentAnchor(handle)
+      if (place !== this.placing) return
+      this.anchor = anchor
       this.hold = 'kept'
-      return true
+      this.waitsUntil = performance.now() + FOUND_MS
     } catch {
-      // another room, or the headset forgot it
-      localStorage.removeItem(KEY)
-      return false
+      // the headset forgot it
+      this.forget()
     }
   }
 
@@ -68,20 +94,34 @@ export class SceneAnchor {
     if (pose === undefined) return
     matrix.fromArray(pose.transform.matrix)
     matrix.decompose(this.group.position, this.group.quaternion, scale)
+    this.waitsUntil = Number.NaN
   }
 
   /** Forget what belongs to a session that ended. */
   end(): void {
+    this.session = null
     this.anchor = null
     this.wanted = false
     this.hold = 'none'
+    this.waitsUntil = Number.NaN
+    this.placing++
   }
 
   private release(): void {
     const { anchor } = this
     this.anchor = null
     this.hold = 'none'
+    this.waitsUntil = Number.NaN
+    this.placing++
     anchor?.delete()
+  }
+
+  /** Give the kept place back: a headset has few for all pages and apps, and takes none away. */
+  private async forget(): Promise<void> {
+    const handle = localStorage.getItem(KEY)
+    if (handle === null) return
+    localStorage.removeItem(KEY)
+    await this.session?.deletePersistentAnchor?.(handle).catch(() => undefined)
   }
 
   private make(frame: XRFrame, space: XRReferenceSpace): void {
@@ -91,19 +131,31 @@ export class SceneAnchor {
       { x: p.x, y: p.y, z: p.z },
       { x: q.x, y: q.y, z: q.z, w: q.w },
     )
-    frame
-      .createAnchor(pose, space)
-      ?.then((anchor) => {
-        this.anchor = anchor
-        this.hold = 'session'
-        return anchor.requestPersistentHandle?.()
-      })
-      .then((handle) => {
-        if (handle === undefined) return
-        localStorage.setItem(KEY, handle)
-        this.hold = 'kept'
-      })
-      // refused, as where the headset's places are all taken: the line on the board says so
-      .catch(() => undefined)
+    const asked = frame.createAnchor(pose, space)
+    if (asked !== undefined) this.keep(asked, this.placing)
+  }
+
+  private async keep(asked: Promise<XRAnchor>, place: number): Promise<void> {
+    try {
+      const anchor = await asked
+      if (place !== this.placing) {
+        anchor.delete()
+        return
+      }
+      this.anchor = anchor
+      this.hold = 'session'
+      if (anchor.requestPersistentHandle === undefined) return
+      await this.forget()
+      const handle = await anchor.requestPersistentHandle()
+      if (place !== this.placing) {
+        await this.session?.deletePersistentAnchor?.(handle)
+        return
+      }
+      localStorage.setItem(KEY, handle)
+      this.hold = 'kept'
+    } catch {
+      // as where the headset's places are all taken
+      if (place === this.placing) this.refused(this.hold)
+    }
   }
 }
