@@ -35,6 +35,7 @@ COUNT = """() => {
   stage.setGrid(false)
   stage.draw = now => {
     stage.world.traverse(node => { if (node.type === 'Sprite') node.visible = false })
+    for (const { model } of room.visit.inputs.sources.values()) model.group.visible = false
     const drawn = draw(now)
     const { drawingBufferWidth: width, drawingBufferHeight: height } = gl
     const pixels = new Uint8Array(width * height * 4)
@@ -62,6 +63,8 @@ def test_a_real_thing_hides_the_robot_behind_it(
     page.set_default_timeout(DEADLINE_MS)
     complaints: list[str] = []
     page.on("console", lambda each: each.type == "error" and complaints.append(each.text))
+    asked: list[str] = []
+    page.on("request", lambda request: asked.append(request.url))
     page.goto(f"{lab.url}/room?inspect")
 
     def wait_for(condition: str) -> None:
@@ -71,6 +74,13 @@ def test_a_real_thing_hides_the_robot_behind_it(
     page.get_by_role("button", name="Enter the room").dispatch_event("click")
     wait_for("room.inside.value && room.frames > 3")
     assert "depth-sensing" not in page.evaluate("room.visit.missing")
+    # what is held is drawn as it is, with files of the page's own origin
+    held = (
+        "[...room.visit.inputs.sources.values()].map(({ model }) => model.group.children.length)"
+    )
+    wait_for(f"{held}.join() === '1,1'")
+    assert all(url.startswith(lab.url) for url in asked if not url.startswith("blob:"))
+    assert sum(url.endswith(".glb") and "/static/" in url for url in asked) == 2
     page.evaluate(LOOK)
     page.evaluate(COUNT)
     wait_for("window.halves && halves[0] > 60 && halves[1] > 60")

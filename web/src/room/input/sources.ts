@@ -1,4 +1,5 @@
 import { Matrix4, type Object3D, Quaternion, Vector3 } from 'three'
+import { InputModel } from './models'
 import { type Hand, type Pointer, RayPointer, TouchPointer } from './pointer'
 import { PointerLook } from './pointer_look'
 import type { Target } from './target'
@@ -13,6 +14,8 @@ interface Source {
   readonly ray: RayPointer
   readonly touch: TouchPointer
   readonly look: PointerLook
+  /** null: real hands are seen as they are. */
+  readonly model: InputModel | null
 }
 
 /** A source in a frame. */
@@ -111,7 +114,7 @@ export class XrInputs {
       const guessed = each.measured && pose?.emulatedPosition === true
       const here = pose !== undefined && !guessed
       touch.aim(now, this.moveTip(at, ray, touch) && here, this.targets)
-      this.moveHold(at, ray)
+      this.moveHold(at, ray, each.model)
       const touching = touch.hovered !== null
       // what is dragged does not follow a guess
       const follows = ray.captured === null ? pose !== undefined : here
@@ -131,15 +134,17 @@ export class XrInputs {
   }
 
   /** Move where a pointer holds things: between thumb and finger, or the grip. */
-  private moveHold(at: Tracked, ray: RayPointer): void {
+  private moveHold(at: Tracked, ray: RayPointer, model: InputModel | null): void {
     const { frame, space, source } = at
     if (source.hand !== undefined) {
+      model?.bend(frame, space)
       if (!joint(at, 'index-finger-tip', this.finger) || !joint(at, 'thumb-tip', this.thumb))
         return
       ray.place.lerpVectors(this.thumb, this.finger, 0.5)
       return
     }
     const grip = source.gripSpace ? frame.getPose(source.gripSpace, space) : undefined
+    model?.place(grip)
     if (grip === undefined) ray.place.copy(ray.ray.origin)
     else setPlace(ray.place, grip.transform.position)
   }
@@ -176,21 +181,24 @@ export class XrInputs {
       const touch = new TouchPointer('touch', hand)
       const look = new PointerLook(source.hand ? 0.25 : 0.35)
       this.parent.add(look.group)
+      const seen = source.hand != null && this.session.environmentBlendMode !== 'opaque'
       this.sources.set(source, {
         source,
         measured: false,
         ray: new RayPointer('ray', hand),
         touch,
         look,
+        model: seen ? null : new InputModel(source, this.parent),
       })
     }
   }
 
-  private remove({ source, ray, touch, look }: Source): void {
+  private remove({ source, ray, touch, look, model }: Source): void {
     this.sources.delete(source)
     ray.drop()
     touch.drop()
     look.dispose()
+    model?.dispose()
   }
 }
 
