@@ -5,7 +5,8 @@ from __future__ import annotations
 import hashlib
 import importlib.metadata
 import math
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -23,6 +24,7 @@ from mrlab_ros.core.errors import BadInput
 from mrlab_ros.core.geometry import Pose, compose
 from mrlab_ros.core.physics import catalogue
 from mrlab_ros.core.physics.catalogue import Catalogue, ObjectType
+from mrlab_ros.core.physics.engine import Engine
 from mrlab_ros.core.physics.grasp import Gripper
 from mrlab_ros.core.physics.settings import Settings
 from mrlab_ros.core.physics.world import World
@@ -131,6 +133,26 @@ class Stage:
             types = {thing.name: thing.type for thing in world.objects}
             fingers = {r.name: tuple(world.fingers(r.name)) for r in robots}
             return Played(rehearsal.run(), types, fingers)
+        finally:
+            engine.close()
+
+    @contextmanager
+    def arms(self, robots: Sequence[CheckedRobot]) -> Iterator[Engine]:
+        """Yield an engine with nothing but these arms in it, to compare their poses."""
+        from mrlab_ros.adapters.bullet.engine import BulletEngine
+
+        engine = BulletEngine(self.library.mesh_path)
+        try:
+            for robot in robots:
+                model = robot.model.id
+                engine.add_arm(
+                    robot.name,
+                    self.library.description(model, robot.end_effector or None),
+                    robot.model.joint_names,
+                    robot.pose,
+                    self.library.never_touch(model),
+                )
+            yield engine
         finally:
             engine.close()
 

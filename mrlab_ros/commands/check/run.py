@@ -12,20 +12,21 @@ from mrlab_ros.adapters.checking.stage import Played, Stage, first_link
 from mrlab_ros.adapters.robots.library import RobotLibrary
 from mrlab_ros.adapters.scenes import files as scene_files
 from mrlab_ros.adapters.scenes.files import SceneFiles
-from mrlab_ros.commands.check import words
+from mrlab_ros.commands.check import cell, words
 from mrlab_ros.commands.convert import report as conversion_report
 from mrlab_ros.commands.convert.one_file import converted
 from mrlab_ros.core.checking import motion
 from mrlab_ros.core.checking.hardware import JUMPS
 from mrlab_ros.core.checking.motion import CheckedRobot
 from mrlab_ros.core.checking.rehearsal import Actor
-from mrlab_ros.core.checking.report import CheckReport
+from mrlab_ros.core.checking.report import CheckReport, digest
 from mrlab_ros.core.checking.waypoints import points_from_rows
 from mrlab_ros.core.conversion.convert import ConversionResult
 from mrlab_ros.core.conversion.options import Options
 from mrlab_ros.core.errors import BadInput, Misuse
 from mrlab_ros.core.geometry import Pose, Vector
 from mrlab_ros.core.scene.document import RobotEntry, SceneDocument
+from mrlab_ros.core.systems.cell_file import plain_system
 from mrlab_ros.core.trajectory.trajectory import Trajectory
 from mrlab_ros.ros import share
 
@@ -58,6 +59,8 @@ def run(request: Request) -> int:
     library = RobotLibrary(folder / "robots")
     stage = Stage(folder, library)
     scene = scene_of(request.scene, folder)
+    if request.file.suffix.lower() in CELLS:
+        return _cell(request, stage, scene, folder)
     return _motion(request, stage, scene, folder)
 
 
@@ -103,6 +106,23 @@ def _motion(request: Request, stage: Stage, scene: SceneDocument, folder: Path) 
     )  # fmt: skip
     motions = {robots[0].name: (t, figures)}
     return _finish(request, report, stage, robots, played, folder, motions)
+
+
+def _cell(request: Request, stage: Stage, scene: SceneDocument, folder: Path) -> int:
+    if request.robot or request.points is not None:
+        option = "--robot" if request.robot else "--points"
+        raise Misuse(f"{option} is for one motion; {request.file.name} is a cell of several")
+    system, scene = cell.read(request.file, scene, request.scene)
+    loaded = cell.load(request.file, system, scene, stage, request.options)
+    played, pairs, delay = cell.rehearse(loaded, stage, request.closest)
+    inputs = {
+        **stage.inputs(loaded.robots, scene),
+        "system": digest(plain_system(system)),
+        "options": {k: v for k, v in vars(request.options).items() if v},
+        "closest": request.closest,
+    }
+    report, motions = cell.report_of(loaded, played, pairs, delay, inputs, request.closest)
+    return _finish(request, report, stage, loaded.robots, played, folder, motions)
 
 
 def scene_of(name: str, folder: Path) -> SceneDocument:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 from rich.console import Console
@@ -20,12 +20,15 @@ STYLES = {
     State.NOT: OUTCOME_STYLES["rejected"],
     State.UNKNOWN: OUTCOME_STYLES["ambiguous"],
 }
-MOST_FINDINGS, MOST_CLEARANCES = 40, 8
+WIDTH = 120  # where nothing says how wide the output is
+MOST_FINDINGS, MOST_CLEARANCES, MOST_PAIRS = 40, 8, 10
 
 
 def show(report: CheckReport, document: Mapping[str, Any]) -> None:
     """Print the report."""
     console = Console(highlight=False)
+    if not console.is_terminal:
+        console = Console(highlight=False, width=WIDTH)
     style = OUTCOME_STYLES["rejected" if report.refusing else "accepted"]
     verdict, _, rest = report.words.partition(":")
     console.print(f"[{style}]{verdict}[/]", end="")
@@ -42,7 +45,10 @@ def show(report: CheckReport, document: Mapping[str, Any]) -> None:
 
 def _findings(console: Console, report: CheckReport) -> None:
     several = len(report.robots) > 1
-    table = Table("", "time", *(["robot"] if several else []), "link", "finding", box=None)
+    table = Table("", "time", box=None)
+    for name in (*(["robot"] if several else []), "link"):
+        table.add_column(name, overflow="fold")
+    table.add_column("finding", min_width=24)
     table.add_column("value", justify="right")
     table.add_column("limit", justify="right")
     for found in report.findings[:MOST_FINDINGS]:
@@ -94,12 +100,35 @@ def _distances(console: Console, report: CheckReport) -> None:
             what = thing(one.kind, one.other, one.other_link)
             table.add_row(f"{1e3 * max(one.distance, 0.0):.0f} mm", who, what, f"{one.time:.2f} s")
         console.print(table)
+    _pairs(console, report.extras.get("pairs", ()))
     for grasp in report.grasps:
         if grasp.object and grasp.state.name == "HOLDING":
             mass = f", {grasp.load.mass:.3g} kg" if grasp.load else ""
             console.print(
                 f"  {grasp.time:.2f} s {grasp.robot} holds {grasp.object}{mass}", markup=False
             )
+
+
+def _pairs(console: Console, pairs: Sequence[Mapping[str, Any]]) -> None:
+    """Print each pair of robots of a cell: the nearest, and when they first conflict."""
+    if not pairs:
+        return
+    console.print("\n[bold]pairs of robots[/]")
+    table = Table(box=None, show_header=False)
+    for pair in pairs[:MOST_PAIRS]:
+        if pair["distance"] is None:
+            near, when = "over 500 mm", ""
+        else:
+            near, when = f"{1e3 * max(pair['distance'], 0.0):.0f} mm", f"{pair['time']:.2f} s"
+        conflict = ""
+        if pair["conflict"] is not None:
+            conflict = (
+                f"conflict at {pair['conflict']:.2f} s, closing at {pair['closing']:.2f} m/s"
+            )
+        table.add_row(near, f"{pair['robot']} and {pair['other']}", when, conflict)
+    console.print(table)
+    if len(pairs) > MOST_PAIRS:
+        console.print(f"  and {len(pairs) - MOST_PAIRS} more pairs; --json has all")
 
 
 def _time(found: Finding) -> str:

@@ -9,7 +9,7 @@ import sys
 import tempfile
 import time
 from collections import deque
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from concurrent.futures import Future, ProcessPoolExecutor
 from contextlib import AbstractContextManager
 from dataclasses import dataclass, replace
@@ -166,27 +166,46 @@ def _check(request: Request) -> None:
             )
 
 
+@dataclass(frozen=True)
+class Wanted:
+    """A file to convert for a robot. end_effector: None: a bare flange."""
+
+    path: Path
+    robot: RobotModel
+    options: Options
+    end_effector: str | None
+
+
 def convert_file(
     path: Path, robot: RobotModel, options: Options, end_effector: str | None
 ) -> ConversionResult:
     """Convert one file in a walled-off process; a refusal is a result."""
-    source = Input(str(path), path.name, path.name, partial(opened, path))
-    if not path.is_file():
-        raise BadInput(f"there is no file {path}; check the folder and the name")
+    return convert_files([Wanted(path, robot, options, end_effector)])[0]
+
+
+def convert_files(wanted: Sequence[Wanted]) -> list[ConversionResult]:
+    """Convert files in walled-off processes, in order; raise BadInput where one is missing."""
     coefficients = load_coefficients(share.directory() / "config" / "torque_proxy.yaml")
-    task = Task(
-        file=path.name,
-        options=options,
-        robot=robot,
-        coefficients=coefficients,
-        end_effector=end_effector,
-        trajectory_id=id_from(path.name),
-        created_ns=time.time_ns(),
-        default_frame_rate=DEFAULT_FRAME_RATE,
-        read_as=path.name,
-    )
-    _, _, result = next(_converted([source], [task], Limits()))
-    return result
+    inputs, tasks = [], []
+    for each in wanted:
+        path = each.path
+        if not path.is_file():
+            raise BadInput(f"there is no file {path}; check the folder and the name")
+        inputs.append(Input(str(path), path.name, path.name, partial(opened, path)))
+        tasks.append(
+            Task(
+                file=path.name,
+                options=each.options,
+                robot=each.robot,
+                coefficients=coefficients,
+                end_effector=each.end_effector,
+                trajectory_id=id_from(path.name),
+                created_ns=time.time_ns(),
+                default_frame_rate=DEFAULT_FRAME_RATE,
+                read_as=path.name,
+            )
+        )
+    return [result for _, _, result in _converted(inputs, tasks, Limits())]
 
 
 def _converted(

@@ -84,11 +84,11 @@ def findings_of(dexterity: Dexterity, robot: str) -> list[Finding]:
     found = []
     for begin, end in edges:
         least = int(begin + dexterity.conditioning[begin:end].argmin())
-        value = float(dexterity.conditioning[least])
+        value = round(float(dexterity.conditioning[least]), 4)
         found.append(
             Finding(
                 "near_singularity", Severity.WARNING,
-                f"The arm is nearly singular: conditioning {value:.2g}, where 1 is even and 0 "
+                f"The arm is nearly singular: conditioning {value:g}, where 1 is even and 0 "
                 "singular.",
                 "Joint motion is possible there; a straight line of the tool is not. Bend the "
                 "elbow or the wrist where the path allows it.",

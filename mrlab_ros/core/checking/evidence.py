@@ -15,6 +15,8 @@ from mrlab_ros.core.physics.grasp import Grasp
 # A robot that comes nearer, m, without touching is a finding: what is measured in a real cell is
 # seldom better.
 CLOSE = 0.01
+# Between a robot's grasp and the other's loss in a hand-over, s.
+HAND_OVER = 0.1
 
 
 @dataclass(frozen=True)
@@ -181,6 +183,8 @@ def of_grasps(recorded: Rehearsed, objects: Iterable[str]) -> list[Finding]:
             found += _of_load(change)
         elif change.state is Grasp.EMPTY and before:
             held.pop(change.robot)
+            if _taken(recorded, change, before):
+                continue
             found.append(
                 Finding(
                     "loses_object", Severity.ERROR,
@@ -203,6 +207,17 @@ def of_grasps(recorded: Rehearsed, objects: Iterable[str]) -> list[Finding]:
         elif change.state is Grasp.OPEN:
             held.pop(change.robot, None)
     return found
+
+
+def _taken(recorded: Rehearsed, lost: GraspChange, thing: str) -> bool:
+    """Return whether another robot took what a robot no longer holds: a hand-over."""
+    return any(
+        other.state is Grasp.HOLDING
+        and other.object == thing
+        and other.robot != lost.robot
+        and abs(other.time - lost.time) <= HAND_OVER
+        for other in recorded.grasps
+    )
 
 
 def _of_load(change: GraspChange) -> list[Finding]:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import shutil
 from pathlib import Path
 
 import pytest
@@ -75,3 +76,56 @@ def test_a_missing_file_ends_with_2_too():
     said = check("nowhere.mat", "--robot", "ur5e")
     assert said.exit_code == 2
     assert "there is no file nowhere.mat" in said.stderr
+
+
+CELL = """
+robots:
+  - {name: left, model: ur5e, position: [0, 0, 0]}
+  - {name: right, model: ur5e, position: [1.25, 0, 0], orientation: [0, 0, 1, 0]}
+systems:
+  - name: pair
+    members:
+      - {robot: left, trajectory: quintic_ur5e.mat}
+      - {robot: right, trajectory: quintic_ur5e.mat}
+"""
+
+
+def test_two_robots_that_collide_are_told_the_wait_that_resolves_it(tmp_path):
+    shutil.copy(QUINTIC, tmp_path)
+    cell, page = tmp_path / "cell.yaml", tmp_path / "cell.html"
+    cell.write_text(CELL)
+    said = check(cell, "--json", "--out", page)
+    found = json.loads(said.stdout)
+    assert said.exit_code == 1
+    (pair,) = found["pairs"]
+    assert pair["touches"]
+    assert 3.0 < pair["conflict"] < 3.3
+    assert pair["closing"] > 0.5
+    wait = found["wait"]
+    assert wait["clears"]
+    assert wait["all_clear"]
+    assert found["hash"] in page.read_text()
+    # The advice followed to the letter.
+    robot = f"robot: {wait['robot']}, "
+    line = f"{robot}after: {wait['other']}.frame {wait['frame']}, "
+    cell.write_text(CELL.replace(robot, line))
+    again = check(cell, "--json")
+    assert again.exit_code == 0
+    assert json.loads(again.stdout)["pairs"][0]["conflict"] is None
+
+
+@pytest.mark.parametrize(
+    ("text", "sentence"),
+    [
+        ("members: [{robot: left, trajectory: a.mat}]", "where they stand"),
+        (CELL.replace("robot: right", "robot: rihgt"), "rihgt"),
+        (CELL.replace("quintic_ur5e", "nowhere"), "is no file in"),
+        ("members: [", "is not YAML"),
+    ],
+)
+def test_a_cell_that_cannot_be_checked_ends_with_2_and_a_sentence(tmp_path, text, sentence):
+    cell = tmp_path / "cell.yaml"
+    cell.write_text(text)
+    said = check(cell)
+    assert said.exit_code == 2
+    assert sentence in said.stderr

@@ -1,0 +1,302 @@
+"""What `mrlab check` does with a cell: all members on their timeline, and each pair of robots."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+from pathlib import Path
+from typing import Any
+
+from mrlab_ros.adapters.checking.apart import smallest_waits
+from mrlab_ros.adapters.checking.stage import Played, Stage, first_link
+from mrlab_ros.adapters.scenes import files as scene_files
+from mrlab_ros.commands.convert import batch
+from mrlab_ros.commands.convert.one_file import of_trajectory_file
+from mrlab_ros.core.checking import motion
+from mrlab_ros.core.checking.evidence import clearances
+from mrlab_ros.core.checking.findings import Finding, in_order
+from mrlab_ros.core.checking.hardware import conditions
+from mrlab_ros.core.checking.motion import CheckedRobot, MotionFigures
+from mrlab_ros.core.checking.pairs import Delay, Pair, pairs_of, wait_frame
+from mrlab_ros.core.checking.rehearsal import Actor
+from mrlab_ros.core.checking.report import CheckReport, RobotReport
+from mrlab_ros.core.conversion.convert import ConversionResult
+from mrlab_ros.core.conversion.options import Options
+from mrlab_ros.core.errors import BadInput, Misuse
+from mrlab_ros.core.scene import document as scene_document
+from mrlab_ros.core.scene.document import SceneDocument
+from mrlab_ros.core.systems.cell_file import MemberEntry, SystemEntry
+from mrlab_ros.core.systems.timeline import Mode
+from mrlab_ros.core.systems.waits import parse
+from mrlab_ros.core.trajectory.trajectory import Channels, Trajectory
+
+# Waits that are rehearsed before the search gives up.
+MOST_REHEARSED = 3
+
+
+@dataclass(frozen=True, eq=False)
+class Cell:
+    """A cell that can be rehearsed: its robots, their motions, and the rest of the scene."""
+
+    title: str
+    system: SystemEntry
+    scene: SceneDocument
+    robots: list[CheckedRobot]
+    results: Mapping[str, ConversionResult]
+    trajectories: Mapping[str, Trajectory]
+
+    def actors(self, extra: Mapping[str, str]) -> list[Actor]:
+        """Return the robots as they play. extra: a wait more, by robot."""
+        members = {member.robot: member for member in self.system.members}
+        order = [member.robot for member in self.system.members]
+        actors = []
+        for robot in self.robots:
+            member = members.get(robot.name)
+            if member is None:
+                actors.append(Actor(robot.name, robot.model.home, first_link=first_link(robot)))
+                continue
+            texts = [*member.waits, *([extra[robot.name]] if robot.name in extra else [])]
+            turn = order.index(robot.name)
+            before = order[turn - 1] if turn and self.system.mode is Mode.SEQUENTIAL else ""
+            actors.append(
+                Actor(
+                    robot.name,
+                    robot.model.home,
+                    self.trajectories[robot.name],
+                    after=before,
+                    dwell=members[before].dwell if before else 0.0,
+                    waits=tuple(parse(text) for text in texts),
+                    first_link=first_link(robot),
+                )
+            )
+        return actors
+
+
+def read(file: Path, scene: SceneDocument, named: str) -> tuple[SystemEntry, SceneDocument]:
+    """Return the system of a cell file and the scene of its robots.
+
+    scene: that of --scene, `named` so; a file that has robots of its own needs none. Raises
+    LabError where it is not known where a robot stands.
+    """
+    content = scene_files.content(file)
+    if isinstance(content, dict) and content.get("robots"):
+        scene = scene_document.parse(content, file.name)
+        systems = scene.systems
+    else:
+        systems = scene_document.parse_cell(content, file.name)
+        if not named:
+            raise Misuse(
+                f"{file.name} names robots, and not where they stand; add the scene with them: "
+                f"mrlab check {file} --scene handover, or put robots into the file"
+            )
+    if len(systems) != 1:
+        names = ", ".join(system.name for system in systems) or "none"
+        raise BadInput(f"{file.name} has {len(systems)} systems ({names}); expected one to check")
+    there = [robot.name for robot in scene.robots]
+    for member in systems[0].members:
+        if member.robot not in there:
+            raise BadInput(
+                f"the member {member.robot} is not among the robots of "
+                f"{f'the scene {named}' if named else file.name}: {', '.join(there) or 'none'}"
+            )
+    return systems[0], scene
+
+
+def load(
+    file: Path, system: SystemEntry, scene: SceneDocument, stage: Stage, options: Options
+) -> Cell:
+    """Convert the motions of all members; files are beside the cell. Raises LabError."""
+    robots = [stage.robot(r.name, r.model, r.end_effector, r.pose) for r in scene.robots]
+    by_name = {robot.name: robot for robot in robots}
+    loaded = {robot.name: robot.trajectory for robot in scene.robots}
+    wanted: dict[tuple[Path, str, str], batch.Wanted] = {}
+    keys: dict[str, tuple[Path, str, str]] = {}
+    results: dict[tuple[Path, str, str], ConversionResult] = {}
+    for member in system.members:
+        robot = by_name[member.robot]
+        path = _path(file, member, loaded[member.robot])
+        key = (path, robot.model.id, robot.end_effector)
+        keys[member.robot] = key
+        given = of_trajectory_file(path)
+        if given is not None:
+            results[key] = given
+        else:
+            wanted[key] = batch.Wanted(path, robot.model, options, robot.end_effector or None)
+    results |= zip(wanted, batch.convert_files(list(wanted.values())), strict=True)
+    found = {name: results[key] for name, key in keys.items()}
+    trajectories = {}
+    for name, result in found.items():
+        if result.trajectory is None:
+            raise BadInput(
+                f"{name} cannot play {result.file}: {result.message} Try: mrlab check "
+                f"{keys[name][0]} --robot {keys[name][1]}"
+            )
+        trajectories[name] = _at_rate(result.trajectory, system.rate)
+    return Cell(system.name or file.stem, system, scene, robots, found, trajectories)
+
+
+def _path(file: Path, member: MemberEntry, loaded: str) -> Path:
+    name = member.trajectory or loaded
+    if not name:
+        raise BadInput(
+            f"{file.name} says of {member.robot} no trajectory; add one: trajectory: run.mat"
+        )
+    path = file.parent / name
+    if not path.is_file():
+        raise BadInput(
+            f"the trajectory '{name}' of {member.robot} is no file in {file.parent}; a check "
+            "reads files, not the catalogue of a running lab"
+        )
+    return path
+
+
+def _at_rate(trajectory: Trajectory, rate: float) -> Trajectory:
+    """Return a trajectory played at `rate`; raise Misuse where that is backwards."""
+    if rate < 0:
+        raise Misuse(f"the cell plays backwards (rate {rate:g}); a check plays forwards")
+    if rate == 1.0:
+        return trajectory
+    channels = Channels(trajectory.channels.velocities * rate, trajectory.channels.effort_proxy)
+    return replace(trajectory, frame_rate=trajectory.frame_rate * rate, channels=channels)
+
+
+def rehearse(cell: Cell, stage: Stage, closest: float) -> tuple[Played, list[Pair], Delay | None]:
+    """Play the cell; where two robots conflict, look for the smallest wait that resolves it."""
+    played = stage.rehearse(cell.robots, cell.actors({}), cell.scene)
+    pairs = pairs_of(played.recorded, closest)
+    first = pairs[0] if pairs and pairs[0].conflict is not None else None
+    if first is None:
+        return played, pairs, None
+    return played, pairs, _resolved(cell, stage, played, first, closest)
+
+
+def _resolved(
+    cell: Cell, stage: Stage, played: Played, first: Pair, closest: float
+) -> Delay | None:
+    by_name = {robot.name: robot for robot in cell.robots}
+    names = (first.robot, first.other)
+    recorded = played.recorded
+    waits = smallest_waits(
+        stage,
+        (by_name[names[0]], by_name[names[1]]),
+        (recorded.robots[names[0]], recorded.robots[names[1]]),
+        closest,
+    )
+    waits = [w for w in waits if names[w[0]] in cell.trajectories]
+    best: Delay | None = None
+    for who, seconds in waits[:MOST_REHEARSED]:
+        robot, other = names[who], names[1 - who]
+        if other not in cell.trajectories:
+            continue
+        t = cell.trajectories[other]
+        frame = wait_frame(seconds, recorded.starts, robot, other, t.frame_rate, t.frame_count)
+        text = f"frame 0: after {other}.frame {frame}"
+        again = stage.rehearse(cell.robots, cell.actors({robot: text}), cell.scene, drawn=False)
+        after = pairs_of(again.recorded, closest)
+        clears = (
+            all(p.conflict is None for p in after if {p.robot, p.other} == {robot, other})
+            and not again.recorded.stuck
+        )
+        delay = Delay(
+            robot, other, frame, seconds, text, clears, not any(p.touches for p in after)
+        )
+        if clears:
+            return delay
+        best = best or delay
+    return best
+
+
+def report_of(
+    cell: Cell,
+    played: Played,
+    pairs: list[Pair],
+    delay: Delay | None,
+    inputs: Mapping[str, Any],
+    closest: float,
+) -> tuple[CheckReport, dict[str, tuple[Trajectory, MotionFigures]]]:
+    """Return the report on a cell, and the motions with their figures by robot."""
+    motions = {
+        robot.name: (t, motion.figures_of(t, robot))
+        for robot in cell.robots
+        if (t := cell.trajectories.get(robot.name)) is not None
+    }
+    recorded = played.recorded
+    found: list[Finding] = []
+    for name, (_, figures) in motions.items():
+        start = recorded.starts.get(name, 0.0)
+        own = motion.motion_findings(figures, name)
+        found += [_later(f, start) for f in own]
+    found += motion.physics_findings(recorded, played.graspable, closest)
+    remedy = wait_words(delay, pairs)
+    findings = in_order(replace(f, remedy=remedy) if _is_first(f, pairs) else f for f in found)
+    scene = f"a cell of {len(motions)} robots"
+    robots = [
+        RobotReport(
+            r.name,
+            r.model.id,
+            r.end_effector,
+            motions[r.name][0].id,
+            vars(motions[r.name][0].source),
+            {
+                **motions[r.name][1].plain(),
+                "starts": recorded.starts.get(r.name),
+                "ends": recorded.ends.get(r.name),
+                "waited": recorded.waited.get(r.name, 0.0),
+            },
+            motion.joint_rows(motions[r.name][1].joints),
+            conditions(
+                motions[r.name][1].joints,
+                [f for f in findings if f.robot == r.name],
+                rehearsed=True,
+                scene=scene,
+            ),
+        )
+        for r in cell.robots
+        if r.name in motions
+    ]
+    extras = {
+        "system": {"name": cell.system.name, "mode": cell.system.mode.name.lower()},
+        "pairs": [vars(pair) for pair in pairs],
+        "wait": vars(delay) if delay is not None else None,
+    }
+    report = CheckReport(
+        cell.title, inputs, robots, findings, recorded.duration, clearances(recorded),
+        tuple(recorded.grasps), (), extras,
+    )  # fmt: skip
+    return report, motions
+
+
+def _later(found: Finding, start: float) -> Finding:
+    """Return a finding of a motion at its time on the cell's timeline."""
+    time = None if found.time is None else found.time + start
+    return replace(found, time=time, end=None if found.end is None else found.end + start)
+
+
+def _is_first(found: Finding, pairs: list[Pair]) -> bool:
+    """Return whether a finding is of the first conflict of two robots."""
+    if not pairs or pairs[0].conflict is None or found.code not in ("collision", "close"):
+        return False
+    first = pairs[0]
+    return (found.robot == first.robot and first.other in found.message) or (
+        found.robot == first.other and first.robot in found.message
+    )
+
+
+def wait_words(delay: Delay | None, pairs: list[Pair]) -> str:
+    """Return how the first conflict of two robots is resolved, in words."""
+    if not pairs or pairs[0].conflict is None:
+        return ""
+    if delay is None:
+        return (
+            "No wait at a first frame keeps the two apart: one stands in the other's way. Change "
+            "a way, or a place."
+        )
+    words = (
+        f"Let {delay.robot} wait {delay.seconds:.1f} s: add to its member "
+        f"'after: {delay.other}.frame {delay.frame}'"
+    )
+    if not delay.clears:
+        return f"{words}; it is the smallest that helps, and not enough with what they hold."
+    return f"{words}; rehearsed: the two stay apart" + (
+        "." if delay.all_clear else ", others still touch."
+    )
