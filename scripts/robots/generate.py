@@ -16,6 +16,7 @@ from pathlib import Path
 from typing import Any
 
 import cobots
+import convex
 import cuts
 import glb
 import hulls
@@ -88,7 +89,7 @@ def _written(folder: Path, link: str, corners: list[Array], pose: Array) -> list
     for number, vertices in enumerate(corners):
         placed = vertices @ pose[:3, :3].T + pose[:3, 3]
         names.append(f"{link}_hull_{number}.stl")
-        _stl(folder / names[-1], hulls.triangles(np.round(placed, 5) + 0.0))
+        _stl(folder / names[-1], convex.triangles(np.round(placed, 5) + 0.0))
     return names
 
 
@@ -226,7 +227,7 @@ def main() -> None:
     chosen.out.mkdir(parents=True, exist_ok=True)
     for name in chosen.ids or known:
         if name == FIGURE:
-            person = creased(decimated(contour(figure(), 0.016), 2400))
+            person = creased(decimated(contour(figure(), 0.014), 3000))
             glb.write(chosen.out / f"{FIGURE}.glb", [(SKIN, person)])
         elif (ROBOTS / name).is_dir():
             make(Path(name), "robot.yaml", "robot.urdf", chosen.out)

@@ -1,20 +1,21 @@
-"""Measures bodies against measured shapes: `measure.py --shapes FILE [--library DIR] [ID ...]`.
+"""Measures bodies against measured shapes: `measure.py [--library DIR] [--table] [ID ...]`.
 
 Prints for each robot the overlap of silhouettes (intersection over union, mean over poses and
-views) and for each link the distance between the surfaces, 95th percentile of both ways, mm.
-Parts named hose or cable are left out. FILE: outlines in the format of scripts/robots/sections.
+views) and for each link the distance between the surfaces, 95th percentile of both ways, mm. The
+shapes are the outlines of scripts/robots/sections. Parts named hose or cable are left out.
 """
 
 from __future__ import annotations
 
 import argparse
-import json
 from pathlib import Path
 from typing import Any
 
+import kuka
+import measured
 import numpy as np
 import trimesh
-from manifold3d import CrossSection, FillRule, Manifold, OpType
+from manifold3d import CrossSection, FillRule, JoinType, Manifold, OpType
 from PIL import Image, ImageDraw
 from scipy.spatial import cKDTree
 
@@ -33,14 +34,22 @@ FLEXIBLE = ("hose", "cable")
 
 
 def solid(link: dict[str, Any]) -> trimesh.Trimesh:
-    """Return the slabs between the sections of a link, within its silhouettes; mm."""
+    """Return the slabs between the sections of a link, within its silhouettes; mm.
+
+    Slits between pieces of a collision mesh, up to its `gap`, are closed: the casting has none.
+    """
+    gap = link.get("gap", 0)
     axes, axis = link["section_axes"], "xyz".index(link["slice_axis"])
     low, high = np.array(link["box"], float)
     sections = link["sections"]
     thick = (high[axis] - low[axis]) / len(sections)
     slabs = [
         _extruded(
-            axes, section["outlines"], section["at"] - thick / 2 - OVERLAP, thick + 2 * OVERLAP
+            axes,
+            section["outlines"],
+            section["at"] - thick / 2 - OVERLAP,
+            thick + 2 * OVERLAP,
+            gap,
         )
         for section in sections
         if section["outlines"]
@@ -49,7 +58,7 @@ def solid(link: dict[str, Any]) -> trimesh.Trimesh:
     for plane, outline in link["silhouettes"].items():
         along = 3 - sum("xyz".index(letter) for letter in plane)
         length = high[along] - low[along] + 2
-        seen = _extruded(plane, outline["outer"], low[along] - 1, length)
+        seen = _extruded(plane, outline["outer"], low[along] - 1, length, gap)
         if outline.get("holes"):
             seen -= _extruded(plane, outline["holes"], low[along] - 2, length + 2)
         whole ^= seen
@@ -57,11 +66,16 @@ def solid(link: dict[str, Any]) -> trimesh.Trimesh:
     return trimesh.Trimesh(mesh.vert_properties[:, :3], mesh.tri_verts)
 
 
-def _extruded(axes: str, outlines: list[list[float]], start: float, length: float) -> Manifold:
+def _extruded(
+    axes: str, outlines: list[list[float]], start: float, length: float, gap: float = 0.0
+) -> Manifold:
     flat = [np.array(outline, float).reshape(-1, 2) for outline in outlines]
     # Either sense of rotation counts as filled.
     flat = [p if _area(p) > 0 else p[::-1] for p in flat]
-    body = Manifold.extrude(CrossSection(flat, FillRule.NonZero), length)
+    section = CrossSection(flat, FillRule.NonZero)
+    if gap:
+        section = section.offset(gap / 2, JoinType.Miter).offset(-gap / 2, JoinType.Miter)
+    body = Manifold.extrude(section, length)
     columns = ["xyz".index(letter) for letter in axes]
     columns.append(3 - sum(columns))
     turn = np.zeros((3, 4))
@@ -155,18 +169,22 @@ def compare(
 def main() -> None:
     """Print a row for each robot, then one for each link that is further off than it may be."""
     parser = argparse.ArgumentParser(description="Measure bodies against measured shapes.")
-    parser.add_argument("--shapes", type=Path, required=True, help="the measured outlines, JSON")
     parser.add_argument("--library", type=Path, default=ROOT / "robots", help="bodies to measure")
-    parser.add_argument("ids", nargs="*", metavar="ID", help="robots; none: all of the file")
+    parser.add_argument("--table", action="store_true", help="print rows of a page's table")
+    parser.add_argument("ids", nargs="*", metavar="ID", help="robots; none: all with outlines")
     chosen = parser.parse_args()
-    shapes = json.loads(chosen.shapes.read_text())["robots"]
     library = RobotLibrary(ROOT / "robots", ROOT / "robots" / "none imported")
-    for robot in chosen.ids or shapes:
+    for robot in chosen.ids or kuka.ROBOTS:
+        tables = {link: measured.table(robot, link) for link in kuka.ROBOTS[robot]}
         made = chosen.library / robot / "meshes"
-        overlap, links = compare(library, robot, shapes[robot]["links"], made)
+        overlap, links = compare(library, robot, tables, made)
+        if chosen.table:
+            values = " | ".join(f"{value:.0f}" for value, _ in links.values())
+            print(f"| `{robot}` | {overlap:.3f} | {values} |", flush=True)
+            continue
         note = "" if overlap >= IOU else f"  below {IOU}"
         values = " ".join(f"{value:5.1f}" for value, _ in links.values())
-        print(f"{robot:22} IoU {overlap:.3f}  p95 mm {values}{note}")
+        print(f"{robot:22} IoU {overlap:.3f}  p95 mm {values}{note}", flush=True)
         for name, (value, bound) in links.items():
             if value > bound:
                 print(f"    {name}: {value:.1f} mm, at most {bound:.1f}")

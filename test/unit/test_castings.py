@@ -14,11 +14,16 @@ ROOT = Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "scripts" / "robots"))
 
 import casting  # noqa: E402
+import convex  # noqa: E402
+import cuts  # noqa: E402
+import figure  # noqa: E402
 import kuka  # noqa: E402
 import measure  # noqa: E402
 import measured  # noqa: E402
 import mesher  # noqa: E402
 from body import BLACK, ORANGE  # noqa: E402
+
+from mrlab_ros.adapters.robots import hulls as fits  # noqa: E402
 
 
 def ring(radius: float) -> list[float]:
@@ -110,6 +115,45 @@ def test_a_painted_mesh_keeps_its_surface_and_has_no_gap(drum: Any) -> None:
     _, index = np.unique(np.round(vertices, 7), axis=0, return_inverse=True)
     _, uses = np.unique(index.ravel()[edges], axis=0, return_counts=True)
     assert set(uses) == {2}
+
+
+def test_few_hulls_hold_a_casting_and_stay_close_to_it(drum: Any) -> None:
+    mesh = mesher.smoothed(measured.whole(mesher.contour(drum, 0.004)))
+    faces = mesh.vertices[mesh.faces]
+    found = [convex.triangles(hull) for hull in cuts.cover_all([(drum, faces)], mesh.vertices)]
+    assert len(found) <= 2
+    assert fits.sticks_out(faces, found, 4000) <= fits.MOST_SMALLER
+    assert fits.stands_off(faces, found, 4000) <= fits.MOST_LARGER
+
+
+def test_slits_between_the_pieces_of_a_collision_mesh_are_closed() -> None:
+    slit = stepped_drum()
+    for section in slit["sections"]:
+        radius = max(section["outlines"][0])
+        halves = [[-radius, low, radius, low, radius, low + 55, -radius, low + 55]
+                  for low in (-59, 4)]  # fmt: skip
+        section["outlines"] = halves
+    whole = {**slit, "gap": 16}
+    assert measure.solid(slit).body_count > measure.solid(whole).body_count == 1
+    assert measure.solid(whole).volume > 1.05 * measure.solid(slit).volume
+    assert np.ptp(measure.solid(whole).vertices, axis=0) == pytest.approx([120, 118, 120], abs=1.5)
+
+
+def test_the_person_has_the_measures_it_names() -> None:
+    person = figure.figure()
+    by = figure.STATURE / figure.MEASURED
+    assert person.high[2] == pytest.approx(1.8, abs=0.005)
+    assert person.low[2] == pytest.approx(0.0, abs=0.005)
+    across = np.linspace(0, 0.4, 801)
+
+    def half(height: float, y: float = 0.0) -> float:
+        line = np.column_stack([across, np.full(801, y), np.full(801, height * by)])
+        return float(across[person.distance(line) < 0].max()) / by
+
+    assert 2 * half(1.345, 0.014) == pytest.approx(0.510, abs=0.05)
+    assert 2 * half(1.63) == pytest.approx(0.155, abs=0.01)
+    # Between the legs, below the crotch, is nothing.
+    assert person.distance(np.array([[0.0, 0.0, 0.75 * by]]))[0] > 0
 
 
 def test_shreds_in_mid_air_are_dropped(drum: Any) -> None:
