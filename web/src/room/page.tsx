@@ -137,7 +137,6 @@ function RoomView({ link }: { link: Link }) {
       known: found?.follower.known.value ?? false,
       robots: found?.follower.robots.value.length ?? 0,
       troubles: found?.troubles.value ?? [],
-      secureUrl: `https://${location.host}/room`,
     },
     w,
   )

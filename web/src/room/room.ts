@@ -1,5 +1,5 @@
 import { signal } from '@preact/signals'
-import { Matrix4, Quaternion, Vector3 } from 'three'
+import { Quaternion, Vector3 } from 'three'
 import type { Link } from '../link/link'
 import type { LabFollower } from '../pages/lab/follow'
 import type { CourseOf } from '../pages/lab/followed_robot'
@@ -18,6 +18,7 @@ import { followedScene } from './follow/followed_scene'
 import { roomFollower } from './follow/follower'
 import { listen } from './follow/listen'
 import { RoomRobots } from './follow/robots'
+import { Frame } from './frame'
 import { ObjectHandles } from './handles/object_handles'
 import { Targets } from './input/targets'
 import { Stats } from './latency/stats'
@@ -42,13 +43,6 @@ import { RoomStage } from './stage'
 import { Creation } from './systems/creation'
 import { SystemPanels } from './systems/system_panels'
 import { Guide } from './tour/guide'
-
-/** s between a frame's start and the instant at which it is seen, where the device does not tell. */
-const AHEAD_S = 0.015
-const MOST_AHEAD_S = 0.05
-
-const matrix = new Matrix4()
-const scale = new Vector3()
 
 /** What the room is made from. */
 export interface RoomParts {
@@ -91,17 +85,16 @@ export class Room {
   trajectories: readonly TrajectoryInfo[] = []
   private readonly targets: Targets
   private readonly meshes = new MeshLibrary()
-  private readonly overlays: Overlays
+  readonly overlays: Overlays
   readonly objects: ObjectHandles
   readonly drawings: Drawings
   readonly stats: Stats
   readonly spawning: Spawning
   readonly alignment: Alignment
-  private readonly mouse: Mouse
-  private readonly boardPlace: BoardPlace
+  readonly mouse: Mouse
+  readonly boardPlace: BoardPlace
   private readonly sound: ReturnType<typeof soundFeedback>
   private readonly undo: readonly (() => void)[]
-  private last = 0
 
   /** Throws NoWebGL where the browser has none. */
   constructor(parts: RoomParts) {
@@ -181,10 +174,12 @@ export class Room {
         board: this.board,
         panels: this.panels,
         systems: this.systems,
+        troubles: this.troubles,
         halt: () => this.sound.halt(),
       }),
     ]
-    this.stage.renderer.setAnimationLoop((time, frame) => this.draw(time, frame))
+    const pictures = new Frame(this)
+    this.stage.renderer.setAnimationLoop((time, frame) => pictures.draw(time, frame))
   }
 
   get handles(): RoomRobots['handles'] {
@@ -269,56 +264,5 @@ export class Room {
     this.alignment.align(SEATED)
     this.showSurfaces()
     this.board.panel.repaint()
-  }
-
-  private draw(time: number, frame: XRFrame | undefined): void {
-    const began = performance.now()
-    const now = began / 1000
-    const step = Math.min(now - this.last, 0.1)
-    this.stage.measure(now - this.last)
-    this.last = now
-    let ahead = AHEAD_S
-    const space = this.stage.renderer.xr.getReferenceSpace()
-    if (frame !== undefined && space !== null) {
-      ahead = Math.max((frame.predictedDisplayTime ?? time + AHEAD_S * 1000) - began, 0) / 1000
-      this.track(frame, space, now)
-    } else if (!this.inside.value) {
-      this.stage.controls.update()
-      this.stage.camera.matrixWorld.decompose(this.head, this.look, scale)
-      this.mouse.update(now)
-    }
-    this.robots.update(now, step)
-    this.objects.update(now)
-    if (this.follower.pose(Math.min(ahead, MOST_AHEAD_S))) this.stage.invalidate()
-    if (this.drawings.update()) this.stage.invalidate()
-    this.scene.update()
-    this.overlays.setPicked(this.creation.picked)
-    this.overlays.update(this.settings.still.value ? 0 : now)
-    if (this.boardPlace.update(this, now, step)) this.stage.invalidate()
-    this.board.update(now)
-    this.guide.update(this.visit.inputs)
-    if (this.people.update(now, step)) this.stage.invalidate()
-    this.panels.update(now, step)
-    this.systems.update(now, step)
-    this.stage.lightAbout(this.handles.values())
-    if (this.stage.draw(now)) this.frames++
-    this.frameMs = performance.now() - began
-    this.stats.frame(now, this.frameMs)
-  }
-
-  private track(frame: XRFrame, space: XRReferenceSpace, now: number): void {
-    this.anchor.update(frame, space)
-    const viewer = frame.getViewerPose(space)
-    if (viewer !== undefined) {
-      matrix.fromArray(viewer.transform.matrix).decompose(this.head, this.look, scale)
-      if (this.alignment.due) {
-        this.alignment.align(this)
-        this.boardPlace.face(this.look)
-      }
-    }
-    this.scan.update(frame, space, now)
-    const { inputs } = this.visit
-    inputs?.update(frame, space, now)
-    if (inputs !== null) this.people.tell(this, inputs)
   }
 }

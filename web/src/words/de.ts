@@ -345,8 +345,8 @@ export const de: Words = {
     inside: 'Du bist im Raum. Nimm die Brille ab oder drücke Verlassen, um zurückzukommen.',
     empty: 'Hier steht noch kein Roboter. Wähle einen auf der Tafel neben dir.',
     hindrances: {
-      no_https: (url: string) =>
-        `Eine Brille tritt nur über HTTPS ein. Öffne in ihr ${url} und nimm das Zertifikat des Labors an.`,
+      no_https:
+        'Eine Brille tritt nur über HTTPS ein, und diese Seite kam ohne. Starte das Labor mit `mrlab up --keys` oder `--https-cert` und öffne die https-Adresse, die es ausgibt.',
       no_webxr:
         'Dieser Browser hat kein WebXR. Nimm in einer Quest ihren eigenen Browser, am Telefon Chrome.',
       no_device: 'Keine Brille ist verbunden. Öffne diese Seite im Browser der Brille.',
@@ -355,6 +355,8 @@ export const de: Words = {
     },
     refusedEntry: (why: string) => `Die Brille ist nicht eingetreten: ${why}`,
     permission: 'es war nicht erlaubt. Drücke erneut und erlaube den Zugriff auf den Raum.',
+    noFloor:
+      'sie kennt keinen Boden. Richte den Raum in den Einstellungen der Brille ein, dann drücke erneut.',
     busy: 'eine andere Seite benutzt sie. Schließe diese und drücke erneut.',
     hops: {
       connecting: 'Der Weg zum Gateway: wird verbunden.',

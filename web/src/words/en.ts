@@ -343,8 +343,8 @@ export const en = {
     inside: 'You are in the room. Take the headset off or press Leave to come back here.',
     empty: 'No robot is here yet. Choose one on the panel beside you.',
     hindrances: {
-      no_https: (url: string) =>
-        `A headset enters only over HTTPS. Open ${url} in it and accept the lab's certificate.`,
+      no_https:
+        'A headset enters only over HTTPS, and this page came without. Start the lab with `mrlab up --keys` or `--https-cert`, and open the https address that it prints.',
       no_webxr: 'This browser has no WebXR. In a Quest use its own browser; on a phone, Chrome.',
       no_device: 'No headset is connected. Open this page in the headset’s own browser.',
       blocked:
@@ -352,6 +352,8 @@ export const en = {
     },
     refusedEntry: (why: string) => `The headset did not enter: ${why}`,
     permission: 'it was not allowed. Press Enter again and allow access to the room.',
+    noFloor:
+      'it knows no floor to stand on. Set the room up in the settings of the headset, then press Enter again.',
     busy: 'another page is using it. Close that page, then press Enter again.',
     hops: {
       connecting: 'The way to the gateway: connecting.',

@@ -1,9 +1,10 @@
+import { THEMES } from '../../design/tokens'
 import type { Link } from '../../link/link'
 import { commandsOf } from '../../pages/lab/commands'
 import { LabFollower } from '../../pages/lab/follow'
 import type { CourseOf } from '../../pages/lab/followed_robot'
+import { themeNow } from '../../scene/theme'
 import type { RoomContext } from '../context'
-import { PANEL_THEME } from '../panels/pen'
 
 /** Return what follows the lab for a room; says which motion could not be fetched. */
 export function roomFollower(
@@ -14,7 +15,8 @@ export function roomFollower(
   return new LabFollower(link, {
     commands: (name) => commandsOf(link, name),
     word: (state) => words.states[state],
-    colour: (state) => PANEL_THEME.states[state],
+    // names stand in the picture, whose theme is the page's
+    colour: (state) => THEMES[themeNow().name].states[state],
     stir: () => undefined,
     courseOf: (id) =>
       courseOf(id).catch((error: Error) => {

@@ -1,9 +1,10 @@
-import { effect } from '@preact/signals'
+import { effect, type ReadonlySignal } from '@preact/signals'
 import type { LabFollower } from '../../pages/lab/follow'
 import type { Entry, RoomContext } from '../context'
 import type { Board } from '../panels/board'
 import type { RobotPanels } from '../panels/robot_panels'
 import type { SystemPanels } from '../systems/system_panels'
+import { hopsOf } from '../why/hops'
 
 /** What shows how the lab stands. */
 export interface Listeners {
@@ -12,6 +13,8 @@ export interface Listeners {
   readonly board: Board
   readonly panels: RobotPanels
   readonly systems: SystemPanels
+  /** Meshes that could not be read, a sentence each. */
+  readonly troubles: ReadonlySignal<readonly string[]>
   /** A robot has begun to halt. */
   halt(): void
 }
@@ -23,19 +26,31 @@ export function listen({
   board,
   panels,
   systems,
+  troubles,
   halt,
 }: Listeners): () => void {
   const { words, robots, endEffectors } = context
   const repaint = () => board.panel.repaint()
+  /** s; NaN: the link is not open. */
+  let openedAt = Number.NaN
   const undo = [
     effect(() => {
       if (panels.show(follower.robots.value)) halt()
     }),
     effect(() => {
-      const { phase, reason } = follower.status.value
-      const { hops } = words.room
-      board.standing =
-        phase === 'open' ? '' : phase === 'connecting' ? hops.connecting : hops[phase](reason)
+      const link = follower.status.value
+      const now = performance.now() / 1000
+      if (link.phase !== 'open') openedAt = Number.NaN
+      else if (Number.isNaN(openedAt)) openedAt = now
+      const way = {
+        ability: null,
+        link,
+        openFor: now - openedAt,
+        known: follower.known.value,
+        robots: follower.robots.value.length,
+        troubles: troubles.value,
+      }
+      board.standing = hopsOf(way, words.room)[0]?.words ?? ''
     }),
     effect(() => {
       if (follower.recorder.value !== null) repaint()

@@ -18,7 +18,7 @@ import { comparable, drawShow } from './show_view'
 import { type Mark, Timeline, type Track } from './timeline'
 
 const WIDTH = 640
-const HEIGHT = 500
+const HEIGHT = 516
 const EDGE = 26
 const TRACK: Track = { x: EDGE, y: 208, width: WIDTH - 2 * EDGE, height: HIT }
 /** s between two paintings of how far a robot is from its ghost. */

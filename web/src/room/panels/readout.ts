@@ -1,7 +1,6 @@
 import {
   CanvasTexture,
   type Group,
-  LinearFilter,
   Mesh,
   MeshBasicMaterial,
   PlaneGeometry,
@@ -36,8 +35,7 @@ export class Readout {
     this.canvas.height = height * TEXELS
     this.texture = new CanvasTexture(this.canvas)
     this.texture.colorSpace = SRGBColorSpace
-    this.texture.generateMipmaps = false
-    this.texture.minFilter = LinearFilter
+    this.texture.anisotropy = 4
     const look = { map: this.texture, transparent: true, toneMapped: false }
     this.face = new Mesh(new PlaneGeometry(width * MM, height * MM), new MeshBasicMaterial(look))
     this.face.renderOrder = AFTER_PANELS

@@ -74,9 +74,9 @@ export class TelemetryPanel {
       const speed = index < 0 ? 0 : (this.newest?.velocities[index] ?? 0) * DEG
       const proxy = index < 0 ? 0 : (this.newest?.effort_proxy[index] ?? 0)
       const values = [
-        `${((this.angles[i] ?? 0) * DEG).toFixed(1)}°`,
-        `${speed.toFixed(1)}°/s`,
-        proxy.toFixed(1),
+        `${tenths((this.angles[i] ?? 0) * DEG)}°`,
+        `${tenths(speed)}°/s`,
+        tenths(proxy),
       ]
       values.forEach((value, column) => {
         const x = [300, 430, 614][column] as number
@@ -128,4 +128,9 @@ export class TelemetryPanel {
     context.lineWidth = 3
     context.stroke()
   }
+}
+
+/** Return a value with one decimal, and no sign where that is 0. */
+function tenths(value: number): string {
+  return (Math.round(value * 10) / 10 || 0).toFixed(1)
 }

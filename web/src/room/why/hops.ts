@@ -16,8 +16,6 @@ export interface Way {
   readonly robots: number
   /** Meshes and trajectories that could not be read. */
   readonly troubles: readonly string[]
-  /** Where a headset is to open the page instead. */
-  readonly secureUrl: string
 }
 
 /** One hop that failed, or is not there yet: what it is and what to do. */
@@ -32,11 +30,9 @@ export interface Hop {
 export function hopsOf(way: Way, words: Words['room']): Hop[] {
   const found: Hop[] = []
   const hindrance = way.ability?.hindrance ?? ''
-  if (hindrance === 'no_https') {
-    const text = words.hindrances.no_https(way.secureUrl)
-    found.push({ id: 'headset', severity: 'warning', words: text })
-  } else if (hindrance !== '') {
-    found.push({ id: 'headset', severity: 'info', words: words.hindrances[hindrance] })
+  if (hindrance !== '') {
+    const severity = hindrance === 'no_https' ? 'warning' : 'info'
+    found.push({ id: 'headset', severity, words: words.hindrances[hindrance] })
   }
   const { phase, reason } = way.link
   if (phase !== 'open') {
@@ -64,6 +60,7 @@ export function refusalOf(error: unknown, words: Words['room']): string {
   if (name === 'NotAllowedError' || name === 'SecurityError') {
     return words.refusedEntry(words.permission)
   }
+  if (name === 'NotSupportedError') return words.refusedEntry(words.noFloor)
   if (name === 'InvalidStateError') return words.refusedEntry(words.busy)
   return words.refusedEntry(error instanceof Error ? error.message : String(error))
 }

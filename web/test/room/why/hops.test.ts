@@ -10,7 +10,6 @@ const GOOD: Way = {
   known: true,
   robots: 1,
   troubles: [],
-  secureUrl: 'https://192.168.1.7:8443/room',
 }
 const link = (phase: Way['link']['phase'], reason = '') => ({
   link: { phase, reason, roundTrip: Number.NaN },
@@ -35,9 +34,9 @@ describe.each([en, de])('what stands between lab and eyes', ({ room }) => {
     for (const { words } of hops) expect(words.length).toBeGreaterThan(10)
   })
 
-  it('says where a headset is to go instead, and why a link is lost', () => {
+  it('says how a headset is let in, and why a link is lost', () => {
     const way = { ...GOOD, ability: { mode: null, hindrance: 'no_https' as const } }
-    expect(hopsOf(way, room)[0]?.words).toContain('https://192.168.1.7:8443/room')
+    expect(hopsOf(way, room)[0]?.words).toContain('mrlab up --keys')
     expect(hopsOf({ ...GOOD, ...link('lost', 'cable') }, room)[0]?.words).toContain('cable')
   })
 
@@ -45,6 +44,7 @@ describe.each([en, de])('what stands between lab and eyes', ({ room }) => {
     const denied = new DOMException('', 'NotAllowedError')
     expect(refusalOf(denied, room)).toContain(room.permission)
     expect(refusalOf(new DOMException('', 'InvalidStateError'), room)).toContain(room.busy)
+    expect(refusalOf(new DOMException('', 'NotSupportedError'), room)).toContain(room.noFloor)
     expect(refusalOf(new Error('no luck'), room)).toContain('no luck')
   })
 })
