@@ -78,7 +78,8 @@ def list_robots(
     for heading in ("id", "product", "class", "payload, kg", "reach, mm", "joints"):
         table.add_column(heading, no_wrap=heading == "id")
     for row in rows:
-        payload, reach_mm = f"{row['payload_kg']:g}", f"{row['reach_mm']:.1f}"
+        payload = f"{row['payload_kg']:g}" if row["payload_kg"] else "not stated"
+        reach_mm = f"{row['reach_mm']:.1f}"
         table.add_row(
             *(str(row[key]) for key in ("id", "product", "class")),
             payload,
@@ -139,19 +140,25 @@ def _print_sheet(library: RobotLibrary, robot: str) -> None:
     from rich.console import Console
     from rich.table import Table
 
+    from mrlab_ros.adapters.robots import urdf
     from mrlab_ros.core.robots.reach import reach
 
     model, facts = library.model(robot), library.facts(robot)
     reach_mm = reach(model, facts["reach_definition"]) * 1e3
     print(f"{model.id}: {model.manufacturer} {model.product}, {model.robot_class}")
-    print(f"payload {model.payload:g} kg, reach {reach_mm:.1f} mm")
+    payload = f"{model.payload:g} kg" if model.payload else "not stated (write it into robot.yaml)"
+    print(f"payload {payload}, reach {reach_mm:.1f} mm")
+    every = urdf.joints(urdf.parse(library.description(robot), robot), robot)
+    endless = {joint.name for joint in every if joint.kind == "continuous"}
     table = Table("joint", "from", "to", "speed", "unit")
     moving = [segment for segment in model.chain.segments if segment.axis is not None]
     for joint, segment in zip(model.joints, moving, strict=True):
         limits = (joint.lower, joint.upper, joint.max_velocity)
         sliding = segment.prismatic
-        shown = limits if sliding else map(math.degrees, limits)
-        table.add_row(joint.name, *(f"{v:g}" for v in shown), "m" if sliding else "deg")
+        shown = [f"{v if sliding else math.degrees(v):g}" for v in limits]
+        if joint.name in endless:
+            shown[:2] = ["endless", ""]
+        table.add_row(joint.name, *shown, "m" if sliding else "deg")
     Console().print(table)
 
 
@@ -191,7 +198,8 @@ def check(
         _print(shown)
         worst += len(checks.errors(found))
     if worst:
-        raise BadInput(f"{worst} errors were found; see the remedies above")
+        were = "was" if worst == 1 else "were"
+        raise BadInput(f"{_errors(worst)} {were} found; see the remedies above")
 
 
 SOURCE_HELP = (
@@ -255,7 +263,7 @@ def import_robot(
     _print(imported.findings)
     wrong = checks.errors(imported.findings)
     if wrong:
-        raise BadInput(f"{path.name} was not imported: {len(wrong)} errors")
+        raise BadInput(f"{path.name} was not imported: {_errors(len(wrong))}")
     assert imported.split is not None
     _print_sheet(library, wanted)
     print(f"the arm: {imported.split.why}; its tip is {imported.split.tip} (--tip changes it)")
@@ -336,7 +344,7 @@ def meshes(
     wrong = checks.errors(found)
     if wrong:
         raise BadInput(
-            f"the meshes of {path.name} were not installed: {len(wrong)} errors, listed above"
+            f"the meshes of {path.name} were not installed: {_errors(len(wrong))}, listed above"
         )
     print(f"{robot} has the meshes of {path.name}; undo it with: mrlab robots remove {robot}")
 
@@ -363,7 +371,11 @@ def _folders(pairs: list[str] | None) -> dict[str, Path]:
     return folders
 
 
+def _errors(count: int) -> str:
+    return f"{count} error{'' if count == 1 else 's'}"
+
+
 def _print(found: list[Diagnostic] | tuple[Diagnostic, ...]) -> None:
     for one in found:
-        remedy = f"; {one.remedy}" if one.remedy else ""
+        remedy = f" {one.remedy}" if one.remedy else ""
         print(f"  {WORDS[one.severity]}: {one.message}{remedy}")

@@ -644,7 +644,7 @@ KINDS: dict[str, Kind] = {
     "robot_millimetres": Kind(
         ERROR,
         "A robot's size is no arm's: the file seems to be in millimetres.",
-        "{what} is {size:.0f} m; that is no arm's size.",
+        "{what} is {size:.6g} m; that is no arm's size.",
         'Export in metres, or add scale="0.001 0.001 0.001" to the mesh.',
     ),
     "robot_mimic": Kind(
@@ -697,6 +697,12 @@ KINDS: dict[str, Kind] = {
         "An inertial has no mass or no inertia.",
         "The inertial of '{link}' has no positive mass or no inertia.",
         "Give both, or leave the inertial out.",
+    ),
+    "robot_no_mass": Kind(
+        ERROR,
+        "A mass is negative, or no link's.",
+        "The mass of '{link}' is {mass:g} kg.",
+        "Give the mass of the data sheet, in kg, or leave the inertial out.",
     ),
     "robot_inertia": Kind(
         WARNING,

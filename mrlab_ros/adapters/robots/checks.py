@@ -16,6 +16,8 @@ MOST_JOINTS = 16
 MOST_LINKS = 300
 # No arm is larger than this, m; a larger one was probably exported in millimetres.
 LARGEST_ARM = 20.0
+# No link is heavier than this, kg.
+HEAVIEST_LINK = 1e5
 MESH_FORMATS = (".stl", ".dae", ".obj", ".glb", ".gltf")
 Resolve = Callable[[str], Path]
 
@@ -65,6 +67,7 @@ NUMBERS = (
     ("sphere", "radius", 1),
     ("color", "rgba", 4),
 )
+SIZES = ("size", "radius", "length")
 SHAPES: dict[str, tuple[str, ...]] = {
     "mesh": ("filename",),
     "box": ("size",),
@@ -86,6 +89,11 @@ def _check_numbers(root: ET.Element, origin: str) -> None:
                     read = urdf.numbers(value, count, f"{where}: {tag} {name}")
                     if name == "scale" and not all(read):
                         raise BadInput(f"{where}: the mesh scale is '{value}'; expected no 0")
+                    if name in SIZES and not min(read) > 0:
+                        expected = "sizes" if count > 1 else "a size"
+                        raise BadInput(
+                            f"{where}: {tag} {name} is '{value}'; expected {expected} above 0, m"
+                        )
         for geometry in link.iter("geometry"):
             shape = next(iter(geometry), None)
             if shape is None or shape.tag not in SHAPES:
@@ -181,7 +189,12 @@ def _check_inertias(root: ET.Element) -> list[Diagnostic]:
         where = f"link {link.get('name')}"
         mass = inertial.find("mass")
         tensor = inertial.find("inertia")
-        if mass is None or tensor is None or not float(mass.get("value", "0")) > 0:
+        stated = float(mass.get("value", "0")) if mass is not None else 0.0
+        if not 0 <= stated <= HEAVIEST_LINK:
+            name = link.get("name")
+            found.append(finding("robot_no_mass", where=where, link=name, mass=stated))
+            continue
+        if tensor is None or not stated > 0:
             found.append(finding("robot_mass", where=where, link=link.get("name")))
             continue
         value = {key: float(number) for key, number in tensor.items()}
@@ -249,7 +262,11 @@ def _mesh_size(path: Path) -> float:
     """Return the longest side of a mesh in its file's unit; raise ValueError where it is empty."""
     import trimesh
 
-    bounds = trimesh.load_scene(path).bounds
+    # Unprocessed: trimesh would leave such a vertex out, and Bullet ends the process on it.
+    scene = trimesh.load_scene(path, process=False)
+    bounds = scene.bounds
     if bounds is None:
         raise ValueError("it holds no triangles")
+    if not all(np.isfinite(mesh.vertices).all() for mesh in scene.geometry.values()):
+        raise ValueError("a vertex is not finite")
     return float(np.ptp(bounds, axis=0).max())

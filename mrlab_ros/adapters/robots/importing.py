@@ -99,6 +99,9 @@ def import_robot(
     text = description_text(source, packages, arguments)
     find = MeshFinder(source.parent, packages)
     root = urdf.parse(text, source.name)
+    if not root.get("name"):
+        # Bullet loads no robot without one.
+        root.set("name", robot_id)
     tree = checks.check_tree(root, source.name)
     if checks.errors(tree):
         return Imported(tree)

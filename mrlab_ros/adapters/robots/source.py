@@ -87,8 +87,10 @@ def description_text(
             )
         try:
             return path.read_text(encoding="utf-8")
-        except (OSError, UnicodeDecodeError) as error:
+        except OSError as error:
             raise BadInput(f"{path} cannot be read: {error}; expected a URDF") from None
+        except UnicodeDecodeError:
+            raise BadInput(f"{path} is not UTF-8 text; save it as UTF-8") from None
     given = dict(_argument(text) for text in arguments)
     import xacro
 

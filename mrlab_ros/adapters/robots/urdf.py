@@ -20,6 +20,8 @@ from mrlab_ros.core.robots.model import Joint
 MOVING = ("revolute", "continuous", "prismatic")
 # Of joints and links, characters: Bullet ends the process on one of a few thousand.
 LONGEST_NAME = 200
+# Of a line that is shown in an error, characters.
+LONGEST_LINE = 80
 XACRO = "{http://www.ros.org/wiki/xacro}"
 
 
@@ -34,10 +36,12 @@ def parse(text: str, origin: str) -> ET.Element:
             f"{origin} declares a document type, which a URDF does not need; remove the lines "
             "<!DOCTYPE ...> and <!ENTITY ...>"
         )
+    if not text.strip():
+        raise BadInput(f"{origin} is empty; expected a URDF")
     try:
         root = ET.fromstring(text)
     except ET.ParseError as error:
-        raise BadInput(f"{origin} is not XML: {error}; expected a URDF") from None
+        raise BadInput(f"{origin} is not XML: {_place(error, text)}; expected a URDF") from None
     if root.tag != "robot":
         raise BadInput(f"{origin} begins with <{root.tag}>; expected a URDF, which has <robot>")
     xacro = next((e.tag for e in root.iter() if str(e.tag).startswith(XACRO)), None)
@@ -48,6 +52,15 @@ def parse(text: str, origin: str) -> ET.Element:
             f"by: xacro {name} -o robot.urdf"
         )
     return root
+
+
+def _place(error: ET.ParseError, text: str) -> str:
+    """Return what is wrong with a text that is no XML, and the line where that was noticed."""
+    what = str(error).partition(": line")[0]
+    row, lines = error.position[0], text.splitlines()
+    line = lines[row - 1].strip() if 0 < row <= len(lines) else ""
+    shown = line if len(line) <= LONGEST_LINE else f"{line[:LONGEST_LINE]} ..."
+    return f"{what} in line {row}, '{shown}'" if shown else f"{what} at its end, line {row}"
 
 
 def _attribute(element: ET.Element, tag: str, name: str, origin: str) -> str:
@@ -144,6 +157,8 @@ def joints(root: ET.Element, origin: str) -> tuple[UrdfJoint, ...]:
 def _joint(element: ET.Element, origin: str) -> UrdfJoint:
     name, kind = element.get("name", ""), element.get("type", "")
     parent, child = (_attribute(element, end, "link", origin) for end in ("parent", "child"))
+    if not name:
+        raise BadInput(f"{origin}: the <joint> from '{parent}' to '{child}' has no name; add one")
     for given in (name, parent, child):
         if len(given) > LONGEST_NAME:
             raise BadInput(

@@ -5,6 +5,7 @@ from __future__ import annotations
 import xml.etree.ElementTree as ET
 from pathlib import Path
 
+import numpy as np
 import pytest
 import trimesh
 
@@ -82,6 +83,8 @@ def test_missing_mesh_is_named(arm: Path, library: RobotLibrary) -> None:
         ('xyz="0.5 0 0"', 'xyz="500 0 0"', "robot_millimetres"),
         ('izz="0.01"', 'izz="1"', "robot_inertia"),
         ('mass value="1"', 'mass value="0"', "robot_mass"),
+        ('mass value="1"', 'mass value="-1"', "robot_no_mass"),
+        ('mass value="1"', 'mass value="1e300"', "robot_no_mass"),
         ("box.stl", "none.stl", "robot_no_mesh"),
         ('child link="lower"', 'child link="hand"', "robot_no_link"),
         ('type="revolute"', 'type="fixed"', "robot_joints"),
@@ -105,6 +108,12 @@ def test_what_is_wrong_is_found(arm: Path, old: str, new: str, code: str) -> Non
         ('box.stl"', 'box.stl" scale=""', "mesh scale is ''; expected 3 finite numbers"),
         ('<mesh filename="package://arm/box.stl"/>', "<capsule/>", "holds <capsule>; expected o"),
         ('<mesh filename="package://arm/box.stl"/>', "", "holds nothing; expected one of <mesh>"),
+        (
+            '<mesh filename="package://arm/box.stl"/>',
+            '<box size="0.1 -0.1 0.1"/>',
+            "box size is '0.1 -0.1 0.1'; expected sizes above 0",
+        ),
+        ('joint name="one"', "joint", "the <joint> from 'base' to 'upper' has no name"),
         ('<mesh filename="package://arm/box.stl"/>', "<mesh/>", "a <mesh> has no filename"),
         ('<link name="upper"/>', "<link/>", "a <link> has no name"),
         ("<link", "<!DOCTYPE robot><link", "declares a document type"),
@@ -137,6 +146,33 @@ def test_a_mesh_that_cannot_be_read_is_refused(
     assert [one.code for one in found] == ["robot_mesh_unreadable"]
     assert f"package://arm/{name} cannot be read: " in found[0].message
     assert "mine" not in library.ids()
+
+
+def test_a_mesh_with_a_vertex_that_is_nowhere_is_refused(arm: Path) -> None:
+    box = trimesh.creation.box((0.1, 0.2, 0.3))
+    content = bytearray(trimesh.exchange.stl.export_stl(box))
+    content[96:100] = np.float32(np.nan).tobytes()
+    (arm.parent / "package" / "box.stl").write_bytes(content)
+    assert "robot_mesh_unreadable" in codes(ARM, arm)
+
+
+def test_a_robot_without_a_name_gets_its_id(arm: Path, library: RobotLibrary) -> None:
+    arm.write_text(ARM.replace(' name="two_axis"', ""))
+    import_robot(arm, "mine", library, {"arm": arm.parent / "package"})
+    assert '<robot name="mine">' in library.description("mine")
+
+
+@pytest.mark.parametrize(
+    ("text", "says"),
+    [
+        ("", "arm.urdf is empty"),
+        (ARM.replace("</inertial>", ""), "mismatched tag in line 4, '<inertia ixx"),
+        (ARM.replace("</robot>", ""), r"no element found at its end, line 11"),
+    ],
+)
+def test_where_a_text_is_no_xml_is_shown(arm: Path, text: str, says: str) -> None:
+    with pytest.raises(BadInput, match=says):
+        codes(text, arm)
 
 
 def test_a_sound_urdf_has_no_findings(arm: Path) -> None:
