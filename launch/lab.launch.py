@@ -20,6 +20,7 @@ from launch.substitutions import LaunchConfiguration
 from launch_ros.actions import Node
 
 from mrlab_ros.adapters.bullet.support import missing
+from mrlab_ros.commands.up.keys import with_free_port
 from mrlab_ros.commands.up.web import checked_web, prepare_keys
 from mrlab_ros.core.errors import BadInput
 from mrlab_ros.processes import physics_support
@@ -124,7 +125,7 @@ def processes(context):
         physics=physics,
         frames=given("frames"),
         bridge=given("bridge"),
-        listen=value("listen"),
+        listen=with_free_port(value("listen")),
         connect=value("connect"),
         keys=keys,
         insecure=given("insecure"),

@@ -383,6 +383,11 @@ class Setup:
             "export AMENT_PREFIX_PATH='{0}'\"${{AMENT_PREFIX_PATH:+:$AMENT_PREFIX_PATH}}\" ;; "
             "esac".format(":".join(map(str, self.prefixes())))
         )
+        # The tools of ROS talk to the lab as its own commands do; that file says why.
+        profiles = "FASTRTPS_DEFAULT_PROFILES_FILE"
+        lines.append(
+            'export {0}="${{{0}:-{1}}}"'.format(profiles, ROOT / "config" / "fastdds.xml")
+        )
         lines.append("export PATH='{}':\"$PATH\"".format(VENV / "bin"))
         script = VENV / "mrlab.sh"
         script.write_text("\n".join(lines) + "\n")

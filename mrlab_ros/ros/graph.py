@@ -23,9 +23,9 @@ from rclpy.signals import SignalHandlerOptions
 from mrlab_ros.core.errors import Misuse
 from mrlab_ros.core.naming import did_you_mean
 from mrlab_ros.messages import qos
+from mrlab_ros.ros import fast_dds
 from mrlab_ros.ros.calls import NoAnswer, call
 from mrlab_ros.ros.domain import domain_id
-from mrlab_ros.ros.shared_memory import remove_abandoned
 
 T = TypeVar("T")
 C = TypeVar("C", bound="GraphClient")
@@ -186,7 +186,7 @@ class Graph(GraphClient):
 
     def __init__(self) -> None:
         self.domain = domain_id()
-        remove_abandoned()
+        fast_dds.prepare()
         self._context = Context()
         rclpy.init(args=[], context=self._context, signal_handler_options=SignalHandlerOptions.NO)
         self.node: Node = rclpy.create_node(

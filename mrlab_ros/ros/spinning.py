@@ -24,7 +24,7 @@ from rclpy.node import Node
 from rclpy.task import Future
 
 from mrlab_ros.core.errors import BadInput
-from mrlab_ros.ros.shared_memory import remove_abandoned
+from mrlab_ros.ros import fast_dds
 
 # The longest the executor waits at a time, s; what arrives is handed on at once all the same.
 WAIT_S = 0.2
@@ -57,7 +57,7 @@ def spin(executor: Executor, context: Context, stop: threading.Event | None = No
 
 def start_up() -> None:
     """Initialise the default context; raise BadInput where rcl refuses the command line."""
-    remove_abandoned()
+    fast_dds.prepare()
     try:
         rclpy.init()
     except (rclpy_implementation.RCLError, rclpy_implementation.UnknownROSArgsError) as error:

@@ -199,7 +199,7 @@ def up(
             physics=with_physics,
             frames=frames,
             bridge=bridge,
-            listen=zenoh_listen,
+            listen=(zenoh_listen and listen) or "",
             connect=zenoh_connect,
             keys=keys,
             insecure=insecure,

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import socket
 import threading
 from collections.abc import Callable
 from pathlib import Path
@@ -23,11 +24,31 @@ def checked_listen(chosen: str, keys: Path | None, insecure: bool) -> str:
 
     if insecure and keys is not None:
         raise BadInput("--keys and --insecure exclude each other; leave one of them out")
-    listen = chosen or (LISTEN if keys is None else EVERYWHERE[0])
+    listen = with_free_port(chosen) or (LISTEN if keys is None else EVERYWHERE[0])
     check_endpoints((listen,), insecure, keys is not None)
     if keys is not None:
         Keys(keys).check(now())
     return listen
+
+
+def with_free_port(endpoint: str) -> str:
+    """Return a zenoh endpoint with a free port in place of 0, so that others can be told of it.
+
+    Raises BadInput where nobody can listen at its address.
+    """
+    host, _, port = endpoint.partition("/")[2].rpartition(":")
+    if port != "0":
+        return endpoint
+    host = host.strip("[]")
+    with socket.socket(socket.AF_INET6 if ":" in host else socket.AF_INET) as probe:
+        try:
+            probe.bind((host, 0))
+        except OSError as error:
+            raise BadInput(
+                f"the bridge cannot listen on {endpoint}: {error.strerror or error}; expected an "
+                "address of this machine, such as tcp/127.0.0.1:0"
+            ) from error
+        return f"{endpoint.removesuffix(':0')}:{probe.getsockname()[1]}"
 
 
 def checked_router(router: str, listen: str, keys: Path | None, insecure: bool) -> str:

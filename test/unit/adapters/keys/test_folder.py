@@ -310,6 +310,11 @@ def test_up_listens_everywhere_only_with_keys_or_when_told(tmp_path):
     assert checked_listen("", None, False) == "tcp/127.0.0.1:7447"
     assert checked_listen("", folder, False) == "tls/0.0.0.0:7447"
     assert checked_listen("tcp/0.0.0.0:1", None, True) == "tcp/0.0.0.0:1"
+    kept, _, port = checked_listen("tcp/127.0.0.1:0", None, False).rpartition(":")
+    assert kept == "tcp/127.0.0.1"
+    assert int(port) > 0, "who is told of the address can connect to it"
+    with pytest.raises(BadInput, match="cannot listen on tcp/256.0.0.1:0"):
+        checked_listen("tcp/256.0.0.1:0", None, True)
     with pytest.raises(BadInput, match="--insecure"):
         checked_listen("tcp/0.0.0.0:1", None, False)
     with pytest.raises(BadInput, match="listen on tls/127.0.0.1:1, or leave the keys out"):
