@@ -57,14 +57,16 @@ export class RoomRobots {
   /** Take over the robots that there are. */
   set(robots: readonly ShownRobot[]): void {
     this.scene.setRobots(robots)
-    for (const { name, urdf } of robots) {
+    for (const { name, urdf, pose } of robots) {
       const base = this.scene.base(name)
       if (urdf === '' || base === undefined) continue
       const before = this.handles.get(name)
+      before?.show(pose)
       if (before?.base === base) continue
       if (before !== undefined) this.drop(name, before)
       const { touched, stick } = this.touch
       const handle = new RobotHandle(name, base, this.scene, this.context, touched, stick)
+      handle.show(pose)
       this.handles.set(name, handle)
       this.targets.add(handle)
     }

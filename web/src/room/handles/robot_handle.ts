@@ -1,5 +1,6 @@
 import { Matrix4, Mesh, MeshBasicMaterial, type Object3D, Ray, RingGeometry, Vector3 } from 'three'
 import { placeRobotType } from '../../protocol/mrlab_msgs'
+import type { Pose } from '../../scene/lab_objects'
 import type { LabScene } from '../../scene/lab_scene'
 import { order, type RoomContext } from '../context'
 import { upright } from '../frames'
@@ -55,6 +56,12 @@ export class RobotHandle implements Target {
   private toldAt = 0
   private releasedAt = Number.NEGATIVE_INFINITY
   private now = 0
+  /** Where the lab says it stands; null: not known yet. */
+  private standing: Pose | null = null
+  /** Places that the lab was told of and has not answered. */
+  private unanswered = 0
+  /** Whether it is shown where its holder has it, and not where the lab says. */
+  private ahead = false
 
   /** touched: it was touched while robots are chosen. stick: of a pointer's controller. */
   constructor(
@@ -131,17 +138,28 @@ export class RobotHandle implements Target {
     this.ring.visible = this.hovering > 0 || this.holders.length > 0
   }
 
+  /** Take over where the lab says it stands. */
+  show(pose: Pose): void {
+    this.standing = pose
+  }
+
   /** Before each picture: carry it. now, step: s. */
   update(now: number, step: number): void {
     this.now = now
     const [first, second] = this.holders
     if (first !== undefined) this.carry(first, second, step)
-    if (this.carried || now - this.releasedAt < SETTLE) {
+    const ahead = this.carried || this.unanswered > 0 || now - this.releasedAt < SETTLE
+    if (ahead) {
       this.scene.placeRobot(
         this.name,
         upright(this.place.x, this.place.y, this.place.z, this.heading),
       )
+    } else if (this.ahead && this.standing !== null) {
+      // somebody else may have put it elsewhere meanwhile, or the lab refused the place
+      this.scene.placeRobot(this.name, this.standing)
+      this.context.stir()
     }
+    this.ahead = ahead
     if (this.carried && now - this.toldAt > PERIOD) this.tell()
   }
 
@@ -258,9 +276,11 @@ export class RobotHandle implements Target {
   private tell(): void {
     this.toldAt = this.now
     const pose = upright(this.place.x, this.place.y, this.place.z, this.heading)
+    this.unanswered++
     order(this.context, 'lab/place_robot', placeRobotType, { robot: this.name, pose }).then(
       (answer) => {
-        if (answer === null) this.releasedAt = Number.NEGATIVE_INFINITY
+        this.unanswered--
+        this.releasedAt = answer === null ? Number.NEGATIVE_INFINITY : this.now
       },
     )
   }
