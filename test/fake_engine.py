@@ -164,6 +164,9 @@ class FakeEngine:
             return BodyState(Pose(place), hand.linear)  # type: ignore[arg-type]
         return self.motions[name]
 
+    def objects(self) -> dict[str, BodyState]:
+        return {name: self.object(name) for name in self.motions}
+
     def set_object(self, name: str, motion: BodyState) -> None:
         self.motions[name] = motion
 

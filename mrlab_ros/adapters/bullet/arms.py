@@ -77,7 +77,7 @@ class LoadedArm:
     index: dict[str, int]
     links: dict[int, str]
     moving: list[int]
-    positions: list[float]
+    positions: Sequence[float]
     couplings: tuple[Coupling, ...]
     ignored: set[tuple[int, int]]
     made_of: tuple[str, tuple[str, ...], LinkPairs]
@@ -93,6 +93,8 @@ class Arms:
         self._client = client
         self._resolve = resolve
         self._arms: dict[str, LoadedArm] = {}
+        # Those of them that have fingers.
+        self._fingered: list[LoadedArm] = []
         # Arms that were removed, oldest first: Bullet keeps the shapes of a removed body.
         self._parked: list[LoadedArm] = []
 
@@ -122,6 +124,7 @@ class Arms:
         if parked is not None:
             self._parked.remove(parked)
             self._arms[name] = parked
+            self._list_fingered()
             parked.positions = [0.0] * len(joints)
             self.place(name, pose)
             return parked
@@ -159,7 +162,11 @@ class Arms:
             arm.facts = description.facts(closes)
             arm.ways = _ways(arm, description, joint_index, closes)
         self._arms[name] = arm
+        self._list_fingered()
         return arm
+
+    def _list_fingered(self) -> None:
+        self._fingered = [arm for arm in self._arms.values() if arm.fingers]
 
     def _closes(self, arm: LoadedArm, description: Description) -> list[float]:
         """Return of each finger whether its upper (1) or its lower limit (-1) is closed: where it
@@ -261,7 +268,7 @@ class Arms:
         for a, b in sorted(always or ()):
             self._ignore(arm, a, b)
 
-    def _pose(self, arm: LoadedArm, positions: list[float]) -> None:
+    def _pose(self, arm: LoadedArm, positions: Sequence[float]) -> None:
         for joint, position in zip(arm.joints, positions, strict=True):
             self._call(pybullet.resetJointState, arm.body, joint, position)
 
@@ -280,6 +287,7 @@ class Arms:
         """
         arm = self[name]
         del self._arms[name]
+        self._list_fingered()
         self._let_collide(arm, collide=False)
         place = (0.0, 0.0, PARKED_AT * (1 + len(self._parked)))
         self._call(pybullet.resetBasePositionAndOrientation, arm.body, place, (0.0, 0.0, 0.0, 1.0))
@@ -312,7 +320,7 @@ class Arms:
             raise BadInput(
                 f"the joint state of {name} is not finite: {list(positions)}, {list(velocities)}"
             )
-        arm.positions = list(positions)
+        arm.positions = positions
         pybullet.resetJointStatesMultiDof(
             arm.body,
             arm.joints,
@@ -418,9 +426,8 @@ class Arms:
 
     def stepped(self) -> None:
         """Keep coupled fingers equally far closed; call it after every step."""
-        for arm in self._arms.values():
-            if arm.fingers:
-                self._couple(arm)
+        for arm in self._fingered:
+            self._couple(arm)
 
     def _couple(self, arm: LoadedArm) -> None:
         """Keep fingers in their ranges; place each leader at the mean of what its followers'

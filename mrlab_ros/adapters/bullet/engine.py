@@ -340,6 +340,12 @@ class BulletEngine:
         # Bullet has moved the body on, to the end of the step.
         return held.motion if held is not None else self._objects.motion(name)
 
+    def objects(self) -> dict[str, BodyState]:
+        found = self._objects.motions()
+        for name, held in self._held.items():
+            found[name] = held.motion
+        return found
+
     def set_object(self, name: str, motion: BodyState) -> None:
         self._objects.set_motion(name, motion)
         if name in self._held:
@@ -437,7 +443,8 @@ class BulletEngine:
                 raise BadInput(f"a step of {duration} s; expected 1e-5 to 0.1 s")
             self._duration = duration
             pybullet.setTimeStep(duration, self._client)
-        self._carry(duration)
+        if self._held:
+            self._carry(duration)
         pybullet.stepSimulation(self._client)
         self._arms.stepped()
         self._objects.stepped()

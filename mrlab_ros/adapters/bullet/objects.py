@@ -128,6 +128,24 @@ class Objects:
         self._read[body] = BodyState(Pose(position, turn), *velocity)
         return self._read[body]
 
+    def motions(self) -> dict[str, BodyState]:
+        """Return motion() of every object that has a mass, by name."""
+        found, read, client = {}, self._read, self._client
+        at = pybullet.getBasePositionAndOrientation
+        for name, body in self._bodies.items():
+            if body in self._masses:
+                position, turn = at(body, client)
+                known = read.get(body)
+                if (
+                    known is None
+                    or known.pose.position != position
+                    or known.pose.orientation != turn
+                ):
+                    velocity = pybullet.getBaseVelocity(body, client)
+                    known = read[body] = BodyState(Pose(position, turn), *velocity)
+                found[name] = known
+        return found
+
     def set_motion(self, name: str, motion: BodyState) -> None:
         """Put an object somewhere at once, moving; what it touched there is woken."""
         body, pose = self.body(name), motion.pose

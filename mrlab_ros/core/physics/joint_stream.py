@@ -154,6 +154,8 @@ class JointStream:
                 f"a joint state has {len(q)} positions and {len(v)} velocities; expected "
                 f"{self._joints} of each"
             )
+        if sum(map(abs, q + v)) <= LIMIT:
+            return q, v
         # A NaN among others is neither the least nor the greatest of them, but it stays in a sum.
         if not (min(q + v) >= -LIMIT and max(q + v) <= LIMIT and isfinite(sum(q + v))):
             raise BadInput(

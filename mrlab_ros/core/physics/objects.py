@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import itertools
 import math
+from collections.abc import Mapping
 
 from mrlab_ros.core.errors import Misuse
 from mrlab_ros.core.geometry import WORLD_SIZE, Pose, Vector, add, checked_vector, scale
@@ -38,7 +39,9 @@ class Inventory:
         self._catalogue = catalogue
         self._grippers = grippers
         # Free objects that are fast, or may be before the next look.
-        self._fast: tuple[str, ...] = ()
+        self.fast: tuple[str, ...] = ()
+        # Whether a person holds something.
+        self.in_hand = False
 
     def spawn(self, type_id: str, name: str, pose: Pose | None, *, automatic: bool) -> SceneObject:
         """Add an object at `pose`, or with `automatic` on the nearest surface below it."""
@@ -103,15 +106,18 @@ class Inventory:
         checked_vector(angular, "the angular velocity", MAX_SPIN)
         self._grippers.take_away(thing)
         motion = BodyState(pose, linear, angular)
-        self._fast = (*self._fast, name)
+        self.fast = (*self.fast, name)
         self._engine.set_object(name, BodyState(pose) if held or not thing.type.mass else motion)
         thing.held_by = HAND if held else ""
         thing.hand = BodyState(pose) if held else None
+        self.in_hand |= held
 
     def keep_in_hand(self) -> None:
         """Reset the pose of what a person holds."""
+        self.in_hand = False
         for thing in self._objects.values():
             if thing.hand is not None:
+                self.in_hand = True
                 self._engine.set_object(thing.name, thing.hand)
 
     def remove(self, name: str) -> None:
@@ -119,7 +125,7 @@ class Inventory:
         self._grippers.take_away(thing)
         self._engine.remove_object(name)
         del self._objects[name]
-        self._fast = tuple(other for other in self._fast if other != name)
+        self.fast = tuple(other for other in self.fast if other != name)
 
     def clear(self) -> int:
         """Remove all objects; return how many there were."""
@@ -130,16 +136,17 @@ class Inventory:
 
     def motions(self) -> dict[str, BodyState]:
         """Return the state of every movable object by name."""
-        movable = (name for name, thing in self._objects.items() if thing.type.mass)
-        return {name: self._engine.object(name) for name in movable}
+        return self._engine.objects()
 
-    def look_for_fast(self) -> None:
-        """Look which objects may be fast until the next call."""
+    def look_for_fast(self, motions: Mapping[str, BodyState]) -> None:
+        """Look which objects may be fast until the next call. motions: of all movable objects."""
         least = FAST_WAY * self._world_state.settings.step_rate - GAINED
-        self._fast = tuple(
-            name
-            for name, motion in self.motions().items()
-            if math.hypot(*motion.linear) > least and not self._objects[name].held_by
+        self.fast = tuple(
+            [
+                name
+                for name, motion in motions.items()
+                if math.hypot(*motion.linear) > least and not self._objects[name].held_by
+            ]
         )
 
     def divisions(self, duration: float) -> int:
@@ -149,7 +156,7 @@ class Inventory:
         of its size.
         """
         most = 1
-        for name in self._fast:
+        for name in self.fast:
             thing = self._objects[name]
             motion = self._engine.object(name)
             way = math.hypot(*motion.linear) * duration
@@ -170,15 +177,17 @@ class Inventory:
         high = (x, y, z)
         return not self._world_state.robots.keys().isdisjoint(self._engine.overlapping(low, high))
 
-    def keep_in_room(self) -> None:
-        """Remove what left the room."""
-        for name, motion in self.motions().items():
+    def keep_in_room(self, motions: Mapping[str, BodyState]) -> bool:
+        """Remove what left the room; return whether anything did."""
+        count = len(self._objects)
+        for name, motion in motions.items():
             x, y, z = motion.pose.position
             if abs(x) < WORLD_SIZE and abs(y) < WORLD_SIZE and -WORLD_DEPTH < z < WORLD_SIZE:
                 continue
             thing = self._objects[name]
             self.remove(name)
             self._announce(thing, "it left the room")
+        return len(self._objects) < count
 
     def _announce(self, thing: SceneObject, why: str) -> None:
         stage = self._world_state

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 
 from mrlab_ros.core.clock import SECOND
 from mrlab_ros.core.geometry import Pose, pose_between
@@ -43,10 +43,10 @@ class Rewind:
         if playing.state is State.PLAYING and (sought or before.state is not State.PLAYING):
             robot.snapshots.cut(playing.clock.position)
 
-    def record(self, now_ns: int, motions: Callable[[], Mapping[str, BodyState]]) -> None:
+    def record(self, now_ns: int, motions: Mapping[str, BodyState]) -> None:
         """Record a snapshot of the objects for every robot whose run is due for one.
 
-        motions: reads those of all movable objects. The robots share the snapshot.
+        motions: of all movable objects. The robots share the snapshot.
         """
         kept: dict[str, ObjectSnapshot] = {}
         for robot in self._world_state.robots.values():
@@ -56,7 +56,7 @@ class Rewind:
                 continue
             position = playing.position(robot.stream.shown_ns(now_ns))
             if robot.snapshots.wants(position):
-                kept = kept or self._kept(motions())
+                kept = kept or self._kept(motions)
                 robot.snapshots.add(Snapshot(position, kept, robot.closed))
 
     def _kept(self, motions: Mapping[str, BodyState]) -> dict[str, ObjectSnapshot]:

@@ -283,9 +283,12 @@ class World:
             self.skipped_ns += behind_ns
             self._shift(behind_ns)
         made = 0
-        while made != most and (stamp_ns := self.next_ns) <= target_ns:
-            self._count = self._next_count
-            self._world_state.now_ns = stamp_ns
+        while made != most:
+            count = self._next_count
+            stamp_ns = self._stamp(count)
+            if stamp_ns > target_ns:
+                break
+            self._count, self._world_state.now_ns = count, stamp_ns
             self._step(stamp_ns)
             made += 1
         self.steps += made
@@ -311,9 +314,12 @@ class World:
                 self._apply_due(robot, now_ns)
         moved = self._move_arms(now_ns)
         whole = 1.0 / self._settings.step_rate
-        divisions = max(self._divisions(moved), self._inventory.divisions(whole))
+        divisions = self._divisions(moved) if moved else 1
+        if self._inventory.fast:
+            divisions = max(divisions, self._inventory.divisions(whole))
         duration = whole / divisions
-        self._inventory.keep_in_hand()
+        if self._inventory.in_hand:
+            self._inventory.keep_in_hand()
         present = [robot for robot in self._robots.values() if robot.placed is not None]
         for k in range(1, divisions + 1):
             if divisions > 1:
@@ -324,14 +330,16 @@ class World:
             for robot in present:
                 self._collisions.observe(robot, now_ns, duration)
         for robot in present:
-            self._grippers.follow(robot, now_ns, duration * divisions)
+            if robot.closed or robot.held or robot.program.times:
+                self._grippers.follow(robot, now_ns, duration * divisions)
             if robot.pending is not None:
                 self._rewind.restore(robot, now_ns)
         if self._count % SLOW_STEPS == 0:
-            self._inventory.look_for_fast()
-            if self._count % ROOM_STEPS == 0:
-                self._inventory.keep_in_room()
-            self._rewind.record(now_ns, self._inventory.motions)
+            motions = self._inventory.motions()
+            self._inventory.look_for_fast(motions)
+            if self._count % ROOM_STEPS == 0 and self._inventory.keep_in_room(motions):
+                motions = self._inventory.motions()
+            self._rewind.record(now_ns, motions)
             for robot in present:
                 self._rewind.retrace(robot, now_ns)
                 self._collisions.check_clearance(robot, now_ns)
