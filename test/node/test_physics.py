@@ -304,7 +304,7 @@ def test_a_robot_that_goes_while_it_holds_something_leaves_it_and_may_come_back(
     robot = spawn(graph, "vacuum_cup")
     objects = graph.listen(msg.SceneObjects, "/objects", qos.LATCHED)
     grasp = grasped(graph, robot)
-    cube = place(graph, "cube", tool(0, 0.2))
+    cube = place(graph, "cube", tool(0, 0.2), held=True)
     joints = graph.listen(JointState, f"/{robot}/joint_states", qos.STREAM)
     wait_for(lambda: joints, "a joint state")
     wait_for(
@@ -313,7 +313,19 @@ def test_a_robot_that_goes_while_it_holds_something_leaves_it_and_may_come_back(
     )
     wait_for(lambda: grasp.last() and grasp.last().object == cube, "its news")
     wait_for(lambda: [o.held_by for o in objects.last().objects] == [robot], "the holder")
-    assert graph.call(srv.Remove, "/lab/remove_robot", name=robot).success
+    answer = graph.call(srv.SetEndEffector, "/lab/set_end_effector", robot=robot)
+    assert answer.success, answer.message
+    said = f"{cube} was let go: {robot} was given another end effector"
+    wait_for(lambda: grasp.last().reason == said, "what was let go")
+    assert (grasp.last().state, grasp.last().object) == (msg.Grasp.OPEN, "")
     wait_for(lambda: [o.held_by for o in objects.last().objects] == [""], "the fall")
+    other = place(graph, "cube", tool(0, 0.1), held=True)
+    wait_for(
+        lambda: graph.call(srv.Attach, "/physics/attach", robot=robot, object=other).success,
+        "the attachment to the flange",
+    )
+    wait_for(lambda: [o.held_by for o in objects.last().objects] == ["", robot], "the holder")
+    assert graph.call(srv.Remove, "/lab/remove_robot", name=robot).success
+    wait_for(lambda: [o.held_by for o in objects.last().objects] == ["", ""], "the second fall")
     assert spawn(graph) == robot
     wait_for(lambda: robot in lab.physics._world.robots, "the robot")
