@@ -113,7 +113,9 @@ class Holding:
         said = remark(held.load, robot.name)
         lifted = held.lifted or not self._stands(robot)
         news = lifted != held.lifted or said[:8] != robot.reason[:8]
-        if (news or not held.load.about(robot.told)) and robot.may_remark(now_ns):
+        # News come at once; a load that changes steadily leaves room for them.
+        changed = robot.quiet(now_ns) and not held.load.about(robot.told)
+        if (news or changed) and robot.may_remark(now_ns):
             robot.told, robot.reason, held.lifted = held.load, said, lifted
             self._world_state.events.append(LoadChanged(self._state(robot)))
 

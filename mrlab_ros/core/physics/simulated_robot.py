@@ -258,6 +258,10 @@ class Robot:
         before = self._grasp.state
         return self._grasp.fire(event) is not before
 
+    def quiet(self, now_ns: int) -> bool:
+        """Return whether no load or reason was announced for a while, the state apart."""
+        return not self.remarked_ns or now_ns - self.remarked_ns[-1] >= SECOND // REMARKS
+
     def may_remark(self, now_ns: int) -> bool:
         """Return whether a load or a reason may be announced while the state stays, and count it:
         REMARKS a second at most."""
