@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import csv
+import hashlib
 import json
 from collections.abc import Mapping
 from dataclasses import dataclass
@@ -79,6 +80,7 @@ def _motion(request: Request, stage: Stage, scene: SceneDocument, folder: Path) 
     ]
     inputs = {
         **stage.inputs(robots, scene),
+        "file": hashlib.sha256(request.file.read_bytes()).hexdigest(),
         "options": {k: v for k, v in vars(request.options).items() if v},
         "points": points,
         "within": request.within,

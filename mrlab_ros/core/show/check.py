@@ -150,10 +150,10 @@ def check_body(
             f"<span>{escape(words)}</span></p>",
             "</header>",
             f'<main class="{"with" if shown else "without"}-findings">',
-            *(_hardware(robot, several=len(report.robots) > 1) for robot in report.robots),
             '<section id="view" aria-label="3D view"></section>',
             f'<figure class="poster">{pictures}</figure>',
             _findings(shown, several=len(report.robots) > 1),
+            *(_hardware(robot, several=len(report.robots) > 1) for robot in report.robots),
             _plots(shown, recorded, robots),
             "</main>",
             f'<footer class="foot">{escape(CLAIM)} · <span title="{digest}">report '
