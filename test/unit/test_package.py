@@ -117,3 +117,8 @@ def bare_nodes() -> Iterator[tuple[str, str]]:
 def test_a_node_without_parameters_is_hidden(file: str, name: str) -> None:
     """`ros2 param list` waits 5 s for each visible node that has none."""
     assert name.startswith("_"), f"{name} in {file}"
+
+
+def test_type_checkers_find_the_types_of_the_python_api() -> None:
+    assert (ROOT / "mrlab_ros" / "py.typed").is_file()
+    assert 'package_data={package_name: ["py.typed"]}' in (ROOT / "setup.py").read_text()
