@@ -81,20 +81,22 @@ export function labTab(context: RoomContext, follower: LabFollower, stats: Stats
     id: string,
     draw: (entry: string, y: number, index: number) => void,
   ): number {
+    // the button of the latency stands below the bags
+    const rows = id === 'bags' && entries.length > ROWS ? ROWS - 1 : ROWS
     const first = Math.min(from, Math.max(entries.length - 1, 0))
-    entries.slice(first, first + ROWS).forEach((entry, i) => {
+    entries.slice(first, first + rows).forEach((entry, i) => {
       draw(entry, TOP + 26 + (i + 1) * (HIT + GAP), first + i)
     })
     if (entries.length <= ROWS) return first
-    const y = TOP + 26 + (ROWS + 1) * (HIT + GAP)
+    const y = TOP + 26 + (rows + 1) * (HIT + GAP)
     const turn = (by: number) => () => {
       const next = Math.max(first + by, 0)
       if (id === 'scenes') firstScene = next
       else firstBag = next
     }
-    pen.button(`${id} back`, x, y, 80, '‹', turn(-ROWS), { enabled: first > 0 })
-    const more = { enabled: first + ROWS < entries.length }
-    pen.button(`${id} on`, x + 80 + GAP, y, 80, '›', turn(ROWS), more)
+    pen.button(`${id} back`, x, y, 80, '‹', turn(-rows), { enabled: first > 0 })
+    const more = { enabled: first + rows < entries.length }
+    pen.button(`${id} on`, x + 80 + GAP, y, 80, '›', turn(rows), more)
     return first
   }
 
