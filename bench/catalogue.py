@@ -48,7 +48,7 @@ from mrlab_ros.core.trajectory.channels import derive
 from mrlab_ros.core.trajectory.trajectory import Source, Trajectory
 from mrlab_ros.messages import qos
 from mrlab_ros.ros import share
-from mrlab_ros.ros.graph import Graph
+from mrlab_ros.ros.graph_node import Graph
 
 GOALS_MS = {"10,000 x 6": 100.0, "360,000 x 6": 200.0, "1,000,000 x 7": 500.0}
 ENTRIES = 10_000

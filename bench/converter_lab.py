@@ -38,7 +38,7 @@ from mrlab_ros.commands.demo.lab import claim_free_domain
 from mrlab_ros.core.conversion.options import Options
 from mrlab_ros.messages import qos
 from mrlab_ros.ros import share
-from mrlab_ros.ros.graph import Graph
+from mrlab_ros.ros.graph_node import Graph
 
 CLASS = 150
 SERVICES = {"/lab/list_scenes": srv.ListScenes, "/converter/list": srv.ListTrajectories}

@@ -241,7 +241,7 @@ def order(what: str, bag: Path) -> None:
     from mrlab_msgs import srv
     from std_srvs.srv import Trigger
 
-    from mrlab_ros.ros.graph import Graph
+    from mrlab_ros.ros.graph_node import Graph
 
     with Graph() as graph:
         if what == "start":

@@ -16,7 +16,7 @@ from rclpy.serialization import deserialize_message, serialize_message
 from mrlab_ros.adapters.zenoh_link import NoQueryable, Refusal, ZenohLink
 from mrlab_ros.core.bridge.keys import key_of
 from mrlab_ros.ros.calls import NoAnswer
-from mrlab_ros.ros.graph import CALL_TIMEOUT_S, FIND_TIMEOUT_S, Graph, GraphClient
+from mrlab_ros.ros.graph import CALL_TIMEOUT_S, FIND_TIMEOUT_S, GraphClient
 
 BRIDGE = "/@mrlab/bridge"
 # How old what the bridge said of the graph may be, s.
@@ -36,7 +36,7 @@ class LinkGraph(GraphClient):
         self.domain = domain
         self._link = link
         self._prefix = prefix
-        self._graph: Graph | None = None
+        self._graph: GraphClient | None = None
         self._statistics: dict[str, Any] = {}
         self._asked = 0.0
         self._ask()
@@ -139,7 +139,9 @@ class LinkGraph(GraphClient):
     def _carries(self, key: str) -> bool:
         return key in self._statistics["keys"]
 
-    def _whole_graph(self) -> Graph:
+    def _whole_graph(self) -> GraphClient:
         if self._graph is None:
+            from mrlab_ros.ros.graph_node import Graph
+
             self._graph = Graph()
         return self._graph

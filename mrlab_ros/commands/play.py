@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from mrlab_ros.commands.convert.options import FIELDS, with_options, words_of
+from mrlab_ros.commands.output import say
 from mrlab_ros.core.conversion.options import Options
 from mrlab_ros.core.errors import Misuse
 
@@ -70,7 +71,7 @@ def play(
         if not wait:
             # The state that names a motion just loaded may still be on its way.
             name = motion if trajectory else run.follower.state.trajectory_id
-            console.print(f"{robot} plays {name}")
+            say(f"{robot} plays {name}", as_json=as_json, robot=robot, trajectory=name)
             return
         try:
             follow(console, run, as_json=as_json)

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 from mrlab_ros.processes.lab import NodeEntry
 
 if TYPE_CHECKING:
-    from mrlab_ros.ros.graph import Graph
+    from mrlab_ros.ros.graph_node import Graph
 
 
 # A lab that is incomplete after this time is in trouble, s.
@@ -31,7 +31,7 @@ def wait_until_complete(
     That is nothing where the lab is complete or `stop` is set, and what is missing after
     READY_TIMEOUT_S.
     """
-    from mrlab_ros.ros.graph import Graph
+    from mrlab_ros.ros.graph_node import Graph
 
     with Graph() as graph:
         missing = missing_parts(graph, nodes, robots)

@@ -2,13 +2,19 @@
 
 from __future__ import annotations
 
+import socket
 import sys
 from collections.abc import Callable
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
+from urllib.parse import urlsplit
 
 from mrlab_ros.core.bridge.links import from_here
 from mrlab_ros.processes.options import LabOptions
 from mrlab_ros.processes.supervisor import ProcessSpec
+
+if TYPE_CHECKING:
+    import ssl
 
 GATEWAY_MODULE = "mrlab_ros.gateway"
 ZENOH = "tcp/127.0.0.1:7447"
@@ -99,25 +105,38 @@ def web_address(options: LabOptions) -> str:
 
 
 def gateway_answers(address: str) -> Callable[[], bool]:
-    """Return a function that asks a gateway of this machine for its health."""
-    # Here: a command that shows the lab without pages need not wait for these.
-    import ssl
-    import urllib.error
-    import urllib.request
+    """Return a function that asks a gateway of this machine for its health.
 
-    # Without the machine's authorities, which take time to read.
-    context = ssl.SSLContext(ssl.PROTOCOL_TLS_CLIENT)
-    # Its own authority, and it is only asked whether it is there.
-    context.check_hostname = False
-    context.verify_mode = ssl.CERT_NONE
+    By a socket of its own: http.client and what it imports take a tenth of `mrlab status`.
+    """
+    where = urlsplit(address)
+    secure = where.scheme == "https"
+    context = _unverified() if secure else None
+    host = where.hostname or "127.0.0.1"
+    port = where.port or (443 if secure else 80)
+    request = f"GET /healthz HTTP/1.0\r\nHost: {where.netloc}\r\n\r\n".encode()
 
     def answers() -> bool:
         try:
-            with urllib.request.urlopen(
-                f"{address}/healthz", timeout=HEALTH_TIMEOUT_S, context=context
-            ) as response:
-                return bool(response.status == 200)
-        except (urllib.error.URLError, OSError):
+            with socket.create_connection((host, port), HEALTH_TIMEOUT_S) as connection:
+                if context:
+                    connection = context.wrap_socket(connection, server_hostname=host)
+                with connection:
+                    connection.sendall(request)
+                    with connection.makefile("rb") as reader:
+                        return reader.readline(64).split()[1:2] == [b"200"]
+        except OSError:
             return False
 
     return answers
+
+
+def _unverified() -> ssl.SSLContext:
+    """Return a context for a gateway's own authority: it is only asked whether it is there."""
+    import ssl  # a command of a lab without HTTPS need not wait for it
+
+    # Without the machine's authorities, which take time to read.
+    context = ssl.SSLContext(ssl.PROTOCOL_TLS_CLIENT)
+    context.check_hostname = False
+    context.verify_mode = ssl.CERT_NONE
+    return context

@@ -5,11 +5,12 @@ from __future__ import annotations
 import threading
 import time
 from collections.abc import Sequence
-from typing import Any
-
-from rclpy.client import Client
+from typing import TYPE_CHECKING, Any
 
 from mrlab_ros.core.errors import Unreached
+
+if TYPE_CHECKING:
+    from rclpy.client import Client
 
 # How often a call that waits checks whether its service is there, s.
 PRESENCE_PERIOD_S = 0.05

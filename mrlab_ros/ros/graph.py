@@ -1,7 +1,4 @@
-"""A client of the graph for commands: call services, watch topics, each with a time-out.
-
-A node of rclpy spins in a thread of its own, so that a command reads from top to bottom.
-"""
+"""A client of the graph for commands: call services, watch topics, each with a time-out."""
 
 from __future__ import annotations
 
@@ -12,29 +9,19 @@ from collections.abc import Callable, Collection
 from types import TracebackType
 from typing import Any, Generic, TypeVar
 
-import rclpy
 from mrlab_msgs import msg, srv
-from rclpy.context import Context
-from rclpy.executors import ExternalShutdownException, SingleThreadedExecutor
-from rclpy.node import Node
 from rclpy.qos import QoSProfile
-from rclpy.signals import SignalHandlerOptions
 
 from mrlab_ros.core.errors import Misuse
 from mrlab_ros.core.naming import did_you_mean
 from mrlab_ros.messages import qos
-from mrlab_ros.ros import fast_dds
-from mrlab_ros.ros.calls import NoAnswer, call
-from mrlab_ros.ros.domain import domain_id
+from mrlab_ros.ros.calls import NoAnswer
 
 T = TypeVar("T")
 C = TypeVar("C", bound="GraphClient")
 # How long a command waits for the lab to be found, s: discovery takes up to 3 s.
 FIND_TIMEOUT_S = 6.0
 CALL_TIMEOUT_S = 15.0
-OFFER_PERIOD_S = 0.05
-# How long closing waits for a callback that runs, s.
-CLOSE_TIMEOUT_S = 5.0
 # The messages that a latched topic keeps for late joiners arrive oldest first, with pauses shorter
 # than this, s.
 LATCHED_BURST_S = 0.5
@@ -179,81 +166,3 @@ class GraphClient(ABC):
         if "lab" in self.node_names():
             return "that part of the lab is missing: mrlab status shows what runs"
         return "start a lab with: mrlab up (or set ROS_DOMAIN_ID to the domain of a running one)"
-
-
-class Graph(GraphClient):
-    """A node of its own in the graph, which discovery takes a second or more to connect."""
-
-    def __init__(self) -> None:
-        self.domain = domain_id()
-        fast_dds.prepare()
-        self._context = Context()
-        rclpy.init(args=[], context=self._context, signal_handler_options=SignalHandlerOptions.NO)
-        self.node: Node = rclpy.create_node(
-            "_mrlab_command",
-            context=self._context,
-            start_parameter_services=False,
-            enable_rosout=False,
-        )
-        self._executor = SingleThreadedExecutor(context=self._context)
-        self._executor.add_node(self.node)
-        self._clients: dict[str, Any] = {}
-        self._closing = threading.Event()
-        # The executor's own wake() builds its wait set anew and goes on; this ends spin_once().
-        self._end = self.node.create_guard_condition(lambda: None)
-        self._thread = threading.Thread(target=self._spin, name="graph", daemon=True)
-        self._thread.start()
-
-    def _spin(self) -> None:
-        try:
-            while not self._closing.is_set():
-                self._executor.spin_once()
-        except ExternalShutdownException:
-            return
-
-    def close(self) -> None:
-        # First the thread ends: the executor takes its conditions away from one that still spins,
-        # and one that waits within rcl when the interpreter ends aborts the process.
-        self._closing.set()
-        self._end.trigger()
-        self._thread.join(CLOSE_TIMEOUT_S)
-        self._executor.shutdown(timeout_sec=1.0)
-        self.node.destroy_node()
-        self._context.try_shutdown()
-
-    def subscribe(
-        self, kind: Any, topic: str, callback: Callable[[Any], None], quality: QoSProfile
-    ) -> None:
-        self.node.create_subscription(kind, topic, callback, quality)
-
-    def call(
-        self,
-        kind: Any,
-        service: str,
-        request: Any,
-        timeout: float = CALL_TIMEOUT_S,
-        find_timeout: float = FIND_TIMEOUT_S,
-    ) -> Any:
-        client = self._clients.get(service)
-        if client is None:
-            client = self._clients[service] = self.node.create_client(
-                kind, service, qos_profile=qos.SERVICES
-            )
-        if not client.wait_for_service(timeout_sec=find_timeout):
-            raise NoAnswer(f"nobody offers {service} on ROS domain {self.domain}; {self.advice()}")
-        return call(client, request, timeout)
-
-    def node_names(self) -> Collection[str]:
-        names: list[str] = self.node.get_node_names()
-        return names
-
-    def is_published(self, topic: str) -> bool:
-        return bool(self.node.count_publishers(topic))
-
-    def is_offered(self, service: str) -> bool:
-        deadline = time.monotonic() + FIND_TIMEOUT_S
-        while not self.node.count_services(service):
-            if time.monotonic() > deadline:
-                return False
-            time.sleep(OFFER_PERIOD_S)
-        return True

@@ -10,7 +10,7 @@ from std_srvs.srv import Trigger
 
 from mrlab_ros.messages import qos
 from mrlab_ros.ros.calls import NoAnswer, call, call_each
-from mrlab_ros.ros.graph import Graph
+from mrlab_ros.ros.graph_node import Graph
 
 
 def answer(request, response):
@@ -70,7 +70,9 @@ def test_a_service_that_comes_late_is_asked_when_it_comes(graph):
 
 def test_a_closed_client_leaves_no_thread_behind(graph, monkeypatch):
     # One that waits within rcl while the interpreter ends aborts the process.
-    monkeypatch.setattr("mrlab_ros.ros.graph.domain_id", lambda: graph.context.get_domain_id())
+    monkeypatch.setattr(
+        "mrlab_ros.ros.graph_node.domain_id", lambda: graph.context.get_domain_id()
+    )
     with Graph() as client:
         (thread,) = (thread for thread in threading.enumerate() if thread.name == "graph")
         assert client.node_names()

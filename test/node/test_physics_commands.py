@@ -14,7 +14,7 @@ from mrlab_ros import cli
 from mrlab_ros.core.errors import LabError
 from mrlab_ros.nodes.lab.node import LabNode
 from mrlab_ros.nodes.physics.node import PhysicsNode
-from mrlab_ros.ros import graph as ros_graph
+from mrlab_ros.ros import graph_node
 
 
 def mrlab(*arguments: str) -> str:
@@ -29,7 +29,7 @@ def objects() -> dict[str, dict]:
     return {thing["name"]: thing for thing in json.loads(mrlab("objects", "list", "--json"))}
 
 
-class ObjectSnapshot(ros_graph.Graph):
+class ObjectSnapshot(graph_node.Graph):
     """One client for all commands: each of its own would be found by the graph anew."""
 
     def close(self) -> None:
@@ -39,7 +39,7 @@ class ObjectSnapshot(ros_graph.Graph):
 @pytest.fixture
 def commands(graph: Graph, monkeypatch: pytest.MonkeyPatch) -> Iterator[None]:
     kept = ObjectSnapshot()
-    monkeypatch.setattr(ros_graph, "Graph", lambda: kept)
+    monkeypatch.setattr(graph_node, "Graph", lambda: kept)
     yield
     super(ObjectSnapshot, kept).close()
 
@@ -49,7 +49,7 @@ def test_objects_and_scenes_are_listed_changed_and_refused_in_words(
 ):
     graph.add(LabNode, state_dir=str(tmp_path))
     with monkeypatch.context() as patched:
-        patched.setattr(ros_graph, "FIND_TIMEOUT_S", 0.5)
+        patched.setattr(graph_node, "FIND_TIMEOUT_S", 0.5)
         with pytest.raises(LabError, match="runs without physics; start it with"):
             mrlab("objects", "list")
     graph.add(PhysicsNode, state_dir=str(tmp_path))

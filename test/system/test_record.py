@@ -20,7 +20,7 @@ from sensor_msgs.msg import JointState
 from mrlab_ros.adapters.bags.reader import Bag
 from mrlab_ros.commands.demo.lab import free_port
 from mrlab_ros.messages import qos
-from mrlab_ros.ros.graph import Graph
+from mrlab_ros.ros.graph_node import Graph
 
 MOTION = Path(__file__).parents[2] / "examples" / "quintic_ur5e.mat"
 JOINTS = "/ur5e_1/joint_states"

@@ -14,7 +14,7 @@ from trajectory_msgs.msg import JointTrajectory  # type: ignore[import-untyped]
 from mrlab_ros.core.conversion.workspace import JOINT_TRAJECTORY
 from mrlab_ros.core.errors import BadInput, Misuse
 from mrlab_ros.ros.calls import NoAnswer
-from mrlab_ros.ros.graph import Graph
+from mrlab_ros.ros.graph_node import Graph
 
 LOOK_EVERY = 0.05  # s
 

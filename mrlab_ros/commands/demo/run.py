@@ -24,7 +24,8 @@ if TYPE_CHECKING:
 
     from mrlab_ros.client.follow import Follower
     from mrlab_ros.commands.demo.lab import Stage
-    from mrlab_ros.ros.graph import Graph, Watch
+    from mrlab_ros.ros.graph import Watch
+    from mrlab_ros.ros.graph_node import Graph
 
 SYSTEM = "demo"
 START_TIMEOUT_S = 30.0
@@ -70,7 +71,7 @@ class Run:
 
     def run(self) -> list[RobotSummary]:
         """Convert, spawn, load, stage, play; raise LabError where a step fails."""
-        from mrlab_ros.ros.graph import Graph
+        from mrlab_ros.ros.graph_node import Graph
 
         with ExitStack() as stack:
             graph = stack.enter_context(Graph())

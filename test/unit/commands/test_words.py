@@ -195,3 +195,20 @@ def test_help_needs_neither_ros_nor_numpy() -> None:
         [sys.executable, "-c", program], capture_output=True, text=True, check=True
     )
     assert done.stdout.strip() == "[]"
+
+
+def test_a_command_that_reaches_the_bridge_loads_neither_nodes_nor_the_message_generator() -> None:
+    program = (
+        "import sys\n"
+        "from mrlab_ros.client import connect, lab, link\n"
+        "connect.skip_generator()\n"
+        "from mrlab_msgs.msg import Robots\n"
+        "from rclpy.serialization import deserialize_message, serialize_message\n"
+        "deserialize_message(serialize_message(Robots()), Robots)\n"
+        "names = ('rclpy.executors', 'rclpy.node', 'lark', 'em', 'scipy')\n"
+        "print([name for name in names if name in sys.modules])"
+    )
+    done = subprocess.run(
+        [sys.executable, "-c", program], capture_output=True, text=True, check=True
+    )
+    assert done.stdout.strip() == "[]"
