@@ -24,6 +24,7 @@ what it may be and what it is where nobody sets it.
 Set the parameters of nodes in a ROS parameter file, `mrlab up --config FILE`
 (`config/lab.yaml` shows all of them), or one by one:
 
+<!-- not run: needs the `ros2` command of a ROS machine -->
 ```
 ros2 run mrlab_ros host playback --ros-args -p telemetry_rate:=20
 ros2 param describe /playback_host telemetry_rate      # unit, range, whether it can change

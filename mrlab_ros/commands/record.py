@@ -118,7 +118,7 @@ def _end(bag: Path | None, *, as_json: bool) -> None:
 
 
 def _follow(watch: Watch[Any], show: Any, say: Callable[[str], None], bag: str) -> None:
-    """Show the progress until the recording ends; raise LabError where it ended by itself.
+    """Show the progress until another client ends the recording; raise LabError where it failed.
 
     A recorder that was killed and restarted goes on in the same bag: it is waited for. say: takes
     a sentence where that happens.
@@ -128,6 +128,7 @@ def _follow(watch: Watch[Any], show: Any, say: Callable[[str], None], bag: str) 
     while True:
         state = watch.value
         if state is not last:
+            gap = time.monotonic() - received_at
             before, last, received_at = last, state, time.monotonic()
             # What is latched from before this recording says nothing of it.
             if state.state == RecorderState.RECORDING.value and state.bag == bag:
@@ -137,11 +138,14 @@ def _follow(watch: Watch[Any], show: Any, say: Callable[[str], None], bag: str) 
                 elif waiting:
                     say(f"the recorder is back; the recording goes on in {bag}")
                 began, waiting, said = True, False, state.message
+            elif began and not state.message and gap < SILENCE / 2:
+                say(f"another client ended the recording; mrlab bag info {bag} says what it holds")
+                return
             elif began:
                 raise LabError(
                     state.message
-                    or f"the recording into {bag} has ended: another client stopped it, or the "
-                    "recorder was restarted; mrlab bag info shows what it holds"
+                    or f"the recording into {bag} has ended: the recorder was restarted; "
+                    f"mrlab bag info {bag} shows what it holds"
                 )
         silent = time.monotonic() - received_at
         if silent > SILENCE and not began and state is not None and state.message:

@@ -4,8 +4,6 @@ from __future__ import annotations
 
 import json
 import shlex
-import signal
-import subprocess
 import time
 from collections.abc import Iterator
 from pathlib import Path
@@ -14,10 +12,8 @@ from typing import Any
 import numpy as np
 import pytest
 import scipy.io
-from child_process import start_child
 from graph import wait_for
-from launched_lab import DEADLINE, MRLAB, launched_lab
-from page_blocks import Block, blocks, pattern, plain
+from launched_lab import DEADLINE, launched_lab
 from typer.testing import CliRunner
 
 from mrlab_ros import Lab, Options
@@ -240,38 +236,3 @@ def test_status_says_who_drives_and_folds(lab: None, monkeypatch: pytest.MonkeyP
     assert max(map(len, output.splitlines())) <= 50
     facts = json.loads(ok("status", "--json"))
     assert all(facts["nodes"].values())
-
-
-@pytest.mark.parametrize("block", blocks(), ids=lambda block: f"{block.page}-{block.commands[0]}")
-def test_a_block_of_a_page_prints_what_the_page_says(
-    lab: None, block: Block, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    monkeypatch.chdir(tmp_path)
-    monkeypatch.setenv("COLUMNS", "200")
-    with Lab() as lab_:
-        for robot in lab_.robots():
-            robot.remove()
-        lab_.spawn("ur5e")
-    scipy.io.savemat("my_motion.mat", {"q": motion(), "fs": RATE})
-    output = ""
-    for words in block.commands:
-        if words[0] == "record":
-            output += recorded(words)
-        else:
-            output += ok(*words)
-    assert pattern(block.printed).fullmatch(plain(output)), plain(output)
-
-
-def recorded(words: tuple[str, ...]) -> str:
-    """Record while a motion plays, until Ctrl-C, as the page says."""
-    recorder = start_child(*MRLAB, *words, stdout=subprocess.PIPE, text=True)
-    try:
-        assert recorder.stdout is not None
-        said = recorder.stdout.readline()
-        ok("play", "ur5e_1", "my_motion.mat")
-        recorder.send_signal(signal.SIGINT)
-        said += recorder.communicate(timeout=DEADLINE)[0]
-        assert recorder.returncode == 0, said
-        return said
-    finally:
-        recorder.kill()

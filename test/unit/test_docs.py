@@ -1,4 +1,4 @@
-"""The generated parts of the documentation are what the code says today."""
+"""Generated parts of the pages are what the code says today; each block says if it is run."""
 
 from __future__ import annotations
 
@@ -6,7 +6,8 @@ import subprocess
 import sys
 from pathlib import Path
 
-ROOT = Path(__file__).resolve().parents[2]
+import pytest
+from page_blocks import DATA, GENERATED, MARK, PAGES, ROOT, blocks
 
 
 def test_generated_blocks_are_up_to_date():
@@ -18,3 +19,21 @@ def test_generated_blocks_are_up_to_date():
         check=False,
     )
     assert done.returncode == 0, done.stdout + done.stderr
+
+
+@pytest.mark.parametrize("page", PAGES, ids=lambda page: page.name)
+def test_every_block_of_commands_says_whether_it_is_run(page: Path) -> None:
+    wrong = []
+    for block in blocks(page):
+        if page.name in GENERATED or (block.language in DATA and block.printed is None):
+            continue
+        mark = MARK.fullmatch(block.mark)
+        if mark is None:
+            wrong.append(f"line {block.line}: no mark, but {block.mark!r}")
+        elif block.run and block.printed is None:
+            wrong.append(f"line {block.line}: no block says what it prints")
+        elif block.run and not block.language and {w[0] for w in block.commands} != {"mrlab"}:
+            wrong.append(f"line {block.line}: not only mrlab: {block.commands}")
+        elif mark["by"] and not (ROOT / mark["by"]).is_file():
+            wrong.append(f"line {block.line}: no {mark['by']}")
+    assert wrong == []

@@ -7,7 +7,7 @@ import signal
 import tempfile
 import threading
 import time
-from collections.abc import Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
@@ -245,16 +245,29 @@ def up(
                 if sim_time:
                     say(SELF, "--sim-time: nothing moves until somebody publishes /clock")
                 answers = gateway_answers(where["here"]) if where else None
-                missing = wait_until_complete(stop, lab_nodes(options), len(models), answers)
-                refusals.raise_any()
-                if missing:
-                    say(SELF, f"not complete after {READY_TIMEOUT_S:g} s: {missing} missing")
-                elif not stop.is_set():
+
+                def wait() -> str:
+                    return wait_until_complete(stop, lab_nodes(options), len(models), answers)
+
+                def say_ready() -> None:
                     took = time.monotonic() - begin
                     zenoh = f"; zenoh clients connect to {listen}" if bridge else ""
                     say(SELF, f"the lab is ready after {took:.1f} s{zenoh}")
+
+                missing = wait()
+                refusals.raise_any()
+                if missing:
+                    say(
+                        SELF,
+                        f"not complete after {READY_TIMEOUT_S:g} s: {missing} missing; waits on",
+                    )
+                elif not stop.is_set():
+                    say_ready()
                 if pages is not None and not stop.is_set():
                     say_where(where, say)
+                if missing:
+                    late = threading.Thread(target=follow_late, args=(stop, wait, say_ready))
+                    late.start()
                 if keys is None or not bridge or zenoh_connect:
                     stop.wait()
                 else:
@@ -269,6 +282,16 @@ def up(
 def checked_store(place: str) -> str:
     """Return the store's URL or its folder's whole path; raise BadInput for one of no use."""
     return open_store(place).place if place else ""
+
+
+def follow_late(
+    stop: threading.Event, wait: Callable[[], str], say_ready: Callable[[], None]
+) -> None:
+    """Wait on until a lab is complete that was not in time, and say so; ends with `stop`."""
+    while wait():
+        pass
+    if not stop.is_set():
+        say_ready()
 
 
 class Refusals:

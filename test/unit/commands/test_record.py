@@ -81,3 +81,10 @@ def test_a_recorder_that_returns_without_the_recording_ends_the_command(monkeypa
     states = recording(until=4.0) | {8.0: state(RecorderState.STOPPED)}
     with pytest.raises(LabError, match="the recorder was restarted; mrlab bag info"):
         follow(Recorder(monkeypatch, states))
+
+
+def test_a_recording_that_another_client_ends_has_ended_well(monkeypatch):
+    states = recording(until=4.0) | {4.0: state(RecorderState.STOPPED)}
+    assert follow(Recorder(monkeypatch, states)) == [
+        f"another client ended the recording; mrlab bag info {BAG} says what it holds"
+    ]

@@ -2,19 +2,32 @@
 
 from __future__ import annotations
 
-import ast
 import inspect
 import re
 import shlex
 import subprocess
 import sys
-from collections.abc import Iterator
-from functools import cache
 from pathlib import Path
 from typing import Any
 
 import pytest
 import typer.main
+from named_commands import (
+    ELSEWHERE,
+    NAMED,
+    OPTION,
+    PAGES,
+    PROSE,
+    ROOT,
+    SOURCES,
+    fenced,
+    group,
+    named,
+    options_of,
+    resolved,
+    run_options,
+    texts,
+)
 from typer.core import TyperGroup
 
 from mrlab_ros.cli import COMMANDS, make_app
@@ -22,59 +35,12 @@ from mrlab_ros.commands.convert.options import declared, with_options, words_of
 from mrlab_ros.core.conversion.options import Options
 from mrlab_ros.core.diagnostics import KINDS
 
-ROOT = Path(__file__).parents[3]
-SOURCES = [
-    *sorted((ROOT / "mrlab_ros").rglob("*.py")),
-    *sorted((ROOT / "web" / "src" / "words").glob("*.ts")),
-]
-PAGES = [ROOT / "README.md", *sorted((ROOT / "docs").glob("*.md"))]
-# A command up to where its sentence, its code or its table cell ends.
-NAMED = re.compile(r"\bmrlab ((?:--?)?[a-z](?:(?!, (?:or|and|then) |mrlab )[^`\n;:|()])*)")
-OPTION = re.compile(r"(?<![\w-])--[a-z][a-z-]+")
-# Words after "mrlab" in prose, as in "mrlab sets it".
-PROSE = {"and", "does", "is", "made", "process", "processes", "wrote"}
 # Commands beside groups that print what the lab, or the converter, answered.
 WITH_JSON = [
     name
     for name, place in COMMANDS.items()
     if place.startswith("robot:") or name in ("convert", "play", "record", "status", "demo")
 ]
-
-
-@cache
-def group() -> TyperGroup:
-    found = typer.main.get_command(make_app())
-    assert isinstance(found, TyperGroup)
-    return found
-
-
-def resolved(words: list[str]) -> tuple[Any, list[str]]:
-    """Return the command that words name, and the words after it."""
-    command: Any = group()
-    while isinstance(command, TyperGroup) and words and words[0] in command.commands:
-        command, words = command.commands[words[0]], words[1:]
-    return command, words
-
-
-def options_of(command: Any) -> set[str]:
-    names = {name for p in command.params for name in (*p.opts, *p.secondary_opts)}
-    return names | {"--help", "--debug"}
-
-
-def texts(path: Path) -> Iterator[str]:
-    """Yield the texts of a source file, with X for what is filled in."""
-    if path.suffix == ".ts":
-        yield from re.findall(r'"((?:[^"\\]|\\.)*)"', path.read_text())
-        return
-    inside = set()
-    for node in ast.walk(ast.parse(path.read_text())):
-        if isinstance(node, ast.JoinedStr):
-            inside |= {id(value) for value in node.values}
-            yield "".join(
-                value.value if isinstance(value, ast.Constant) else "X" for value in node.values
-            )
-        elif isinstance(getattr(node, "value", None), str) and id(node) not in inside:
-            yield node.value
 
 
 def wrong_in(text: str) -> list[str]:
@@ -109,14 +75,6 @@ def test_messages_name_commands_and_options_that_exist(path: Path) -> None:
 def test_pages_name_commands_and_options_that_exist(path: Path) -> None:
     code = re.findall(r"`([^`\n]+)`", path.read_text())
     assert [wrong for text in code for wrong in wrong_in(text)] == []
-
-
-def fenced() -> Iterator[tuple[str, str]]:
-    for page in PAGES:
-        for block in re.findall(r"^```[a-z]*\n(.*?)^```", page.read_text(), re.M | re.S):
-            for line in block.replace("\\\n", " ").splitlines():
-                if line.startswith("mrlab "):
-                    yield page.name, line.split("  #")[0].split(" &&")[0].strip()
 
 
 @pytest.mark.parametrize(("page", "line"), fenced())
@@ -212,3 +170,28 @@ def test_a_command_that_reaches_the_bridge_loads_neither_nodes_nor_the_message_g
         [sys.executable, "-c", program], capture_output=True, text=True, check=True
     )
     assert done.stdout.strip() == "[]"
+
+
+def test_every_command_and_option_that_is_named_is_run() -> None:
+    ran = run_options()
+    missing = []
+    for where, name, options in named():
+        command, _ = resolved(name.split())
+        if isinstance(command, TyperGroup) and not options:
+            continue  # a group alone prints its help
+        if name not in ran and name not in ELSEWHERE:
+            missing.append(f"{where}: mrlab {name}")
+        missing += [
+            f"{where}: mrlab {name} {option}"
+            for option in options
+            if option not in ran.get(name, ()) and f"{name} {option}" not in ELSEWHERE
+        ]
+    assert sorted(set(missing)) == []
+
+
+@pytest.mark.parametrize(("what", "why"), ELSEWHERE.items())
+def test_what_is_run_elsewhere_is(what: str, why: str) -> None:
+    for file in re.findall(r"test/\S+\.py", why):
+        text = (ROOT / file).read_text()
+        if file == why:
+            assert f'"{what.split()[-1]}"' in text
