@@ -198,6 +198,11 @@ replay foreign_bag --robot ur5e
 }
 # What the lists above leave out: the test that runs it, or why none does.
 ELSEWHERE = {
+    "check": "with all its options in test/unit/commands/test_check.py",
+    "check --json": "with all its options in test/unit/commands/test_check.py",
+    "check --out": "with all its options in test/unit/commands/test_check.py",
+    "check --robot": "with all its options in test/unit/commands/test_check.py",
+    "check --scene": "with all its options in test/unit/commands/test_check.py",
     "robots check": "seconds for each robot; test/unit/adapters/robots/test_robots.py",
     "robots import": "seconds for the hulls; test/unit/adapters/robots/test_importing.py",
     "robots import --speed": "as robots import",
