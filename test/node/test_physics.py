@@ -255,7 +255,7 @@ def test_a_restarted_physics_has_its_objects_and_robots_back(graph, lab, tmp_pat
     holds, idle = spawn(graph, "vacuum_cup"), spawn(graph, pose=pose((3, 0, 0)))
     lying, held, lost = (place(graph, "cube", (1.0, y, 0.025)) for y in (1.0, 2.0, 3.0))
     move(graph, held, tool(0, 0.3), held=True)
-    move(graph, lost, (3, 0, 1), held=True)
+    move(graph, lost, np.add(tool(0, 0.1), (3, 0, 0)), held=True)
     for robot, cube in ((holds, held), (idle, lost)):
         wait_for(
             lambda robot=robot, cube=cube: (
