@@ -75,6 +75,23 @@ SLACK = """() => new Promise(resolve => {
 })"""
 
 
+# Where a robot's base stands, in the scene, and how far from the eyes, m.
+BASE = "room.scene.base('ur5e_1').getWorldPosition(room.head.clone()).toArray()"
+APART = "room.head.distanceTo(room.scene.base('ur5e_1').getWorldPosition(room.head.clone()))"
+HEADING = "Math.abs(room.handles.get('ur5e_1').heading - window.heading)"
+# The headset no longer sees the controllers, until `seen` is true again.
+LOSE = """() => {
+  const found = XRFrame.prototype.getPose
+  const inputs = () => [...room.visit.session.inputSources]
+  window.seen = false
+  XRFrame.prototype.getPose = function (space, base) {
+    const own = inputs().some(({ gripSpace, targetRaySpace }) =>
+      space === gripSpace || space === targetRaySpace)
+    return own && !window.seen ? undefined : found.call(this, space, base)
+  }
+}"""
+
+
 class Headset:
     """The page as the one in the headset uses it."""
 
@@ -249,3 +266,49 @@ def test_a_person_works_with_a_robot_on_a_table(headset: Headset, lab: ServedLab
 
     page.evaluate("room.visit.leave()")
     headset.wait_for("!room.inside.value")
+
+
+def test_a_robot_stays_where_it_was_when_a_hand_is_lost_and_the_floor_moves(
+    headset: Headset, lab: ServedLab
+) -> None:
+    page = headset.page
+    page.get_by_role("button", name="Enter the room").dispatch_event("click")
+    headset.wait_for("room.inside.value && room.frames > 3 && room.handles.size > 0")
+    lab.done("load", "ur5e_1", str(MOTION))
+
+    # drawn on demand: the path of the tool and how far it reaches
+    page.evaluate(f"{ROBOT}.panel.act('show')")
+    page.evaluate(f"{ROBOT}.panel.act('path'), {ROBOT}.panel.act('reach')")
+    headset.wait_for("room.drawings.fastest('ur5e_1') > 0")
+    page.evaluate(f"{ROBOT}.panel.act('path'), {ROBOT}.panel.act('reach')")
+    page.evaluate(f"{ROBOT}.panel.act('back')")
+
+    # a stick turns what is held; a hand that is lost in mid-drag moves nothing, and lets go
+    holds = "room.handles.get('ur5e_1').holders.length"
+    headset.reach_for(page.evaluate(BASE), 0.1)
+    headset.trigger(True)
+    headset.wait_for(f"{holds} === 1")
+    page.evaluate("window.heading = room.handles.get('ur5e_1').heading")
+    stick = "headset.device.controllers.right.updateAxes"
+    page.evaluate(f"{stick}('thumbstick', 1, 0)")
+    headset.wait_for(f"{HEADING} > 0.3")
+    page.evaluate(f"{stick}('thumbstick', 0, 0)")
+    headset.frames()
+    held = page.evaluate(BASE)
+    page.evaluate(LOSE)
+    page.evaluate("headset.device.controllers.right.position.x += 0.4")
+    headset.wait_for(f"{holds} === 0")
+    assert page.evaluate(BASE) == pytest.approx(held, abs=1e-3)
+    page.evaluate("window.seen = true")
+    headset.trigger(False)
+
+    # a recentre moves the floor space, and no robot
+    before = page.evaluate(APART)
+    page.evaluate("headset.device.recenter()")
+    headset.frames(5)
+    assert page.evaluate(APART) == pytest.approx(before, abs=0.02)
+
+    # a scene is kept from the board
+    headset.press(BOARD, "tab lab")
+    headset.press(BOARD, "save_scene")
+    headset.wait_for("room.board.notice !== '' && !room.board.warns")

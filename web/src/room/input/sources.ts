@@ -100,7 +100,12 @@ export class XrInputs {
     for (const each of this.sources.values()) {
       const { source, ray, touch, look } = each
       const pose = frame.getPose(source.targetRaySpace, space)
-      if (pose !== undefined) {
+      if (pose !== undefined && !pose.emulatedPosition) each.measured = true
+      const guessed = each.measured && pose?.emulatedPosition === true
+      const here = pose !== undefined && !guessed
+      // what is dragged does not follow a guess
+      const follows = ray.captured === null ? pose !== undefined : here
+      if (pose !== undefined && follows) {
         this.matrix.fromArray(pose.transform.matrix)
         this.matrix.decompose(ray.ray.origin, this.quaternion, this.scale)
         ray.ray.direction.set(0, 0, -1).applyQuaternion(this.quaternion)
@@ -110,14 +115,9 @@ export class XrInputs {
       at.space = space
       at.source = source
       at.pose = pose
-      if (pose !== undefined && !pose.emulatedPosition) each.measured = true
-      const guessed = each.measured && pose?.emulatedPosition === true
-      const here = pose !== undefined && !guessed
       touch.aim(now, this.moveTip(at, ray, touch) && here, this.targets)
-      this.moveHold(at, ray, each.model)
+      if (follows) this.moveHold(at, ray, each.model)
       const touching = touch.hovered !== null
-      // what is dragged does not follow a guess
-      const follows = ray.captured === null ? pose !== undefined : here
       ray.aim(now, follows, this.targets, touching)
       look.update(ray, pose !== undefined && !touching)
     }
