@@ -31,11 +31,13 @@ from mesher import GRID, Mesh, contour, creased, decimated
 from solids import Array, Solid
 from urdf_writer import LinkFiles, urdf
 
+from mrlab_ros.adapters.robots.hulls import samples
 from mrlab_ros.core.geometry import inverse_transform, transform_from_xyz_rpy
 
 ROBOTS = Path(__file__).resolve().parents[2] / "robots"
 TRIANGLES = 15_200  # a model; the files of a robot stay below 400 kB
 CASTINGS = 0.76  # of a model's triangles; their many edges need more corners
+SEEN = 0.01  # m, between the points of a drawn casting that its hulls hold
 CELLS = 56  # along the longest side of a part
 FIGURE = "figure"  # the person of 1.8 m beside the robots in pictures
 
@@ -97,7 +99,7 @@ def _written(folder: Path, link: str, corners: list[Array], pose: Array) -> list
 class Shape:
     """A link as it is written: its pieces in its own frame, and what its hulls must hold.
 
-    shells: solids with the triangles of their surfaces; seen: lists of corners of what is drawn,
+    shells: solids with the triangles of their surfaces; seen: lists of points of what is drawn,
     one of each part; pose: from the frame of shells and seen to the link's frame.
     """
 
@@ -151,7 +153,8 @@ def from_outlines(
         pieces = [
             (material, creased(piece)) for material, piece in measured.painted(small, links[link])
         ]
-        shape = Shape(pieces, [(solid, mesh.vertices[mesh.faces])], [small.vertices], np.eye(4))
+        seen = samples(small.vertices[small.faces], SEEN)
+        shape = Shape(pieces, [(solid, mesh.vertices[mesh.faces])], [seen], np.eye(4))
         for part in links[link].parts:
             cell = max(float((part.solid.high - part.solid.low).max()) / CELLS, 0.0006)
             part_mesh = contour(part.solid, cell)
