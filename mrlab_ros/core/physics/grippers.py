@@ -24,6 +24,7 @@ from mrlab_ros.core.physics.holding import Holding
 from mrlab_ros.core.physics.seal import OUT, leak, lip
 from mrlab_ros.core.physics.simulated_robot import COMMANDING, Robot
 from mrlab_ros.core.physics.world_state import SceneObject, WorldState
+from mrlab_ros.core.playback.states import State
 
 
 class Grippers:
@@ -108,7 +109,7 @@ class Grippers:
         """Take an object from the robot or person that holds it."""
         if thing.held_by in self._world_state.robots:
             self.lose(self._world_state.robots[thing.held_by])
-        thing.held_by, thing.hand = "", None
+        thing.held_by, thing.hand, thing.kept_for = "", None, ""
 
     def carry(self, robot: Robot) -> None:
         """Place what the gripper holds after the arm was placed."""
@@ -157,6 +158,7 @@ class Grippers:
             position = robot.playing.position(robot.stream.shown_ns(now_ns))
             closed = robot.program.closed_at(position)
             if closed is not None and closed != robot.closed:
+                robot.takes_over = robot.playing.state is State.PLAYING
                 self._set_closed(robot, closed, now_ns)
         if robot.held:
             fallen = self._holding.slip(robot, duration)
@@ -243,9 +245,12 @@ class Grippers:
 
     def _may_take(self, robot: Robot, thing: SceneObject) -> bool:
         """Return whether a closed gripper may take an object: of two that close on it at the same
-        time the first one keeps it; a gripper that closes later takes it over."""
+        time the first one keeps it; a gripper that closes later takes it over, but not one that
+        finds itself closed where its robot was put, by a scene or a seek."""
         holder = self._world_state.robots.get(thing.held_by)
-        return holder is None or robot.closing_since_ns >= holder.held_since_ns
+        if holder is None:
+            return thing.kept_for in ("", robot.name)
+        return robot.takes_over and robot.closing_since_ns >= holder.held_since_ns
 
     def _sucked(self, robot: Robot) -> tuple[tuple[SceneObject, Grip | None] | None, str]:
         """Return the first object, by name, on which the cup seals, and why there is none.

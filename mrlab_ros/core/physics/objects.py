@@ -98,7 +98,16 @@ class Inventory:
             "remove something"
         )
 
-    def move(self, name: str, pose: Pose, linear: Vector, angular: Vector, *, held: bool) -> None:
+    def move(
+        self,
+        name: str,
+        pose: Pose,
+        linear: Vector,
+        angular: Vector,
+        *,
+        held: bool,
+        kept_for: str = "",
+    ) -> None:
         """Move an object: kinematic while `held`, else released there with the velocity given."""
         thing = self._world_state.object(name)
         checked_vector(pose.position, "the position", WORLD_SIZE)
@@ -110,6 +119,7 @@ class Inventory:
         self._engine.set_object(name, BodyState(pose) if held or not thing.type.mass else motion)
         thing.held_by = HAND if held else ""
         thing.hand = BodyState(pose) if held else None
+        thing.kept_for = kept_for if held else ""
         self.in_hand |= held
 
     def keep_in_hand(self) -> None:

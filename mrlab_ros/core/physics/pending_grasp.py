@@ -27,6 +27,12 @@ class PendingGrasp:
         self._absent_ns = absent_ns
         self._since_ns: int | None = None
 
+    def keep(self, world: World, state: BodyState) -> None:
+        """Hold the object where it is to be, for its robot alone."""
+        world.move(
+            self.name, state.pose, state.linear, state.angular, held=True, kept_for=self.robot
+        )
+
     def check(self, world: World, now_ns: int, *, absent: bool) -> bool:
         """Move the object along with the hand; return whether nothing is left to do.
 
@@ -45,7 +51,7 @@ class PendingGrasp:
         if world.robot(self.robot).held == self.name:
             return True
         state = BodyState(compose(world.hand(self.robot).pose, self.in_hand))
-        world.move(self.name, state.pose, state.linear, state.angular, held=True)
+        self.keep(world, state)
         if self._since_ns is None:
             self._since_ns = now_ns
         if now_ns - self._since_ns < CLOSING_NS:

@@ -149,6 +149,8 @@ class Robot:
     share_of: Joints | None = None
     closed: bool = False
     closing_since_ns: int = 0
+    # Whether it closed along its motion: then it may take over what another robot holds.
+    takes_over: bool = True
     held: str = ""
     held_since_ns: int = 0
     # The object that was taken from the closed gripper; empty after the next gripper command.

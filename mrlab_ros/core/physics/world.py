@@ -222,9 +222,21 @@ class World:
         """Add an object at `pose`, or with `automatic` on the nearest surface below it."""
         return self._inventory.spawn(type_id, name, pose, automatic=automatic)
 
-    def move(self, name: str, pose: Pose, linear: Vector, angular: Vector, *, held: bool) -> None:
-        """Move an object: kinematic while `held`, else released there with the velocity given."""
-        self._inventory.move(name, pose, linear, angular, held=held)
+    def move(
+        self,
+        name: str,
+        pose: Pose,
+        linear: Vector,
+        angular: Vector,
+        *,
+        held: bool,
+        kept_for: str = "",
+    ) -> None:
+        """Move an object: kinematic while `held`, else released there with the velocity given.
+
+        kept_for: the robot that alone may take it while it is held; empty: any.
+        """
+        self._inventory.move(name, pose, linear, angular, held=held, kept_for=kept_for)
 
     def remove(self, name: str) -> None:
         """Remove an object."""

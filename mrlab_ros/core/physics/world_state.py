@@ -18,12 +18,16 @@ HAND = "hand"
 
 @dataclass(eq=False)
 class SceneObject:
-    """An object of the scene; held_by: a robot's name, or "hand", or empty."""
+    """An object of the scene; held_by: a robot's name, or "hand", or empty.
+
+    kept_for: the robot that alone may take it from the hand; empty: any.
+    """
 
     name: str
     type: ObjectType
     held_by: str = ""
     hand: BodyState | None = None
+    kept_for: str = ""
 
     @property
     def graspable(self) -> bool:

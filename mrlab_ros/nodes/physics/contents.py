@@ -111,9 +111,8 @@ class Contents:
     def _put(self, entry: ObjectEntry, absent_ns: int) -> None:
         self._world.spawn(entry.type, entry.name, entry.pose, automatic=entry.automatic)
         if entry.held_by and entry.in_hand is not None:
-            at = BodyState(entry.pose)
-            self._world.move(entry.name, entry.pose, at.linear, at.angular, held=True)
             grasp = PendingGrasp(entry.name, entry.held_by, entry.in_hand, absent_ns)
+            grasp.keep(self._world, BodyState(entry.pose))
             self._pending.append(grasp)
 
     def regrip(self, now_ns: int, robots: frozenset[str] | None) -> None:
