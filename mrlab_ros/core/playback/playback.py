@@ -16,7 +16,7 @@ from mrlab_ros.core.geometry import Array
 from mrlab_ros.core.playback import goal as goals
 from mrlab_ros.core.playback import live
 from mrlab_ros.core.playback.planner import Motion, MotionPlanner
-from mrlab_ros.core.playback.states import MOVING, TABLE, Event, State, reason
+from mrlab_ros.core.playback.states import MOVING, TABLE, Event, State
 from mrlab_ros.core.playback.stream import Sample, Stream
 from mrlab_ros.core.robots.model import RobotModel
 from mrlab_ros.core.state_machine import Machine
@@ -77,7 +77,7 @@ class Playback:
         self.loop = False
         self.system = ""
         self._planner = planner
-        self._machine = Machine(TABLE, reason)
+        self._machine = Machine(TABLE)
         self._stream = Stream(model.home, standing_rate)
         self._message = ""
         # None: physics has said nothing yet.

@@ -110,15 +110,5 @@ TABLE: Table[State, Event] = Table(
     commands=(Event.LOAD, Event.UNLOAD, Event.PLAY, Event.PAUSE, Event.STOP, Event.SEEK),
 )  # fmt: skip
 
-
-def reason(state: State, event: Event) -> str:
-    """Return what a refused command needs first, for the text of the error; may be empty."""
-    if state is State.COLLISION_HALT and event is not Event.CLEAR_HALT:
-        return (
-            "stop it, which takes the arm back to where it began, then play once the arm is clear"
-        )
-    return ""
-
-
 # The states in which the arm moves.
 MOVING = (State.ADJUSTING, State.PLAYING)
