@@ -4,9 +4,13 @@ from __future__ import annotations
 
 from pathlib import Path
 
+import pytest
 from browser_side import DEADLINE_MS, eventually
 from playwright.sync_api import Browser, StorageState
 from served_lab import ServedLab
+
+# Software draws the headset's pictures, on a busy machine a few a second.
+pytestmark = pytest.mark.timeout(300)
 
 HERE = Path(__file__).parents[1]
 IWER = HERE.parent / "web" / "node_modules" / "iwer" / "build" / "iwer.min.js"

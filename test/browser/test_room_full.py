@@ -12,6 +12,9 @@ from browser_side import DEADLINE_MS, eventually
 from playwright.sync_api import Browser, Page
 from served_lab import ServedLab
 
+# Software draws the headset's pictures, on a busy machine a few a second.
+pytestmark = pytest.mark.timeout(300)
+
 HERE = Path(__file__).parents[1]
 IWER = HERE.parent / "web" / "node_modules" / "iwer" / "build" / "iwer.min.js"
 MOTION = HERE.parent / "examples" / "quintic_ur5e.mat"

@@ -43,14 +43,20 @@ members:
 
 
 @pytest.fixture(scope="module")
-def endpoint(tmp_path_factory: pytest.TempPathFactory) -> Iterator[str]:
+def state(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """The folder in which the lab keeps its state."""
+    return tmp_path_factory.mktemp("n") / "state"
+
+
+@pytest.fixture(scope="module")
+def endpoint(state: Path) -> Iterator[str]:
     # A short name: the path of a Unix socket has 107 bytes at most.
-    folder = tmp_path_factory.mktemp("n")
+    folder = state.parent
     (folder / "limits.yaml").write_text("pages: 500\n")
     listen = free_endpoint()
     options = (
         *("--robots", "ur5e", "--physics", "--http", "127.0.0.1:0", "--zenoh-listen", listen),
-        *("--state-dir", folder / "state", "--web-limits", folder / "limits.yaml"),
+        *("--state-dir", state, "--web-limits", folder / "limits.yaml"),
     )
     with pytest.MonkeyPatch.context() as patch, launched_lab(folder, patch, *options):
         yield listen
@@ -150,8 +156,9 @@ def test_every_command_that_is_named_runs(endpoint: str, folder: Path, group: st
 
 @pytest.mark.parametrize("block", SHELL, ids=lambda block: f"{block.page}-{block.line}")
 def test_a_block_of_a_page_prints_what_the_page_says(
-    endpoint: str, block: Block, folder: Path, monkeypatch: pytest.MonkeyPatch
+    endpoint: str, state: Path, block: Block, folder: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
+    shutil.rmtree(state / "scenes", ignore_errors=True)
     programs = [words[1:] for words in block.commands]
     if programs[0][0] == "keys":
         monkeypatch.setenv("XDG_RUNTIME_DIR", str(folder))
