@@ -305,13 +305,13 @@ class Pair(Lab):
         if self.b is not None:
             self.world.joint_state("b", self.now_ns, (self.b - 1.0, 0.0), (0.0, 0.0))
 
-    def close(self, robot: str, *opens: float) -> None:
+    def close(self, robot: str, *opens: float, state: State = State.PLAYING) -> None:
         """Let a robot close from here on, and open so many seconds later."""
         self.world.set_program(
             robot, GripperProgram((0.0, *opens), (True, *(False for _ in opens)))
         )
         clock = PlaybackClock(self.now_ns, 0.0, 1.0)
-        playing = Playing(State.PLAYING, "t", clock, 0, 1001, 100.0, 10.0)
+        playing = Playing(state, "t", clock, 0, 1001, 100.0, 10.0)
         self.world.playback(robot, playing)
 
     def grasps(self, robot: str) -> list[Grasp]:
@@ -351,6 +351,33 @@ def test_fingers_take_an_object_over_from_fingers_that_open_later():
     lab.both(0.46, 0.9, 200 * MS)
     assert lab.world.motion("ball").pose.position[0] > 0.8
     assert not lab.of(CollisionChanged)
+
+
+def test_what_is_kept_for_a_robot_is_taken_by_no_other_that_closes_on_it():
+    lab = Pair(Gripper.FINGERS)
+    lab.engine.pinched, lab.engine.block = "ball", 0.02
+    lab.both(0.46, 0.54, 100 * MS)
+    place = lab.world.motion("ball").pose
+    lab.world.move("ball", place, (0.0,) * 3, (0.0,) * 3, held=True, kept_for="b")
+    lab.close("a")
+    lab.both(0.46, 0.54, 2000 * MS)
+    assert lab.grasps("a") == [Grasp.OPEN, Grasp.CLOSING, Grasp.EMPTY]
+    lab.close("b")
+    lab.both(0.46, 0.54, 2000 * MS)
+    assert lab.world.object("ball").held_by == "b"
+
+
+def test_a_gripper_that_closes_where_its_robot_was_put_takes_nothing_over():
+    lab = Pair(Gripper.FINGERS)
+    lab.engine.pinched, lab.engine.block = "ball", 0.02
+    lab.both(0.46, 1.5, 100 * MS)
+    lab.close("a")
+    lab.both(0.46, 0.54, 1000 * MS)
+    assert lab.world.object("ball").held_by == "a"
+    lab.close("b", state=State.PAUSED)
+    lab.both(0.46, 0.54, 2000 * MS)
+    assert lab.world.object("ball").held_by == "a"
+    assert lab.grasps("b") == [Grasp.OPEN, Grasp.CLOSING, Grasp.EMPTY]
 
 
 def test_of_two_that_close_on_an_object_together_the_first_keeps_it():
