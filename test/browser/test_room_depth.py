@@ -57,6 +57,9 @@ COUNT = """() => {
 def test_a_real_thing_hides_the_robot_behind_it(
     browser: Browser, signed_in: StorageState, lab: ServedLab
 ) -> None:
+    # one robot that stands, whatever other tests left in the lab
+    lab.done("scene", "load", "empty")
+    lab.done("spawn", "ur5e")
     context = browser.new_context(
         viewport={"width": 320, "height": 240}, locale="en-GB", storage_state=signed_in
     )

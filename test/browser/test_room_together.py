@@ -98,6 +98,8 @@ def headsets(
 def test_two_people_make_a_system_by_touch_see_each_other_and_use_their_hands(
     headsets: Callable[[], Headset], lab: ServedLab
 ) -> None:
+    lab.done("scene", "load", "empty")
+    lab.done("spawn", "ur5e")
     first = headsets()
     page = first.page
     first.enter()
