@@ -101,12 +101,15 @@ def _distances(console: Console, report: CheckReport) -> None:
             table.add_row(f"{1e3 * max(one.distance, 0.0):.0f} mm", who, what, f"{one.time:.2f} s")
         console.print(table)
     _pairs(console, report.extras.get("pairs", ()))
+    held: dict[str, str] = {}
     for grasp in report.grasps:
-        if grasp.object and grasp.state.name == "HOLDING":
-            mass = f", {grasp.load.mass:.3g} kg" if grasp.load else ""
-            console.print(
-                f"  {grasp.time:.2f} s {grasp.robot} holds {grasp.object}{mass}", markup=False
-            )
+        before = held.get(grasp.robot, "")
+        if grasp.object == before:
+            continue
+        held[grasp.robot] = grasp.object
+        mass = f", {grasp.load.mass:.3g} kg" if grasp.load else ""
+        said = f"holds {grasp.object}{mass}" if grasp.object else f"lets go of {before}"
+        console.print(f"  {grasp.time:.2f} s {grasp.robot} {said}", markup=False)
 
 
 def _pairs(console: Console, pairs: Sequence[Mapping[str, Any]]) -> None:
