@@ -1,0 +1,185 @@
+"""The check of one file, a motion or a cell, without a word printed."""
+
+from __future__ import annotations
+
+import hashlib
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from pathlib import Path
+
+from mrlab_ros.adapters.checking.stage import Played, Stage, first_link
+from mrlab_ros.adapters.robots.library import RobotLibrary
+from mrlab_ros.adapters.scenes import files as scene_files
+from mrlab_ros.adapters.scenes.files import SceneFiles
+from mrlab_ros.commands.check import cell
+from mrlab_ros.commands.convert.one_file import converted
+from mrlab_ros.core.checking import motion
+from mrlab_ros.core.checking.evidence import CLOSE
+from mrlab_ros.core.checking.hardware import JUMPS
+from mrlab_ros.core.checking.motion import CheckedRobot
+from mrlab_ros.core.checking.rehearsal import Actor
+from mrlab_ros.core.checking.report import digest
+from mrlab_ros.core.conversion.convert import ConversionResult
+from mrlab_ros.core.conversion.options import Options
+from mrlab_ros.core.errors import Misuse
+from mrlab_ros.core.geometry import Pose, Vector
+from mrlab_ros.core.rubrics.checked import Checked, Motion
+from mrlab_ros.core.scene.document import RobotEntry, SceneDocument
+from mrlab_ros.core.systems.cell_file import plain_system
+
+Convert = Callable[[Path, str, str, Options, RobotLibrary], ConversionResult]
+
+CELLS = (".yaml", ".yml")
+# A file that the converter refuses for these holds a motion, which is not ready.
+OF_THE_MOTION = JUMPS | {"joint_limit", "velocity_limit"}
+
+
+@dataclass(frozen=True)
+class Setting:
+    """What files are checked in, and how; one for many files.
+
+    scene_name: what the scene was asked for by, empty: none. points: m in world, that tool0 shall
+    pass within `within` m. closest: m. drawn: record where everything was. convert: what reads a
+    file; see `one_file.converted`.
+    """
+
+    stage: Stage
+    scene: SceneDocument
+    scene_name: str = ""
+    robot: str = ""
+    tool: str = ""
+    options: Options = field(default_factory=Options)
+    closest: float = CLOSE
+    points: tuple[Vector, ...] = ()
+    within: float = 0.005
+    drawn: bool = True
+    convert: Convert = converted
+
+
+@dataclass(frozen=True, eq=False)
+class CheckedFile:
+    """A file as it was checked. result: of its conversion, None for a cell. played: what was
+    rehearsed, None where the file holds no motion that could be."""
+
+    checked: Checked
+    robots: tuple[CheckedRobot, ...]
+    played: Played | None
+    result: ConversionResult | None = None
+
+    @property
+    def holds_motion(self) -> bool:
+        """Return whether there is a motion to judge, though it may be refused."""
+        return self.played is not None or (
+            self.result is not None
+            and any(d.code in OF_THE_MOTION for d in self.result.diagnostics)
+        )
+
+
+def check_file(file: Path, setting: Setting) -> CheckedFile:
+    """Convert, compute, and rehearse one file; a file that is refused is checked too.
+
+    Raises LabError where the setting does not fit: no such file, robot or scene, no pybullet.
+    """
+    if file.suffix.lower() in CELLS:
+        return _cell(file, setting)
+    stage, scene = setting.stage, setting.scene
+    entry = entry_of(setting)
+    result = setting.convert(file, entry.model, entry.end_effector, setting.options, stage.library)
+    t = result.trajectory
+    if t is not None:
+        entry = entry_of(setting, t.robot_model, t.end_effector or "")
+    robots = tuple(
+        stage.robot(e.name, e.model, e.end_effector, e.pose)
+        for e in (entry, *(r for r in scene.robots if r.name != entry.name))
+    )
+    moving = robots[0]
+    inputs = {
+        **stage.inputs(robots, scene),
+        "file": hashlib.sha256(file.read_bytes()).hexdigest(),
+        "options": {k: v for k, v in vars(setting.options).items() if v},
+        "points": setting.points,
+        "within": setting.within,
+        "closest": setting.closest,
+    }
+    words = scene_words(setting.scene_name, scene)
+    if t is None:
+        report = motion.report_of(result, moving, None, None, inputs=inputs, scene=words)
+        return CheckedFile(Checked(report, report.document()), robots, None, result)
+    figures = motion.figures_of(t, moving)
+    actors = [
+        Actor(r.name, r.model.home, t if r is moving else None, first_link=first_link(r))
+        for r in robots
+    ]
+    played = stage.rehearse(robots, actors, scene, drawn=setting.drawn)
+    report = motion.report_of(
+        result, moving, figures, played.recorded, inputs=inputs, scene=words,
+        graspable=played.graspable, points=setting.points, within=setting.within,
+        closest=setting.closest,
+    )  # fmt: skip
+    checked = Checked(report, report.document(), (Motion(moving, t, figures),), played.recorded)
+    return CheckedFile(checked, robots, played, result)
+
+
+def _cell(file: Path, setting: Setting) -> CheckedFile:
+    system, scene = cell.read(file, setting.scene, setting.scene_name)
+    loaded = cell.load(file, system, scene, setting.stage, setting.options)
+    played, pairs, delay = cell.rehearse(loaded, setting.stage, setting.closest)
+    inputs = {
+        **setting.stage.inputs(loaded.robots, scene),
+        "system": digest(plain_system(system)),
+        "options": {k: v for k, v in vars(setting.options).items() if v},
+        "closest": setting.closest,
+    }
+    report, motions = cell.report_of(loaded, played, pairs, delay, inputs, setting.closest)
+    starts = played.recorded.starts
+    checked = Checked(
+        report,
+        report.document(),
+        tuple(
+            Motion(r, *motions[r.name], starts.get(r.name, 0.0))
+            for r in loaded.robots
+            if r.name in motions
+        ),
+        played.recorded,
+    )
+    return CheckedFile(checked, tuple(loaded.robots), played)
+
+
+def entry_of(setting: Setting, model: str = "", end_effector: str = "") -> RobotEntry:
+    """Return the robot that a motion is for: the scene's first of that model, or one at the
+    origin of a scene without robots.
+
+    model, end_effector: what a file names, where the setting names none. Raises Misuse.
+    """
+    model = setting.robot or model
+    own = [r for r in setting.scene.robots if r.model == model or not model]
+    if own:
+        entry = own[0]
+        tool = setting.tool or entry.end_effector
+        return RobotEntry(entry.name, entry.model, tool, entry.pose)
+    if setting.scene.robots and model:
+        there = ", ".join(sorted({r.model for r in setting.scene.robots}))
+        raise Misuse(
+            f"the scene {setting.scene_name} has no robot {model}, so its place there is not "
+            f"known; its robots: {there}. Take one of these, or another scene"
+        )
+    return RobotEntry(f"{model or 'robot'}_1", model, setting.tool or end_effector, Pose())
+
+
+def scene_of(name: str, folder: Path) -> SceneDocument:
+    """Return a scene by its name or its file; empty: none. Raises BadInput."""
+    if not name:
+        return SceneDocument()
+    path = Path(name)
+    if path.suffix in (*CELLS, ".json") or "/" in name:
+        return scene_files.read(path)
+    own = Path.home() / ".local" / "share" / "mrlab" / "scenes"
+    return SceneFiles(folder / "config" / "scenes", own).load(name)
+
+
+def scene_words(name: str, scene: SceneDocument) -> str:
+    """Return what a motion goes through, for a person."""
+    if not name:
+        return "an empty room with a floor"
+    count = len(scene.objects)
+    return f"the scene {name} with {count} object{'' if count == 1 else 's'}"

@@ -1,0 +1,1 @@
+"""Rubrics: named tests with points, and what a checked motion gets for each."""

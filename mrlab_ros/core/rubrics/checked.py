@@ -1,0 +1,55 @@
+"""What a check of one file leaves to be marked."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Any
+
+from mrlab_ros.core.checking.motion import CheckedRobot, MotionFigures
+from mrlab_ros.core.checking.recording import Rehearsed
+from mrlab_ros.core.checking.report import CheckReport
+from mrlab_ros.core.trajectory.trajectory import Trajectory
+
+
+@dataclass(frozen=True, eq=False)
+class Motion:
+    """A robot's motion and what it is by itself. start: s, when it begins on the timeline."""
+
+    robot: CheckedRobot
+    trajectory: Trajectory
+    figures: MotionFigures
+    start: float = 0.0
+
+
+@dataclass(frozen=True, eq=False)
+class Checked:
+    """One file as it was checked: a motion, or a cell of several.
+
+    document: the report as JSON has it. motions: in the order of the robots; none where the
+    conversion refused the file. recorded: None where nothing was rehearsed.
+    """
+
+    report: CheckReport
+    document: Mapping[str, Any]
+    motions: tuple[Motion, ...] = ()
+    recorded: Rehearsed | None = None
+
+    @property
+    def trajectory(self) -> Trajectory | None:
+        """Return the motion of the only robot, or of the first."""
+        return self.motions[0].trajectory if self.motions else None
+
+    @property
+    def figures(self) -> MotionFigures | None:
+        """Return the figures of the only robot, or of the first."""
+        return self.motions[0].figures if self.motions else None
+
+    @property
+    def mode(self) -> str:
+        """Return how a cell is played, parallel or sequential; empty: it is no cell."""
+        return str(self.report.extras.get("system", {}).get("mode", ""))
+
+    def of(self, robot: str) -> tuple[Motion, ...]:
+        """Return the motions of a robot, named or by its model; empty: all."""
+        return tuple(m for m in self.motions if robot in ("", m.robot.name, m.robot.model.id))

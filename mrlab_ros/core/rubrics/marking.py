@@ -1,0 +1,121 @@
+"""Marks: what a checked file gets for each test of a rubric."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import Any
+
+from mrlab_ros.core.rubrics.checked import Checked
+from mrlab_ros.core.rubrics.rubric import Rubric, Test
+
+# Points are given in hundredths, rounded down.
+HUNDREDTHS = 100
+NO_MOTION = "The file holds no motion that can be marked."
+ROUNDING = 1e-9
+
+
+@dataclass(frozen=True)
+class Mark:
+    """What a test gave. points: of `of`. words: what was found.
+
+    time: s, the instant at which points were lost. measured and limit in `unit`, None where they
+    are no numbers.
+    """
+
+    name: str
+    points: float
+    of: float
+    passed: bool
+    words: str
+    hint: str = ""
+    hidden: bool = False
+    time: float | None = None
+    measured: float | None = None
+    limit: float | None = None
+    unit: str = ""
+
+    def plain(self) -> dict[str, Any]:
+        """Return the mark as a mapping for JSON; numbers with six decimals."""
+        return {
+            name: round(value, 6) if isinstance(value, float) else value
+            for name, value in vars(self).items()
+        }
+
+
+@dataclass(frozen=True)
+class Marks:
+    """All marks of a file, in the order of the rubric. hints: of hidden tests that lost points,
+    where the tests themselves are left out."""
+
+    tests: tuple[Mark, ...]
+    hints: tuple[str, ...] = ()
+
+    @property
+    def points(self) -> float:
+        return round(math.fsum(mark.points for mark in self.tests), 6)
+
+    @property
+    def of(self) -> float:
+        return round(math.fsum(mark.of for mark in self.tests), 6)
+
+    @property
+    def lost(self) -> tuple[Mark, ...]:
+        """Return the tests that lost points."""
+        return tuple(mark for mark in self.tests if not mark.passed)
+
+    def public(self) -> Marks:
+        """Return what a student sees: of hidden tests the hints alone, where points were lost."""
+        hints = (mark.hint for mark in self.lost if mark.hidden and mark.hint)
+        return Marks(
+            tuple(mark for mark in self.tests if not mark.hidden), tuple(dict.fromkeys(hints))
+        )
+
+    def plain(self) -> dict[str, Any]:
+        """Return the marks as a mapping for JSON."""
+        return {
+            "points": self.points,
+            "of": self.of,
+            "tests": [mark.plain() for mark in self.tests],
+            "hints": list(self.hints),
+        }
+
+
+def mark(rubric: Rubric, checked: Checked, reference: Checked | None = None) -> Marks:
+    """Return what a checked file gets; one without a motion gets nothing.
+
+    reference: the checked file of `rubric.reference`, for the tests that compare with it.
+    """
+    return Marks(tuple(_marked(test, checked, reference) for test in rubric.tests))
+
+
+def _marked(test: Test, checked: Checked, reference: Checked | None) -> Mark:
+    if not checked.motions or checked.recorded is None:
+        return Mark(test.name, 0.0, test.points, False, _refused(checked), test.hint, test.hidden)
+    found = test.measure.assess(checked, reference)
+    passed = found.share >= 1.0 - ROUNDING
+    return Mark(
+        test.name,
+        test.points if passed else points_of(test.points, found.share),
+        test.points,
+        passed,
+        found.words,
+        test.hint,
+        test.hidden,
+        None if passed else found.time,
+        found.measured,
+        found.limit,
+        found.unit,
+    )
+
+
+def points_of(points: float, share: float) -> float:
+    """Return a share, 0 to 1, of points, in hundredths that are rounded down."""
+    share = min(max(share, 0.0), 1.0)
+    return math.floor(points * share * HUNDREDTHS + ROUNDING) / HUNDREDTHS
+
+
+def _refused(checked: Checked) -> str:
+    """Return why there is no motion: what the conversion said first."""
+    first = next((f for f in checked.report.findings if f.refuses), None)
+    return f"{NO_MOTION} {first.message}" if first else NO_MOTION
