@@ -6,6 +6,7 @@
 # make objects generate the meshes of config/objects anew       (seconds)
 # make gallery render every robot into docs/gallery (minutes)
 # make docs   write the generated pages anew
+# make site   build the site of docs/ into build/site        (ARGS=--serve shows it while you write)
 # make lint   ruff and mypy
 # make lock   write the lock files anew from requirements*.in
 # make clean  remove everything that set-up made
@@ -13,7 +14,7 @@
 SHELL := /bin/bash
 ENV := . .venv/mrlab.sh &&
 
-.PHONY: demo test bench robots objects gallery docs lint lock setup clean
+.PHONY: demo test bench robots objects gallery docs site lint lock setup clean
 
 setup:
 	@python3 scripts/bootstrap.py
@@ -49,10 +50,15 @@ docs:
 	@python3 scripts/bootstrap.py --dev
 	@$(ENV) python scripts/generate_docs.py
 
+site:
+	@python3 scripts/bootstrap.py --dev
+	@$(ENV) python scripts/site/build.py $(ARGS)
+
 lock:
 	@python3 scripts/bootstrap.py --dev
 	@$(ENV) uv pip compile -q --universal --python-version 3.10 --generate-hashes requirements.in -o requirements.lock
 	@$(ENV) uv pip compile -q --universal --python-version 3.10 --generate-hashes requirements-dev.in -o requirements-dev.lock
+	@$(ENV) uv pip compile -q --universal --python-version 3.10 --generate-hashes requirements-docs.in -o requirements-docs.lock
 
 clean:
 	rm -rf .venv build install log web/node_modules web/dist

@@ -84,7 +84,7 @@ def find_python():
     if complete[0]["machine"] != "x86_64":
         raise SetupError(
             "this machine is {}; the ROS 2 Jazzy wheels exist for x86_64 Linux only, so build on "
-            "a ROS machine instead (README, 'The ROS way')".format(complete[0]["machine"])
+            "a ROS machine instead (README, 'On a ROS machine')".format(complete[0]["machine"])
         )
     return complete[0]
 
@@ -162,7 +162,9 @@ class Setup:
         say("  done in {:.0f} s".format(time.monotonic() - begin))
 
     def all(self):
-        locks = [ROOT / "requirements.lock"] + ([ROOT / "requirements-dev.lock"] * self.dev)
+        locks = [ROOT / "requirements.lock"]
+        if self.dev:
+            locks += [ROOT / "requirements-dev.lock", ROOT / "requirements-docs.lock"]
         python = self.python["executable"], self.python["version"], str(ROOT)
         self.step(
             "venv",

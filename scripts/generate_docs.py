@@ -11,6 +11,7 @@ from functools import partial
 from pathlib import Path
 
 import design_tokens
+import licences_page
 import parameters_page
 import playback_vectors
 import protocol_page
@@ -45,6 +46,7 @@ BLOCKS: dict[tuple[str, str], Callable[[], str]] = {
 }
 FILES: dict[str, Callable[[], str]] = {
     "docs/diagnostics.md": diagnostics.document,
+    licences_page.PAGE: lambda: licences_page.current(ROOT),
     "docs/parameters.md": parameters_page.current,
     "docs/protocol.md": lambda: protocol_page.current(ROOT),
     "mrlab_ros/core/design.py": lambda: design_tokens.python(ROOT),

@@ -33,6 +33,8 @@ export default defineConfig({
     // Which file imports which: the budgets of bytes are held from it.
     manifest: true,
     reportCompressedSize: true,
+    // The notices of the packages in the pages, as their licences ask for.
+    license: { fileName: 'licences.md' },
   },
   resolve: {
     // urdf-loader imports both for its own way of reading meshes, which is not used: 23 kB.
