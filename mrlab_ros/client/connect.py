@@ -2,23 +2,34 @@
 
 from __future__ import annotations
 
+import time
+from collections.abc import Sequence
+
 from mrlab_ros.core.bridge.links import local_endpoint
 from mrlab_ros.core.errors import LabError
-from mrlab_ros.processes.run_file import RunFile
+from mrlab_ros.processes.run_file import RunFile, domains
+from mrlab_ros.ros.calls import NoAnswer
 from mrlab_ros.ros.domain import domain_id
 from mrlab_ros.ros.graph import GraphClient
 from mrlab_ros.ros.type_supports import skip_generator
+
+# A node of a lab is in the graph by then, s: its topics and services may take longer.
+COMPANY_S = 1.5
+LOOK_PERIOD_S = 0.05
 
 
 def open_graph() -> GraphClient:
     """Return a client of the lab on the ROS domain of this environment.
 
     A lab of `mrlab up` answers through its socket at once. Where it has none (no bridge, another
-    user's, `ros2 launch`) or its bridge does not answer, a node in the graph finds it.
+    user's, `ros2 launch`) or its bridge does not answer, a node in the graph finds it. Raises
+    NoAnswer where no lab of this user runs and the domain has no node after COMPANY_S.
     """
     skip_generator()
     domain = domain_id()
-    facts = RunFile(domain).read() or {}
+    facts = RunFile(domain).read()
+    if facts is None:
+        return _found(_node())
     if socket := facts.get("socket"):
         from mrlab_ros.adapters.zenoh_link import ZenohLink
         from mrlab_ros.client.link import LinkGraph
@@ -38,3 +49,27 @@ def _node() -> GraphClient:
     from mrlab_ros.ros.graph_node import Graph
 
     return Graph()
+
+
+def _found(graph: GraphClient) -> GraphClient:
+    """Return `graph` once another node is in it; close it and raise NoAnswer where none comes."""
+    deadline = time.monotonic() + COMPANY_S
+    # Nodes of tools, such as the daemon of `ros2`, begin with an underscore.
+    while all(name.startswith("_") for name in graph.node_names()):
+        if time.monotonic() > deadline:
+            graph.close()
+            raise NoAnswer(nobody(graph.domain, domains()))
+        time.sleep(LOOK_PERIOD_S)
+    return graph
+
+
+def nobody(domain: int, labs: Sequence[int]) -> str:
+    """Return what to say of an empty domain; labs: the domains on which this user runs labs."""
+    begin = f"no lab answers on ROS domain {domain}; "
+    if not labs:
+        return f"{begin}start one with: mrlab up (or set ROS_DOMAIN_ID to the domain of one)"
+    listed = ", ".join(map(str, labs))
+    return (
+        f"{begin}yours {'runs on domain' if len(labs) == 1 else 'run on domains'} {listed}: "
+        f"export ROS_DOMAIN_ID={labs[0]}"
+    )

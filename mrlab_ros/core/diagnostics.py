@@ -547,7 +547,7 @@ KINDS: dict[str, Kind] = {
         ERROR,
         "A joint leaves its range.",
         "{joint} goes to {value:.4g} rad ({degrees:.4g} deg) at frame {frame} ({time:.3f} s); "
-        "its range is {lower:.4g} to {upper:.4g} rad, and {count} are outside.",
+        "its range is {lower:.4g} to {upper:.4g} rad; it is outside in {count}.",
         "Plan the motion inside the range, or choose the robot that it was made for.",
         (("", "", "find(q(:, {column}) < {lower:.6g} | q(:, {column}) > {upper:.6g})"),),
     ),
@@ -555,7 +555,7 @@ KINDS: dict[str, Kind] = {
         WARNING,
         "A joint moves faster than the robot can.",
         "{joint} moves at {value:.4g} rad/s at frame {frame} ({time:.3f} s); {robot} reaches "
-        "{limit:.4g} rad/s. {count} are too fast.",
+        "{limit:.4g} rad/s; it is too fast in {count}.",
         "Use more samples for the motion, or check that {rate:g} rows a second is right: at "
         "{slower:g} the robot can follow.",
         (("frame_rate", "{slower:g}", "fs = {slower:g}; save('traj.mat', 'q', 'fs')"),),

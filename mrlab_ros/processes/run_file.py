@@ -90,6 +90,14 @@ class RunFile:
         return found
 
 
+def domains() -> list[int]:
+    """Return the ROS domains on which a supervisor of this user runs now."""
+    found = (path.stem.removeprefix("domain-") for path in _folder().glob("domain-*.json"))
+    return sorted(
+        domain for domain in map(int, filter(str.isdecimal, found)) if RunFile(domain).read()
+    )
+
+
 def _locked(file: IO[bytes], kind: int) -> bool:
     try:
         fcntl.flock(file, kind | fcntl.LOCK_NB)

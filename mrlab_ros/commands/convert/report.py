@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import asdict
+from itertools import zip_longest
 from pathlib import Path
 from typing import Any
 
@@ -14,6 +15,7 @@ from mrlab_ros.core.conversion.candidates import SPARK_WIDTH
 from mrlab_ros.core.conversion.convert import ConversionResult
 from mrlab_ros.core.conversion.options import Options
 from mrlab_ros.core.design import OUTCOME_STYLES, SEVERITY_STYLES
+from mrlab_ros.core.diagnostics import Diagnostic
 
 
 def record(given: str, result: ConversionResult, written: Path | None) -> dict[str, Any]:
@@ -60,10 +62,12 @@ def show(
     console.print(
         result.message if result.trajectory else result.file, markup=False, highlight=False
     )
-    for d in result.diagnostics:
+    for d, following in zip_longest(result.diagnostics, result.diagnostics[1:]):
         severity = d.severity.name.lower()
         label, style = f"  {severity} {d.code}: ", SEVERITY_STYLES[severity]
         console.print(label + d.message, style=style, markup=False, highlight=False)
+        if following and _advice(following) == _advice(d):
+            continue  # said once, below the last of them
         if d.remedy:
             console.print(f"      {d.remedy}", markup=False, highlight=False)
         if result.trajectory is None:
@@ -77,6 +81,10 @@ def show(
             _say_next(console, command_with(words, options, "variable", likeliest))
     if written:
         console.print(f"  written to {written}", markup=False, highlight=False)
+
+
+def _advice(d: Diagnostic) -> tuple[str, str, list[tuple[str, str]]]:
+    return d.code, d.remedy, [(fix.option, fix.value) for fix in d.fixes if fix.option]
 
 
 def _say_next(console: Console, command: str) -> None:
