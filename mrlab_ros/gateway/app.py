@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import asyncio
+import time
 from collections.abc import AsyncIterator
 from contextlib import asynccontextmanager
 
@@ -15,6 +16,10 @@ from mrlab_ros.gateway import authority, errors, pages
 from mrlab_ros.gateway.assets import routes as asset_routes
 from mrlab_ros.gateway.assets.cache import AssetCache
 from mrlab_ros.gateway.assets.robots import Robots
+from mrlab_ros.gateway.checks import routes as check_routes
+from mrlab_ros.gateway.checks.desk import CheckDesk
+from mrlab_ros.gateway.checks.process import CheckProcess
+from mrlab_ros.gateway.checks.scene import SceneWatch
 from mrlab_ros.gateway.guard import Guard
 from mrlab_ros.gateway.hosts import Hosts
 from mrlab_ros.gateway.link import socket
@@ -42,6 +47,7 @@ ROUTERS: tuple[APIRouter, ...] = (
     asset_routes.router,
     upload_routes.router,
     trajectory_routes.router,
+    check_routes.router,
     socket.router,
     pages.router,
 )
@@ -58,6 +64,10 @@ def create_app(settings: Settings, ports: Ports) -> FastAPI:
     policy = read_policy(settings.allow_list)
     limits = read_limits(settings.limits)
     link = None if ports.lab is None else socket.link_port(ports.lab, policy, limits)
+    checking = check_routes.Checking(
+        CheckDesk(ports.checker or CheckProcess()),
+        None if ports.lab is None else SceneWatch(ports.lab, time.monotonic),
+    )
 
     @asynccontextmanager
     async def lifespan(_: FastAPI) -> AsyncIterator[None]:
@@ -68,6 +78,7 @@ def create_app(settings: Settings, ports: Ports) -> FastAPI:
         try:
             yield
         finally:
+            await checking.desk.close()
             for task in following:
                 task.cancel()
             await asyncio.gather(*following, return_exceptions=True)
@@ -95,6 +106,7 @@ def create_app(settings: Settings, ports: Ports) -> FastAPI:
     app.state.oidc = ports.oidc
     app.state.policy = policy
     app.state.link = link
+    app.state.checking = checking
     app.state.assets = None if ports.lab is None else AssetCache(ports.lab)
     store = ports.store or open_store(settings.store or str(settings.state_dir / "store"))
     robots = Robots(RobotLibrary(directory() / "robots"), app.state.assets)

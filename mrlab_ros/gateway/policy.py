@@ -44,6 +44,7 @@ class Need:
 EVERYBODY = Everybody.EVERYBODY
 CONVERTS_OWN = Need(Verb.CALL, "converter/convert", own=True)
 READS = Need(Verb.CALL, "converter/get")
+DRIVES = Need(Verb.CALL, "robot/play")
 SOCKET = "WEBSOCKET"
 
 ROUTES: Mapping[tuple[str, str], Everybody | Role | Need] = {
@@ -83,6 +84,10 @@ ROUTES: Mapping[tuple[str, str], Everybody | Role | Need] = {
     ("PATCH", "/api/trajectories/{trajectory:path}"): CONVERTS_OWN,
     ("DELETE", "/api/trajectories/{trajectory:path}"): CONVERTS_OWN,
     ("POST", "/api/trajectories/{trajectory:path}/restore"): CONVERTS_OWN,
+    # Who may play a motion may have it checked; what was found, all may read.
+    ("POST", "/api/checks"): DRIVES,
+    ("GET", "/api/checks"): READS,
+    ("DELETE", "/api/checks"): DRIVES,
     ("GET", "/assets/{path:path}"): Need(Verb.RECEIVE, "assets"),
     ("HEAD", "/assets/{path:path}"): Need(Verb.RECEIVE, "assets"),
     # What is needed for the keys that a socket asks for, the socket itself checks.

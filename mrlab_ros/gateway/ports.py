@@ -9,6 +9,7 @@ from fastapi.requests import HTTPConnection
 
 if TYPE_CHECKING:
     from mrlab_ros.adapters.store.port import ObjectStore
+    from mrlab_ros.gateway.checks.desk import Checker
     from mrlab_ros.gateway.lab.connection import LabConnection
     from mrlab_ros.gateway.people.oidc import Oidc
     from mrlab_ros.gateway.people.people import People
@@ -19,13 +20,14 @@ if TYPE_CHECKING:
 class Ports:
     """The outside worlds of a gateway; what is None is not there, and its routes say so.
 
-    people, store, oidc: None for those of the settings.
+    people, store, oidc: None for those of the settings. checker: None: a process a check.
     """
 
     lab: LabConnection | None = None
     people: People | None = None
     store: ObjectStore | None = None
     oidc: Oidc | None = None
+    checker: Checker | None = None
 
 
 def real_ports(settings: Settings) -> Ports:

@@ -5,10 +5,11 @@ from __future__ import annotations
 import hashlib
 import importlib.metadata
 import math
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
+from types import MappingProxyType
 from typing import Any
 
 from mrlab_ros.adapters.bullet import support
@@ -30,6 +31,8 @@ from mrlab_ros.core.physics.settings import Settings
 from mrlab_ros.core.physics.world import World
 from mrlab_ros.core.scene import document as scene_document
 from mrlab_ros.core.scene.document import SceneDocument
+
+NOTHING_HELD: Mapping[str, Pose] = MappingProxyType({})
 
 
 @dataclass(frozen=True)
@@ -104,9 +107,11 @@ class Stage:
         scene: SceneDocument,
         *,
         drawn: bool = True,
+        in_tool: Mapping[str, Pose] = NOTHING_HELD,
     ) -> Played:
         """Play the actors, one for each robot, among the scene's objects and surfaces.
 
+        in_tool: T_tool0_object of held objects whose `in_hand` the scene does not say, by name.
         Raises BadInput where pybullet is missing or the scene names what there is not.
         """
         missing = support.missing()
@@ -125,9 +130,13 @@ class Stage:
             rehearsal = Rehearsal(world, engine, actors, drawn=drawn)
             rehearsal.place()
             for thing in scene.objects:
+                held = None
                 if thing.held_by and thing.in_hand is not None:
-                    hand = world.hand(thing.held_by).pose
-                    held = compose(hand, thing.in_hand)
+                    held = compose(world.hand(thing.held_by).pose, thing.in_hand)
+                elif thing.held_by and thing.name in in_tool:
+                    tool = engine.link(thing.held_by, world.robot(thing.held_by).tool_link).pose
+                    held = compose(tool, in_tool[thing.name])
+                if held is not None:
                     world.move(thing.name, held, (0.0, 0.0, 0.0), (0.0, 0.0, 0.0), held=True)
                     world.attach(thing.held_by, thing.name, math.inf)
             types = {thing.name: thing.type for thing in world.objects}

@@ -1,0 +1,126 @@
+"""Checks a stored trajectory in the scene of a running lab, in a process that nothing waits for.
+
+As a program it reads one pickled `Task` from its standard input and writes one JSON object. It
+runs only when no other process wants the processor (SCHED_IDLE), under limits of memory and
+processor time, and ends with the process that started it.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import ctypes
+import json
+import os
+import pickle
+import resource
+import signal
+import sys
+from dataclasses import dataclass, replace
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from mrlab_ros.adapters.checking.stage import Stage, first_link
+from mrlab_ros.adapters.robots.library import RobotLibrary
+from mrlab_ros.adapters.trajectories import npz_file
+from mrlab_ros.core.checking import motion
+from mrlab_ros.core.checking.lab_scene import LabScene
+from mrlab_ros.core.checking.rehearsal import Actor
+from mrlab_ros.core.conversion.convert import ConversionResult, Outcome
+from mrlab_ros.core.errors import BadInput, LabError
+
+GiB = 1 << 30
+MEMORY = 4 * GiB  # of the address space, bytes
+PROCESSOR_TIME_S = 120
+PR_SET_PDEATHSIG = 1
+LONGEST_S = 600.0  # of a motion, s
+
+
+@dataclass(frozen=True, eq=False)
+class Task:
+    """What is checked. share: the package's folder. file: the trajectory, as the store keeps it;
+    trajectory: its id. robot: the robot of the scene that plays it."""
+
+    share: Path
+    file: Path
+    trajectory: str
+    robot: str
+    scene: LabScene
+
+
+def check(task: Task) -> dict[str, Any]:
+    """Return the report, as JSON has it; raise LabError where it cannot be checked."""
+    t = replace(npz_file.read(task.file), id=task.trajectory)
+    if t.duration > LONGEST_S:
+        raise BadInput(
+            f"'{t.id}' lasts {t.duration:.0f} s; a check in the lab takes up to {LONGEST_S:.0f} s. "
+            "Download it and run mrlab check"
+        )
+    document = task.scene.document
+    own = [r for r in document.robots if r.name == task.robot]
+    if not own:
+        there = ", ".join(r.name for r in document.robots) or "none"
+        raise BadInput(f"there is no robot '{task.robot}' in the lab; its robots: {there}")
+    stage = Stage(task.share, RobotLibrary(task.share / "robots"))
+    entries = (own[0], *(r for r in document.robots if r.name != task.robot))
+    robots = [stage.robot(e.name, e.model, e.end_effector, e.pose) for e in entries]
+    checked = robots[0]
+    if t.robot_model != checked.model.id:
+        raise BadInput(
+            f"'{t.id}' is for {t.robot_model}, and {task.robot} is a {checked.model.id}; load it "
+            f"on a {t.robot_model}"
+        )
+    actors = [
+        Actor(
+            r.name,
+            # where nothing says how a robot stands, it stands at home
+            np.array(task.scene.stands.get(r.name, r.model.home)),
+            t if r is checked else None,
+            first_link=first_link(r),
+        )
+        for r in robots
+    ]
+    played = stage.rehearse(robots, actors, document, drawn=False, in_tool=task.scene.in_tool)
+    report = motion.report_of(
+        ConversionResult(t.source.file, Outcome.ACCEPTED, t, (), ()),
+        checked,
+        motion.figures_of(t, checked),
+        played.recorded,
+        inputs=stage.inputs(robots, document),
+        scene=task.scene.words,
+        graspable=played.graspable,
+    )
+    return report.document()
+
+
+def confine() -> None:
+    """Let everything else run first, and end with the process that started this one."""
+    with contextlib.suppress(OSError, AttributeError):
+        ctypes.CDLL(None).prctl(PR_SET_PDEATHSIG, signal.SIGKILL)
+    os.nice(19)
+    with contextlib.suppress(OSError):
+        os.sched_setscheduler(0, os.SCHED_IDLE, os.sched_param(0))
+    resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
+    resource.setrlimit(resource.RLIMIT_AS, (MEMORY, MEMORY))
+    resource.setrlimit(resource.RLIMIT_CPU, (PROCESSOR_TIME_S, PROCESSOR_TIME_S))
+
+
+def main() -> None:
+    """Check what the standard input says; write {"report": ...} or {"problem": "a sentence"}."""
+    confine()
+    # pybullet prints its build time
+    answer = os.fdopen(os.dup(1), "w")
+    os.dup2(2, 1)
+    try:
+        told: dict[str, Any] = {"report": check(pickle.load(sys.stdin.buffer))}  # from the gateway itself
+    except LabError as error:
+        told = {"problem": str(error)}
+    except MemoryError:
+        told = {"problem": f"the check needs more than {MEMORY / GiB:.0f} GiB of memory"}
+    with answer:
+        json.dump(told, answer)
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,1 @@
+"""Checks of what robots of the running lab are about to play."""

@@ -1,0 +1,150 @@
+"""Checks one motion after another, and keeps what came of each."""
+
+from __future__ import annotations
+
+import asyncio
+import logging
+from collections import OrderedDict
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field
+from typing import Any, Protocol
+
+from mrlab_ros.adapters.checking.in_lab import Task
+from mrlab_ros.core.checking.lab_scene import LabScene, changed
+from mrlab_ros.core.errors import LabError
+from mrlab_ros.gateway.checks.answers import Check
+from mrlab_ros.gateway.errors import TooMany
+
+MOST_WAITING = 12
+MOST_KEPT = 100
+# What a person may try again after, s, where too many wait.
+AGAIN_S = 10.0
+log = logging.getLogger("mrlab.gateway")
+
+Key = tuple[str, str]
+
+
+class Checker(Protocol):
+    """Checks a motion somewhere else than in the gateway's own process."""
+
+    async def check(self, task: Task) -> Mapping[str, Any]:
+        """Return the report, as JSON has it; raise LabError. Being cancelled ends the work."""
+        ...
+
+
+@dataclass(eq=False)
+class Entry:
+    """One check: of which file, in which scene, and what came of it."""
+
+    key: Key
+    file: str
+    scene: LabScene
+    state: str = "waiting"
+    report: Mapping[str, Any] = field(default_factory=dict)
+    message: str = ""
+    work: asyncio.Task[None] | None = None
+
+    @property
+    def active(self) -> bool:
+        return self.state in ("waiting", "running")
+
+
+class CheckDesk:
+    """The checks of one gateway, by robot and trajectory; belongs to one event loop.
+
+    One runs at a time. What is asked again and has not changed is answered from what is known;
+    another motion for the same robot ends the check that runs for it.
+    """
+
+    def __init__(self, checker: Checker) -> None:
+        self._checker = checker
+        self._one = asyncio.Semaphore(1)
+        self._entries: OrderedDict[Key, Entry] = OrderedDict()
+
+    def ask(self, key: Key, task: Callable[[], Task], scene: LabScene, file: str) -> Entry:
+        """Begin a check, or return the one that runs or still holds.
+
+        key: robot and trajectory with its version. task: makes what is checked. file: identity of
+        the frames. Raises TooMany where too many wait.
+        """
+        known = self._entries.get(key)
+        if known is not None and known.file == file:
+            same = not changed(known.scene, scene, key[0])
+            if same and (known.active or known.state == "done"):
+                return known
+        active = [e for e in self._entries.values() if e.active]
+        superseded = [e for e in active if e.key[0] == key[0]]
+        if len(active) - len(superseded) >= MOST_WAITING:
+            raise TooMany(
+                f"{len(active)} motions wait to be checked already; try again in {AGAIN_S:.0f} s",
+                AGAIN_S,
+            )
+        for each in superseded:
+            self._end(each)
+        entry = self._entries[key] = Entry(key, file, scene)
+        self._entries.move_to_end(key)
+        entry.work = asyncio.create_task(self._run(entry, task()))
+        while len(self._entries) > MOST_KEPT:
+            self._end(self._entries.popitem(last=False)[1])
+        return entry
+
+    def find(self, key: Key) -> Entry | None:
+        return self._entries.get(key)
+
+    def cancel(self, key: Key) -> None:
+        """End a check that waits or runs."""
+        entry = self._entries.get(key)
+        if entry is not None and entry.active:
+            self._end(entry)
+
+    async def close(self) -> None:
+        """End all checks."""
+        works = [e.work for e in self._entries.values() if e.work is not None]
+        for entry in list(self._entries.values()):
+            self._end(entry)
+        await asyncio.gather(*works, return_exceptions=True)
+
+    def _end(self, entry: Entry) -> None:
+        if entry.active:
+            # nobody asks for it any more, so it is as if nobody had
+            self._entries.pop(entry.key, None)
+            entry.state = "none"
+        if entry.work is not None:
+            entry.work.cancel()
+
+    async def _run(self, entry: Entry, task: Task) -> None:
+        async with self._one:
+            entry.state = "running"
+            try:
+                entry.report = await self._checker.check(task)
+                entry.state = "done"
+            except LabError as error:
+                entry.message, entry.state = str(error), "failed"
+            except Exception:
+                log.exception("the check of %s failed", entry.key)
+                entry.message = "the check failed; the gateway's log, on the lab's machine, says why"
+                entry.state = "failed"
+
+
+def answer(key: Key, entry: Entry | None, now: LabScene | None) -> Check:
+    """Return what is known of a check. now: the lab's scene; None: it is not known."""
+    robot, trajectory = key
+    if entry is None or entry.state == "none":
+        return Check(state="none", robot=robot, trajectory=trajectory)
+    report = entry.report
+    own: Mapping[str, Any] = next((r for r in report.get("robots", ()) if r["name"] == robot), {})
+    return Check.model_validate(
+        {
+            "state": entry.state,
+            "robot": robot,
+            "trajectory": trajectory,
+            "message": entry.message,
+            "stale": changed(entry.scene, now, robot) if report and now is not None else "",
+            **{k: report.get(k, "") for k in ("verdict", "summary", "claim", "hash")},
+            "duration": report.get("duration"),
+            "findings": report.get("findings", ()),
+            "conditions": own.get("hardware", ()),
+        }
+    )
+
+

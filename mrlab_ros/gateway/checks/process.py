@@ -1,0 +1,61 @@
+"""Runs each check in a process of its own, which is ended when it takes too long."""
+
+from __future__ import annotations
+
+import asyncio
+import contextlib
+import json
+import logging
+import pickle
+import sys
+from asyncio.subprocess import PIPE
+from collections.abc import Mapping
+from typing import Any
+
+from mrlab_ros.adapters.checking.in_lab import Task
+from mrlab_ros.core.errors import BadInput, Unavailable
+
+# It only runs when nothing else does, so a busy machine takes long.
+PATIENCE_S = 300.0
+LAST_LINES = 3
+log = logging.getLogger("mrlab.gateway")
+
+
+class CheckProcess:
+    """Checks by `mrlab_ros.adapters.checking.in_lab`."""
+
+    def __init__(self, patience: float = PATIENCE_S) -> None:
+        self._patience = patience
+
+    async def check(self, task: Task) -> Mapping[str, Any]:
+        command = (sys.executable, "-m", "mrlab_ros.adapters.checking.in_lab")
+        process = await asyncio.create_subprocess_exec(
+            *command, stdin=PIPE, stdout=PIPE, stderr=PIPE, start_new_session=True
+        )
+        try:
+            said, problems = await asyncio.wait_for(
+                process.communicate(pickle.dumps(task)), self._patience
+            )
+        except asyncio.TimeoutError:
+            raise Unavailable(
+                f"the check took longer than {self._patience:.0f} s, because this machine is busy "
+                "or the motion is long; pause what plays and check again"
+            ) from None
+        finally:
+            if process.returncode is None:
+                with contextlib.suppress(ProcessLookupError):
+                    process.kill()
+                await process.wait()
+        try:
+            told = json.loads(said)
+        except ValueError:
+            lines = problems.decode(errors="replace").strip().splitlines()[-LAST_LINES:]
+            log.warning("a check ended with %s: %s", process.returncode, " | ".join(lines))
+            raise Unavailable(
+                f"the check ended early (status {process.returncode}), as when it needs too much "
+                "memory or time; check a shorter motion, or run mrlab check"
+            ) from None
+        if "problem" in told:
+            raise BadInput(told["problem"])
+        report: Mapping[str, Any] = told["report"]
+        return report

@@ -1,0 +1,107 @@
+"""/api/checks: whether a robot of the lab can play a trajectory where everything stands now."""
+
+from __future__ import annotations
+
+import time
+from dataclasses import dataclass, field
+from typing import Annotated
+
+from fastapi import APIRouter, Depends, Query, Request
+from fastapi.concurrency import run_in_threadpool
+
+from mrlab_ros.adapters.checking.in_lab import Task
+from mrlab_ros.core.errors import LabError, Unavailable
+from mrlab_ros.core.trajectory.record import Record, Version
+from mrlab_ros.gateway.checks import answers
+from mrlab_ros.gateway.checks.desk import CheckDesk, Key, answer
+from mrlab_ros.gateway.checks.scene import SceneWatch
+from mrlab_ros.gateway.people.person import CurrentPerson, Person
+from mrlab_ros.gateway.people.rate_limits import Limit, RateLimit
+from mrlab_ros.gateway.share import directory
+from mrlab_ros.gateway.store.shelf import Shelf, shelf_of
+
+# Of one person; that of everybody is bounded by the queue.
+CHECKS = Limit("checks", burst=20, period=3.0)
+
+router = APIRouter(prefix="/api/checks", tags=["checks"])
+
+
+@dataclass(eq=False)
+class Checking:
+    """What the routes share. scenes: None: this gateway has no lab."""
+
+    desk: CheckDesk
+    scenes: SceneWatch | None
+    limit: RateLimit = field(default_factory=lambda: RateLimit(CHECKS))
+
+
+def checking_of(request: Request) -> Checking:
+    """Return the checks of a gateway, as a dependency."""
+    found: Checking = request.app.state.checking
+    return found
+
+
+TheShelf = Annotated[Shelf, Depends(shelf_of)]
+TheChecking = Annotated[Checking, Depends(checking_of)]
+RobotName = Annotated[str, Query(min_length=1, max_length=100, description="such as ur5e_1")]
+Wanted = Annotated[str, Query(min_length=1, max_length=600, description="such as quintic@3")]
+
+
+async def _key(shelf: Shelf, person: Person, robot: str, text: str) -> tuple[Key, Record, Version]:
+    """Return whose check it is; raise NoTrajectory where the person may not see the motion."""
+    record, version = await run_in_threadpool(shelf.find, person, text)
+    return (robot, f"{record.id}@{version.number}"), record, version
+
+
+@router.post("", status_code=202)
+async def begin(
+    person: CurrentPerson, shelf: TheShelf, checking: TheChecking, wanted: answers.CheckWanted
+) -> answers.Check:
+    """Check a stored trajectory on a robot of the lab, in the scene as it is now.
+
+    Another check of the same robot ends; the same one, of an unchanged scene, is not run again.
+    """
+    if checking.scenes is None:
+        raise Unavailable("this gateway has no lab; start it with the endpoint of one")
+    checking.limit.check(person.name, time.monotonic())
+    key, record, version = await _key(shelf, person, wanted.robot, wanted.trajectory)
+    scene = await checking.scenes.now()
+    file = await run_in_threadpool(shelf.files.path, version)
+
+    def task() -> Task:
+        return Task(directory(), file, record.id, wanted.robot, scene)
+
+    return answer(key, checking.desk.ask(key, task, scene, version.key), scene)
+
+
+@router.get("")
+async def state(
+    person: CurrentPerson,
+    shelf: TheShelf,
+    checking: TheChecking,
+    robot: RobotName,
+    trajectory: Wanted,
+) -> answers.Check:
+    """Return what is known of a check, and what has changed in the lab since."""
+    key, _, _ = await _key(shelf, person, robot, trajectory)
+    entry = checking.desk.find(key)
+    now = None
+    if entry is not None and entry.state == "done" and checking.scenes is not None:
+        try:
+            now = await checking.scenes.now()
+        except LabError:
+            now = None  # the lab is away: what was found is shown as it was
+    return answer(key, entry, now)
+
+
+@router.delete("", status_code=204)
+async def cancel(
+    person: CurrentPerson,
+    shelf: TheShelf,
+    checking: TheChecking,
+    robot: RobotName,
+    trajectory: Wanted,
+) -> None:
+    """End a check that waits or runs."""
+    key, _, _ = await _key(shelf, person, robot, trajectory)
+    checking.desk.cancel(key)
