@@ -1,6 +1,7 @@
 import { type Api, ApiError } from '../src/api/api'
 import type {
   Candidate,
+  Check,
   Conversion,
   ConversionRequest,
   Device,
@@ -28,6 +29,59 @@ const MODELS = [
   'kuka_lbr_iisy15_r930',
   'kuka_kr560_r3100_2',
 ]
+
+export const NO_CHECK: Check = {
+  state: 'none',
+  robot: '',
+  trajectory: '',
+  stale: '',
+  message: '',
+  verdict: '',
+  claim: '',
+  duration: null,
+  findings: [],
+}
+const FOUND = {
+  remedy: '',
+  robot: 'ur5e_1',
+  end: null,
+  value: null,
+  limit: null,
+  unit: '',
+} as const
+export const FOUND_CHECK: Check = {
+  ...NO_CHECK,
+  state: 'done',
+  verdict: 'not_ready',
+  duration: 600,
+  findings: [
+    {
+      ...FOUND,
+      severity: 'error',
+      code: 'collision',
+      message: 'wrist_3_link touches cube_1 at 0.465, 0.127, 0.061 m.',
+      remedy: 'Lift the way over it.',
+      link: 'wrist_3_link',
+      time: 214,
+    },
+    {
+      ...FOUND,
+      severity: 'warning',
+      code: 'near_singularity',
+      message: 'The arm is nearly singular.',
+      link: '',
+      time: 420.5,
+    },
+    {
+      ...FOUND,
+      severity: 'error',
+      code: 'payload',
+      message: 'box_1 is too heavy.',
+      link: '',
+      time: null,
+    },
+  ],
+}
 
 export function finding(of: Partial<Diagnostic>): Diagnostic {
   return {
@@ -130,6 +184,7 @@ export class FakeApi implements Api {
     }),
   ]
   readonly #deleted = new Map<string, TrajectoryInfo>()
+  readonly checks = new Map<string, Check>()
   #people: Person[] = [
     { name: 'ada', role: 'instructor', signs_in: 'password' },
     { name: 'grace', role: 'student', signs_in: '' },
@@ -290,6 +345,16 @@ export class FakeApi implements Api {
     if (!info) throw new ApiError(404, 'not_found', `There is no trajectory '${id}'.`)
     this.catalogue = [info, ...this.catalogue.filter((each) => each.id !== id)]
     return info
+  }
+  async check(robot: string, trajectory: string): Promise<Check> {
+    return this.checks.get(`${robot} ${trajectory}`) ?? { ...NO_CHECK, robot, trajectory }
+  }
+  async startCheck(robot: string, trajectory: string): Promise<Check> {
+    this.checks.set(`${robot} ${trajectory}`, { ...FOUND_CHECK, robot, trajectory })
+    return { ...NO_CHECK, state: 'running', robot, trajectory }
+  }
+  async cancelCheck(robot: string, trajectory: string): Promise<void> {
+    this.checks.delete(`${robot} ${trajectory}`)
   }
   async people(): Promise<readonly Person[]> {
     return this.#people

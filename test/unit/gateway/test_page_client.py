@@ -31,6 +31,8 @@ ANSWERS = {
     "Pairing": "PairingShown",
     "PairingState": "PairingState",
     "Session": "Session",
+    "Check": "Check",
+    "CheckFinding": "CheckFinding",
 }
 
 

@@ -1,5 +1,6 @@
 import type { MotionDocument } from '../playback/motion'
 import type {
+  Check,
   Conversion,
   ConversionRequest,
   Device,
@@ -37,6 +38,12 @@ export interface Api {
   remove(id: string): Promise<void>
   /** version 0: bring a deleted one back; else an older version becomes the newest. */
   restore(id: string, version: number): Promise<TrajectoryInfo>
+
+  /** What is known of a check of `trajectory`, such as quintic@3, on a robot of the lab. */
+  check(robot: string, trajectory: string): Promise<Check>
+  /** Have it checked where everything stands now. */
+  startCheck(robot: string, trajectory: string): Promise<Check>
+  cancelCheck(robot: string, trajectory: string): Promise<void>
 
   people(): Promise<readonly Person[]>
   invite(person: NewPerson): Promise<InvitationLink>

@@ -1,6 +1,7 @@
 import type { MotionDocument } from '../playback/motion'
 import { type Api, ApiError, trajectoryUrl } from './api'
 import type {
+  Check,
   Conversion,
   ConversionRequest,
   Device,
@@ -33,6 +34,10 @@ interface LibraryDocument {
     readonly name: string
     readonly thumbnail: string | null
   }[]
+}
+
+function checkUrl(robot: string, trajectory: string): string {
+  return `/api/checks?${new URLSearchParams({ robot, trajectory })}`
 }
 
 function address(key: string | null): string | null {
@@ -131,6 +136,16 @@ export class HttpApi implements Api {
   }
   restore(id: string, version: number): Promise<TrajectoryInfo> {
     return this.#ask('POST', trajectoryUrl(id, 'restore'), { version })
+  }
+
+  check(robot: string, trajectory: string): Promise<Check> {
+    return this.#ask('GET', checkUrl(robot, trajectory))
+  }
+  startCheck(robot: string, trajectory: string): Promise<Check> {
+    return this.#ask('POST', '/api/checks', { robot, trajectory })
+  }
+  async cancelCheck(robot: string, trajectory: string): Promise<void> {
+    await this.#ask('DELETE', checkUrl(robot, trajectory))
   }
 
   async people(): Promise<readonly Person[]> {

@@ -200,3 +200,34 @@ export interface Pairing {
 export interface PairingState {
   readonly state: 'waiting' | 'approved' | 'expired'
 }
+
+/** A finding of a check; time and end: s from the first frame, null: it has no instant. */
+export interface CheckFinding {
+  readonly severity: 'info' | 'warning' | 'error'
+  readonly code: string
+  readonly message: string
+  readonly remedy: string
+  readonly robot: string
+  readonly link: string
+  readonly time: number | null
+  readonly end: number | null
+  readonly value: number | null
+  readonly limit: number | null
+  readonly unit: string
+}
+
+/** A check of what a robot of the lab is about to play. */
+export interface Check {
+  readonly state: 'none' | 'waiting' | 'running' | 'done' | 'failed'
+  readonly robot: string
+  /** Such as quintic@3 */
+  readonly trajectory: string
+  /** What has changed in the lab since; empty: nothing. */
+  readonly stale: string
+  /** Why it failed. */
+  readonly message: string
+  readonly verdict: string
+  readonly claim: string
+  readonly duration: number | null
+  readonly findings: readonly CheckFinding[]
+}

@@ -14,12 +14,30 @@ export interface Toggle {
   readonly set: (on: boolean) => void
 }
 
+/** Something at a place of a timeline. */
+export interface TimeMark {
+  /** s */
+  readonly time: number
+  readonly severity: 'info' | 'warning' | 'error'
+  readonly words: string
+}
+
+/** By severity, on 24 x 24: an octagon, a triangle, a ring. */
+const SIGNS = {
+  error: 'M8.500 3h7L21 8.500v7L15.500 21h-7L3 15.500v-7z',
+  warning: 'M12 3.500 21.500 20.500h-19z',
+  info: 'M12 4a8 8 0 1 0 .01 0z',
+} as const
+const SVG = 'http://www.w3.org/2000/svg'
+
 /** Play, a timeline, the time and the speed, for a player. */
 export class Controls {
   readonly element = document.createElement('div')
   private readonly button = document.createElement('button')
   private readonly icon = document.createElementNS('http://www.w3.org/2000/svg', 'path')
   private readonly slider = document.createElement('input')
+  private readonly track = document.createElement('span')
+  private readonly marks = document.createElement('span')
   private readonly clock = document.createElement('output')
   private readonly speed = document.createElement('select')
   private readonly stopListening: () => void
@@ -69,16 +87,49 @@ export class Controls {
       this.speed.append(option)
     }
     this.speed.addEventListener('change', () => player.setRate(Number(this.speed.value)))
-    this.element.append(this.button, this.slider, this.clock, this.speed)
+    this.track.className = 'scene-track'
+    this.marks.className = 'scene-marks'
+    this.track.append(this.slider, this.marks)
+    this.element.append(this.button, this.track, this.clock, this.speed)
     for (const toggle of toggles) this.element.append(switchFor(toggle))
     this.stopListening = player.onChange(() => this.showState())
     this.showState()
     this.show(player.position())
   }
 
+  /** Mark places on the timeline; a press on one goes there, where that is allowed. A list beside
+   * the timeline has the same places for keyboards. */
+  setMarks(marks: readonly TimeMark[]): void {
+    const { duration } = this.player
+    this.track.classList.toggle('scene-track-marked', marks.length > 0)
+    this.marks.replaceChildren(
+      ...marks.map(({ time, severity, words }) => {
+        const mark = document.createElement('button')
+        mark.type = 'button'
+        mark.tabIndex = -1
+        mark.className = `scene-mark scene-mark-${severity}`
+        mark.title = words
+        mark.setAttribute('aria-label', words)
+        mark.disabled = this.slider.disabled
+        const share = duration > 0 ? Math.min(time / duration, 1) : 0
+        mark.style.setProperty('--at', String(share))
+        const svg = document.createElementNS(SVG, 'svg')
+        svg.setAttribute('viewBox', '0 0 24 24')
+        svg.setAttribute('aria-hidden', 'true')
+        const sign = document.createElementNS(SVG, 'path')
+        sign.setAttribute('d', SIGNS[severity])
+        svg.append(sign)
+        mark.append(svg)
+        mark.addEventListener('click', () => this.player.seek(time))
+        return mark
+      }),
+    )
+  }
+
   /** Let it be used or only be looked at. */
   setEnabled(on: boolean): void {
     for (const each of [this.button, this.slider, this.speed]) each.disabled = !on
+    for (const mark of this.marks.children) (mark as HTMLButtonElement).disabled = !on
   }
 
   /** Show a time; the text changes ten times a second at most. */

@@ -197,7 +197,12 @@ export function Lab({ link }: { link: Link }) {
                 <SystemCard key={each.system.name} view={each} />
               ))}
               {robots.map((each) => (
-                <RobotCard key={each.robot.name} view={each} catalogue={catalogue} />
+                <RobotCard
+                  key={each.robot.name}
+                  view={each}
+                  catalogue={catalogue}
+                  idle={moving.length === 0}
+                />
               ))}
               {may.scene && robots.length > 0 && (
                 <Button icon="robot" onClick={toggle(adding)}>

@@ -1,14 +1,19 @@
-import { useState } from 'preact/hooks'
+import { useEffect, useMemo, useRef, useState } from 'preact/hooks'
 import { Button } from '../../design/button'
 import { StateChip } from '../../design/chip'
 import { Menu } from '../../design/menu'
 import { removeType } from '../../protocol/mrlab_msgs'
 import { number, words } from '../../words/words'
+import { useApi } from '../shell/session'
 import type { LabCatalogue } from './catalogue'
+import { CheckCard } from './check_card'
+import './check.css'
+import { kindOf } from './check_words'
 import { order, trigger } from './commands'
 import { useLab } from './context'
 import type { RobotView } from './followed_robot'
 import { LoadList } from './load_list'
+import { marksOf, RobotCheck } from './robot_check'
 import { Timeline } from './timeline'
 
 /** Targets that have a button each; a longer list would push the next robot away. */
@@ -17,6 +22,23 @@ const MOST_TARGETS = 12
 interface RobotCardProps {
   readonly view: RobotView
   readonly catalogue: LabCatalogue
+  /** Nothing of the lab moves: what is loaded now is checked by itself. */
+  readonly idle: boolean
+}
+
+/** The check of what a robot has loaded; what is loaded from now on is checked by itself. */
+function useCheck({ robot, playback }: RobotView, begins: boolean): RobotCheck {
+  const api = useApi()
+  const check = useMemo(() => new RobotCheck(api, robot.name), [api, robot.name])
+  useEffect(() => () => check.dispose(), [check])
+  const known = useRef<RobotCheck | null>(null)
+  const { trajectory_id: id, trajectory_version: version } = playback ?? {}
+  useEffect(() => {
+    if (id === undefined) return
+    void check.follow(id && `${id}@${version}`, begins && known.current === check)
+    known.current = check
+  }, [check, id, version])
+  return check
 }
 
 /** Where the trajectory grasps and releases; a click goes there. The numbers are those in 3D. */
@@ -44,13 +66,25 @@ function Targets({ view }: { view: RobotView }) {
 }
 
 /** One robot: what it does, what it holds, its timeline, and what it can play. */
-export function RobotCard({ view, catalogue }: RobotCardProps) {
+export function RobotCard({ view, catalogue, idle }: RobotCardProps) {
   const { link, may } = useLab()
   const [choosing, setChoosing] = useState(false)
   const { robot, state, playback, holding, touching, player } = view
   const w = words.value.lab
   const loaded = playback !== null && playback.frame_count > 0
   const independent = !playback?.system
+  const check = useCheck(view, may.commands && idle)
+  const seeks = may.commands && independent
+  const found = check.check.value
+  const marks = useMemo(
+    () =>
+      marksOf(found, playback?.duration ?? 0).map(({ finding: { code, severity }, time }) => ({
+        time,
+        severity,
+        words: `${words.value.severities[severity]}: ${kindOf(code, words.value)}, ${words.value.check.at(number(time, 2))}`,
+      })),
+    [found, playback?.duration, words.value],
+  )
   return (
     <article class="lab-card" aria-label={robot.name}>
       <header class="lab-card-head">
@@ -93,10 +127,11 @@ export function RobotCard({ view, catalogue }: RobotCardProps) {
               </Button>
             )}
           </div>
-          <Timeline
-            player={player}
-            rate={playback.frame_rate}
-            enabled={may.commands && independent}
+          <Timeline player={player} rate={playback.frame_rate} enabled={seeks} marks={marks} />
+          <CheckCard
+            check={check}
+            enabled={may.commands}
+            onSeek={seeks ? (time) => player.seek(time) : null}
           />
           <Targets view={view} />
         </div>

@@ -1,6 +1,6 @@
 import { useEffect, useRef } from 'preact/hooks'
 import type { RemotePlayer } from '../../playback/player'
-import { Controls } from '../../scene/controls'
+import { Controls, type TimeMark } from '../../scene/controls'
 import { ENGLISH, GERMAN } from '../../scene/words'
 import { language } from '../../words/words'
 
@@ -10,11 +10,15 @@ interface TimelineProps {
   readonly rate: number
   /** Whether the person may play, seek and set the speed. */
   readonly enabled: boolean
+  readonly marks?: readonly TimeMark[]
 }
 
+const NO_MARKS: readonly TimeMark[] = []
+
 /** Play, timeline and speed of something that the lab plays. */
-export function Timeline({ player, rate, enabled }: TimelineProps) {
+export function Timeline({ player, rate, enabled, marks = NO_MARKS }: TimelineProps) {
   const host = useRef<HTMLDivElement>(null)
+  const shown = useRef<Controls | null>(null)
   const german = language.value === 'de'
   useEffect(() => {
     const words = german ? GERMAN : ENGLISH
@@ -22,6 +26,7 @@ export function Timeline({ player, rate, enabled }: TimelineProps) {
     const controls = new Controls(player, words, rate > 0 ? 1 / rate : 0.01, row, [])
     controls.setEnabled(enabled)
     host.current?.append(controls.element)
+    shown.current = controls
     let request = 0
     const frame = () => {
       controls.show(player.position())
@@ -38,5 +43,7 @@ export function Timeline({ player, rate, enabled }: TimelineProps) {
       controls.dispose()
     }
   }, [player, rate, german, enabled])
+  const { duration } = player
+  useEffect(() => shown.current?.setMarks(marks), [marks, duration, player, rate, german, enabled])
   return <div class="lab-timeline" ref={host} />
 }

@@ -1,0 +1,112 @@
+import { type Signal, signal } from '@preact/signals'
+import { type Api, ApiError, sentence } from '../../api/api'
+import type { Check, CheckFinding } from '../../api/types'
+
+/** ms between two questions about a check that runs, and about one whose scene may change. */
+export const RUNNING_MS = 1000
+export const STALE_MS = 10_000
+/** Marks on a timeline; more would be one band. */
+const MOST_MARKS = 60
+
+export type CheckApi = Pick<Api, 'check' | 'startCheck'>
+
+/** A finding at its instant, s. */
+export interface CheckMark {
+  readonly finding: CheckFinding
+  readonly time: number
+}
+
+/** What is known of the check of the motion that one robot has loaded, asked from time to time. */
+export class RobotCheck {
+  /** null: nothing is known yet, or nobody had it checked. */
+  readonly check: Signal<Check | null> = signal(null)
+  /** Why it could not be asked for; empty: it could. */
+  readonly problem = signal('')
+  private trajectory = ''
+  private timer: ReturnType<typeof setTimeout> | null = null
+  private asked = 0
+
+  constructor(
+    private readonly api: CheckApi,
+    private readonly robot: string,
+  ) {}
+
+  /** Take over what is loaded, such as quintic@3; empty: nothing. begins: have it checked where
+   * nobody has. */
+  async follow(trajectory: string, begins: boolean): Promise<void> {
+    if (trajectory === this.trajectory) return
+    this.trajectory = trajectory
+    this.check.value = null
+    this.problem.value = ''
+    this.stop()
+    if (trajectory === '') return
+    const known = await this.ask(() => this.api.check(this.robot, trajectory))
+    if (begins && known?.state === 'none') await this.start()
+  }
+
+  /** Have what is loaded checked where everything stands now. */
+  async start(): Promise<void> {
+    const { trajectory } = this
+    if (trajectory === '') return
+    await this.ask(() => this.api.startCheck(this.robot, trajectory))
+  }
+
+  dispose(): void {
+    this.trajectory = ''
+    this.stop()
+  }
+
+  private stop(): void {
+    this.asked++
+    if (this.timer !== null) clearTimeout(this.timer)
+    this.timer = null
+  }
+
+  /** Ask, unless something newer is asked meanwhile; ask again later where the answer may change. */
+  private async ask(question: () => Promise<Check>): Promise<Check | null> {
+    this.stop()
+    const { asked, trajectory } = this
+    let answer: Check | null = null
+    try {
+      answer = await question()
+      if (asked !== this.asked) return null
+      this.check.value = answer.state === 'none' ? null : answer
+      this.problem.value = ''
+    } catch (error) {
+      if (asked !== this.asked) return null
+      // a motion that this person may not see has no check to look at
+      if (!(error instanceof ApiError && error.status === 404))
+        this.problem.value = sentence(error)
+      return null
+    }
+    const { state } = answer
+    if (state === 'none' || state === 'failed') return answer
+    const wait = state === 'done' ? STALE_MS : RUNNING_MS
+    this.timer = setTimeout(() => {
+      void this.ask(() => this.api.check(this.robot, trajectory))
+    }, wait)
+    return answer
+  }
+}
+
+/** Return the findings that have an instant within a motion, in their order on the timeline. */
+export function marksOf(check: Check | null, duration: number): CheckMark[] {
+  if (check === null || check.state !== 'done') return []
+  const marks: CheckMark[] = []
+  for (const finding of check.findings) {
+    if (finding.time !== null && finding.time <= duration + 0.5)
+      marks.push({ finding, time: Math.min(finding.time, duration) })
+  }
+  return marks.sort((a, b) => a.time - b.time).slice(0, MOST_MARKS)
+}
+
+/** How many findings refuse a motion, and how many warn. */
+export function counted(check: Check): { readonly refusing: number; readonly warning: number } {
+  let refusing = 0
+  let warning = 0
+  for (const { severity } of check.findings) {
+    if (severity === 'error') refusing++
+    else if (severity === 'warning') warning++
+  }
+  return { refusing, warning }
+}
