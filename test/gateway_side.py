@@ -40,7 +40,9 @@ class Gateway:
     """A gateway with fakes; `browser` opens clients of it. Use it as a context manager."""
 
     def __init__(self, folder: Path, **options: Any) -> None:
-        ports = {name: options.pop(name) for name in ("lab", "store", "checker") if name in options}
+        ports = {
+            name: options.pop(name) for name in ("lab", "store", "checker") if name in options
+        }
         provider = options.pop("provider", None)
         # Without a signing-in setting there is one local user.
         self.settings = Settings(state_dir=folder / "state", **options)

@@ -15,6 +15,8 @@ from served_lab import Gateway, ServedLab, free_port, gateway_with_people
 
 from mrlab_ros.core.bridge.rules import Role
 
+# A check runs only when nothing else wants the processor.
+CHECKED_MS = 120_000
 PASSWORD = "long enough to be one"
 # Answers how a socket ended that a page of this origin opened: its code, or 0 once it is open.
 SOCKET = """
@@ -77,6 +79,35 @@ def test_a_robot_is_put_there_and_taken_away(page: Page, lab: ServedLab) -> None
     card.get_by_role("button", name="What to do with").click()
     card.get_by_role("button", name="Remove the robot").click()
     expect(card).to_have_count(0)
+
+
+def test_what_a_motion_would_touch_is_said_before_it_is_played(page: Page, lab: ServedLab) -> None:
+    there = LabPage(page).open(lab.url)
+    there.load("ur5e_1", "quintic")
+    check = there.robot("ur5e_1").get_by_role("region", name="Check")
+    # what was loaded before this page was opened is checked when somebody asks
+    button = check.get_by_role("button", name=re.compile("^Check"))
+    verdict = check.get_by_role("status")
+    expect(button.or_(verdict).first).to_be_visible()
+    lab.done("objects", "spawn", "pedestal", "--name", "in_the_way", "--at", "0.75,0.05,0.2")
+    try:
+        expect(verdict).not_to_contain_text("Checking", timeout=CHECKED_MS)
+        button.click()
+        expect(verdict).to_contain_text("Not ready", timeout=CHECKED_MS)
+        finding = check.get_by_role("listitem").filter(has_text="in_the_way").first
+        expect(finding).to_contain_text("Error")
+        expect(finding).to_contain_text("Collision")
+        at = finding.get_by_role("button", name="at ")
+        time = float(at.inner_text().removeprefix("at ").removesuffix(" s"))
+        at.click()
+        timeline = there.robot("ur5e_1").get_by_label("Time", exact=True)
+        eventually(page, lambda: abs(float(timeline.input_value()) - time) < 0.02)
+        mark = there.robot("ur5e_1").locator(".scene-mark-error").first
+        expect(mark).to_have_attribute("title", re.compile("Error: Collision, at"))
+    finally:
+        lab.done("objects", "remove", "in_the_way")
+    page.reload()
+    expect(check).to_contain_text("in_the_way is gone since. Check again.")
 
 
 def test_a_phone_is_given_no_address_that_leads_to_itself(page: Page, lab: ServedLab) -> None:

@@ -113,7 +113,9 @@ def main() -> None:
     answer = os.fdopen(os.dup(1), "w")
     os.dup2(2, 1)
     try:
-        told: dict[str, Any] = {"report": check(pickle.load(sys.stdin.buffer))}  # from the gateway itself
+        told: dict[str, Any] = {
+            "report": check(pickle.load(sys.stdin.buffer))
+        }  # from the gateway itself
     except LabError as error:
         told = {"problem": str(error)}
     except MemoryError:

@@ -122,7 +122,9 @@ class CheckDesk:
                 entry.message, entry.state = str(error), "failed"
             except Exception:
                 log.exception("the check of %s failed", entry.key)
-                entry.message = "the check failed; the gateway's log, on the lab's machine, says why"
+                entry.message = (
+                    "the check failed; the gateway's log, on the lab's machine, says why"
+                )
                 entry.state = "failed"
 
 
@@ -146,5 +148,3 @@ def answer(key: Key, entry: Entry | None, now: LabScene | None) -> Check:
             "conditions": own.get("hardware", ()),
         }
     )
-
-

@@ -44,7 +44,10 @@ def with_robot(**fields: object) -> LabScene:
         (with_robot(end_effector="hand"), "b is another robot, or has another end effector"),
         (replace(SCENE, stands={"a": (1.0,) * 6, "b": (0.0,) * 6}), ""),
         (replace(SCENE, stands={"a": (0.0,) * 6, "b": (0.1,) * 6}), "b stands elsewhere"),
-        (replace(SCENE, document=replace(DOCUMENT, surfaces=())), "the room's surfaces have changed"),
+        (
+            replace(SCENE, document=replace(DOCUMENT, surfaces=())),
+            "the room's surfaces have changed",
+        ),
     ],
 )
 def test_what_has_changed_for_a_motion_of_a(now: LabScene, words: str) -> None:
