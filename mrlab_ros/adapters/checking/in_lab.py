@@ -54,7 +54,7 @@ def check(task: Task) -> dict[str, Any]:
     t = replace(npz_file.read(task.file), id=task.trajectory)
     if t.duration > LONGEST_S:
         raise BadInput(
-            f"'{t.id}' lasts {t.duration:.0f} s; a check in the lab takes up to {LONGEST_S:.0f} s. "
+            f"'{t.id}' lasts {t.duration:.0f} s; expected {LONGEST_S:.0f} s at most in the lab. "
             "Download it and run mrlab check"
         )
     document = task.scene.document

@@ -1,4 +1,4 @@
-"""The scene of a running lab as a check takes it: what stands where now, and what has moved since."""
+"""The scene of a running lab as a check takes it: what stands where, and what has moved since."""
 
 from __future__ import annotations
 
@@ -63,7 +63,7 @@ def changed(before: LabScene, now: LabScene, robot: str) -> str:
         not same_place(a.pose, b.pose)
         for a, b in zip(was.surfaces, now_there.surfaces, strict=True)
     ):
-        return "the room's surfaces have changed"
+        return "the surfaces of the room have changed"
     return ""
 
 

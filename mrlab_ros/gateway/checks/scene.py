@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import asyncio
+import contextlib
 from collections.abc import Callable, Mapping
 from typing import Any
 
@@ -68,10 +69,9 @@ class SceneWatch:
             # without physics nothing says where objects are
             wanted |= {"objects"} & lab.keys.topics.keys()
             if not wanted <= newest.keys():
-                try:
+                # what does not say where it is stands at home, or is not there
+                with contextlib.suppress(asyncio.TimeoutError):
                     await asyncio.wait_for(complete.wait(), self._wait)
-                except asyncio.TimeoutError:
-                    pass
         finally:
             for each in undo:
                 each()

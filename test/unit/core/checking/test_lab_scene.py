@@ -1,4 +1,4 @@
-"""What has moved in a lab since a check: nothing that does not matter, and everything that does."""
+"""What has moved in a lab since a check: only what matters to a motion."""
 
 import math
 from dataclasses import replace
@@ -46,7 +46,7 @@ def with_robot(**fields: object) -> LabScene:
         (replace(SCENE, stands={"a": (0.0,) * 6, "b": (0.1,) * 6}), "b stands elsewhere"),
         (
             replace(SCENE, document=replace(DOCUMENT, surfaces=())),
-            "the room's surfaces have changed",
+            "the surfaces of the room have changed",
         ),
     ],
 )
