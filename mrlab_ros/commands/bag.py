@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import shlex
 import sys
 from dataclasses import asdict
 from datetime import datetime
@@ -51,7 +52,10 @@ def info(bag: BagArgument, as_json: AsJson = False) -> None:
 
 @app.command()
 def repair(bag: BagArgument, as_json: AsJson = False) -> None:
-    """Rewrite damaged files and metadata.yaml; the originals are kept beside them."""
+    """Rewrite damaged files and metadata.yaml; the originals are kept beside them.
+
+    Of an MCAP file alone only that file is rewritten.
+    """
     from mrlab_ros.adapters.bags.repair import KEPT
     from mrlab_ros.adapters.bags.repair import repair as mend
 
@@ -184,13 +188,6 @@ def _began(bag: Bag) -> str:
     return datetime.fromtimestamp(bag.start_ns / 1e9).strftime("%Y-%m-%d %H:%M:%S")
 
 
-def is_live(bag: Bag) -> bool:
-    """Return whether a recorder that lives writes into the bag."""
-    from mrlab_ros.adapters.bags.writer import is_being_written
-
-    return any(is_being_written(file.path) for file in bag.files)
-
-
 def _facts(bag: Bag) -> dict[str, Any]:
     return {
         "path": str(bag.path),
@@ -199,8 +196,8 @@ def _facts(bag: Bag) -> dict[str, Any]:
         "messages": bag.message_count,
         "bytes": bag.size,
         "files": [file.path.name for file in bag.files],
-        "live": is_live(bag),
-        "troubles": [] if is_live(bag) else bag.troubles,
+        "live": bag.live,
+        "troubles": bag.troubles,
         "gaps": [asdict(gap) for gap in bag.gaps()],
         "versions": bag.versions(),
         "topics": [
@@ -223,15 +220,20 @@ def _print(bag: Bag) -> None:
     from rich.table import Table
 
     console = Console(highlight=False)
+    began = f"{bag.duration:.1f} s from {_began(bag)}, " if bag.message_count else ""
     console.print(
-        f"{bag.path}: {bag.duration:.1f} s from {_began(bag)}, {bag.message_count} messages, "
+        f"{bag.path}: {began}{bag.message_count} messages, "
         f"{bag.size / 1e6:.1f} MB in {len(bag.files)} file{'s' * (len(bag.files) != 1)}",
         soft_wrap=True,
     )
-    if is_live(bag):
+    if bag.live:
         console.print("it is being recorded; mrlab record --stop ends that", soft_wrap=True)
-    for trouble in [] if is_live(bag) else bag.troubles:
-        console.print(f"{trouble}; mrlab bag repair mends it", soft_wrap=True)
+    for trouble in bag.troubles:
+        console.print(trouble, soft_wrap=True)
+    if bag.troubles:
+        console.print(
+            f"mend it with: mrlab bag repair {shlex.quote(str(bag.path))}", soft_wrap=True
+        )
     for gap in bag.gaps():
         console.print(gap.describe(bag.start_ns), soft_wrap=True)
     table = Table("topic", "type", box=box.SIMPLE_HEAD)

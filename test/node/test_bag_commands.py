@@ -178,7 +178,7 @@ def test_a_foreign_bag_is_refused_with_what_it_holds(tmp_path: Path) -> None:
     source = foreign(tmp_path / "foreign", StoragePlugin.SQLITE3)
     with pytest.raises(BadInput, match="no joint states of kuka_kr3_r540.*/joint_states: wrist_3"):
         run("bag", "import", source, tmp_path / "mine", "--robot", "kuka_kr3_r540")
-    with pytest.raises(BadInput, match="mrlab bag import makes of it"):
+    with pytest.raises(BadInput, match=f"made with: mrlab bag import {source} NEW"):
         run("bag", "info", source)
     (tmp_path / "no.db3").write_bytes(b"no database")
     with pytest.raises(BadInput, match="cannot be read as a ROS 2 bag"):

@@ -16,6 +16,7 @@ from mrlab_ros.adapters.bags.mcap_file import (
     Message,
     open_file,
 )
+from mrlab_ros.adapters.bags.writer import is_being_written
 from mrlab_ros.core.errors import BadInput
 from mrlab_ros.core.recording.metadata import (
     GAP,
@@ -64,9 +65,14 @@ class Bag:
         return sum(file.path.stat().st_size for file in self.files)
 
     @property
+    def live(self) -> bool:
+        """Whether a recorder that lives writes into it."""
+        return any(is_being_written(file.path) for file in self.files)
+
+    @property
     def troubles(self) -> list[str]:
-        """What is wrong with its files, for a person."""
-        return [file.trouble for file in self.files if file.trouble]
+        """What is wrong with its files, for a person; while it is recorded, nothing is."""
+        return [] if self.live else [file.trouble for file in self.files if file.trouble]
 
     def facts(self) -> BagFacts:
         """Return what metadata.yaml should say."""

@@ -27,50 +27,53 @@ class Repaired:
     messages: int
 
 
-def repair(folder: Path) -> Repaired:
+def repair(path: Path) -> Repaired:
     """Rewrite damaged files, files without an index, and metadata.yaml; keep the originals.
 
-    Raises BadInput where nothing can be read, where an earlier original is in the way, or where
-    the folder cannot be written; the bag is as it was then.
+    path: the folder of a bag, or one of its files, which alone is rewritten then. Raises BadInput
+    where nothing can be read, where an earlier original is in the way, or where the folder cannot
+    be written; the bag is as it was then.
     """
-    if not folder.is_dir():
-        raise BadInput(f"{folder} is no folder; name the folder of a bag")
-    paths = mcap_files_in(folder)
+    if not path.exists():
+        raise BadInput(f"there is no bag {path}; name the folder of a bag or an MCAP file")
+    alone = path.is_file()
+    paths = [path] if alone else mcap_files_in(path)
     if not paths:
-        raise BadInput(f"{folder} is no bag: it holds no MCAP file; name the folder of a bag")
+        raise BadInput(f"{path} is no bag: it holds no MCAP file; name the folder of a bag")
     if any(map(is_being_written, paths)):
         raise Misuse(
-            f"the bag {folder} is being recorded and needs no repair; end the recording first: "
+            f"the bag {path} is being recorded and needs no repair; end the recording first: "
             "mrlab record --stop"
         )
     files = list(map(open_file, paths))
     damages = {file.path: damage for file in files if (damage := _damage(file))}
-    metadata = folder / METADATA
-    stale = bool(damages) or not _agrees(metadata, Bag(folder, paths))
-    for path in [*damages, metadata] if stale else []:
-        _must_be_free(path)
+    metadata = path / METADATA
+    stale = not alone and (bool(damages) or not _agrees(metadata, Bag(path, paths)))
+    for replaced in [*damages, *[metadata] * stale]:
+        _must_be_free(replaced)
     try:
         for file in files:
             if file.path in damages:
                 _rewrite(file, file.path.with_suffix(NEW))
-        for path in damages:
-            path.rename(_kept(path))
-            path.with_suffix(NEW).rename(path)
-        bag = Bag(folder, paths)
+        for damaged in damages:
+            damaged.rename(_kept(damaged))
+            damaged.with_suffix(NEW).rename(damaged)
+        bag = Bag(path, paths)
         if stale:
             if metadata.exists():
                 metadata.rename(_kept(metadata))
             metadata.write_text(metadata_text(bag.facts()))
-        (folder / RESERVE).unlink(missing_ok=True)
+        if not alone:
+            (path / RESERVE).unlink(missing_ok=True)
     except OSError as error:
         raise BadInput(
-            f"the bag {folder} cannot be mended ({error.strerror}); make room on that disk, or "
+            f"the bag {path} cannot be mended ({error.strerror}); make room on that disk, or "
             "check that folder"
         ) from None
     finally:
-        for path in damages:
-            path.with_suffix(NEW).unlink(missing_ok=True)
-    names = [path.name for path in damages] + [METADATA] * stale
+        for damaged in damages:
+            damaged.with_suffix(NEW).unlink(missing_ok=True)
+    names = [damaged.name for damaged in damages] + [METADATA] * stale
     return Repaired(names, list(damages.values()), bag.message_count)
 
 

@@ -108,7 +108,7 @@ class _Reader:
             bag.duration,
             bag.start_ns,
             step=step,
-            troubles=[*bag.troubles, *(gap.describe(bag.start_ns) for gap in bag.gaps())],
+            troubles=[*_condition(bag), *(gap.describe(bag.start_ns) for gap in bag.gaps())],
         )
         self.objects: dict[str, ObjectTrack] = {}
         self.targets: dict[str, Targets] = {}
@@ -254,6 +254,12 @@ class _Reader:
                 continue
             if hop.topic.endswith("/joint_states") or not hop.topic:
                 series.setdefault(name, Series()).add(time, hop.p50)
+
+
+def _condition(bag: Bag) -> list[str]:
+    if bag.live:
+        return ["it is being recorded; this is what it holds so far"]
+    return bag.troubles
 
 
 def _pose(pose: Any) -> Pose:

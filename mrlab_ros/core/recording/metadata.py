@@ -221,8 +221,8 @@ def paths_in(document: object, name: str) -> list[str]:
     if storage != "mcap" or facts.get("compression_format"):
         raise BadInput(
             f"{name} names storage {storage} with compression "
-            f"'{facts.get('compression_format') or 'none'}'; expected plain mcap, which mrlab bag "
-            "import makes of it"
+            f"'{facts.get('compression_format') or 'none'}'; expected plain mcap, which is made "
+            f"with: mrlab bag import {name.rpartition('/')[0] or '.'} NEW_FOLDER"
         )
     paths = facts.get("relative_file_paths")
     if not isinstance(paths, Sequence) or not all(isinstance(path, str) for path in paths):

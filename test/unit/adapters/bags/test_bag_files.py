@@ -180,7 +180,7 @@ def test_what_was_flushed_is_there_at_once_for_everybody(tmp_path):
     assert read(folder) == read_by_rosbags(folder) == messages
     assert read_by_mcap(folder / "class_0.mcap") == messages
     bag = Bag(folder)
-    assert "has no index" in bag.troubles[0]
+    assert "has no index" in bag.files[0].trouble
     assert bag.attachment("scene.json").data == b"[]"
     assert bag.message_count == 600
     (folder / "metadata.yaml").unlink()
@@ -223,6 +223,22 @@ def test_a_kill_at_the_beginning_of_a_next_file_costs_nothing(tmp_path):
     assert repair(folder).messages == 20
     assert Bag(folder).troubles == []
     assert read(folder) == read_by_rosbags(folder) == messages
+
+
+def test_a_file_alone_is_mended_and_nothing_beside_it(tmp_path):
+    folder = tmp_path / "class"
+    writer = begin(folder)
+    messages = fill(writer, 20)
+    writer.flush()
+    writer._file.close()
+    (folder / "metadata.yaml").write_text("as it was")
+    file = (folder / "class_0.mcap").rename(tmp_path / "class_0.mcap")
+    (tmp_path / "metadata.yaml").write_text("as it was")
+    done = repair(file)
+    assert (done.files, done.messages) == (["class_0.mcap"], len(messages))
+    assert read(file) == messages
+    assert (tmp_path / "metadata.yaml").read_text() == "as it was"
+    assert repair(file).files == []
 
 
 def test_a_repair_that_fails_leaves_the_bag_as_it_was(tmp_path, monkeypatch):
@@ -458,7 +474,10 @@ def test_a_bag_that_is_recorded_is_known_and_not_mended(tmp_path):
     with pytest.raises(Misuse, match="mrlab record --stop"):
         repair(folder)
     assert not refresh_metadata(folder)
+    assert Bag(folder).live
+    assert Bag(folder).troubles == []
     writer.close()
+    assert not Bag(folder).live
     assert not is_being_written(folder / "class_0.mcap")
     assert read(folder) == messages
     assert repair(folder).files == []
