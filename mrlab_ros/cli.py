@@ -52,6 +52,7 @@ COMMANDS = {
     "convert": "convert.command:convert",
     "show": "show:show",
     "check": "check.command:check",
+    "rubric": "rubric.command:app",
     "play": "play:play",
     "spawn": "robot:spawn",
     "remove": "robot:remove",

@@ -74,3 +74,49 @@ def read_yaml(path: Path, *, empty: bool = False, loader: Any = Loader) -> dict[
     if not isinstance(content, dict):
         raise BadInput(f"{path} holds {type(content).__name__}; expected a YAML mapping")
     return content
+
+
+def read_with_lines(path: Path) -> tuple[object, dict[tuple[str | int, ...], int]]:
+    """Return what a YAML file holds, and the line of each entry by the keys that lead to it.
+
+    Raises BadInput where it is no YAML, or a key is there twice.
+    """
+    if not path.is_file():
+        # Reading a pipe would wait for ever.
+        what = "a folder" if path.is_dir() else "no file" if path.exists() else "missing"
+        raise BadInput(f"{path} cannot be read: it is {what}; expected a YAML file")
+    lines: dict[tuple[str | int, ...], int] = {}
+    seen: set[int] = set()
+
+    def walk(node: Any, keys: tuple[str | int, ...]) -> None:
+        # An alias leads to a node that was there before.
+        if id(node) in seen:
+            return
+        seen.add(id(node))
+        if isinstance(node, yaml.SequenceNode):
+            for index, each in enumerate(node.value):
+                lines[(*keys, index)] = each.start_mark.line + 1
+                walk(each, (*keys, index))
+        elif isinstance(node, yaml.MappingNode):
+            for key, each in node.value:
+                name, line = str(key.value), key.start_mark.line + 1
+                if (*keys, name) in lines:
+                    raise BadInput(f"{path}:{line}: '{name}' is there twice; write it once")
+                lines[(*keys, name)] = line
+                walk(each, (*keys, name))
+
+    try:
+        text = path.read_text(encoding="utf-8-sig")
+        node = yaml.compose(text, Loader=Loader)
+        walk(node, ())
+        return yaml.load(text, Loader=Loader), lines
+    except OSError as error:
+        raise BadInput(f"{path} cannot be read: {error.strerror}") from None
+    except UnicodeDecodeError:
+        raise BadInput(f"{path} is no text in UTF-8; expected a YAML file") from None
+    except yaml.MarkedYAMLError as error:
+        mark = error.problem_mark
+        where = f"{path}:{mark.line + 1}" if mark is not None else str(path)
+        raise BadInput(f"{where}: {error.problem}; expected YAML") from None
+    except (yaml.YAMLError, ValueError, RecursionError) as error:
+        raise BadInput(f"{path} is no YAML: {error}") from None

@@ -77,6 +77,10 @@ class Stage:
             stated[str(joint.get("name"))] = StatedLimits(*numbers)
         return stated
 
+    def types(self, scene: SceneDocument) -> dict[str, ObjectType]:
+        """Return the types of a scene's objects, by name; raise BadInput for an unknown one."""
+        return {thing.name: self._types.get(thing.type) for thing in scene.objects}
+
     def inputs(self, robots: Sequence[CheckedRobot], scene: SceneDocument) -> dict[str, Any]:
         """Return what a rehearsal depends on beside the motions, as digests."""
         return {

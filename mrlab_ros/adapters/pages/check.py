@@ -12,6 +12,7 @@ from mrlab_ros.adapters.robots.shown import from_library
 from mrlab_ros.core.checking.recording import Rehearsed
 from mrlab_ros.core.checking.report import CheckReport
 from mrlab_ros.core.physics.catalogue import ObjectType
+from mrlab_ros.core.rubrics.marking import Marks
 from mrlab_ros.core.show.check import PlayedRobot, check_body, check_document
 from mrlab_ros.core.show.page import page
 
@@ -27,10 +28,11 @@ def check_page(
     objects: dict[str, ObjectType],
     library: RobotLibrary,
     share: Path,
+    marks: Marks | None = None,
 ) -> str:
     """Return one HTML file that shows what was rehearsed and what is to be said of it.
 
-    share: folder with the built pages.
+    share: folder with the built pages. marks: by a rubric, None where there is none.
     """
     document = check_document(report, recorded, robots, objects)
 
@@ -40,7 +42,7 @@ def check_page(
     meshes = ingredients.meshes_of((robot.urdf for robot in robots), resolve)
     things = {thing["mesh"] for thing in document["objects"] if thing["mesh"]}
     meshes |= ingredients.small(things, resolve)
-    body = check_body(report, digest, recorded, robots, _film(recorded, robots, library))
+    body = check_body(report, digest, recorded, robots, _film(recorded, robots, library), marks)
     title = f"{report.title}: {report.words.partition(':')[0]}"
     return page(title, body, document, meshes, ingredients.code(share))
 

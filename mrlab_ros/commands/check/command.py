@@ -34,6 +34,10 @@ def check(
     scene: Annotated[
         str, typer.Option(help="Scene that it moves in: a name, or a file; empty: a floor alone.")
     ] = "",
+    rubric: Annotated[
+        Path | None,
+        typer.Option(help="Mark it too: a rubric (YAML); its robot, tool and scene hold."),
+    ] = None,
     points: Annotated[
         Path | None,
         typer.Option(help="CSV of points that tool0 shall pass, in order: x, y, z, m in world."),
@@ -59,7 +63,7 @@ def check(
             raise Misuse(f"the page is '{out.name}'; expected a name that ends in .html")
         request = run.Request(
             file, robot, tool, scene, points, metres(within, "within"),
-            metres(closest, "closest"), out, as_json, options,
+            metres(closest, "closest"), out, as_json, options, rubric,
         )  # fmt: skip
         code = run.run(request)
     except LabError as error:

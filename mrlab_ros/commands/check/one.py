@@ -104,7 +104,8 @@ def check_file(file: Path, setting: Setting) -> CheckedFile:
     words = scene_words(setting.scene_name, scene)
     if t is None:
         report = motion.report_of(result, moving, None, None, inputs=inputs, scene=words)
-        return CheckedFile(Checked(report, report.document()), robots, None, result)
+        refused = Checked(report, report.document(), scene=scene)
+        return CheckedFile(refused, robots, None, result)
     figures = motion.figures_of(t, moving)
     actors = [
         Actor(r.name, r.model.home, t if r is moving else None, first_link=first_link(r))
@@ -116,7 +117,10 @@ def check_file(file: Path, setting: Setting) -> CheckedFile:
         graspable=played.graspable, points=setting.points, within=setting.within,
         closest=setting.closest,
     )  # fmt: skip
-    checked = Checked(report, report.document(), (Motion(moving, t, figures),), played.recorded)
+    checked = Checked(
+        report, report.document(), (Motion(moving, t, figures),), played.recorded, scene,
+        played.objects,
+    )  # fmt: skip
     return CheckedFile(checked, robots, played, result)
 
 
@@ -141,6 +145,8 @@ def _cell(file: Path, setting: Setting) -> CheckedFile:
             if r.name in motions
         ),
         played.recorded,
+        scene,
+        played.objects,
     )
     return CheckedFile(checked, tuple(loaded.robots), played)
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import csv
 import json
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 from mrlab_ros.adapters.checking.stage import Stage
@@ -17,6 +17,7 @@ from mrlab_ros.core.conversion.convert import ConversionResult
 from mrlab_ros.core.conversion.options import Options
 from mrlab_ros.core.errors import BadInput, Misuse
 from mrlab_ros.core.geometry import Vector
+from mrlab_ros.core.rubrics.marking import Marks
 from mrlab_ros.ros import share
 
 READY, REFUSED, COULD_NOT = 0, 1, 2
@@ -37,6 +38,7 @@ class Request:
     out: Path | None
     as_json: bool
     options: Options
+    rubric: Path | None = None
 
 
 def run(request: Request) -> int:
@@ -45,17 +47,65 @@ def run(request: Request) -> int:
         option = "--robot" if request.robot else "--points"
         raise Misuse(f"{option} is for one motion; {request.file.name} is a cell of several")
     folder = share.directory()
+    if request.rubric is not None:
+        return _marked(request, request.rubric, folder)
     setting = Setting(
         Stage(folder, RobotLibrary(folder / "robots")), scene_of(request.scene, folder),
         request.scene, request.robot, request.tool, request.options, request.closest,
         _points(request.points), request.within, drawn=request.out is not None,
     )  # fmt: skip
-    found = check_file(request.file, setting)
+    return _finish(request, check_file(request.file, setting), setting, folder)
+
+
+def _marked(request: Request, path: Path, folder: Path) -> int:
+    """Check in the setting of a rubric, and show its marks beside the report."""
+    from mrlab_ros.adapters.rubrics import files
+    from mrlab_ros.commands.rubric import words as marks_words
+    from mrlab_ros.commands.rubric.marked import compared, mark_file, reference_of, setting_of
+
+    for option in ("robot", "tool", "scene"):
+        if getattr(request, option):
+            raise Misuse(f"--{option} is given, and so is --rubric, which says it; leave one out")
+    rubric = files.read(path)
+    stage = Stage(folder, RobotLibrary(folder / "robots"))
+    setting = replace(
+        setting_of(rubric, stage, folder, request.options),
+        points=_points(request.points),
+        within=request.within,
+    )
+    reference = reference_of(rubric, setting) if compared(rubric) else None
+    found, marks = mark_file(request.file, rubric, setting, reference)
+    code = _finish(request, found, setting, folder, marks)
+    if not request.as_json and found.holds_motion:
+        print()
+        marks_words.marks(request.file, rubric, marks, found.checked)
+    return code
+
+
+def _finish(
+    request: Request,
+    found: CheckedFile,
+    setting: Setting,
+    folder: Path,
+    marks: Marks | None = None,
+) -> int:
+    """Print the report and write its page; return the exit code."""
     if not found.holds_motion:
         assert found.result is not None
         _say_refused(request, found.result)
         return COULD_NOT
-    return _finish(request, found, setting, folder)
+    report, document = found.checked.report, found.checked.document
+    if request.as_json:
+        print(json.dumps(document if marks is None else {**document, "marks": marks.plain()}))
+    else:
+        words.show(report, document)
+    if request.out is not None and found.played is not None:
+        size = write_page(request.out, found, setting.stage, folder, marks)
+        if not request.as_json:
+            print(f"{request.out} ({size / 1e6:.2f} MB)")
+    elif request.out is not None and not request.as_json:
+        print(f"no page is written: {NO_MOTION}")
+    return REFUSED if report.refusing else READY
 
 
 def _points(path: Path | None) -> tuple[Vector, ...]:
@@ -76,31 +126,21 @@ def _say_refused(request: Request, result: ConversionResult) -> None:
     if request.as_json:
         print(json.dumps(conversion_report.record(str(request.file), result, None)))
         return
-    given = ["mrlab", "check", str(request.file), "--robot", request.robot]
+    given = ["mrlab", "check", str(request.file)]
+    if request.rubric is not None:
+        given += ["--rubric", str(request.rubric)]
+    given += ["--robot", request.robot] if request.robot else []
     given += ["--tool", request.tool] if request.tool else []
     given += ["--scene", request.scene] if request.scene else []
     conversion_report.show(result, None, given, request.options)
 
 
-def _finish(request: Request, found: CheckedFile, setting: Setting, folder: Path) -> int:
-    """Print the report and write its page; return the exit code."""
-    report, document = found.checked.report, found.checked.document
-    if request.as_json:
-        print(json.dumps(document))
-    else:
-        words.show(report, document)
-    if request.out is not None and found.played is not None:
-        size = write_page(request.out, found, setting.stage, folder)
-        if not request.as_json:
-            print(f"{request.out} ({size / 1e6:.2f} MB)")
-    elif request.out is not None and not request.as_json:
-        print(f"no page is written: {NO_MOTION}")
-    return REFUSED if report.refusing else READY
-
-
-def write_page(out: Path, found: CheckedFile, stage: Stage, folder: Path) -> int:
+def write_page(
+    out: Path, found: CheckedFile, stage: Stage, folder: Path, marks: Marks | None = None
+) -> int:
     """Write the page of a file that was rehearsed; return how many characters it has.
 
+    marks: what it got, with links to the instants of lost points.
     Raises BadInput where it cannot be written.
     """
     from mrlab_ros.adapters.pages.check import check_page
@@ -122,7 +162,7 @@ def write_page(out: Path, found: CheckedFile, stage: Stage, folder: Path) -> int
     ]
     text = check_page(
         found.checked.report, found.checked.document["hash"], found.played.recorded, shown,
-        found.played.objects, stage.library, folder,
+        found.played.objects, stage.library, folder, marks,
     )  # fmt: skip
     try:
         out.parent.mkdir(parents=True, exist_ok=True)

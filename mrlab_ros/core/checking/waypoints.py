@@ -40,7 +40,7 @@ def passed(tool: Array, times: Array, points: Sequence[Vector], tolerance: float
     found: list[Passed] = []
     after = 0.0
     for number, point in enumerate(points, 1):
-        distances, instants = _segments(tool, times, np.asarray(point))
+        distances, instants = segments(tool, times, np.asarray(point))
         later = np.flatnonzero(instants >= after)
         near = later[distances[later] <= tolerance]
         if len(near):
@@ -58,7 +58,7 @@ def passed(tool: Array, times: Array, points: Sequence[Vector], tolerance: float
     return found
 
 
-def _segments(tool: Array, times: Array, point: Array) -> tuple[Array, Array]:
+def segments(tool: Array, times: Array, point: Array) -> tuple[Array, Array]:
     """Return the least distance of each straight piece to a point, m, and its instant, s."""
     start, way = tool[:-1], np.diff(tool, axis=0)
     length = np.maximum((way**2).sum(axis=1), 1e-18)

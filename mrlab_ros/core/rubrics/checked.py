@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Any
 
 from mrlab_ros.core.checking.motion import CheckedRobot, MotionFigures
 from mrlab_ros.core.checking.recording import Rehearsed
 from mrlab_ros.core.checking.report import CheckReport
+from mrlab_ros.core.physics.catalogue import ObjectType
+from mrlab_ros.core.scene.document import SceneDocument
 from mrlab_ros.core.trajectory.trajectory import Trajectory
 
 
@@ -27,13 +29,16 @@ class Checked:
     """One file as it was checked: a motion, or a cell of several.
 
     document: the report as JSON has it. motions: in the order of the robots; none where the
-    conversion refused the file. recorded: None where nothing was rehearsed.
+    conversion refused the file. recorded: None where nothing was rehearsed. scene: what it moved
+    in; objects: the types of those in it, by name.
     """
 
     report: CheckReport
     document: Mapping[str, Any]
     motions: tuple[Motion, ...] = ()
     recorded: Rehearsed | None = None
+    scene: SceneDocument = field(default_factory=SceneDocument)
+    objects: Mapping[str, ObjectType] = field(default_factory=dict)
 
     @property
     def trajectory(self) -> Trajectory | None:

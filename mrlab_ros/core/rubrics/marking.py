@@ -11,7 +11,7 @@ from mrlab_ros.core.rubrics.rubric import Rubric, Test
 
 # Points are given in hundredths, rounded down.
 HUNDREDTHS = 100
-NO_MOTION = "The file holds no motion that can be marked."
+NO_MOTION = "There is no motion to mark."
 ROUNDING = 1e-9
 
 
@@ -46,10 +46,11 @@ class Mark:
 @dataclass(frozen=True)
 class Marks:
     """All marks of a file, in the order of the rubric. hints: of hidden tests that lost points,
-    where the tests themselves are left out."""
+    where the tests themselves are left out. note: why there was no motion to mark, else empty."""
 
     tests: tuple[Mark, ...]
     hints: tuple[str, ...] = ()
+    note: str = ""
 
     @property
     def points(self) -> float:
@@ -68,7 +69,9 @@ class Marks:
         """Return what a student sees: of hidden tests the hints alone, where points were lost."""
         hints = (mark.hint for mark in self.lost if mark.hidden and mark.hint)
         return Marks(
-            tuple(mark for mark in self.tests if not mark.hidden), tuple(dict.fromkeys(hints))
+            tuple(mark for mark in self.tests if not mark.hidden),
+            tuple(dict.fromkeys(hints)),
+            self.note,
         )
 
     def plain(self) -> dict[str, Any]:
@@ -78,6 +81,7 @@ class Marks:
             "of": self.of,
             "tests": [mark.plain() for mark in self.tests],
             "hints": list(self.hints),
+            "note": self.note,
         }
 
 
@@ -86,12 +90,18 @@ def mark(rubric: Rubric, checked: Checked, reference: Checked | None = None) -> 
 
     reference: the checked file of `rubric.reference`, for the tests that compare with it.
     """
-    return Marks(tuple(_marked(test, checked, reference) for test in rubric.tests))
+    tests = tuple(_marked(test, checked, reference) for test in rubric.tests)
+    return Marks(tests, note="" if marked(checked) else _refused(checked))
+
+
+def marked(checked: Checked) -> bool:
+    """Return whether there is a motion that can be marked."""
+    return bool(checked.motions) and checked.recorded is not None
 
 
 def _marked(test: Test, checked: Checked, reference: Checked | None) -> Mark:
-    if not checked.motions or checked.recorded is None:
-        return Mark(test.name, 0.0, test.points, False, _refused(checked), test.hint, test.hidden)
+    if not marked(checked):
+        return Mark(test.name, 0.0, test.points, False, NO_MOTION, test.hint, test.hidden)
     found = test.measure.assess(checked, reference)
     passed = found.share >= 1.0 - ROUNDING
     return Mark(
@@ -118,4 +128,4 @@ def points_of(points: float, share: float) -> float:
 def _refused(checked: Checked) -> str:
     """Return why there is no motion: what the conversion said first."""
     first = next((f for f in checked.report.findings if f.refuses), None)
-    return f"{NO_MOTION} {first.message}" if first else NO_MOTION
+    return f"{first.message} {first.remedy}".strip() if first else NO_MOTION

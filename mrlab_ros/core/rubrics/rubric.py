@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from typing import Any, Protocol
 
 from mrlab_ros.core.checking.evidence import CLOSE
 from mrlab_ros.core.rubrics.checked import Checked
+from mrlab_ros.core.rubrics.ground import Ground
 
 
 @dataclass(frozen=True)
@@ -31,6 +32,10 @@ class Measure(Protocol):
 
     def assess(self, checked: Checked, reference: Checked | None) -> Outcome:
         """Return what a file that holds a motion gets; reference: the solution's motion."""
+        ...
+
+    def flaws(self, ground: Ground) -> Iterator[str]:
+        """Yield why it cannot be measured there, a sentence each."""
         ...
 
 

@@ -17,6 +17,8 @@ from mrlab_ros.core.checking.recording import Course, Distances, Rehearsed
 from mrlab_ros.core.checking.report import CheckReport, RobotReport
 from mrlab_ros.core.physics.catalogue import ObjectType
 from mrlab_ros.core.physics.engine import Kind, Shape
+from mrlab_ros.core.rubrics.marking import Marks
+from mrlab_ros.core.show.marks_body import marks_body
 from mrlab_ros.core.show.motion_body import ICONS
 from mrlab_ros.core.show.session import SCHEMA, Track
 from mrlab_ros.core.show.svg import HATCH, Array, Mark, Strip, strip_svg, time_axis_svg
@@ -128,8 +130,10 @@ def check_body(
     recorded: Rehearsed,
     robots: Sequence[PlayedRobot],
     film: Sequence[tuple[float, str]],
+    marks: Marks | None = None,
 ) -> str:
-    """Return the HTML of a check. film: times, s, and pictures at them as data: URLs."""
+    """Return the HTML of a check. film: times, s, and pictures at them as data: URLs. marks: by
+    a rubric, None where there is none."""
     verdict, _, words = report.words.partition(": ")
     kind = "refused" if report.refusing else "accepted"
     facts = " · ".join(
@@ -153,6 +157,7 @@ def check_body(
             '<section id="view" aria-label="3D view"></section>',
             f'<figure class="poster">{pictures}</figure>',
             _findings(shown, several=len(report.robots) > 1),
+            "" if marks is None else marks_body(marks),
             *(_hardware(robot, several=len(report.robots) > 1) for robot in report.robots),
             _plots(shown, recorded, robots),
             "</main>",

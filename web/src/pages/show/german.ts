@@ -27,9 +27,19 @@ const WORDS: Readonly<Record<string, string>> = {
   'deadlines, latency, tracking': 'Fristen, Latenz, Bahntreue',
   Quantity: 'Größe',
   Median: 'Median',
+  Marks: 'Bewertung',
+  Points: 'Punkte',
+  Test: 'Aufgabe',
+  Time: 'Zeit',
+  Found: 'Gefunden',
+  passed: 'erfüllt',
+  partly: 'teilweise',
+  'not passed': 'nicht erfüllt',
+  hidden: 'verdeckt',
   Most: 'Höchstens',
 }
-const PLACES = 'h2, h3, th, summary span, .verdict b, .findings button b, .path .title'
+const PLACES =
+  'h2, h3, th, summary span, .verdict b, .findings button b, .path .title, .marks .result span, .marks .test small'
 
 /** Put the fixed words of a page, which is written in English, into German. */
 export function translate(page: HTMLElement): void {

@@ -11,6 +11,7 @@ import { NoWebGL } from '../../scene/renderer'
 import { Stage } from '../../scene/stage'
 import { themeNow } from '../../scene/theme'
 import { ENGLISH, GERMAN } from '../../scene/words'
+import { instantOf } from './instant'
 import { attachCursors } from './plots'
 
 const POSE = 7
@@ -38,12 +39,19 @@ export function showSession(view: HTMLElement, session: SessionDocument, bytes: 
   const controls = new Controls(player, words, 0.1, (time) => Math.floor(time * 100) + 1, [])
   element.append(controls.element)
   const setCursors = attachCursors(session.duration, (time) => player.seek(time))
-  for (const entry of document.querySelectorAll<HTMLElement>('[data-time]')) {
-    entry.addEventListener('click', () => {
-      player.pause()
-      player.seek(Number(entry.dataset.time))
-    })
+  const seek = (time: number) => {
+    player.pause()
+    player.seek(time)
   }
+  for (const entry of document.querySelectorAll<HTMLElement>('[data-time]')) {
+    entry.addEventListener('click', () => seek(Number(entry.dataset.time)))
+  }
+  // A link from elsewhere opens the page at an instant: check.html#t=3.2
+  const follow = () => {
+    const time = instantOf(location.hash, session.duration)
+    if (time !== null) seek(time)
+  }
+  addEventListener('hashchange', follow)
 
   let draw: (time: number) => void = () => undefined
   let stage: Stage | null = null
@@ -78,11 +86,13 @@ export function showSession(view: HTMLElement, session: SessionDocument, bytes: 
       if (step()) requestAnimationFrame(frame)
     })
     step()
+    follow()
     return
   }
   const shown = stage
   shown.onFrame(step)
   player.onChange(() => shown.invalidate())
+  follow()
 }
 
 /** Return what puts the whole scene to a time, s. */

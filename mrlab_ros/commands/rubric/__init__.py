@@ -1,0 +1,1 @@
+"""`mrlab rubric`: named tests with points."""

@@ -1,0 +1,93 @@
+"""One file marked by a rubric, and what the rubric needs for that; nothing is printed."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from pathlib import Path
+
+from mrlab_ros.adapters.checking.stage import Stage
+from mrlab_ros.commands.check.one import (
+    CELLS,
+    CheckedFile,
+    Setting,
+    check_file,
+    entry_of,
+    scene_of,
+)
+from mrlab_ros.core.conversion.options import Options
+from mrlab_ros.core.errors import BadInput, LabError, Misuse
+from mrlab_ros.core.rubrics.comparison import NearReference
+from mrlab_ros.core.rubrics.ground import Ground
+from mrlab_ros.core.rubrics.marking import Marks, mark
+from mrlab_ros.core.rubrics.rubric import Rubric
+
+
+def setting_of(rubric: Rubric, stage: Stage, share: Path, options: Options) -> Setting:
+    """Return what files are checked in that this rubric marks.
+
+    Raises LabError where its scene, robot or tool is unknown.
+    """
+    try:
+        setting = Setting(
+            stage, scene_of(rubric.scene, share), rubric.scene, rubric.robot, rubric.tool,
+            options, rubric.closest,
+        )  # fmt: skip
+        if rubric.robot:
+            entry = entry_of(setting)
+            stage.robot(entry.name, entry.model, entry.end_effector, entry.pose)
+    except LabError as error:
+        raise type(error)(f"{rubric.origin}: {error}") from None
+    return setting
+
+
+def ground_of(rubric: Rubric, setting: Setting) -> Ground:
+    """Return what the sentences of a rubric can be about."""
+    scene = setting.scene
+    entries = [*scene.robots]
+    if rubric.robot:
+        own = entry_of(setting)
+        entries = [own, *(r for r in entries if r.name != own.name)]
+    robots = tuple(setting.stage.robot(r.name, r.model, r.end_effector, r.pose) for r in entries)
+    cell = Path(rubric.reference).suffix in CELLS if rubric.reference else None
+    return Ground(scene, robots, setting.stage.types(scene), cell, bool(rubric.reference))
+
+
+def compared(rubric: Rubric) -> bool:
+    """Return whether a test of a rubric compares with the reference's motion."""
+    return any(isinstance(test.measure, NearReference) for test in rubric.tests)
+
+
+def reference_of(rubric: Rubric, setting: Setting) -> CheckedFile | None:
+    """Return the checked reference solution; None: the rubric names none.
+
+    Raises BadInput where it holds no motion.
+    """
+    if not rubric.reference:
+        return None
+    path = Path(rubric.reference)
+    try:
+        found = check_rubric_file(path, rubric, setting)
+    except LabError as error:
+        raise BadInput(f"{rubric.origin}: reference: {error}") from None
+    if found.played is None:
+        why = found.result.message if found.result is not None else "it holds no motion"
+        raise BadInput(f"{rubric.origin}: reference: {path.name} cannot be marked: {why}")
+    return found
+
+
+def check_rubric_file(file: Path, rubric: Rubric, setting: Setting) -> CheckedFile:
+    """Check a file as a rubric marks it; a cell brings its robots itself."""
+    if file.suffix.lower() in CELLS and rubric.robot:
+        raise Misuse(
+            f"{file.name} is a cell of several robots, and the rubric is for one {rubric.robot}; "
+            "leave robot: out of a rubric for cells"
+        )
+    return check_file(file, replace(setting, drawn=True))
+
+
+def mark_file(
+    file: Path, rubric: Rubric, setting: Setting, reference: CheckedFile | None
+) -> tuple[CheckedFile, Marks]:
+    """Check and mark one file; raise LabError where it cannot even be read."""
+    found = check_rubric_file(file, rubric, setting)
+    return found, mark(rubric, found.checked, reference.checked if reference else None)

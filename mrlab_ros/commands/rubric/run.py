@@ -1,0 +1,96 @@
+"""What `mrlab rubric` does: lint, mark, print."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+from mrlab_ros.adapters.checking.stage import Stage
+from mrlab_ros.adapters.robots.library import RobotLibrary
+from mrlab_ros.adapters.rubrics import files
+from mrlab_ros.commands.check.run import NO_MOTION, write_page
+from mrlab_ros.commands.rubric import words
+from mrlab_ros.commands.rubric.marked import (
+    compared,
+    ground_of,
+    mark_file,
+    reference_of,
+    setting_of,
+)
+from mrlab_ros.core.conversion.options import Options
+from mrlab_ros.core.diagnostics import Severity
+from mrlab_ros.core.errors import BadInput
+from mrlab_ros.core.rubrics.lint import Flaw, flaws_of, flaws_of_reference
+from mrlab_ros.core.rubrics.marking import mark as marks_of
+from mrlab_ros.ros import share
+
+SCHEMA = "mrlab.marks.1"
+FULL, LOST = 0, 1
+
+
+def lint(path: Path, options: Options, *, as_json: bool) -> int:
+    """Print the flaws of a rubric and return the exit code; raise LabError."""
+    rubric = files.read(path)
+    folder = share.directory()
+    setting = setting_of(rubric, Stage(folder, RobotLibrary(folder / "robots")), folder, options)
+    flaws = flaws_of(rubric, ground_of(rubric, setting))
+    marks = None
+    try:
+        reference = reference_of(rubric, setting)
+    except BadInput as error:
+        flaws.append(Flaw(Severity.ERROR, "", 0, str(error).removeprefix(f"{path}: ")))
+    else:
+        if reference is not None:
+            marks = marks_of(rubric, reference.checked, reference.checked)
+            flaws += flaws_of_reference(rubric, marks)
+    if as_json:
+        found = [{**vars(f), "severity": f.severity.name.lower()} for f in flaws]
+        document = {
+            "rubric": rubric.name,
+            "points": rubric.points,
+            "flaws": found,
+            "reference": marks.plain() if marks else None,
+        }
+        print(json.dumps(document))
+    else:
+        words.flaws(rubric, flaws, marks)
+    return LOST if any(f.severity is Severity.ERROR for f in flaws) else FULL
+
+
+def mark(
+    file: Path, path: Path, options: Options, out: Path | None, *, public: bool, as_json: bool
+) -> int:
+    """Print what a file gets, write its page, and return the exit code; raise LabError."""
+    rubric = files.read(path)
+    folder = share.directory()
+    setting = setting_of(rubric, Stage(folder, RobotLibrary(folder / "robots")), folder, options)
+    reference = reference_of(rubric, setting) if compared(rubric) else None
+    found, marks = mark_file(file, rubric, setting, reference)
+    shown = marks.public() if public else marks
+    if as_json:
+        document = {
+            "schema": SCHEMA,
+            "file": file.name,
+            "rubric": rubric.name,
+            **shown.plain(),
+            "check": found.checked.document["hash"],
+        }
+        print(json.dumps(document))
+    else:
+        words.marks(file, rubric, shown, found.checked)
+    if out is not None and found.played is not None:
+        size = write_page(out, found, setting.stage, folder, shown)
+        if not as_json:
+            print(f"{out} ({size / 1e6:.2f} MB)")
+    elif out is not None and not as_json:
+        print(f"no page is written: {NO_MOTION}")
+    return LOST if marks.lost else FULL
+
+
+def example() -> str:
+    """Return the text of the example; raise BadInput where it is not installed."""
+    path = share.directory() / "examples" / "rubrics" / "pick_and_place.yaml"
+    try:
+        return path.read_text(encoding="utf-8")
+    except OSError as error:
+        raise BadInput(f"{path} cannot be read: {error.strerror}") from None

@@ -1,0 +1,167 @@
+"""Measures of contact and distance."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+from mrlab_ros.core.checking.evidence import thing as words_of
+from mrlab_ros.core.checking.recording import Collision, Distances, Rehearsed
+from mrlab_ros.core.checking.rehearsal import FARTHEST
+from mrlab_ros.core.physics.engine import Kind
+from mrlab_ros.core.rubrics.checked import Checked
+from mrlab_ros.core.rubrics.ground import ITSELF, Ground
+from mrlab_ros.core.rubrics.quantities import LENGTH
+from mrlab_ros.core.rubrics.rubric import Measure, Outcome
+from mrlab_ros.core.rubrics.sentences import Form, Gaps, Given
+from mrlab_ros.core.rubrics.threshold import Threshold
+
+
+def recording(checked: Checked) -> Rehearsed:
+    """Return what was recorded; only files that hold a motion are assessed."""
+    assert checked.recorded is not None
+    return checked.recorded
+
+
+def _names(checked: Checked, robot: str) -> set[str]:
+    return {motion.robot.name for motion in checked.of(robot)}
+
+
+@dataclass(frozen=True)
+class NoCollision:
+    """robot: its name or model; thing: an object, a surface, a robot or `itself`; empty: all."""
+
+    robot: str
+    thing: str
+
+    def assess(self, checked: Checked, reference: Checked | None) -> Outcome:
+        recorded = recording(checked)
+        names = _names(checked, self.robot)
+        hits = sorted(
+            (hit for hit in recorded.collisions if self._counts(hit, names)), key=lambda h: h.time
+        )
+        inside = [
+            (robot, surface)
+            for robot, surfaces in recorded.begins_inside.items()
+            for surface in surfaces
+            if robot in names and self.thing in ("", surface)
+        ]
+        count = len(hits) + len(inside)
+        if not count:
+            return Outcome(1.0, "Nothing is touched.", None, 0.0, 0.0)
+        more = f", and {count - 1} more" if count > 1 else ""
+        if inside:
+            words = f"{inside[0][0]} begins inside the surface {inside[0][1]}{more}."
+            return Outcome(0.0, words, 0.0, float(count), 0.0)
+        first = hits[0]
+        who = f"{first.held}, held by {first.link}," if first.held else first.link
+        what = words_of(first.kind, first.other, first.other_link)
+        words = f"{who} touches {what} at {first.time:.2f} s{more}."
+        return Outcome(0.0, words, first.time, float(count), 0.0)
+
+    def _counts(self, hit: Collision, names: set[str]) -> bool:
+        other = ITSELF if hit.kind is Kind.SELF else hit.other
+        if hit.robot in names and self.thing in ("", other):
+            return True
+        # Two robots that touch are told of one of them.
+        return hit.kind is Kind.ROBOT and hit.other in names and self.thing in ("", hit.robot)
+
+    def flaws(self, ground: Ground) -> Iterator[str]:
+        yield from ground.robot_flaws(self.robot)
+        yield from ground.thing_flaws(self.thing)
+
+
+@dataclass(frozen=True)
+class Distance:
+    """The least distance of `robot` to `thing`, to all but `but` where there is none."""
+
+    robot: str
+    thing: str
+    but: str
+    threshold: Threshold
+
+    def assess(self, checked: Checked, reference: Checked | None) -> Outcome:
+        recorded = recording(checked)
+        names = _names(checked, self.robot)
+        near = [
+            (series.values[at], recorded.times[at], robot, kind, other, series, at)
+            for (robot, (kind, other)), series in recorded.distances.items()
+            if self._counts(robot, other, kind, names) and series.values
+            for at in [series.least()]
+        ]
+        if not near:
+            what = self.thing or "anything"
+            return Outcome(0.0, f"There is no distance to {what} in what was checked.", 0.0)
+        value, time, robot, kind, other, series, at = min(near, key=lambda n: n[:2])
+        if not series.links[at]:
+            far = f"Nothing comes nearer than {LENGTH.words(FARTHEST)}."
+            return Outcome(1.0, far, None, FARTHEST, self.threshold.limit, "m")
+        who = series.held[at] or series.links[at]
+        what = words_of(kind, other, series.other_links[at])
+        alone = len(checked.motions) == 1
+        return self.threshold.outcome(
+            max(value, 0.0),
+            f"{who}{'' if alone else f' of {robot}'} comes within {{}} of {what} at {time:.2f} s",
+            self._since(recorded, series, time),
+        )
+
+    def _since(self, recorded: Rehearsed, series: Distances, least: float) -> float:
+        """Return when it first is too near."""
+        both = zip(recorded.times, series.values, strict=False)
+        return next((t for t, d in both if d < self.threshold.limit), least)
+
+    def _counts(self, robot: str, other: str, kind: Kind, names: set[str]) -> bool:
+        if self.but and other == self.but:
+            return False
+        if robot in names and self.thing in ("", other):
+            return True
+        return kind is Kind.ROBOT and other in names and self.thing in ("", robot)
+
+    def flaws(self, ground: Ground) -> Iterator[str]:
+        yield from ground.robot_flaws(self.robot)
+        yield from ground.thing_flaws(self.thing)
+        yield from ground.thing_flaws(self.but)
+        yield from self.threshold.flaws()
+        if self.thing == ITSELF:
+            yield "the distance of a robot to itself is not measured; use 'no collision'"
+        if self.threshold.limit > FARTHEST:
+            yield (
+                f"distances are measured up to {LENGTH.words(FARTHEST)}, so "
+                f"{LENGTH.words(self.threshold.limit)} cannot be told from more; take less"
+            )
+
+
+def _thing(gaps: Gaps) -> str:
+    name = gaps.get("thing") or gaps.get("other") or ""
+    return "" if name in ("anything", "everything") else name
+
+
+def _no_collision(gaps: Gaps, given: Given) -> Measure:
+    return NoCollision(gaps.get("robot") or "", _thing(gaps))
+
+
+def _distance(gaps: Gaps, given: Given) -> Measure:
+    threshold = Threshold(LENGTH, gaps["length"], given.until, at_least=True)
+    return Distance(gaps.get("robot") or "", _thing(gaps), gaps.get("object") or "", threshold)
+
+
+FORMS = (
+    Form(
+        "no collision [of ROBOT] [with [the] THING]", _no_collision,
+        "No link and nothing held touches anything, or THING: an object, a surface, a robot, "
+        "`floor`, `itself`.",
+    ),
+    Form(
+        "distance [of ROBOT] [to [the] THING] > LENGTH", _distance,
+        "The least distance to everything, or to THING, from the collision hulls, every 20 ms.",
+        until=LENGTH,
+    ),
+    Form(
+        "distance [of ROBOT] to everything but [the] OBJECT > LENGTH", _distance,
+        "The same, without what is picked up.", until=LENGTH,
+    ),
+    Form(
+        "distance between ROBOT and OTHER > LENGTH", _distance,
+        "The least distance of two robots of a cell.", until=LENGTH,
+    ),
+)  # fmt: skip

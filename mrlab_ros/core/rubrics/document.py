@@ -1,0 +1,181 @@
+"""A rubric as a document of mappings, lists and texts; see docs/rubrics.md."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from typing import Any
+
+from mrlab_ros.core.checking.evidence import CLOSE
+from mrlab_ros.core.errors import BadInput
+from mrlab_ros.core.geometry import Pose, Vector, normalized, quaternion_from_rpy
+from mrlab_ros.core.records import (
+    FILLED_TEXT,
+    FLAG,
+    TEXT,
+    Number,
+    Numbers,
+    Record,
+    above,
+    between,
+    checked,
+    every,
+    shown,
+)
+from mrlab_ros.core.rubrics.forms import FORMS
+from mrlab_ros.core.rubrics.quantities import LENGTH
+from mrlab_ros.core.rubrics.rubric import Rubric, Test
+from mrlab_ros.core.rubrics.sentences import Form, Given, form_of
+
+FIELDS = (
+    "name", "about", "robot", "tool", "scene", "reference", "files", "closest", "tests",
+)  # fmt: skip
+TEST_FIELDS = ("name", "expect", "points", "hint", "hidden", "partial", "poses")
+POSE_FIELDS = ("position", "rpy_deg", "orientation")
+POSITION = Numbers(3, between(-100, 100), "m: x, y, z in world")
+ANGLES = Numbers(3, between(-360, 360), "degrees: roll, pitch, yaw")
+QUATERNION = Numbers(4, between(-1, 1), "x, y, z, w")
+POINTS = Number(above(0, 1e6))
+MOST_TESTS, MOST_POSES = 200, 1000
+# The line of each entry, by the keys and numbers that lead to it.
+Lines = Mapping[tuple[str | int, ...], int]
+
+
+def parse(document: object, origin: str, lines: Lines | None = None) -> Rubric:
+    """Return the rubric; raise BadInput that names all mistakes with their lines.
+
+    origin: the file. lines: from 1; none: mistakes are named by their tests alone.
+    """
+    known = lines or {}
+    record = Record(document, origin, FIELDS)
+    entries = record.entries("tests")
+    if not 0 < len(entries) <= MOST_TESTS:
+        raise record.error(
+            f"tests has {len(entries)} entries; expected 1 to {MOST_TESTS}. mrlab rubric example "
+            "prints a rubric to begin with"
+        )
+    closest = record.optional("closest", TEXT)
+    try:
+        metres = CLOSE if closest is None else LENGTH.read(closest)
+    except BadInput as error:
+        raise record.error(f"closest: {error}") from None
+    tests = every(lambda numbered: _test(origin, known, *numbered), enumerate(entries), origin)
+    _unique(tests, origin)
+    assert isinstance(document, Mapping)
+    return Rubric(
+        name=record.value("name", TEXT, ""),
+        tests=tuple(tests),
+        robot=record.value("robot", TEXT, ""),
+        tool=record.value("tool", TEXT, ""),
+        scene=record.value("scene", TEXT, ""),
+        reference=record.value("reference", TEXT, ""),
+        closest=metres,
+        files=record.value("files", TEXT, ""),
+        about=record.value("about", TEXT, ""),
+        origin=origin,
+        plain=document,
+    )
+
+
+def _unique(tests: list[Test], origin: str) -> None:
+    """Raise BadInput where two tests have one name."""
+    first: dict[str, Test] = {}
+    for test in tests:
+        other = first.setdefault(test.name, test)
+        if other is not test:
+            raise BadInput(
+                f"{at(origin, test.line)}: the name '{test.name}' is that of the test in line "
+                f"{other.line}, too; give each test a name of its own"
+            )
+
+
+def at(origin: str, line: int) -> str:
+    """Return where something is, as editors and compilers have it; line 0: not known."""
+    return f"{origin}:{line}" if line else origin
+
+
+def _test(origin: str, lines: Lines, index: int, value: object) -> Test:
+    line = lines.get(("tests", index), 0)
+    entry = Record(value, f"{at(origin, line)}: test {index + 1}", TEST_FIELDS)
+    expect = entry.required("expect", FILLED_TEXT)
+    name = entry.value("name", FILLED_TEXT, expect)
+    entry.place = f"{at(origin, line)}: test '{name}'"
+    points = entry.required("points", POINTS)
+    partial = entry.value("partial", FILLED_TEXT, "")
+    of_expect = lines.get(("tests", index, "expect"), line)
+    try:
+        form, gaps = form_of(expect, FORMS)
+        each, until = _partial(form, partial)
+    except BadInput as error:
+        raise BadInput(f"{at(origin, of_expect)}: test '{name}': {error}") from None
+    poses = _poses(entry, form, expect)
+    return Test(
+        name=name,
+        expect=expect,
+        measure=form.build(gaps, Given(poses, each, until)),
+        points=points,
+        hint=entry.value("hint", TEXT, ""),
+        hidden=entry.value("hidden", FLAG, False),
+        partial=partial,
+        line=line,
+    )
+
+
+def _partial(form: Form, rule: str) -> tuple[bool, float | None]:
+    """Return whether each part earns its points, and until which value there are some."""
+    if not rule or rule == "none":
+        return False, None
+    if rule == "each" and form.each:
+        return True, None
+    word, _, value = rule.partition(" ")
+    if word == "until" and form.until is not None:
+        return False, form.until.read(value)
+    rules = ["'each'"] if form.each else []
+    rules += [f"'until {form.until.example}'"] if form.until else []
+    raise BadInput(
+        f"partial is '{rule}'; '{form.text}' knows {' and '.join(rules) or 'no partial points'}"
+        f"{'' if rules else '; leave it out'}"
+    )
+
+
+def _poses(entry: Record, form: Form, expect: str) -> tuple[Pose | Vector, ...]:
+    values = entry.entries("poses")
+    if values and not form.poses:
+        raise entry.error(f"'{expect}' reads no poses; write 'passes within 5 mm of poses'")
+    if form.poses and not 0 < len(values) <= MOST_POSES:
+        raise entry.error(
+            f"poses has {len(values)} entries; expected 1 to {MOST_POSES}, such as "
+            "[0.4, -0.3, 0.2], m in world"
+        )
+    return tuple(_pose(entry.place, number, value) for number, value in enumerate(values, 1))
+
+
+def _pose(place: str, number: int, value: object) -> Pose | Vector:
+    where = f"{place}: pose {number}"
+    if isinstance(value, list | tuple):
+        x, y, z = checked(where, value, POSITION)
+        return (x, y, z)
+    if not isinstance(value, Mapping):
+        raise BadInput(
+            f"{where} is {shown(value)}; expected [x, y, z] in m, or position: [x, y, z] with "
+            "rpy_deg: [roll, pitch, yaw]"
+        )
+    entry = Record(value, where, POSE_FIELDS)
+    x, y, z = entry.required("position", POSITION)
+    turned = entry.optional("rpy_deg", ANGLES)
+    given = entry.optional("orientation", QUATERNION)
+    if turned is not None and given is not None:
+        raise entry.error("both rpy_deg and orientation are given; write one of them")
+    if turned is not None:
+        roll, pitch, yaw = (math.radians(angle) for angle in turned)
+        return Pose((x, y, z), quaternion_from_rpy(roll, pitch, yaw))
+    if given is not None:
+        qx, qy, qz, qw = given
+        pose = Pose((x, y, z), (qx, qy, qz, qw))
+        return Pose(pose.position, normalized(pose.orientation))
+    return (x, y, z)
+
+
+def plain(rubric: Rubric) -> dict[str, Any]:
+    """Return what a rubric was read from, as mappings, lists and texts, for a digest."""
+    return dict(rubric.plain or {})
