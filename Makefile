@@ -7,6 +7,7 @@
 # make gallery render every robot into docs/gallery (minutes)
 # make docs   write the generated pages anew
 # make site   build the site of docs/ into build/site        (ARGS=--serve shows it while you write)
+# make dist   build the wheel and the source archive into dist/
 # make lint   ruff and mypy
 # make lock   write the lock files anew from requirements*.in
 # make clean  remove everything that set-up made
@@ -14,7 +15,7 @@
 SHELL := /bin/bash
 ENV := . .venv/mrlab.sh &&
 
-.PHONY: demo test bench robots objects gallery docs site lint lock setup clean
+.PHONY: demo test bench robots objects gallery docs site dist lint lock setup clean
 
 setup:
 	@python3 scripts/bootstrap.py
@@ -25,6 +26,10 @@ demo: setup
 test:
 	@python3 scripts/bootstrap.py --dev --test-tools
 	@$(ENV) exec python -m pytest -n 2 --dist loadfile --no-loadscope-reorder $(ARGS)
+
+dist:
+	@python3 scripts/bootstrap.py
+	@$(ENV) python scripts/dist.py
 
 lint:
 	@python3 scripts/bootstrap.py --dev
@@ -61,4 +66,4 @@ lock:
 	@$(ENV) uv pip compile -q --universal --python-version 3.10 --generate-hashes requirements-docs.in -o requirements-docs.lock
 
 clean:
-	rm -rf .venv build install log web/node_modules web/dist
+	rm -rf .venv build dist install log web/node_modules web/dist

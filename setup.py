@@ -1,3 +1,5 @@
+import re
+import sys
 from pathlib import Path
 
 from setuptools import find_packages, setup
@@ -13,9 +15,22 @@ def data_tree(*folders):
     return [(f"share/{package_name}/{p.parent}", [str(p)]) for p in files]
 
 
+def executables():
+    """Return what `ros2 run mrlab_ros` finds; in a wheel they would lie in everybody's path."""
+    yield "host = mrlab_ros.processes.host:main"
+    yield from (f"{node} = mrlab_ros.processes.host:run_named_node" for node in NODES)
+
+
+def requirements():
+    """Return what the lab needs to run: the last part of requirements.in."""
+    lines = Path("requirements.in").read_text().partition("# the lab itself")[2].splitlines()[1:]
+    return [line for line in lines if line and not line.startswith("#")]
+
+
 setup(
     name=package_name,
-    version="0.1.0",
+    version=re.search("<version>(.+)</version>", Path("package.xml").read_text())[1],
+    python_requires=">=3.10",
     packages=find_packages(include=[package_name, f"{package_name}.*"]),
     # By which type checkers know that the package has types.
     package_data={package_name: ["py.typed"]},
@@ -23,20 +38,31 @@ setup(
         ("share/ament_index/resource_index/packages", [f"resource/{package_name}"]),
         (f"share/{package_name}", ["package.xml"]),
         *data_tree("config", "robots", "launch", "examples", "web/dist"),
+        (f"share/{package_name}/msg_schemas", ["msg_schemas/trajectory.schema.json"]),
     ],
-    install_requires=["setuptools"],
+    # ROS's index of packages: of the wheels, or of a ROS machine.
+    install_requires=[*requirements(), "ros-ament-index-python"],
     # By which `colcon test` knows that the tests are pytest's.
     extras_require={"test": ["pytest"]},
     zip_safe=False,
     maintainer="MR-Lab maintainers",
     maintainer_email="mrlab@example.org",
     description="A mixed-reality robotics laboratory without robots.",
+    long_description=Path("README.md").read_text(),
+    long_description_content_type="text/markdown",
     license="Apache-2.0",
+    classifiers=[
+        "Environment :: Web Environment",
+        "Intended Audience :: Education",
+        "Operating System :: POSIX :: Linux",
+        "Programming Language :: Python :: 3",
+        "Topic :: Scientific/Engineering",
+        "Typing :: Typed",
+    ],
     entry_points={
         "console_scripts": [
             "mrlab = mrlab_ros.cli:main",
-            "host = mrlab_ros.processes.host:main",
-            *(f"{node} = mrlab_ros.processes.host:run_named_node" for node in NODES),
+            *(() if {"bdist_wheel", "dist_info"} & {*sys.argv} else executables()),
         ],
     },
 )

@@ -13,7 +13,7 @@ from typing import Annotated
 
 import typer
 
-from mrlab_ros import __version__
+import mrlab_ros
 from mrlab_ros.core.errors import LabError
 
 EPILOG = """
@@ -97,13 +97,22 @@ def make_app(words: Sequence[str] = ()) -> typer.Typer:
     asked = next((word for word in words if not word.startswith("-")), "")
     for name in [asked] if asked in COMMANDS else COMMANDS:
         module, _, attribute = COMMANDS[name].partition(":")
-        found = getattr(importlib.import_module(f"mrlab_ros.commands.{module}"), attribute)
+        try:
+            found = getattr(importlib.import_module(f"mrlab_ros.commands.{module}"), attribute)
+        except ModuleNotFoundError:
+            if asked in COMMANDS:
+                raise
+            found = absent
         if isinstance(found, typer.Typer):
             app.add_typer(found, name=name)
         else:
             settings = NEGATIVE if name in TAKE_NEGATIVE else None
             app.command(name, rich_help_panel=PANELS.get(module), context_settings=settings)(found)
     return app
+
+
+def absent() -> None:
+    """Needs ROS 2 and the lab's messages, which are not installed here."""
 
 
 class Settings:
@@ -114,7 +123,7 @@ class Settings:
 
 def _say_version(wanted: bool) -> None:
     if wanted:
-        print(f"mrlab {__version__}")
+        print(f"mrlab {mrlab_ros.__version__}")
         raise typer.Exit
 
 
@@ -137,8 +146,10 @@ def main() -> None:
     for number in (signal.SIGINT, signal.SIGTERM):
         signal.signal(number, signal.default_int_handler)
     signal.signal(signal.SIGHUP, hang_up)
+    # As pip installs a wheel: its files are in the index of packages below the prefix.
+    os.environ.setdefault("AMENT_PREFIX_PATH", sys.prefix)
     if sys.argv[1:] == ["--version"]:  # at once: no command needs to be known for it
-        print(f"mrlab {__version__}")
+        print(f"mrlab {mrlab_ros.__version__}")
         return
     try:
         make_app(sys.argv[1:])(prog_name="mrlab")
@@ -146,8 +157,22 @@ def main() -> None:
         fail(str(error))
     except KeyboardInterrupt:
         sys.exit(130)
+    except ModuleNotFoundError as error:
+        fail(without_graph(error))
     except Exception as error:
         fail(f"{type(error).__name__}: {error}; mrlab --debug ... shows where")
+
+
+def without_graph(error: ModuleNotFoundError) -> str:
+    """Return what to do where a module is missing, of ROS 2 or another one."""
+    package = str(error.name).partition(".")[0]
+    if package != "rclpy" and not package.endswith(("_msgs", "_interfaces")):
+        return f"{error}; install what requirements.lock names, or run make demo in a clone"
+    return (
+        f"this command needs ROS 2 and the lab's messages, and {package} is not installed here: "
+        "no wheel has them. In a clone `make demo` sets both up, on a ROS machine colcon builds "
+        "them. Without them `mrlab convert`, show, check, robots and keys work"
+    )
 
 
 def hang_up(number: int, frame: FrameType | None) -> None:

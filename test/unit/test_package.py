@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import ast
+import json
+import re
 import xml.etree.ElementTree as ET
 from collections.abc import Iterator
 from pathlib import Path
@@ -11,6 +13,8 @@ import pytest
 from colcon_core.package_descriptor import PackageDescriptor
 from colcon_core.task.python import get_setup_data
 from colcon_core.task.python.test import has_test_dependency
+
+import mrlab_ros
 
 ROOT = Path(__file__).parents[2]
 SOURCES = sorted((ROOT / "mrlab_ros").rglob("*.py"))
@@ -122,3 +126,45 @@ def test_a_node_without_parameters_is_hidden(file: str, name: str) -> None:
 def test_type_checkers_find_the_types_of_the_python_api() -> None:
     assert (ROOT / "mrlab_ros" / "py.typed").is_file()
     assert 'package_data={package_name: ["py.typed"]}' in (ROOT / "setup.py").read_text()
+
+
+def test_all_parts_have_the_version_of_the_package() -> None:
+    found = {
+        path: re.findall("<version>(.+)</version>", (ROOT / path).read_text())
+        for path in ("package.xml", "msg_schemas/package.xml")
+    }
+    for path in ("web/package.json", "web/package-lock.json"):
+        found[path] = [json.loads((ROOT / path).read_text())["version"]]
+    assert found == {path: [mrlab_ros.__version__] for path in found}
+    assert re.fullmatch(r"\d+\.\d+\.\d+", mrlab_ros.__version__)
+
+
+def test_what_pip_installs_with_a_wheel_is_what_the_package_imports() -> None:
+    """The last part of requirements.in, which setup.py reads."""
+    part = (ROOT / "requirements.in").read_text().partition("# the lab itself")[2]
+    wanted = set(re.findall(r"^([a-z0-9_-]+)", part, re.M))
+    imported = {
+        name.partition(".")[0]
+        for path in SOURCES
+        for node in ast.walk(ast.parse(path.read_text()))
+        if isinstance(node, (ast.Import, ast.ImportFrom)) and not getattr(node, "level", 0)
+        for name in ([node.module] if isinstance(node, ast.ImportFrom) else names_of(node))
+        if name
+    }
+    modules = {
+        "PIL": "pillow",
+        "argon2": "argon2-cffi",
+        "matio": "mat-io",
+        "yaml": "pyyaml",
+        "zenoh": "eclipse-zenoh",
+    }
+    needed = {modules.get(name, name) for name in imported} & LOCKED
+    # What these bring along: Starlette, uvicorn, Authlib and matplotlib are nothing without it.
+    assert needed - wanted <= {"anyio", "h11", "joserfc", "pillow", "pydantic", "starlette"}
+
+
+def names_of(node: ast.Import) -> list[str]:
+    return [alias.name for alias in node.names]
+
+
+LOCKED = set(re.findall(r"^([a-z0-9_-]+)==", (ROOT / "requirements.lock").read_text(), re.M))

@@ -25,11 +25,19 @@ NUMPY = orjson.OPT_SERIALIZE_NUMPY
 @cache
 def schema() -> Any:
     """Return the validator of trajectory.schema.json."""
-    try:
-        path = Path(get_package_share_directory("mrlab_msgs")) / "trajectory.schema.json"
-    except PackageNotFoundError:
-        path = Path(__file__).resolve().parents[3] / "msg_schemas" / "trajectory.schema.json"
-    return jsonschema.Draft202012Validator(orjson.loads(path.read_bytes()))
+    return jsonschema.Draft202012Validator(orjson.loads(_schema_file().read_bytes()))
+
+
+def _schema_file() -> Path:
+    """Return the schema of the messages' package, of an installed wheel, or of the source tree."""
+    for package, inside in (("mrlab_msgs", ""), ("mrlab_ros", "msg_schemas")):
+        try:
+            file = Path(get_package_share_directory(package), inside, "trajectory.schema.json")
+        except PackageNotFoundError:
+            continue
+        if file.is_file():
+            return file
+    return Path(__file__).resolve().parents[3] / "msg_schemas" / "trajectory.schema.json"
 
 
 def chunks(trajectory: Trajectory) -> Iterator[bytes | memoryview]:

@@ -1,0 +1,35 @@
+"""Commands of an installed wheel, where neither ROS 2 nor the lab's messages are."""
+
+from __future__ import annotations
+
+import sys
+
+import pytest
+from typer.testing import CliRunner
+
+from mrlab_ros import cli
+
+
+@pytest.mark.parametrize("name", ["rclpy", "mrlab_msgs.msg", "builtin_interfaces"])
+def test_a_command_that_needs_ros_says_how_to_get_it(name: str) -> None:
+    said = cli.without_graph(ModuleNotFoundError(f"No module named '{name}'", name=name))
+    assert name.partition(".")[0] in said
+    assert "make demo" in said
+    assert "colcon" in said
+
+
+def test_another_module_that_is_missing_is_named() -> None:
+    said = cli.without_graph(ModuleNotFoundError("No module named 'h5py'", name="h5py"))
+    assert "'h5py'" in said
+    assert "ROS" not in said
+
+
+def test_help_lists_what_cannot_run_here(monkeypatch: pytest.MonkeyPatch) -> None:
+    # None there makes an import fail as that of a module that is not installed.
+    monkeypatch.setitem(sys.modules, "mrlab_ros.commands.status.command", None)
+    monkeypatch.setattr(cli, "COMMANDS", {k: cli.COMMANDS[k] for k in ("keys", "status")})
+    said = CliRunner().invoke(cli.make_app(), ["--help"])
+    assert said.exit_code == 0
+    assert "Needs ROS 2" in said.stdout
+    with pytest.raises(ModuleNotFoundError):
+        cli.make_app(["status"])
