@@ -109,8 +109,11 @@ class Cover:
 
     def _mended(self, hulls: list[Array], surface: Array, most: float) -> list[Array]:
         """Hold what sticks out by more than `most`: corners between the points of the cover."""
+        # What a hull holds, it holds when it is extended: only the rest is looked at.
+        bare = np.min([heights(vertices, surface) for vertices in hulls], axis=0) > HIDDEN
+        surface = surface[bare]
         away = [heights(vertices, surface) for vertices in hulls]
-        for _ in range(400):
+        for _ in range(400 if len(surface) else 0):
             outside = np.min(away, axis=0)
             place = int(outside.argmax())
             if outside[place] <= most:

@@ -28,6 +28,14 @@ GENERATOR = ROOT / "scripts" / "robots"
 LIBRARY = RobotLibrary(ROBOTS, ROBOTS / "none imported")
 IDS = LIBRARY.ids()
 
+# Open castings, in whose hollows things can lie, need more. A step of physics costs no more:
+# with four KR 120 of 142 hulls each 0.30 ms of a processor, with the former 69 each 0.31 ms.
+MOST_HULLS = 100
+OPEN_CASTINGS = {
+    "kuka_kr120_r2500_pro": 150,
+    "kuka_kr150_r2700_2": 150,
+    "kuka_kr300_r2700_2": 150,
+}
 # What each vendor's kinematics give, mm; docs/robots.md says how each is measured.
 REACH_MM = {
     "kuka_kr3_r540": 540.768,
@@ -121,7 +129,7 @@ def test_meshes_keep_their_bounds(folder: Path) -> None:
 @pytest.mark.parametrize("folder", folders(), ids=lambda folder: folder.name)
 def test_hulls_are_few_and_convex(folder: Path) -> None:
     files = sorted((folder / "meshes").glob("*_hull_*.stl"))
-    assert 1 <= len(files) <= 100
+    assert 1 <= len(files) <= OPEN_CASTINGS.get(folder.name, MOST_HULLS)
     for file in files:
         hull = trimesh.load_mesh(file)
         assert hull.is_watertight
