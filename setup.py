@@ -5,6 +5,8 @@ from pathlib import Path
 from setuptools import find_packages, setup
 
 package_name = "mrlab_ros"
+# colcon's symlink install runs a link to this file, in a folder with what it installs alone.
+ROOT = Path(__file__).resolve().parent
 # Each is an executable of its own, too; the host runs the node that it is named after.
 NODES = ("bridge", "converter", "coordinator", "frames", "lab", "physics", "playback", "recorder")
 
@@ -23,13 +25,15 @@ def executables():
 
 def requirements():
     """Return what the lab needs to run: the last part of requirements.in."""
-    lines = Path("requirements.in").read_text().partition("# the lab itself")[2].splitlines()[1:]
+    lines = (
+        (ROOT / "requirements.in").read_text().partition("# the lab itself")[2].splitlines()[1:]
+    )
     return [line for line in lines if line and not line.startswith("#")]
 
 
 setup(
     name=package_name,
-    version=re.search("<version>(.+)</version>", Path("package.xml").read_text())[1],
+    version=re.search("<version>(.+)</version>", (ROOT / "package.xml").read_text())[1],
     python_requires=">=3.10",
     packages=find_packages(include=[package_name, f"{package_name}.*"]),
     # By which type checkers know that the package has types.
@@ -48,7 +52,7 @@ setup(
     maintainer="MR-Lab maintainers",
     maintainer_email="mrlab@example.org",
     description="A mixed-reality robotics laboratory without robots.",
-    long_description=Path("README.md").read_text(),
+    long_description=(ROOT / "README.md").read_text(),
     long_description_content_type="text/markdown",
     license="Apache-2.0",
     classifiers=[
