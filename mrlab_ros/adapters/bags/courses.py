@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 from mrlab_ros.adapters.robots import urdf
 from mrlab_ros.adapters.robots.library import TIP
 from mrlab_ros.adapters.robots.shown import joints_to
+from mrlab_ros.core.clock import SECOND
 from mrlab_ros.core.errors import BadInput
 from mrlab_ros.core.geometry import Pose, rotate
 from mrlab_ros.core.recording.report import (
@@ -19,6 +20,7 @@ from mrlab_ros.core.recording.report import (
     course_of,
 )
 from mrlab_ros.core.recording.runs import Course, Run, RunJoint
+from mrlab_ros.core.recording.stamps import time_of
 from mrlab_ros.core.robots.kinematics import KinematicChain
 
 Array = NDArray[np.float64]
@@ -35,17 +37,23 @@ class Reference:
 
 @dataclass
 class Samples:
-    """The joint states of a robot: s of the session, stamps ns, positions in `names` order."""
+    """The joint states of a robot: s of the session, stamps ns, positions in `names` order.
+
+    received: when the recorder received each; times: when the arm stood so.
+    """
 
     names: list[str]
+    received: list[float] = field(default_factory=list)
     times: list[float] = field(default_factory=list)
     stamps: list[int] = field(default_factory=list)
     positions: list[Array] = field(default_factory=list)
 
-    def add(self, time: float, stamp_ns: int, positions: Array) -> None:
+    def add(self, received: float, stamp_ns: int, start_ns: int, positions: Array) -> None:
         """Take a joint state; one of other joints than the first is left out."""
         if len(positions) == len(self.names):
-            self.times.append(time)
+            before = self.times[-1] if self.times else 0.0
+            self.received.append(received)
+            self.times.append(time_of(received, (stamp_ns - start_ns) / SECOND, before))
             self.stamps.append(stamp_ns)
             self.positions.append(positions)
 
@@ -115,8 +123,8 @@ def _course(
     if not set(names) <= set(recorded.names):
         return None
     columns = [recorded.names.index(name) for name in names]
-    times = np.array(recorded.times)
-    chosen = np.flatnonzero((times >= run.start) & (times <= run.end))
+    times, received = np.array(recorded.times), np.array(recorded.received)
+    chosen = np.flatnonzero((received >= run.start) & (received <= run.end))
     if not len(chosen):
         return None
     joints = np.array([recorded.positions[i] for i in chosen])[:, columns]

@@ -13,6 +13,7 @@ from mrlab_ros.adapters.bags.reader import Bag
 from mrlab_ros.adapters.bags.session import Decoder
 from mrlab_ros.core.clock import SECOND
 from mrlab_ros.core.errors import BadInput
+from mrlab_ros.core.recording.stamps import time_of
 from mrlab_ros.core.robots.frames import without_frames
 from mrlab_ros.core.show.session import RecordedMotion, RecordedObject, RecordedRobot
 
@@ -63,7 +64,11 @@ def read_motion(bag: Bag) -> RecordedMotion:
             if kind == "std_msgs/msg/String":
                 robot.urdf = without_frames(data.data, name)
             else:
-                _take_joints(robot, time, data)
+                stamp = data.header.stamp
+                stamp_ns = stamp.sec * SECOND + stamp.nanosec
+                last = robot.track.times[-1] if robot.track.times else 0.0
+                shown = time_of(time, (stamp_ns - bag.start_ns) / SECOND, last)
+                _take_joints(robot, shown, data)
     return found
 
 

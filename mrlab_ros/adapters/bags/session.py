@@ -166,7 +166,7 @@ class _Reader:
             stamp_ns, positions = _ns(state.header.stamp), np.asarray(state.position)
             robot.compare(time, stamp_ns, positions, self.courses)
             self.samples.setdefault(robot.name, Samples(list(state.name))).add(
-                time, stamp_ns, positions
+                time, stamp_ns, self._bag.start_ns, positions
             )
 
     def _state(self, time: float, robot: RobotReport, state: Any) -> None:
