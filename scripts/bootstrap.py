@@ -394,10 +394,10 @@ class Setup:
         script = VENV / "mrlab.sh"
         script.write_text("\n".join(lines) + "\n")
         command = VENV / "bin" / "mrlab"
+        # A file such as json.py in the student's folder is none of the lab's modules.
         command.write_text(
-            "#!/bin/sh\n. '{}'\nexec '{}' -m mrlab_ros.cli \"$@\"\n".format(
-                script, self.venv_python
-            )
+            "#!/bin/sh\n. '{}'\nexport PYTHONSAFEPATH=1\n"
+            "exec '{}' -m mrlab_ros.cli \"$@\"\n".format(script, self.venv_python)
         )
         command.chmod(0o755)
 

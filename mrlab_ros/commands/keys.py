@@ -127,7 +127,7 @@ def add(
 
 
 @app.command()
-def gateway(folder: Folder = Path("keys")) -> None:
+def gateway(folder: Folder = Path("keys"), as_json: AsJson = False) -> None:
     """Make the web gateway's key anew, for a gateway on another machine or after its file is lost.
 
     The one before is taken back. A gateway may do what all people together may do.
@@ -136,6 +136,9 @@ def gateway(folder: Folder = Path("keys")) -> None:
 
     keys = Keys(folder)
     file = keys.gateway(now())
+    if as_json:
+        show({"file": str(file)})
+        return
     print(
         f"{file} lets a gateway connect; whoever has it may do everything. On another machine:\n"
         "  python -m mrlab_ros.gateway --zenoh-config gateway.json5 --state-dir STATE "
@@ -217,7 +220,10 @@ def renew(folder: Folder = Path("keys"), host: Hosts = None, as_json: AsJson = F
 
 @app.command()
 def config(
-    folder: Folder = Path("keys"), prefix: Prefix = "", allow_list: AllowList = None
+    folder: Folder = Path("keys"),
+    prefix: Prefix = "",
+    allow_list: AllowList = None,
+    as_json: Annotated[bool, typer.Option("--json", help="Print JSON, as without it.")] = True,
 ) -> None:
     """Print the zenoh settings of the lab as JSON: to read, or for zenoh's own bridge."""
     from mrlab_ros.adapters.keys.folder import Keys, now
@@ -233,7 +239,10 @@ def config(
 
 @app.command()
 def router(
-    folder: Folder = Path("keys"), prefix: Prefix = "", allow_list: AllowList = None
+    folder: Folder = Path("keys"),
+    prefix: Prefix = "",
+    allow_list: AllowList = None,
+    as_json: AsJson = False,
 ) -> None:
     """Write the file of a zenoh router on another machine that lets people in for the lab.
 
@@ -248,6 +257,9 @@ def router(
     keys = Keys(folder)
     shipped = limits(share.directory() / "config" / "zenoh" / "lab.json5")
     file = keys.router(rules_of(allow_list), checked_prefix(prefix), shipped, now())
+    if as_json:
+        show({"file": str(file), "endpoint": f"tls/{keys.hosts[0]}:7447"})
+        return
     print(
         f"{file} is all that the router needs. Take it there on a way that you trust, run it with "
         "zenohd -c router.json5, and have the lab connect to it:\n"

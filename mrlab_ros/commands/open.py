@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 from pathlib import Path
 from typing import Annotated, Any
 
@@ -18,6 +19,9 @@ def open_pages(
     print_only: Annotated[
         bool, typer.Option("--print", help="Print the address and open nothing.")
     ] = False,
+    as_json: Annotated[
+        bool, typer.Option("--json", help="Print one JSON object and open nothing.")
+    ] = False,
 ) -> None:
     """Open the pages of the lab that runs on this machine, signed in.
 
@@ -25,7 +29,9 @@ def open_pages(
     """
     web = running_web()
     url = opening_url(web["open"], Path(web["users"]), f"/{path.lstrip('/')}")
-    if print_only or not open_in_browser(url):
+    if as_json:
+        print(json.dumps({"url": url}))
+    elif print_only or not open_in_browser(url):
         print(url)
 
 

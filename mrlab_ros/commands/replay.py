@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import os
 import re
 import select
@@ -16,8 +17,10 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
+from mrlab_ros.commands.output import say
 from mrlab_ros.commands.record import SILENCE
 from mrlab_ros.core.errors import LabError, Misuse
+from mrlab_ros.core.recording.states import RecorderState
 from mrlab_ros.messages.time import time_from_message
 
 if TYPE_CHECKING:
@@ -49,6 +52,9 @@ def replay(
             help="Model that the joint states of a foreign bag move, such as ur5e; repeatable.",
         ),
     ] = None,
+    as_json: Annotated[
+        bool, typer.Option("--json", help="Print one JSON object a line, and take no keys.")
+    ] = False,
 ) -> None:
     """Replay a bag in the running lab: headset, RViz and Foxglove see the session again.
 
@@ -61,15 +67,20 @@ def replay(
 
         if robots or is_foreign(path):
             with imported_for_now(path, robots or []) as found:
-                print(found.describe(path.name), flush=True)
-                _replay(str(found.folder), rate, start, loop)
+                say(
+                    found.describe(path.name),
+                    as_json=as_json,
+                    robots=found.robots,
+                    skipped=found.skipped,
+                )
+                _replay(str(found.folder), rate, start, loop, as_json=as_json)
             return
     elif robots:
         raise Misuse(f"there is no bag {path}; --robot is for the bags of others, by their path")
-    _replay(str(path.absolute()) if path.exists() else bag, rate, start, loop)
+    _replay(str(path.absolute()) if path.exists() else bag, rate, start, loop, as_json=as_json)
 
 
-def _replay(bag: str, rate: float, start: float, loop: bool) -> None:
+def _replay(bag: str, rate: float, start: float, loop: bool, *, as_json: bool) -> None:
     from mrlab_msgs import msg, srv
     from rich.console import Console
     from rich.live import Live
@@ -82,6 +93,11 @@ def _replay(bag: str, rate: float, start: float, loop: bool) -> None:
         watch = graph.watch(msg.RecorderState, "/recorder/state")
         try:
             answer = graph.order(srv.Replay, "/recorder/replay", request, BEGIN_TIMEOUT_S)
+            if as_json:
+                say(answer.message, as_json=True, bag=bag)
+                _follow(watch, None, _print_states())
+                say("the replay is over", as_json=True)
+                return
             console.print(answer.message, soft_wrap=True)
             keyboard = Keyboard(graph, watch) if sys.stdin.isatty() else None
             if keyboard is not None:
@@ -90,7 +106,11 @@ def _replay(bag: str, rate: float, start: float, loop: bool) -> None:
                 raw_keys(keyboard is not None),
                 Live(console=console, auto_refresh=False, transient=True) as live,
             ):
-                _follow(watch, keyboard, lambda line: live.update(line, refresh=True))
+                _follow(
+                    watch,
+                    keyboard,
+                    lambda state: live.update(_line(state, keyboard), refresh=True),
+                )
         except KeyboardInterrupt:
             # The recorder answers a stop once the replay has begun.
             _end(graph, BEGIN_TIMEOUT_S)
@@ -98,7 +118,21 @@ def _replay(bag: str, rate: float, start: float, loop: bool) -> None:
     console.print("the replay is over")
 
 
-def _follow(watch: Watch[Any], keyboard: Keyboard | None, show: Callable[[str], None]) -> None:
+def _print_states() -> Callable[[Any], None]:
+    """Return what prints each state that it has not seen as a line of JSON."""
+    shown: list[Any] = [None]
+
+    def show(state: Any) -> None:
+        if state is not shown[0]:
+            shown[0] = state
+            facts = {"position": state.position, "duration": state.duration, "rate": state.rate}
+            paused = state.state == RecorderState.PAUSED.value
+            print(json.dumps({**facts, "paused": paused}), flush=True)
+
+    return show
+
+
+def _follow(watch: Watch[Any], keyboard: Keyboard | None, show: Callable[[Any], None]) -> None:
     from mrlab_msgs import msg
 
     from mrlab_ros.ros.calls import NoAnswer
@@ -115,7 +149,7 @@ def _follow(watch: Watch[Any], keyboard: Keyboard | None, show: Callable[[str], 
             raise LabError(
                 f"the recorder has been silent for {SILENCE:g} s; mrlab status shows what runs"
             )
-        show(_line(state, keyboard))
+        show(state)
         if keyboard is None:
             time.sleep(REFRESH)
         else:

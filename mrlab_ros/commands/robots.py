@@ -8,10 +8,11 @@ import os
 import sys
 import tempfile
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
+from mrlab_ros.commands.output import AsJson, say
 from mrlab_ros.core.diagnostics import Diagnostic, Severity
 from mrlab_ros.core.errors import BadInput
 from mrlab_ros.ros import share
@@ -110,6 +111,7 @@ def show(
     opened: Annotated[
         bool, typer.Option("--open/--no-open", help="Open the picture where there is a desktop.")
     ] = True,
+    as_json: AsJson = False,
 ) -> None:
     """Print a robot's data; with --out, or where there is a desktop, draw it with sizes in metres.
 
@@ -120,7 +122,10 @@ def show(
     library = _library()
     positions = _positions(library, robot, joints) if joints else None
     desktop = os.environ.get("DISPLAY") or os.environ.get("WAYLAND_DISPLAY")
-    opened = bool(opened and desktop and sys.stdout.isatty())
+    opened = bool(opened and desktop and sys.stdout.isatty()) and not as_json
+    if output is None and as_json:
+        print(json.dumps(_sheet_facts(library, robot)))
+        return
     if output is None:
         _print_sheet(library, robot)
         if not opened:
@@ -130,9 +135,35 @@ def show(
     path = output.resolve()
     drawn = drawing.bodies(library, robot, end_effector or None, positions, collision=collision)
     drawing.write(drawn, path)
-    print(path)
+    _say_path(path, as_json=as_json)
     if opened:
         typer.launch(str(path))
+
+
+def _sheet_facts(library: RobotLibrary, robot: str) -> dict[str, Any]:
+    """Return what the library knows of a robot: m, rad, kg; null: endless, or not stated."""
+    from mrlab_ros.adapters.robots import urdf
+    from mrlab_ros.core.robots.reach import reach
+
+    model, facts = library.model(robot), library.facts(robot)
+    every = urdf.joints(urdf.parse(library.description(robot), robot), robot)
+    endless = {joint.name for joint in every if joint.kind == "continuous"}
+    return {
+        "id": model.id,
+        "product": f"{model.manufacturer} {model.product}",
+        "class": model.robot_class,
+        "payload": model.payload or None,
+        "reach": reach(model, facts["reach_definition"]),
+        "joints": [
+            {
+                "name": joint.name,
+                "lower": None if joint.name in endless else joint.lower,
+                "upper": None if joint.name in endless else joint.upper,
+                "max_velocity": joint.max_velocity,
+            }
+            for joint in model.joints
+        ],
+    }
 
 
 def _print_sheet(library: RobotLibrary, robot: str) -> None:
@@ -180,12 +211,14 @@ def _positions(library: RobotLibrary, robot: str, text: str) -> dict[str, float]
 @app.command()
 def check(
     robots: Annotated[list[str] | None, typer.Argument(help="Ids; none: all robots.")] = None,
+    as_json: AsJson = False,
 ) -> None:
     """Check robots: meshes, limits, inertias, units, hulls. Ends with 1 where one has an error."""
     from mrlab_ros.adapters.robots import checks, hulls
 
     library = _library()
     worst = 0
+    findings = {}
     for robot in robots or library.ids():
         text = library.description(robot)
         origin = f"{robot}/robot.urdf"
@@ -194,9 +227,13 @@ def check(
             library.model(robot)
             found += hulls.check(text, origin, library.mesh_path)
         shown = [one for one in found if one.severity is not Severity.INFO]
-        print(f"{robot}: {'ok' if not shown else ''}".rstrip())
-        _print(shown)
         worst += len(checks.errors(found))
+        findings[robot] = _facts(shown)
+        if not as_json:
+            print(f"{robot}: {'ok' if not shown else ''}".rstrip())
+            _print(shown)
+    if as_json:
+        print(json.dumps({"findings": findings}))
     if worst:
         were = "was" if worst == 1 else "were"
         raise BadInput(f"{_errors(worst)} {were} found; see the remedies above")
@@ -235,6 +272,7 @@ def import_robot(
             "tree around the file are found without it.",
         ),
     ] = None,
+    as_json: AsJson = False,
 ) -> None:
     """Check a robot description and install it as a robot of the lab.
 
@@ -260,11 +298,24 @@ def import_robot(
         srdf=srdf,
         speed=speed,
     )
-    _print(imported.findings)
+    if not as_json:
+        _print(imported.findings)
     wrong = checks.errors(imported.findings)
     if wrong:
+        if as_json:
+            print(json.dumps({"findings": _facts(imported.findings)}))
         raise BadInput(f"{path.name} was not imported: {_errors(len(wrong))}")
     assert imported.split is not None
+    if sheet is not None:
+        from mrlab_ros.adapters.robots import sheet as sheets
+
+        sheets.write(library, wanted, sheet.resolve())
+    if as_json:
+        known = {"findings": _facts(imported.findings), **_sheet_facts(library, wanted)}
+        files = {"folder": str(library.imported / wanted), "sheet": sheet and str(sheet.resolve())}
+        hand = [finger.name for finger in imported.fingers]
+        print(json.dumps({**known, "tip": imported.split.tip, "hand": hand, **files}))
+        return
     _print_sheet(library, wanted)
     print(f"the arm: {imported.split.why}; its tip is {imported.split.tip} (--tip changes it)")
     for finger in imported.fingers:
@@ -278,9 +329,6 @@ def import_robot(
     if sheet is None:
         print(f"with a picture of it: mrlab robots sheet {wanted} --out {wanted}.html")
     else:
-        from mrlab_ros.adapters.robots import sheet as sheets
-
-        sheets.write(library, wanted, sheet.resolve())
         print(sheet.resolve())
 
 
@@ -290,12 +338,13 @@ def sheet(
     output: Annotated[
         Path, typer.Option("--out", "--output", "-o", help="A .png, or a .html page to print.")
     ],
+    as_json: AsJson = False,
 ) -> None:
     """Draw a robot with its numbered axes beside what the lab knows of it: limits, hand, tip."""
     from mrlab_ros.adapters.robots import sheet as sheets
 
     sheets.write(_library(), robot, output.resolve())
-    print(output.resolve())
+    _say_path(output.resolve(), as_json=as_json)
 
 
 @app.command()
@@ -307,11 +356,13 @@ def export(
     end_effector: Annotated[
         str, typer.Option("--end-effector", "--tool", help="Id of an end effector.")
     ] = "",
+    as_json: AsJson = False,
 ) -> None:
     """Write a robot for other programs: a URDF with OBJ and STL meshes and relative paths."""
     from mrlab_ros.adapters.robots import exporting
 
-    print(exporting.export(_library(), robot, end_effector or None, output.resolve()))
+    written = exporting.export(_library(), robot, end_effector or None, output.resolve())
+    _say_path(written, as_json=as_json)
 
 
 @app.command()
@@ -325,6 +376,7 @@ def meshes(
     collision: Annotated[
         bool, typer.Option("--collision", help="Use its collision meshes too.")
     ] = False,
+    as_json: AsJson = False,
 ) -> None:
     """Show one of the lab's robots with the meshes of a vendor's description."""
     from mrlab_ros.adapters.robots import checks, vendor_meshes
@@ -340,24 +392,29 @@ def meshes(
         arguments=source[1:],
         collision=collision,
     )
-    _print(found)
+    if not as_json:
+        _print(found)
     wrong = checks.errors(found)
     if wrong:
         raise BadInput(
             f"the meshes of {path.name} were not installed: {_errors(len(wrong))}, listed above"
         )
-    print(f"{robot} has the meshes of {path.name}; undo it with: mrlab robots remove {robot}")
+    done = f"{robot} has the meshes of {path.name}; undo it with: mrlab robots remove {robot}"
+    say(done, as_json=as_json, robot=robot, findings=_facts(found))
 
 
 @app.command()
-def remove(robot: Annotated[str, typer.Argument(help="Id of an imported robot.")]) -> None:
+def remove(
+    robot: Annotated[str, typer.Argument(help="Id of an imported robot.")], as_json: AsJson = False
+) -> None:
     """Remove an imported robot, or the vendor's meshes of a library robot."""
     from mrlab_ros.adapters.robots import vendor_meshes
 
     library = _library()
     vendor_meshes.remove(robot, library)
     own = robot in library.ids()
-    print(f"{robot} has its own meshes again" if own else f"{robot} was removed")
+    done = f"{robot} has its own meshes again" if own else f"{robot} was removed"
+    say(done, as_json=as_json, robot=robot, removed=not own)
 
 
 def _folders(pairs: list[str] | None) -> dict[str, Path]:
@@ -373,6 +430,17 @@ def _folders(pairs: list[str] | None) -> dict[str, Path]:
 
 def _errors(count: int) -> str:
     return f"{count} error{'' if count == 1 else 's'}"
+
+
+def _say_path(path: Path, *, as_json: bool) -> None:
+    print(json.dumps({"path": str(path)}) if as_json else path)
+
+
+def _facts(found: list[Diagnostic] | tuple[Diagnostic, ...]) -> list[dict[str, str]]:
+    return [
+        {"severity": WORDS[d.severity], "code": d.code, "message": d.message, "remedy": d.remedy}
+        for d in found
+    ]
 
 
 def _print(found: list[Diagnostic] | tuple[Diagnostic, ...]) -> None:

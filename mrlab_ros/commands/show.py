@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from mrlab_ros.commands.convert.options import with_options
+from mrlab_ros.commands.output import AsJson
 from mrlab_ros.core.conversion.options import Options
 from mrlab_ros.core.errors import BadInput, Misuse
 
@@ -37,6 +38,7 @@ def show(
     opened: Annotated[
         bool, typer.Option("--open/--no-open", help="Open the page where there is a desktop.")
     ] = True,
+    as_json: AsJson = False,
 ) -> None:
     """Write a page that shows FILE in 3D: a motion, a file that was refused, or a session.
 
@@ -46,21 +48,28 @@ def show(
     path = output or Path(f"{file.name.split('.')[0] or 'motion'}.html")
     if path.suffix.lower() not in (".html", ".htm"):
         raise Misuse(f"the page is '{path.name}'; expected a name that ends in .html")
+    from mrlab_ros.commands.convert import report
+
     text, result = _page(file, robot, end_effector, options)
     path.parent.mkdir(parents=True, exist_ok=True)
     path.write_text(text, encoding="utf-8")
-    print(f"{path} ({len(text) / 1e6:.2f} MB)")
+    if as_json:
+        refused = result is not None and result.trajectory is None
+        found = report.record(str(file), result, None) if result is not None else {}
+        print(json.dumps({"page": str(path.resolve()), "refused": refused, **found}))
+    else:
+        print(f"{path} ({len(text) / 1e6:.2f} MB)")
     desktop = os.environ.get("DISPLAY") or os.environ.get("WAYLAND_DISPLAY")
     if opened and desktop and sys.stdout.isatty():
         typer.launch(str(path.resolve()))
     if result is not None and result.trajectory is None:
-        from mrlab_ros.commands.convert import report
         from mrlab_ros.commands.convert.outcomes import EXIT_CODES
 
-        words = ["mrlab", "show", str(file), "--robot", robot]
-        words += ["--end-effector", end_effector] if end_effector else []
-        words += ["--out", str(output)] if output else []
-        report.show(result, None, words, options)
+        if not as_json:
+            words = ["mrlab", "show", str(file), "--robot", robot]
+            words += ["--end-effector", end_effector] if end_effector else []
+            words += ["--out", str(output)] if output else []
+            report.show(result, None, words, options)
         raise typer.Exit(EXIT_CODES[result.outcome])
 
 

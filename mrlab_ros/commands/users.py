@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
+from mrlab_ros.commands.output import say
 from mrlab_ros.commands.up.web import qr_lines
 from mrlab_ros.core.bridge.rules import Role
 from mrlab_ros.core.errors import BadInput, Misuse
@@ -93,17 +94,19 @@ def role(
     name: Annotated[str, typer.Argument(help="Whose role.")],
     new: Annotated[Role, typer.Argument(metavar="ROLE", help="The new role.")],
     folder: Folder = None,
+    as_json: AsJson = False,
 ) -> None:
     """Give somebody another role; it counts at once."""
     with opened(folder, "") as users:
         users.accounts.set_role(name, new)
-    print(f"{name} is {new.value} now")
+    say(f"{name} is {new.value} now", as_json=as_json, name=name, role=new.value)
 
 
 @app.command()
 def remove(
     names: Annotated[list[str], typer.Argument(help="Who may no longer sign in.")],
     folder: Folder = None,
+    as_json: AsJson = False,
 ) -> None:
     """Remove people; their browsers and headsets are signed out within a second."""
     with opened(folder, "") as users:
@@ -111,7 +114,11 @@ def remove(
             users.accounts.get(name)
         for name in dict.fromkeys(names):
             users.accounts.remove(name)
-    for name in dict.fromkeys(names):
+    removed = list(dict.fromkeys(names))
+    if as_json:
+        print(json.dumps({"removed": removed}))
+        return
+    for name in removed:
         print(f"{name} is removed and signed out everywhere")
 
 

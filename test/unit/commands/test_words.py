@@ -7,6 +7,7 @@ import re
 import shlex
 import subprocess
 import sys
+from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
@@ -35,12 +36,8 @@ from mrlab_ros.commands.convert.options import declared, with_options, words_of
 from mrlab_ros.core.conversion.options import Options
 from mrlab_ros.core.diagnostics import KINDS
 
-# Commands beside groups that print what the lab, or the converter, answered.
-WITH_JSON = [
-    name
-    for name, place in COMMANDS.items()
-    if place.startswith("robot:") or name in ("convert", "play", "record", "status", "demo")
-]
+# Prints the log of what it runs until Ctrl-C.
+WITHOUT_JSON = ["up"]
 
 
 def wrong_in(text: str) -> list[str]:
@@ -132,11 +129,18 @@ def test_a_command_alone_is_the_same_as_among_all() -> None:
         assert shown == [param.name for param in group().commands[name].params]
 
 
-@pytest.mark.parametrize("name", ["bag", "objects", "scene", "system", *WITH_JSON])
-def test_what_the_lab_answers_is_to_be_had_as_json(name: str) -> None:
-    command, _ = resolved([name])
-    for each in getattr(command, "commands", {name: command}).values():
-        assert "--json" in options_of(each), each.name
+def leaves(command: Any, words: tuple[str, ...] = ()) -> Iterator[tuple[str, Any]]:
+    """Yield each command that does something, with its words."""
+    if isinstance(command, TyperGroup):
+        for name, each in command.commands.items():
+            yield from leaves(each, (*words, name))
+    else:
+        yield " ".join(words), command
+
+
+def test_what_a_command_prints_is_to_be_had_as_json() -> None:
+    without = [name for name, command in leaves(group()) if "--json" not in options_of(command)]
+    assert without == WITHOUT_JSON
 
 
 def test_help_needs_neither_ros_nor_numpy() -> None:
