@@ -7,6 +7,7 @@ import json
 import re
 import xml.etree.ElementTree as ET
 from collections.abc import Iterator
+from functools import cache
 from pathlib import Path
 
 import pytest
@@ -26,6 +27,7 @@ ROSDEP_KEYS = {
     "octave",
     "python3-cryptography",
     "python3-h5py",
+    "python3-httpx",
     "python3-hypothesis",
     "python3-jsonschema",
     "python3-matplotlib",
@@ -35,9 +37,11 @@ ROSDEP_KEYS = {
     "python3-psutil",
     "python3-pytest",
     "python3-pytest-timeout",
+    "python3-pytest-xdist",
     "python3-rich",
     "python3-rosbags-pip",
     "python3-scipy",
+    "python3-segno",
     "python3-trimesh-pip",
     "python3-typer",
     "python3-yaml",
@@ -45,16 +49,19 @@ ROSDEP_KEYS = {
 }
 # Packages of Jazzy's distribution.yaml.
 DISTRIBUTION = {
+    "action_msgs",
     "ament_index_python",
     "builtin_interfaces",
     "control_msgs",
     "diagnostic_msgs",
+    "domain_coordinator",
     "geometry_msgs",
     "launch",
     "launch_ros",
     "rcl_interfaces",
     "rclpy",
     "robot_state_publisher",
+    "rosgraph_msgs",
     "rosidl_parser",
     "sensor_msgs",
     "shape_msgs",
@@ -66,6 +73,13 @@ DISTRIBUTION = {
     "xacro",
 }
 OURS = {"mrlab_msgs"}
+
+
+@cache
+def nodes(path: Path) -> tuple[ast.AST, ...]:
+    """Return the calls and imports of a source file."""
+    kinds = (ast.Call, ast.Import, ast.ImportFrom)
+    return tuple(n for n in ast.walk(ast.parse(path.read_text())) if isinstance(n, kinds))
 
 
 def dependencies() -> set[str]:
@@ -81,7 +95,7 @@ def test_the_packages_of_messages_that_are_imported_are_named() -> None:
     imported = {
         (node.module or "").partition(".")[0]
         for path in SOURCES
-        for node in ast.walk(ast.parse(path.read_text()))
+        for node in nodes(path)
         if isinstance(node, ast.ImportFrom)
     }
     messages = {name for name in imported if name.endswith("_msgs") or name == "rcl_interfaces"}
@@ -110,7 +124,7 @@ def setup_options() -> dict[str, object]:
 def bare_nodes() -> Iterator[tuple[str, str]]:
     """Yield file and name of each node without parameter services."""
     for path in SOURCES:
-        for call in ast.walk(ast.parse(path.read_text())):
+        for call in nodes(path):
             if isinstance(call, ast.Call) and any(
                 k.arg == "start_parameter_services" for k in call.keywords
             ):
@@ -139,14 +153,12 @@ def test_all_parts_have_the_version_of_the_package() -> None:
     assert re.fullmatch(r"\d+\.\d+\.\d+", mrlab_ros.__version__)
 
 
-def test_what_pip_installs_with_a_wheel_is_what_the_package_imports() -> None:
-    """The last part of requirements.in, which setup.py reads."""
-    part = (ROOT / "requirements.in").read_text().partition("# the lab itself")[2]
-    wanted = set(re.findall(r"^([a-z0-9_-]+)", part, re.M))
+def third_party() -> set[str]:
+    """Return the packages of the lock file that the sources import."""
     imported = {
         name.partition(".")[0]
         for path in SOURCES
-        for node in ast.walk(ast.parse(path.read_text()))
+        for node in nodes(path)
         if isinstance(node, (ast.Import, ast.ImportFrom)) and not getattr(node, "level", 0)
         for name in ([node.module] if isinstance(node, ast.ImportFrom) else names_of(node))
         if name
@@ -158,9 +170,25 @@ def test_what_pip_installs_with_a_wheel_is_what_the_package_imports() -> None:
         "yaml": "pyyaml",
         "zenoh": "eclipse-zenoh",
     }
-    needed = {modules.get(name, name) for name in imported} & LOCKED
-    # What these bring along: Starlette, uvicorn, Authlib and matplotlib are nothing without it.
-    assert needed - wanted <= {"anyio", "h11", "joserfc", "pillow", "pydantic", "starlette"}
+    return {modules.get(name, name) for name in imported} & LOCKED - BROUGHT_ALONG
+
+
+def test_what_pip_installs_with_a_wheel_is_what_the_package_imports() -> None:
+    """The last part of requirements.in, which setup.py reads."""
+    part = (ROOT / "requirements.in").read_text().partition("# the lab itself")[2]
+    assert third_party() <= set(re.findall(r"^([a-z0-9_-]+)", part, re.M))
+
+
+def test_a_ros_machine_gets_what_the_package_imports() -> None:
+    by_pip = set(re.findall(r"^([a-z0-9_-]+)", (ROOT / "requirements-ros.txt").read_text(), re.M))
+    by_rosdep = {re.sub("^python3-|-pip$", "", key) for key in dependencies()}
+    by_rosdep |= {"pyyaml"} if "yaml" in by_rosdep else set()
+    # mat-io is nowhere on Jazzy; docs/dependencies.md says why.
+    assert third_party() <= by_pip | by_rosdep | {"mat-io"}
+
+
+# By fastapi, uvicorn, authlib and matplotlib, which are nothing without it.
+BROUGHT_ALONG = {"anyio", "h11", "joserfc", "pillow", "pydantic", "starlette"}
 
 
 def names_of(node: ast.Import) -> list[str]:
