@@ -42,6 +42,7 @@ bench:
 robots:
 	@python3 scripts/bootstrap.py --dev
 	@$(ENV) python scripts/robots/generate.py $(ARGS)
+	@$(ENV) python scripts/robots/levels.py $(ARGS)
 
 objects:
 	@python3 scripts/bootstrap.py --dev

@@ -1,4 +1,4 @@
-"""Writes a binary glTF file; the same mesh gives the same bytes.
+"""Writes and reads a binary glTF file; the same mesh gives the same bytes.
 
 trimesh writes the same, with indices of 32 bits: docs/dependencies.md has the figures.
 """
@@ -17,8 +17,45 @@ from mesher import Mesh
 FLOAT, SHORT, INT = 5126, 5123, 5125
 
 
-def _linear(srgb: float) -> float:
+def linear(srgb: float) -> float:
+    """Return the light of an sRGB value, 0 to 1."""
     return srgb / 12.92 if srgb <= 0.04045 else ((srgb + 0.055) / 1.055) ** 2.4
+
+
+def _srgb(light: float) -> float:
+    return light * 12.92 if light <= 0.0031308 else 1.055 * light ** (1 / 2.4) - 0.055
+
+
+def read(path: Path) -> list[tuple[Material, Mesh]]:
+    """Return the pieces of a file that `write` wrote."""
+    data = path.read_bytes()
+    length = struct.unpack_from("<I", data, 12)[0]
+    document = json.loads(data[20 : 20 + length])
+    blob = data[28 + length :]
+
+    def values(number: int) -> np.ndarray:
+        accessor = document["accessors"][number]
+        at = document["bufferViews"][accessor["bufferView"]]["byteOffset"]
+        kind = {FLOAT: "<f4", SHORT: "<u2", INT: "<u4"}[accessor["componentType"]]
+        width = {"VEC3": 3, "SCALAR": 1}[accessor["type"]]
+        count = accessor["count"]
+        return np.frombuffer(blob, kind, count * width, at).reshape(count, width)
+
+    pieces = []
+    for primitive in document["meshes"][0]["primitives"]:
+        made = document["materials"][primitive["material"]]
+        finish = made["pbrMetallicRoughness"]
+        red, green, blue = (round(_srgb(value), 4) for value in finish["baseColorFactor"][:3])
+        material = Material(
+            made["name"], (red, green, blue), finish["metallicFactor"], finish["roughnessFactor"]
+        )
+        mesh = Mesh(
+            values(primitive["attributes"]["POSITION"]).astype(np.float64),
+            values(primitive["indices"]).reshape(-1, 3).astype(np.int64),
+            values(primitive["attributes"]["NORMAL"]).astype(np.float64),
+        )
+        pieces.append((material, mesh))
+    return pieces
 
 
 def write(path: Path, pieces: list[tuple[Material, Mesh]]) -> None:
@@ -64,7 +101,7 @@ def write(path: Path, pieces: list[tuple[Material, Mesh]]) -> None:
             {
                 "name": material.name,
                 "pbrMetallicRoughness": {
-                    "baseColorFactor": [round(_linear(c), 5) for c in material.colour] + [1.0],
+                    "baseColorFactor": [round(linear(c), 5) for c in material.colour] + [1.0],
                     "metallicFactor": material.metalness,
                     "roughnessFactor": material.roughness,
                 },

@@ -11,7 +11,7 @@ from typing import Any
 
 import numpy as np
 
-from mrlab_ros.adapters.robots import urdf
+from mrlab_ros.adapters.robots import drawn, urdf
 from mrlab_ros.adapters.yaml_files import read_yaml
 from mrlab_ros.core.errors import BadInput
 from mrlab_ros.core.naming import did_you_mean
@@ -66,19 +66,25 @@ class RobotLibrary:
         """Return the URDF of a robot with its end effector (None or empty: bare flange)."""
         text = self.own_description(robot_id)
         override = self.imported / robot_id / "robot.urdf"
+        beside: list[ET.Element] = []
+        facts = self.facts(robot_id)
         if override.is_file():
             text = _read(override)
+        else:
+            folder = self._robot_folder(robot_id)
+            beside += drawn.levels(folder, f"{MESH_PREFIX}{robot_id}") + drawn.hoses(facts)
         if not end_effector:
-            return text
+            return drawn.added(text, beside)
         robot = urdf.parse(text, f"{robot_id}/robot.urdf")
         tool = self.end_effector(end_effector)
-        facts = self.facts(robot_id)
         if facts.get("hand"):
             raise BadInput(
                 f"robot '{robot_id}' has a hand of its own; leave the end effector empty, or "
                 "import the robot again without its hand"
             )
-        return _composed(robot, tool, facts, end_effector)
+        place = f"{END_EFFECTORS}/{end_effector}"
+        beside += drawn.levels(self.folder / place, f"{MESH_PREFIX}{place}")
+        return drawn.added(_composed(robot, tool, facts, end_effector), beside)
 
     def own_description(self, robot_id: str) -> str:
         """Return the bare robot's URDF with the lab's own meshes, ignoring imported ones."""

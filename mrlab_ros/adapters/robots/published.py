@@ -16,8 +16,9 @@ def published(text: str, robot: str) -> str:
     root = urdf.parse(text, f"the URDF of {robot}")
     for link in root.iterfind("link"):
         link.set("name", frame_name(robot, link.get("name", "")))
-    for end in (*root.iterfind("joint/parent"), *root.iterfind("joint/child")):
-        end.set("link", frame_name(robot, end.get("link", "")))
+    for path in ("joint/parent", "joint/child", "hose/end"):
+        for end in root.iterfind(path):
+            end.set("link", frame_name(robot, end.get("link", "")))
     return f"{DECLARATION}{ET.tostring(root, encoding='unicode')}\n"
 
 

@@ -1,6 +1,8 @@
 import { type BufferGeometry, type Material, Mesh, type Object3D, Texture } from 'three'
 import { GLTFLoader } from 'three/examples/jsm/loaders/GLTFLoader.js'
 
+const PACKING = 'EXT_meshopt_compression'
+
 /** Delivers the meshes that a URDF or an object names by URI. */
 export interface MeshSource {
   /** Return a copy of the mesh that shares geometry and materials with other copies. Rejects with
@@ -51,6 +53,10 @@ export class MeshLibrary implements MeshSource {
     const bytes = await this.bytes(uri)
     const suffix = uri.slice(uri.lastIndexOf('.') + 1).toLowerCase()
     if (suffix === 'glb' || suffix === 'gltf' || isGlb(bytes)) {
+      if (isPacked(bytes)) {
+        const { readPacked } = await import('./packed_meshes')
+        return readPacked(bytes)
+      }
       return (await this.gltf.parseAsync(bytes, '')).scene
     }
     const { readOther } = await import('./other_meshes')
@@ -60,6 +66,14 @@ export class MeshLibrary implements MeshSource {
 
 function isGlb(bytes: ArrayBuffer): boolean {
   return bytes.byteLength > 4 && new DataView(bytes).getUint32(0, true) === 0x46546c67
+}
+
+/** Return whether a GLB's buffers are packed: what unpacks them is fetched then only. */
+function isPacked(bytes: ArrayBuffer): boolean {
+  const head = new DataView(bytes)
+  if (bytes.byteLength < 20 || !isGlb(bytes)) return false
+  const length = Math.min(head.getUint32(12, true), bytes.byteLength - 20)
+  return new TextDecoder().decode(new Uint8Array(bytes, 20, length)).includes(PACKING)
 }
 
 /** Free the geometries, materials and textures below an object. */

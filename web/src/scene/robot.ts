@@ -12,9 +12,11 @@ import {
 } from 'three'
 import URDFLoader, { type URDFJoint, type URDFMimicJoint, type URDFRobot } from 'urdf-loader'
 import { Chain, type ChainJoint } from './chain'
+import { DrawnBody, type Look } from './drawn_body'
+import { Hose } from './hose'
+import { hosesOf, type Level, levelsOf } from './levels'
 import type { Looks } from './looks'
 import type { MeshSource } from './meshes'
-import { RobotBody } from './robot_body'
 
 const PLACEHOLDER = 0.09 // m, edge of the box that stands for a missing mesh
 const ONE = new Vector3(1, 1, 1)
@@ -33,7 +35,10 @@ interface Movable {
   placed: boolean
 }
 
-export type Look = 'own' | 'grey' | 'ghost'
+interface Wanted {
+  readonly uri: string
+  readonly done: (object: Object3D) => void
+}
 
 /** A robot of a URDF that moves: no joint is clamped, so a refused pose looks refused. */
 export class SceneRobot {
@@ -56,7 +61,7 @@ export class SceneRobot {
   private readonly placeholder = new EdgesGeometry(
     new BoxGeometry(PLACEHOLDER, PLACEHOLDER, PLACEHOLDER),
   )
-  private body: RobotBody | null = null
+  private readonly body: DrawnBody
   private disposed = false
   private look: Look = 'own'
   private failing = ''
@@ -75,22 +80,15 @@ export class SceneRobot {
   ) {
     const loader = new URDFLoader()
     loader.packages = (name) => `package://${name}`
-    const loading: Promise<void>[] = []
-    loader.loadMeshCb = (uri, _manager, _material, done) => {
-      this.meshCount++
-      loading.push(
-        meshes
-          .load(uri)
-          .catch((error: unknown) => this.missing(uri, error))
-          .then((object) => {
-            this.meshesHere++
-            done(object)
-            this.adopt(object)
-            this.changed()
-          }),
-      )
-    }
-    this.root = loader.parse(urdf)
+    const description = new DOMParser().parseFromString(urdf, 'text/xml')
+    const levels = levelsOf(description)
+    const wanted: Wanted[] = []
+    loader.loadMeshCb = (uri, _manager, _material, done) => wanted.push({ uri, done })
+    this.root = loader.parse(description)
+    const { links } = this.root
+    const hoses = hosesOf(description).flatMap((stated) => Hose.between(stated, links) ?? [])
+    this.body = new DrawnBody(this.root, linkAbove, hoses, looks)
+    this.meshCount = wanted.length
     this.root.updateMatrixWorld = () => this.settle()
     for (const joint of Object.values(this.root.joints)) {
       joint.ignoreLimits = true
@@ -120,7 +118,7 @@ export class SceneRobot {
     this.root.traverse((node) => {
       if (node instanceof Mesh) this.adopt(node)
     })
-    this.ready = Promise.all(loading).then(() => this.merge())
+    this.ready = this.load(wanted, levels, meshes).then(() => this.merge(levels, meshes))
   }
 
   get jointNames(): string[] {
@@ -205,14 +203,14 @@ export class SceneRobot {
     this.look = look
     this.failing = failing
     for (const [mesh, material] of this.own) this.paint(mesh, material)
-    this.paintBody()
+    this.body.paint(look, failing)
     this.changed()
   }
 
   dispose(): void {
     this.disposed = true
     this.placeholder.dispose()
-    this.body?.release()
+    this.body.release()
     this.root.removeFromParent()
   }
 
@@ -223,7 +221,7 @@ export class SceneRobot {
     if (this.settled && above?.equals(this.above)) return
     Object3D.prototype.updateMatrixWorld.call(root, true)
     this.settled = true
-    this.body?.follow()
+    this.body.follow()
     if (above !== undefined) this.above.copy(above)
   }
 
@@ -265,15 +263,73 @@ export class SceneRobot {
     })
   }
 
-  /** Draw the links as one mesh from now on. */
-  private merge(): void {
+  /** Fetch all meshes, those of a model in one packed file where its description names such. */
+  private async load(
+    wanted: readonly Wanted[],
+    levels: readonly Level[],
+    meshes: MeshSource,
+  ): Promise<void> {
+    const one = async ({ uri, done }: Wanted) => {
+      const object = await meshes.load(uri).catch((error: unknown) => this.missing(uri, error))
+      done(object)
+      this.arrived([object], 1)
+    }
+    const rest = wanted.filter(({ uri }) => !levels.some((level) => uri.startsWith(level.meshes)))
+    const packed = levels.map(async ({ meshes: start, near }) => {
+      const own = wanted.filter(({ uri }) => uri.startsWith(start))
+      if (own.length === 0) return
+      try {
+        const { children } = await meshes.load(near)
+        this.arrived(this.attach([...children]), own.length)
+      } catch {
+        // such as in a page that holds the meshes of the links alone
+        await Promise.all(own.map(one))
+      }
+    })
+    await Promise.all([...rest.map(one), ...packed])
+  }
+
+  /** Put the links of a packed file in their places. */
+  private attach(found: readonly Object3D[]): readonly Object3D[] {
+    for (const child of found) {
+      child.traverse((node) => {
+        node.userData.packed = true
+      })
+      this.root.links[child.name]?.add(child)
+    }
+    return found
+  }
+
+  /** Meshes, or what stands for them, are here. */
+  private arrived(objects: readonly Object3D[], meshes: number): void {
+    this.meshesHere += meshes
+    for (const object of objects) this.adopt(object)
+    this.changed()
+  }
+
+  /** Draw the links as one mesh from now on, and from afar as one of few triangles. */
+  private merge(levels: readonly Level[], meshes: MeshSource): void {
     if (this.disposed) return
-    this.body = RobotBody.of(this.root, linkAbove, this.looks.body, this.looks.shadow)
+    this.body.merge()
+    this.settleBody()
+    if (levels.length === 0) return
+    Promise.all(levels.map(({ far }) => meshes.load(far))).then(
+      (far) => {
+        if (this.disposed) return
+        this.body.addFar(far, this.root.links)
+        this.settleBody()
+      },
+      // what is seen nearby is drawn from afar, too
+      () => undefined,
+    )
+  }
+
+  private settleBody(): void {
     for (const mesh of [...this.own.keys()]) {
       if (!isBelow(mesh, this.root)) this.own.delete(mesh)
     }
     this.rest()
-    this.paintBody()
+    this.body.paint(this.look, this.failing)
     this.changed()
   }
 
@@ -285,20 +341,8 @@ export class SceneRobot {
       node.updateMatrix()
       node.matrixAutoUpdate = false
     })
-    if (this.body === null) return
-    for (const child of this.root.children) child.visible = child === this.body || isDrawn(child)
-  }
-
-  private paintBody(): void {
-    const { body, looks, look, failing } = this
-    if (body === null) return
-    const ghost = look === 'ghost'
-    body.castShadow = !ghost
-    body.receiveShadow = !ghost
-    body.renderOrder = ghost ? 1 : 0
-    const grey = look === 'grey' || failing !== ''
-    const material = ghost ? looks.ghost : grey ? looks.grey : looks.body
-    body.paint(material, ghost ? '' : failing, looks.failing)
+    if (!this.body.isMerged) return
+    for (const child of this.root.children) child.visible = isDrawn(child)
   }
 
   private paint(mesh: Mesh, own: Material | Material[]): void {

@@ -37,11 +37,13 @@ class Links extends Skeleton {
 }
 
 /** A mesh of a link that can be drawn as a part of the body. */
-interface Part {
+export interface Part {
   readonly mesh: Mesh
   readonly link: Object3D
   /** Its vertices in the link's frame. */
   readonly inLink: Matrix4
+  /** Of a mesh that bends: what its `skinIndex` names, in place of the link. */
+  readonly bones?: readonly Object3D[]
 }
 
 /** All links of a robot as one mesh, each link a bone: one draw call in place of one a link and
@@ -52,8 +54,10 @@ export class RobotBody extends SkinnedMesh<BufferGeometry, Material | Material[]
   private readonly ranges = new Map<string, { readonly start: number; readonly count: number }>()
 
   private constructor(parts: readonly Part[], own: Material, shadow: MeshDepthMaterial) {
-    const links = [...new Set(parts.map(({ link }) => link))]
-    const ordered = links.flatMap((link) => parts.filter((part) => part.link === link))
+    const links = [...new Set(parts.flatMap(({ link, bones }) => bones ?? [link]))]
+    const ordered = links.flatMap((link) =>
+      parts.filter((part) => (part.bones?.[0] ?? part.link) === link),
+    )
     const geometry = geometryOf(ordered, links)
     super(geometry, own)
     this.name = 'body'
@@ -82,35 +86,11 @@ export class RobotBody extends SkinnedMesh<BufferGeometry, Material | Material[]
     this.frustumCulled = false
   }
 
-  /** Take the meshes below a robot into one body, which is put in their place; null: there is none.
-   * linkOf: the link to which a mesh belongs. own: a material made by bodyMaterial. */
-  static of(
-    root: Object3D,
-    linkOf: (mesh: Mesh) => Object3D | null,
-    own: Material,
-    shadow: MeshDepthMaterial,
-  ): RobotBody | null {
-    root.updateWorldMatrix(true, true)
-    const parts: Part[] = []
-    root.traverse((node) => {
-      if (!(node instanceof Mesh) || !fits(node)) return
-      const link = linkOf(node)
-      if (link === null) return
-      const inLink = link.matrixWorld.clone().invert().multiply(node.matrixWorld)
-      parts.push({ mesh: node, link, inLink })
-    })
-    if (parts.length === 0 || parts.length > MOST_LINKS) return null
-    const body = new RobotBody(parts, own, shadow)
-    for (const { mesh, link } of parts) {
-      let empty: Object3D | null = mesh
-      while (empty !== null && empty !== link && empty.children.length === 0) {
-        const above: Object3D | null = empty.parent
-        empty.removeFromParent()
-        empty = above
-      }
-    }
-    root.add(body)
-    return body
+  /** Return the parts as one body; null: there is none. own: a material made by bodyMaterial. */
+  static of(parts: readonly Part[], own: Material, shadow: MeshDepthMaterial): RobotBody | null {
+    const bones = new Set(parts.flatMap((part) => part.bones ?? [part.link]))
+    if (bones.size === 0 || bones.size > MOST_LINKS) return null
+    return new RobotBody(parts, own, shadow)
   }
 
   /** Its links have moved. */
@@ -141,6 +121,32 @@ export class RobotBody extends SkinnedMesh<BufferGeometry, Material | Material[]
     this.removeFromParent()
     this.geometry.dispose()
     this.skeleton.dispose()
+  }
+}
+
+/** Return the meshes below a robot that a body can take in. linkOf: the link of a mesh. */
+export function partsBelow(root: Object3D, linkOf: (mesh: Mesh) => Object3D | null): Part[] {
+  root.updateWorldMatrix(true, true)
+  const parts: Part[] = []
+  root.traverse((node) => {
+    if (!(node instanceof Mesh) || !fits(node)) return
+    const link = linkOf(node)
+    if (link === null) return
+    const inLink = link.matrixWorld.clone().invert().multiply(node.matrixWorld)
+    parts.push({ mesh: node, link, inLink })
+  })
+  return parts
+}
+
+/** Take the meshes of parts out of their links, with what is empty then. */
+export function detach(parts: readonly Part[]): void {
+  for (const { mesh, link } of parts) {
+    let empty: Object3D | null = mesh
+    while (empty !== null && empty !== link && empty.children.length === 0) {
+      const above: Object3D | null = empty.parent
+      empty.removeFromParent()
+      empty = above
+    }
   }
 }
 
@@ -179,7 +185,8 @@ function plain(material: Material | Material[]): Plain | null {
 function fits({ material, geometry }: Mesh): boolean {
   const found = plain(material as Material | Material[])
   if (found === null || found.map !== null || found.transparent || found.opacity < 1) return false
-  if (found.vertexColors && geometry.getAttribute('color') !== undefined) return false
+  const painted = found.vertexColors && geometry.getAttribute('color') !== undefined
+  if (painted && geometry.getAttribute('finish') === undefined) return false
   return geometry.getAttribute('position') !== undefined
 }
 
@@ -202,8 +209,10 @@ function geometryOf(parts: readonly Part[], links: readonly Object3D[]): BufferG
   let at = 0
   let corner = 0
   const turn = new Matrix3()
-  for (const { mesh, link, inLink } of parts) {
+  for (const { mesh, link, inLink, bones } of parts) {
     const { geometry } = mesh
+    const first = links.indexOf(bones?.[0] ?? link)
+    const painted = geometry.getAttribute('finish')
     const places = geometry.getAttribute('position')
     const normals = geometry.getAttribute('normal')
     const material = plain(mesh.material as Material | Material[])
@@ -220,11 +229,26 @@ function geometryOf(parts: readonly Part[], links: readonly Object3D[]): BufferG
         .fromBufferAttribute(normals, i)
         .applyNormalMatrix(turn)
         .toArray(normal, v * 3)
-      look.toArray(colour, v * 3)
-      finish[v * 2] = 255 * (standard?.roughness ?? ROUGH)
-      finish[v * 2 + 1] = 255 * (standard?.metalness ?? 0)
-      bone[v * 4] = links.indexOf(link)
-      weight[v * 4] = 255
+      if (painted === undefined) {
+        look.toArray(colour, v * 3)
+        finish[v * 2] = 255 * (standard?.roughness ?? ROUGH)
+        finish[v * 2 + 1] = 255 * (standard?.metalness ?? 0)
+      } else {
+        point.fromBufferAttribute(geometry.getAttribute('color'), i).toArray(colour, v * 3)
+        finish[v * 2] = Math.round(255 * painted.getX(i))
+        finish[v * 2 + 1] = Math.round(255 * painted.getY(i))
+      }
+      if (bones === undefined) {
+        bone[v * 4] = first
+        weight[v * 4] = 255
+      } else {
+        const named = geometry.getAttribute('skinIndex')
+        const shares = geometry.getAttribute('skinWeight')
+        for (let k = 0; k < 2; k++) {
+          bone[v * 4 + k] = first + named.getComponent(i, k)
+          weight[v * 4 + k] = Math.round(255 * shares.getComponent(i, k))
+        }
+      }
     }
     const { index: own } = geometry
     const count = own?.count ?? places.count

@@ -1,0 +1,295 @@
+"""Writes a whole robot as one packed glTF file: for pages, which read it in one go.
+
+One node a link, one primitive a link, one material. Colour, metalness and roughness are a palette
+of a few pixels, of which the texture coordinate names one; the baked light is the vertex colour.
+Positions are 16 bits (KHR_mesh_quantization), the buffers are packed (EXT_meshopt_compression).
+"""
+
+from __future__ import annotations
+
+import io
+import json
+import struct
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import meshoptimizer
+import numpy as np
+from body import Material
+from glb import linear
+from mesher import Mesh
+from PIL import Image
+from solids import Array
+
+USHORT, UINT, BYTE, UBYTE = 5123, 5125, 5120, 5121
+VERTICES, INDICES = 34962, 34963
+PACKING, SHORTS = "EXT_meshopt_compression", "KHR_mesh_quantization"
+# bytes of a vertex, padded to 4: position 3 x 16 bits, normal and light 3 x 8, palette 2 x 8
+STRIDE = 20
+FINEST = 2e-5  # m, between two coordinates
+STEPS = 16383  # along the longest side; more bits pack worse and show nothing
+
+# What the extension reads: vertices as in its version 0, indices as in its version 1.
+meshoptimizer.encode_vertex_version(0)
+meshoptimizer.encode_index_version(1)
+
+
+@dataclass(frozen=True, eq=False)
+class Piece:
+    """A mesh of one material and the light at its vertices, (V,) 0 to 1."""
+
+    material: Material
+    mesh: Mesh
+    light: Array
+
+
+def write(path: Path, links: Mapping[str, Sequence[Piece]]) -> None:
+    """Write the pieces of each link, in the link's own frame, m."""
+    pieces = [piece for own in links.values() for piece in own]
+    palette = list({piece.material.name: piece.material for piece in pieces}.values())
+    file = _File(palette)
+    for link, own in links.items():
+        parts = {
+            link: [piece for piece in own if not _is_hose(piece)],
+            f"{link}_hose": [piece for piece in own if _is_hose(piece)],
+        }
+        file.add(link, {name: part for name, part in parts.items() if part})
+    path.write_bytes(file.bytes())
+
+
+def _is_hose(piece: Piece) -> bool:
+    return "hose" in piece.material.name or "cable" in piece.material.name
+
+
+class _File:
+    def __init__(self, palette: Sequence[Material]) -> None:
+        self._palette = palette
+        self._packed = bytearray()
+        self._unpacked = 0
+        self._views: list[dict[str, Any]] = []
+        self._accessors: list[dict[str, Any]] = []
+        self._meshes: list[dict[str, Any]] = []
+        self._nodes: list[dict[str, Any]] = []
+        self._roots: list[int] = []
+
+    def add(self, link: str, parts: Mapping[str, Sequence[Piece]]) -> None:
+        """Add a node of the link's frame, with a node below it for each part."""
+        children = []
+        for name, pieces in parts.items():
+            children.append(len(self._nodes))
+            self._nodes.append({"name": f"{name}_mesh", **self._mesh(name, pieces)})
+        self._roots.append(len(self._nodes))
+        self._nodes.append({"name": link, "children": children})
+
+    def _mesh(self, name: str, pieces: Sequence[Piece]) -> dict[str, Any]:
+        """Add a mesh; return the reference to it and where it lies."""
+        joined = _joined(pieces, self._palette)
+        vertices, indices, low, step = _ordered(*joined)
+        accessors = len(self._accessors)
+        wide = len(vertices) > 65535
+        self._view(
+            meshoptimizer.encode_vertex_buffer(vertices, len(vertices), STRIDE),
+            len(vertices),
+            STRIDE,
+            "ATTRIBUTES",
+            VERTICES,
+        )
+        view = len(self._views) - 1
+        places = vertices["position"]
+        fields = (
+            ("VEC3", USHORT, 0, False),
+            ("VEC3", BYTE, 8, True),
+            ("VEC4", UBYTE, 12, True),
+            ("VEC2", UBYTE, 16, True),
+        )
+        for kind, component, offset, normalised in fields:
+            self._accessors.append(
+                {
+                    "bufferView": view,
+                    "byteOffset": offset,
+                    "componentType": component,
+                    "count": len(vertices),
+                    "type": kind,
+                    **({"normalized": True} if normalised else {}),
+                }
+            )
+        self._accessors[accessors]["min"] = places.min(axis=0).tolist()
+        self._accessors[accessors]["max"] = places.max(axis=0).tolist()
+        self._view(
+            meshoptimizer.encode_index_buffer(indices, len(indices), len(vertices)),
+            len(indices),
+            4 if wide else 2,
+            "TRIANGLES",
+            INDICES,
+        )
+        self._accessors.append(
+            {
+                "bufferView": view + 1,
+                "componentType": UINT if wide else USHORT,
+                "count": len(indices),
+                "type": "SCALAR",
+            }
+        )
+        names = ("POSITION", "NORMAL", "COLOR_0", "TEXCOORD_0")
+        primitive = {
+            "attributes": {name: accessors + n for n, name in enumerate(names)},
+            "indices": accessors + len(names),
+            "material": 0,
+        }
+        self._meshes.append({"name": name, "primitives": [primitive]})
+        return {
+            "mesh": len(self._meshes) - 1,
+            "translation": [round(float(value), 6) for value in low],
+            "scale": [step] * 3,
+        }
+
+    def _view(self, packed: bytes, count: int, stride: int, mode: str, target: int) -> None:
+        extension = {
+            "buffer": 0,
+            "byteOffset": self._store(packed),
+            "byteLength": len(packed),
+            "byteStride": stride,
+            "count": count,
+            "mode": mode,
+        }
+        view = {
+            "buffer": 1,
+            "byteOffset": self._unpacked,
+            "byteLength": count * stride,
+            "target": target,
+            "extensions": {PACKING: extension},
+        }
+        if mode == "ATTRIBUTES":
+            view["byteStride"] = stride
+        self._views.append(view)
+        self._unpacked += count * stride + -count * stride % 4
+
+    def _store(self, data: bytes) -> int:
+        at = len(self._packed)
+        self._packed.extend(data)
+        self._packed.extend(b"\0" * (-len(data) % 4))
+        return at
+
+    def bytes(self) -> bytes:
+        """Return the file."""
+        colours = [[round(value * 255) for value in each.colour] for each in self._palette]
+        finish = [
+            [0, round(each.roughness * 255), round(each.metalness * 255)] for each in self._palette
+        ]
+        images = []
+        for name, pixels in (("colours", colours), ("finish", finish)):
+            data = _png(pixels)
+            at = self._store(data)
+            self._views.append({"buffer": 0, "byteOffset": at, "byteLength": len(data)})
+            view = len(self._views) - 1
+            images.append({"name": name, "bufferView": view, "mimeType": "image/png"})
+        material = {
+            "name": "body",
+            "pbrMetallicRoughness": {
+                "baseColorTexture": {"index": 0},
+                "metallicRoughnessTexture": {"index": 1},
+            },
+            # the same for a reader that wants no textures, a row a pixel
+            "extras": {
+                "palette": [
+                    [*(round(linear(c), 5) for c in m.colour), m.roughness, m.metalness]
+                    for m in self._palette
+                ]
+            },
+        }
+        nearest, clamped = 9728, 33071
+        document = {
+            "asset": {"version": "2.0", "generator": "mrlab scripts/robots"},
+            "extensionsUsed": [PACKING, SHORTS],
+            "extensionsRequired": [PACKING, SHORTS],
+            "scene": 0,
+            "scenes": [{"nodes": self._roots}],
+            "nodes": self._nodes,
+            "meshes": self._meshes,
+            "materials": [material],
+            "textures": [{"source": n, "sampler": 0} for n in range(2)],
+            "images": images,
+            "samplers": [
+                {
+                    "magFilter": nearest,
+                    "minFilter": nearest,
+                    "wrapS": clamped,
+                    "wrapT": clamped,
+                }
+            ],
+            "buffers": [
+                {"byteLength": len(self._packed)},
+                {"byteLength": self._unpacked, "extensions": {PACKING: {"fallback": True}}},
+            ],
+            "bufferViews": self._views,
+            "accessors": self._accessors,
+        }
+        text = json.dumps(document, separators=(",", ":")).encode()
+        text += b" " * (-len(text) % 4)
+        return (
+            struct.pack("<4sII", b"glTF", 2, 28 + len(text) + len(self._packed))
+            + struct.pack("<I4s", len(text), b"JSON")
+            + text
+            + struct.pack("<I4s", len(self._packed), b"BIN\0")
+            + bytes(self._packed)
+        )
+
+
+def _png(row: Sequence[Sequence[int]]) -> bytes:
+    out = io.BytesIO()
+    Image.fromarray(np.array([row], dtype=np.uint8)).save(out, "PNG", optimize=True)
+    return out.getvalue()
+
+
+def _joined(pieces: Sequence[Piece], palette: Sequence[Material]) -> tuple[Array, Array, Array]:
+    """Return vertices (V, 8): place, normal, light, number in the palette; and their faces."""
+    names = [each.name for each in palette]
+    rows, faces, at = [], [], 0
+    for piece in pieces:
+        count = len(piece.mesh.vertices)
+        number = np.full(count, names.index(piece.material.name))
+        rows.append(
+            np.column_stack([piece.mesh.vertices, piece.mesh.normals, piece.light, number])
+        )
+        faces.append(piece.mesh.faces + at)
+        at += count
+    return np.concatenate(rows), np.concatenate(faces), np.array([len(palette)])
+
+
+def _ordered(rows: Array, faces: Array, palette: Array) -> tuple[Array, Array, Array, float]:
+    """Return vertices and indices as they are stored, and the corner and step of their grid, m."""
+    low = rows[:, :3].min(axis=0)
+    step = max(float((rows[:, :3].max(axis=0) - low).max()) / STEPS, FINEST)
+    stored = np.zeros(
+        len(rows),
+        dtype=[
+            ("position", "<u2", 3),
+            ("pad", "<u2"),
+            ("normal", "i1", 3),
+            ("pad2", "i1"),
+            ("light", "u1", 4),
+            ("palette", "u1", 4),
+        ],
+    )
+    stored["position"] = np.round((rows[:, :3] - low) / step)
+    stored["normal"] = np.round(rows[:, 3:6] * 127)
+    stored["light"][:, :3] = np.round(rows[:, 6:7] * 255)
+    stored["light"][:, 3] = 255
+    stored["palette"][:, 0] = np.round((rows[:, 7] + 0.5) / palette[0] * 255)
+    stored["palette"][:, 1] = 128
+    unique, index = np.unique(stored.view((np.void, STRIDE)).ravel(), return_inverse=True)
+    vertices = unique.view(stored.dtype)
+    corners = index.ravel()[faces]
+    whole = (corners != np.roll(corners, 1, axis=1)).all(axis=1)
+    indices = np.ascontiguousarray(corners[whole].ravel().astype(np.uint32))
+    count = len(vertices)
+    ordered = np.empty_like(indices)
+    meshoptimizer.optimize_vertex_cache(ordered, indices, len(indices), count)
+    remap = np.empty(count, dtype=np.uint32)
+    used = meshoptimizer.optimize_vertex_fetch_remap(remap, ordered, len(ordered), count)
+    placed = np.zeros(used, dtype=vertices.dtype)
+    kept = remap < used
+    placed[remap[kept]] = vertices[kept]
+    return placed, np.ascontiguousarray(remap[ordered]), low, step

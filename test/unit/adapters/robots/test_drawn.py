@@ -1,0 +1,95 @@
+"""What descriptions say to those that draw robots, and the packed levels of detail they name."""
+
+from __future__ import annotations
+
+import json
+import struct
+import xml.etree.ElementTree as ET
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from mrlab_ros.adapters.robots import drawn
+from mrlab_ros.adapters.robots.library import RobotLibrary
+from mrlab_ros.adapters.robots.published import published
+
+ROBOTS = Path(__file__).resolve().parents[4] / "robots"
+LIBRARY = RobotLibrary(ROBOTS, ROBOTS / "none")
+MODELS = sorted(path.parent for path in ROBOTS.rglob("lod"))
+BUDGETS = {"near": (400_000, 40_000), "far": (100_000, 4_000)}  # bytes, triangles
+
+
+def document(path: Path) -> dict[str, Any]:
+    """Return the JSON part of a GLB."""
+    data = path.read_bytes()
+    length = struct.unpack_from("<I", data, 12)[0]
+    found: dict[str, Any] = json.loads(data[20 : 20 + length])
+    return found
+
+
+def test_a_description_names_the_packed_levels_of_robot_and_end_effector() -> None:
+    root = ET.fromstring(LIBRARY.description("ur5e", "parallel_gripper"))
+    levels = [element.attrib for element in root.iterfind("level_of_detail")]
+    assert [level["meshes"] for level in levels] == [
+        "package://mrlab_ros/robots/ur5e/meshes/",
+        "package://mrlab_ros/robots/end_effectors/parallel_gripper/meshes/",
+    ]
+    for level in levels:
+        assert LIBRARY.mesh_path(level["near"]).is_file()
+        assert LIBRARY.mesh_path(level["far"]).is_file()
+
+
+def test_a_robot_in_imported_meshes_is_drawn_from_these(tmp_path: Path) -> None:
+    (tmp_path / "ur5e").mkdir()
+    text = '<robot name="ur5e"><link name="base"/></robot>'
+    (tmp_path / "ur5e" / "robot.urdf").write_text(text)
+    assert RobotLibrary(ROBOTS, tmp_path).description("ur5e") == text
+
+
+def test_levels_are_named_only_where_both_are(tmp_path: Path) -> None:
+    (tmp_path / "lod").mkdir()
+    (tmp_path / "lod" / "near.glb").write_bytes(b"")
+    assert drawn.levels(tmp_path, "package://p/r") == []
+    (tmp_path / "lod" / "far.glb").write_bytes(b"")
+    (level,) = drawn.levels(tmp_path, "package://p/r")
+    assert level.get("near") == "package://p/r/lod/near.glb"
+
+
+def test_hoses_stand_beside_the_links() -> None:
+    end = {"link": "link_1", "xyz": [0.1, 0, 0.2], "direction": [0, 0, 1]}
+    facts = {"hoses": [{"radius": 0.02, "length": 1, "ends": [end, {**end, "link": "link_3"}]}]}
+    text = drawn.added('<robot name="r"><link name="link_1"/></robot>\n', drawn.hoses(facts))
+    root = ET.fromstring(text)
+    assert root.find("hose").attrib == {"radius": "0.02", "length": "1.0"}  # type: ignore[union-attr]
+    assert [one.attrib for one in root.iterfind("hose/end")] == [
+        {"link": "link_1", "xyz": "0.1 0.0 0.2", "direction": "0.0 0.0 1.0"},
+        {"link": "link_3", "xyz": "0.1 0.0 0.2", "direction": "0.0 0.0 1.0"},
+    ]
+    assert drawn.hoses({}) == []
+    sent = ET.fromstring(published(text, "kr16_1"))
+    ends = [one.get("link") for one in sent.iterfind("hose/end")]
+    assert ends == ["kr16_1/link_1", "kr16_1/link_3"]
+
+
+@pytest.mark.parametrize("folder", MODELS, ids=lambda folder: folder.name)
+def test_levels_keep_their_budgets_and_show_the_same_links(folder: Path) -> None:
+    links = {path.stem for path in (folder / "meshes").glob("*.glb")}
+    for level, (most_bytes, most_triangles) in BUDGETS.items():
+        file = folder / "lod" / f"{level}.glb"
+        assert file.stat().st_size <= most_bytes
+        found = document(file)
+        accessors = found["accessors"]
+        primitives = [p for mesh in found["meshes"] for p in mesh["primitives"]]
+        triangles = sum(accessors[p["indices"]]["count"] for p in primitives) // 3
+        assert len(links) * 12 <= triangles <= most_triangles
+        assert len(found["materials"]) == 1
+        assert len(primitives) <= max(8, len(links))
+        assert set(found["extensionsRequired"]) == {
+            "EXT_meshopt_compression",
+            "KHR_mesh_quantization",
+        }
+        roots = [found["nodes"][n] for n in found["scenes"][0]["nodes"]]
+        assert {node["name"] for node in roots} == links
+        # a link's own frame: it can be put below the frame of a description as it is
+        assert not any({"translation", "rotation", "scale", "matrix"} & set(n) for n in roots)

@@ -1,0 +1,229 @@
+// @vitest-environment jsdom
+import {
+  BoxGeometry,
+  BufferAttribute,
+  Group,
+  LOD,
+  type Matrix4,
+  Mesh,
+  MeshStandardMaterial,
+  Object3D,
+  PerspectiveCamera,
+  SphereGeometry,
+  Vector3,
+} from 'three'
+import { describe, expect, test } from 'vitest'
+import { Hose } from '../../src/scene/hose'
+import { hosesOf, levelsOf } from '../../src/scene/levels'
+import { Looks } from '../../src/scene/looks'
+import { SceneRobot } from '../../src/scene/robot'
+import { RobotBody } from '../../src/scene/robot_body'
+
+const HOSE = `<hose radius="0.02" length="0.9">
+  <end link="base" xyz="0.1 0 0.2" direction="0 0 2"/>
+  <end link="arm" xyz="0 0 0.3" direction="1 0 0"/>
+</hose>`
+
+function urdf(beside: string): string {
+  const visual = (name: string) =>
+    `<visual><geometry><mesh filename="package://p/r/meshes/${name}.glb"/></geometry></visual>`
+  return `<robot name="r">
+    <link name="base">${visual('base')}</link><link name="arm">${visual('arm')}</link>
+    <joint name="turn" type="revolute"><parent link="base"/><child link="arm"/><origin xyz="0 0 0.5"/>
+      <axis xyz="0 1 0"/><limit lower="-3" upper="3" velocity="1" effort="1"/></joint>
+    ${beside}
+  </robot>`
+}
+
+const LEVEL = `<level_of_detail meshes="package://p/r/meshes/" near="package://p/r/lod/near.glb"
+  far="package://p/r/lod/far.glb"/>`
+
+/** A packed file: a node a link, each with the colour and the finish of its vertices. */
+function packed(corners: number): Group {
+  const whole = new Group()
+  for (const name of ['base', 'arm']) {
+    const geometry = new SphereGeometry(0.2, corners, corners)
+    const { count } = geometry.getAttribute('position')
+    geometry.setAttribute('color', new BufferAttribute(new Float32Array(count * 3).fill(0.25), 3))
+    geometry.setAttribute(
+      'finish',
+      new BufferAttribute(new Uint8Array(count * 2).fill(51), 2, true),
+    )
+    const link = new Group()
+    link.name = name
+    link.add(new Mesh(geometry, new MeshStandardMaterial({ vertexColors: true })))
+    whole.add(link)
+  }
+  return whole
+}
+
+async function robot(beside: string, files: Record<string, () => Object3D>) {
+  const asked: string[] = []
+  const load = (uri: string) => {
+    asked.push(uri.slice('package://p/r/'.length))
+    const made = files[uri.slice('package://p/r/'.length)]
+    return made === undefined ? Promise.reject(new Error('404')) : Promise.resolve(made())
+  }
+  const source = { load, dispose: () => undefined }
+  const arm = new SceneRobot(urdf(beside), ['turn'], source, new Looks(), () => undefined)
+  await arm.ready
+  // the far level comes after what is seen nearby
+  await new Promise((resolve) => setTimeout(resolve))
+  const bodies: RobotBody[] = []
+  arm.root.traverse((node) => {
+    if (node instanceof RobotBody) bodies.push(node)
+  })
+  return { arm, asked, bodies }
+}
+
+const box = () => new Mesh(new BoxGeometry(), new MeshStandardMaterial())
+
+describe('levels of detail', () => {
+  test('packed files stand for the meshes of the links, near at hand and from afar', async () => {
+    const files = { 'lod/near.glb': () => packed(12), 'lod/far.glb': () => packed(4) }
+    const { arm, asked, bodies } = await robot(LEVEL, files)
+    expect(asked).toEqual(['lod/near.glb', 'lod/far.glb'])
+    expect([arm.meshCount, arm.meshesHere]).toEqual([2, 2])
+    expect(arm.troubles).toEqual([])
+    const [near, far] = bodies as [RobotBody, RobotBody]
+    expect(near.geometry.getAttribute('color').getX(0)).toBe(0.25)
+    expect(near.geometry.getAttribute('finish').getX(0)).toBeCloseTo(0.2)
+    const corners = (body: RobotBody) => body.geometry.index?.count ?? 0
+    expect(corners(far)).toBeLessThan(corners(near) / 4)
+    expect([near.visible, far.visible]).toEqual([true, false])
+
+    const camera = new PerspectiveCamera()
+    const seenFrom = (distance: number) => {
+      camera.position.set(distance, 0, 0)
+      camera.updateMatrixWorld()
+      arm.root.updateMatrixWorld(true)
+      ;(near.parent as LOD).update(camera)
+      return [near.visible, far.visible]
+    }
+    expect(near.parent).toBeInstanceOf(LOD)
+    expect(seenFrom(1.5)).toEqual([true, false])
+    expect(seenFrom(9)).toEqual([false, true])
+    // at the border it stays as it was
+    const border = (near.parent as LOD).levels[1]?.distance ?? 0
+    expect(seenFrom(border * 0.97)).toEqual([false, true])
+    expect(seenFrom(border * 0.9)).toEqual([true, false])
+    expect(seenFrom(border * 0.97)).toEqual([true, false])
+    arm.setLook('ghost')
+    expect(far.material).toBe(near.material)
+  })
+
+  test('where they are missing the meshes of the links are drawn', async () => {
+    const { arm, asked, bodies } = await robot(LEVEL, {
+      'meshes/base.glb': box,
+      'meshes/arm.glb': box,
+    })
+    expect(asked.slice(0, 3)).toEqual(['lod/near.glb', 'meshes/base.glb', 'meshes/arm.glb'])
+    expect([arm.meshesHere, arm.troubles.length, bodies.length]).toEqual([2, 0, 1])
+  })
+
+  test('what is drawn besides, such as an adapter plate, is seen from afar too', async () => {
+    const other = LEVEL.replace('p/r/meshes/"', 'p/r/meshes/base"')
+    const files = {
+      'lod/near.glb': () => packed(12),
+      'lod/far.glb': () => packed(4),
+      'meshes/arm.glb': box,
+    }
+    const { bodies } = await robot(other, files)
+    const plate = 24
+    const positions = (body?: RobotBody) => body?.geometry.getAttribute('position').count
+    const spheres = 2 * new SphereGeometry(0.2, 4, 4).getAttribute('position').count
+    expect(positions(bodies[1])).toBe(spheres + plate)
+  })
+
+  test('a description without any names none', () => {
+    const read = (text: string) => new DOMParser().parseFromString(urdf(text), 'text/xml')
+    expect(levelsOf(read(''))).toEqual([])
+    expect(levelsOf(read(LEVEL))).toHaveLength(1)
+    expect(hosesOf(read(HOSE))).toHaveLength(1)
+    expect(hosesOf(read(HOSE.replace('0.9', 'long')))).toEqual([])
+  })
+})
+
+describe('hoses', () => {
+  function hose(length: number) {
+    const root = new Object3D()
+    const first = new Object3D()
+    const second = new Object3D()
+    root.add(first, second)
+    const up = new Vector3(0, 0, 1)
+    const on = (link: Object3D) => ({ link, point: new Vector3(), direction: up })
+    const made = new Hose([on(first), on(second)], length, 0.02)
+    const places = () => {
+      root.updateMatrixWorld(true)
+      made.follow(root)
+      return made.rings.map((ring) => new Vector3().setFromMatrixPosition(ring.matrixWorld))
+    }
+    return { root, second, made, places }
+  }
+
+  const lengthOf = (places: Vector3[]) =>
+    places.slice(1).reduce((sum, at, i) => sum + at.distanceTo(places[i] as Vector3), 0)
+
+  test.each([0.2, 0.4, 0.6])('keep their length, %d m between their ends', (apart) => {
+    const { second, places } = hose(0.9)
+    second.position.x = apart
+    const at = places()
+    expect(lengthOf(at)).toBeCloseTo(0.9, 1)
+    expect(at[0]?.length()).toBeCloseTo(0, 6)
+    expect(at[at.length - 1]?.x).toBeCloseTo(apart, 6)
+  })
+
+  test('leave their ends in the directions of these, and never twist', () => {
+    const { root, second, made, places } = hose(0.9)
+    second.position.x = 0.4
+    second.rotation.y = -0.7
+    root.position.set(3, 1, 2)
+    places()
+    const z = (i: number) =>
+      new Vector3().setFromMatrixColumn(made.rings.at(i)?.matrixWorld as never, 2)
+    expect(z(0).dot(new Vector3(0, 0, 1))).toBeCloseTo(1, 5)
+    expect(z(-1).dot(new Vector3(0, 0, -1).applyEuler(second.rotation))).toBeCloseTo(1, 5)
+    const column = (i: number, axis: number) =>
+      new Vector3().setFromMatrixColumn(made.rings[i]?.matrixWorld as Matrix4, axis)
+    for (let i = 1; i < made.rings.length; i++) {
+      const bend = column(i, 2).angleTo(column(i - 1, 2))
+      expect(column(i, 0).angleTo(column(i - 1, 0))).toBeLessThan(bend + 1e-6)
+    }
+  })
+
+  test('that are pulled straight still join both ends', () => {
+    const { second, places } = hose(0.5)
+    second.position.x = 0.8
+    const at = places()
+    expect(at[at.length - 1]?.x).toBeCloseTo(0.8, 6)
+    expect(at.every((place) => Number.isFinite(place.lengthSq()))).toBe(true)
+  })
+
+  test('are a part of the body, and move with its joints', async () => {
+    const files = { 'meshes/base.glb': box, 'meshes/arm.glb': box }
+    const { arm, bodies } = await robot(HOSE, files)
+    const [body] = bodies as [RobotBody]
+    const bones = body.skeleton.bones.length
+    expect(bones).toBe(24)
+    const end = () => {
+      arm.root.updateMatrixWorld(true)
+      return new Vector3().setFromMatrixPosition(
+        body.skeleton.bones[bones - 1]?.matrixWorld as never,
+      )
+    }
+    const before = end()
+    expect(before.toArray().map((n) => Math.round(n * 1e4) / 1e4)).toEqual([0, 0, 0.8])
+    arm.setPositions([Math.PI / 2])
+    expect(
+      end()
+        .toArray()
+        .map((n) => Math.round(n * 1e4) / 1e4),
+    ).toEqual([0.3, 0, 0.5])
+    const weights = body.geometry.getAttribute('skinWeight')
+    for (let i = 0; i < weights.count; i++) {
+      let sum = 0
+      for (let k = 0; k < 4; k++) sum += weights.getComponent(i, k)
+      expect(sum).toBeCloseTo(1, 5)
+    }
+  })
+})
