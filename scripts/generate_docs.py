@@ -17,6 +17,7 @@ import playback_vectors
 import protocol_page
 import protocol_vectors
 import roles_page
+import rubrics_page
 import typescript_protocol
 
 from mrlab_ros.core import diagnostics
@@ -43,6 +44,7 @@ BLOCKS: dict[tuple[str, str], Callable[[], str]] = {
         for page, name, table in MACHINES
         if page != "docs/physics.md"
     },
+    ("docs/rubrics.md", "measures"): rubrics_page.measures,
 }
 FILES: dict[str, Callable[[], str]] = {
     "docs/diagnostics.md": diagnostics.document,

@@ -1,0 +1,151 @@
+"""`mrlab rubric` as a whole, in this process: the documentation's commands, cells, mistakes."""
+
+from __future__ import annotations
+
+import json
+import re
+import shlex
+from pathlib import Path
+
+import pytest
+import yaml
+from typer.testing import CliRunner
+
+from mrlab_ros.cli import make_app
+from mrlab_ros.core.rubrics.document import parse
+
+pytestmark = pytest.mark.slow
+
+ROOT = Path(__file__).parents[3]
+PAGE = (ROOT / "docs" / "rubrics.md").read_text()
+RUBRIC = ROOT / "examples" / "rubrics" / "pick_and_place.yaml"
+QUINTIC = ROOT / "examples" / "quintic_ur5e.mat"
+
+
+def run(*words):
+    return CliRunner().invoke(make_app([words[0]]), [*map(str, words)])
+
+
+def mark(file, rubric, *words):
+    return run("rubric", "mark", file, "--rubric", rubric, *words)
+
+
+BLOCK = re.search(r"test_rubric.py -->\n```\n(.*?)```", PAGE, re.DOTALL)
+COMMANDS = [shlex.split(line)[1:] for line in BLOCK[1].splitlines()] if BLOCK else []
+
+
+@pytest.mark.parametrize(
+    ("command", "code", "words"),
+    zip(
+        COMMANDS,
+        (0, 0, 1),
+        (
+            "works: Pick and place, 11 tests, 15 points; the reference gets 15",
+            "15 of 15 points: pick_and_place_ur5e.mat",
+            "cube_1 is never grasped; the gripper does not close",
+        ),
+        strict=True,
+    ),
+)
+def test_the_commands_of_the_documentation(tmp_path, monkeypatch, command, code, words):
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "examples").symlink_to(ROOT / "examples")
+    said = run(*command)
+    assert said.exit_code == code
+    assert words in " ".join(said.stdout.split())
+    if "--public" not in command:
+        return
+    text = (tmp_path / "marks.html").read_text()
+    for shown in (said.stdout, text):
+        assert "Keeps away from the bin" not in shown
+        assert "Compare your motion" in shown
+    assert '<a href="#t=0.000" data-time="0.000">' in text
+    assert re.search(r'<a href="#t=3\.\d+" data-time="3\.\d+">3\.\d+ s</a>', text)
+
+
+def test_the_rubric_of_the_documentation_is_read():
+    block = re.search(r"read by test/unit/commands/test_rubric.py -->\n```yaml\n(.*?)```", PAGE,
+                      re.DOTALL)  # fmt: skip
+    rubric = parse(yaml.safe_load(block[1]), "docs")
+    assert (rubric.points, len(rubric.tests[1].measure.poses)) == (6.0, 3)
+
+
+CELL = """
+scene: handover
+reference: {0}
+tests:
+  - {{expect: no collision with the floor, points: 1}}
+  - {{expect: parallel mode used, points: 1}}
+  - {{expect: grasps rod_1 by ur5e_1 before 3 s, points: 1}}
+  - {{expect: holds rod_1 from 2 s to 6 s, points: 2, partial: each}}
+  - {{expect: grasps rod_1 by kuka_kr6_r900_sixx_1 after 4 s, points: 1}}
+  - {{expect: total time < 5 s, points: 1, hidden: true, hint: Be quick.}}
+  - {{expect: cycle of ur5e_1 < 20 s, points: 1}}
+  - {{expect: joints within 1 deg of the reference, points: 1}}
+"""
+
+
+def test_a_cell_is_marked_and_the_reference_that_loses_points_is_told(tmp_path):
+    rubric = tmp_path / "cell.yaml"
+    rubric.write_text(CELL.format(ROOT / "examples" / "handover_cell.yaml"))
+    said = run("rubric", "lint", rubric, "--json")
+    assert said.exit_code == 1
+    found = json.loads(said.stdout)
+    assert found["reference"]["points"] == 8
+    lost = [t for t in found["reference"]["tests"] if not t["passed"]]
+    assert [t["name"] for t in lost] == ["total time < 5 s"]
+    assert lost[0]["time"] == 5.0
+    (flaw,) = found["flaws"]
+    assert flaw["line"] == 10
+    assert "the reference loses 1 of 1 points" in flaw["message"]
+
+
+def test_a_check_with_a_rubric_has_both(tmp_path):
+    rubric = tmp_path / "r.yaml"
+    rubric.write_text("robot: ur5e\ntests: [{expect: cycle < 4 s, points: 2, partial: until 8 s}]")
+    said = run("check", QUINTIC, "--rubric", rubric, "--json")
+    assert said.exit_code == 0
+    found = json.loads(said.stdout)
+    assert found["verdict"] == "ready"
+    (test,) = found["marks"]["tests"]
+    assert (test["points"], test["time"], test["unit"]) == (1.0, 4.0, "s")
+
+
+def test_a_file_without_a_motion_gets_nothing_and_a_reason():
+    said = mark(ROOT / "README.md", RUBRIC, "--json")
+    assert said.exit_code == 1
+    found = json.loads(said.stdout)
+    assert (found["points"], found["of"]) == (0.0, 15.0)
+    assert "not a MATLAB workspace" in found["note"]
+
+
+def test_the_example_and_the_measures_are_printed():
+    assert run("rubric", "example").stdout == RUBRIC.read_text()
+    assert "grasps OBJECT [by ROBOT] between FROM and TO" in run("rubric", "measures").stdout
+
+
+@pytest.mark.parametrize(
+    ("text", "sentence"),
+    [
+        ("robot: ur6e\ntests: [{expect: no collision, points: 1}]", "did you mean 'ur5e'"),
+        ("robot: ur5e\nscene: tabel\ntests: [{expect: no collision, points: 1}]", "'table'"),
+        ("tests: [{expect: no colision, points: 1}]", "r.yaml:1: test 'no colision'"),
+        ("robot: ur5e\nreference: no.mat\ntests:\n- expect: joints within 1 deg of the reference\n"
+         "  points: 1", "r.yaml: reference: there is no file"),
+        ("tests: 5", "expected a list"),
+        ("tests: [{expect: no collision, points: 1}]", "does not say which robot"),
+    ],
+)  # fmt: skip
+def test_what_cannot_be_marked_ends_with_2_and_a_sentence(tmp_path, text, sentence):
+    rubric = tmp_path / "r.yaml"
+    rubric.write_text(text)
+    said = mark(QUINTIC, rubric)
+    assert said.exit_code == 2
+    assert sentence in said.stderr
+    assert said.stderr.startswith("mrlab: ")
+
+
+def test_a_cell_by_a_rubric_for_one_robot_is_refused():
+    said = mark(ROOT / "examples" / "handover_cell.yaml", RUBRIC)
+    assert said.exit_code == 2
+    assert "leave robot: out of a rubric for cells" in said.stderr
