@@ -11,6 +11,7 @@ import h5py
 import numpy as np
 import pytest
 from numpy.typing import NDArray
+from page_blocks import blocks
 from scipy.io import loadmat
 
 from mrlab_ros.adapters.robots.library import RobotLibrary
@@ -62,6 +63,19 @@ def test_script_writes_the_shipped_files(script: Path, tmp_path: Path) -> None:
         assert ours["q"].shape == shipped["q"].shape
         assert np.abs(ours["q"] - shipped["q"]).max() < SAME
         assert ours["fs"] == shipped["fs"]
+
+
+def test_the_lines_of_the_page_write_a_file_that_the_robot_can_play(tmp_path: Path) -> None:
+    (lines,) = (b for b in blocks(ROOT / "docs" / "examples.md") if b.language == "matlab")
+    script = tmp_path / "write_your_own.m"
+    script.write_text(lines.text)
+    done = octave(script, tmp_path)
+    assert done.returncode == 0, done.stderr
+    written = loadmat(tmp_path / "my_motion.mat")
+    assert written["q"].shape == (401, 6)
+    assert float(written["fs"].item()) == 100
+    # It swings the base and comes back: what the page says beside the lines.
+    assert np.ptp(written["q"], axis=0).round(9).tolist() == [1, 0, 0, 0, 0, 0]
 
 
 def test_every_shipped_file_has_its_script() -> None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 import subprocess
 import sys
 from pathlib import Path
@@ -37,3 +38,9 @@ def test_every_block_of_commands_says_whether_it_is_run(page: Path) -> None:
         elif mark["by"] and not (ROOT / mark["by"]).is_file():
             wrong.append(f"line {block.line}: no {mark['by']}")
     assert wrong == []
+
+
+@pytest.mark.parametrize("page", PAGES, ids=lambda page: page.name)
+def test_no_block_of_commands_is_indented_past_its_mark(page: Path) -> None:
+    outside = re.sub(r"^```.*?^```$", "", page.read_text(), flags=re.M | re.S)
+    assert re.findall(r"^ {3,}(?:```|mrlab |ros2 |make |python3? ).*", outside, re.M) == []
