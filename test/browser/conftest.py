@@ -14,6 +14,7 @@ from playwright.sync_api import (
     expect,
     sync_playwright,
 )
+from room_side import Headset
 from served_lab import Gateway, ServedLab, gateway_with_people, served_lab
 
 # Without the second one headless Chromium has no WebGL, and a page without 3D would pass.
@@ -129,3 +130,20 @@ def drawn_page(
     yield page
     context.close()
     assert troubles == []
+
+
+@pytest.fixture
+def headsets(
+    chromium: Callable[[Sequence[str]], Browser], signed_in: StorageState, lab: ServedLab
+) -> Iterator[Callable[[], Headset]]:
+    """Return what opens the room with one more emulated headset."""
+    # WebGL itself is replaced: no_webgl.js needs its constants
+    browser = chromium(("--no-sandbox", "--disable-gpu"))
+    size = {"width": 480, "height": 360}
+
+    def another() -> Headset:
+        made = browser.new_context(viewport=size, locale="en-GB", storage_state=signed_in)
+        return Headset(made, lab.url)
+
+    yield another
+    browser.close()

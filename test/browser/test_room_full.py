@@ -3,35 +3,19 @@ thing of the real room, go on, give an object to a gripper and take it back."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable
 from math import atan2, cos
 from pathlib import Path
 
 import pytest
-from browser_side import DEADLINE_MS, eventually
-from playwright.sync_api import Browser, Page
+from room_side import BOARD, Headset
 from served_lab import ServedLab
 
 # Software draws the headset's pictures, on a busy machine a few a second.
 pytestmark = pytest.mark.timeout(300)
 
 HERE = Path(__file__).parents[1]
-IWER = HERE.parent / "web" / "node_modules" / "iwer" / "build" / "iwer.min.js"
 MOTION = HERE.parent / "examples" / "quintic_ur5e.mat"
-
-# Turns the right controller, held at the hip, to a place of the scene.
-AIM = """place => {
-  const hand = headset.device.controllers.right
-  const from = [0.2, 1.35, -0.2]
-  const to = place.map((value, i) => value - from[i])
-  const length = Math.hypot(...to)
-  const yaw = Math.atan2(-to[0], -to[2]) / 2
-  const pitch = Math.asin(to[1] / length) / 2
-  hand.position.set(...from)
-  hand.quaternion.set(
-    Math.cos(yaw) * Math.sin(pitch), Math.sin(yaw) * Math.cos(pitch),
-    -Math.sin(yaw) * Math.sin(pitch), Math.cos(yaw) * Math.cos(pitch))
-}"""
 
 # Stands a small sheet of the real room where the tool will be farthest from its start; returns how
 # far that is, m.
@@ -95,82 +79,17 @@ LOSE = """() => {
 }"""
 
 
-class Headset:
-    """The page as the one in the headset uses it."""
-
-    def __init__(self, page: Page) -> None:
-        self.page = page
-
-    def wait_for(self, condition: str) -> None:
-        eventually(self.page, lambda: bool(self.page.evaluate(f"Boolean({condition})")))
-
-    def frames(self, count: int = 3) -> None:
-        now = self.page.evaluate("room.frames")
-        self.wait_for(f"room.frames >= {now + count}")
-
-    def point(self, panel: str, zone: str, share: float = 0.5) -> None:
-        """Point the ray at a part of a panel."""
-        self.wait_for(f"{panel}.panel.ids.includes('{zone}')")
-        place = self.page.evaluate(f"{panel}.panel.centre('{zone}', {share}).toArray()")
-        self.page.evaluate(AIM, place)
-        self.frames()
-
-    def trigger(self, pulled: bool) -> None:
-        value = 1 if pulled else 0
-        controller = "headset.device.controllers.right"
-        self.page.evaluate(f"{controller}.updateButtonValue('trigger', {value})")
-        self.frames()
-
-    def press(self, panel: str, zone: str) -> None:
-        self.point(panel, zone)
-        self.trigger(True)
-        self.trigger(False)
-
-    def reach_for(self, place: list[float], away: float = 0.5) -> None:
-        """Hold the right controller so that a place lies straight ahead of it, m."""
-        x, y, z = place
-        hand = "headset.device.controllers.right"
-        self.page.evaluate(
-            f"{hand}.position.set({x}, {y}, {z + away}); {hand}.quaternion.set(0, 0, 0, 1)"
-        )
-        self.frames()
-
-    def state(self) -> str:
-        found: str = self.page.evaluate(
-            "room.follower.robots.value.find(v => v.robot.name === 'ur5e_1')?.state ?? ''"
-        )
-        return found
-
-    def reaches(self, state: str) -> None:
-        eventually(self.page, lambda: self.state() == state)
-
-
 @pytest.fixture
-def headset(chromium: Callable[[Sequence[str]], Browser], lab: ServedLab) -> Iterator[Headset]:
-    # WebGL itself is replaced: no_webgl.js needs its constants
-    browser = chromium(("--no-sandbox", "--disable-gpu"))
-    context = browser.new_context(viewport={"width": 480, "height": 360}, locale="en-GB")
-    context.add_init_script(path=HERE / "no_webgl.js")
-    context.add_init_script(path=IWER)
-    context.add_init_script(path=HERE / "emulated_headset.js")
-    page = context.new_page()
-    page.set_default_timeout(DEADLINE_MS)
-    page.goto(lab.signed_in_url("/room"))
-    page.goto(f"{lab.url}/room?inspect")
-    headset = Headset(page)
-    headset.wait_for("window.room && room.follower.known.value")
-    yield headset
-    browser.close()
+def headset(headsets: Callable[[], Headset]) -> Headset:
+    return headsets()
 
 
-BOARD = "room.board"
 ROBOT = "room.panels.of('ur5e_1')"
 
 
 def test_a_person_works_with_a_robot_on_a_table(headset: Headset, lab: ServedLab) -> None:
     page = headset.page
-    page.get_by_role("button", name="Enter the room").dispatch_event("click")
-    headset.wait_for("room.inside.value && room.frames > 3")
+    headset.enter()
 
     # the table that the headset knows is a surface of the lab
     headset.wait_for("room.supports.some(({ name }) => name === 'table_1')")
@@ -275,8 +194,8 @@ def test_a_robot_stays_where_it_was_when_a_hand_is_lost_and_the_floor_moves(
     headset: Headset, lab: ServedLab
 ) -> None:
     page = headset.page
-    page.get_by_role("button", name="Enter the room").dispatch_event("click")
-    headset.wait_for("room.inside.value && room.frames > 3 && room.handles.size > 0")
+    headset.enter()
+    headset.wait_for("room.handles.size > 0")
     lab.done("load", "ur5e_1", str(MOTION))
 
     # drawn on demand: the path of the tool and how far it reaches

@@ -2,97 +2,19 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable
 from math import hypot
 from pathlib import Path
 
 import pytest
-from browser_side import DEADLINE_MS, eventually
-from playwright.sync_api import Browser, BrowserContext, Page, StorageState
+from room_side import BOARD, Headset
 from served_lab import ServedLab
 
 # Software draws the headset's pictures, on a busy machine a few a second.
 pytestmark = pytest.mark.timeout(300)
 
 HERE = Path(__file__).parents[1]
-IWER = HERE.parent / "web" / "node_modules" / "iwer" / "build" / "iwer.min.js"
 MOTION = HERE.parent / "examples" / "quintic_ur5e.mat"
-BOARD = "room.board"
-
-# Puts the tip of a hand's finger, or of its controller, at a place of the scene.
-REACH = """([side, place]) => {
-  const { device } = headset
-  const inputs = [...room.visit.inputs.sources.values()]
-  const { touch } = inputs.find(({ source }) => source.handedness === side)
-  const held = device.primaryInputMode === 'hand' ? device.hands[side] : device.controllers[side]
-  const { x, y, z } = held.position
-  const [a, b, c] = place.map((value, i) => value - touch.place.toArray()[i])
-  held.position.set(x + a, y + b, z + c)
-}"""
-
-
-class Headset:
-    """A page as somebody with an emulated Quest 3 uses it."""
-
-    def __init__(self, context: BrowserContext, url: str) -> None:
-        context.add_init_script(path=HERE / "no_webgl.js")
-        context.add_init_script(path=IWER)
-        context.add_init_script(path=HERE / "emulated_headset.js")
-        self.page: Page = context.new_page()
-        self.page.set_default_timeout(DEADLINE_MS)
-        self.page.goto(f"{url}/room?inspect")
-        self.wait_for("window.room && room.follower.known.value")
-
-    def wait_for(self, condition: str) -> None:
-        eventually(self.page, lambda: bool(self.page.evaluate(f"Boolean({condition})")))
-
-    def frames(self, count: int = 3) -> None:
-        now = self.page.evaluate("room.frames")
-        self.wait_for(f"room.frames >= {now + count}")
-
-    def enter(self) -> None:
-        self.page.get_by_role("button", name="Enter the room").dispatch_event("click")
-        self.wait_for("room.inside.value && room.frames > 3")
-
-    def act(self, panel: str, zone: str) -> None:
-        """Press a part of a panel without aiming at it."""
-        self.wait_for(f"{panel}?.panel.ids.includes('{zone}')")
-        assert self.page.evaluate(f"{panel}.panel.act('{zone}')")
-
-    def reach(self, place: Sequence[float], side: str = "right") -> None:
-        """Move the tip of a finger, or of a controller, to a place of the scene."""
-        for _ in range(2):  # the tip turns with nothing, but it is read a frame later
-            self.page.evaluate(REACH, [side, list(place)])
-            self.frames(2)
-
-    def arm(self, robot: str) -> list[float]:
-        """Return a place on a robot's arm, its elbow, in the scene."""
-        found: list[float] = self.page.evaluate(
-            f"room.scene.robot('{robot}').root.links.forearm_link"
-            ".getWorldPosition(room.head.clone()).toArray()"
-        )
-        return found
-
-    def touch(self, robot: str) -> None:
-        """Touch a robot's stretched arm from above and go away again."""
-        x, y, z = self.arm(robot)
-        for away in (0.18, 0.12, 0.02, 0.14, 0.5):
-            self.reach((x, y + away, z))
-
-
-@pytest.fixture
-def headsets(
-    chromium: Callable[[Sequence[str]], Browser], signed_in: StorageState, lab: ServedLab
-) -> Iterator[Callable[[], Headset]]:
-    browser = chromium(("--no-sandbox", "--disable-gpu"))
-    size = {"width": 480, "height": 360}
-
-    def another() -> Headset:
-        made = browser.new_context(viewport=size, locale="en-GB", storage_state=signed_in)
-        return Headset(made, lab.url)
-
-    yield another
-    browser.close()
 
 
 def test_two_people_make_a_system_by_touch_see_each_other_and_use_their_hands(

@@ -29,7 +29,8 @@ export class Contacts {
   }
 
   setTheme(theme: SceneTheme): void {
-    this.mesh.material.color.set(theme.failing)
+    // a grasp touches too: red is for what went wrong
+    this.mesh.material.color.set(theme.info)
   }
 
   dispose(): void {

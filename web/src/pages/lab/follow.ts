@@ -36,6 +36,10 @@ import {
   setJoints,
 } from './followed_robot'
 
+/** s: the lab says 50 times a second what touches, and nothing once nothing does. */
+const CONTACT_S = 0.3
+const NO_CONTACTS: readonly never[] = []
+
 export interface SystemView {
   readonly system: RobotSystem
   readonly player: RemotePlayer
@@ -92,6 +96,8 @@ export class LabFollower {
   private order: readonly string[] = []
   /** Lab time at which the link was lost, s. */
   private heldAt: number | null = null
+  /** Lab time of the newest contacts that are shown, s. */
+  private contactAt = Number.NaN
   private readonly undo: (() => void)[]
 
   constructor(
@@ -150,7 +156,10 @@ export class LabFollower {
         this.surfaces = message.surfaces
         this.scene?.setSurfaces(message.surfaces)
       }),
-      this.on('contacts', contactsType, (message) => this.scene?.setContacts(message.contacts)),
+      this.on('contacts', contactsType, ({ contacts }) => {
+        this.contactAt = link.labTime()
+        this.scene?.setContacts(contacts)
+      }),
       this.on('systems', robotSystemsType, (message) => this.takeSystems(message.systems)),
       this.on('recorder/state', recorderStateType, (message) => this.takeRecorder(message)),
     ]
@@ -168,6 +177,10 @@ export class LabFollower {
   pose(ahead = 0): boolean {
     const time = this.heldAt ?? this.link.labTime() + ahead
     let more = false
+    if (time - this.contactAt > CONTACT_S) {
+      this.contactAt = Number.NaN
+      this.scene?.setContacts(NO_CONTACTS)
+    }
     for (const [name, followed] of this.kept) {
       const moves = followed.draw(this.scene?.robot(name), time)
       if (moves === 'first') this.scene?.frame()

@@ -6,6 +6,9 @@ import type { RobotPanels } from '../panels/robot_panels'
 import type { SystemPanels } from '../systems/system_panels'
 import { hopsOf } from '../why/hops'
 
+/** s between two looks at a lab that says nothing: silence is no message. */
+const PERIOD_S = 1
+
 /** What shows how the lab stands. */
 export interface Listeners {
   readonly context: RoomContext
@@ -33,24 +36,27 @@ export function listen({
   const repaint = () => board.panel.repaint()
   /** s; NaN: the link is not open. */
   let openedAt = Number.NaN
+  const look = () => {
+    const link = follower.status.value
+    const now = performance.now() / 1000
+    if (link.phase !== 'open') openedAt = Number.NaN
+    else if (Number.isNaN(openedAt)) openedAt = now
+    const way = {
+      ability: null,
+      link,
+      openFor: now - openedAt,
+      known: follower.known.value,
+      robots: follower.robots.value.length,
+      troubles: troubles.value,
+    }
+    board.standing = hopsOf(way, words.room)[0]?.words ?? ''
+  }
+  const timer = setInterval(look, PERIOD_S * 1000)
   const undo = [
+    () => clearInterval(timer),
+    effect(look),
     effect(() => {
       if (panels.show(follower.robots.value)) halt()
-    }),
-    effect(() => {
-      const link = follower.status.value
-      const now = performance.now() / 1000
-      if (link.phase !== 'open') openedAt = Number.NaN
-      else if (Number.isNaN(openedAt)) openedAt = now
-      const way = {
-        ability: null,
-        link,
-        openFor: now - openedAt,
-        known: follower.known.value,
-        robots: follower.robots.value.length,
-        troubles: troubles.value,
-      }
-      board.standing = hopsOf(way, words.room)[0]?.words ?? ''
     }),
     effect(() => {
       if (follower.recorder.value !== null) repaint()

@@ -9,6 +9,8 @@ export const EDGE = 26
 export const TOP = 112
 export const BOTTOM = BOARD_HEIGHT - 62
 const NOTICE_S = 10
+/** s between two questions to the tab that is shown whether it says something else. */
+const ASK_PERIOD = 1
 /** mm between two tabs; and letters that a tab's margins take. */
 const TAB_GAP = 8
 const TAB_MARGIN = 2.5
@@ -17,6 +19,8 @@ const TAB_MARGIN = 2.5
 export interface Tab {
   readonly id: string
   readonly words: string
+  /** What it says that changes by itself, as with time: it is painted anew where this is another. */
+  says?(): string
   draw(pen: Pen): void
 }
 
@@ -30,6 +34,9 @@ export class Board {
   private warns = false
   private noticedAt = 0
   private now = 0
+  private askedAt = 0
+  /** What its tab said when it was asked last. */
+  private said = ''
 
   constructor(context: RoomContext) {
     this.panel = new Panel(BOARD_WIDTH, BOARD_HEIGHT, (pen) => this.draw(pen), context)
@@ -61,6 +68,12 @@ export class Board {
 
   update(now: number): void {
     this.now = now
+    if (now - this.askedAt > ASK_PERIOD) {
+      this.askedAt = now
+      const says = this.tabs[this.chosen]?.says?.() ?? ''
+      if (says !== this.said) this.panel.repaint()
+      this.said = says
+    }
     if (this.notice !== '' && now - this.noticedAt > NOTICE_S) {
       this.notice = ''
       this.panel.repaint()

@@ -20,7 +20,7 @@ import { type Mark, Timeline, type Track } from './timeline'
 const WIDTH = 640
 const HEIGHT = 516
 const EDGE = 26
-const TRACK: Track = { x: EDGE, y: 208, width: WIDTH - 2 * EDGE, height: HIT }
+const TRACK: Track = { x: EDGE, y: 200, width: WIDTH - 2 * EDGE, height: HIT }
 /** s between two paintings of how far a robot is from its ghost. */
 const COMPARE_PERIOD = 0.5
 const NOTICE_S = 8

@@ -38,11 +38,11 @@ export function drawStatus(
   const parts = [`${robot.model}${hand}`, motion || w.noMotion]
   pen.text(edge, 82, parts.join(' · '), TEXT.small, undefined, 'second')
   if (state === 'COLLISION_HALT') {
-    pen.box(edge, 104, pen.width - 2 * edge, 92, PANEL_THEME.states.COLLISION_HALT)
+    pen.box(edge, 100, pen.width - 2 * edge, 84, PANEL_THEME.states.COLLISION_HALT)
     const ink = PANEL_THEME.colours.on_halt
-    pen.text(edge + 16, 132, touching || w.cleared, TEXT.body, 550, ink, 700)
+    pen.text(edge + 16, 125, touching || w.cleared, TEXT.body, 550, ink, 700)
     const next = touching ? w.moveClear : w.playOn
-    pen.text(edge + 16, 168, next, TEXT.small, 550, ink, 600)
+    pen.text(edge + 16, 159, next, TEXT.small, 550, ink, 600)
   } else if (notice !== '') {
     pen.lines(edge, 122, notice, TEXT.small, undefined, PANEL_THEME.states.PAUSED, 3)
   } else if (playback?.message) {

@@ -56,6 +56,7 @@ export function roomTab(context: RoomContext, room: RoomSwitches): Tab {
   return {
     id: 'room',
     words: context.words.room.room,
+    says: () => room.lines().join(),
     draw: (pen) => {
       const w = context.words.room
       let y = TOP + 6

@@ -5,6 +5,8 @@ import { LabFollower } from '../../../src/pages/lab/follow'
 import { Course } from '../../../src/playback/course'
 import {
   collisionType,
+  contactsType,
+  contactType,
   Grasp,
   graspType,
   PlaybackState,
@@ -229,6 +231,21 @@ test('without the link a robot stands where it was last known', () => {
   expect(stir).toHaveBeenCalled()
   link.setStatus('open')
   expect([player?.position(), player?.playing]).toEqual([5, true])
+})
+
+test('what touched is shown no longer than it touches: the lab says nothing of what no longer does', () => {
+  const { link, scene, follower } = lab()
+  const contacts = contactsType.create({ contacts: [contactType.create()] })
+  link.deliver('contacts', contactsType, contacts)
+  expect(scene.setContacts.mock.lastCall?.[0]).toHaveLength(1)
+  link.time = 1000.2
+  follower.pose()
+  expect(scene.setContacts).toHaveBeenCalledTimes(1)
+  link.time = 1000.4
+  follower.pose()
+  expect(scene.setContacts.mock.lastCall?.[0]).toEqual([])
+  follower.pose()
+  expect(scene.setContacts).toHaveBeenCalledTimes(2)
 })
 
 test('robots keep the order of the lab, whichever was heard of first', () => {
