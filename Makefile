@@ -42,7 +42,7 @@ bench:
 robots:
 	@python3 scripts/bootstrap.py --dev
 	@$(ENV) python scripts/robots/generate.py $(ARGS)
-	@$(ENV) python scripts/robots/levels.py $(ARGS)
+	@$(ENV) python scripts/robots/levels.py --stale $(ARGS)
 
 objects:
 	@python3 scripts/bootstrap.py --dev

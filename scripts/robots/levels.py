@@ -7,6 +7,7 @@ the meshes of the links, which other programs read, and change when those do.
 from __future__ import annotations
 
 import argparse
+import hashlib
 from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
@@ -64,7 +65,7 @@ def write(folder: Path, figures: dict[str, Any]) -> None:
     place = folder / "lod"
     place.mkdir(exist_ok=True)
     for name, links in levels.items():
-        packed.write(place / f"{name}.glb", links)
+        packed.write(place / f"{name}.glb", links, digest(folder))
     counts = {
         name: sum(len(piece.mesh.faces) for own in links.values() for piece in own)
         for name, links in levels.items()
@@ -79,6 +80,21 @@ def write(folder: Path, figures: dict[str, Any]) -> None:
         f"{figures['id']}: near {counts['near']} triangles {sizes['near']:.0f} kB, "
         f"far {counts['far']} triangles {sizes['far']:.0f} kB, off by {off * 1e3:.1f} mm"
     )
+
+
+def digest(folder: Path) -> str:
+    """Return the sha256 of a model's visual meshes, by name and content."""
+    found = hashlib.sha256()
+    for file in sorted((folder / "meshes").glob("*.glb")):
+        found.update(file.name.encode() + file.read_bytes())
+    return found.hexdigest()
+
+
+def is_current(folder: Path) -> bool:
+    """Return whether a model's levels are made of its meshes as they are."""
+    made_of = digest(folder).encode()
+    files = [folder / "lod" / f"{name}.glb" for name in ("near", "far")]
+    return all(file.is_file() and made_of in file.read_bytes() for file in files)
 
 
 def _budgets(
@@ -160,9 +176,11 @@ def main() -> None:
     parser = argparse.ArgumentParser(description="Write the packed levels of detail.")
     parser.add_argument("ids", nargs="*", metavar="ID", help="models; none: all")
     parser.add_argument("--out", type=Path, default=ROBOTS, help="the library, meshes included")
+    parser.add_argument("--stale", action="store_true", help="only where the meshes have changed")
     chosen = parser.parse_args()
     for folder, source in models(chosen.ids, chosen.out):
-        write(folder, yaml.safe_load(source.read_text()))
+        if not (chosen.stale and is_current(folder)):
+            write(folder, yaml.safe_load(source.read_text()))
 
 
 if __name__ == "__main__":

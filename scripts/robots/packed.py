@@ -45,8 +45,11 @@ class Piece:
     light: Array
 
 
-def write(path: Path, links: Mapping[str, Sequence[Piece]]) -> None:
-    """Write the pieces of each link, in the link's own frame, m."""
+def write(path: Path, links: Mapping[str, Sequence[Piece]], made_of: str) -> None:
+    """Write the pieces of each link, in the link's own frame, m.
+
+    made_of: the digest of the meshes that they show, kept in the file.
+    """
     pieces = [piece for own in links.values() for piece in own]
     palette = list({piece.material.name: piece.material for piece in pieces}.values())
     file = _File(palette)
@@ -56,7 +59,7 @@ def write(path: Path, links: Mapping[str, Sequence[Piece]]) -> None:
             f"{link}_hose": [piece for piece in own if _is_hose(piece)],
         }
         file.add(link, {name: part for name, part in parts.items() if part})
-    path.write_bytes(file.bytes())
+    path.write_bytes(file.bytes(made_of))
 
 
 def _is_hose(piece: Piece) -> bool:
@@ -172,7 +175,7 @@ class _File:
         self._packed.extend(b"\0" * (-len(data) % 4))
         return at
 
-    def bytes(self) -> bytes:
+    def bytes(self, made_of: str) -> bytes:
         """Return the file."""
         colours = [[round(value * 255) for value in each.colour] for each in self._palette]
         finish = [
@@ -201,7 +204,11 @@ class _File:
         }
         nearest, clamped = 9728, 33071
         document = {
-            "asset": {"version": "2.0", "generator": "mrlab scripts/robots"},
+            "asset": {
+                "version": "2.0",
+                "generator": "mrlab scripts/robots",
+                "extras": {"made_of": made_of},
+            },
             "extensionsUsed": [PACKING, SHORTS],
             "extensionsRequired": [PACKING, SHORTS],
             "scene": 0,

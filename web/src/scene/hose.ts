@@ -27,7 +27,7 @@ const frame = new Matrix4()
  * bulges as far as its length asks. It is drawn as rings, which are bones of a robot's body. */
 export class Hose {
   /** From the first end to the second; z of each points along the hose. */
-  readonly rings: readonly Object3D[] = Array.from({ length: RINGS }, () => new Object3D())
+  readonly rings: readonly Object3D[] = Array.from({ length: RINGS }, ring)
   private readonly lengths = new Float64Array(SAMPLES + 1)
 
   /** length, radius: m. */
@@ -108,6 +108,12 @@ export class Hose {
     }
     return length
   }
+}
+
+function ring(): Object3D {
+  const made = new Object3D()
+  made.name = 'hose'
+  return made
 }
 
 /** Set `place` to the point of the curve, t 0 to 1. */

@@ -102,7 +102,7 @@ export class RobotBody extends SkinnedMesh<BufferGeometry, Material | Material[]
   paint(material: Material, failing: string, marked: Material): void {
     const { geometry } = this
     geometry.clearGroups()
-    const range = this.ranges.get(failing)
+    const range = failing === '' ? undefined : this.ranges.get(failing)
     if (range === undefined) {
       this.material = material
       return

@@ -219,6 +219,9 @@ describe('hoses', () => {
         .toArray()
         .map((n) => Math.round(n * 1e4) / 1e4),
     ).toEqual([0.3, 0, 0.5])
+    // of no link: it is painted as the body is
+    expect(body.geometry.groups).toEqual([])
+    expect(body.skeleton.bones[bones - 1]?.name).toBe('hose')
     const weights = body.geometry.getAttribute('skinWeight')
     for (let i = 0; i < weights.count; i++) {
       let sum = 0
