@@ -13,8 +13,9 @@ from mrlab_ros.ros.domain import domain_id
 from mrlab_ros.ros.graph import GraphClient
 from mrlab_ros.ros.type_supports import skip_generator
 
-# A node of a lab is in the graph by then, s: its topics and services may take longer.
-COMPANY_S = 1.5
+# After so many looks a node of a lab is in the graph; its topics and services may take longer.
+# They are counted, not timed: on a busy machine looks and discovery take longer alike.
+LOOKS = 30
 LOOK_PERIOD_S = 0.05
 
 
@@ -23,7 +24,7 @@ def open_graph() -> GraphClient:
 
     A lab of `mrlab up` answers through its socket at once. Where it has none (no bridge, another
     user's, `ros2 launch`) or its bridge does not answer, a node in the graph finds it. Raises
-    NoAnswer where no lab of this user runs and the domain has no node after COMPANY_S.
+    NoAnswer where no lab of this user runs and the domain stays without a node.
     """
     skip_generator()
     domain = domain_id()
@@ -53,14 +54,13 @@ def _node() -> GraphClient:
 
 def _found(graph: GraphClient) -> GraphClient:
     """Return `graph` once another node is in it; close it and raise NoAnswer where none comes."""
-    deadline = time.monotonic() + COMPANY_S
-    # Nodes of tools, such as the daemon of `ros2`, begin with an underscore.
-    while all(name.startswith("_") for name in graph.node_names()):
-        if time.monotonic() > deadline:
-            graph.close()
-            raise NoAnswer(nobody(graph.domain, domains()))
+    for _ in range(LOOKS):
+        # Nodes of tools, such as the daemon of `ros2`, begin with an underscore.
+        if not all(name.startswith("_") for name in graph.node_names()):
+            return graph
         time.sleep(LOOK_PERIOD_S)
-    return graph
+    graph.close()
+    raise NoAnswer(nobody(graph.domain, domains()))
 
 
 def nobody(domain: int, labs: Sequence[int]) -> str:

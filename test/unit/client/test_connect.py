@@ -31,7 +31,7 @@ class Lone:
 def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setenv("XDG_RUNTIME_DIR", str(tmp_path))
     monkeypatch.setenv("ROS_DOMAIN_ID", "7")
-    monkeypatch.setattr(connect, "COMPANY_S", 0.0)
+    monkeypatch.setattr(connect, "LOOK_PERIOD_S", 0.0)
 
 
 @pytest.mark.parametrize("tools", [(), ("_mrlab_command", "_ros2cli_daemon_7")])
