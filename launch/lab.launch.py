@@ -68,6 +68,7 @@ ARGUMENTS = {
     "public_url": ("", "address of a reverse proxy that offers the pages; people sign in"),
     "oidc": ("", "YAML file of an OpenID Connect provider by which people sign in"),
     "web_limits": ("", "YAML file of how many pages there may be and what each may send"),
+    "class": ("", "folder that mrlab class made, for instructors to step through"),
     "state_dir": ("", "folder for scene and trajectories; empty: a temporary one"),
     "store": ("", "uploads and trajectories: a folder or URL; empty: in state_dir"),
     "use_sim_time": ("false", "the topic /clock gives the time"),
@@ -112,6 +113,7 @@ def processes(context):
             public_url=value("public_url").rstrip("/"),
             oidc=path("oidc"),
             limits=path("web_limits"),
+            classroom=path("class"),
         )
         if keys is not None:
             prepare_keys(keys)

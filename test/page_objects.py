@@ -73,6 +73,26 @@ class SignInPage:
         self.page.get_by_role("button", name="Sign in", exact=True).click()
 
 
+class ClassPage:
+    """`/class`: one submission after another."""
+
+    def __init__(self, page: Page) -> None:
+        self.page = page
+
+    def open(self, url: str, key: str = "") -> ClassPage:
+        """Open the page; wait until a submission is shown."""
+        self.page.goto(f"{url}/class{key and f'/{key}'}")
+        self.page.get_by_role("button", name="Next").wait_for()
+        return self
+
+    def expect_shown(self, name: str) -> None:
+        expect(self.page.get_by_role("heading", level=1, name=name)).to_be_visible()
+
+    @property
+    def marks(self) -> Locator:
+        return self.page.get_by_role("region", name="Marks")
+
+
 class LabPage:
     """`/lab`: the robots of a running lab."""
 

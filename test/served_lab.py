@@ -136,7 +136,9 @@ def served_lab(folder: Path, *options: str) -> Iterator[ServedLab]:
 
 
 @contextmanager
-def gateway_with_people(lab: ServedLab, folder: Path, port: int = 0) -> Iterator[Gateway]:
+def gateway_with_people(
+    lab: ServedLab, folder: Path, port: int = 0, *options: str
+) -> Iterator[Gateway]:
     """Run another gateway of a lab, with the lab's store and people of its own.
 
     port: 0: a free one. The same folder and port bring a gateway back that ended.
@@ -148,6 +150,7 @@ def gateway_with_people(lab: ServedLab, folder: Path, port: int = 0) -> Iterator
     command = (
         *(sys.executable, "-m", "mrlab_ros.gateway", "--http", f"127.0.0.1:{port}"),
         *("--public-url", url, "--zenoh", lab.zenoh, "--state-dir", str(state)),
+        *options,
         *("--store", str(lab.state / "store")),
     )
     with process(

@@ -20,6 +20,8 @@ from mrlab_ros.gateway.checks import routes as check_routes
 from mrlab_ros.gateway.checks.desk import CheckDesk
 from mrlab_ros.gateway.checks.process import CheckProcess
 from mrlab_ros.gateway.checks.scene import SceneWatch
+from mrlab_ros.gateway.classroom import routes as class_routes
+from mrlab_ros.gateway.classroom.folder import ClassFolder
 from mrlab_ros.gateway.guard import Guard
 from mrlab_ros.gateway.hosts import Hosts
 from mrlab_ros.gateway.link import socket
@@ -48,6 +50,7 @@ ROUTERS: tuple[APIRouter, ...] = (
     upload_routes.router,
     trajectory_routes.router,
     check_routes.router,
+    class_routes.router,
     socket.router,
     pages.router,
 )
@@ -107,6 +110,7 @@ def create_app(settings: Settings, ports: Ports) -> FastAPI:
     app.state.policy = policy
     app.state.link = link
     app.state.checking = checking
+    app.state.classroom = settings.classroom and ClassFolder(settings.classroom)
     app.state.assets = None if ports.lab is None else AssetCache(ports.lab)
     store = ports.store or open_store(settings.store or str(settings.state_dir / "store"))
     robots = Robots(RobotLibrary(directory() / "robots"), app.state.assets)

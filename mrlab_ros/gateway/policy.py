@@ -88,6 +88,10 @@ ROUTES: Mapping[tuple[str, str], Everybody | Role | Need] = {
     ("POST", "/api/checks"): DRIVES,
     ("GET", "/api/checks"): READS,
     ("DELETE", "/api/checks"): DRIVES,
+    # Names and marks of a class are its teachers'.
+    ("GET", "/api/class"): Role.INSTRUCTOR,
+    ("GET", "/api/class/{key}/motion"): Role.INSTRUCTOR,
+    ("GET", "/api/class/{key}/file"): Role.INSTRUCTOR,
     ("GET", "/assets/{path:path}"): Need(Verb.RECEIVE, "assets"),
     ("HEAD", "/assets/{path:path}"): Need(Verb.RECEIVE, "assets"),
     # What is needed for the keys that a socket asks for, the socket itself checks.

@@ -12,6 +12,8 @@ from mrlab_ros.core.errors import BadInput
 HOST = "127.0.0.1"
 PORT = 8080
 LARGEST_PORT = 65535
+# What `mrlab class` writes for pages and other tools.
+CLASS_FILE = "class.json"
 
 
 @dataclass(frozen=True)
@@ -27,7 +29,7 @@ class Settings:
     this machine without keys. allow_list: the bridge's YAML file, the shipped one if None. store:
     URL or folder of the object store; empty: in state_dir. oidc: YAML file of an OpenID Connect
     provider. limits: YAML file of what pages may take. pages: folder of the built pages; None: the
-    installed ones.
+    installed ones. classroom: a folder of `mrlab class` for instructors to step through.
     """
 
     state_dir: Path
@@ -46,6 +48,7 @@ class Settings:
     oidc: Path | None = None
     limits: Path | None = None
     pages: Path | None = None
+    classroom: Path | None = None
     lab_name: str = field(default="MR-Lab")
 
     @property
@@ -81,6 +84,11 @@ class Settings:
                 f"the pages are to be served on {self.host}:{self.port}, where anybody in the "
                 "network could read and change everything; give the lab keys (mrlab keys init, "
                 "then mrlab up --keys FOLDER), listen on 127.0.0.1, or accept it with --insecure"
+            )
+        if self.classroom is not None and not (self.classroom / CLASS_FILE).is_file():
+            raise BadInput(
+                f"there is no {CLASS_FILE} in {self.classroom}; make the folder with mrlab class "
+                "SUBMISSIONS --rubric RUBRIC.yaml --out FOLDER, and name that one"
             )
         if self.https:
             for file in (self.certificate_file, self.certificate_key_file):

@@ -56,6 +56,7 @@ class GatewayProcess:
             "public_url": web.public_url,
             "oidc": web.oidc,
             "limits": web.limits,
+            "classroom": web.classroom,
             "store": options.store or parameter(options.config, "converter", "store"),
         }
         arguments = [

@@ -6,6 +6,7 @@ import type {
   ConversionRequest,
   Device,
   Diagnostic,
+  GradedClass,
   Invitation,
   NewPerson,
   Pairing,
@@ -209,7 +210,7 @@ export class FakeApi implements Api {
     return {
       lab: { id: 'lab', name: 'MR-Lab', version: '0.1.0' },
       user: this.user,
-      may: { commands: true, scene: true, replay: true },
+      may: { commands: true, scene: true, replay: true, grades: true },
       csrf: 'token',
       ways: { password: true, oidc: true, pairing: true },
     }
@@ -355,6 +356,12 @@ export class FakeApi implements Api {
   }
   async cancelCheck(robot: string, trajectory: string): Promise<void> {
     this.checks.delete(`${robot} ${trajectory}`)
+  }
+  async gradedClass(): Promise<GradedClass> {
+    return { title: 'Pick and place', robot: 'ur5e', submissions: [], reference: null }
+  }
+  async classFile(key: string): Promise<File> {
+    return new File(['{}'], `${key}.json`)
   }
   async people(): Promise<readonly Person[]> {
     return this.#people

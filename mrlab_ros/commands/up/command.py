@@ -157,6 +157,13 @@ def up(
         Path | None,
         typer.Option(help="YAML file of how many pages there may be and what each may send."),
     ] = None,
+    class_folder: Annotated[
+        Path | None,
+        typer.Option(
+            "--class",
+            help="Folder that mrlab class made: instructors step through it in pages and room.",
+        ),
+    ] = None,
 ) -> None:
     """Start the lab and keep it running until Ctrl-C.
 
@@ -183,6 +190,7 @@ def up(
             public_url=public_url.rstrip("/"),
             oidc=oidc,
             limits=web_limits,
+            classroom=class_folder,
         )
         if keys is not None:
             prepare_keys(keys)

@@ -30,6 +30,7 @@ def checked_web(
     public_url: str = "",
     oidc: Path | None = None,
     limits: Path | None = None,
+    classroom: Path | None = None,
 ) -> WebOptions:
     """Return where the pages are served; raises BadInput where they may not or cannot be.
 
@@ -51,6 +52,7 @@ def checked_web(
         certificate_key=certificate_key,
         public_url=public_url,
         oidc=oidc,
+        classroom=classroom,
         insecure=insecure and not (https or public_url),
     ).check()
     return WebOptions(
@@ -61,6 +63,7 @@ def checked_web(
         public_url,
         _absolute(oidc),
         _absolute(limits),
+        _absolute(classroom),
     )
 
 

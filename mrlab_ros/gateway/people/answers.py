@@ -41,12 +41,13 @@ class Rights(BaseModel):
     """What the pages offer to somebody; the socket checks each call by the same policy.
 
     commands: loads and plays robots. scene: puts robots there and takes them away. replay: plays
-    bags.
+    bags. grades: steps through the class that this gateway shows.
     """
 
     commands: bool
     scene: bool
     replay: bool
+    grades: bool
 
 
 class Session(BaseModel):

@@ -159,7 +159,7 @@ def session_answer(
             id=people.database.lab_id, name=settings.lab_name, version=request.app.version
         ),
         user=None if person is None else answers.User(name=person.name, role=person.role),
-        may=rights(request.app.state.policy, person),
+        may=rights(request.app.state.policy, person, settings.classroom is not None),
         csrf=csrf,
         ways=answers.Ways(
             password=settings.signs_in, oidc=settings.oidc is not None, pairing=settings.signs_in
@@ -167,8 +167,8 @@ def session_answer(
     )
 
 
-def rights(policy: Policy, person: Person | None) -> answers.Rights:
-    """Return what the pages offer to a person."""
+def rights(policy: Policy, person: Person | None, graded: bool) -> answers.Rights:
+    """Return what the pages offer to a person. graded: the gateway shows a class."""
 
     def calls(*services: str) -> bool:
         return person is not None and all(
@@ -179,6 +179,7 @@ def rights(policy: Policy, person: Person | None) -> answers.Rights:
         commands=calls("robot/load", "robot/play"),
         scene=calls("lab/spawn_robot", "lab/remove_robot"),
         replay=calls("recorder/replay", "recorder/stop"),
+        grades=graded and person is not None and person.role.may(Role.INSTRUCTOR),
     )
 
 

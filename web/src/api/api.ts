@@ -4,6 +4,7 @@ import type {
   Conversion,
   ConversionRequest,
   Device,
+  GradedClass,
   Invitation,
   InvitationLink,
   NewPerson,
@@ -44,6 +45,10 @@ export interface Api {
   /** Have it checked where everything stands now. */
   startCheck(robot: string, trajectory: string): Promise<Check>
   cancelCheck(robot: string, trajectory: string): Promise<void>
+
+  gradedClass(): Promise<GradedClass>
+  /** The motion of a submission as a file that can be uploaded. */
+  classFile(key: string): Promise<File>
 
   people(): Promise<readonly Person[]>
   invite(person: NewPerson): Promise<InvitationLink>
@@ -88,6 +93,11 @@ export type FileFormat = 'json' | 'mat' | 'csv'
 export function trajectoryUrl(id: string, part = ''): string {
   const path = id.split('/').map(encodeURIComponent).join('/')
   return `/api/trajectories/${path}${part && `/${part}`}`
+}
+
+/** Return the place of the motion of a submission. */
+export function submissionUrl(key: string): string {
+  return `/api/class/${encodeURIComponent(key)}/motion`
 }
 
 export function fileUrl(id: string, format: FileFormat): string {

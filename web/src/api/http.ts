@@ -5,6 +5,7 @@ import type {
   Conversion,
   ConversionRequest,
   Device,
+  GradedClass,
   Invitation,
   InvitationLink,
   NewPerson,
@@ -146,6 +147,15 @@ export class HttpApi implements Api {
   }
   async cancelCheck(robot: string, trajectory: string): Promise<void> {
     await this.#ask('DELETE', checkUrl(robot, trajectory))
+  }
+
+  gradedClass(): Promise<GradedClass> {
+    return this.#ask('GET', '/api/class')
+  }
+  async classFile(key: string): Promise<File> {
+    const url = `/api/class/${encodeURIComponent(key)}/file`
+    const motion = await this.#ask<object>('GET', url)
+    return new File([JSON.stringify(motion)], `${key}.json`, { type: 'application/json' })
   }
 
   async people(): Promise<readonly Person[]> {

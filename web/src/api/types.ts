@@ -10,6 +10,8 @@ export interface Rights {
   readonly scene: boolean
   /** Plays bags. */
   readonly replay: boolean
+  /** Steps through the class that the gateway shows. */
+  readonly grades: boolean
 }
 
 export interface Session {
@@ -230,4 +232,40 @@ export interface Check {
   readonly claim: string
   readonly duration: number | null
   readonly findings: readonly CheckFinding[]
+}
+
+/** What a test of a rubric gave; time: s, where points were lost, null: no instant. */
+export interface ClassMark {
+  readonly name: string
+  readonly points: number
+  readonly of: number
+  readonly passed: boolean
+  readonly words: string
+  readonly hint: string
+  readonly hidden: boolean
+  readonly time: number | null
+}
+
+/** One student's submission. */
+export interface Submission {
+  readonly key: string
+  readonly name: string
+  readonly points: number
+  readonly of: number
+  /** What came of it: why there is no motion. */
+  readonly words: string
+  readonly duration: number | null
+  readonly robot: string
+  readonly tool: string
+  /** There is one to show. */
+  readonly motion: boolean
+  readonly marks: readonly ClassMark[]
+}
+
+/** A graded class; reference: the solution, null: there is none. */
+export interface GradedClass {
+  readonly title: string
+  readonly robot: string
+  readonly submissions: readonly Submission[]
+  readonly reference: Submission | null
 }

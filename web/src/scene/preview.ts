@@ -8,6 +8,9 @@ import { NoWebGL } from './renderer'
 import { Stage } from './stage'
 import { ENGLISH, type SceneWords } from './words'
 
+/** Findings that are marked on the timeline. */
+const MOST_MARKS = 60
+
 export interface PreviewOptions {
   /** Where meshes come from; the gateway's /assets/ where none is given. */
   readonly meshes?: MeshSource
@@ -117,6 +120,14 @@ export function createMotionPreview(
       1 / motion.frame_rate,
       (time) => course.rowOf(course.frameAt(time)),
       toggles,
+    )
+    controls.setMarks(
+      motion.findings
+        .filter(({ first_row }) => first_row > 0)
+        .slice(0, MOST_MARKS)
+        .map(({ first_row, severity, message }) => {
+          return { time: course.timeOfRow(first_row), severity, words: message }
+        }),
     )
     element.append(controls.element)
   }

@@ -62,10 +62,10 @@ export class LabCatalogue {
 
   /** Convert a file for a robot model and publish it under a name; return its id. Rejects with a
    * sentence. */
-  async take(file: File, robot_model: string, name: string): Promise<string> {
+  async take(file: File, robot_model: string, name: string, end_effector = ''): Promise<string> {
     const { signal } = new AbortController()
     const { upload } = await this.api.upload(file, () => undefined, signal)
-    const request = { upload, robot_model, end_effector: '' }
+    const request = { upload, robot_model, end_effector }
     const { draft, message } = await this.api.convert(request, signal)
     if (draft === null) throw new Error(message)
     const { id } = await this.api.publish(draft, name, false)

@@ -25,7 +25,7 @@ import { RobotCard } from './robot_card'
 import { SystemCard } from './system_card'
 import type { LabView } from './view'
 
-const NOTHING: Rights = { commands: false, scene: false, replay: false }
+const NOTHING: Rights = { commands: false, scene: false, replay: false, grades: false }
 
 /** The running lab: its scene, its robots and systems. link: opened by who shows the page. */
 export function Lab({ link }: { link: Link }) {

@@ -45,6 +45,11 @@ const ROUTES: readonly Route[] = [
     members: true,
   },
   {
+    path: /^\/class(\/.*)?$/,
+    page: lazy(async () => (await import('../class/page')).ClassPage),
+    members: true,
+  },
+  {
     path: /^\/people$/,
     page: lazy(async () => (await import('../people/page')).PeoplePage),
     members: true,

@@ -11,7 +11,7 @@ import { mayAdmit, session, useApi } from './session'
 interface Place {
   readonly href: string
   readonly icon: IconName
-  readonly name: 'upload' | 'trajectories' | 'lab' | 'room' | 'people'
+  readonly name: 'upload' | 'trajectories' | 'lab' | 'room' | 'grades' | 'people'
 }
 
 const PLACES: readonly Place[] = [
@@ -19,6 +19,7 @@ const PLACES: readonly Place[] = [
   { href: '/trajectories', icon: 'motion', name: 'trajectories' },
   { href: '/lab', icon: 'robot', name: 'lab' },
   { href: '/room', icon: 'room', name: 'room' },
+  { href: '/class', icon: 'check', name: 'grades' },
   { href: '/people', icon: 'people', name: 'people' },
 ]
 
@@ -121,7 +122,8 @@ function AccountMenu() {
 export function Header() {
   const w = words.value
   const user = session.value?.user
-  const places = PLACES.filter((place) => place.name !== 'people' || mayAdmit(session.value))
+  const shown = { people: mayAdmit(session.value), grades: session.value?.may.grades ?? false }
+  const places = PLACES.filter(({ name }) => !(name in shown) || shown[name as keyof typeof shown])
   return (
     <header class="header">
       <a class="brand" href="/">

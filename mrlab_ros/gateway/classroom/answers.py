@@ -1,0 +1,42 @@
+"""What the routes about a class answer."""
+
+from __future__ import annotations
+
+from pydantic import BaseModel
+
+
+class Mark(BaseModel):
+    """What a test of the rubric gave. time: s, where points were lost; null: no instant."""
+
+    name: str
+    points: float
+    of: float
+    passed: bool
+    words: str
+    hint: str
+    hidden: bool
+    time: float | None
+
+
+class Submission(BaseModel):
+    """One student's submission. motion: there is one to show. words: why there is none."""
+
+    key: str
+    name: str
+    points: float
+    of: float
+    words: str
+    duration: float | None
+    robot: str
+    tool: str
+    motion: bool
+    marks: list[Mark]
+
+
+class Class(BaseModel):
+    """A graded class. reference: the solution, to compare with; null: there is none."""
+
+    title: str
+    robot: str
+    submissions: list[Submission]
+    reference: Submission | None

@@ -1,0 +1,87 @@
+"""/api/class: the submissions of a class with their marks and motions, for its teachers."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Annotated, Any
+from urllib.parse import quote
+
+import orjson
+from fastapi import APIRouter, Depends, Path, Request, Response
+from fastapi.concurrency import run_in_threadpool
+
+from mrlab_ros.adapters.trajectories import json_file
+from mrlab_ros.core.show import document
+from mrlab_ros.gateway.classroom import answers
+from mrlab_ros.gateway.classroom.folder import REFERENCE, ClassFolder, findings
+from mrlab_ros.gateway.errors import NotFound
+from mrlab_ros.gateway.store.shelf import Shelf, shelf_of
+
+router = APIRouter(prefix="/api/class", tags=["class"])
+
+
+def class_of(request: Request) -> ClassFolder:
+    """Return the class of a gateway, as a dependency; raises NotFound where it shows none."""
+    found: ClassFolder | None = request.app.state.classroom
+    if found is None:
+        raise NotFound(
+            "this gateway shows no class; start the lab with mrlab up --class FOLDER, a folder "
+            "that mrlab class made"
+        )
+    return found
+
+
+TheShelf = Annotated[Shelf, Depends(shelf_of)]
+TheClass = Annotated[ClassFolder, Depends(class_of)]
+Key = Annotated[str, Path(max_length=300, description="a student's key, or reference")]
+
+
+@router.get("")
+async def overview(graded: TheClass) -> answers.Class:
+    """Return all submissions in the order of the class, with their marks."""
+
+    def made() -> answers.Class:
+        found = graded.document()
+        reference = found.get("reference")
+        return answers.Class.model_validate(
+            {
+                "title": found["title"],
+                "robot": found["rubric"]["robot"],
+                "submissions": [_submission(each) for each in found["students"]],
+                "reference": reference
+                and _submission({"key": REFERENCE, "name": REFERENCE, **reference}),
+            }
+        )
+
+    return await run_in_threadpool(made)
+
+
+@router.get("/{key}/motion", response_class=Response)
+async def motion(graded: TheClass, shelf: TheShelf, key: Key) -> Response:
+    """Return a submission as a MotionDocument: lost points come first among its findings."""
+
+    def made() -> bytes:
+        entry, loaded = graded.entry(key), graded.trajectory(key)
+        robot = shelf.robots.shown(loaded.robot_model, loaded.end_effector)
+        shown = document.motion(
+            loaded, robot, message=str(entry["words"]), diagnostics=findings(entry, loaded)
+        )
+        return orjson.dumps(shown | {"title": entry["name"]})
+
+    return Response(await run_in_threadpool(made), media_type="application/json")
+
+
+@router.get("/{key}/file", response_class=Response)
+async def file(graded: TheClass, key: Key) -> Response:
+    """Return a submission's motion as a trajectory file."""
+
+    def made() -> bytes:
+        return b"".join(json_file.chunks(graded.trajectory(key)))
+
+    headers = {"Content-Disposition": f'attachment; filename="{quote(key)}.json"'}
+    text = await run_in_threadpool(made)
+    return Response(text, media_type="application/json", headers=headers)
+
+
+def _submission(entry: Mapping[str, Any]) -> dict[str, Any]:
+    return {**entry, "motion": bool(entry.get("trajectory"))}

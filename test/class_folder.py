@@ -1,0 +1,76 @@
+"""A graded class as `mrlab class` leaves it: a solution, a motion that lost points, and none."""
+
+from __future__ import annotations
+
+import json
+from dataclasses import replace
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from small_lab import make
+
+from mrlab_ros.adapters.trajectories import json_file
+
+COLLISION = {
+    "code": "collision", "severity": "error", "message": "wrist_3_link touches cube_1.",
+    "remedy": "Lift the way.", "robot": "ur5e_1", "link": "wrist_3_link", "time": 0.2,
+    "end": 0.3, "value": 0.01, "limit": 0.0, "unit": "m",
+}  # fmt: skip
+
+
+def mark(name: str, points: float, of: float, **more: Any) -> dict[str, Any]:
+    """Return a mark as class.json has it."""
+    return {
+        "name": name, "points": points, "of": of, "passed": points == of, "words": "so it is",
+        "hint": "", "hidden": False, "time": None, "measured": None, "limit": None, "unit": "",
+        **more,
+    }  # fmt: skip
+
+
+def entry(key: str, *marks: dict[str, Any], motion: bool = True, **more: Any) -> dict[str, Any]:
+    """Return what class.json says of one submission."""
+    return {
+        "key": key, "name": key.title(), "identifier": "", "late": False, "notes": [],
+        "outcome": "marked", "words": f"{key} was marked", "marks": list(marks),
+        "points": sum(m["points"] for m in marks), "of": sum(m["of"] for m in marks),
+        "file": f"{key}.mat", "sha256": "", "verdict": "", "report": "", "robot": "ur5e",
+        "tool": "", "duration": 0.5 if motion else None, "hints": [], "findings": [],
+        "trajectory": f"trajectories/{key}.json" if motion else None, "page": None, **more,
+    }  # fmt: skip
+
+
+def make_class(folder: Path, frames: int = 50) -> Path:
+    """Write a class of three into `folder`; return it."""
+    students = [
+        entry("anna", mark("no collision", 2, 2), mark("cycle below 8 s", 1, 1)),
+        entry(
+            "ben",
+            mark("no collision", 0, 2, time=0.2, words="touches cube_1 at 0.20 s", hint="Lift it"),
+            mark("cycle below 8 s", 0.5, 1),
+            findings=[COLLISION],
+        ),
+        entry(
+            "cleo", mark("no collision", 0, 2), mark("cycle below 8 s", 0, 1), motion=False,
+            words="cleo.mat is empty",
+        ),
+    ]  # fmt: skip
+    reference = entry("reference", mark("no collision", 2, 2), mark("cycle below 8 s", 1, 1))
+    document = {
+        "schema": "mrlab.class.1",
+        "title": "Pick and place",
+        "form": "folders",
+        "rubric": {"name": "Pick and place", "points": 3, "robot": "ur5e"},
+        "reference": {k: v for k, v in reference.items() if k not in ("key", "name")},
+        "students": students,
+    }
+    (folder / "trajectories").mkdir(parents=True, exist_ok=True)
+    (folder / "class.json").write_text(json.dumps(document))
+    for number, key in enumerate(("reference", "anna", "ben")):
+        motion = make("ur5e", key, frames=frames)
+        away = number * 0.1 * np.sin(np.linspace(0, 3, frames))[:, None]
+        json_file.write(
+            replace(motion, positions=motion.positions + away),
+            folder / "trajectories" / f"{key}.json",
+        )
+    return folder

@@ -1,0 +1,96 @@
+"""The class of a gateway over HTTP: for instructors, and as its folder is now."""
+
+import json
+
+import pytest
+from class_folder import make_class
+from fake_converter import FakeConverter
+from gateway_side import Gateway, code_of
+
+from mrlab_ros.adapters.store.memory import MemoryStore
+from mrlab_ros.adapters.trajectories import json_file
+from mrlab_ros.core.bridge.rules import Role
+from mrlab_ros.core.errors import BadInput
+from mrlab_ros.gateway.lab.definitions import installed_definitions
+from mrlab_ros.gateway.lab.fake_lab import FakeLab
+from mrlab_ros.gateway.settings import Settings
+
+SITE = "https://lab.example.org"
+
+
+@pytest.fixture
+def folder(tmp_path):
+    return make_class(tmp_path / "class")
+
+
+@pytest.fixture
+def gateway(tmp_path, folder):
+    lab, store = FakeLab(installed_definitions()), MemoryStore()
+    FakeConverter(lab, store)
+    with Gateway(tmp_path, lab=lab, store=store, public_url=SITE, classroom=folder) as gateway:
+        yield gateway
+
+
+def test_a_teacher_steps_through_a_class(gateway, folder):
+    teacher = gateway.browser("grace", Role.INSTRUCTOR)
+    assert teacher.get("/api/session").json()["may"]["grades"] is True
+    shown = teacher.get("/api/class").json()
+    assert [(s["key"], s["points"], s["motion"]) for s in shown["submissions"]] == [
+        ("anna", 3, True),
+        ("ben", 0.5, True),
+        ("cleo", 0, False),
+    ]
+    assert shown["reference"]["key"] == "reference"
+    motion = teacher.get("/api/class/ben/motion").json()
+    assert (motion["schema"], motion["title"]) == ("mrlab.motion.1", "Ben")
+    lost, partly, collision = motion["findings"]
+    rate = motion["frame_rate"]
+    assert lost["message"] == "no collision: touches cube_1 at 0.20 s"
+    assert (lost["severity"], lost["first_row"]) == ("error", round(0.2 * rate) + 1)
+    assert (partly["severity"], partly["first_row"]) == ("warning", 0)
+    assert (collision["code"], collision["last_row"]) == ("collision", round(0.3 * rate) + 1)
+    file = teacher.get("/api/class/ben/file")
+    assert json_file.parse(file.content, "ben.json").robot_model == "ur5e"
+    answer = teacher.get("/api/class/cleo/motion")
+    assert code_of(answer) == (404, "not_found")
+    assert "cleo.mat is empty" in answer.json()["error"]["message"]
+    assert code_of(teacher.get("/api/class/dora/motion")) == (404, "not_found")
+    # marked again meanwhile
+    path = folder / "class.json"
+    path.write_text(path.read_text().replace('"Pick and place"', '"Pick again"'))
+    assert teacher.get("/api/class").json()["title"] == "Pick again"
+
+
+def test_names_and_marks_are_the_teachers(gateway):
+    for role in (Role.STUDENT, Role.OPERATOR):
+        browser = gateway.browser(f"who_{role.value}", role)
+        assert browser.get("/api/session").json()["may"]["grades"] is False
+        for path in ("/api/class", "/api/class/anna/motion", "/api/class/anna/file"):
+            assert code_of(browser.get(path)) == (403, "not_allowed")
+
+
+def test_no_path_leads_out_of_the_folder(gateway, folder):
+    teacher = gateway.browser("grace", Role.INSTRUCTOR)
+    path = folder / "class.json"
+    document = json.loads(path.read_text())
+    document["students"][0]["trajectory"] = "../../secret.json"
+    (folder.parent.parent / "secret.json").write_text("{}")
+    path.write_text(json.dumps(document))
+    answer = teacher.get("/api/class/anna/motion")
+    assert "outside" in answer.json()["error"]["message"]
+
+
+def test_what_is_no_class_is_said(gateway, folder, tmp_path):
+    teacher = gateway.browser("grace", Role.INSTRUCTOR)
+    (folder / "class.json").write_text('{"schema": "mrlab.class.9"}')
+    answer = teacher.get("/api/class")
+    assert "mrlab.class.9" in answer.json()["error"]["message"]
+    (folder / "class.json").unlink()
+    assert code_of(teacher.get("/api/class")) == (503, "unavailable")
+    with pytest.raises(BadInput, match=r"there is no class\.json in .* mrlab class"):
+        Settings(state_dir=tmp_path, classroom=folder).check()
+
+
+def test_a_gateway_without_a_class_says_how_to_show_one(local_lab):
+    answer = local_lab.local().get("/api/class")
+    assert "mrlab up --class FOLDER" in answer.json()["error"]["message"]

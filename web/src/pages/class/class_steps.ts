@@ -1,0 +1,111 @@
+import { computed, signal } from '@preact/signals'
+import { type Api, sentence, submissionUrl } from '../../api/api'
+import type { GradedClass, Submission } from '../../api/types'
+import type { MotionDocument } from '../../playback/motion'
+
+export type Order = 'class' | 'points'
+export type ClassApi = Pick<Api, 'gradedClass' | 'motion'>
+
+/** The key of the solution's motion. */
+export const REFERENCE = 'reference'
+/** Motions that are kept: the one shown, those beside it, and the solution. */
+const MOST_KEPT = 6
+
+/** Return the submissions as they are stepped through; equal points keep the order of the class. */
+export function ordered(all: readonly Submission[], order: Order): readonly Submission[] {
+  if (order === 'class') return all
+  const share = ({ points, of }: Submission) => (of > 0 ? points / of : 0)
+  return [...all].sort((a, b) => share(a) - share(b))
+}
+
+/** The submissions of a class, one of which is shown. */
+export class ClassSteps {
+  readonly graded = signal<GradedClass | null>(null)
+  readonly problem = signal('')
+  readonly order = signal<Order>('class')
+  readonly submissions = computed(() =>
+    ordered(this.graded.value?.submissions ?? [], this.order.value),
+  )
+  readonly current = computed(
+    () =>
+      this.submissions.value.find(({ key }) => key === this.key.value) ??
+      this.submissions.value[0] ??
+      null,
+  )
+  /** Its place among all, from 0; -1: there is none. */
+  readonly place = computed(() =>
+    this.submissions.value.findIndex(({ key }) => key === this.current.value?.key),
+  )
+  private readonly key = signal('')
+  private readonly motions = new Map<string, Promise<MotionDocument>>()
+
+  constructor(private readonly api: ClassApi) {}
+
+  async load(): Promise<void> {
+    try {
+      this.graded.value = await this.api.gradedClass()
+      this.problem.value = ''
+    } catch (error) {
+      this.problem.value = sentence(error)
+    }
+  }
+
+  choose(key: string): void {
+    this.key.value = key
+  }
+
+  /** Go to the one that is `by` places on; return its key, empty where there is none. */
+  step(by: number): string {
+    const found = this.submissions.value[this.place.value + by]
+    if (found === undefined) return ''
+    this.key.value = found.key
+    return found.key
+  }
+
+  /** Whether there is one so many places on. */
+  has(by: number): boolean {
+    return this.submissions.value[this.place.value + by] !== undefined
+  }
+
+  /** Return the motion of a submission, or of the solution; rejects with why there is none. */
+  motion(key: string): Promise<MotionDocument> {
+    let motion = this.motions.get(key)
+    if (motion !== undefined) this.motions.delete(key)
+    else {
+      motion = this.api.motion(submissionUrl(key))
+      motion.catch(() => this.motions.delete(key))
+    }
+    this.motions.set(key, motion)
+    for (const old of this.motions.keys()) {
+      if (this.motions.size <= MOST_KEPT) break
+      if (old !== REFERENCE) this.motions.delete(old)
+    }
+    return motion
+  }
+
+  /** Have the motion that comes next here before it is asked for. */
+  prepare(): void {
+    const next = this.submissions.value[this.place.value + 1]
+    if (next?.motion) this.motion(next.key).catch(() => undefined)
+  }
+}
+
+/** Return how many places a key of the keyboard goes on; 0: none, or it is being typed with. */
+export function stepOf({
+  key,
+  ctrlKey,
+  metaKey,
+  altKey,
+  target,
+}: Pick<KeyboardEvent, 'key' | 'ctrlKey' | 'metaKey' | 'altKey' | 'target'>): number {
+  if (ctrlKey || metaKey || altKey) return 0
+  if (target instanceof Element && target.closest('input:not([type=range]), select, textarea'))
+    return 0
+  return key === 'n' ? 1 : key === 'p' ? -1 : 0
+}
+
+/** Return the number of each lost test among the findings of its motion, from 1; kept points: 0. */
+export function numbersOf({ marks }: Submission): number[] {
+  let number = 0
+  return marks.map(({ passed }) => (passed ? 0 : ++number))
+}

@@ -1,0 +1,250 @@
+import { useSignal } from '@preact/signals'
+import { useEffect, useMemo, useRef, useState } from 'preact/hooks'
+import { sentence } from '../../api/api'
+import type { Submission } from '../../api/types'
+import { Button } from '../../design/button'
+import { Segments } from '../../design/field'
+import { Icon } from '../../design/icons'
+import { Notice } from '../../design/notice'
+import type { MotionDocument } from '../../playback/motion'
+import { number, words } from '../../words/words'
+import { MotionView } from '../motion/lazy'
+import { navigate, path } from '../shell/router'
+import { session, useApi } from '../shell/session'
+import { Findings } from '../upload/findings'
+import { ClassSteps, type Order, REFERENCE, stepOf } from './class_steps'
+import './class.css'
+import '../upload/upload.css'
+import { Marks } from './marks'
+import { PlayInLab } from './play_in_lab'
+
+interface Loaded {
+  readonly key: string
+  readonly motion: MotionDocument | null
+  readonly reference: MotionDocument | null
+  readonly error: string
+}
+
+/** Return the key of a submission in an address, such as /class/ben; empty: none. */
+export function keyOfPath(text: string): string {
+  const [, , key = ''] = text.split('/')
+  try {
+    return decodeURIComponent(key)
+  } catch {
+    return ''
+  }
+}
+
+/** Load the motion of a submission and that of the solution; what is on its way is null. */
+function useMotions(steps: ClassSteps, current: Submission | null): Loaded | null {
+  const [loaded, setLoaded] = useState<Loaded | null>(null)
+  const key = current?.key ?? ''
+  const compares = steps.graded.value?.reference?.motion ?? false
+  useEffect(() => {
+    if (current === null || !current.motion) return
+    let here = true
+    const reference = compares ? steps.motion(REFERENCE).catch(() => null) : null
+    Promise.all([steps.motion(key), reference])
+      .then(([motion, other]) => {
+        if (!here) return
+        setLoaded({ key, motion, reference: other, error: '' })
+        steps.prepare()
+      })
+      .catch((problem: unknown) => {
+        if (here) setLoaded({ key, motion: null, reference: null, error: sentence(problem) })
+      })
+    return () => {
+      here = false
+    }
+  }, [steps, key, compares])
+  return loaded?.key === key ? loaded : null
+}
+
+function List({ steps }: { readonly steps: ClassSteps }) {
+  const w = words.value.grades
+  const current = steps.current.value
+  const chosen = useRef<HTMLButtonElement>(null)
+  useEffect(() => chosen.current?.scrollIntoView({ block: 'nearest' }), [current?.key])
+  return (
+    <section class="card stack-8" aria-labelledby="class-all">
+      <h2 id="class-all">{w.all}</h2>
+      <Segments<Order>
+        label={w.order}
+        value={steps.order.value}
+        onChange={(order) => {
+          steps.order.value = order
+        }}
+        options={[
+          ['class', w.orders.class],
+          ['points', w.orders.points],
+        ]}
+      />
+      <ol class="class-list">
+        {steps.submissions.value.map((each) => (
+          <li key={each.key}>
+            <button
+              type="button"
+              class="class-one"
+              ref={each.key === current?.key ? chosen : null}
+              aria-current={each.key === current?.key ? 'true' : undefined}
+              onClick={() => show(steps, each.key)}
+            >
+              <Icon
+                name={!each.motion ? 'error' : each.points >= each.of ? 'complete' : 'motion'}
+              />
+              <span class="grow">{each.name}</span>
+              <span class="class-points">
+                {number(each.points)} / {number(each.of)}
+              </span>
+            </button>
+          </li>
+        ))}
+      </ol>
+    </section>
+  )
+}
+
+function show(steps: ClassSteps, key: string): void {
+  if (key === '') return
+  steps.choose(key)
+  history.replaceState(null, '', `/class/${encodeURIComponent(key)}`)
+}
+
+/** A graded class, one submission after another beside the solution. */
+export function ClassPage() {
+  const api = useApi()
+  const w = words.value.grades
+  const steps = useMemo(() => new ClassSteps(api), [api])
+  const selected = useSignal(0)
+  useEffect(() => {
+    steps.choose(keyOfPath(path.value))
+    void steps.load()
+  }, [steps])
+  useEffect(() => {
+    const press = (event: KeyboardEvent) => show(steps, steps.step(stepOf(event)))
+    addEventListener('keydown', press)
+    return () => removeEventListener('keydown', press)
+  }, [steps])
+  const current = steps.current.value
+  const loaded = useMotions(steps, current)
+  useEffect(() => {
+    selected.value = 0
+  }, [current?.key])
+  if (steps.problem.value)
+    return (
+      <Notice severity="error">
+        <p>{steps.problem.value}</p>
+        <Button onClick={() => void steps.load()}>{words.value.retry}</Button>
+      </Notice>
+    )
+  const { graded } = steps
+  if (graded.value === null) return <p class="second">{words.value.loading}</p>
+  if (current === null)
+    return (
+      <section class="stack">
+        <h1>{graded.value.title}</h1>
+        <p>{w.none}</p>
+        <Button onClick={() => navigate('/')}>{words.value.notFound.back}</Button>
+      </section>
+    )
+  const compared = loaded?.reference ?? null
+  return (
+    <article class="verdict class-page">
+      <header class="verdict-head">
+        <div class="grow stack-8">
+          <p class="second small">{graded.value.title}</p>
+          <h1 class="verdict-message">{current.name}</h1>
+          <p class="row small">
+            <span class="chip chip-plain">
+              {w.points(number(current.points), number(current.of))}
+            </span>
+            <span class="second">
+              {w.place(steps.place.value + 1, steps.submissions.value.length)}
+            </span>
+          </p>
+        </div>
+        <div class="class-steps">
+          <Button
+            icon="back"
+            disabled={!steps.has(-1)}
+            aria-keyshortcuts="p"
+            onClick={() => show(steps, steps.step(-1))}
+          >
+            {w.previous}
+          </Button>
+          <Button
+            look="primary"
+            icon="next"
+            disabled={!steps.has(1)}
+            aria-keyshortcuts="n"
+            onClick={() => show(steps, steps.step(1))}
+          >
+            {w.next}
+          </Button>
+          <p class="second tiny">{w.keys}</p>
+        </div>
+      </header>
+      <div class="verdict-columns">
+        <div class="verdict-side stack">
+          <Marks
+            submission={current}
+            onSelect={(finding) => {
+              // the same one again goes there again
+              selected.value = 0
+              selected.value = finding
+            }}
+          />
+          {loaded?.motion && loaded.motion.findings.length > 0 && (
+            <details class="card">
+              <summary>{words.value.check.findings}</summary>
+              <Findings
+                findings={loaded.motion.findings.map((each) => ({ ...each, where: '' }))}
+                selected={selected.value}
+                onSelect={(finding) => {
+                  selected.value = finding
+                }}
+              />
+            </details>
+          )}
+          {current.motion && session.value?.may.commands && (
+            <PlayInLab key={current.key} submission={current} />
+          )}
+          <List steps={steps} />
+        </div>
+        {!current.motion ? (
+          <div class="motion-view">
+            <Notice severity="warning">
+              <h2>{w.noMotion}</h2>
+              <p>{current.words}</p>
+            </Notice>
+          </div>
+        ) : loaded?.motion ? (
+          <div class="class-motion">
+            <p class="comparison-legend small">
+              <span>
+                <i class="line-solid" /> {w.solid}
+              </span>
+              {compared ? (
+                <span>
+                  <i class="line-dashed" /> {w.dashed}
+                </span>
+              ) : (
+                <span class="second">{w.noReference}</span>
+              )}
+            </p>
+            <MotionView
+              key={current.key}
+              motion={loaded.motion}
+              compared={compared}
+              selected={selected}
+            />
+          </div>
+        ) : (
+          <div class="motion-view motion-waiting second">
+            {loaded?.error || words.value.loading}
+          </div>
+        )}
+      </div>
+    </article>
+  )
+}

@@ -1,0 +1,84 @@
+import { useEffect, useMemo, useState } from 'preact/hooks'
+import { sentence } from '../../api/api'
+import type { Submission } from '../../api/types'
+import { Button, ButtonLink } from '../../design/button'
+import { useLink } from '../../link/use_link'
+import { loadTrajectoryType, type Robot, robotsType } from '../../protocol/mrlab_msgs'
+import { words } from '../../words/words'
+import { LabCatalogue } from '../lab/catalogue'
+import { ask } from '../lab/commands'
+import { useApi } from '../shell/session'
+
+/** Return the name under which a submission's motion is published, for its teacher alone. */
+export function publishedName(key: string): string {
+  const plain = key.toLowerCase().replace(/[^a-z0-9]+/g, '_')
+  return `class_${plain.replace(/^_+|_+$/g, '')}`.slice(0, 60)
+}
+
+/** Load a submission on a robot of the lab, by the services that every upload takes. */
+export function PlayInLab({ submission }: { readonly submission: Submission }) {
+  const [open, setOpen] = useState(false)
+  return open ? (
+    <Chooser submission={submission} />
+  ) : (
+    <Button icon="play" onClick={() => setOpen(true)}>
+      {words.value.grades.play}
+    </Button>
+  )
+}
+
+function Chooser({ submission }: { readonly submission: Submission }) {
+  const api = useApi()
+  const link = useLink().value
+  const catalogue = useMemo(() => new LabCatalogue(api), [api])
+  const [robots, setRobots] = useState<readonly Robot[] | null>(null)
+  const [busy, setBusy] = useState(false)
+  const [loaded, setLoaded] = useState('')
+  const [error, setError] = useState('')
+  const w = words.value.grades
+  const { key, robot: model, tool } = submission
+  useEffect(
+    () => link?.subscribe('robots', robotsType, (message) => setRobots(message.robots)),
+    [link],
+  )
+  const load = async (robot: string) => {
+    if (link === null) return
+    setBusy(true)
+    setError('')
+    try {
+      const id = await catalogue.take(await api.classFile(key), model, publishedName(key), tool)
+      const refusal = await ask(link, `${robot}/load`, loadTrajectoryType, { id })
+      if (refusal === '') setLoaded(robot)
+      else setError(refusal)
+    } catch (problem) {
+      setError(sentence(problem))
+    } finally {
+      setBusy(false)
+    }
+  }
+  const fit = (robots ?? []).filter((robot) => robot.model === model)
+  return (
+    <fieldset class="stack-8">
+      <legend class="spoken">{w.play}</legend>
+      {robots === null && <p class="second small">{words.value.loading}</p>}
+      {robots !== null && fit.length === 0 && <p class="small">{w.noRobot(model)}</p>}
+      {fit.length > 0 && (
+        <div class="row">
+          <span class="small">{w.onRobot}</span>
+          {fit.map(({ name }) => (
+            <Button key={name} icon="robot" disabled={busy} onClick={() => void load(name)}>
+              {name}
+            </Button>
+          ))}
+        </div>
+      )}
+      {loaded && (
+        <p class="row small" role="status">
+          {w.loaded(loaded)}
+          <ButtonLink href="/lab">{w.toLab}</ButtonLink>
+        </p>
+      )}
+      {error && <p class="field-error">{error}</p>}
+    </fieldset>
+  )
+}

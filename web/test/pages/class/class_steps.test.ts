@@ -1,0 +1,116 @@
+// @vitest-environment jsdom
+import { expect, test, vi } from 'vitest'
+import type { GradedClass, Submission } from '../../../src/api/types'
+import {
+  ClassSteps,
+  numbersOf,
+  ordered,
+  REFERENCE,
+  stepOf,
+} from '../../../src/pages/class/class_steps'
+import { keyOfPath } from '../../../src/pages/class/page'
+import { publishedName } from '../../../src/pages/class/play_in_lab'
+import { fakeMotion } from '../../fake_motion'
+
+function submission(key: string, points: number, more: Partial<Submission> = {}): Submission {
+  const lost = { points: 0, of: 1, words: '', hint: '', hidden: false, time: null }
+  return {
+    key,
+    name: key,
+    points,
+    of: 3,
+    words: '',
+    duration: 1,
+    robot: 'ur5e',
+    tool: '',
+    motion: true,
+    marks: [
+      { ...lost, name: 'a', passed: false },
+      { ...lost, name: 'b', passed: true, points: 1 },
+      { ...lost, name: 'c', passed: false },
+    ],
+    ...more,
+  }
+}
+
+const CLASS: GradedClass = {
+  title: 'Pick and place',
+  robot: 'ur5e',
+  submissions: [
+    submission('anna', 3),
+    submission('ben', 1),
+    submission('cleo', 0),
+    submission('dan', 1),
+  ],
+  reference: submission(REFERENCE, 3),
+}
+
+function stepsOf(graded: GradedClass) {
+  const motion = vi.fn(async (_url: string) => fakeMotion({ verdict: 'accepted', message: '' }))
+  const steps = new ClassSteps({ gradedClass: async () => graded, motion })
+  return { steps, motion }
+}
+
+test('a class is stepped through from its first to its last, and no further', async () => {
+  const { steps } = stepsOf(CLASS)
+  expect(steps.step(1)).toBe('')
+  await steps.load()
+  expect(steps.current.value?.key).toBe('anna')
+  expect(steps.step(-1)).toBe('')
+  expect([1, 1, 1, 1].map((by) => steps.step(by))).toEqual(['ben', 'cleo', 'dan', ''])
+  expect(steps.current.value?.key).toBe('dan')
+  expect([steps.place.value, steps.has(1), steps.has(-1)]).toEqual([3, false, true])
+})
+
+test('another order keeps who is shown', async () => {
+  const { steps } = stepsOf(CLASS)
+  await steps.load()
+  steps.choose('ben')
+  steps.order.value = 'points'
+  expect(steps.submissions.value.map(({ key }) => key)).toEqual(['cleo', 'ben', 'dan', 'anna'])
+  expect(steps.current.value?.key).toBe('ben')
+  expect(steps.step(1)).toBe('dan')
+  expect(ordered(CLASS.submissions, 'class')).toBe(CLASS.submissions)
+})
+
+test('who is not in the class any more leaves the first', async () => {
+  const { steps } = stepsOf(CLASS)
+  await steps.load()
+  steps.choose('nobody')
+  expect(steps.current.value?.key).toBe('anna')
+})
+
+test('the next motion is fetched ahead, the solution once, and few are kept', async () => {
+  const { steps, motion } = stepsOf(CLASS)
+  await steps.load()
+  await steps.motion(REFERENCE)
+  steps.prepare()
+  expect(motion).toHaveBeenLastCalledWith('/api/class/ben/motion')
+  for (let i = 0; i < 9; i++) await steps.motion(`s${i}`)
+  await steps.motion(REFERENCE)
+  expect(motion).toHaveBeenCalledTimes(11)
+  await steps.motion('ben')
+  expect(motion).toHaveBeenCalledTimes(12)
+})
+
+test('n and p step where nobody types', () => {
+  const at = (tag: string) => document.createElement(tag)
+  const none = { ctrlKey: false, metaKey: false, altKey: false }
+  expect(stepOf({ ...none, key: 'n', target: at('button') })).toBe(1)
+  expect(stepOf({ ...none, key: 'p', target: null })).toBe(-1)
+  expect(stepOf({ ...none, key: 'x', target: null })).toBe(0)
+  expect(stepOf({ ...none, key: 'n', target: at('textarea') })).toBe(0)
+  expect(stepOf({ ...none, key: 'n', ctrlKey: true, target: null })).toBe(0)
+  expect(stepOf({ ...none, key: 'n', target: at('input') })).toBe(0)
+})
+
+test('lost tests are the first findings of a motion, in their order', () => {
+  expect(numbersOf(submission('anna', 1))).toEqual([1, 0, 2])
+})
+
+test('keys are in addresses and names of trajectories', () => {
+  expect(keyOfPath('/class/m%C3%BCller%20b')).toBe('müller b')
+  expect(keyOfPath('/class')).toBe('')
+  expect(keyOfPath('/class/%')).toBe('')
+  expect(publishedName('Müller_12345 (b)')).toBe('class_m_ller_12345_b')
+})
