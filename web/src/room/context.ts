@@ -1,5 +1,6 @@
 import type { Object3D, PerspectiveCamera, Vector3 } from 'three'
 import { type Link, LinkError, type ServiceType } from '../link/link'
+import type { CheckApi } from '../pages/lab/robot_check'
 import type { TrajectoryInfo } from '../protocol/mrlab_msgs'
 import type { Words } from '../words/en'
 import type { Drawings } from './drawings/drawings'
@@ -31,6 +32,9 @@ export interface RoomContext extends Surroundings {
   readonly bases: Iterable<Place>
   readonly leftHanded: boolean
   readonly drawings: Drawings
+  readonly checks: CheckApi
+  /** Whether the person plays robots, and may have motions checked. */
+  readonly commands: boolean
   /** Return the object nearest to a robot's fingers; empty: none is near. */
   objectAt(robot: string): string
   /** Return the robot whose fingers are at a place of the scene; empty: none is. */

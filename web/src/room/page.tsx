@@ -1,16 +1,20 @@
 import { useSignal } from '@preact/signals'
 import { useEffect, useRef } from 'preact/hooks'
-import { trajectoryUrl } from '../api/api'
+import { type Api, submissionUrl, trajectoryUrl } from '../api/api'
 import { useLink } from '../link/use_link'
 import './room.css'
 import type { Session } from '../api/types'
 import { Button } from '../design/button'
 import { Notice } from '../design/notice'
 import type { Link } from '../link/link'
+import { ClassSteps } from '../pages/class/class_steps'
+import { publishedName } from '../pages/class/published_name'
+import { LabCatalogue } from '../pages/lab/catalogue'
 import { checkSignIn, session, useApi } from '../pages/shell/session'
 import { courseOf } from '../playback/course'
 import { language, words } from '../words/words'
 import type { Entry } from './context'
+import { type Lesson, SUBMISSION } from './panels/lesson'
 import type { Person } from './people/people_tab'
 import type { Room } from './room'
 import { type Ability, abilityOf } from './session/features'
@@ -83,7 +87,10 @@ function RoomView({ link }: { link: Link }) {
           words: words.value,
           ...parts,
           person: personOf(session.value),
-          courseOf: async (id) => courseOf(await api.motion(trajectoryUrl(id, 'motion'))),
+          courseOf: async (id) => courseOf(await api.motion(motionUrl(id))),
+          checks: api,
+          commands: session.value?.may.commands ?? false,
+          lesson: session.value?.may.grades ? lessonOf(api) : null,
         })
         room.value = made
         // for tests and the curious
@@ -187,6 +194,24 @@ function RoomView({ link }: { link: Link }) {
       </div>
     </section>
   )
+}
+
+/** Return where the frames of a trajectory are, or of a submission such as class:ben. */
+function motionUrl(id: string): string {
+  return id.startsWith(SUBMISSION)
+    ? submissionUrl(id.slice(SUBMISSION.length))
+    : trajectoryUrl(id, 'motion')
+}
+
+/** Return the class of the gateway, for its teacher. */
+function lessonOf(api: Api): Lesson {
+  const steps = new ClassSteps(api)
+  const catalogue = new LabCatalogue(api)
+  return {
+    steps,
+    publish: async ({ key, robot, tool }) =>
+      catalogue.take(await api.classFile(key), robot, publishedName(key), tool),
+  }
 }
 
 /** The room, or in `--mode fake` one with made-up robots. */

@@ -3,6 +3,7 @@ import { Quaternion, Vector3 } from 'three'
 import type { Link } from '../link/link'
 import type { LabFollower } from '../pages/lab/follow'
 import type { CourseOf } from '../pages/lab/followed_robot'
+import type { CheckApi } from '../pages/lab/robot_check'
 import { type TrajectoryInfo, trajectoryCatalogueType } from '../protocol/mrlab_msgs'
 import { LabScene } from '../scene/lab_scene'
 import { MeshLibrary } from '../scene/meshes'
@@ -27,6 +28,7 @@ import { Overlays } from './overlays'
 import { Board } from './panels/board'
 import { BoardPlace } from './panels/board_place'
 import { boardTabs } from './panels/board_tabs'
+import type { Lesson } from './panels/lesson'
 import { RobotPanels } from './panels/robot_panels'
 import { pauseNews } from './people/pausing'
 import { People } from './people/people'
@@ -54,6 +56,11 @@ export interface RoomParts {
   /** Who is signed in here. */
   readonly person: Person
   readonly courseOf: CourseOf
+  readonly checks: CheckApi
+  /** Whether the person plays robots. */
+  readonly commands: boolean
+  /** The class that a teacher steps through; null: there is none, or the person is no teacher. */
+  readonly lesson: Lesson | null
 }
 
 /** The lab in a person's room: wires what the folders beside it do, once a frame. */
@@ -160,7 +167,7 @@ export class Room {
       }),
     )
     this.guide = new Guide(context, this, targets)
-    this.board.tabs = boardTabs(context, this, parts.person)
+    this.board.tabs = boardTabs(context, this, parts.person, parts.lesson)
     this.undo = [
       pauseNews(link, (who, names) => context.say(words.room.pausedBy(who, names.join(', ')))),
       applySettings(this.settings, this.visit, () => this.repaint()),

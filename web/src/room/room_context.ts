@@ -10,12 +10,14 @@ const tip = new Vector3()
 
 /** Return what the parts of a room share; what changes is read from the room. */
 export function contextOf(room: Room, parts: RoomParts, feedback: Feedback): RoomContext {
-  const { link, words, robots, endEffectors } = parts
+  const { link, words, robots, endEffectors, checks, commands } = parts
   return {
     link,
     words,
     robots,
     endEffectors,
+    checks,
+    commands,
     feedback,
     stir: () => room.stage.invalidate(),
     world: room.stage.world,

@@ -99,7 +99,10 @@ export function stepOf({
   target,
 }: Pick<KeyboardEvent, 'key' | 'ctrlKey' | 'metaKey' | 'altKey' | 'target'>): number {
   if (ctrlKey || metaKey || altKey) return 0
-  if (target instanceof Element && target.closest('input:not([type=range]), select, textarea'))
+  if (
+    target instanceof Element &&
+    target.closest('input:not([type=range], [type=radio], [type=checkbox]), select, textarea')
+  )
     return 0
   return key === 'n' ? 1 : key === 'p' ? -1 : 0
 }

@@ -8,12 +8,7 @@ import { words } from '../../words/words'
 import { LabCatalogue } from '../lab/catalogue'
 import { ask } from '../lab/commands'
 import { useApi } from '../shell/session'
-
-/** Return the name under which a submission's motion is published, for its teacher alone. */
-export function publishedName(key: string): string {
-  const plain = key.toLowerCase().replace(/[^a-z0-9]+/g, '_')
-  return `class_${plain.replace(/^_+|_+$/g, '')}`.slice(0, 60)
-}
+import { publishedName } from './published_name'
 
 /** Load a submission on a robot of the lab, by the services that every upload takes. */
 export function PlayInLab({ submission }: { readonly submission: Submission }) {

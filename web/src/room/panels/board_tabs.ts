@@ -7,12 +7,19 @@ import { settingsTab } from '../settings/settings_tab'
 import { systemsTab } from '../systems/systems_tab'
 import type { Tab } from './board'
 import { objectsTab, robotsTab } from './catalogue_tabs'
+import { classTab } from './class_tab'
 import { labTab } from './lab_tab'
+import type { Lesson } from './lesson'
 
 const OBJECT_AWAY = 0.8 // m
 
-/** Return the tabs of the board of a room. own: who is signed in. */
-export function boardTabs(context: RoomContext, room: Room, own: Person): readonly Tab[] {
+/** Return the tabs of the board of a room. own: who is signed in. lesson: null: no class. */
+export function boardTabs(
+  context: RoomContext,
+  room: Room,
+  own: Person,
+  lesson: Lesson | null,
+): readonly Tab[] {
   const { spawning, creation, follower, settings, stage, visit, touching } = room
   const lines = () => {
     const standing = {
@@ -35,6 +42,7 @@ export function boardTabs(context: RoomContext, room: Room, own: Person): readon
     systemsTab(context, creation, follower),
     peopleTab(context, room.people, follower, own),
     labTab(context, follower, room.stats),
+    ...(lesson === null ? [] : [classTab(context, follower, lesson)]),
     roomTab(context, {
       lines,
       get grid() {

@@ -10,9 +10,11 @@ import {
 } from '../../protocol/mrlab_msgs'
 import { triggerType } from '../../protocol/std_srvs'
 import { order, type RoomContext } from '../context'
+import { CHECK_WIDTH } from './check_view'
 import { type ControlActions, drawButtons, drawStatus } from './control_view'
 import { type Choice, PagedList } from './paged_list'
 import { Panel } from './panel'
+import { PanelCheck } from './panel_check'
 import { HIT, PANEL_THEME, type Pen, TEXT } from './pen'
 import { comparable, drawShow } from './show_view'
 import { type Mark, Timeline, type Track } from './timeline'
@@ -25,7 +27,7 @@ const TRACK: Track = { x: EDGE, y: 200, width: WIDTH - 2 * EDGE, height: HIT }
 const COMPARE_PERIOD = 0.5
 const NOTICE_S = 8
 
-type View = 'control' | 'motions' | 'end_effectors' | 'show' | 'compare'
+type View = 'control' | 'motions' | 'end_effectors' | 'show' | 'compare' | 'check'
 
 /** The panel at a robot: its motions, play, timeline, rate, end effector, and why it halted. */
 export class ControlPanel {
@@ -41,6 +43,7 @@ export class ControlPanel {
   private robot: RobotView
   private readonly list = new PagedList()
   private readonly timeline: Timeline
+  private readonly check: PanelCheck
   private readonly actions: ControlActions = {
     trigger: (verb) => this.trigger(verb),
     changeRate: (step) => this.changeRate(step),
@@ -61,6 +64,8 @@ export class ControlPanel {
     const rowAt = (position: number) => this.rowAt(position)
     const stir = () => context.stir()
     this.timeline = new Timeline(this.panel.group, WIDTH, HEIGHT, TRACK, rowAt, stir)
+    this.check = new PanelCheck(context, this.name, () => this.panel.repaint(), this.say)
+    this.check.follow(robot)
   }
 
   get name(): string {
@@ -87,6 +92,7 @@ export class ControlPanel {
     if (robot.playback?.trajectory_id !== before.playback?.trajectory_id) {
       this.collisions.length = 0
     }
+    this.check.follow(robot)
     if (halted || !looksAlike(robot, before)) this.panel.repaint()
   }
 
@@ -108,6 +114,7 @@ export class ControlPanel {
   }
 
   dispose(): void {
+    this.check.dispose()
     this.panel.dispose()
     this.timeline.dispose()
   }
@@ -146,12 +153,16 @@ export class ControlPanel {
     else if (this.view === 'end_effectors') this.drawEndEffectors(pen)
     else if (this.view === 'show') this.drawShow(pen)
     else if (this.view === 'compare') this.drawCompare(pen)
-    else this.drawControl(pen)
+    else if (this.view === 'check') {
+      this.check.drawFindings(pen, EDGE, this.list, this.robot.player, () => this.open('control'))
+    } else this.drawControl(pen)
   }
 
   private drawControl(pen: Pen): void {
     const { context, robot, notice, loaded, telemetry } = this
-    const shown = { notice, loaded, telemetry }
+    const checked = loaded && robot.state !== 'COLLISION_HALT'
+    const shown = { notice, loaded, telemetry, beside: checked ? CHECK_WIDTH + 16 : 0 }
+    if (checked) this.check.drawVerdict(pen, WIDTH - EDGE, () => this.open('check'))
     drawStatus(pen, EDGE, context, robot, shown)
     if (loaded) this.timeline.draw(pen, robot.player, this.marks())
     drawButtons(pen, EDGE, context, robot, shown, this.actions)
@@ -201,6 +212,7 @@ export class ControlPanel {
         words: close ? w.grasps : w.releases,
       })),
       ...this.collisions.map((time) => ({ time, colour: states.COLLISION_HALT, words: '' })),
+      ...this.check.marks(this.robot.playback?.duration ?? 0),
     ]
   }
 

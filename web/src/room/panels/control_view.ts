@@ -22,6 +22,8 @@ export interface ControlShown {
   readonly notice: string
   readonly loaded: boolean
   readonly telemetry: boolean
+  /** mm that stand beside what is said, at the right. */
+  readonly beside: number
 }
 
 /** Draw what a robot does, and why it halted: what stands between its name and its timeline. */
@@ -30,13 +32,14 @@ export function drawStatus(
   edge: number,
   { words }: RoomContext,
   { robot, playback, state, touching, holding }: RobotView,
-  { notice, loaded }: ControlShown,
+  { notice, loaded, beside }: ControlShown,
 ): void {
   const w = words.room
   const motion = playback?.trajectory_id ?? ''
   const hand = robot.end_effector === '' ? '' : ` + ${robot.end_effector}`
   const parts = [`${robot.model}${hand}`, motion || w.noMotion]
   pen.text(edge, 82, parts.join(' · '), TEXT.small, undefined, 'second')
+  const width = pen.width - 2 * edge - beside
   if (state === 'COLLISION_HALT') {
     pen.box(edge, 100, pen.width - 2 * edge, 84, PANEL_THEME.states.COLLISION_HALT)
     const ink = PANEL_THEME.colours.on_halt
@@ -44,11 +47,11 @@ export function drawStatus(
     const next = touching ? w.moveClear : w.playOn
     pen.text(edge + 16, 159, next, TEXT.small, 550, ink, 600)
   } else if (notice !== '') {
-    pen.lines(edge, 122, notice, TEXT.small, undefined, PANEL_THEME.states.PAUSED, 3)
+    pen.lines(edge, 122, notice, TEXT.small, width, PANEL_THEME.states.PAUSED, 3)
   } else if (playback?.message) {
-    pen.lines(edge, 122, playback.message, TEXT.small, undefined, 'second', 3)
+    pen.lines(edge, 122, playback.message, TEXT.small, width, 'second', 3)
   } else if (holding) {
-    pen.text(edge, 122, words.lab.holds(holding), TEXT.small)
+    pen.text(edge, 122, words.lab.holds(holding), TEXT.small, width)
   }
   if (!loaded) pen.text(edge, 238, w.chooseMotion, TEXT.body)
 }

@@ -9,7 +9,7 @@ import {
   stepOf,
 } from '../../../src/pages/class/class_steps'
 import { keyOfPath } from '../../../src/pages/class/page'
-import { publishedName } from '../../../src/pages/class/play_in_lab'
+import { publishedName } from '../../../src/pages/class/published_name'
 import { fakeMotion } from '../../fake_motion'
 
 function submission(key: string, points: number, more: Partial<Submission> = {}): Submission {

@@ -1,0 +1,124 @@
+import { effect } from '@preact/signals'
+import type { Submission } from '../../api/types'
+import type { LabFollower } from '../../pages/lab/follow'
+import { loadTrajectoryType } from '../../protocol/mrlab_msgs'
+import { number } from '../../words/words'
+import { order, type RoomContext } from '../context'
+import { BOARD_WIDTH, BOTTOM, EDGE, type Tab, TOP } from './board'
+import { type Lesson, SUBMISSION } from './lesson'
+import { GAP, HIT, PANEL_THEME, type Pen, TEXT } from './pen'
+
+const MOST_MARKS = 6
+const MOST_ROBOTS = 3
+const STEP = 190
+const ROW = 34
+const POINTS = 400
+const WORDS = 420
+
+/** Stepping through a class: each submission is a ghost beside the solution, at a robot that plays
+ * the solution. */
+export function classTab(context: RoomContext, follower: LabFollower, lesson: Lesson): Tab {
+  const { steps } = lesson
+  const w = context.words.grades
+  let asked = false
+  /** The robot at which the class is; empty: none is chosen. */
+  let at = ''
+  const show = () => {
+    const current = steps.current.value
+    if (at === '' || current === null) return
+    context.drawings.compare(at, current.motion ? `${SUBMISSION}${current.key}` : '')
+  }
+  const step = (by: number) => () => {
+    if (steps.step(by) !== '') show()
+  }
+  const begin = (robot: string, solution: Submission | null) => async () => {
+    at = robot
+    show()
+    if (solution === null || !solution.motion) {
+      context.say(w.noReference)
+      return
+    }
+    try {
+      const id = await lesson.publish(solution)
+      await order(context, `${robot}/load`, loadTrajectoryType, { id })
+    } catch (error) {
+      context.say(error instanceof Error ? error.message : String(error))
+    }
+  }
+  const leave = () => {
+    context.drawings.compare(at, '')
+    at = ''
+  }
+
+  function drawRobots(pen: Pen, y: number, model: string): void {
+    const fit = follower.robots.value.filter(({ robot }) => robot.model === model)
+    if (fit.length === 0) pen.lines(EDGE, y - 40, w.noRobot(model), TEXT.body)
+    else pen.text(EDGE, y - 30, w.choose, TEXT.body)
+    const width = (BOARD_WIDTH - 2 * EDGE - (MOST_ROBOTS - 1) * GAP) / MOST_ROBOTS
+    const solution = steps.graded.value?.reference ?? null
+    fit.slice(0, MOST_ROBOTS).forEach(({ robot: { name } }, i) => {
+      const x = EDGE + i * (width + GAP)
+      pen.button(`class ${name}`, x, y, width, name, begin(name, solution), { primary: i === 0 })
+    })
+  }
+
+  function drawMarks(pen: Pen, y: number, { marks, motion, words }: Submission): void {
+    const missed = PANEL_THEME.states.PAUSED
+    if (!motion) pen.lines(EDGE, y, words, TEXT.small, undefined, missed, 2)
+    const top = motion ? y : y + 2 * ROW
+    // what was lost comes first where not all fit
+    const lost = marks.filter(({ passed }) => !passed)
+    const shown = [...lost, ...marks.filter(({ passed }) => passed)].slice(0, MOST_MARKS)
+    shown.forEach((mark, i) => {
+      const row = top + i * ROW
+      const ink = mark.passed ? 'second' : missed
+      const sign = mark.passed ? '✓' : mark.points > 0 ? '△' : '✕'
+      const points = `${number(mark.points)} / ${number(mark.of)}`
+      pen.text(EDGE, row, `${sign} ${mark.name}`, TEXT.small, POINTS - 100, ink, 600)
+      pen.text(EDGE + POINTS, row, points, TEXT.small, 90, ink, 600, 'right')
+      const width = BOARD_WIDTH - 2 * EDGE - WORDS
+      pen.text(EDGE + WORDS, row, mark.words, TEXT.small, width, 'second')
+    })
+  }
+
+  function read(): void {
+    asked = true
+    void steps.load()
+    effect(() => {
+      if (steps.graded.value !== null || steps.problem.value !== '') context.repaintBoard()
+    })
+  }
+
+  return {
+    id: 'class',
+    words: context.words.nav.grades,
+    draw: (pen) => {
+      if (!asked) read()
+      const graded = steps.graded.value
+      const current = steps.current.value
+      if (graded === null || current === null) {
+        const text = steps.problem.value || (graded === null ? context.words.loading : w.none)
+        pen.lines(EDGE, TOP + 6, text, TEXT.body, undefined, 'second', 3)
+        return
+      }
+      const { name, points, of } = current
+      const right = BOARD_WIDTH - EDGE
+      pen.text(EDGE, TOP + 6, name, TEXT.head, right - EDGE - 300, 'ink', 700)
+      const total = w.points(number(points), number(of))
+      pen.text(right, TOP + 6, total, TEXT.body, 280, 'ink', 600, 'right')
+      drawMarks(pen, TOP + 52, current)
+      const y = BOTTOM - HIT
+      if (at === '') {
+        drawRobots(pen, y, graded.robot)
+        return
+      }
+      const [before, after] = [steps.has(-1), steps.has(1)]
+      pen.button('class_previous', EDGE, y, STEP, w.previous, step(-1), { enabled: before })
+      const next = { primary: true, enabled: after }
+      pen.button('class_next', EDGE + STEP + GAP, y, STEP, w.next, step(1), next)
+      const place = w.place(steps.place.value + 1, steps.submissions.value.length)
+      pen.text(EDGE + 2 * (STEP + GAP) + 10, y + HIT / 2, place, TEXT.small, 160, 'second')
+      pen.button('class_leave', right - 260, y, 260, w.leave, leave, { small: true })
+    },
+  }
+}
