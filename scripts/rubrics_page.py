@@ -11,7 +11,6 @@ def measures() -> str:
     for family, forms in FAMILIES.items():
         lines.append(f"| **{family.capitalize()}** | | |")
         for form in forms:
-            partial = ["`each`"] if form.each else []
-            partial += [f"`until {form.until.example}`"] if form.until else []
-            lines.append(f"| `{form.text}` | {form.about} | {', '.join(partial)} |")
+            rules = ", ".join(f"`{rule}`" for rule in form.rules)
+            lines.append(f"| `{form.text}` | {form.about} | {rules} |")
     return "\n".join(lines)

@@ -19,13 +19,15 @@ from mrlab_ros.core.checking.hardware import JUMPS
 from mrlab_ros.core.checking.motion import CheckedRobot
 from mrlab_ros.core.checking.rehearsal import Actor
 from mrlab_ros.core.checking.report import digest
-from mrlab_ros.core.conversion.convert import ConversionResult
+from mrlab_ros.core.conversion.convert import ConversionResult, Outcome
 from mrlab_ros.core.conversion.options import Options
-from mrlab_ros.core.errors import Misuse
+from mrlab_ros.core.diagnostics import Diagnostic, Severity
+from mrlab_ros.core.errors import BadInput, Misuse
 from mrlab_ros.core.geometry import Pose, Vector
 from mrlab_ros.core.rubrics.checked import Checked, Motion
 from mrlab_ros.core.scene.document import RobotEntry, SceneDocument
 from mrlab_ros.core.systems.cell_file import plain_system
+from mrlab_ros.core.trajectory.trajectory import Trajectory
 
 Convert = Callable[[Path, str, str, Options, RobotLibrary], ConversionResult]
 
@@ -84,10 +86,12 @@ def check_file(file: Path, setting: Setting) -> CheckedFile:
         return _cell(file, setting)
     stage, scene = setting.stage, setting.scene
     entry = entry_of(setting)
-    result = setting.convert(file, entry.model, entry.end_effector, setting.options, stage.library)
+    result = _converted(file, entry, setting)
     t = result.trajectory
     if t is not None:
         entry = entry_of(setting, t.robot_model, t.end_effector or "")
+        if t.robot_model != entry.model:
+            result, t = _of_another_robot(t, file.name, entry.model), None
     robots = tuple(
         stage.robot(e.name, e.model, e.end_effector, e.pose)
         for e in (entry, *(r for r in scene.robots if r.name != entry.name))
@@ -122,6 +126,29 @@ def check_file(file: Path, setting: Setting) -> CheckedFile:
         played.objects,
     )  # fmt: skip
     return CheckedFile(checked, robots, played, result)
+
+
+def _converted(file: Path, entry: RobotEntry, setting: Setting) -> ConversionResult:
+    """Return what became of a file; a trajectory file that is damaged is refused as others are."""
+    try:
+        return setting.convert(
+            file, entry.model, entry.end_effector, setting.options, setting.stage.library
+        )
+    except BadInput as error:
+        if file.suffix.lower() != ".json" or not file.is_file():
+            raise
+        return _refused(file.name, Diagnostic("unreadable", Severity.ERROR, f"{error}."))
+
+
+def _of_another_robot(t: Trajectory, file: str, model: str) -> ConversionResult:
+    """Return the refusal of a trajectory file that is for another robot than is checked."""
+    message = f"'{file}' is a motion of {t.robot_model}; expected one of {model}."
+    remedy = f"Convert the workspace again: mrlab convert FILE --robot {model}."
+    return _refused(file, Diagnostic("joint_names", Severity.ERROR, message, remedy))
+
+
+def _refused(file: str, why: Diagnostic) -> ConversionResult:
+    return ConversionResult(file, Outcome.REJECTED, None, (), (why,))
 
 
 def _cell(file: Path, setting: Setting) -> CheckedFile:

@@ -76,17 +76,24 @@ def mark(
 
 
 @app.command()
-def example() -> None:
+def example(
+    as_json: Annotated[bool, typer.Option("--json", help="Print what it holds as JSON.")] = False,
+) -> None:
     """Print a rubric with comments, to begin with: mrlab rubric example > rubric.yaml."""
     from mrlab_ros.commands.rubric import run
 
     with _said():
-        print(run.example(), end="")
+        print(run.example(as_json=as_json), end="\n" if as_json else "")
 
 
 @app.command()
-def measures() -> None:
+def measures(
+    as_json: Annotated[bool, typer.Option("--json", help="Print them as JSON.")] = False,
+) -> None:
     """List everything that `expect` may say."""
-    from mrlab_ros.commands.rubric import words
+    from mrlab_ros.commands.rubric import run, words
 
-    words.measures()
+    if as_json:
+        print(run.measures())
+    else:
+        words.measures()

@@ -20,6 +20,8 @@ from mrlab_ros.commands.rubric.marked import (
 from mrlab_ros.core.conversion.options import Options
 from mrlab_ros.core.diagnostics import Severity
 from mrlab_ros.core.errors import BadInput
+from mrlab_ros.core.rubrics import document
+from mrlab_ros.core.rubrics.forms import FAMILIES
 from mrlab_ros.core.rubrics.lint import Flaw, flaws_of, flaws_of_reference
 from mrlab_ros.core.rubrics.marking import mark as marks_of
 from mrlab_ros.ros import share
@@ -45,13 +47,13 @@ def lint(path: Path, options: Options, *, as_json: bool) -> int:
             flaws += flaws_of_reference(rubric, marks)
     if as_json:
         found = [{**vars(f), "severity": f.severity.name.lower()} for f in flaws]
-        document = {
+        said = {
             "rubric": rubric.name,
             "points": rubric.points,
             "flaws": found,
             "reference": marks.plain() if marks else None,
         }
-        print(json.dumps(document))
+        print(json.dumps(said))
     else:
         words.flaws(rubric, flaws, marks)
     return LOST if any(f.severity is Severity.ERROR for f in flaws) else FULL
@@ -68,14 +70,14 @@ def mark(
     found, marks = mark_file(file, rubric, setting, reference)
     shown = marks.public() if public else marks
     if as_json:
-        document = {
+        said = {
             "schema": SCHEMA,
             "file": file.name,
             "rubric": rubric.name,
             **shown.plain(),
             "check": found.checked.document["hash"],
         }
-        print(json.dumps(document))
+        print(json.dumps(said))
     else:
         words.marks(file, rubric, shown, found.checked)
     if out is not None and found.played is not None:
@@ -87,9 +89,29 @@ def mark(
     return LOST if marks.lost else FULL
 
 
-def example() -> str:
-    """Return the text of the example; raise BadInput where it is not installed."""
+def measures() -> str:
+    """Return all forms of `expect` as JSON."""
+    return json.dumps(
+        [
+            {
+                "family": family,
+                "expect": form.text,
+                "about": form.about,
+                "partial": form.rules,
+                "poses": form.poses,
+            }
+            for family, forms in FAMILIES.items()
+            for form in forms
+        ]
+    )
+
+
+def example(*, as_json: bool = False) -> str:
+    """Return the text of the example, or what it holds as JSON; raise BadInput where it is not
+    installed."""
     path = share.directory() / "examples" / "rubrics" / "pick_and_place.yaml"
+    if as_json:
+        return json.dumps(document.plain(files.read(path)))
     try:
         return path.read_text(encoding="utf-8")
     except OSError as error:

@@ -94,8 +94,6 @@ def measures() -> None:
         table.add_column(min_width=38, overflow="fold")
         table.add_column()
         for form in forms:
-            partial = ["each"] if form.each else []
-            partial += [f"until {form.until.example}"] if form.until else []
-            rule = f" Partial: {', '.join(partial)}." if partial else ""
+            rule = f" Partial: {', '.join(form.rules)}." if form.rules else ""
             table.add_row(escape(form.text), escape(f"{form.about}{rule}"))
         console.print(table)

@@ -130,8 +130,7 @@ def _partial(form: Form, rule: str) -> tuple[bool, float | None]:
     word, _, value = rule.partition(" ")
     if word == "until" and form.until is not None:
         return False, form.until.read(value)
-    rules = ["'each'"] if form.each else []
-    rules += [f"'until {form.until.example}'"] if form.until else []
+    rules = [f"'{known}'" for known in form.rules]
     raise BadInput(
         f"partial is '{rule}'; '{form.text}' knows {' and '.join(rules) or 'no partial points'}"
         f"{'' if rules else '; leave it out'}"

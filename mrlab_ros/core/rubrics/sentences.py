@@ -79,6 +79,12 @@ class Form:
     poses: bool = False
     each: bool = False
 
+    @property
+    def rules(self) -> tuple[str, ...]:
+        """Return the rules by which a part of the points may be given, such as 'until 4 s'."""
+        each = ("each",) if self.each else ()
+        return (*each, f"until {self.until.example}") if self.until else each
+
     @cached_property
     def pattern(self) -> re.Pattern[str]:
         """Return the pattern of the sentences; spaces are single, the case does not matter."""

@@ -31,21 +31,16 @@ def mark(file, rubric, *words):
 
 
 BLOCK = re.search(r"test_rubric.py -->\n```\n(.*?)```", PAGE, re.DOTALL)
-COMMANDS = [shlex.split(line)[1:] for line in BLOCK[1].splitlines()] if BLOCK else []
+COMMANDS = [shlex.split(line)[1:] for line in BLOCK[1].splitlines()]
 
 
 @pytest.mark.parametrize(
     ("command", "code", "words"),
-    zip(
-        COMMANDS,
-        (0, 0, 1),
-        (
-            "works: Pick and place, 11 tests, 15 points; the reference gets 15",
-            "15 of 15 points: pick_and_place_ur5e.mat",
-            "cube_1 is never grasped; the gripper does not close",
-        ),
-        strict=True,
-    ),
+    [
+        (COMMANDS[0], 0, "works: Pick and place, 11 tests, 15 points; the reference gets 15"),
+        (COMMANDS[1], 0, "15 of 15 points: pick_and_place_ur5e.mat"),
+        (COMMANDS[2], 1, "cube_1 is never grasped; the gripper does not close"),
+    ],
 )
 def test_the_commands_of_the_documentation(tmp_path, monkeypatch, command, code, words):
     monkeypatch.chdir(tmp_path)
@@ -111,6 +106,19 @@ def test_a_check_with_a_rubric_has_both(tmp_path):
     assert (test["points"], test["time"], test["unit"]) == (1.0, 4.0, "s")
 
 
+def test_a_trajectory_file_that_is_damaged_or_of_another_robot_gets_nothing(tmp_path):
+    convert = ("convert", ROOT / "examples" / "two_robot_handover_kr6.mat", "--robot")
+    run(*convert, "kuka_kr6_r900_sixx", "--out", tmp_path)
+    (tmp_path / "broken.json").write_text("{}")
+    for file, words in (
+        ("two_robot_handover_kr6.json", "is a motion of kuka_kr6_r900_sixx; expected one of ur5e"),
+        ("broken.json", "no trajectory file"),
+    ):
+        found = json.loads(mark(tmp_path / file, RUBRIC, "--public", "--json").stdout)
+        assert found["points"] == 0
+        assert words in found["note"]
+
+
 def test_a_file_without_a_motion_gets_nothing_and_a_reason():
     said = mark(ROOT / "README.md", RUBRIC, "--json")
     assert said.exit_code == 1
@@ -121,6 +129,10 @@ def test_a_file_without_a_motion_gets_nothing_and_a_reason():
 
 def test_the_example_and_the_measures_are_printed():
     assert run("rubric", "example").stdout == RUBRIC.read_text()
+    held = json.loads(run("rubric", "example", "--json").stdout)
+    assert held["name"] == "Pick and place"
+    listed = json.loads(run("rubric", "measures", "--json").stdout)
+    assert {"each"} in [set(form["partial"]) for form in listed]
     assert "grasps OBJECT [by ROBOT] between FROM and TO" in run("rubric", "measures").stdout
 
 
