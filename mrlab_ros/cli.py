@@ -29,6 +29,8 @@ mrlab show run.mat --robot ur5e — see it move, as one HTML file
 
 mrlab check run.mat --robot ur5e --scene table — is it ready for a robot, and why not?
 
+mrlab class moodle.zip --rubric task.yaml — mark a whole class, a row a student
+
 mrlab play ur5e_1 run.mat — play it (in a second terminal, same ROS_DOMAIN_ID)
 
 mrlab pause ur5e_1, resume, stop, seek, place, remove — one robot; mrlab system for several
@@ -52,6 +54,7 @@ COMMANDS = {
     "convert": "convert.command:convert",
     "show": "show:show",
     "check": "check.command:check",
+    "class": "classroom.command:grade",
     "rubric": "rubric.command:app",
     "play": "play:play",
     "spawn": "robot:spawn",

@@ -392,32 +392,16 @@ class Setup:
         )
         lines.append("export PATH='{}':\"$PATH\"".format(VENV / "bin"))
         script = VENV / "mrlab.sh"
-        lines[1:1] = [
-            'if [ -n "${{BASH_SOURCE:-}}" ] && ! [ "$BASH_SOURCE" -ef \'{}\' ]; then'.format(
-                script
-            ),
-            MOVED.format(ROOT) + "    return 1",
-            "fi",
-        ]
         script.write_text("\n".join(lines) + "\n")
         command = VENV / "bin" / "mrlab"
-        # A copy of the clone names the files of the one that was set up, which may be gone. A file
-        # such as json.py in the student's folder is none of the lab's modules.
+        # A file such as json.py in the student's folder is none of the lab's modules.
         command.write_text(
-            "#!/bin/sh\n"
-            "if ! [ \"$0\" -ef '{}' ]; then\n{}    exit 1\nfi\n"
-            ". '{}'\nexport PYTHONSAFEPATH=1\n"
-            "exec '{}' -m mrlab_ros.cli \"$@\"\n".format(
-                command, MOVED.format(ROOT), script, self.venv_python
-            )
+            "#!/bin/sh\n. '{}'\nexport PYTHONSAFEPATH=1\n"
+            "exec '{}' -m mrlab_ros.cli \"$@\"\n".format(script, self.venv_python)
         )
         command.chmod(0o755)
 
 
-MOVED = (
-    "    echo 'mrlab: this clone was set up in {} and then moved or copied; set it up here with:"
-    " python3 scripts/bootstrap.py' >&2\n"
-)
 # What only the tests use; the lab itself runs without.
 TEST_TOOLS = (
     ("octave-cli", "octave", "runs the MATLAB examples"),

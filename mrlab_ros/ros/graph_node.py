@@ -19,7 +19,7 @@ from rclpy.qos import QoSProfile
 from rclpy.signals import SignalHandlerOptions
 
 from mrlab_ros.messages import qos
-from mrlab_ros.ros import fast_dds, log_folder
+from mrlab_ros.ros import fast_dds
 from mrlab_ros.ros.calls import NoAnswer, call
 from mrlab_ros.ros.domain import domain_id
 from mrlab_ros.ros.graph import CALL_TIMEOUT_S, FIND_TIMEOUT_S, GraphClient
@@ -35,7 +35,6 @@ class Graph(GraphClient):
     def __init__(self) -> None:
         self.domain = domain_id()
         fast_dds.prepare()
-        log_folder.prepare()
         self._context = Context()
         rclpy.init(args=[], context=self._context, signal_handler_options=SignalHandlerOptions.NO)
         self.node: Node = rclpy.create_node(

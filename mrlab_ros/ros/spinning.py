@@ -24,7 +24,7 @@ from rclpy.node import Node
 from rclpy.task import Future
 
 from mrlab_ros.core.errors import BadInput
-from mrlab_ros.ros import fast_dds, log_folder
+from mrlab_ros.ros import fast_dds
 
 # The longest the executor waits at a time, s; what arrives is handed on at once all the same.
 WAIT_S = 0.2
@@ -58,7 +58,6 @@ def spin(executor: Executor, context: Context, stop: threading.Event | None = No
 def start_up() -> None:
     """Initialise the default context; raise BadInput where rcl refuses the command line."""
     fast_dds.prepare()
-    log_folder.prepare()
     try:
         rclpy.init()
     except (rclpy_implementation.RCLError, rclpy_implementation.UnknownROSArgsError) as error:

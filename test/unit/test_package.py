@@ -5,8 +5,6 @@ from __future__ import annotations
 import ast
 import json
 import re
-import shutil
-import subprocess
 import xml.etree.ElementTree as ET
 from collections.abc import Iterator
 from functools import cache
@@ -31,6 +29,7 @@ ROSDEP_KEYS = {
     "python3-h5py",
     "python3-httpx",
     "python3-hypothesis",
+    "python3-joblib",
     "python3-jsonschema",
     "python3-matplotlib",
     "python3-numpy",
@@ -198,23 +197,3 @@ def names_of(node: ast.Import) -> list[str]:
 
 
 LOCKED = set(re.findall(r"^([a-z0-9_-]+)==", (ROOT / "requirements.lock").read_text(), re.M))
-
-
-COMMAND = ROOT / ".venv" / "bin" / "mrlab"
-
-
-@pytest.mark.skipif(not COMMAND.exists(), reason="set up without the Makefile")
-def test_a_copied_clone_says_so_and_a_link_to_the_command_works(tmp_path: Path) -> None:
-    copied, linked = tmp_path / "copied", tmp_path / "linked"
-    shutil.copy(COMMAND, copied)
-    linked.symlink_to(COMMAND)
-    # Neither is such a file of the working folder taken for Python's.
-    (tmp_path / "json.py").write_text("raise SystemExit('no module of the lab')")
-    done = [
-        subprocess.run(
-            [file, "--version"], cwd=tmp_path, capture_output=True, text=True, check=False
-        )
-        for file in (copied, linked)
-    ]
-    assert [each.returncode for each in done] == [1, 0], done
-    assert f"set up in {ROOT} and then moved or copied" in done[0].stderr

@@ -29,10 +29,13 @@ def check_page(
     library: RobotLibrary,
     share: Path,
     marks: Marks | None = None,
+    *,
+    with_film: bool = True,
 ) -> str:
     """Return one HTML file that shows what was rehearsed and what is to be said of it.
 
     share: folder with the built pages. marks: by a rubric, None where there is none.
+    with_film: draw pictures for where nothing draws in 3D, which takes seconds.
     """
     document = check_document(report, recorded, robots, objects)
 
@@ -42,7 +45,8 @@ def check_page(
     meshes = ingredients.meshes_of((robot.urdf for robot in robots), resolve)
     things = {thing["mesh"] for thing in document["objects"] if thing["mesh"]}
     meshes |= ingredients.small(things, resolve)
-    body = check_body(report, digest, recorded, robots, _film(recorded, robots, library), marks)
+    film = _film(recorded, robots, library) if with_film else []
+    body = check_body(report, digest, recorded, robots, film, marks)
     title = f"{report.title}: {report.words.partition(':')[0]}"
     return page(title, body, document, meshes, ingredients.code(share))
 

@@ -79,7 +79,29 @@ def run(
     most_rows: a matrix with more samples is refused.
     """
     try:
-        result = convert(
+        result = converted(task, read, memory, most_rows)
+        if result.trajectory is not None:
+            npz_file.write(result.trajectory, trajectory)
+    except BadInput as error:
+        return json.dumps({"bad_input": str(error)}).encode()
+    except OSError as error:
+        words = f"the trajectory cannot be stored ({error.strerror}); make room on the disk"
+        return json.dumps({"bad_input": words}).encode()
+    except MemoryError:
+        result = _too_large(task, memory)
+    head = metadata(result.trajectory) if result.trajectory is not None else None
+    small = replace(result, trajectory=None)
+    document = {"result": _plain(small), "message": result.message, "head": head}
+    return json.dumps(document).encode()
+
+
+def converted(
+    task: Task, read: Callable[[], Workspace], memory: int, most_rows: int = MOST_ROWS
+) -> ConversionResult:
+    """Return what became of a file, whatever it does to the converter; raise BadInput for a task
+    that is wrong. memory, most_rows: as for `run`."""
+    try:
+        return convert(
             task.file,
             read,
             task.options,
@@ -91,24 +113,19 @@ def run(
             default_frame_rate=task.default_frame_rate,
             most_rows=most_rows,
         )
-        if result.trajectory is not None:
-            npz_file.write(result.trajectory, trajectory)
-    except BadInput as error:
-        return json.dumps({"bad_input": str(error)}).encode()
-    except OSError as error:
-        words = f"the trajectory cannot be stored ({error.strerror}); make room on the disk"
-        return json.dumps({"bad_input": words}).encode()
+    except (BadInput, OSError):
+        raise
     except MemoryError:
-        problem = MEMORY.format(memory / 2**20)
-        result = refused(task.file, finding("too_large", file=task.file, problem=problem))
+        return _too_large(task, memory)
     except Exception as error:
         # one file may end neither a batch nor the converter
         traceback.print_exc()
-        result = refused(task.file, unexpected(task.file, error))
-    head = metadata(result.trajectory) if result.trajectory is not None else None
-    small = replace(result, trajectory=None)
-    document = {"result": _plain(small), "message": result.message, "head": head}
-    return json.dumps(document).encode()
+        return refused(task.file, unexpected(task.file, error))
+
+
+def _too_large(task: Task, memory: int) -> ConversionResult:
+    problem = MEMORY.format(memory / 2**20)
+    return refused(task.file, finding("too_large", file=task.file, problem=problem))
 
 
 def parse(data: bytes) -> Converted:

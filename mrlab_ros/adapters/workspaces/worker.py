@@ -240,29 +240,37 @@ def work(descriptors: list[int], request: dict[str, Any]) -> None:
             serve(copy, target, next(iter(descriptors[2:]), None), request)
         return
     task, stored = descriptors[2:]
-    name = request["name"]
 
     def found() -> Workspace:
         if problem:
-            raise Refused(finding("unreadable", file=name, problem=problem))
-        numbers = os.memfd_create("variables", os.MFD_CLOEXEC)
-        serve(copy, os.dup(numbers), None, request)
-        workspace = content.collect(numbers, name, lambda places: again(copy, numbers, places))
-        # the memory file goes with the last who may read it again
-        weakref.finalize(workspace.confirm, os.close, numbers)
-        return workspace
-
-    def again(source: int, numbers: int, places: list[content.Place]) -> None:
-        answer = os.memfd_create("second", os.MFD_CLOEXEC)
-        status = forked(
-            lambda: serve(source, os.dup(answer), numbers, {**request, "again": places})
-        )
-        content.compare(status, answer, name, places, request["time"])
+            raise Refused(finding("unreadable", file=request["name"], problem=problem))
+        return workspace(copy, request)
 
     with os.fdopen(task, "rb") as file:
         asked: results.Task = pickle.load(file)  # from the lab, not from the file
     with os.fdopen(target, "wb") as reply, os.fdopen(stored, "wb") as trajectory:
         reply.write(results.run(asked, found, request["memory"], trajectory, request["rows"]))
+
+
+def workspace(copy: int, request: dict[str, Any]) -> Workspace:
+    """Return what the file behind the descriptor `copy` holds; raise Refused where it is none.
+
+    In a process that is walled off: the second reader runs in one of its own, the first in this
+    one. request: memory, output: bytes; time: s; name of the file.
+    """
+    name = request["name"]
+
+    def again(places: list[content.Place]) -> None:
+        answer = os.memfd_create("second", os.MFD_CLOEXEC)
+        status = forked(lambda: serve(copy, os.dup(answer), numbers, {**request, "again": places}))
+        content.compare(status, answer, name, places, request["time"])
+
+    numbers = os.memfd_create("variables", os.MFD_CLOEXEC)
+    serve(copy, os.dup(numbers), None, request)
+    found = content.collect(numbers, name, again)
+    # the memory file goes with the last who may read it again
+    weakref.finalize(found.confirm, os.close, numbers)
+    return found
 
 
 def forked(do: Callable[[], None]) -> int:

@@ -136,12 +136,19 @@ def _say_refused(request: Request, result: ConversionResult) -> None:
 
 
 def write_page(
-    out: Path, found: CheckedFile, stage: Stage, folder: Path, marks: Marks | None = None
+    out: Path,
+    found: CheckedFile,
+    stage: Stage,
+    folder: Path,
+    marks: Marks | None = None,
+    *,
+    title: str = "",
+    with_film: bool = True,
 ) -> int:
     """Write the page of a file that was rehearsed; return how many characters it has.
 
-    marks: what it got, with links to the instants of lost points.
-    Raises BadInput where it cannot be written.
+    marks: what it got, with links to the instants of lost points. title: empty: the file's name.
+    with_film: see `check_page`. Raises BadInput where it cannot be written.
     """
     from mrlab_ros.adapters.pages.check import check_page
     from mrlab_ros.core.show.check import PlayedRobot
@@ -161,8 +168,9 @@ def write_page(
         for r in found.robots
     ]
     text = check_page(
-        found.checked.report, found.checked.document["hash"], found.played.recorded, shown,
-        found.played.objects, stage.library, folder, marks,
+        replace(found.checked.report, title=title or found.checked.report.title),
+        found.checked.document["hash"], found.played.recorded, shown, found.played.objects,
+        stage.library, folder, marks, with_film=with_film,
     )  # fmt: skip
     try:
         out.parent.mkdir(parents=True, exist_ok=True)

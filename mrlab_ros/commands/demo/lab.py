@@ -25,7 +25,6 @@ from mrlab_ros.processes.options import LabOptions, WebOptions, new_lab_id
 from mrlab_ros.processes.run_file import RunFile
 from mrlab_ros.processes.supervisor import Supervisor
 from mrlab_ros.processes.web import gateway_answers
-from mrlab_ros.ros import log_folder
 from mrlab_ros.ros.domain import domain_id
 
 if TYPE_CHECKING:
@@ -91,7 +90,6 @@ def running_lab(console: Console, config: Path | None) -> Iterator[Stage]:
     """Run a lab on a free ROS domain and zenoh port."""
     begin = time.monotonic()
     stay_on_this_machine()
-    log_folder.prepare()
     with folder_for_state(None) as folder:
         endpoint = f"tcp/127.0.0.1:{free_port(ZENOH_PORT)}"
         options = LabOptions(

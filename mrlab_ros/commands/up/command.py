@@ -44,7 +44,6 @@ from mrlab_ros.processes.readiness import READY_TIMEOUT_S, wait_until_complete
 from mrlab_ros.processes.run_file import RunFile
 from mrlab_ros.processes.supervisor import SELF, Phase, ProcessState, Supervisor
 from mrlab_ros.processes.web import gateway_answers
-from mrlab_ros.ros import log_folder
 from mrlab_ros.ros.domain import domain_id
 
 if TYPE_CHECKING:
@@ -196,7 +195,6 @@ def up(
             prepare_keys(keys)
     with_physics, no_physics = physics_support.wanted(physics)
     stay_on_this_machine()
-    log_folder.prepare()
     domain = domain_id()
     run_file = RunFile(domain)
     say = Speaker()

@@ -155,7 +155,7 @@ def check_body(
             "</header>",
             f'<main class="{"with" if shown else "without"}-findings">',
             '<section id="view" aria-label="3D view"></section>',
-            f'<figure class="poster">{pictures}</figure>',
+            f'<figure class="poster">{pictures}</figure>' if pictures else "",
             _findings(shown, several=len(report.robots) > 1),
             "" if marks is None else marks_body(marks),
             *(_hardware(robot, several=len(report.robots) > 1) for robot in report.robots),

@@ -12,6 +12,7 @@ import struct
 import zlib
 from collections.abc import Mapping
 from dataclasses import dataclass
+from functools import lru_cache
 from html import escape
 from typing import Any
 
@@ -90,8 +91,8 @@ def page(
             body,
             '<p id="old-browser" hidden>This browser is too old to show the motion in 3D; the '
             "plots and findings on this page are complete.</p>",
-            f'<script type="text/plain" id="data">{_packed(_data(document, meshes))}</script>',
-            f'<script type="text/plain" id="code">{_packed(code.script)}</script>',
+            f'<script type="text/plain" id="data">{packed(_data(document, meshes))}</script>',
+            f'<script type="text/plain" id="code">{packed(code.script)}</script>',
             f"<script>{LOADER}</script>",
             "</body>",
             "</html>",
@@ -117,7 +118,9 @@ def _data(document: Mapping[str, Any], meshes: Mapping[str, bytes]) -> bytes:
     return struct.pack("<I", len(head)) + head + b"".join(content)
 
 
-def _packed(content: bytes) -> str:
+@lru_cache(maxsize=2)
+def packed(content: bytes) -> str:
+    """Return bytes as a page carries them; the code of all pages is packed once."""
     return base64.b64encode(zlib.compress(content, LEVEL)).decode("ascii")
 
 

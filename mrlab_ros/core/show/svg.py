@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 from html import escape
+from itertools import pairwise
 
 import numpy as np
 from numpy.typing import NDArray
@@ -189,14 +190,15 @@ def _envelope(values: Array, times: Array) -> tuple[Array, Array]:
     """Return all values, or of many the least and greatest of each block in their order."""
     if len(values) <= 2 * MOST_BLOCKS:
         return values, times
-    kept = [0]
-    for block in np.array_split(np.arange(len(values)), MOST_BLOCKS):
-        part = values[block]
-        if np.isnan(part).all():
-            kept.append(int(block[0]))
-        else:
-            kept += sorted({int(block[np.nanargmin(part)]), int(block[np.nanargmax(part)])})
-    chosen = np.unique([*kept, len(values) - 1])
+    unknown = np.isnan(values)
+    low, high = np.where(unknown, np.inf, values), np.where(unknown, -np.inf, values)
+    edges = np.linspace(0, len(values), MOST_BLOCKS + 1).astype(int).tolist()
+    kept = [0, len(values) - 1]
+    for begin, end in pairwise(edges):
+        # of a block without a number the first twice: a gap
+        kept.append(begin + int(low[begin:end].argmin()))
+        kept.append(begin + int(high[begin:end].argmax()))
+    chosen = np.unique(kept)
     return values[chosen], times[chosen]
 
 

@@ -1,7 +1,9 @@
 import '../../design/tokens.css'
 import './show.css'
+import './class.css'
 import type { MotionDocument } from '../../playback/motion'
 import type { SessionDocument } from '../../playback/session'
+import { isClass, showClass } from './class_page'
 import { translate } from './german'
 import { showMotion } from './motion_page'
 import { type ShownData, unpackData } from './packed_data'
@@ -13,6 +15,10 @@ declare global {
 }
 
 function start(data: ShownData): void {
+  if (isClass(data.document)) {
+    showClass(data.document)
+    return
+  }
   const view = document.getElementById('view')
   if (view === null) return
   if (navigator.language.startsWith('de')) translate(document.body)

@@ -1,0 +1,1 @@
+"""Exports of submissions, and the processes that check them."""

@@ -1,0 +1,201 @@
+"""Reads the export of a class, a folder or a zip archive, without writing or following anything.
+
+Whatever an archive says of itself, no more is read than the limits allow: bytes are counted as
+they are inflated, and names are only names.
+"""
+
+from __future__ import annotations
+
+import io
+import os
+import stat
+import zipfile
+import zlib
+from collections.abc import Iterator, Mapping
+from pathlib import Path, PurePosixPath
+from typing import Any
+
+import yaml
+
+from mrlab_ros.core.classroom.exports import ARCHIVE, METADATA, Entry
+from mrlab_ros.core.errors import BadInput
+
+MiB = 1 << 20
+MOST_FILES = 200_000
+MOST_BYTES = 64 * MiB  # of one file
+MOST_INNER_FILES, MOST_INNER_BYTES = 500, 256 * MiB  # of an archive that a student sent
+ENCRYPTED = 0x1
+
+
+class Export:
+    """The files of an export. problems: path and why of what is not read."""
+
+    def __init__(self, path: Path) -> None:
+        """List what is there; raise BadInput where it is neither a folder nor a zip archive."""
+        self.path = path
+        self.problems: list[tuple[str, str]] = []
+        self._archive: zipfile.ZipFile | None = None
+        self._members: dict[str, zipfile.ZipInfo] = {}
+        self._inner: dict[str, tuple[str, str]] = {}
+        if path.is_dir():
+            found = list(self._folder())
+        elif path.is_file():
+            self._archive = _opened(path, path.name)
+            self._members, found = self._listed(self._archive, path.name, MOST_FILES)
+        else:
+            raise BadInput(f"there is no folder or archive {path}; check the path and the name")
+        self.entries = [each for entry in found for each in self._with_inner(entry)]
+
+    def close(self) -> None:
+        if self._archive is not None:
+            self._archive.close()
+
+    def __enter__(self) -> Export:
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self.close()
+
+    def read(self, path: str) -> bytes:
+        """Return the bytes of an entry; raise BadInput where they cannot be read."""
+        if path in self._inner:
+            outer, member = self._inner[path]
+            with _opened(io.BytesIO(self._bytes(outer)), outer) as archive:
+                return _inflated(archive, archive.getinfo(member), path)
+        return self._bytes(path)
+
+    def metadata(self) -> Mapping[str, Any]:
+        """Return Gradescope's submission_metadata.yml; empty where there is none to be read."""
+        named = [p for p in self._paths if PurePosixPath(p).name == METADATA]
+        if not named:
+            return {}
+        try:
+            content = yaml.load(self._bytes(named[0]), yaml.CSafeLoader)
+        except (yaml.YAMLError, BadInput, RecursionError, ValueError) as error:
+            reason = str(error).partition("\n")[0]
+            self.problems.append((named[0], f"cannot be read ({reason}): names are not known"))
+            return {}
+        return content if isinstance(content, Mapping) else {}
+
+    @property
+    def _paths(self) -> list[str]:
+        return list(self._members) or [e.path for e in self.entries]
+
+    def _bytes(self, path: str) -> bytes:
+        if self._archive is not None:
+            return _inflated(self._archive, self._members[path], path)
+        try:
+            source = os.open(self.path / path, os.O_RDONLY | os.O_NONBLOCK | os.O_NOFOLLOW)
+            with os.fdopen(source, "rb") as file:
+                content = file.read(MOST_BYTES + 1)
+        except OSError as error:
+            raise BadInput(f"{path} cannot be read: {error.strerror}") from None
+        return _bounded(content, path)
+
+    def _folder(self) -> Iterator[Entry]:
+        count = 0
+        for folder, folders, files in os.walk(self.path):
+            folders.sort()
+            within = Path(folder).relative_to(self.path)
+            for name in [n for n in folders if (Path(folder) / n).is_symlink()]:
+                self.problems.append(((within / name).as_posix(), "a link; it is not followed"))
+            for name in sorted(files):
+                path = (within / name).as_posix()
+                try:
+                    about = os.lstat(Path(folder) / name)
+                except OSError as error:
+                    self.problems.append((path, f"cannot be read: {error.strerror}"))
+                    continue
+                if not stat.S_ISREG(about.st_mode):
+                    link = stat.S_ISLNK(about.st_mode)
+                    why = "a link; it is not followed" if link else "no ordinary file"
+                    self.problems.append((path, why))
+                    continue
+                count += 1
+                if count > MOST_FILES:
+                    raise BadInput(
+                        f"{self.path} holds more than {MOST_FILES} files; expected less"
+                    )
+                yield Entry(path, about.st_size, (int(about.st_mtime),))
+
+    def _listed(
+        self, archive: zipfile.ZipFile, name: str, most: int
+    ) -> tuple[dict[str, zipfile.ZipInfo], list[Entry]]:
+        members: dict[str, zipfile.ZipInfo] = {}
+        if len(archive.infolist()) > most:
+            raise BadInput(
+                f"{name} holds {len(archive.infolist())} files; at most {most} are read"
+            )
+        for info in archive.infolist():
+            path = _name(info)
+            if info.is_dir():
+                continue
+            parts = PurePosixPath(path).parts
+            if path.startswith("/") or ".." in parts or not parts or ":" in parts[0]:
+                self.problems.append((path, "its name leads out of the archive; it is not read"))
+            elif stat.S_ISLNK(info.external_attr >> 16):
+                self.problems.append((path, "a link; it is not followed"))
+            elif info.flag_bits & ENCRYPTED:
+                self.problems.append((path, "encrypted; ask the student for an open file"))
+            else:
+                if path in members:
+                    self.problems.append((path, "twice in the archive; the last one is read"))
+                members[path] = info
+        entries = [Entry(p, i.file_size, tuple(i.date_time)) for p, i in members.items()]
+        return members, entries
+
+    def _with_inner(self, entry: Entry) -> Iterator[Entry]:
+        """Yield an entry; of an archive that a student sent, what is in it, one level deep."""
+        if not entry.path.lower().endswith(ARCHIVE):
+            yield entry
+            return
+        try:
+            with _opened(io.BytesIO(self._bytes(entry.path)), entry.path) as archive:
+                members, found = self._listed(archive, entry.path, MOST_INNER_FILES)
+                if sum(each.size for each in found) > MOST_INNER_BYTES:
+                    raise BadInput(f"it inflates to more than {MOST_INNER_BYTES // MiB} MiB")
+                for each in found:
+                    path = f"{entry.path}/{each.path}"
+                    self._inner[path] = (entry.path, members[each.path].filename)
+                    yield Entry(path, each.size, each.modified)
+        except BadInput as error:
+            self.problems.append((entry.path, str(error)))
+            yield entry
+
+
+def _opened(file: Path | io.BytesIO, name: str) -> zipfile.ZipFile:
+    try:
+        return zipfile.ZipFile(file)
+    except (zipfile.BadZipFile, OSError, ValueError, NotImplementedError) as error:
+        raise BadInput(
+            f"{name} is no zip archive that can be read ({error}); expected the export as the "
+            "system wrote it, or its folder"
+        ) from None
+
+
+def _name(info: zipfile.ZipInfo) -> str:
+    """Return a member's name: many programs write UTF-8 without saying so."""
+    name = info.filename
+    if not info.flag_bits & 0x800:
+        try:
+            name = name.encode("cp437").decode("utf-8")
+        except UnicodeError:
+            name = info.filename
+    return name.replace("\\", "/")
+
+
+def _inflated(archive: zipfile.ZipFile, info: zipfile.ZipInfo, path: str) -> bytes:
+    try:
+        with archive.open(info) as file:
+            return _bounded(file.read(MOST_BYTES + 1), path)
+    except (
+        zipfile.BadZipFile, OSError, EOFError, zlib.error, RuntimeError, NotImplementedError,
+        ValueError,
+    ) as error:  # fmt: skip
+        raise BadInput(f"{path} cannot be unpacked: {error}") from None
+
+
+def _bounded(content: bytes, path: str) -> bytes:
+    if len(content) > MOST_BYTES:
+        raise BadInput(f"{path} is larger than {MOST_BYTES // MiB} MiB, which no class needs")
+    return content

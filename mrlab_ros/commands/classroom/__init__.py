@@ -1,0 +1,1 @@
+"""`mrlab class`: marks all submissions of an export by a rubric."""

@@ -1,0 +1,65 @@
+"""Converts a file in a process that is walled off already, so that no other one is started."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from mrlab_ros.adapters.robots.library import RobotLibrary
+from mrlab_ros.adapters.trajectories.coefficients import load_coefficients
+from mrlab_ros.adapters.workspaces import content, worker
+from mrlab_ros.adapters.workspaces.reader import Limits, opened
+from mrlab_ros.adapters.workspaces.results import Task, converted, refused
+from mrlab_ros.commands.convert.one_file import of_trajectory_file
+from mrlab_ros.core.conversion.convert import ConversionResult, id_from
+from mrlab_ros.core.conversion.options import DEFAULT_FRAME_RATE, Options
+from mrlab_ros.core.conversion.workspace import Workspace
+from mrlab_ros.core.diagnostics import Refused
+from mrlab_ros.core.errors import Misuse
+from mrlab_ros.ros import share
+
+
+class Inside:
+    """Converts files here; callable as `commands.convert.one_file.converted` is.
+
+    limits: of time, s, for what the second reader says; memory: bytes, for words and buffers.
+    """
+
+    def __init__(self, limits: Limits) -> None:
+        self.limits = limits
+        path = share.directory() / "config" / "torque_proxy.yaml"
+        self._coefficients = load_coefficients(path)
+
+    def __call__(
+        self, file: Path, robot: str, end_effector: str, options: Options, library: RobotLibrary
+    ) -> ConversionResult:
+        """Return what became of a file; a refusal is a result. Raises LabError."""
+        found = of_trajectory_file(file)
+        if found is not None:
+            return found
+        if not robot:
+            raise Misuse(
+                f"'{file.name}' does not say which robot it is for; name one in the rubric: "
+                "robot: ur5e"
+            )
+        task = Task(
+            file=file.name,
+            options=options,
+            robot=library.model(robot),
+            coefficients=self._coefficients,
+            end_effector=end_effector or None,
+            trajectory_id=id_from(file.name),
+            created_ns=0,  # equal files give equal trajectories
+            default_frame_rate=DEFAULT_FRAME_RATE,
+        )
+        limits = self.limits
+        request = {**vars(limits), "name": file.name}
+        try:
+            with opened(file) as source:
+                copy = content.copied(source, limits.file_size)
+
+                def read() -> Workspace:
+                    return worker.workspace(copy, request)
+
+                return converted(task, read, limits.memory, limits.rows)
+        except Refused as error:
+            return refused(file.name, error.finding)

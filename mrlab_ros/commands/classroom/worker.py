@@ -1,0 +1,234 @@
+"""The walled-off process that checks submissions; started by `grader`.
+
+It imports everything, reads the library, checks the reference solution, and then forks once for
+each submission. Only the fork touches a student's bytes, under limits that the kernel keeps:
+memory, processor time, wall time, size of files, no core dump. What it finds it leaves as files
+in a folder of its own; whatever a submission does to it, others see no more than an exit status.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import gc
+import json
+import os
+import pickle
+import resource
+import shutil
+import signal
+import socket
+import sys
+import traceback
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import orjson
+
+from mrlab_ros.adapters.trajectories import json_file
+from mrlab_ros.adapters.workspaces.reader import Limits
+from mrlab_ros.adapters.workspaces.worker import address_space
+from mrlab_ros.commands.check.one import CELLS, CheckedFile, Setting
+from mrlab_ros.commands.classroom.inside import Inside
+from mrlab_ros.commands.classroom.setup import Bounds, Setup
+from mrlab_ros.commands.rubric.marked import check_rubric_file
+from mrlab_ros.core.checking.findings import plain
+from mrlab_ros.core.classroom.result import (
+    FAILED,
+    MARKED,
+    MOST_FINDINGS,
+    MOST_PATH,
+    Result,
+    without_marks,
+)
+from mrlab_ros.core.classroom.similarity import signature
+from mrlab_ros.core.errors import BadInput, LabError
+from mrlab_ros.core.rubrics.checked import Checked
+from mrlab_ros.core.rubrics.marking import Marks, mark
+from mrlab_ros.core.show.page import packed
+from mrlab_ros.ros import share
+
+MiB = 1 << 20
+MOST_WRITTEN = 512 * MiB  # bytes of one file that a check may write
+RESULT, TRAJECTORY, PAGE, FEEDBACK = "result.json", "trajectory.json", "page.html", "feedback.html"
+MESSAGE_SIZE = 1 << 16
+
+
+class Warm:
+    """What all submissions share: the stage, the rubric, and the reference as it was checked."""
+
+    def __init__(self, setup: Setup, scratch: Path) -> None:
+        self.setup = setup
+        self.share = share.directory()
+        convert = Inside(Limits(memory=setup.bounds.memory, time=setup.bounds.wall))
+        base = setup.setting(self.share)
+        values = {**vars(base), "convert": convert, "drawn": True}
+        self.setting = Setting(**values)
+        self.reference: Checked | None = None
+        if setup.reference is not None:
+            name, content = setup.reference
+            file = scratch / name
+            file.write_bytes(content)
+            # the converter's second reader takes what is left of this
+            signal.setitimer(signal.ITIMER_REAL, setup.bounds.wall)
+            found = check_rubric_file(file, setup.rubric, self.setting)
+            if found.played is None:
+                why = found.result.message if found.result is not None else "it holds no motion"
+                raise BadInput(
+                    f"{setup.rubric.origin}: the reference {name} cannot be marked: {why}"
+                )
+            self.reference = found.checked
+            signal.setitimer(signal.ITIMER_REAL, 0)
+        if setup.pages:
+            # what all pages need is imported and packed once, for all forks
+            from mrlab_ros.adapters.pages import check  # noqa: F401
+            from mrlab_ros.adapters.pages.ingredients import code
+
+            packed(code(self.share).script)
+
+    def check(self, shown: str, files: list[str], folder: Path, out: Path) -> None:
+        """Check the first of some files that holds a motion, and write what was found."""
+        found, file, problem = self._first(files, folder)
+        if found is None:
+            result = without_marks(self.setup.rubric, MARKED, problem, file)
+        else:
+            result = self._result(found, file, shown, out)
+        (out / RESULT).write_bytes(orjson.dumps(result.plain()))
+
+    def _first(self, files: list[str], folder: Path) -> tuple[CheckedFile | None, str, str]:
+        """Return the first file that holds a motion, else the first that can be told about."""
+        told: tuple[CheckedFile | None, str, str] | None = None
+        ordered = sorted(files, key=lambda name: not name.lower().endswith(CELLS))
+        for name in ordered:
+            try:
+                found = check_rubric_file(folder / name, self.setup.rubric, self.setting)
+            except LabError as error:
+                told = told or (None, name, str(error))
+                continue
+            if found.holds_motion:
+                return found, name, ""
+            told = told or (found, name, "")
+        return told or (None, "", "no file")
+
+    def _result(self, found: CheckedFile, file: str, shown: str, out: Path) -> Result:
+        checked = found.checked
+        marks = mark(self.setup.rubric, checked, self.reference)
+        trajectory, figures = checked.trajectory, checked.figures
+        has_page = self.setup.pages and found.played is not None
+        if trajectory is not None:
+            json_file.write(trajectory, out / TRAJECTORY)
+        if has_page:
+            self._pages(found, marks, f"{shown}: {file}", out)
+        path: Any = ()
+        if figures is not None:
+            at = np.linspace(0, len(figures.tool) - 1, MOST_PATH).round().astype(int)
+            path = figures.tool[np.unique(at)].round(4).tolist()
+        source = trajectory.source.sha256 if trajectory is not None else ""
+        robot = found.robots[0]
+        return Result(
+            MARKED,
+            checked.report.words,
+            marks.plain(),
+            marks.public().plain(),
+            file,
+            source,
+            checked.report.verdict,
+            str(checked.document["hash"]),
+            robot.model.id,
+            robot.end_effector,
+            checked.report.duration,
+            [plain(f) for f in checked.report.findings[:MOST_FINDINGS]],
+            () if trajectory is None else signature(trajectory.positions).tolist(),
+            path,
+            trajectory is not None,
+            has_page,
+        )
+
+    def _pages(self, found: CheckedFile, marks: Marks, title: str, out: Path) -> None:
+        """Write the teacher's page, and the student's where it is another one."""
+        from mrlab_ros.commands.check.run import write_page
+
+        pages = {PAGE: marks}
+        if any(one.hidden for one in marks.tests):
+            pages[FEEDBACK] = marks.public()
+        for name, shown in pages.items():
+            stage = self.setting.stage
+            write_page(out / name, found, stage, self.share, shown, title=title, with_film=False)
+
+
+def confine(bounds: Bounds) -> None:
+    """Put the kernel's limits on this process."""
+    signal.setitimer(signal.ITIMER_REAL, bounds.wall)
+    resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
+    resource.setrlimit(resource.RLIMIT_FSIZE, (MOST_WRITTEN, MOST_WRITTEN))
+    used = address_space()
+    resource.setrlimit(resource.RLIMIT_AS, (used + bounds.memory, used + 2 * bounds.memory))
+    seconds = int(bounds.time) + 1
+    resource.setrlimit(resource.RLIMIT_CPU, (seconds, seconds))
+
+
+def work(warm: Warm, request: dict[str, Any]) -> None:
+    """Check one submission, in the forked process."""
+    confine(warm.setup.bounds)
+    folder, out = Path(request["folder"]), Path(request["out"])
+    try:
+        warm.check(request["shown"], request["files"], folder, out)
+    except MemoryError:
+        words = (
+            f"the check needs more than {warm.setup.bounds.memory / MiB:.0f} MiB of memory; is "
+            "the motion very long?"
+        )
+    except Exception as error:
+        # one submission may end neither the class nor its teacher's patience
+        traceback.print_exc()
+        words = f"the check failed on it ({type(error).__name__}: {error})"
+    else:
+        return
+    result = without_marks(warm.setup.rubric, FAILED, words)
+    (out / RESULT).write_bytes(orjson.dumps(result.plain()))
+
+
+def answer(connection: socket.socket, warm: Warm) -> None:
+    """Answer one request after another until the connection is closed."""
+    connection.send(b"{}")
+    while message := connection.recv(MESSAGE_SIZE):
+        child = os.fork()
+        if child == 0:
+            connection.close()
+            try:
+                work(warm, json.loads(message))
+                sys.stderr.flush()
+                os._exit(0)
+            except BaseException:
+                traceback.print_exc()
+            finally:
+                os._exit(1)
+        _, status = os.waitpid(child, 0)
+        connection.send(json.dumps({"status": os.waitstatus_to_exitcode(status)}).encode())
+
+
+def main() -> None:
+    """Serve requests from the socket whose descriptor is the first argument, until it closes.
+
+    The second argument is a folder with the file `setup`, which the class' own process wrote.
+    """
+    signal.signal(signal.SIGINT, signal.SIG_IGN)
+    scratch = Path(sys.argv[2])
+    connection = socket.socket(fileno=int(sys.argv[1]))
+    setup: Setup = pickle.loads((scratch / "setup").read_bytes())
+    try:
+        warm = Warm(setup, scratch)
+    except LabError as error:
+        connection.send(json.dumps({"error": str(error)}).encode())
+        return
+    # objects that the collector does not visit stay shared with the forks
+    gc.collect()
+    gc.freeze()
+    with contextlib.suppress(ConnectionError):
+        answer(connection, warm)
+    # the class was killed: nobody else removes what it left
+    shutil.rmtree(scratch, ignore_errors=True)
+
+
+if __name__ == "__main__":
+    main()

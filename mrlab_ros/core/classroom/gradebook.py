@@ -1,0 +1,160 @@
+"""Marks as other programs read them: Excel, Moodle's worksheet, Gradescope."""
+
+from __future__ import annotations
+
+import csv
+import io
+import re
+from collections.abc import Sequence
+from typing import Any
+
+from mrlab_ros.core.classroom.graded import Student
+from mrlab_ros.core.classroom.result import Result
+from mrlab_ros.core.errors import BadInput
+from mrlab_ros.core.rubrics.rubric import Rubric
+
+BOM = "\ufeff"  # by which Excel takes a table for UTF-8
+# What a table program would compute; a ' before it makes it a text.
+FORMULA = ("=", "+", "-", "@", "\t", "\r")
+NUMBER = re.compile(r"\d+")
+# Columns of Moodle's worksheet, in English and German.
+IDENTIFIERS = ("identifier", "id", "kennung")
+GRADES = ("grade", "bewertung")
+MOST = ("maximum grade", "bestwertung")
+COMMENTS = ("feedback comments", "feedback als kommentar")
+
+
+def cell(value: Any) -> Any:
+    """Return a value that no table program computes."""
+    if isinstance(value, str) and value.lstrip().startswith(FORMULA):
+        return f"'{value}"
+    return value
+
+
+def table(rubric: Rubric, students: Sequence[Student]) -> str:
+    """Return the marks of a class as CSV, a row a student."""
+    text = io.StringIO()
+    writer = csv.writer(text, lineterminator="\r\n")
+    head = ("key", "name", "identifier", "email", "late", "points", "of", "outcome", "verdict")
+    writer.writerow([*head, *(cell(t.name) for t in rubric.tests), "file", "words", "notes"])
+    for student in students:
+        one, result = student.submission, student.result
+        writer.writerow(
+            [
+                *map(cell, (one.key, one.name, one.identifier, one.email)),
+                "yes" if one.late else "no",
+                number(result.points),
+                number(result.of),
+                result.outcome,
+                result.verdict,
+                *(number(m["points"]) for m in result.marks["tests"]),
+                *map(cell, (result.file, result.words, "; ".join((*one.notes, *result.notes)))),
+            ]
+        )
+    return BOM + text.getvalue()
+
+
+def number(value: float) -> str:
+    """Return points without trailing zeros."""
+    return f"{value:.6g}"
+
+
+def filled(template: str, students: Sequence[Student], name: str) -> tuple[str, list[str]]:
+    """Return Moodle's grading worksheet with the grades in it, and what did not fit.
+
+    The number of the column Identifier is the one in the folder names of the export. Cells that
+    are not grades or comments stay as they are. Raises BadInput where it is no worksheet.
+    """
+    content = template.removeprefix(BOM)
+    first = content.partition("\n")[0]
+    delimiter = max(",;\t", key=first.count)
+    rows = list(csv.reader(io.StringIO(content), delimiter=delimiter))
+    heads = [head.strip().lower() for head in rows[0]] if rows else []
+    identifier, grade = _column(heads, IDENTIFIERS), _column(heads, GRADES)
+    if identifier is None or grade is None:
+        raise BadInput(
+            f"{name} has the columns {', '.join(heads) or 'none'}; expected Identifier and Grade, "
+            "as Moodle's grading worksheet has them"
+        )
+    most, comments = _column(heads, MOST), _column(heads, COMMENTS)
+    by_number = {s.submission.identifier: s for s in students if s.submission.identifier}
+    problems, met = [], set()
+    for row in rows[1:]:
+        found = NUMBER.search(row[identifier]) if len(row) > identifier else None
+        student = by_number.get(found[0]) if found else None
+        if student is None:
+            continue
+        met.add(student.key)
+        row += [""] * (len(heads) - len(row))
+        points = number(student.result.points)
+        row[grade] = points.replace(".", ",") if delimiter == ";" else points
+        if most is not None and _differs(row[most], student.result.of):
+            problems.append(
+                f"{student.submission.name}: Moodle's maximum is {row[most]}, the rubric has "
+                f"{number(student.result.of)} points; the points are written as they are"
+            )
+        if comments is not None:
+            row[comments] = str(cell(comment(student.result)))
+    problems += [
+        f"{s.submission.name}: not in the worksheet"
+        for s in students
+        if s.key not in met and s.submission.form == "Moodle"
+    ]
+    text = io.StringIO()
+    csv.writer(text, delimiter=delimiter, lineterminator="\r\n").writerows(rows)
+    return (BOM if template.startswith(BOM) else "") + text.getvalue(), problems
+
+
+def comment(result: Result) -> str:
+    """Return what a student reads beside the grade: each public test, and hints."""
+    lines = [
+        f"{m['name']}: {number(m['points'])} of {number(m['of'])}. {m['words']}"
+        + (f" {m['hint']}" if m["hint"] and not m["passed"] else "")
+        for m in result.public["tests"]
+    ]
+    return "\n".join([*lines, *result.public["hints"]])
+
+
+def gradescope(result: Result) -> dict[str, Any]:
+    """Return results.json as Gradescope's autograders write it; tests in the rubric's order.
+
+    Hidden tests stay hidden from students; their hints stand in the output for all.
+    """
+    tests = [
+        {
+            "number": str(place),
+            "name": m["name"],
+            "score": m["points"],
+            "max_score": m["of"],
+            "status": "passed" if m["passed"] else "failed",
+            "output": _output(m),
+            "visibility": "hidden" if m["hidden"] else "visible",
+        }
+        for place, m in enumerate(result.marks["tests"], 1)
+    ]
+    return {
+        "score": result.points,
+        "output": "\n".join([result.words, *result.public["hints"]]),
+        "output_format": "text",
+        "visibility": "visible",
+        "tests": tests,
+        "extra_data": {"file": result.file, "report": result.report, "outcome": result.outcome},
+    }
+
+
+def _output(mark: Any) -> str:
+    words: str = mark["words"]
+    if mark["time"] is not None:
+        words = f"at {mark['time']:.2f} s: {words}"
+    return f"{words}\n{mark['hint']}" if mark["hint"] and not mark["passed"] else words
+
+
+def _column(heads: Sequence[str], names: Sequence[str]) -> int | None:
+    return next((heads.index(name) for name in names if name in heads), None)
+
+
+def _differs(text: str, points: float) -> bool:
+    try:
+        return abs(float(text.replace(",", ".")) - points) > 1e-6
+    except ValueError:
+        return False

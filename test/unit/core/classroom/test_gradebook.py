@@ -1,0 +1,135 @@
+"""Tables for gradebooks, pseudonyms, and the document of a class."""
+
+from __future__ import annotations
+
+import csv
+import io
+import json
+
+import pytest
+
+from mrlab_ros.core.classroom import gradebook
+from mrlab_ros.core.classroom.exports import Entry, recognise
+from mrlab_ros.core.classroom.graded import GradedClass, Student
+from mrlab_ros.core.classroom.pseudonyms import pseudonymous
+from mrlab_ros.core.classroom.result import MARKED, NO_FILE, Result, without_marks
+from mrlab_ros.core.errors import BadInput
+from mrlab_ros.core.rubrics.marking import Mark, Marks
+from mrlab_ros.core.rubrics.rubric import Outcome, Rubric, Test
+from mrlab_ros.core.show.class_body import class_body
+
+
+class Never:
+    def assess(self, checked, reference):
+        return Outcome(0.0, "never")
+
+
+RUBRIC = Rubric(
+    "Task <1>",
+    (
+        Test("no collision", "no collision", Never(), 6.0, "look at the table"),
+        Test("secret", "cycle < 8 s", Never(), 4.0, "be quicker", hidden=True),
+    ),
+    robot="ur5e",
+)
+PATHS = [f"{n}_{i}_assignsubmission_file_/a.mat" for n, i in (("=cmd()", 11), ("Jörg", 12))]
+
+
+def graded(points=(6.0, 0.0)):
+    roster = recognise([Entry(p) for p in PATHS], (".mat",))
+    marks = Marks(
+        (
+            Mark("no collision", points[0], 6.0, points[0] == 6.0, "touches the floor", time=1.5),
+            Mark("secret", points[1], 4.0, points[1] == 4.0, "8.2 s", "be quicker", True),
+        )
+    )
+    result = Result(MARKED, "ready", marks.plain(), marks.public().plain(), "a.mat", "digest")
+    results = [result, without_marks(RUBRIC, NO_FILE, "nothing was handed in")]
+    pairs = zip(roster.submissions, results, strict=True)
+    return GradedClass(RUBRIC, "Moodle", tuple(Student(s, r) for s, r in pairs))
+
+
+def test_a_table_is_opened_by_excel_and_computes_nothing():
+    text = gradebook.table(RUBRIC, graded().students)
+    assert text.startswith("\ufeff")
+    rows = list(csv.DictReader(io.StringIO(text.removeprefix("\ufeff"))))
+    assert [row["name"] for row in rows] == ["'=cmd()", "Jörg"]
+    assert [row["points"] for row in rows] == ["6", "0"]
+    assert rows[0]["secret"] == "0"
+
+
+@pytest.mark.parametrize(
+    ("head", "rows", "grades"),
+    [
+        (
+            "Identifier,Full name,Grade,Maximum Grade,Feedback comments",
+            ["Participant 11,=x,,10,", "Participant 99,Y,3,10,"],
+            ["6", "3"],
+        ),
+        (
+            "ID;Vollständiger Name;Bewertung;Bestwertung",
+            ["Teilnehmer/in11;Jörg;;10,00", "Teilnehmer/in12;Z;;10,00"],
+            ["6", "0"],
+        ),
+    ],
+)
+def test_moodles_worksheet_is_filled_by_its_identifiers(head, rows, grades):
+    template = "\ufeff" + "\r\n".join([head, *rows]) + "\r\n"
+    text, problems = gradebook.filled(template, graded().students, "sheet.csv")
+    delimiter = ";" if ";" in head else ","
+    found = list(csv.reader(io.StringIO(text.removeprefix("\ufeff")), delimiter=delimiter))
+    place = head.split(delimiter).index("Grade" if "Grade" in head else "Bewertung")
+    assert [row[place] for row in found[1:]] == grades
+    assert [row[1] for row in found[1:]] == [row.split(delimiter)[1] for row in rows]
+    assert problems == ([] if delimiter == ";" else ["Jörg: not in the worksheet"])
+    if delimiter == ",":
+        assert "secret" not in found[1][4]
+        assert "be quicker" in found[1][4]
+
+
+def test_another_maximum_is_said_and_what_is_no_worksheet_refused():
+    template = "Identifier,Grade,Maximum Grade\nParticipant 11,,100\nParticipant 12,,10\n"
+    _, problems = gradebook.filled(template, graded().students, "s.csv")
+    assert "maximum is 100, the rubric has 10" in problems[0]
+    with pytest.raises(BadInput, match="expected Identifier and Grade"):
+        gradebook.filled("a,b\n1,2\n", graded().students, "s.csv")
+
+
+def test_gradescope_hides_what_is_hidden():
+    found = gradebook.gradescope(graded().students[0].result)
+    assert found["score"] == 6.0
+    one, other = found["tests"]
+    assert (one["visibility"], one["max_score"], one["status"]) == ("visible", 6.0, "passed")
+    assert (other["visibility"], other["score"]) == ("hidden", 0.0)
+    assert "secret" not in found["output"]
+    assert "be quicker" in found["output"]
+
+
+def test_the_document_of_a_class_is_json_and_its_figures_are_right():
+    found = json.loads(json.dumps(graded().document()))
+    assert found["schema"] == "mrlab.class.1"
+    assert found["statistics"]["mean"] == 3.0
+    assert found["statistics"]["bins"] == [1, 0, 0, 0, 0, 0, 1, 0, 0, 0]
+    assert [t["name"] for t in found["statistics"]["tests"]] == ["secret", "no collision"]
+    assert found["students"][1]["outcome"] == NO_FILE
+
+
+def test_the_page_of_a_class_has_a_row_a_student_and_runs_no_name():
+    page = class_body(graded())
+    assert page.count("<tr data-key=") == 2
+    assert "Task &lt;1&gt;" in page
+    assert "nothing was handed in" in page
+    assert 'data-outcome="no_file" data-late' not in page
+
+
+def test_pseudonyms_are_stable_and_say_nothing():
+    roster = recognise([Entry(p) for p in PATHS], (".mat",))
+    changed, who = pseudonymous(roster, b"secret")
+    assert pseudonymous(roster, b"secret")[0] == changed
+    assert pseudonymous(roster, b"other")[0] != changed
+    assert {s.name for s in who.values()} == {"=cmd()", "Jörg"}
+    for one in changed.submissions:
+        shown = (one.key, one.name, one.identifier, one.folder, one.email, *one.others, *one.notes)
+        assert not any(word in text for text in shown for word in ("Jörg", "joerg", "11", "12"))
+    fewer = recognise([Entry(PATHS[1])], (".mat",))
+    assert pseudonymous(fewer, b"secret")[0].submissions[0] in changed.submissions
