@@ -174,7 +174,7 @@ def without_graph(error: ModuleNotFoundError) -> str:
     return (
         f"this command needs ROS 2 and the lab's messages, and {package} is not installed here: "
         "no wheel has them. In a clone `make demo` sets both up, on a ROS machine colcon builds "
-        "them. Without them `mrlab convert`, show, check, robots and keys work"
+        "them. Without them `mrlab convert`, show, check, rubric, robots and keys work"
     )
 
 
