@@ -15,6 +15,8 @@ from mrlab_ros.core.errors import BadInput
 
 PACKAGE = "mrlab_ros"
 THUMBNAIL = "thumbnail.webp"
+# Folders of a robot.
+SERVED = ("meshes", "lod")
 BLOCK = 1 << 20
 
 
@@ -47,8 +49,8 @@ class AssetFiles:
     """Finds and reads the files below robots/ and config/objects/ that are meant for clients.
 
     share: the folder with robots/ and config/. Of a robot and an end effector these are the
-    folder meshes/ and the thumbnail; of the objects all in config/objects/. Files of other kinds
-    or elsewhere do not exist for clients.
+    folders meshes/ and lod/ and the thumbnail; of the objects all in config/objects/. Files of
+    other kinds or elsewhere do not exist for clients.
     """
 
     def __init__(self, share: Path, library: RobotLibrary) -> None:
@@ -117,4 +119,4 @@ def _real_folder(file: Path) -> Path:
 
 def _is_served(names: list[str]) -> bool:
     """Return whether clients may get this file of a robot's folder, given as the path's parts."""
-    return names == [THUMBNAIL] or (len(names) > 1 and names[0] == "meshes")
+    return names == [THUMBNAIL] or (len(names) > 1 and names[0] in SERVED)

@@ -11,6 +11,7 @@ from typing import Any
 
 import pytest
 
+from mrlab_ros.adapters.assets.files import AssetFiles
 from mrlab_ros.adapters.robots import drawn
 from mrlab_ros.adapters.robots.library import RobotLibrary
 from mrlab_ros.adapters.robots.published import published
@@ -36,7 +37,10 @@ def test_a_description_names_the_packed_levels_of_robot_and_end_effector() -> No
         "package://mrlab_ros/robots/ur5e/meshes/",
         "package://mrlab_ros/robots/end_effectors/parallel_gripper/meshes/",
     ]
+    files = AssetFiles(ROBOTS.parent, LIBRARY)
     for level in levels:
+        for name in ("near", "far"):
+            assert files.find(level[name].removeprefix("package://")) is not None
         assert LIBRARY.mesh_path(level["near"]).is_file()
         assert LIBRARY.mesh_path(level["far"]).is_file()
 
