@@ -16,6 +16,7 @@ import report
 
 from mrlab_ros.adapters.checking.stage import Stage, first_link
 from mrlab_ros.adapters.robots.library import RobotLibrary
+from mrlab_ros.adapters.rubrics import files
 from mrlab_ros.commands.convert import batch
 from mrlab_ros.core.checking import motion
 from mrlab_ros.core.checking.rehearsal import Actor
@@ -92,7 +93,24 @@ def checks(count: int) -> list[dict[str, Any]]:
 
 
 def main() -> None:
-    options = report.options(__doc__).parse_args()
+    parser = report.options(__doc__)
+    parser.add_argument("--class", dest="students", action="store_true", help="measure a class")
+    parser.add_argument("--count", type=int, default=150, help="submissions of the class")
+    parser.add_argument("--jobs", type=int, default=2, help="processes of the class")
+    parser.add_argument("--dask", action="store_true", help="and again on a local dask cluster")
+    options = parser.parse_args()
+    if options.students:
+        import class_check  # joblib, which one check does not need
+
+        examples = Path(__file__).parents[1] / "examples"
+        rubric = files.read(examples / "rubrics" / "pick_and_place.yaml")
+        count = min(options.count, 8) if options.quick else options.count
+        found = class_check.rows(
+            rubric, scene(), examples / "pick_and_place_ur5e.mat",
+            count=count, jobs=options.jobs, dask=options.dask,
+        )  # fmt: skip
+        report.show("Class", found, options.json)
+        return
     report.show("Check", checks(3 if options.quick else 20), options.json)
 
 

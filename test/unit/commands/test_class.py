@@ -22,7 +22,8 @@ from mrlab_ros.core.errors import BadInput
 from mrlab_ros.core.rubrics.rubric import Rubric, Test
 from mrlab_ros.core.scene.document import SceneDocument
 
-pytestmark = pytest.mark.slow
+# two processes start, import everything and check the reference: slow on a busy machine
+pytestmark = [pytest.mark.slow, pytest.mark.timeout(400)]
 
 ROOT = Path(__file__).parents[3]
 PICK = ROOT / "examples" / "pick_and_place_ur5e.mat"
@@ -89,7 +90,8 @@ def test_a_class_is_marked_kept_and_the_same_however_it_is_run(submissions, tmp_
     assert "Keeps away from the bin" not in (out / "feedback" / f"{key}.html").read_text()
 
     before = results(out)
-    shutil.rmtree(out / "trajectories")  # as after a kill between two files
+    # as after a kill between two files
+    (out / "trajectories" / f"{rows['Ben']['key']}.json").unlink()
     (out / "pages" / f"{key}.html").unlink()
     sheet = tmp_path / "sheet.csv"
     sheet.write_text(SHEET)
