@@ -9,6 +9,7 @@ from mrlab_ros.core.geometry import Vector
 from mrlab_ros.core.physics.engine import Kind, Near
 from mrlab_ros.core.physics.grasp import Grasp
 from mrlab_ros.core.physics.grasp_load import Load
+from mrlab_ros.core.physics.surfaces import Surface
 
 Other = tuple[Kind, str]
 
@@ -91,7 +92,7 @@ class Rehearsed:
     each robot, the surfaces in which it stood at the first frame. starts, ends: of each robot,
     when it left its first frame and reached its last one. waited: of each robot, s in all.
     stuck: the wait that held a robot for ever. gone: what left the room, and when. states: of each
-    robot's playback, since when.
+    robot's playback, since when. surfaces: of the room.
     """
 
     duration: float = 0.0
@@ -108,6 +109,7 @@ class Rehearsed:
     states: dict[str, list[tuple[float, str]]] = field(default_factory=dict)
     robots: dict[str, Course] = field(default_factory=dict)
     objects: dict[str, Course] = field(default_factory=dict)
+    surfaces: tuple[Surface, ...] = field(default=(), compare=False)
 
     def of(self, robot: str) -> list[Collision]:
         """Return the collisions of one robot."""

@@ -128,6 +128,7 @@ class Rehearsal:
                 until_ns = self._now_ns + TAIL_NS
         if self._drawn:
             self._draw()
+            self._recorded.surfaces = self._world.surfaces
         return self._recorded
 
     # the actors -----------------------------------------------------------------------------

@@ -17,6 +17,7 @@ from mrlab_ros.core.checking.recording import Course, Distances, Rehearsed
 from mrlab_ros.core.checking.report import CheckReport, RobotReport
 from mrlab_ros.core.physics.catalogue import ObjectType
 from mrlab_ros.core.physics.engine import Kind, Shape
+from mrlab_ros.core.physics.surfaces import Surface
 from mrlab_ros.core.rubrics.marking import Marks
 from mrlab_ros.core.show.marks_body import marks_body
 from mrlab_ros.core.show.motion_body import ICONS
@@ -88,7 +89,23 @@ def check_document(
             for name, course in recorded.objects.items()
             if name in objects
         ],
+        "surfaces": [_surface(each) for each in recorded.surfaces],
         "events": [],
+    }
+
+
+def _surface(surface: Surface) -> dict[str, Any]:
+    """Return a surface of the room, its fields named as those of mrlab_msgs/Surface."""
+    pose = surface.pose
+    return {
+        "name": surface.name,
+        "label": surface.label,
+        "pose": {
+            "position": dict(zip("xyz", pose.position, strict=True)),
+            "orientation": dict(zip("xyzw", pose.orientation, strict=True)),
+        },
+        "vertices": [dict(zip("xyz", v, strict=True)) for v in surface.vertices.tolist()],
+        "triangles": surface.triangles.ravel().tolist(),
     }
 
 

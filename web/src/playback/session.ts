@@ -8,7 +8,26 @@ export interface SessionDocument {
   readonly duration: number
   readonly robots: readonly SessionRobot[]
   readonly objects: readonly SessionObject[]
+  /** Of the room; absent in a recording. */
+  readonly surfaces?: readonly SessionSurface[]
   readonly events: readonly SessionEvent[]
+}
+
+/** The fields of mrlab_msgs/msg/Surface. */
+export interface SessionSurface {
+  readonly name: string
+  readonly label: string
+  readonly pose: {
+    readonly position: { readonly x: number; readonly y: number; readonly z: number }
+    readonly orientation: {
+      readonly x: number
+      readonly y: number
+      readonly z: number
+      readonly w: number
+    }
+  }
+  readonly vertices: readonly { readonly x: number; readonly y: number; readonly z: number }[]
+  readonly triangles: readonly number[]
 }
 
 export interface SessionRobot {

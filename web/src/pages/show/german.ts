@@ -37,20 +37,59 @@ const WORDS: Readonly<Record<string, string>> = {
   'not passed': 'nicht erfüllt',
   hidden: 'verdeckt',
   Most: 'Höchstens',
+  Ready: 'Bereit',
+  'Not ready': 'Nicht bereit',
+  refuses: 'spricht dagegen',
+  'Ready for hardware': 'Bereit für den echten Roboter',
+  ok: 'in Ordnung',
+  'not ok': 'nicht in Ordnung',
+  'not known': 'nicht bekannt',
+  'positions inside their ranges': 'Stellungen in ihren Bereichen',
+  'speeds below their limits': 'Geschwindigkeiten unter ihren Grenzen',
+  'accelerations below their limits': 'Beschleunigungen unter ihren Grenzen',
+  'jerks below their limits': 'Ruck unter seinen Grenzen',
+  'begins at rest': 'beginnt in Ruhe',
+  'ends at rest': 'endet in Ruhe',
+  continuous: 'stetig',
+  'no collision': 'keine Kollision',
+  Distances: 'Abstände',
+  Tool: 'Werkzeug',
+  Joints: 'Gelenke',
+  'speed of tool0': 'Geschwindigkeit von tool0',
+  'conditioning (0: singular)': 'Konditionierung (0: singulär)',
 }
+/** Words before the name of a robot, such as `Tool of ur5e_1`. */
+const BEFORE: Readonly<Record<string, string>> = {
+  'Ready for hardware: ': 'Bereit für den echten Roboter: ',
+  'Tool of ': 'Werkzeug von ',
+  'Joints of ': 'Gelenke von ',
+}
+const SEPARATOR = ' \u00b7 '
+
 const PLACES =
-  'h2, h3, th, summary span, .verdict b, .findings button b, .path .title, .marks .result span, .marks .test small'
+  'h2, h3, th, summary span, .verdict b, .findings button b, .path .title, .marks .result span, .marks .test small, .runs .result span, .runs td.robot'
 
 /** Put the fixed words of a page, which is written in English, into German. */
 export function translate(page: HTMLElement): void {
   for (const place of page.querySelectorAll(PLACES)) {
-    const german = WORDS[place.textContent ?? '']
-    if (german !== undefined) place.textContent = german
+    const text = place.textContent ?? ''
+    const german = WORDS[text] ?? germanParts(text)
+    if (german !== text) place.textContent = german
   }
   for (const place of page.querySelectorAll('.findings button b')) {
     const rows = place.nextSibling
     if (rows instanceof Text) rows.data = germanRows(rows.data)
   }
+}
+
+/** Return a text with its first words in German, such as those of `refuses · 0.41 s · elbow`. */
+function germanParts(text: string): string {
+  for (const [english, german] of Object.entries(BEFORE)) {
+    if (text.startsWith(english)) return german + text.slice(english.length)
+  }
+  const [first = '', ...rest] = text.split(SEPARATOR)
+  const german = WORDS[first]
+  return german === undefined || rest.length === 0 ? text : [german, ...rest].join(SEPARATOR)
 }
 
 /** Return the place of a finding, such as ` row 3-7 · joint`, with its rows in German. */

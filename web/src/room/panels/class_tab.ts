@@ -103,9 +103,10 @@ export function classTab(context: RoomContext, follower: LabFollower, lesson: Le
       }
       const { name, points, of } = current
       const right = BOARD_WIDTH - EDGE
-      pen.text(EDGE, TOP + 6, name, TEXT.head, right - EDGE - 300, 'ink', 700)
-      const total = w.points(number(points), number(of))
-      pen.text(right, TOP + 6, total, TEXT.body, 280, 'ink', 600, 'right')
+      pen.text(EDGE, TOP + 6, name, TEXT.head, right - EDGE - 440, 'ink', 700)
+      const place = w.place(steps.place.value + 1, steps.submissions.value.length)
+      const total = `${w.points(number(points), number(of))} · ${place}`
+      pen.text(right, TOP + 6, total, TEXT.body, 420, 'ink', 600, 'right')
       drawMarks(pen, TOP + 52, current)
       const y = BOTTOM - HIT
       if (at === '') {
@@ -116,8 +117,6 @@ export function classTab(context: RoomContext, follower: LabFollower, lesson: Le
       pen.button('class_previous', EDGE, y, STEP, w.previous, step(-1), { enabled: before })
       const next = { primary: true, enabled: after }
       pen.button('class_next', EDGE + STEP + GAP, y, STEP, w.next, step(1), next)
-      const place = w.place(steps.place.value + 1, steps.submissions.value.length)
-      pen.text(EDGE + 2 * (STEP + GAP) + 10, y + HIT / 2, place, TEXT.small, 160, 'second')
       pen.button('class_leave', right - 260, y, 260, w.leave, leave, { small: true })
     },
   }
