@@ -237,6 +237,7 @@ ELSEWHERE = {
     "robots meshes": "writes into the clone; test/unit/adapters/robots/test_arm_and_hand.py",
     "demo": "test/system/test_demo.py",
     "up": "test/launched_lab.py",
+    "up --class": "the gateway's own option --classroom, in test/browser/test_class.py",
     "up --config": "test/system/test_up.py",
     "up --https-cert": "the gateway's own option, in test/system/test_gateway.py",
     "up --https-key": "the gateway's own option, in test/system/test_gateway.py",
