@@ -34,9 +34,10 @@ _graders: dict[bytes, Grader] = {}
 class Grader:
     """A process that checks submissions of one class; it starts anew after it was lost."""
 
-    def __init__(self, setup: Setup) -> None:
+    def __init__(self, setup: Setup, scratch: str = "") -> None:
+        """scratch: folder for its files, which somebody removes; empty: one of its own."""
         self.setup = setup
-        self._scratch = Path(tempfile.mkdtemp(prefix="mrlab-class-"))
+        self._scratch = Path(tempfile.mkdtemp(prefix="mrlab-class-", dir=scratch or None))
         (self._scratch / "setup").write_bytes(setup.packed)
         self._process: subprocess.Popen[bytes] | None = None
         self._connection: socket.socket | None = None
@@ -142,14 +143,14 @@ class Grader:
         self._process = self._connection = None
 
 
-def checked(setup: Setup, task: Task) -> dict[str, bytes]:
+def checked(setup: Setup, task: Task, scratch: str = "") -> dict[str, bytes]:
     """Check a submission in this process' own grader, which stays for the next one."""
     grader = _graders.get(setup.packed)
     if grader is None:
         if not _graders:
             Finalize(None, close_all, exitpriority=10)  # joblib's processes end without atexit
         close_all()
-        grader = _graders[setup.packed] = Grader(setup)
+        grader = _graders[setup.packed] = Grader(setup, scratch)
     return grader.check(task)
 
 

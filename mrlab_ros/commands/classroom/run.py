@@ -7,6 +7,7 @@ import json
 import os
 import secrets
 import sys
+import tempfile
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path, PurePosixPath
@@ -208,24 +209,31 @@ def _run(
                 continue
             yield _Wanted(task, digest)
 
-    grade = functools.partial(_graded, setup)
-    answers = parallel.run(
-        grade, wanted(), jobs=request.jobs, backend=request.backend, scheduler=request.scheduler
-    )
-    try:
-        for key, digest, files in answers:
-            done(key, _stored(folder, key, digest, files))
-            while unread:
-                done(*unread.pop())
-    finally:
-        grader.close_all()
+    # other machines have no folder of ours
+    here = tempfile.TemporaryDirectory(prefix="mrlab-class-", ignore_cleanup_errors=True)
+    with here as scratch:
+        grade = functools.partial(_graded, setup, scratch if request.backend == "loky" else "")
+        answers = parallel.run(
+            grade,
+            wanted(),
+            jobs=request.jobs,
+            backend=request.backend,
+            scheduler=request.scheduler,
+        )
+        try:
+            for key, digest, files in answers:
+                done(key, _stored(folder, key, digest, files))
+                while unread:
+                    done(*unread.pop())
+        finally:
+            grader.close_all()
     while unread:
         done(*unread.pop())
 
 
-def _graded(setup: Setup, wanted: _Wanted) -> Answer:
+def _graded(setup: Setup, scratch: str, wanted: _Wanted) -> Answer:
     """Check one submission, wherever this runs."""
-    return wanted.task.key, wanted.digest, grader.checked(setup, wanted.task)
+    return wanted.task.key, wanted.digest, grader.checked(setup, wanted.task, scratch)
 
 
 def _task(
