@@ -118,6 +118,7 @@ def session(title: str, report: SessionReport, motion: RecordedMotion) -> dict[s
             }
             for name, thing in motion.objects.items()
         ],
+        "surfaces": [],
         "events": events(report),
     }
 

@@ -8,8 +8,8 @@ export interface SessionDocument {
   readonly duration: number
   readonly robots: readonly SessionRobot[]
   readonly objects: readonly SessionObject[]
-  /** Of the room; absent in a recording. */
-  readonly surfaces?: readonly SessionSurface[]
+  /** Of the room; a recording has none. */
+  readonly surfaces: readonly SessionSurface[]
   readonly events: readonly SessionEvent[]
 }
 

@@ -104,7 +104,7 @@ function drawing(
   say: (troubles: string) => void,
 ): (time: number) => void {
   const scene = new LabScene(stage, meshes, () => say([...scene.troubles].join('; ')))
-  scene.setSurfaces(session.surfaces ?? [])
+  scene.setSurfaces(session.surfaces)
   const pose = new Float64Array(POSE)
   const bases = session.robots.map((robot) => new Track(robot.base))
   scene.setRobots(
