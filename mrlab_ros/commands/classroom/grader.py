@@ -11,6 +11,8 @@ import socket
 import subprocess
 import sys
 import tempfile
+import threading
+import time
 from collections.abc import Mapping
 from multiprocessing.util import Finalize
 from pathlib import Path
@@ -25,6 +27,7 @@ from mrlab_ros.core.classroom.result import FAILED, without_marks
 from mrlab_ros.core.errors import BadInput
 
 START_LIMIT = 120.0  # s for the process to import and to check the reference, on a busy machine
+PARENT_PERIOD = 2.0  # s between two looks whether the class still runs
 GRACE = 15.0  # s beyond the kernel's own timer
 # The libraries draw nothing from more threads, and forking is safe with one only.
 ONE_THREAD = {"OPENBLAS_NUM_THREADS": "1", "OMP_NUM_THREADS": "1", "MKL_NUM_THREADS": "1"}
@@ -143,15 +146,29 @@ class Grader:
         self._process = self._connection = None
 
 
-def checked(setup: Setup, task: Task, scratch: str = "") -> dict[str, bytes]:
-    """Check a submission in this process' own grader, which stays for the next one."""
+def checked(setup: Setup, task: Task, scratch: str = "", owner: int = 0) -> dict[str, bytes]:
+    """Check a submission in this process' own grader, which stays for the next one.
+
+    owner: process whose child this one is, and with which it ends; 0: it ends by itself.
+    """
     grader = _graders.get(setup.packed)
     if grader is None:
         if not _graders:
             Finalize(None, close_all, exitpriority=10)  # joblib's processes end without atexit
+            if owner not in (0, os.getpid()):
+                watch = threading.Thread(target=_end_with_parent, args=(owner,), daemon=True)
+                watch.start()
         close_all()
         grader = _graders[setup.packed] = Grader(setup, scratch)
     return grader.check(task)
+
+
+def _end_with_parent(parent: int) -> None:
+    """End this process of joblib's, and its grader, when the class was killed: it would wait."""
+    while os.getppid() == parent:
+        time.sleep(PARENT_PERIOD)
+    close_all()
+    os._exit(1)
 
 
 def close_all() -> None:

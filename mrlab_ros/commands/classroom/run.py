@@ -212,7 +212,8 @@ def _run(
     # other machines have no folder of ours
     here = tempfile.TemporaryDirectory(prefix="mrlab-class-", ignore_cleanup_errors=True)
     with here as scratch:
-        grade = functools.partial(_graded, setup, scratch if request.backend == "loky" else "")
+        own = (scratch, os.getpid()) if request.backend == "loky" else ("", 0)
+        grade = functools.partial(_graded, setup, *own)
         answers = parallel.run(
             grade,
             wanted(),
@@ -231,9 +232,9 @@ def _run(
         done(*unread.pop())
 
 
-def _graded(setup: Setup, scratch: str, wanted: _Wanted) -> Answer:
+def _graded(setup: Setup, scratch: str, owner: int, wanted: _Wanted) -> Answer:
     """Check one submission, wherever this runs."""
-    return wanted.task.key, wanted.digest, grader.checked(setup, wanted.task, scratch)
+    return wanted.task.key, wanted.digest, grader.checked(setup, wanted.task, scratch, owner)
 
 
 def _task(
