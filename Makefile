@@ -41,6 +41,7 @@ bench:
 
 robots:
 	@python3 scripts/bootstrap.py --dev
+	@$(ENV) uv pip install -q --require-hashes --no-deps -r requirements-robots.txt
 	@$(ENV) python scripts/robots/generate.py $(ARGS)
 	@$(ENV) python scripts/robots/levels.py --stale $(ARGS)
 
