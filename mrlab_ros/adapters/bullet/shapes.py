@@ -9,7 +9,7 @@ import numpy as np
 import pybullet
 
 from mrlab_ros.core.errors import BadInput
-from mrlab_ros.core.geometry import Pose
+from mrlab_ros.core.geometry import Array, Pose
 from mrlab_ros.core.physics.engine import Body, Part, Shape
 
 # Bullet multiplies the coefficients of both bodies, so 1 leaves it to the object.
@@ -18,6 +18,8 @@ NEUTRAL = 1.0
 ROLLING = 0.0008
 # The swept sphere's radius as a share of half of the least extent.
 SWEPT = 0.8
+# Bullet keeps things apart by this margin around hulls and triangles, m.
+MARGIN = 0.001
 STATIC_GROUP = 2  # Bullet's own collision group of what never moves
 ROUND = (Shape.SPHERE, Shape.CYLINDER, Shape.HULL)
 NUMBERS = {Shape.BOX: 3, Shape.CYLINDER: 2, Shape.SPHERE: 1}
@@ -59,6 +61,9 @@ def make_body(client: int, body: Body, shape: int, pose: Pose) -> int:
         useMaximalCoordinates=True,
         physicsClientId=client,
     )
+    if any(part.shape is Shape.MESH for part in body.parts):
+        # Triangles have no known outer side to be drawn in from, as hulls are.
+        pybullet.changeDynamics(made, -1, collisionMargin=0.0, physicsClientId=client)
     if not static:
         # A sphere inside the body is swept along its way, so that what is fast stops at a thin
         # surface.
@@ -135,16 +140,29 @@ def _mesh(part: Part, static: bool) -> dict[str, Any]:
     vertices, triangles = part.vertices, part.triangles
     if vertices is None or len(vertices) < 3 or not np.isfinite(vertices).all():
         raise BadInput("a mesh without at least three finite vertices; expected (V, 3) m")
-    result = {"shapeType": pybullet.GEOM_MESH, "vertices": vertices.tolist()}
     if part.shape is Shape.HULL:
-        return result
+        return {"shapeType": pybullet.GEOM_MESH, "vertices": _within_margin(vertices).tolist()}
     if not static:
         raise BadInput("a hollow mesh cannot move; make it of convex parts")
     if triangles is None or not (
         len(triangles) and triangles.min() >= 0 and triangles.max() < len(vertices)
     ):
         raise BadInput("a mesh whose triangles name vertices it does not have")
-    return result | {
+    return {
+        "shapeType": pybullet.GEOM_MESH,
+        "vertices": vertices.tolist(),
         "indices": triangles.ravel().tolist(),
         "flags": pybullet.GEOM_FORCE_CONCAVE_TRIMESH,
     }
+
+
+def _within_margin(vertices: Array) -> Array:
+    """Return corners of a hull, (V, 3) m, whose extents are right once Bullet adds its margin.
+
+    Otherwise what stands on a flat surface would stand a millimetre above it.
+    """
+    low, high = vertices.min(axis=0), vertices.max(axis=0)
+    half = (high - low) / 2
+    scale = np.where(half > 2 * MARGIN, 1 - MARGIN / np.maximum(half, MARGIN), 1.0)
+    within: Array = (low + high) / 2 + (vertices - (low + high) / 2) * scale
+    return within

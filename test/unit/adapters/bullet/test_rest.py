@@ -212,3 +212,32 @@ def test_names_and_numbers_are_checked_wherever_they_come_in(engine):
     assert engine.distance("a", Kind.OBJECT, "x", 0.5) == 0.5
     pass_time(engine, 0.1)
     assert height(engine, "cube") == pytest.approx(0.025, abs=0.001)
+
+
+SQUARE = np.array([[-1, -1, 0], [1, -1, 0], [1, 1, 0], [-1, 1, 0]], float)
+CORNERS = np.array(list(itertools.product((-0.025, 0.025), repeat=3)))
+FLAT = {
+    "box": FLOOR,
+    "outline": Body((Part(Shape.HULL, vertices=np.vstack([SQUARE, SQUARE - [0, 0, 0.02]])),), 0.0),
+    "triangles": Body(
+        (Part(Shape.MESH, vertices=SQUARE, triangles=np.array([[0, 1, 2], [0, 2, 3]])),), 0.0
+    ),
+}
+
+
+@pytest.mark.parametrize("surface", FLAT)
+def test_what_stands_on_a_surface_of_any_shape_stands_at_its_height(surface):
+    engine = BulletEngine(lambda uri: Path(uri))
+    engine.add_surface("table", FLAT[surface], Pose((0.0, 0.0, 0.7)))
+    shapes = {
+        "cube": Part(Shape.BOX, (0.05, 0.05, 0.05)),
+        "hull": Part(Shape.HULL, vertices=CORNERS),
+        "can": Part(Shape.CYLINDER, (0.025, 0.05)),
+    }
+    for i, (name, part) in enumerate(shapes.items()):
+        place = Pose((0.3 * i - 0.3, 0.1, 0.73))
+        engine.add_object(name, Body((part,), 0.1), BodyState(place))
+    pass_time(engine, 2.0)
+    for name in shapes:
+        assert height(engine, name) == pytest.approx(0.725, abs=5e-5)
+    engine.close()
