@@ -302,7 +302,7 @@ class BulletEngine:
             if robot.links[p[3]] not in without:
                 nearest, least = p, p[8]
         for held in self._held_by(arm):
-            if (kind, other) != (Kind.OBJECT, held) and not own:
+            if (kind, other) != (Kind.OBJECT, held) and not own and held not in without:
                 near = pybullet.getClosestPoints(
                     self._objects.body(held), body, limit, physicsClientId=self._client
                 )

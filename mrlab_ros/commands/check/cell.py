@@ -80,6 +80,11 @@ def read(file: Path, scene: SceneDocument, named: str) -> tuple[SystemEntry, Sce
     """
     content = scene_files.content(file)
     if isinstance(content, dict) and content.get("robots"):
+        if named:
+            raise Misuse(
+                f"the scene {named} is asked for, and {file.name} has robots and objects of its "
+                "own; leave one of them out"
+            )
         scene = scene_document.parse(content, file.name)
         systems = scene.systems
     else:

@@ -44,8 +44,12 @@ def check(
     ] = None,
     within: Annotated[str, typer.Option(help="How near it shall pass them, such as 5mm.")] = "5mm",
     closest: Annotated[
-        str, typer.Option(help="What comes nearer without touching is a warning, such as 10mm.")
-    ] = "10mm",
+        str,
+        typer.Option(
+            help="What comes nearer without touching is a warning; empty: 10mm, or what the "
+            "rubric says."
+        ),
+    ] = "",
     out: Annotated[
         Path | None, typer.Option("--out", "-o", help="Write a page with 3D and plots: FILE.html.")
     ] = None,
@@ -63,7 +67,7 @@ def check(
             raise Misuse(f"the page is '{out.name}'; expected a name that ends in .html")
         request = run.Request(
             file, robot, tool, scene, points, metres(within, "within"),
-            metres(closest, "closest"), out, as_json, options, rubric,
+            metres(closest, "closest") if closest else None, out, as_json, options, rubric,
         )  # fmt: skip
         code = run.run(request)
     except LabError as error:

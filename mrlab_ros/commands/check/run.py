@@ -12,6 +12,8 @@ from mrlab_ros.adapters.robots.library import RobotLibrary
 from mrlab_ros.commands.check import words
 from mrlab_ros.commands.check.one import CELLS, CheckedFile, Setting, check_file, scene_of
 from mrlab_ros.commands.convert import report as conversion_report
+from mrlab_ros.core.checking.evidence import CLOSE
+from mrlab_ros.core.checking.rehearsal import FARTHEST
 from mrlab_ros.core.checking.waypoints import points_from_rows
 from mrlab_ros.core.conversion.convert import ConversionResult
 from mrlab_ros.core.conversion.options import Options
@@ -26,7 +28,7 @@ NO_MOTION = "the file holds no motion that could be rehearsed; mrlab show draws 
 
 @dataclass(frozen=True)
 class Request:
-    """The arguments of the command; within, closest: m."""
+    """The arguments of the command; within, closest: m; closest: None where it is not given."""
 
     file: Path
     robot: str
@@ -34,7 +36,7 @@ class Request:
     scene: str
     points: Path | None
     within: float
-    closest: float
+    closest: float | None
     out: Path | None
     as_json: bool
     options: Options
@@ -43,15 +45,23 @@ class Request:
 
 def run(request: Request) -> int:
     """Check, print, and return the exit code; raise LabError where nothing can be checked."""
-    if request.file.suffix.lower() in CELLS and (request.robot or request.points is not None):
-        option = "--robot" if request.robot else "--points"
+    if request.file.suffix.lower() in CELLS and (
+        request.robot or request.tool or request.points is not None
+    ):
+        option = "--robot" if request.robot else "--tool" if request.tool else "--points"
         raise Misuse(f"{option} is for one motion; {request.file.name} is a cell of several")
+    if request.closest is not None and request.closest > FARTHEST:
+        raise Misuse(
+            f"--closest is {request.closest:g} m; expected at most {FARTHEST:g} m, as far as is "
+            "measured"
+        )
     folder = share.directory()
     if request.rubric is not None:
         return _marked(request, request.rubric, folder)
     setting = Setting(
         Stage(folder, RobotLibrary(folder / "robots")), scene_of(request.scene, folder),
-        request.scene, request.robot, request.tool, request.options, request.closest,
+        request.scene, request.robot, request.tool, request.options,
+        CLOSE if request.closest is None else request.closest,
         _points(request.points), request.within, drawn=request.out is not None,
     )  # fmt: skip
     return _finish(request, check_file(request.file, setting), setting, folder)
@@ -63,8 +73,8 @@ def _marked(request: Request, path: Path, folder: Path) -> int:
     from mrlab_ros.commands.rubric import words as marks_words
     from mrlab_ros.commands.rubric.marked import compared, mark_file, reference_of, setting_of
 
-    for option in ("robot", "tool", "scene"):
-        if getattr(request, option):
+    for option in ("robot", "tool", "scene", "closest"):
+        if getattr(request, option) not in ("", None):
             raise Misuse(f"--{option} is given, and so is --rubric, which says it; leave one out")
     rubric = files.read(path)
     stage = Stage(folder, RobotLibrary(folder / "robots"))

@@ -82,6 +82,12 @@ def check_rubric_file(file: Path, rubric: Rubric, setting: Setting) -> CheckedFi
             f"{file.name} is a cell of several robots, and the rubric is for one {rubric.robot}; "
             "leave robot: out of a rubric for cells"
         )
+    robots = setting.robot or setting.scene.robots
+    if not robots and file.suffix.lower() not in (*CELLS, ".json") and file.is_file():
+        raise Misuse(
+            f"'{file.name}' does not say which robot it is for, nor does the rubric; add robot: "
+            "ur5e to the rubric, or mark a cell (.yaml)"
+        )
     return check_file(file, replace(setting, drawn=True))
 
 

@@ -46,12 +46,14 @@ class GraspChange:
 @dataclass
 class Distances:
     """How far a robot is from something over time, m; one a sample, the farthest that is looked
-    for where it is farther. links: of the robot, at each sample; empty: farther."""
+    for where it is farther. links: of the robot, at each sample; empty: farther. arm: where the
+    links alone are nearest, at samples at which something held is nearer; None: farther."""
 
     values: list[float] = field(default_factory=list)
     links: list[str] = field(default_factory=list)
     other_links: list[str] = field(default_factory=list)
     held: list[str] = field(default_factory=list)
+    arm: dict[int, Near | None] = field(default_factory=dict)
 
     def add(self, near: Near) -> None:
         self.values.append(near.distance)
@@ -64,6 +66,21 @@ class Distances:
         self.values += [farthest] * count
         for names in (self.links, self.other_links, self.held):
             names += [""] * count
+
+    def without(self, held: str, farthest: float) -> Distances:
+        """Return them of the links alone where `held` is nearer than these."""
+        if held not in self.held or not held:
+            return self
+        found = Distances()
+        for at, value in enumerate(self.values):
+            near: Near | None = Near(value, self.links[at], self.held[at], self.other_links[at])
+            if self.held[at] == held:
+                near = self.arm.get(at)
+            if near is None:
+                found.add_far(1, farthest)
+            else:
+                found.add(near)
+        return found
 
     def least(self) -> int:
         """Return the index of the least distance."""

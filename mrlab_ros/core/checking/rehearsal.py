@@ -367,6 +367,11 @@ class Rehearsal:
                     series.add_far(1, FARTHEST)
                 else:
                     series.add(near)
+                    if near.held:
+                        alone = without | {near.held}
+                        series.arm[len(series.values) - 1] = self._engine.nearest(
+                            name, *other, FARTHEST, alone
+                        )
 
     def _draw(self) -> None:
         time = max(self._seconds, 0.0)

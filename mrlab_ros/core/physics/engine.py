@@ -240,7 +240,8 @@ class Engine(Protocol):
         without: frozenset[str] = frozenset(),
     ) -> Near | None:
         """Return where the arm's moving links and what it holds are nearest to something; None
-        where that is further than `limit`, m. without: links that do not count."""
+        where that is further than `limit`, m. without: links, and what is held, that do not
+        count."""
         ...
 
     def add_object(self, name: str, body: Body, motion: BodyState) -> None: ...

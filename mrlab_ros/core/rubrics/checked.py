@@ -55,6 +55,16 @@ class Checked:
         """Return how a cell is played, parallel or sequential; empty: it is no cell."""
         return str(self.report.extras.get("system", {}).get("mode", ""))
 
+    @property
+    def stuck(self) -> Mapping[str, str]:
+        """Return the wait that held a robot of a cell for ever, by robot."""
+        return self.recorded.stuck if self.recorded is not None else {}
+
+    def played(self, robot: str) -> tuple[Motion, ...]:
+        """Return the motions of a robot as `of` does; none where one was not played to its end."""
+        motions = self.of(robot)
+        return () if any(m.robot.name in self.stuck for m in motions) else motions
+
     def of(self, robot: str) -> tuple[Motion, ...]:
         """Return the motions of a robot, named or by its model; empty: all."""
         return tuple(m for m in self.motions if robot in ("", m.robot.name, m.robot.model.id))

@@ -28,7 +28,7 @@ class NearReference:
     def assess(self, checked: Checked, reference: Checked | None) -> Outcome:
         if reference is None or not reference.motions:
             return Outcome(0.0, "There is no reference motion to compare with.", 0.0)
-        motions = checked.of(self.robot)
+        motions = checked.played(self.robot)
         if not motions:
             return no_robot(self.robot, checked)
         found: list[tuple[float, float, str]] = []

@@ -85,7 +85,8 @@ class Distance:
         names = _names(checked, self.robot)
         near = [
             (series.values[at], recorded.times[at], robot, kind, other, series, at)
-            for (robot, (kind, other)), series in recorded.distances.items()
+            for (robot, (kind, other)), every in recorded.distances.items()
+            for series in [every.without(self.but, FARTHEST)]
             if self._counts(robot, other, kind, names) and series.values
             for at in [series.least()]
         ]

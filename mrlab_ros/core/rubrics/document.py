@@ -7,7 +7,8 @@ from collections.abc import Mapping
 from typing import Any
 
 from mrlab_ros.core.checking.evidence import CLOSE
-from mrlab_ros.core.errors import BadInput
+from mrlab_ros.core.checking.rehearsal import FARTHEST
+from mrlab_ros.core.errors import BadInput, LabError
 from mrlab_ros.core.geometry import Pose, Vector, normalized, quaternion_from_rpy
 from mrlab_ros.core.records import (
     FILLED_TEXT,
@@ -59,6 +60,10 @@ def parse(document: object, origin: str, lines: Lines | None = None) -> Rubric:
         metres = CLOSE if closest is None else LENGTH.read(closest)
     except BadInput as error:
         raise record.error(f"closest: {error}") from None
+    if not 0 <= metres <= FARTHEST:
+        raise record.error(
+            f"closest is {closest}; expected 0 to {LENGTH.words(FARTHEST)}, as far as is measured"
+        )
     tests = every(lambda numbered: _test(origin, known, *numbered), enumerate(entries), origin)
     _unique(tests, origin)
     assert isinstance(document, Mapping)
@@ -170,8 +175,11 @@ def _pose(place: str, number: int, value: object) -> Pose | Vector:
         return Pose((x, y, z), quaternion_from_rpy(roll, pitch, yaw))
     if given is not None:
         qx, qy, qz, qw = given
-        pose = Pose((x, y, z), (qx, qy, qz, qw))
-        return Pose(pose.position, normalized(pose.orientation))
+        try:
+            pose = Pose((x, y, z), (qx, qy, qz, qw))
+            return Pose(pose.position, normalized(pose.orientation))
+        except LabError as error:
+            raise BadInput(f"{where}: {error}") from None
     return (x, y, z)
 
 

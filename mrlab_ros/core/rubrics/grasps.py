@@ -145,6 +145,9 @@ class Holds:
             return self._outcome(share, words, end, end - begin, self.span)
         since = spans[0][0] if self.since is None else self.since
         until = recorded.duration if self.until is None else self.until
+        if since > until:
+            words = f"{self.thing} is grasped at {since:.2f} s; expected before {until:g} s."
+            return Outcome(0.0, words, since, since, until, "s")
         held = sum(max(min(e, until) - max(b, since), 0.0) for b, e in spans)
         wanted = max(until - since, 0.0)
         share = held / wanted if wanted > 0 else float(any(b <= until <= e for b, e in spans))

@@ -28,7 +28,7 @@ class WithinLimits:
     threshold: Threshold
 
     def assess(self, checked: Checked, reference: Checked | None) -> Outcome:
-        motions = checked.of(self.robot)
+        motions = checked.played(self.robot)
         if not motions:
             return no_robot(self.robot, checked)
         uses = [use for motion in motions for use in self._uses(motion)]

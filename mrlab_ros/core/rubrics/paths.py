@@ -29,7 +29,7 @@ class PathFigure:
     threshold: Threshold
 
     def assess(self, checked: Checked, reference: Checked | None) -> Outcome:
-        motions = checked.of(self.robot)
+        motions = checked.played(self.robot)
         if not motions:
             return no_robot(self.robot, checked)
         sign = -1 if self.threshold.at_least else 1

@@ -22,7 +22,11 @@ HOME = float(np.radians(1.0))
 
 
 def no_robot(robot: str, checked: Checked) -> Outcome:
-    """Return what a test gets whose robot has no motion."""
+    """Return what a test gets whose robot has no motion, or has not played it to its end."""
+    for motion in checked.of(robot):
+        if (wait := checked.stuck.get(motion.robot.name)) is not None:
+            words = f"{motion.robot.name} waits for ever: '{wait}' does not come true."
+            return Outcome(0.0, words, motion.start)
     names = ", ".join(m.robot.name for m in checked.motions)
     return Outcome(0.0, f"{robot} has no motion in this file; those that have: {names}.", 0.0)
 
@@ -51,7 +55,7 @@ class Passes:
     each: bool
 
     def assess(self, checked: Checked, reference: Checked | None) -> Outcome:
-        motion = next(iter(checked.of(self.robot)), None)
+        motion = next(iter(checked.played(self.robot)), None)
         if motion is None:
             return no_robot(self.robot, checked)
         found = self.visits(motion)
@@ -93,7 +97,8 @@ class Passes:
         after = 0.0
         for pose in self.poses:
             position = pose.position if isinstance(pose, Pose) else pose
-            distances, instants = segments(tool, times, np.asarray(position))
+            # A place of two numbers is seen from above.
+            distances, instants = segments(tool[:, : len(position)], times, np.asarray(position))
             angles = np.zeros_like(distances)
             if self.angle is not None and isinstance(pose, Pose):
                 angles = _angles(motion, pose.orientation, instants)
@@ -104,7 +109,8 @@ class Passes:
                 ends = np.flatnonzero(np.diff(hits) > 1)
                 first = hits[: ends[0] + 1] if len(ends) else hits
                 at = int(first[distances[first].argmin()])
-                after = float(instants[at]) if self.ordered else 0.0
+                # The next may be passed before the tool is nearest to this one.
+                after = float(instants[first[0]]) if self.ordered else 0.0
                 found.append(Visit(float(distances[at]), float(angles[at]), float(instants[at]),
                                    True))  # fmt: skip
                 continue
@@ -134,8 +140,10 @@ class Passes:
             )
         robots = ground.of(self.robot)
         for number, pose in enumerate(self.poses, 1):
+            if not isinstance(pose, Pose) and len(pose) == 2:
+                continue
             short = [nearest(robot, pose, self.angle) for robot in robots]
-            if short and min(short) > self.length:
+            if short and min(short) > self.length > 0:
                 yield (
                     f"pose {number} ({_place(pose)}) is out of reach: the tool comes within "
                     f"{LENGTH.words(min(short))} of it, not within {LENGTH.words(self.length)}"
@@ -168,7 +176,7 @@ class End:
     threshold: Threshold
 
     def assess(self, checked: Checked, reference: Checked | None) -> Outcome:
-        motion = next(iter(checked.of(self.robot)), None)
+        motion = next(iter(checked.played(self.robot)), None)
         if motion is None:
             return no_robot(self.robot, checked)
         at = -1 if self.last else 0
@@ -201,7 +209,7 @@ class AtJoints:
     threshold: Threshold
 
     def assess(self, checked: Checked, reference: Checked | None) -> Outcome:
-        motions = checked.of(self.robot)
+        motions = checked.played(self.robot)
         if not motions:
             return no_robot(self.robot, checked)
         found = []
@@ -231,7 +239,7 @@ class AtRest:
     last: bool
 
     def assess(self, checked: Checked, reference: Checked | None) -> Outcome:
-        motions = checked.of(self.robot)
+        motions = checked.played(self.robot)
         if not motions:
             return no_robot(self.robot, checked)
         share, joint, motion = max(
@@ -284,7 +292,7 @@ def _home(text: str, last: bool, about: str, *, back: bool = False) -> Form:
         f"{text} [within ANGLE] [by ROBOT]",
         lambda gaps, given: AtJoints(
             gaps.get("robot") or "", last, back,
-            Threshold(ANGLE, gaps.get("angle") or HOME, given.until),
+            Threshold(ANGLE, HOME if gaps.get("angle") is None else gaps["angle"], given.until),
         ),
         about, until=ANGLE,
     )  # fmt: skip

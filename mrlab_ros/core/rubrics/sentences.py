@@ -30,8 +30,8 @@ from mrlab_ros.core.rubrics.rubric import Measure
 
 NAME = r"[A-Za-z][\w-]*"
 PLACE = r"\[[^\]]*\]"
-LESS = r"(?:<=?|below|under|less than|at most|shorter than|up to)"
-MORE = r"(?:>=?|above|over|more than|at least|greater than)"
+LESS = r"(?:<=?|≤|below|under|less than|at most|shorter than|up to)"
+MORE = r"(?:>=?|≥|above|over|more than|at least|greater than)"
 # Gaps: what may stand there, and the quantity that it is; None: a name or a place.
 GAPS: dict[str, tuple[str, Quantity | None]] = {
     "OBJECT": (NAME, None),

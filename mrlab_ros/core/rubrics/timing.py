@@ -33,7 +33,7 @@ class Cycle:
                 words = f"{robot} waits for ever: '{wait}' does not come true."
                 return Outcome(0.0, words, value, None, self.threshold.limit, "s")
             return self._judged(value, "The whole lasts {}", 0.0)
-        motions = checked.of(self.robot)
+        motions = checked.played(self.robot)
         if not motions:
             return no_robot(self.robot, checked)
         longest = max(motions, key=lambda m: m.figures.cycle)

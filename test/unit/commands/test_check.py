@@ -65,6 +65,7 @@ def test_a_collision_refuses_and_the_page_and_the_report_have_one_hash(tmp_path)
         (("--robot", "ur5e", "--within", "5 miles"), "expected a length"),
         (("--robot", "ur5e", "--points", "nowhere.csv"), "cannot be read"),
         (("--robot", "ur5e", "--out", "page.pdf"), "ends in .html"),
+        (("--robot", "ur5e", "--closest", "600mm"), "at most 0.5 m"),
     ],
 )
 def test_what_cannot_be_checked_ends_with_2_and_a_sentence(words, sentence):
@@ -129,5 +130,20 @@ def test_a_cell_that_cannot_be_checked_ends_with_2_and_a_sentence(tmp_path, text
     cell = tmp_path / "cell.yaml"
     cell.write_text(text)
     said = check(cell)
+    assert said.exit_code == 2
+    assert sentence in said.stderr
+
+
+@pytest.mark.parametrize(
+    ("option", "value", "sentence"),
+    [
+        ("--scene", "table", "robots and objects of its own"),
+        ("--tool", "vacuum_cup", "--tool is for one motion"),
+    ],
+)
+def test_a_cell_does_not_pass_over_an_option(tmp_path, option, value, sentence):
+    cell = tmp_path / "cell.yaml"
+    cell.write_text(CELL)
+    said = check(cell, option, value)
     assert said.exit_code == 2
     assert sentence in said.stderr

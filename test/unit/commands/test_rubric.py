@@ -119,6 +119,25 @@ def test_a_trajectory_file_that_is_damaged_or_of_another_robot_gets_nothing(tmp_
         assert words in found["note"]
 
 
+def test_what_is_held_may_touch_what_the_gripper_keeps_away_from(tmp_path):
+    rubric = tmp_path / "r.yaml"
+    rubric.write_text(
+        "robot: ur5e\nscene: pick_and_place\ntests:\n"
+        "  - {expect: distance to everything but cube_1 > 10 mm, points: 1}\n"
+        "  - {expect: distance to the floor > 10 mm, points: 1}\n"
+    )
+    found = json.loads(
+        mark(ROOT / "examples" / "pick_and_place_ur5e.mat", rubric, "--json").stdout
+    )
+    assert [t["points"] for t in found["tests"]] == [1.0, 0.0]
+
+
+def test_a_rubric_and_an_option_that_it_says_are_not_both_taken(tmp_path):
+    said = run("check", QUINTIC, "--rubric", RUBRIC, "--closest", "20mm")
+    assert said.exit_code == 2
+    assert "--closest is given, and so is --rubric" in said.stderr
+
+
 def test_a_file_without_a_motion_gets_nothing_and_a_reason():
     said = mark(ROOT / "README.md", RUBRIC, "--json")
     assert said.exit_code == 1
@@ -145,7 +164,8 @@ def test_the_example_and_the_measures_are_printed():
         ("robot: ur5e\nreference: no.mat\ntests:\n- expect: joints within 1 deg of the reference\n"
          "  points: 1", "r.yaml: reference: there is no file"),
         ("tests: 5", "expected a list"),
-        ("tests: [{expect: no collision, points: 1}]", "does not say which robot"),
+        ("tests: [{expect: no collision, points: 1}]", "add robot: ur5e to the rubric"),
+        ("closest: 2 m\ntests: [{expect: no collision, points: 1}]", "0 to 500 mm"),
     ],
 )  # fmt: skip
 def test_what_cannot_be_marked_ends_with_2_and_a_sentence(tmp_path, text, sentence):

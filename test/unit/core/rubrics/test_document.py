@@ -130,10 +130,18 @@ def test_the_linter_says_what_cannot_be_measured(test, words):
     assert any(words in flaw.message for flaw in flaws), [f.message for f in flaws]
 
 
+def test_a_direction_of_no_length_is_told_with_its_line():
+    pose = {"position": [0.4, 0.1, 0.4], "orientation": [0, 0, 0, 0]}
+    test = {"expect": "passes within 5 mm of poses", "points": 1, "poses": [pose]}
+    with pytest.raises(BadInput, match="r:7: test 'passes .*: pose 1: .* length 0"):
+        parse({"tests": [test]}, "r", {("tests", 0): 7})
+
+
 def test_what_can_be_measured_has_no_errors():
     sentences = [
         "no collision", "grasps cube_1", "places cube_1 in bin_1", "distance to bin_1 > 5 cm",
-        "passes within 5 mm of [0.45, 0.2, 0.4]", "cycle < 8 s", "no collision with the floor",
+        "passes within 5 mm of [0.45, 0.2, 0.4]", "passes within 5 mm of [0.45, 0.2]",
+        "cycle ≤ 8 s", "no collision with the floor",
     ]  # fmt: skip
     tests = [{"expect": s, "points": 1} for s in sentences]
     flaws = flaws_of(parse({"tests": tests}, "r"), GROUND)

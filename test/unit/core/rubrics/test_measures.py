@@ -63,6 +63,62 @@ def test_the_least_distance_and_when_it_is_first_too_small():
     assert "no distance" in outcome("distance to cube_1 > 1 cm", found).words
 
 
+def test_what_is_picked_up_is_left_out_of_the_distance():
+    series = Distances()
+    for value, held in ((0.4, ""), (0.0, "cube_1"), (0.3, "cube_1"), (0.2, "")):
+        series.add(Near(value, "finger_link", held))
+    series.arm[1] = Near(0.02, "finger_link")
+    series.arm[2] = None
+    record = recorded(
+        times=[0.0, 1.0, 2.0, 3.0], distances={("ur5e_1", (Kind.SURFACE, "floor")): series}
+    )
+    found = checked(record=record)
+    assert outcome("distance > 1 mm", found).measured == 0.0
+    kept = outcome("distance to everything but cube_1 > 1 mm", found)
+    assert (kept.share, kept.measured) == (1.0, 0.02)
+    lost = outcome("distance to everything but cube_1 > 10 cm", found)
+    assert (lost.share, lost.time) == (0.0, 1.0)
+    assert "finger_link comes within 20 mm of the floor at 1.00 s" in lost.words
+    assert outcome("distance to everything but bin_1 > 1 mm", found).share == 0.0
+
+
+def test_a_place_of_two_numbers_is_seen_from_above():
+    x, y, z = TOOL[100].tolist()
+    assert outcome(f"passes within 1 mm of [{x}, {y}]", checked()).share == 1.0
+    assert outcome(f"passes within 1 mm of [{x}, {y}, {z + 0.1}]", checked()).share == 0.0
+    assert outcome(f"passes within 1 mm of [{x}, {y + 0.5}]", checked()).share == 0.0
+
+
+def test_the_next_pose_may_come_before_the_tool_is_nearest_to_the_one_before():
+    # Half the way and back a little: near all the time to where it ends, nearest at the end.
+    way = float(np.linalg.norm(TOOL[-1] - TOOL[0]))
+    poses = [TOOL[-1].tolist(), TOOL[100].tolist()]
+    loose = outcome(f"passes within {1050 * way} mm of poses, in order", checked(), poses=poses)
+    assert loose.share == 1.0
+    tight = outcome("passes within 5 mm of poses, in order", checked(), poses=poses)
+    assert tight.share == 0.0
+
+
+@pytest.mark.parametrize(
+    "sentence",
+    ["ends at home", "cycle < 9 s", "passes within 9 m of [0, 0, 0]", "path length < 9 m",
+     "within 100% of limits"],
+)  # fmt: skip
+def test_a_robot_that_waits_for_ever_has_not_played_its_motion(sentence):
+    back = reach(joints=(0.0,) * 6)
+    stuck = recorded(stuck={"ur5e_1": "frame 0: after kr6_1.frame 9"})
+    assert outcome(sentence, checked(back)).share == 1.0
+    lost = outcome(sentence, checked(back, record=stuck))
+    assert lost.share == 0.0
+    assert "ur5e_1 waits for ever: 'frame 0: after kr6_1.frame 9'" in lost.words
+
+
+def test_no_angle_at_all_is_an_angle():
+    off = checked(reach(joints=(0.01, 0, 0, 0, 0, 0)))
+    assert outcome("ends at home", off).share == 1.0
+    assert outcome("ends at home within 0 deg", off).share == 0.0
+
+
 def test_poses_are_passed_in_order_or_in_any():
     places = [TOOL[60].tolist(), TOOL[120].tolist()]
     found = checked()
