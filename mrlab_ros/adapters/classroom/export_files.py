@@ -70,7 +70,9 @@ class Export:
         if not named:
             return {}
         try:
-            content = yaml.load(self._bytes(named[0]), yaml.CSafeLoader)
+            # Every value as it is written: a number such as 0412346 is no octal one, and the
+            # times are objects of Ruby.
+            content = yaml.load(self._bytes(named[0]), yaml.CBaseLoader)
         except (yaml.YAMLError, BadInput, RecursionError, ValueError) as error:
             reason = str(error).partition("\n")[0]
             self.problems.append((named[0], f"cannot be read ({reason}): names are not known"))

@@ -94,13 +94,17 @@ def run(request: Request) -> int:
                 "Canvas or Gradescope, a folder or file for each student"
             )
         folder = ResultsFolder(request.out)
-        key_table = None
+        key_table, who = None, dict[str, Submission]()
         if request.pseudonyms:
-            roster, key_table = _pseudonyms(roster, request.out)
+            roster, key_table, who = _pseudonyms(roster, request.out)
         results = _results(request, roster, export, folder)
     students = tuple(Student(s, results[s.key]) for s in roster.submissions)
     graded = GradedClass(rubric, roster.form, students, roster.left_out, results.get(REFERENCE))
-    problems = _write(request, graded, folder)
+    _write(graded, folder)
+    problems: list[str] = []
+    if request.template is not None:  # it has names, so it is filled by them
+        named = [Student(who.get(s.submission.name, s.submission), s.result) for s in students]
+        problems = _fill(request, named, request.template)
     document = graded.document()
     if request.as_json:
         print(json.dumps(document))
@@ -297,11 +301,10 @@ def _known(request: Request, folder: ResultsFolder) -> Any:
     return known
 
 
-def _write(request: Request, graded: GradedClass, folder: ResultsFolder) -> list[str]:
-    """Write pages and tables; return what did not fit into Moodle's worksheet."""
+def _write(graded: GradedClass, folder: ResultsFolder) -> None:
+    """Write pages and tables."""
     from mrlab_ros.adapters.pages.class_page import class_page
 
-    problems: list[str] = []
     keys = [s.key for s in graded.students]
     for student in graded.students:
         content = orjson.dumps(gradebook.gradescope(student.result), option=orjson.OPT_INDENT_2)
@@ -315,9 +318,6 @@ def _write(request: Request, graded: GradedClass, folder: ResultsFolder) -> list
     folder.write(TABLE, table.encode())
     folder.write(CLASS, orjson.dumps(graded.document(), option=orjson.OPT_INDENT_2))
     folder.write(INDEX, class_page(graded, share.directory()).encode())
-    if request.template is not None:
-        problems = _fill(request, graded.students, request.template)
-    return problems
 
 
 def _fill(request: Request, students: Sequence[Student], template: Path) -> list[str]:
@@ -332,8 +332,8 @@ def _fill(request: Request, students: Sequence[Student], template: Path) -> list
     return [f"the worksheet with the grades is {out}", *problems]
 
 
-def _pseudonyms(roster: Roster, out: Path) -> tuple[Roster, Path]:
-    """Return the roster without names, and the file beside the class that says who is who."""
+def _pseudonyms(roster: Roster, out: Path) -> tuple[Roster, Path, dict[str, Submission]]:
+    """Return the roster without names, the file beside the class that says who is who, and who."""
     path = out.with_name(f"{out.name}-names.json")
     try:
         known = json.loads(path.read_text(encoding="utf-8")) if path.exists() else {}
@@ -357,4 +357,4 @@ def _pseudonyms(roster: Roster, out: Path) -> tuple[Roster, Path]:
         os.replace(written, path)
     except OSError as error:
         raise BadInput(f"the key table {path} cannot be written: {error.strerror}") from None
-    return changed, path
+    return changed, path, who

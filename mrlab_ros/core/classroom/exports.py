@@ -13,9 +13,10 @@ from typing import Any
 MOODLE = re.compile(
     r"(?P<name>.+)_(?P<id>\d+)_assignsubmission_(?P<kind>file|onlinetext|comments)(_(?P<file>.*))?"
 )
-ILIAS = re.compile(r"(?P<last>[^_]+)_(?P<first>[^_]+)_(?P<login>[^_]+)_(?P<id>\d+)")
+ILIAS = re.compile(r"(?P<last>[^_]+)_(?P<first>[^_]+)_(?P<login>.+)_(?P<id>\d+)")
 CANVAS = re.compile(
-    r"(?P<name>[^\W_]([^\W_]|-)*)_(?P<late>LATE_)?(?P<id>\d+)_(?P<submission>\d+)_(?P<file>.+)",
+    r"(?P<name>[^\W_]([^\W_]|-)*)_(?P<late>LATE_)?(?P<id>\d+)_"
+    r"(?:(?P<submission>\d+)_(?P<file>.+)|(?P<text>text)\.html)",
     re.IGNORECASE,
 )
 GRADESCOPE = re.compile(r"submission_(?P<id>\d+)")
@@ -170,7 +171,8 @@ def _named(parts: Sequence[str], form: str) -> tuple[_Found, str] | None:
             return _Found(name, match["login"], part), rest
         if form == "Canvas" and (match := CANVAS.fullmatch(part)):
             file = "/".join(each for each in (match["file"], rest) if each)
-            return _Found(match["name"], match["id"], "", bool(match["late"])), file
+            late, text = bool(match["late"]), bool(match["text"])
+            return _Found(match["name"], match["id"], "", late, text=text), file
         if form == "Gradescope" and rest and (match := GRADESCOPE.fullmatch(part)):
             return _Found(part, match["id"], part), rest
     return None

@@ -78,7 +78,7 @@ def filled(template: str, students: Sequence[Student], name: str) -> tuple[str, 
         )
     most, comments = _column(heads, MOST), _column(heads, COMMENTS)
     by_number = {s.submission.identifier: s for s in students if s.submission.identifier}
-    problems, met = [], set()
+    met, maxima = set(), set()
     for row in rows[1:]:
         found = NUMBER.search(row[identifier]) if len(row) > identifier else None
         student = by_number.get(found[0]) if found else None
@@ -89,12 +89,14 @@ def filled(template: str, students: Sequence[Student], name: str) -> tuple[str, 
         points = number(student.result.points)
         row[grade] = points.replace(".", ",") if delimiter == ";" else points
         if most is not None and _differs(row[most], student.result.of):
-            problems.append(
-                f"{student.submission.name}: Moodle's maximum is {row[most]}, the rubric has "
-                f"{number(student.result.of)} points; the points are written as they are"
-            )
+            maxima.add((row[most], number(student.result.of)))
         if comments is not None:
             row[comments] = str(cell(comment(student.result)))
+    problems = [
+        f"Moodle's maximum is {said}, the rubric has {of} points; the points are written as they "
+        "are"
+        for said, of in sorted(maxima)
+    ]
     problems += [
         f"{s.submission.name}: not in the worksheet"
         for s in students

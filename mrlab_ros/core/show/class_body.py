@@ -207,16 +207,16 @@ def _column(
 
 def _row(student: Student, thumbnails: Thumbnails) -> str:
     one, result = student.submission, student.result
-    name = escape(one.name)
+    name = f"<bdi>{escape(one.name)}</bdi>"
     page = f"pages/{quote(student.key)}.html" if result.has_page else ""
     linked = f'<a href="{page}">{name}</a>' if page else f"<span>{name}</span>"
     details = [f"<small>{escape(one.identifier)}</small>"] if one.identifier else []
     if one.late:
         details.append('<small class="late">' + said("late", "verspätet") + "</small>")
     if result.file:
-        details.append(f"<small>{escape(result.file)}</small>")
+        details.append(f"<small><bdi>{escape(result.file)}</bdi></small>")
     notes = (*one.notes, *result.notes)
-    if result.outcome != MARKED:
+    if result.outcome != MARKED or not (result.path or result.has_page):
         notes = (result.words, *notes)
     details += [f'<small class="note">{escape(note)}</small>' for note in notes]
     cells = "".join(
@@ -337,7 +337,7 @@ def _similar(graded: GradedClass, common: Similar, thumbnails: Thumbnails) -> st
 
 
 def _member(student: Student, thumbnails: Thumbnails) -> str:
-    name, result = escape(student.submission.name), student.result
+    name, result = f"<bdi>{escape(student.submission.name)}</bdi>", student.result
     svg = thumbnails.svg(result.path) if result.path else ""
     content = f"{svg}<span>{name}</span>"
     if result.has_page:

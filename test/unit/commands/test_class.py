@@ -105,7 +105,9 @@ def test_a_class_is_marked_kept_and_the_same_however_it_is_run(submissions, tmp_
 
     shared, one = tmp_path / "shared", tmp_path / "one"
     shutil.copytree(next(submissions.glob("Änne*")), one / "Änne Groß_1_assignsubmission_file_")
+    sheet.write_text("Identifier,Full name,Grade\nParticipant 1,Änne Groß,\n")
     words = ("--out", shared, "--pseudonyms", "--no-pages", "--json", "--jobs", 1)
+    words = (*words, "--csv-template", sheet)
     said = grade(one, "--rubric", RUBRIC, *words)
     assert said.exit_code == 0, said.stderr
     assert [s["points"] for s in json.loads(said.stdout)["students"]] == [15]
@@ -113,6 +115,7 @@ def test_a_class_is_marked_kept_and_the_same_however_it_is_run(submissions, tmp_
     assert not [n for n in ("änne", "aenne", "groß") if n.encode() in told]
     names = tmp_path / "shared-names.json"
     assert "Änne Groß" in names.read_text()
+    assert "Participant 1,Änne Groß,15" in (tmp_path / "shared-sheet.csv").read_text()
     assert names.stat().st_mode & 0o077 == 0
 
 

@@ -88,6 +88,14 @@ def test_gradescopes_metadata_is_read_and_a_broken_one_told(tmp_path):
     )
     with exported(tmp_path, archive(**{"e/submission_metadata.yml": text})) as found:
         assert found.metadata()["submission_1"][":submitters"] == [{":name": "Jane"}]
+    text = (
+        b"submission_1:\n  :submitters:\n  - :name: Jane\n    :sid: 0412346\n    :email:\n"
+        b"  :created_at: !ruby/object:ActiveSupport::TimeWithZone\n"
+        b"    utc: 2026-11-20 10:11:12.0 Z\n"
+    )
+    with exported(tmp_path, archive(**{"e/submission_metadata.yml": text})) as found:
+        sent = found.metadata()["submission_1"][":submitters"]
+        assert sent == [{":name": "Jane", ":sid": "0412346", ":email": ""}]
     with exported(tmp_path, archive(**{"e/submission_metadata.yml": b"a: ["})) as found:
         assert found.metadata() == {}
         assert "names are not known" in found.problems[0][1]

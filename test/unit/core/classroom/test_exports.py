@@ -22,6 +22,7 @@ def students(*paths, **more):
         ("Moodle", "Jörg Groß_7_assignsubmission_file_run_1.mat", "Jörg Groß", "7"),
         ("Moodle", "hw/Participant 3_99_assignsubmission_file_/a.mat", "Participant 3", "99"),
         ("ILIAS", "Übung 1/Abgaben/Doe_Jane_jdoe_4711/a.mat", "Jane Doe", "jdoe"),
+        ("ILIAS", "Abgaben/Doe_Jane_j_doe_4711/a.mat", "Jane Doe", "j_doe"),
         ("Canvas", "doejane_12345_67890_a.mat", "doejane", "12345"),
         ("Canvas", "doe-smithjane_LATE_12345_67890_a b.mat", "doe-smithjane", "12345"),
         ("Gradescope", "assignment_1_export/submission_77/a.mat", "submission_77", "77"),
@@ -38,6 +39,16 @@ def test_each_form_is_recognised(form, path, name, identifier):
     assert (one.name, one.identifier, one.form) == (name, identifier, form)
     assert [e.path for e in one.candidates] == [path]
     assert one.late == ("LATE" in path)
+
+
+def test_who_sent_canvas_a_text_alone_has_a_row_too():
+    found = students("doejane_1_2_a.mat", "leeann_LATE_3_text.html")
+    assert [(s.name, s.late, len(s.candidates)) for s in found.submissions] == [
+        ("doejane", False, 1),
+        ("leeann", True, 0),
+    ]
+    assert found.submissions[1].notes == ("an online text too, which is not read",)
+    assert found.left_out == ()
 
 
 def test_gradescope_says_who_sent_a_submission():

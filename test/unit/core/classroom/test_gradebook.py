@@ -5,6 +5,7 @@ from __future__ import annotations
 import csv
 import io
 import json
+from dataclasses import replace
 
 import pytest
 
@@ -56,6 +57,27 @@ def test_a_table_is_opened_by_excel_and_computes_nothing():
     assert [row["name"] for row in rows] == ["'=cmd()", "Jörg"]
     assert [row["points"] for row in rows] == ["6", "0"]
     assert rows[0]["secret"] == "0"
+
+
+def test_another_maximum_of_moodle_is_said_once():
+    rows = ["Identifier,Grade,Maximum Grade", "Participant 11,,100", "Participant 12,,100"]
+    _, problems = gradebook.filled("\n".join(rows), graded().students, "sheet.csv")
+    assert len(problems) == 1
+    assert "maximum is 100, the rubric has 10" in problems[0]
+
+
+def test_a_name_that_turns_the_direction_of_writing_turns_nothing_else():
+    some = graded()
+    turned = replace(some.students[0].submission, name="\u202etxet")
+    page = class_body(replace(some, students=(Student(turned, some.students[0].result),)))
+    assert "<bdi>\u202etxet</bdi>" in page
+
+
+def test_a_row_without_a_motion_says_why():
+    some = graded()
+    refused = replace(some.students[0].result, words="'q' seems to be in degrees", path=())
+    page = class_body(replace(some, students=(Student(some.students[0].submission, refused),)))
+    assert '<small class="note">&#x27;q&#x27; seems to be in degrees</small>' in page
 
 
 @pytest.mark.parametrize(
