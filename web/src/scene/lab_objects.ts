@@ -147,7 +147,8 @@ export class LabObjects {
 
   /** Return the pose of a frame in the world, in the scratch matrix. */
   private worldOf(frame: Object3D): Matrix4 {
-    frame.updateWorldMatrix(true, false)
+    // updateWorldMatrix passes over frames that do not compute themselves.
+    this.stage.world.updateMatrixWorld(true)
     return this.inWorld(frame)
   }
 

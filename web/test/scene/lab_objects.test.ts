@@ -126,3 +126,19 @@ test('objects of one shape are one mesh, each with its size, colour and place', 
   expect(place.setFromMatrixPosition(matrix).x).toBe(4)
   expect(colour.getHex()).toBe(new Color().setRGB(0, 0.1, 0, 'srgb').getHex())
 })
+
+test('what is grasped sits in the hand though the frames of a robot do not compute themselves', () => {
+  const { world, hand, objects } = scene()
+  const joint = new Group()
+  world.remove(hand)
+  joint.add(hand)
+  world.add(joint)
+  for (const node of [joint, hand]) node.matrixAutoUpdate = false
+  world.updateMatrixWorld()
+  joint.position.x = 3
+  joint.updateMatrix()
+  objects.set([cube(1, 'arm')])
+  joint.updateMatrixWorld(true)
+  objects.follow()
+  expect(world.getObjectByName('cube')?.position.x).toBeCloseTo(1)
+})
