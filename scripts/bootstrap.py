@@ -240,7 +240,7 @@ class Setup:
         (VENV / "COLCON_IGNORE").touch()
 
     def install(self, lock):
-        # empy and meshoptimizer are published as source only.
+        # empy is published as source only.
         # The cache lets an interrupted download resume; afterwards it is only weight.
         cache = VENV / ".cache"
         env = dict(os.environ, PIP_CACHE_DIR=str(cache), PIP_DISABLE_PIP_VERSION_CHECK="1")
@@ -252,7 +252,7 @@ class Setup:
                 "install",
                 "--require-hashes",
                 "--only-binary=:all:",
-                "--no-binary=empy,meshoptimizer",
+                "--no-binary=empy",
                 "-r",
                 str(lock),
             ],

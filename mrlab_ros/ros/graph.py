@@ -86,7 +86,10 @@ class GraphClient(ABC):
     def subscribe(
         self, kind: Any, topic: str, callback: Callable[[Any], None], quality: QoSProfile
     ) -> None:
-        """Call `callback` with every message of `topic`, in a thread of the client's own."""
+        """Call `callback` with every message of `topic`, in a thread of the client's own.
+
+        quality: what is asked for; a topic that offers less is heard as it is offered.
+        """
 
     def watch(self, kind: Any, topic: str, quality: QoSProfile = qos.LATCHED) -> Watch[Any]:
         """Follow `topic`, latched unless `quality` says otherwise."""

@@ -13,9 +13,10 @@ from typing import Any
 
 import rclpy
 from rclpy.context import Context
+from rclpy.event_handler import SubscriptionEventCallbacks
 from rclpy.executors import ExternalShutdownException, SingleThreadedExecutor
 from rclpy.node import Node
-from rclpy.qos import QoSProfile
+from rclpy.qos import DurabilityPolicy, QoSPolicyKind, QoSProfile, ReliabilityPolicy
 from rclpy.signals import SignalHandlerOptions
 
 from mrlab_ros.messages import qos
@@ -27,6 +28,43 @@ from mrlab_ros.ros.graph import CALL_TIMEOUT_S, FIND_TIMEOUT_S, GraphClient
 OFFER_PERIOD_S = 0.05
 # How long closing waits for a callback that runs, s.
 CLOSE_TIMEOUT_S = 5.0
+
+
+class _Ear:
+    """A subscription that asks for less where the topic's publishers offer less."""
+
+    def __init__(
+        self,
+        node: Node,
+        kind: Any,
+        topic: str,
+        callback: Callable[[Any], None],
+        quality: QoSProfile,
+    ) -> None:
+        self._node = node
+        self._what = (kind, topic, callback)
+        self._quality = quality
+        # The node's thread may hear of a publisher before __init__ has returned.
+        self._lock = threading.Lock()
+        with self._lock:
+            self._subscription = self._subscribe()
+
+    def _subscribe(self) -> Any:
+        events = SubscriptionEventCallbacks(incompatible_qos=self._weaken)
+        return self._node.create_subscription(*self._what, self._quality, event_callbacks=events)
+
+    def _weaken(self, found: Any) -> None:
+        with self._lock:
+            durability, reliability = self._quality.durability, self._quality.reliability
+            if found.last_policy_kind == QoSPolicyKind.DURABILITY:
+                durability = DurabilityPolicy.VOLATILE
+            else:
+                reliability = ReliabilityPolicy.BEST_EFFORT
+            self._quality = QoSProfile(
+                depth=qos.STREAM.depth, durability=durability, reliability=reliability
+            )
+            self._node.destroy_subscription(self._subscription)
+            self._subscription = self._subscribe()
 
 
 class Graph(GraphClient):
@@ -72,7 +110,7 @@ class Graph(GraphClient):
     def subscribe(
         self, kind: Any, topic: str, callback: Callable[[Any], None], quality: QoSProfile
     ) -> None:
-        self.node.create_subscription(kind, topic, callback, quality)
+        _Ear(self.node, kind, topic, callback, quality)
 
     def call(
         self,

@@ -4,13 +4,19 @@ from __future__ import annotations
 
 import threading
 
+import pytest
 from graph import wait_for
 from rclpy.node import Node
+from rclpy.qos import QoSProfile, ReliabilityPolicy
+from std_msgs.msg import String
 from std_srvs.srv import Trigger
 
 from mrlab_ros.messages import qos
 from mrlab_ros.ros.calls import NoAnswer, call, call_each
 from mrlab_ros.ros.graph_node import Graph
+
+SENSOR = QoSProfile(depth=5, reliability=ReliabilityPolicy.BEST_EFFORT)
+OFFERED = {"latched": qos.LATCHED, "stream": qos.STREAM, "sensor": SENSOR}
 
 
 def answer(request, response):
@@ -77,3 +83,27 @@ def test_a_closed_client_leaves_no_thread_behind(graph, monkeypatch):
         (thread,) = (thread for thread in threading.enumerate() if thread.name == "graph")
         assert client.node_names()
     assert not thread.is_alive()
+
+
+@pytest.mark.parametrize(
+    "offered", [qos.LATCHED, qos.STREAM, SENSOR], ids=["latched", "stream", "sensor"]
+)
+@pytest.mark.parametrize("late", [False, True])
+def test_what_is_published_is_heard_however_it_is_offered(graph, offered, late, monkeypatch):
+    monkeypatch.setattr(
+        "mrlab_ros.ros.graph_node.domain_id", lambda: graph.context.get_domain_id()
+    )
+    other = graph.add(lambda parameter_overrides, **kwargs: Node("talker", **kwargs))
+    heard: list[str] = []
+    client = Graph()
+    publisher = None if late else other.create_publisher(String, "/words", offered)
+    client.subscribe(String, "/words", lambda message: heard.append(message.data), qos.LATCHED)
+    if publisher is None:
+        publisher = other.create_publisher(String, "/words", offered)
+
+    def said() -> bool:
+        publisher.publish(String(data="word"))
+        return bool(heard)
+
+    wait_for(said, "a word")
+    client.close()
