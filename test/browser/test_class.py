@@ -38,6 +38,7 @@ def test_a_teacher_steps_through_a_class_and_a_student_does_not(
         expect(page.get_by_role("button", name="Previous")).to_be_disabled()
         page.keyboard.press("n")
         shown.expect_shown("Ben")
+        assert page.evaluate("scrollY") == 0  # the motion stays in view
         expect(page.get_by_text("0.5 of 3 points")).to_be_visible()
         expect(shown.marks).to_contain_text("Lift it")
         timeline = page.get_by_label("Time", exact=True)

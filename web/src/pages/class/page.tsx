@@ -64,7 +64,14 @@ function List({ steps }: { readonly steps: ClassSteps }) {
   const w = words.value.grades
   const current = steps.current.value
   const chosen = useRef<HTMLButtonElement>(null)
-  useEffect(() => chosen.current?.scrollIntoView({ block: 'nearest' }), [current?.key])
+  // The list alone: scrollIntoView would scroll the page, away from the motion.
+  useEffect(() => {
+    const row = chosen.current
+    const list = row?.closest('ol')
+    if (!row || !list) return
+    const [at, shown] = [row.getBoundingClientRect(), list.getBoundingClientRect()]
+    list.scrollTop += Math.max(at.bottom - shown.bottom, 0) + Math.min(at.top - shown.top, 0)
+  }, [current?.key])
   return (
     <section class="card stack-8" aria-labelledby="class-all">
       <h2 id="class-all">{w.all}</h2>
