@@ -16,6 +16,8 @@ from mrlab_ros.core.errors import LabError, Misuse
 COULD_NOT = 2
 LENGTH = re.compile(r"\s*([0-9.]+)\s*(mm|cm|m)?\s*")
 UNITS = {"mm": 1e-3, "cm": 1e-2, "m": 1.0, None: 1.0}
+# A longer length, m, without its unit was meant in mm.
+LONGEST_BARE = 0.5
 
 
 @with_options
@@ -85,4 +87,6 @@ def metres(text: str, option: str) -> float:
         value = -1.0
     if not 0 <= value <= 10:
         raise Misuse(f"--{option} is '{text}'; expected a length up to 10 m, such as 5mm or 0.005")
+    if match and not match[2] and value > LONGEST_BARE:
+        raise Misuse(f"--{option} is '{text}', which would be {text} m; write {text}mm or {text}m")
     return value

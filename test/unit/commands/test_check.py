@@ -63,6 +63,7 @@ def test_a_collision_refuses_and_the_page_and_the_report_have_one_hash(tmp_path)
         (("--robot", "kuka_kr3_r540", "--scene", "table"), "has no robot kuka_kr3_r540"),
         ((), "add --robot"),
         (("--robot", "ur5e", "--within", "5 miles"), "expected a length"),
+        (("--robot", "ur5e", "--within", "5"), "write 5mm or 5m"),
         (("--robot", "ur5e", "--points", "nowhere.csv"), "cannot be read"),
         (("--robot", "ur5e", "--out", "page.pdf"), "ends in .html"),
         (("--robot", "ur5e", "--closest", "600mm"), "at most 0.5 m"),
