@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from mrlab_ros.core.checking.findings import Finding
 from mrlab_ros.core.checking.recording import Collision, GraspChange, Rehearsed
@@ -195,12 +195,21 @@ def of_grasps(recorded: Rehearsed, objects: Iterable[str]) -> list[Finding]:
                 )
             )  # fmt: skip
         elif change.state is Grasp.EMPTY and some:
+            why, remedy = change.reason, "the distances say how far it was away."
+            giver = _last_let_go(recorded, change)
+            if giver is not None:
+                ago = change.time - giver.time
+                told = f"{giver.robot} let go of {giver.object} {ago:.1f} s before"
+                why = f"{why}; {told}" if why else told
+                remedy = (
+                    f"for a hand-over of {giver.object}, close it while {giver.robot} still holds "
+                    "it: in a parallel cell, with 'after:' where one is early."
+                )
             found.append(
                 Finding(
                     "grasps_nothing", Severity.WARNING,
-                    f"The gripper closes on nothing"
-                    f"{f': {change.reason}' if change.reason else ''}.",
-                    "Close it where an object is; the distances say how far it was away.",
+                    f"The gripper closes on nothing{f': {why}' if why else ''}.",
+                    f"Close it where an object is; {remedy}",
                     change.robot, "", change.time,
                 )
             )  # fmt: skip
@@ -218,6 +227,24 @@ def _taken(recorded: Rehearsed, lost: GraspChange, thing: str) -> bool:
         and abs(other.time - lost.time) <= HAND_OVER
         for other in recorded.grasps
     )
+
+
+def _last_let_go(recorded: Rehearsed, missed: GraspChange) -> GraspChange | None:
+    """Return who last let go of what before another robot closed on nothing, held by nobody then.
+
+    Returns the giver's name and object at the time it opened; None: there is no such object.
+    """
+    held: dict[str, str] = {}
+    last = None
+    for change in recorded.grasps:
+        if change.time > missed.time:
+            break
+        before = held.pop(change.robot, "")
+        if change.state is Grasp.HOLDING:
+            held[change.robot] = change.object
+        elif before and change.state is Grasp.OPEN and change.robot != missed.robot:
+            last = replace(change, object=before)
+    return None if last is None or last.object in held.values() else last
 
 
 def _of_load(change: GraspChange) -> list[Finding]:

@@ -1,0 +1,38 @@
+"""What a check says of grasps: a hand-over that one robot leaves before the other comes."""
+
+from __future__ import annotations
+
+import pytest
+
+from mrlab_ros.core.checking.evidence import of_grasps
+from mrlab_ros.core.checking.recording import GraspChange, Rehearsed
+from mrlab_ros.core.physics.grasp import Grasp
+
+TAKES = GraspChange(2.0, "giver", Grasp.HOLDING, "rod")
+LETS_GO = GraspChange(4.6, "giver", Grasp.OPEN, "")
+MISSES = GraspChange(12.8, "taker", Grasp.EMPTY, "")
+
+
+def test_a_taker_that_comes_too_late_is_told_who_let_go_and_when() -> None:
+    (found,) = of_grasps(Rehearsed(grasps=[TAKES, LETS_GO, MISSES]), ["rod"])
+    assert found.message == "The gripper closes on nothing: giver let go of rod 8.2 s before."
+    assert "while giver still holds it: in a parallel cell" in found.remedy
+
+
+@pytest.mark.parametrize(
+    "before",
+    [
+        [],
+        [TAKES],
+        [TAKES, LETS_GO, GraspChange(6.0, "third", Grasp.HOLDING, "rod")],
+        [
+            GraspChange(2.0, "taker", Grasp.HOLDING, "rod"),
+            GraspChange(3.0, "taker", Grasp.OPEN, ""),
+        ],
+    ],
+    ids=["nobody held it", "still held", "held by a third", "let go by itself"],
+)
+def test_a_taker_that_was_not_late_is_told_where_to_close(before: list[GraspChange]) -> None:
+    found = of_grasps(Rehearsed(grasps=[*before, MISSES]), ["rod"])[-1]
+    assert found.message == "The gripper closes on nothing."
+    assert "the distances say" in found.remedy
