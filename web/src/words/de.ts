@@ -408,6 +408,7 @@ export const de: Words = {
   },
   room: {
     title: 'Das Labor in deinem Raum',
+    inAnotherHand: (name: string) => `Jemand anders hat ${name} in der Hand.`,
     picture:
       'Das Labor in wahrer Größe. Ziehen dreht die Ansicht, das Mausrad bringt näher; Tafeln drückt die Maus. Alles steht auch auf der Seite Labor.',
     enter: 'Raum betreten',

@@ -405,6 +405,7 @@ export const en = {
   },
   room: {
     title: 'The lab in your room',
+    inAnotherHand: (name: string) => `Somebody else has ${name} in their hand.`,
     picture:
       'The lab at real scale. Drag to turn the view, scroll to come nearer; panels are pressed with the mouse. All of it is on the page Lab as well.',
     enter: 'Enter the room',

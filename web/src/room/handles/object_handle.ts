@@ -18,6 +18,8 @@ const PERIOD = 1 / 30
 const SAMPLES = 8
 /** m/s: nobody throws faster, but a lost hand jumps. */
 const FASTEST = 6
+/** s for which an object that went with a hand is in that hand: hands are never quite still. */
+const IN_HAND = 0.5
 
 const centre = new Vector3()
 const at = new Vector3()
@@ -37,6 +39,10 @@ export class ObjectHandle implements Target {
   private object: SceneObject
   /** Whether a gripper is about to let go of it. */
   private detaching = false
+  private now = 0
+  private releasedAt = Number.NEGATIVE_INFINITY
+  /** When somebody else's hand last moved it. */
+  private movedAt = Number.NEGATIVE_INFINITY
 
   constructor(
     object: SceneObject,
@@ -58,6 +64,13 @@ export class ObjectHandle implements Target {
 
   /** Take over where it is. */
   show(object: SceneObject): void {
+    const { x, y, z } = this.object.pose.position
+    const to = object.pose.position
+    const moved = to.x !== x || to.y !== y || to.z !== z
+    const released = this.now - this.releasedAt < IN_HAND
+    if (moved && object.held_by === 'hand' && this.holder === null && !released) {
+      this.movedAt = this.now
+    }
     this.object = object
   }
 
@@ -79,6 +92,10 @@ export class ObjectHandle implements Target {
     const { pointer } = signal
     if (signal.kind === 'enter') this.context.feedback('hover', signal)
     else if (signal.kind === 'down' && this.holder === null) {
+      if (this.isCarriedByOthers) {
+        this.context.say(this.context.words.room.inAnotherHand(this.object.name))
+        return
+      }
       this.context.feedback('press', signal)
       // where it is before it is held, and goes with the hand from
       this.near = this.reaches(pointer.place)
@@ -91,6 +108,7 @@ export class ObjectHandle implements Target {
     } else if ((signal.kind === 'up' || signal.kind === 'cancel') && this.holder === pointer) {
       const hand = this.context.robotAt(this.centre(centre))
       this.holder = null
+      this.releasedAt = this.now
       if (hand === '') this.tell(false, signal.kind === 'up')
       else this.giveTo(hand)
     }
@@ -98,6 +116,7 @@ export class ObjectHandle implements Target {
 
   /** Before each picture: it goes with the hand. now: s. */
   update(now: number): void {
+    this.now = now
     if (this.holder === null) return
     this.hand(this.holder, at).add(this.offset)
     inverse.copy(this.context.world.matrixWorld).invert()
@@ -109,6 +128,11 @@ export class ObjectHandle implements Target {
     if (now - this.toldAt < PERIOD || this.detaching) return
     this.toldAt = now
     this.tell(true, false)
+  }
+
+  /** What a page that is gone has left in the air can be taken. */
+  private get isCarriedByOthers(): boolean {
+    return this.object.held_by === 'hand' && this.now - this.movedAt < IN_HAND
   }
 
   /** A hand takes what a gripper holds. */

@@ -11,6 +11,7 @@ import type { RoomContext } from '../../../src/room/context'
 import { ObjectHandle } from '../../../src/room/handles/object_handle'
 import type { Pointer } from '../../../src/room/input/pointer'
 import type { LabScene } from '../../../src/scene/lab_scene'
+import { en } from '../../../src/words/en'
 
 function carried(heldBy: string, robotAt: string) {
   const link = new FakeLink()
@@ -23,6 +24,7 @@ function carried(heldBy: string, robotAt: string) {
     world: new Group(),
     feedback: () => undefined,
     say: vi.fn(),
+    words: en,
     robotAt: () => robotAt,
   } as unknown as RoomContext
   const object = sceneObjectType.create({ name: 'cube_1', held_by: heldBy })
@@ -35,7 +37,7 @@ function carried(heldBy: string, robotAt: string) {
   handle.on({ kind: 'down', pointer, button: 'select' })
   handle.update(1)
   const services = () => link.calls.map(({ service }) => service)
-  return { handle, pointer, link, services, moveObject }
+  return { handle, pointer, link, services, moveObject, context }
 }
 
 test('what is let go between the fingers of a gripper is fixed to it', async () => {
@@ -70,4 +72,36 @@ test('it is taken where it is, and goes as far as the hand', () => {
   pointer.ray.origin.set(1, 0.3, 0)
   handle.update(2)
   expect(moveObject.mock.lastCall?.[1].position).toMatchObject({ x: 2, y: 0.3, z: 0 })
+})
+
+test('what is in the hand of somebody else is left there, until that hand moves it no more', () => {
+  const { handle, pointer, services, context } = carried('', '')
+  handle.on({ kind: 'up', pointer, button: 'select' })
+  handle.update(5)
+  const moved = sceneObjectType.create({ name: 'cube_1', held_by: 'hand' })
+  moved.pose.position.x = 2.1
+  moved.size.x = moved.size.y = moved.size.z = 0.05
+  handle.show(moved)
+  const before = services().length
+  handle.on({ kind: 'down', pointer, button: 'select' })
+  handle.update(5.1)
+  expect(services()).toHaveLength(before)
+  expect(context.say).toHaveBeenCalledWith(en.room.inAnotherHand('cube_1'))
+  // a page that is gone has left it in the air
+  handle.update(6)
+  handle.on({ kind: 'down', pointer, button: 'select' })
+  handle.update(6.1)
+  expect(services()).toHaveLength(before + 1)
+})
+
+test('what was just let go is taken again, though the lab still has it in the hand', () => {
+  const { handle, pointer, services } = carried('', '')
+  handle.on({ kind: 'up', pointer, button: 'select' })
+  const late = sceneObjectType.create({ name: 'cube_1', held_by: 'hand' })
+  late.size.x = late.size.y = late.size.z = 0.05
+  handle.show(late)
+  const before = services().length
+  handle.on({ kind: 'down', pointer, button: 'select' })
+  handle.update(1.1)
+  expect(services()).toHaveLength(before + 1)
 })
