@@ -2,15 +2,18 @@
 
 from __future__ import annotations
 
+import asyncio
+import logging
 import secrets
 from dataclasses import dataclass, field
 
 import orjson
 
 from mrlab_ros.core.bridge.rules import Role, Rules
+from mrlab_ros.core.errors import LabError
 from mrlab_ros.gateway.errors import TooMany
 from mrlab_ros.gateway.lab.connection import LabConnection, Phase
-from mrlab_ros.gateway.link import presence
+from mrlab_ros.gateway.link import hands, presence
 from mrlab_ros.gateway.link.hub import Hub
 from mrlab_ros.gateway.link.limits import LinkLimits
 from mrlab_ros.gateway.link.session import LinkSession, May
@@ -19,6 +22,10 @@ from mrlab_ros.gateway.people.person import Person
 
 # s for which a client that lost its socket is waited for.
 RESUME_S = 30.0
+# s after which its hands let go: a network that stutters makes nobody drop a thing.
+LET_GO_S = 2.0
+
+log = logging.getLogger("mrlab.gateway")
 
 
 @dataclass(eq=False)
@@ -39,6 +46,8 @@ class Sessions:
         self.hub = Hub(lab, rules)
         self.visibility = Visibility(lab.definitions)
         self.displays = presence.Displays(lab.definitions)
+        self.hands = hands.Hands(lab.definitions)
+        self._letting_go: set[asyncio.Task[None]] = set()
         self._may = may
         self._limits = limits
         self._clients: dict[str, Client] = {}
@@ -47,6 +56,8 @@ class Sessions:
     def close(self) -> None:
         """End all sessions."""
         self._stop()
+        for task in self._letting_go:
+            task.cancel()
         for client in list(self._clients.values()):
             self.end(client)
         self.hub.close()
@@ -83,6 +94,9 @@ class Sessions:
             client.socket = None
             client.left_at = now
             self._see_off(client.session)
+            task = asyncio.ensure_future(self._let_go(client))
+            self._letting_go.add(task)
+            task.add_done_callback(self._letting_go.discard)
 
     def end(self, client: Client) -> None:
         """Forget a client."""
@@ -108,6 +122,17 @@ class Sessions:
         gone = self.displays.leave(session.token, session.person)
         if gone is not None:
             self.lab.put(presence.KEY, gone)
+
+    async def _let_go(self, client: Client) -> None:
+        """Let go what a client held that does not come back at once."""
+        await asyncio.sleep(LET_GO_S)
+        if client.socket is not None:
+            return
+        for call in self.hands.let_go(client.session.token):
+            try:
+                await self.lab.query(hands.SERVICE, call)
+            except LabError as error:
+                log.warning("what %s held stays in the air: %s", client.session.person.name, error)
 
     def expire(self, now: float) -> None:
         """Forget clients that did not come back."""

@@ -17,7 +17,7 @@ from mrlab_ros.core.bridge.policy import Policy, Verb
 from mrlab_ros.core.errors import BadInput, LabError
 from mrlab_ros.gateway.errors import SOCKET_REFUSED, NotAllowed, TooMany
 from mrlab_ros.gateway.lab.connection import CALL_TIMEOUT_S, LabConnection, NoAnswer, TimedOut
-from mrlab_ros.gateway.link import frames, presence
+from mrlab_ros.gateway.link import frames, hands, presence
 from mrlab_ros.gateway.link.frames import Call, Credit
 from mrlab_ros.gateway.link.lab_clock import LabClock
 from mrlab_ros.gateway.link.limits import LinkLimits
@@ -276,8 +276,11 @@ class _Socket:
             session.respond(
                 frame.request, sessions.visibility.response(session.person, frame.key, payload)
             )
-            if frame.key.endswith(PAUSE) and payload[SUCCESS : SUCCESS + 1] == b"\x01":
+            done = payload[SUCCESS : SUCCESS + 1] == b"\x01"
+            if done and frame.key.endswith(PAUSE):
                 sessions.tell_of(session, frame.key)
+            elif done and frame.key == hands.SERVICE:
+                sessions.hands.note(session.token, frame.payload)
         except TimedOut as error:
             session.fail(frame.request, "timeout", str(error))
         except NoAnswer as error:

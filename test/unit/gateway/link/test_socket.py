@@ -12,7 +12,7 @@ from link_side import Closed, LinkSide, error_of
 from mrlab_ros.core.bridge.rules import Role
 from mrlab_ros.gateway.lab.connection import NoAnswer, Phase, Refused
 from mrlab_ros.gateway.lab.fake_lab import FakeLab
-from mrlab_ros.gateway.link import socket
+from mrlab_ros.gateway.link import sessions, socket
 from mrlab_ros.gateway.link.frames import RecordKind
 from mrlab_ros.gateway.link.limits import LinkLimits
 
@@ -527,3 +527,70 @@ def test_a_broken_frame_is_named(tmp_path: Path, frame: bytes) -> None:
             await side.until(lambda: False)
 
     played(broken)(tmp_path)
+
+
+MOVE = "mrlab_msgs/srv/MoveObject"
+
+
+async def became(condition: Callable[[], Any]) -> None:
+    """Return once a condition of the gateway holds, of which no frame tells."""
+    deadline = asyncio.get_running_loop().time() + 5
+    while not condition():
+        assert asyncio.get_running_loop().time() < deadline
+        await asyncio.sleep(0.001)
+
+
+def carried(lab: FakeLab, name: str, held: bool = True) -> bytes:
+    pose = {"position": {"z": 0.5}, "orientation": {"w": 1.0}}
+    return lab.definitions.encode(f"{MOVE}_Request", {"name": name, "pose": pose, "held": held})
+
+
+@scene
+async def test_who_goes_lets_go_what_was_in_the_hand_and_nothing_else(stage: Stage) -> None:
+    before, sessions.LET_GO_S = sessions.LET_GO_S, 0.02
+    lab = stage.lab
+    lab.serve("physics/move_object", MOVE, lambda request: {"success": request.name != "table"})
+    try:
+        first, second = stage.side(), stage.side(stage.cookie("ada", Role.INSTRUCTOR))
+        for side in (first, second):
+            side.hello()
+            await side.welcome()
+        for number, name in enumerate(("cube", "rod", "ball", "table")):
+            first.call("physics/move_object", number + 1, carried(lab, name))
+        await first.until(lambda: len(first.records) == 4)
+        first.call("physics/move_object", 5, carried(lab, "ball", held=False))
+        await first.until(lambda: len(first.records) == 5)
+        second.call("physics/move_object", 1, carried(lab, "rod"))
+        await second.until(lambda: second.records)
+        asked = len(lab.calls)
+        first.leave()
+        await became(lambda: len(lab.calls) > asked)
+        assert [request.name for _, request in lab.calls[asked:]] == ["cube"]
+        last = lab.calls[-1][1]
+        assert (last.name, last.held, last.pose.position.z) == ("cube", False, 0.5)
+    finally:
+        sessions.LET_GO_S = before
+
+
+@scene
+async def test_who_comes_back_at_once_drops_nothing(stage: Stage) -> None:
+    before, sessions.LET_GO_S = sessions.LET_GO_S, 0.05
+    lab = stage.lab
+    lab.serve("physics/move_object", MOVE, lambda request: {"success": True})
+    try:
+        cookie = stage.cookie()
+        first = stage.side(cookie)
+        first.hello()
+        token = (await first.welcome())["token"]
+        first.call("physics/move_object", 1, carried(lab, "cube"))
+        await first.until(lambda: first.records)
+        first.leave()
+        await first.ended()
+        second = stage.side(cookie)
+        second.hello(token)
+        assert (await second.welcome())["resumed"]
+        waiting = stage.gateway.app.state.link.sessions._letting_go
+        await became(lambda: not waiting)
+        assert len(lab.calls) == 1
+    finally:
+        sessions.LET_GO_S = before
