@@ -108,7 +108,7 @@ def test_a_lab_stops_cleanly_and_leaves_nothing(lab: Lab, number: signal.Signals
     assert lab.all_gone()
     done = mrlab("status", "--once")
     assert done.returncode == 1
-    assert "start a lab with: mrlab up" in done.stderr
+    assert "start one with: mrlab up" in done.stderr
     assert "Traceback" not in lab.said + done.stderr
 
 

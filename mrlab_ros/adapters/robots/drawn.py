@@ -2,7 +2,7 @@
 
 Both are elements beside the links, which readers of URDF skip:
 
-    <level_of_detail meshes="package://.../ur5e/meshes/" near="....glb" far="....glb"/>
+    <level_of_detail near="package://.../ur5e/lod/near.glb" far="package://.../ur5e/lod/far.glb"/>
     <hose radius="0.02" length="0.9">
       <end link="link_1" xyz="0 0 0" direction="0 0 1"/>
       <end link="link_3" xyz="0 0 0" direction="1 0 0"/>
@@ -22,12 +22,13 @@ LEVELS = ("near", "far")
 def levels(folder: Path, uri: str) -> list[ET.Element]:
     """Return the packed levels of a model's folder; none where one is missing.
 
-    uri: of the folder. They stand for all meshes below <uri>/meshes/.
+    uri: of the folder. They stand for all meshes below <uri>/meshes/, which is not named: clients
+    fetch whatever a description names as package://.
     """
     if not all((folder / "lod" / f"{name}.glb").is_file() for name in LEVELS):
         return []
     files = {name: f"{uri}/lod/{name}.glb" for name in LEVELS}
-    return [ET.Element("level_of_detail", {"meshes": f"{uri}/meshes/", **files})]
+    return [ET.Element("level_of_detail", files)]
 
 
 def hoses(facts: Mapping[str, Any]) -> list[ET.Element]:

@@ -15,7 +15,7 @@ from typing import Any
 from mrlab_ros.adapters.checking.in_lab import Task
 from mrlab_ros.core.errors import BadInput, Unavailable
 
-# It only runs when nothing else does, so a busy machine takes long.
+# It gives way to others, so a busy machine takes long.
 PATIENCE_S = 300.0
 LAST_LINES = 3
 log = logging.getLogger("mrlab.gateway")

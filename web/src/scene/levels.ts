@@ -21,13 +21,13 @@ export interface StatedEnd {
   readonly direction: Vector3
 }
 
-/** Return the packed levels that a description names beside its links; other readers skip them. */
+/** Return the packed levels that a description names; they stand for the folder meshes/ beside theirs. */
 export function levelsOf(description: Document): Level[] {
-  return [...description.querySelectorAll('robot > level_of_detail')].map((element) => ({
-    meshes: element.getAttribute('meshes') ?? '',
-    near: element.getAttribute('near') ?? '',
-    far: element.getAttribute('far') ?? '',
-  }))
+  return [...description.querySelectorAll('robot > level_of_detail')].map((element) => {
+    const near = element.getAttribute('near') ?? ''
+    const meshes = near.replace(/lod\/[^/]*$/, 'meshes/')
+    return { meshes, near, far: element.getAttribute('far') ?? '' }
+  })
 }
 
 /** Return the hoses of a description; one that is not complete is left out. */

@@ -35,7 +35,7 @@ function urdf(beside: string): string {
   </robot>`
 }
 
-const LEVEL = `<level_of_detail meshes="package://p/r/meshes/" near="package://p/r/lod/near.glb"
+const LEVEL = `<level_of_detail near="package://p/r/lod/near.glb"
   far="package://p/r/lod/far.glb"/>`
 
 /** A packed file: a node a link, each with the colour and the finish of its vertices. */
@@ -122,17 +122,19 @@ describe('levels of detail', () => {
   })
 
   test('what is drawn besides, such as an adapter plate, is seen from afar too', async () => {
-    const other = LEVEL.replace('p/r/meshes/"', 'p/r/meshes/base"')
+    const plate = `<link name="plate"><visual><geometry>
+      <mesh filename="package://p/r/plates/plate.glb"/></geometry></visual></link>
+      <joint name="screws" type="fixed"><parent link="arm"/><child link="plate"/></joint>`
     const files = {
       'lod/near.glb': () => packed(12),
       'lod/far.glb': () => packed(4),
-      'meshes/arm.glb': box,
+      'plates/plate.glb': box,
     }
-    const { bodies } = await robot(other, files)
-    const plate = 24
+    const { bodies } = await robot(LEVEL + plate, files)
+    const corners = 24
     const positions = (body?: RobotBody) => body?.geometry.getAttribute('position').count
     const spheres = 2 * new SphereGeometry(0.2, 4, 4).getAttribute('position').count
-    expect(positions(bodies[1])).toBe(spheres + plate)
+    expect(positions(bodies[1])).toBe(spheres + corners)
   })
 
   test('a description without any names none', () => {

@@ -33,9 +33,9 @@ def document(path: Path) -> dict[str, Any]:
 def test_a_description_names_the_packed_levels_of_robot_and_end_effector() -> None:
     root = ET.fromstring(LIBRARY.description("ur5e", "parallel_gripper"))
     levels = [element.attrib for element in root.iterfind("level_of_detail")]
-    assert [level["meshes"] for level in levels] == [
-        "package://mrlab_ros/robots/ur5e/meshes/",
-        "package://mrlab_ros/robots/end_effectors/parallel_gripper/meshes/",
+    assert [level["near"] for level in levels] == [
+        "package://mrlab_ros/robots/ur5e/lod/near.glb",
+        "package://mrlab_ros/robots/end_effectors/parallel_gripper/lod/near.glb",
     ]
     files = AssetFiles(ROBOTS.parent, LIBRARY)
     for level in levels:

@@ -131,7 +131,7 @@ def test_the_link_does_not_lead_away_and_expires(local_lab: Gateway) -> None:
 
 def test_the_pages_know_what_a_person_may(class_lab: Gateway, local_lab: Gateway) -> None:
     student = class_lab.browser("anna").get("/api/session").json()["may"]
-    assert student == {"commands": False, "scene": False, "replay": False}
+    assert student == {"commands": False, "scene": False, "replay": False, "grades": False}
     assert class_lab.browser().get("/api/session").json()["may"] == student
     assert all(local_lab.local().get("/api/session").json()["may"].values())
 
