@@ -36,6 +36,8 @@ def test_nothing_bars_anybody(
     context = plain_browser.new_context(
         locale="en-GB",
         color_scheme=scheme,
+        # what fades in has less contrast on its way
+        reduced_motion="reduce",
         storage_state=signed_in,  # type: ignore[arg-type]
     )
     page = context.new_page()
