@@ -23,9 +23,10 @@ class Material:
     roughness: float
 
 
-# KUKA's colours by their RAL numbers: 2003, 9005, 9010.
+# KUKA's colours by their RAL numbers: 2003, 9005, 9010. 9005 is drawn as bright as it looks in a
+# lit room: what the paint alone reflects diffusely shows no form on a screen.
 ORANGE = Material("orange", (0.965, 0.471, 0.157), 0.0, 0.42)
-BLACK = Material("black", (0.075, 0.075, 0.082), 0.0, 0.5)
+BLACK = Material("black", (0.165, 0.167, 0.175), 0.0, 0.45)
 WHITE = Material("white", (0.93, 0.925, 0.915), 0.0, 0.38)
 GREY = Material("grey", (0.33, 0.335, 0.345), 0.0, 0.5)
 LIGHT_GREY = Material("light_grey", (0.74, 0.75, 0.76), 0.6, 0.38)

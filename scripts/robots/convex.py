@@ -7,8 +7,10 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.spatial import ConvexHull, QhullError
 from solids import Array
+from trimesh.triangles import closest_point
 
 LIFT = 0.003  # m, outwards, which lets a hull do with fewer vertices
+OUTSIDE = 0.0045  # m, by which drawn points may lie outside all hulls of a link
 HIDDEN = 0.003  # m, by which the body may stick out of a finished hull
 
 
@@ -35,6 +37,38 @@ def heights(vertices: Array, points: Array) -> Array:
     result = np.empty(len(points))
     for some in np.array_split(np.arange(len(points)), len(points) // 20_000 + 1):
         result[some] = (points[some] @ equations[:, :3].T + equations[:, 3]).max(axis=1)
+    return result
+
+
+def held(hulls: list[Array], points: Array) -> list[Array]:
+    """Return the vertices of hulls, grown where one of the points lies outside all of them.
+
+    What lies furthest outside becomes a vertex of the nearest hull until all points are held.
+    """
+    grown = list(hulls)
+    away = np.array([heights(vertices, points) for vertices in grown])
+    # Beyond an edge a point is further away than above the planes of its two faces.
+    few = np.flatnonzero(away.min(axis=0) > OUTSIDE / 2)
+    points = points[few]
+    away = np.array([_distances(vertices, points) for vertices in grown])
+    while len(points) and (least := away.min(axis=0)).max() > OUTSIDE:
+        furthest = int(least.argmax())
+        nearest = int(away[:, furthest].argmin())
+        vertices = np.vstack([grown[nearest], points[furthest]])
+        grown[nearest] = vertices[ConvexHull(vertices).vertices]
+        away[nearest] = _distances(grown[nearest], points)
+    return grown
+
+
+def _distances(vertices: Array, points: Array) -> Array:
+    """Return the distances of points outside the hull of the vertices, m; 0 inside."""
+    if not len(points):
+        return np.empty(0)
+    result = np.maximum(heights(vertices, points), 0.0)
+    faces = triangles(vertices)
+    for place in np.flatnonzero((result > 0) & (result < 4 * OUTSIDE)):
+        nearest = closest_point(faces, np.tile(points[place], (len(faces), 1)))
+        result[place] = np.linalg.norm(nearest - points[place], axis=1).min()
     return result
 
 

@@ -35,9 +35,13 @@ from mrlab_ros.adapters.robots.hulls import samples
 from mrlab_ros.core.geometry import inverse_transform, transform_from_xyz_rpy
 
 ROBOTS = Path(__file__).resolve().parents[2] / "robots"
-TRIANGLES = 14_950  # a model; the files of a robot stay below 400 kB
+TRIANGLES = 14_700  # a model
+TRIANGLES_TOOL = 4_983
+LARGE = 2.0  # m of reach, from which a robot is a large one
+TRIANGLES_LARGE = 17_800  # the files of a large one stay below 400 kB, too
 CASTINGS = 0.76  # of a model's triangles; their many edges need more corners
 SEEN = 0.01  # m, between the points of a drawn casting that its hulls hold
+HELD = 0.008  # m, between the points at which that is measured again
 CELLS = 56  # along the longest side of a part
 FIGURE = "figure"  # the person of 1.8 m beside the robots in pictures
 
@@ -134,18 +138,10 @@ def described(body: Body, poses: dict[str, Array], budget: float) -> dict[str, S
 
 
 def from_outlines(
-    robot: str, links: dict[str, measured.Link], figures: dict[str, Any], budget: float
+    links: dict[str, measured.Link], figures: dict[str, Any], budget: float
 ) -> dict[str, Shape]:
     """Return the shapes of a robot whose castings are measured, each in its link's frame."""
-    castings = {}
-    for link in links:
-        own = [] if link == figures["joints"][0]["parent"] else [np.eye(4)]
-        axes = own + [
-            transform_from_xyz_rpy(joint["xyz"], joint["rpy"])
-            for joint in figures["joints"]
-            if joint["parent"] == link and joint["type"] != "fixed"
-        ]
-        castings[link] = measured.surface(robot, link, axes)
+    castings = measured.surfaces(figures, links)
     weight = {link: _area(mesh) ** 0.5 for link, (_, mesh) in castings.items()}
     shapes = {}
     for link, (solid, mesh) in castings.items():
@@ -175,9 +171,11 @@ def make(place: Path, source: str, target: str, out: Path) -> None:
     folder = out / place
     figures = yaml.safe_load((ROBOTS / place / source).read_text())
     name = figures["id"]
-    budget = TRIANGLES if source == "robot.yaml" else TRIANGLES / 3
+    budget = TRIANGLES if source == "robot.yaml" else TRIANGLES_TOOL
+    if figures.get("reach", 0) > LARGE:
+        budget = TRIANGLES_LARGE
     if name in kuka.ROBOTS:
-        shapes = from_outlines(name, kuka.ROBOTS[name], figures, budget)
+        shapes = from_outlines(kuka.ROBOTS[name], figures, budget)
     else:
         shapes = described(BODIES[name](), zero_poses(figures), budget)
     # Written aside and renamed at the end: a model is complete at any time.
@@ -196,6 +194,9 @@ def make(place: Path, source: str, target: str, out: Path) -> None:
         else:
             cover = cuts.cover_all if name in kuka.ROBOTS else hulls.cover_all
             corners = cover(shape.shells, np.concatenate(shape.seen))
+            if name in kuka.ROBOTS:
+                drawn = [mesh.vertices[mesh.faces] for _, mesh in shape.pieces]
+                corners = convex.held(corners, samples(np.concatenate(drawn), HELD))
             names = _written(meshes, link, corners, shape.pose)
         files[link] = LinkFiles(f"{link}.glb", tuple(names))
     text = urdf(figures, files, f"package://mrlab_ros/robots/{place.as_posix()}/meshes")

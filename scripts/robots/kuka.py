@@ -33,6 +33,7 @@ def _cybertech(plugs: float) -> dict[str, Link]:
             (
                 Region(BLACK, (-ALL, -ALL, -ALL), (120, -98, -30)),
                 Region(BLACK, (-ALL, -98, -ALL), (-28, 110, -92)),
+                Region(BLACK, (-ALL, -98, -ALL), (2, 110, -205)),
                 Region(RUBBER, (-ALL, 110, -230), (ALL, ALL, -10)),
             ),
         ),
@@ -46,12 +47,12 @@ def _cybertech(plugs: float) -> dict[str, Link]:
 
 def _kr120() -> dict[str, Link]:
     return {
-        "base_link": Link(BLACK, (Region(LIGHT_GREY, (-ALL, -ALL, 60), (-560, ALL, ALL)),)),
+        "base_link": Link(BLACK),
         "link_1": Link(
             ORANGE,
             (
-                Region(BLACK, (235, 172, -120), (470, ALL, 120)),
-                Region(BLACK, (-320, -100, -95), (-60, 115, 100)),
+                Region(BLACK, (250, 50, -106), (470, ALL, 106)),
+                Region(BLACK, (-320, -103, -160), (-60, 103, 100)),
             ),
         ),
         "link_2": Link(ORANGE),
@@ -77,6 +78,7 @@ def _quantec(flange: Link) -> dict[str, Link]:
             (
                 Region(BLACK, (210, -ALL, -560), (450, -205, -310)),
                 Region(BLACK, (-460, -85, -ALL), (-200, 185, -330)),
+                Region(RUBBER, (-ALL, 195, -ALL), (200, ALL, 20)),
             ),
         ),
         "link_2": Link(ORANGE),

@@ -1,37 +1,97 @@
 """Write the packed levels of detail that pages draw: `levels.py [--out DIR] [ID ...]`.
 
 <id>/lod/near.glb has baked light and is drawn nearby; far.glb has few triangles. Both are made of
-the meshes of the links, which other programs read, and change when those do.
+the meshes of the links, which other programs read, and change when those do; near.glb of a very
+large robot is made of the castings themselves, of which those meshes are a thinner copy.
 """
 
 from __future__ import annotations
 
 import argparse
 import hashlib
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
+from functools import partial
 from pathlib import Path
 from typing import Any
 
+import details
 import glb
+import kuka
 import numpy as np
 import packed
 import trimesh
 import yaml
+from atlas import Drawing
 from body import Material
+from castings import Castings
+from details import Surface
+from markings import AFAR, Marking, marked, markings
 from mesher import Mesh, creased, decimated
 from occlusion import Around, lit
+from pieces import Piece
+from relief import clamped, grooved, lined, screwed
 from scipy.spatial.transform import Rotation
 from solids import Array
 
 from mrlab_ros.core.geometry import inverse_transform, transform_from_xyz_rpy
 
 ROBOTS = Path(__file__).resolve().parents[2] / "robots"
-NEAR, FAR = 26_000, 3_600  # triangles of a model
 LARGE = 1.4  # m of reach, from which a robot is a large one
-NEAR_LARGE = 36_000
+NEAR, NEAR_LARGE = 15_000, 36_000  # triangles of a model at most, drawings and screws included
+FAR = 3_600  # of the bodies alone
+FINE = 2.4  # m of reach, from which the meshes of links look faceted at arm's length
+PLAIN = 0.75  # of the triangles of near are there before it is made finer where light is uneven
+PLAIN_FINE = 0.86  # the same where the castings are thinned
 # Neighbours stand at home and turned by this much to both sides: what is always hidden is dark.
 TURNS = (-0.9, 0.0, 0.9)
+FAR_ATLAS = 256  # pixels
 FLOOR = 4.0  # m, half of its side
+
+
+Pieces = dict[str, list[tuple[Material, Mesh]]]
+Level = dict[str, list[Piece]]
+
+
+class Dress:
+    """What is drawn beside the bodies of a model: lettering, seams, screws, clamps."""
+
+    def __init__(self, figures: dict[str, Any], pieces: Pieces, reach: float) -> None:
+        """pieces: the bodies as they are drawn; on their surfaces all of it lies."""
+        radius = float(np.clip(reach / 9, 0.04, 0.25))
+        self.around = {
+            link: Around(_surroundings(link, pieces, figures), radius) for link in pieces
+        }
+        self._surfaces = {link: Surface(own) for link, own in pieces.items()}
+        self._entries = details.table(figures["id"])
+        self._marks = markings(figures, self._surfaces)
+
+    def drawings(self, afar: bool = False) -> list[Drawing]:
+        """Return what the atlas has beside colours; afar: for the far level."""
+        return [mark.drawing for mark in self._marks if not afar or mark.kind in AFAR]
+
+    def near(self, link: str, body: list[Piece]) -> list[Piece]:
+        """Return the dressed body of a link."""
+        surface, around = self._surfaces[link], self.around[link]
+        seams = self._own("seams", link)
+        return [
+            *marked(grooved(body, seams), self._numbered(link, self._marks)),
+            *lined(seams, surface, around),
+            *screwed(self._own("screws", link), surface, around),
+            *clamped(self._own("clamps", link), surface, around),
+        ]
+
+    def far(self, link: str, body: list[Piece]) -> list[Piece]:
+        """Return the body of a link with what is seen from afar."""
+        large = [mark for mark in self._marks if mark.kind in AFAR]
+        clamps = clamped(self._own("clamps", link), self._surfaces[link], self.around[link])
+        return [*marked(body, self._numbered(link, large)), *clamps]
+
+    def _own(self, kind: str, link: str) -> list[dict[str, Any]]:
+        return [entry for entry in self._entries.get(kind, []) if entry["link"] == link]
+
+    @staticmethod
+    def _numbered(link: str, marks: Sequence[Marking]) -> list[tuple[int, Marking]]:
+        return [(number, mark) for number, mark in enumerate(marks) if mark.link == link]
 
 
 def write(folder: Path, figures: dict[str, Any]) -> None:
@@ -46,39 +106,34 @@ def write(folder: Path, figures: dict[str, Any]) -> None:
         )
     )
     reach = float(figures.get("reach", size))
-    near, far = _budgets(pieces, NEAR_LARGE if reach > LARGE else NEAR)
-    surroundings = {
-        link: Around(_surroundings(link, pieces, figures), float(np.clip(reach / 9, 0.04, 0.25)))
-        for link in pieces
-    }
-    levels: dict[str, dict[str, list[packed.Piece]]] = {"near": {}, "far": {}}
-    shortest = float(np.clip(reach / 120, 0.004, 0.02))
-    for link, own in pieces.items():
-        around = surroundings[link]
-        for material, mesh in own:
-            share = len(mesh.faces) / sum(len(other.faces) for _, other in own)
-            fine, light = lit(mesh, around, shortest, int(near[link] * share))
-            levels["near"].setdefault(link, []).append(packed.Piece(material, fine, light))
-            plain = _plain(mesh, int(far[link] * share))
-            light = around.light(plain.vertices, plain.normals)
-            levels["far"].setdefault(link, []).append(packed.Piece(material, plain, light))
+    most = NEAR_LARGE if reach > LARGE else NEAR
+    share = PLAIN
+    thinned: Callable[[float], Pieces] = partial(_thinned, pieces)
+    if reach > FINE and figures["id"] in kuka.ROBOTS:
+        share, thinned = PLAIN_FINE, Castings(figures, pieces).thinned
+    bodies = most
+    while True:
+        plain = thinned(share * bodies)
+        dress = Dress(figures, plain, reach)
+        body = _fine(plain, dress.around, float(np.clip(reach / 120, 0.004, 0.02)), bodies)
+        near = {link: dress.near(link, found) for link, found in body.items()}
+        over = _count(near) - most
+        if over <= 0:
+            break
+        bodies -= over + 50
+    thin = _thinned(pieces, FAR)
+    few = _plainly(thin, _around(thin, figures, reach))
+    off = max(_off(body[link], few[link]) for link in pieces)
+    far = {link: dress.far(link, found) for link, found in few.items()}
     place = folder / "lod"
     place.mkdir(exist_ok=True)
-    for name, links in levels.items():
-        packed.write(place / f"{name}.glb", links, digest(folder))
-    counts = {
-        name: sum(len(piece.mesh.faces) for own in links.values() for piece in own)
-        for name, links in levels.items()
-    }
-    sizes = {name: (place / f"{name}.glb").stat().st_size / 1e3 for name in levels}
-    off = max(
-        _off(one.mesh, other.mesh)
-        for link in pieces
-        for one, other in zip(levels["near"][link], levels["far"][link], strict=True)
-    )
+    made_of = {"made_of": digest(folder), "details": details.digest(figures["id"])}
+    packed.write(place / "near.glb", near, made_of, dress.drawings())
+    packed.write(place / "far.glb", far, made_of, dress.drawings(True), FAR_ATLAS)
+    near_kb, far_kb = ((place / f"{name}.glb").stat().st_size / 1e3 for name in ("near", "far"))
     print(
-        f"{figures['id']}: near {counts['near']} triangles {sizes['near']:.0f} kB, "
-        f"far {counts['far']} triangles {sizes['far']:.0f} kB, off by {off * 1e3:.1f} mm"
+        f"{figures['id']}: near {_count(near)} triangles {near_kb:.0f} kB, "
+        f"far {_count(far)} triangles {far_kb:.0f} kB, off by {off * 1e3:.1f} mm"
     )
 
 
@@ -91,22 +146,54 @@ def digest(folder: Path) -> str:
 
 
 def is_current(folder: Path) -> bool:
-    """Return whether a model's levels are made of its meshes as they are."""
-    made_of = digest(folder).encode()
+    """Return whether a model's levels are made of its meshes and its table as they are."""
+    made_of = [found.encode() for found in (digest(folder), details.digest(folder.name))]
     files = [folder / "lod" / f"{name}.glb" for name in ("near", "far")]
-    return all(file.is_file() and made_of in file.read_bytes() for file in files)
-
-
-def _budgets(
-    pieces: dict[str, list[tuple[Material, Mesh]]], most: int
-) -> tuple[dict[str, float], dict[str, float]]:
-    """Return the triangles of each link of both levels."""
-    counts = {link: sum(len(mesh.faces) for _, mesh in own) for link, own in pieces.items()}
-    total = sum(counts.values())
-    return (
-        {link: count * max(most / total, 1) for link, count in counts.items()},
-        {link: count * min(FAR / total, 1) for link, count in counts.items()},
+    return all(
+        file.is_file() and all(each in file.read_bytes() for each in made_of) for file in files
     )
+
+
+def _count(level: Level) -> int:
+    return sum(len(piece.mesh.faces) for own in level.values() for piece in own)
+
+
+def _total(pieces: Pieces) -> int:
+    return sum(len(mesh.faces) for own in pieces.values() for _, mesh in own)
+
+
+def _thinned(pieces: Pieces, triangles: float) -> Pieces:
+    """Return bodies of so many triangles at most."""
+    share = triangles / _total(pieces)
+    if share >= 1:
+        return pieces
+    return {
+        link: [(material, _plain(mesh, int(len(mesh.faces) * share))) for material, mesh in own]
+        for link, own in pieces.items()
+    }
+
+
+def _fine(pieces: Pieces, around: dict[str, Around], shortest: float, triangles: int) -> Level:
+    """Return the bodies of `near`, of so many triangles at most, with their light."""
+    share = triangles / _total(pieces)
+    return {
+        link: [
+            Piece(material, *lit(mesh, around[link], shortest, int(len(mesh.faces) * share)))
+            for material, mesh in own
+        ]
+        for link, own in pieces.items()
+    }
+
+
+def _plainly(pieces: Pieces, around: dict[str, Around]) -> Level:
+    """Return bodies with the light at their corners."""
+    return {
+        link: [
+            Piece(material, mesh, around[link].light(mesh.vertices, mesh.normals))
+            for material, mesh in own
+        ]
+        for link, own in pieces.items()
+    }
 
 
 def _plain(mesh: Mesh, triangles: int) -> Mesh:
@@ -117,11 +204,18 @@ def _plain(mesh: Mesh, triangles: int) -> Mesh:
     return creased(decimated(Mesh(places, faces, np.empty((0, 3))), max(triangles, 12)))
 
 
-def _off(near: Mesh, far: Mesh) -> float:
-    """Return the distance, m, within which 99 of 100 points of a far mesh lie of the near one."""
-    points = far.vertices[far.faces].mean(axis=1)[:: max(len(far.faces) // 300, 1)]
-    surface = trimesh.Trimesh(near.vertices, near.faces, process=False)
+def _off(near: list[Piece], far: list[Piece]) -> float:
+    """Return the distance, m, within which 99 of 100 points of a far body lie of the near one."""
+    one, other = (_triangles([(each.material, each.mesh) for each in own]) for own in (near, far))
+    points = other.mean(axis=1)[:: max(len(other) // 600, 1)]
+    surface = trimesh.Trimesh(**trimesh.triangles.to_kwargs(one))
     return float(np.quantile(trimesh.proximity.closest_point(surface, points)[1], 0.99))
+
+
+def _around(pieces: Pieces, figures: dict[str, Any], reach: float) -> dict[str, Around]:
+    """Return what darkens each link: itself and its neighbours, as they are drawn."""
+    radius = float(np.clip(reach / 9, 0.04, 0.25))
+    return {link: Around(_surroundings(link, pieces, figures), radius) for link in pieces}
 
 
 def _surroundings(

@@ -6,23 +6,28 @@ Everything here is in the frame of the link, so that a table can be compared wit
 from __future__ import annotations
 
 import json
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 from body import Material, Part
-from casting import casting, turned_true
-from mesher import Mesh, contour, smoothed
+from casting import casting
+from drums import turned_true
+from fairing import faired
+from mesher import Mesh, contour, decimated, smoothed
 from scipy.sparse import coo_matrix
 from scipy.sparse.csgraph import connected_components
 from solids import Array, Solid
 
+from mrlab_ros.core.geometry import transform_from_xyz_rpy
+
 TABLES = Path(__file__).parent / "sections"
-CELLS = 100  # along the longest side of a casting
+SAMPLES = 2e6  # of the box of a casting
 SHRED = 0.03  # of the area of a casting; a piece apart from it is larger
-FINEST = 0.0022  # m
+FINEST = 0.0018  # m
+MOST = 40_000  # triangles of a surface; more cost time and show nothing
 
 
 @dataclass(frozen=True)
@@ -50,15 +55,30 @@ def table(robot: str, link: str) -> dict[str, Any]:
 
 
 def surface(robot: str, link: str, axes: Sequence[Array]) -> tuple[Solid, Mesh]:
-    """Return the casting of a link, and its surface with exact drums about the joints' axes.
+    """Return a link's faired casting, and its surface with exact drums about the joints' axes.
 
     axes: poses (4, 4) whose z axes are those.
     """
-    body = turned = casting(table(robot, link))
+    body = casting(table(robot, link))
+    cell = max(float(np.cbrt(np.prod(body.high - body.low) / SAMPLES)), FINEST)
+    body = turned = faired(body, cell)
     for pose in axes:
         turned = turned_true(turned, pose)
-    cell = max(float((body.high - body.low).max()) / CELLS, FINEST)
-    return body, smoothed(whole(contour(turned, cell)))
+    return body, decimated(smoothed(whole(contour(turned, cell))), MOST)
+
+
+def surfaces(figures: dict[str, Any], links: Mapping[str, Link]) -> dict[str, tuple[Solid, Mesh]]:
+    """Return the castings of a robot's links with their surfaces, each in its link's frame."""
+    found = {}
+    for link in links:
+        own = [] if link == figures["joints"][0]["parent"] else [np.eye(4)]
+        axes = own + [
+            transform_from_xyz_rpy(joint["xyz"], joint["rpy"])
+            for joint in figures["joints"]
+            if joint["parent"] == link and joint["type"] != "fixed"
+        ]
+        found[link] = surface(figures["id"], link, axes)
+    return found
 
 
 def whole(mesh: Mesh) -> Mesh:

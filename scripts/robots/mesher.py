@@ -14,7 +14,7 @@ from solids import Array, Solid
 Faces = NDArray[np.int64]
 CREASE_DEG = 38.0
 ALIKE_DEG = 22.0  # between faces that are smoothed together; sharper edges stay
-SMOOTHINGS, FITTINGS = 8, 12  # rounds of normals, then of vertices
+SMOOTHINGS, FITTINGS = 18, 18  # rounds of normals, then of vertices
 GRID = 1e-5  # m; positions are rounded to it, so that the last bits of a sum do not matter
 
 
@@ -36,6 +36,9 @@ def contour(solid: Solid, cell: float) -> Mesh:
     for x, layer in enumerate(axes[0]):
         grid = np.stack(np.meshgrid([layer], axes[1], axes[2], indexing="ij"), axis=-1)
         values[x] = solid.distance(grid.reshape(-1, 3)).reshape(counts[1:])
+    ends = [np.take(values, (0, -1), axis) for axis in range(3)]
+    if any((end < 0).any() for end in ends):  # it stands out of the box it states
+        return contour(Solid(solid.distance, solid.low - 2 * cell, solid.high + 2 * cell), cell)
     cells = np.zeros(counts, dtype=np.int64)
     places, owners, quads = [], [], []
     for axis in range(3):

@@ -1,32 +1,30 @@
 """Writes a whole robot as one packed glTF file: for pages, which read it in one go.
 
-One node a link, one primitive a link, one material. Colour, metalness and roughness are a palette
-of a few pixels, of which the texture coordinate names one; the baked light is the vertex colour.
+One node a link, one primitive a link, one material. Colour, metalness and roughness are pictures:
+the colours of the materials, and the drawings on the links (atlas.py); the baked light is the
+colour of the vertices.
 Positions are 16 bits (KHR_mesh_quantization), the buffers are packed (EXT_meshopt_compression).
 """
 
 from __future__ import annotations
 
-import io
 import json
 import struct
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
 import meshoptimizer
 import numpy as np
-from body import Material
+from atlas import Atlas, Drawing
 from glb import linear
-from mesher import Mesh
-from PIL import Image
+from pieces import Piece
 from solids import Array
 
 USHORT, UINT, BYTE, UBYTE = 5123, 5125, 5120, 5121
 VERTICES, INDICES = 34962, 34963
 PACKING, SHORTS = "EXT_meshopt_compression", "KHR_mesh_quantization"
-# bytes of a vertex, padded to 4: position 3 x 16 bits, normal and light 3 x 8, palette 2 x 8
+# bytes of a vertex, padded to 4: position 3 x 16 bits, normal and light 3 x 8, texture 2 x 16
 STRIDE = 20
 FINEST = 2e-5  # m, between two coordinates
 STEPS = 16383  # along the longest side; more bits pack worse and show nothing
@@ -36,23 +34,22 @@ meshoptimizer.encode_vertex_version(0)
 meshoptimizer.encode_index_version(1)
 
 
-@dataclass(frozen=True, eq=False)
-class Piece:
-    """A mesh of one material and the light at its vertices, (V,) 0 to 1."""
-
-    material: Material
-    mesh: Mesh
-    light: Array
-
-
-def write(path: Path, links: Mapping[str, Sequence[Piece]], made_of: str) -> None:
+def write(
+    path: Path,
+    links: Mapping[str, Sequence[Piece]],
+    made_of: Mapping[str, str],
+    drawings: Sequence[Drawing] = (),
+    size: int = 512,
+) -> None:
     """Write the pieces of each link, in the link's own frame, m.
 
-    made_of: the digest of the meshes that they show, kept in the file.
+    made_of: the digests of what they show, kept in the file; drawings: those that pieces name, put
+    into a picture of `size` pixels. Raises ValueError where they do not fit.
     """
     pieces = [piece for own in links.values() for piece in own]
-    palette = list({piece.material.name: piece.material for piece in pieces}.values())
-    file = _File(palette)
+    palette = {piece.material.name: piece.material for piece in pieces}
+    palette |= {drawing.material.name: drawing.material for drawing in drawings}
+    file = _File(Atlas(list(palette.values()), drawings, size))
     for link, own in links.items():
         parts = {
             link: [piece for piece in own if not _is_hose(piece)],
@@ -67,8 +64,8 @@ def _is_hose(piece: Piece) -> bool:
 
 
 class _File:
-    def __init__(self, palette: Sequence[Material]) -> None:
-        self._palette = palette
+    def __init__(self, atlas: Atlas) -> None:
+        self._atlas = atlas
         self._packed = bytearray()
         self._unpacked = 0
         self._views: list[dict[str, Any]] = []
@@ -88,7 +85,7 @@ class _File:
 
     def _mesh(self, name: str, pieces: Sequence[Piece]) -> dict[str, Any]:
         """Add a mesh; return the reference to it and where it lies."""
-        joined = _joined(pieces, self._palette)
+        joined = _joined(pieces, self._atlas)
         vertices, indices, low, step = _ordered(*joined)
         accessors = len(self._accessors)
         wide = len(vertices) > 65535
@@ -105,7 +102,7 @@ class _File:
             ("VEC3", USHORT, 0, False),
             ("VEC3", BYTE, 8, True),
             ("VEC4", UBYTE, 12, True),
-            ("VEC2", UBYTE, 16, True),
+            ("VEC2", USHORT, 16, True),
         )
         for kind, component, offset, normalised in fields:
             self._accessors.append(
@@ -175,15 +172,34 @@ class _File:
         self._packed.extend(b"\0" * (-len(data) % 4))
         return at
 
-    def bytes(self, made_of: str) -> bytes:
-        """Return the file."""
-        colours = [[round(value * 255) for value in each.colour] for each in self._palette]
-        finish = [
-            [0, round(each.roughness * 255), round(each.metalness * 255)] for each in self._palette
+    def _extras(self) -> dict[str, Any]:
+        """Return what the pictures hold, for a reader that keeps the colours with the vertices.
+
+        palette: a row a column of the top band, whose height is `band`: linear colour, roughness,
+        metalness; white: a place in the picture that is so; drawings: left, top, right, bottom of
+        each, and the row of the palette whose finish it has.
+        """
+        atlas = self._atlas
+        palette = [
+            [*(round(linear(c), 5) for c in m.colour), m.roughness, m.metalness]
+            for m in atlas.palette
         ]
+        if not atlas.drawings:
+            return {"palette": palette}
+        drawings = [
+            [*(round(value, 5) for value in atlas.place(n)), atlas.finish(n)]
+            for n in range(len(atlas.drawings))
+        ]
+        white = [round(value, 5) for value in atlas.white]
+        return {"palette": palette, "band": atlas.band, "white": white, "drawings": drawings}
+
+    def bytes(self, made_of: Mapping[str, str]) -> bytes:
+        """Return the file."""
         images = []
-        for name, pixels in (("colours", colours), ("finish", finish)):
-            data = _png(pixels)
+        for name, data in (
+            ("colours", self._atlas.colours()),
+            ("finish", self._atlas.finishes()),
+        ):
             at = self._store(data)
             self._views.append({"buffer": 0, "byteOffset": at, "byteLength": len(data)})
             view = len(self._views) - 1
@@ -194,20 +210,15 @@ class _File:
                 "baseColorTexture": {"index": 0},
                 "metallicRoughnessTexture": {"index": 1},
             },
-            # the same for a reader that wants no textures, a row a pixel
-            "extras": {
-                "palette": [
-                    [*(round(linear(c), 5) for c in m.colour), m.roughness, m.metalness]
-                    for m in self._palette
-                ]
-            },
+            "extras": self._extras(),
         }
-        nearest, clamped = 9728, 33071
+        nearest, smooth, mipmaps, clamped = 9728, 9729, 9987, 33071
+        drawn = bool(self._atlas.drawings)
         document = {
             "asset": {
                 "version": "2.0",
                 "generator": "mrlab scripts/robots",
-                "extras": {"made_of": made_of},
+                "extras": dict(made_of),
             },
             "extensionsUsed": [PACKING, SHORTS],
             "extensionsRequired": [PACKING, SHORTS],
@@ -216,15 +227,16 @@ class _File:
             "nodes": self._nodes,
             "meshes": self._meshes,
             "materials": [material],
-            "textures": [{"source": n, "sampler": 0} for n in range(2)],
+            "textures": [{"source": n, "sampler": n} for n in range(2)],
             "images": images,
             "samplers": [
                 {
-                    "magFilter": nearest,
-                    "minFilter": nearest,
+                    "magFilter": smooth if mixed else nearest,
+                    "minFilter": mipmaps if mixed else nearest,
                     "wrapS": clamped,
                     "wrapT": clamped,
                 }
+                for mixed in (drawn, False)
             ],
             "buffers": [
                 {"byteLength": len(self._packed)},
@@ -244,28 +256,25 @@ class _File:
         )
 
 
-def _png(row: Sequence[Sequence[int]]) -> bytes:
-    out = io.BytesIO()
-    Image.fromarray(np.array([row], dtype=np.uint8)).save(out, "PNG", optimize=True)
-    return out.getvalue()
-
-
-def _joined(pieces: Sequence[Piece], palette: Sequence[Material]) -> tuple[Array, Array, Array]:
-    """Return vertices (V, 8): place, normal, light, number in the palette; and their faces."""
-    names = [each.name for each in palette]
+def _joined(pieces: Sequence[Piece], atlas: Atlas) -> tuple[Array, Array]:
+    """Return vertices (V, 9): place, normal, light, place in the picture; and their faces."""
     rows, faces, at = [], [], 0
     for piece in pieces:
         count = len(piece.mesh.vertices)
-        number = np.full(count, names.index(piece.material.name))
+        if piece.drawing is None or piece.places is None:
+            places = np.tile(atlas.of_material(piece.material.name), (count, 1))
+        else:
+            left, top, right, bottom = atlas.place(piece.drawing)
+            places = [left, top] + piece.places * [right - left, bottom - top]
         rows.append(
-            np.column_stack([piece.mesh.vertices, piece.mesh.normals, piece.light, number])
+            np.column_stack([piece.mesh.vertices, piece.mesh.normals, piece.light, places])
         )
         faces.append(piece.mesh.faces + at)
         at += count
-    return np.concatenate(rows), np.concatenate(faces), np.array([len(palette)])
+    return np.concatenate(rows), np.concatenate(faces)
 
 
-def _ordered(rows: Array, faces: Array, palette: Array) -> tuple[Array, Array, Array, float]:
+def _ordered(rows: Array, faces: Array) -> tuple[Array, Array, Array, float]:
     """Return vertices and indices as they are stored, and the corner and step of their grid, m."""
     low = rows[:, :3].min(axis=0)
     step = max(float((rows[:, :3].max(axis=0) - low).max()) / STEPS, FINEST)
@@ -277,15 +286,14 @@ def _ordered(rows: Array, faces: Array, palette: Array) -> tuple[Array, Array, A
             ("normal", "i1", 3),
             ("pad2", "i1"),
             ("light", "u1", 4),
-            ("palette", "u1", 4),
+            ("places", "<u2", 2),
         ],
     )
     stored["position"] = np.round((rows[:, :3] - low) / step)
     stored["normal"] = np.round(rows[:, 3:6] * 127)
     stored["light"][:, :3] = np.round(rows[:, 6:7] * 255)
     stored["light"][:, 3] = 255
-    stored["palette"][:, 0] = np.round((rows[:, 7] + 0.5) / palette[0] * 255)
-    stored["palette"][:, 1] = 128
+    stored["places"] = np.round(rows[:, 7:9] * 65535)
     unique, index = np.unique(stored.view((np.void, STRIDE)).ravel(), return_inverse=True)
     vertices = unique.view(stored.dtype)
     corners = index.ravel()[faces]

@@ -92,6 +92,11 @@ class Bodies:
         if self.touch(pair, pose):
             return 0.0
         one, other = (samples(faces, 0.01) for faces in self._placed(pair, pose))
+        # No point is nearer to the other body than to the box around that.
+        few = one[:: len(one) // MOST_POINTS + 1]
+        most = float(cKDTree(few).query(other[:: len(other) // MOST_POINTS + 1])[0].min())
+        one = one[_near_box(one, other, most)]
+        other = other[_near_box(other, one, most)]
         return float(cKDTree(one).query(other)[0].min())
 
     def _placed(self, pair: Pair, pose: Array) -> list[Array]:
@@ -113,6 +118,12 @@ class Bodies:
             if len(points) and inside(b, points).any():
                 return True
         return False
+
+
+def _near_box(points: Array, others: Array, most: float) -> NDArray[np.bool_]:
+    """Return which points lie within `most`, m, of the box around the others."""
+    low, high = others.min(axis=0) - most, others.max(axis=0) + most
+    return np.asarray(((points >= low) & (points <= high)).all(axis=1))
 
 
 def main() -> None:

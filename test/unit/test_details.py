@@ -1,0 +1,178 @@
+"""What is written, cut and screwed on the bodies of robots: scripts/robots."""
+
+from __future__ import annotations
+
+import sys
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+import yaml
+
+ROOT = Path(__file__).resolve().parents[2]
+sys.path.insert(0, str(ROOT / "scripts" / "robots"))
+pytest.importorskip("embreex", reason="bakes light")
+
+import details  # noqa: E402
+import drawings  # noqa: E402
+import glb  # noqa: E402
+from atlas import RIM, Atlas, Drawing  # noqa: E402
+from body import BLACK, ORANGE, STEEL  # noqa: E402
+from cutting import cut  # noqa: E402
+from markings import marked, markings, sense  # noqa: E402
+from mesher import Mesh  # noqa: E402
+from pieces import Piece  # noqa: E402
+from relief import grooved, lined, places, screwed  # noqa: E402
+
+TABLES = sorted((ROOT / "scripts/robots/details").glob("*.yaml"))
+
+
+def flat(count: int = 4) -> Piece:
+    """Return a square of 1 m on the plane z = 0, of count x count squares of two triangles."""
+    x, y = np.meshgrid(np.linspace(-0.5, 0.5, count + 1), np.linspace(-0.5, 0.5, count + 1))
+    vertices = np.column_stack([x.ravel(), y.ravel(), np.zeros(x.size)])
+    a = np.arange(count * (count + 1)).reshape(count, count + 1)[:, :-1].ravel()
+    quads = np.column_stack([a, a + 1, a + count + 2, a + count + 1])
+    faces = np.concatenate([quads[:, [0, 1, 2]], quads[:, [0, 2, 3]]])
+    mesh = Mesh(vertices, faces, np.tile([0.0, 0.0, 1.0], (x.size, 1)))
+    return Piece(ORANGE, mesh, np.ones(x.size))
+
+
+def area(vertices: Any, faces: Any) -> Any:
+    a, b, c = vertices[faces].transpose(1, 0, 2)
+    return np.cross(b - a, c - a)[:, 2] / 2
+
+
+class Sky:
+    """What sees all of the sky."""
+
+    def light(self, points: Any, normals: Any) -> Any:
+        return np.ones(len(points))
+
+
+def test_a_cut_leaves_neither_gap_nor_crossing() -> None:
+    mesh = flat().mesh
+    rows = np.column_stack([mesh.vertices, np.ones(len(mesh.vertices))])
+    height = mesh.vertices @ [0.6, 0.8, 0.0] - 0.11
+    some = mesh.vertices[mesh.faces].mean(axis=1)[:, 0] > 0
+    rows, faces, origin = cut(rows, mesh.faces, height, some)
+    assert np.isclose(area(rows[:, :3], faces).sum(), 1)
+    assert (area(rows[:, :3], faces) > 0).all()
+    side = np.sign(np.round(rows[:, :3] @ [0.6, 0.8, 0.0] - 0.11, 9))[faces]
+    assert not ((side.min(axis=1) < 0) & (side.max(axis=1) > 0) & some[origin]).any()
+    # each inner edge has two faces, in opposite directions
+    edges = np.concatenate([faces[:, [i, (i + 1) % 3]] for i in range(3)])
+    inner = [
+        tuple(e) for e in edges.tolist() if not (np.abs(rows[e, :2]).max(axis=0) == 0.5).any()
+    ]
+    assert all((b, a) in set(map(tuple, edges.tolist())) for a, b in inner)
+    assert np.allclose(rows[:, 3], 1)
+
+
+def test_the_atlas_keeps_drawings_apart_and_alike_ones_once() -> None:
+    label = Drawing(drawings.pinch(40, ORANGE), ORANGE)
+    other = Drawing(drawings.axis(3, "left", 60, BLACK), BLACK)
+    atlas = Atlas([ORANGE, BLACK], [label, other, label], 128)
+    assert atlas.place(0) == atlas.place(2) != atlas.place(1)
+    one, two = (np.array(atlas.place(n)) * 128 for n in (0, 1))
+    apart = np.maximum(one[:2] - two[2:], two[:2] - one[2:])
+    assert apart.max() >= 2 * RIM
+    assert atlas.finish(1) == 1
+    with pytest.raises(ValueError, match="do not fit into 64 x 64"):
+        Atlas([ORANGE, BLACK], [label, other], 64)
+
+
+@pytest.mark.parametrize(
+    ("axle", "middle", "word"),
+    [
+        ([0, 0, 1], [0, 0, 1], "left"),
+        ([0, 0, -1], [0.2, 0, 1], "right"),
+        # seen from above, a point in front of an axis to the right moves towards the viewer's top
+        ([1, 0, 0], [0, 0, 1], "down"),
+        ([0, 1, 0], [0, 0, 1], "back"),
+        ([0, -1, 0], [0, 0, 1], "ahead"),
+    ],
+)
+def test_a_label_shows_where_its_link_turns(axle: Any, middle: Any, word: str) -> None:
+    assert sense(np.array(axle, float), np.array(middle, float), np.eye(3)) == word
+
+
+def test_seams_and_screws_lie_on_the_surface() -> None:
+    piece = flat(12)
+    surface = details.Surface([(ORANGE, piece.mesh)])
+    seam = {"from": [0, 0, 1], "centre": [0, 0, 20], "half": [200, 100]}
+    (strip,) = lined([seam], surface, Sky())  # type: ignore[arg-type]
+    assert strip.material is ORANGE
+    assert np.abs(strip.mesh.vertices[:, :2]).max(axis=0) == pytest.approx([0.2, 0.1], abs=0.002)
+    assert 0 < strip.mesh.vertices[:, 2].max() < 0.0005
+    assert (area(strip.mesh.vertices, strip.mesh.faces) > 0).all()
+    # of a circle that reaches over the edge those that stand on nothing are left out
+    screw = {"from": [0, 0, 1], "centre": [450, 0, 0], "radius": 100, "count": 4, "size": 10}
+    assert len(screwed([screw], surface, Sky())) == 3  # type: ignore[arg-type]
+    far = {**screw, "centre": [0, 0, 500]}
+    assert screwed([far], surface, Sky()) == []  # type: ignore[arg-type]
+
+
+def test_a_groove_is_cut_where_it_is_stated() -> None:
+    piece = flat(12)
+    turned = Mesh(piece.mesh.vertices, piece.mesh.faces, piece.mesh.normals)
+    seam = {"axis": "x", "at": 130, "width": 4, "depth": 2,
+            "within": [[-600, -600, -10], [600, 600, 10]]}  # fmt: skip
+    (cut_in,) = grooved([Piece(STEEL, turned, piece.light)], [seam])
+    low = cut_in.mesh.vertices[:, 2] < -0.001
+    assert np.allclose(cut_in.mesh.vertices[low, 0], 0.13)
+    assert cut_in.light[low].max() < 0.5
+    assert np.isclose(area(cut_in.mesh.vertices, cut_in.mesh.faces).sum(), 1)
+
+
+@pytest.mark.parametrize("file", TABLES, ids=lambda file: file.stem)
+def test_tables_name_links_and_kinds_there_are(file: Path) -> None:
+    figures = yaml.safe_load((ROOT / "robots" / file.stem / "robot.yaml").read_text())
+    links = {path.stem for path in (ROOT / "robots" / file.stem / "meshes").glob("*.glb")}
+    table = details.table(file.stem)
+    assert set(table) <= {"markings", "seams", "screws", "clamps"}
+    assert {entry["link"] for entries in table.values() for entry in entries} <= links
+    kinds = [entry["kind"] for entry in table["markings"]]
+    assert {"name", "axis", "plate"} <= set(kinds) <= {"name", "axis", "plate", "pinch"}
+    # what stands on a robot is how it is called
+    names = [entry["text"] for entry in table["markings"] if entry["kind"] == "name"]
+    assert all(figures["product"].startswith(name) for name in names)
+
+
+@pytest.mark.parametrize("file", TABLES, ids=lambda file: file.stem)
+def test_no_screw_stands_on_a_label(file: Path) -> None:
+    table = details.table(file.stem)
+    for label in table["markings"]:
+        outwards = details.unit(label["from"])
+        for screw in table.get("screws", []):
+            if screw["link"] != label["link"] or details.unit(screw["from"]) @ outwards < 0.9:
+                continue
+            off = places(screw, outwards) / details.MM - label["at"]
+            across = np.linalg.norm(off - np.outer(off @ outwards, outwards), axis=1)
+            assert across.min() > (label["height"] + screw["size"]) / 2, label
+
+
+def test_markings_lie_on_their_links() -> None:
+    folder = ROOT / "robots" / "ur5e"
+    figures = yaml.safe_load((folder / "robot.yaml").read_text())
+    figures["id"] = "ur5e"
+    pieces = {path.stem: glb.read(path) for path in (folder / "meshes").glob("*.glb")}
+    found = markings(figures, {link: details.Surface(own) for link, own in pieces.items()})
+    assert len(found) == len(details.table("ur5e")["markings"])
+    for link, own in pieces.items():
+        here = [(n, each) for n, each in enumerate(found) if each.link == link]
+        bare = [Piece(material, mesh, np.ones(len(mesh.vertices))) for material, mesh in own]
+        drawn = [piece for piece in marked(bare, here) if piece.drawing is not None]
+        assert {piece.drawing for piece in drawn} == {n for n, _ in here}
+        for piece in drawn:
+            assert piece.places is not None
+            assert 0 <= piece.places.min() <= piece.places.max() <= 1
+        if here:
+            wrong = found[here[0][0]]
+            far = type(wrong)(
+                wrong.kind, wrong.link, wrong.middle + 0.6 * wrong.frame[0], wrong.frame,
+                wrong.width, wrong.height, wrong.material, wrong.drawing,
+            )  # fmt: skip
+            with pytest.raises(ValueError, match="of it lies on"):
+                marked(bare, [(0, far)])
