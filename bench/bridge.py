@@ -5,13 +5,16 @@ processes of their own. Beside the bridge stand its two halves alone: DDS from t
 subscriber, and zenoh from the source to a subscriber. Age: from the stamp, just before
 publishing, to the subscriber's callback. "flat out" publishes as fast as one process can: what
 arrives is what the bridge carries while source, bridge and subscriber share the machine; the
-messages a second that one core carries follow from the bridge's CPU time a message.
+messages a second that one core carries follow from the bridge's CPU time a message. With --stock
+each run of the bridge is followed by one of `zenoh-bridge-ros2dds`, whose messages have no stamps:
+there the parts of the way have no figures.
 """
 
 from __future__ import annotations
 
 import json
 import os
+import shutil
 import signal
 import socket
 import subprocess
@@ -35,6 +38,7 @@ SESSIONS = 10
 # Messages a second of a guest who floods a key.
 FLOOD = 17_000
 RSS_PERIOD = 5.0
+STOCK = "stock bridge"
 
 
 class Process:
@@ -93,17 +97,19 @@ class Bridge:
 
 @dataclass
 class Used:
-    """CPU: of a core, by bridge and subscribers; s a message, by the bridge."""
+    """CPU: of a core, by bridge and subscribers; s a message, by the bridge; its memory, MB."""
 
     bridge: float
     subscribers: float
     message: float
+    rss: float
 
 
 def environment() -> dict[str, str]:
     return os.environ | {
         "ROS_DOMAIN_ID": DOMAIN,
         "ROS_AUTOMATIC_DISCOVERY_RANGE": "LOCALHOST",
+        "ROS_DISTRO": "jazzy",
     }
 
 
@@ -123,12 +129,16 @@ def until(condition, what: str, seconds: float = 60.0) -> None:
 
 
 @contextmanager
-def bridge() -> Iterator[Bridge]:
-    """Run a bridge in a process of its own."""
+def bridge(stock: str = "") -> Iterator[Bridge]:
+    """Run a bridge in a process of its own; stock: the executable of the stock one."""
     endpoint = free_endpoint()
-    process = subprocess.Popen(
+    ours = (
         f"{sys.executable} -m mrlab_ros.processes.host bridge --ros-args --log-level error "
-        f"-p listen:=['{endpoint}']".split(),
+        f"-p listen:=['{endpoint}']"
+    )
+    theirs = f"{stock} --no-multicast-scouting -l {endpoint}"
+    process = subprocess.Popen(
+        (theirs if stock else ours).split(),
         env=environment(),
         stdout=subprocess.DEVNULL,
     )
@@ -212,12 +222,14 @@ def bridged(
     subscribers: int = 1,
     rss: list[float] | None = None,
     flood: int = 0,
+    stock: str = "",
 ) -> dict[str, Any]:
     """Measure the whole way; `rss` collects the bridge's memory, MB, meanwhile.
 
-    flood: messages a second that a guest sends all the time on a key that comes in.
+    flood: messages a second that a guest sends all the time on a key that comes in. stock: the
+    executable of the stock bridge, in place of ours.
     """
-    with bridge() as carried:
+    with bridge(stock) as carried:
         counts = [SESSIONS] * (subscribers // SESSIONS)
         counts += [subscribers % SESSIONS] if subscribers % SESSIONS else []
         source = Process("source", *options(robots, rate, seconds))
@@ -230,7 +242,11 @@ def bridged(
             for receiver in receivers:
                 receiver.listen()
             source.listen()
-            until(lambda: heard(carried.endpoint) == robots, "the bridge to hear of subscribers")
+            # The source is ready once each topic has a subscription, which is the stock bridge's.
+            if not stock:
+                until(
+                    lambda: heard(carried.endpoint) == robots, "the bridge to hear of subscribers"
+                )
             before, began = carried.cpu(), time.monotonic()
             theirs = sum(receiver.cpu() for receiver in receivers)
             source.tell()
@@ -243,14 +259,15 @@ def bridged(
             time.sleep(1.0)
             said = [receiver.ask() for receiver in receivers]
             carried_messages = min(sent, said[0]["count"] // counts[0])
+            resident = carried.rss()
     return row(
-        f"bridge, {flood:,}/s from a guest" if flood else "bridge",
+        STOCK if stock else f"bridge, {flood:,}/s from a guest" if flood else "bridge",
         robots,
         rate,
         sent,
         said,
         subscribers,
-        Used(busy / took, theirs / took, busy / max(carried_messages, 1)),
+        Used(busy / took, theirs / took, busy / max(carried_messages, 1), resident),
     )
 
 
@@ -271,7 +288,8 @@ def row(
     received = sum(each["count"] for each in said)
     nothing = [float("nan")] * 4
     age = said[0].get("age", nothing)
-    used_by = used or Used(*nothing[:3])
+    used_by = used or Used(*nothing)
+    stamped = used is not None and way != STOCK
     return {
         "way": way,
         "robots": robots,
@@ -283,10 +301,11 @@ def row(
         "p95": age[1],
         "p99": age[2],
         "max": age[3],
-        "to bridge p50": said[0].get("before_bridged", nothing)[0] if used else float("nan"),
-        "from it p50": said[0].get("after_bridged", nothing)[0] if used else float("nan"),
+        "to bridge p50": said[0].get("before_bridged", nothing)[0] if stamped else float("nan"),
+        "from it p50": said[0].get("after_bridged", nothing)[0] if stamped else float("nan"),
         "bridge CPU, %": 100 * used_by.bridge,
         "us/msg": 1e6 * used_by.message,
+        "RSS, MB": used_by.rss,
         "subscr. CPU, %": 100 * used_by.subscribers,
     }
 
@@ -318,20 +337,28 @@ def main() -> None:
     parser.add_argument("--subscribers", type=int, default=50, help="of the test with many")
     parser.add_argument("--robots", type=int, default=13, help="of the test with many")
     parser.add_argument("--soak", type=float, metavar="MINUTES", help="only this, with many")
+    parser.add_argument("--stock", metavar="PATH", help="zenoh-bridge-ros2dds, measured beside")
     arguments = parser.parse_args()
+    stock = [shutil.which(arguments.stock)] if arguments.stock else []
+    if None in stock:
+        parser.error(f"{arguments.stock} is no executable; expected zenoh-bridge-ros2dds")
     if arguments.soak:
         rows = [soak(arguments.soak, arguments.robots, arguments.subscribers)]
         report.show("The bridge over time", rows, arguments.json)
         return
     seconds = 4.0 if arguments.quick else 30.0
+
+    def bridges(robots: int, rate: float) -> list[dict[str, Any]]:
+        return [bridged(robots, rate, seconds, stock=each or "") for each in ("", *stock)]
+
     rows = [
         alone("DDS", 13, 100.0, seconds),
         alone("zenoh", 13, 100.0, seconds),
-        bridged(1, 100.0, seconds),
-        bridged(13, 100.0, seconds),
+        *bridges(1, 100.0),
+        *bridges(13, 100.0),
         bridged(13, 100.0, seconds, flood=FLOOD),
-        bridged(50, 100.0, seconds),
-        bridged(1, 0.0, seconds),
+        *bridges(50, 100.0),
+        *bridges(1, 0.0),
     ]
     report.show("Joint states from a stamp to a subscriber's callback", rows, arguments.json)
     rows = [

@@ -4,25 +4,34 @@
 the parameter file are those of `mrlab up`.
 """
 
+import os
 import sys
 import tempfile
 from pathlib import Path
 
+from ament_index_python.packages import PackageNotFoundError, get_package_prefix
 from launch import LaunchDescription
 from launch.actions import (
     DeclareLaunchArgument,
+    EmitEvent,
     ExecuteProcess,
+    LogInfo,
     OpaqueFunction,
     RegisterEventHandler,
 )
 from launch.event_handlers import OnProcessExit
+from launch.events import matches_action
+from launch.events.process import ShutdownProcess
 from launch.substitutions import LaunchConfiguration
 from launch_ros.actions import Node
 
 from mrlab_ros.adapters.bullet.support import missing
+from mrlab_ros.adapters.launcher import LAUNCHER
 from mrlab_ros.commands.up.keys import with_free_port
 from mrlab_ros.commands.up.web import checked_web, prepare_keys
+from mrlab_ros.core.bridge.links import check_endpoints
 from mrlab_ros.core.errors import BadInput
+from mrlab_ros.core.naming import did_you_mean
 from mrlab_ros.processes import physics_support
 from mrlab_ros.processes.lab import (
     HOST_EXECUTABLE,
@@ -32,12 +41,15 @@ from mrlab_ros.processes.lab import (
     robot_models,
 )
 from mrlab_ros.processes.options import LabOptions, new_lab_id
+from mrlab_ros.processes.supervisor import WRONG_CONFIGURATION
 from mrlab_ros.ros import share
 
-# A process that ends is started again after this time, s, and at most so many times: the launcher
-# cannot know that a process refuses its configuration and would start it for ever.
+# A process that ends is started again after this time, s, and at most so many times; one that
+# refuses its configuration is not, see refused().
 RESPAWN = {"respawn": True, "respawn_delay": 1.0, "respawn_max_retries": 10}
 SHOWN = {"output": "screen", "emulate_tty": True}
+# The processes end with this one, which would leave them behind at a SIGTERM.
+WITH_IT = {"additional_env": {LAUNCHER: str(os.getpid())}}
 FLAGS = ["true", "false"]
 
 # By name: default and description; those whose default is true or false take nothing else.
@@ -101,7 +113,11 @@ def processes(context):
     def path(name):
         return Path(value(name)).expanduser().absolute() if value(name) else None
 
+    shown = [rviz()] if given("rviz") else []
     keys = path("keys")
+    listen = with_free_port(value("listen"))
+    if listen and given("bridge"):
+        check_endpoints((listen,), given("insecure"), keys is not None)
     web = None
     if given("bridge") and given("web"):
         web = checked_web(
@@ -127,7 +143,7 @@ def processes(context):
         physics=physics,
         frames=given("frames"),
         bridge=given("bridge"),
-        listen=with_free_port(value("listen")),
+        listen=listen,
         connect=value("connect"),
         keys=keys,
         insecure=given("insecure"),
@@ -144,13 +160,20 @@ def processes(context):
             remappings=remappings(value("remap")),
             **SHOWN,
             **RESPAWN,
+            **WITH_IT,
         )
         for process in found
         if isinstance(process, LabProcess)
     ]
     # No ROS nodes: the launcher would give them ROS arguments.
     programs = [
-        ExecuteProcess(cmd=list(process.command(options)), name=process.name, **SHOWN, **RESPAWN)
+        ExecuteProcess(
+            cmd=list(process.command(options)),
+            name=process.name,
+            **SHOWN,
+            **RESPAWN,
+            **WITH_IT,
+        )
         for process in found
         if not isinstance(process, LabProcess)
     ]
@@ -161,8 +184,10 @@ def processes(context):
         **SHOWN,
     )
     return [
+        *unknown(context.launch_configurations),
         *nodes,
         *programs,
+        RegisterEventHandler(OnProcessExit(on_exit=refused)),
         RegisterEventHandler(
             OnProcessExit(
                 target_action=ready,
@@ -170,8 +195,25 @@ def processes(context):
             )
         ),
         ready,
-        *([rviz()] if given("rviz") else []),
+        *shown,
     ]
+
+
+def unknown(given):
+    """Return a warning for each name that resembles an argument, such as robot:=ur5e."""
+    words = [
+        f"{name}:= is no argument of the lab (-s lists them){close}"
+        for name in given
+        if name not in ARGUMENTS and (close := did_you_mean(name, ARGUMENTS))
+    ]
+    return [LogInfo(msg=text) for text in words]
+
+
+def refused(event, _context):
+    """Return what keeps a process that refuses its configuration from being started again."""
+    if event.returncode != WRONG_CONFIGURATION:
+        return []
+    return [EmitEvent(event=ShutdownProcess(process_matcher=matches_action(event.action)))]
 
 
 def after(value):
@@ -188,7 +230,14 @@ def after(value):
 
 
 def rviz():
-    """Return RViz with all displays of the lab."""
+    """Return RViz with all displays of the lab; raise BadInput where it is not installed."""
+    try:
+        get_package_prefix("rviz2")
+    except PackageNotFoundError:
+        raise BadInput(
+            "RViz is not installed; install it (sudo apt install ros-jazzy-rviz2), or leave "
+            "rviz:=true out"
+        ) from None
     config = share.directory() / "config" / "mrlab.rviz"
     return Node(package="rviz2", executable="rviz2", arguments=["-d", str(config)], **SHOWN)
 

@@ -5,30 +5,56 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
+    from mrlab_ros.client.lab import FileRefused as FileRefused
     from mrlab_ros.client.lab import Lab as Lab
+    from mrlab_ros.client.lab import Recording as Recording
+    from mrlab_ros.client.motion import Motion as Motion
+    from mrlab_ros.client.robot import JointSample as JointSample
+    from mrlab_ros.client.robot import LabRobot as LabRobot
+    from mrlab_ros.client.robot import Run as Run
     from mrlab_ros.core.conversion.options import Options as Options
+    from mrlab_ros.core.errors import LabError as LabError
 
     __version__: str
+else:
 
-__all__ = ["Lab", "Options", "__version__"]
+    def __getattr__(name: str) -> object:
+        """Import the API, and read the version, when it is asked for: no part of the lab pays."""
+        if name == "__version__":
+            return _version()
+        if name not in _MODULES:
+            raise AttributeError(f"module 'mrlab_ros' has no attribute '{name}'")
+        from importlib import import_module
+
+        return getattr(import_module(f"mrlab_ros.{_MODULES[name]}"), name)
 
 
-def __getattr__(name: str) -> Any:
-    """Import the API, and read the version, when it is asked for: no part of the lab pays."""
-    if name == "Lab":
-        from mrlab_ros.client.lab import Lab
-
-        return Lab
-    if name == "Options":
-        from mrlab_ros.core.conversion.options import Options
-
-        return Options
-    if name == "__version__":
-        return _version()
-    raise AttributeError(f"module 'mrlab_ros' has no attribute '{name}'")
+_MODULES = {
+    "FileRefused": "client.lab",
+    "JointSample": "client.robot",
+    "Lab": "client.lab",
+    "LabError": "core.errors",
+    "LabRobot": "client.robot",
+    "Motion": "client.motion",
+    "Options": "core.conversion.options",
+    "Recording": "client.lab",
+    "Run": "client.robot",
+}
+__all__ = [
+    "FileRefused",
+    "JointSample",
+    "Lab",
+    "LabError",
+    "LabRobot",
+    "Motion",
+    "Options",
+    "Recording",
+    "Run",
+    "__version__",
+]
 
 
 def _version() -> str:

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import errno
 import importlib
+import io
 import os
 import signal
 import sys
@@ -11,9 +13,14 @@ from collections.abc import Sequence
 from types import FrameType
 from typing import Annotated
 
+if __name__ == "__main__":
+    # Until main() a Ctrl-C ends the program: within an import it would print a traceback.
+    signal.signal(signal.SIGINT, signal.SIG_DFL)
+
 import typer
 
 import mrlab_ros
+from mrlab_ros.commands import completion
 from mrlab_ros.core.errors import LabError
 
 EPILOG = """
@@ -40,11 +47,11 @@ mrlab record class.bag — write down what happens; mrlab replay class.bag bring
 mrlab status — what runs, and how well; mrlab doctor — what keeps it from running
 
 **Exit codes**: 0 done, 1 failed (one sentence says why), 2 wrong usage or a choice that
-is yours, 130 interrupted
+is yours, 3 an error of MR-Lab itself, or a missing package, 130 interrupted
 """
 
 # A negative number is no option of these.
-TAKE_NEGATIVE = ("rate",)
+TAKE_NEGATIVE = ("rate", "seek")
 NEGATIVE = {"ignore_unknown_options": True}
 PANELS = {"robot": "One robot of the running lab"}
 # Where each command is; of a group its Typer. In the order of the help.
@@ -83,21 +90,25 @@ COMMANDS = {
 }
 
 
-def make_app(words: Sequence[str] = ()) -> typer.Typer:
+def make_app(words: Sequence[str] = (), *, completing: bool = False) -> typer.Typer:
     """Return the command line; of `words` that begin with a command, with that command alone.
 
-    One command's imports take a fifth of those of all.
+    One command's imports take a fifth of those of all. completing: it is asked what the words may
+    go on with; without a command these are the names of all, and none is imported.
     """
     app = typer.Typer(
         name="mrlab",
         no_args_is_help=True,
-        add_completion=False,
         pretty_exceptions_enable=False,
         rich_markup_mode="markdown",
         epilog=EPILOG,
     )
     app.callback()(options)
     asked = next((word for word in words if not word.startswith("-")), "")
+    if completing and asked not in COMMANDS:
+        for name in COMMANDS:
+            app.command(name)(lambda: None)
+        return app
     for name in [asked] if asked in COMMANDS else COMMANDS:
         module, _, attribute = COMMANDS[name].partition(":")
         try:
@@ -143,27 +154,59 @@ def options(
     Settings.debug = debug
 
 
+# Neither a refusal (1) nor wrong usage (2), which are verdicts of `mrlab check` and others.
+BROKEN = 3
+ROOM = "make room on that disk, or name a folder on another one"
+MAY = "check who may read and write there, or name another folder"
+# What is to be done about a disk that refuses, by the error's number.
+OF_THE_DISK = {
+    errno.ENOSPC: ROOM,
+    errno.EDQUOT: ROOM,
+    errno.EROFS: MAY,
+    errno.EACCES: MAY,
+    errno.EPERM: MAY,
+}
+
+
 def main() -> None:
-    """Run the command; an error becomes one sentence and exit code 1."""
+    """Run the command; an error becomes one sentence and an exit code."""
     # In the background of a script SIGINT is ignored at first, and SIGTERM would tidy nothing.
     for number in (signal.SIGINT, signal.SIGTERM):
         signal.signal(number, signal.default_int_handler)
     signal.signal(signal.SIGHUP, hang_up)
+    # A terminal of another encoding shows ? for what it has no character for.
+    for stream in (sys.stdout, sys.stderr):
+        if isinstance(stream, io.TextIOWrapper) and stream.errors == "strict":
+            stream.reconfigure(errors="replace")
     # As pip installs a wheel: its files are in the index of packages below the prefix.
     os.environ.setdefault("AMENT_PREFIX_PATH", sys.prefix)
     if sys.argv[1:] == ["--version"]:  # at once: no command needs to be known for it
         print(f"mrlab {mrlab_ros.__version__}")
         return
     try:
-        make_app(sys.argv[1:])(prog_name="mrlab")
+        asked = completion.words()
+        if asked is None:
+            make_app(sys.argv[1:])(prog_name="mrlab")
+        else:
+            make_app(asked, completing=True)(prog_name="mrlab")
     except LabError as error:
         fail(str(error))
     except KeyboardInterrupt:
         sys.exit(130)
     except ModuleNotFoundError as error:
-        fail(without_graph(error))
+        fail(without_graph(error), BROKEN)
+    except OSError as error:
+        fail(*refused(error))
     except Exception as error:
-        fail(f"{type(error).__name__}: {error}; mrlab --debug ... shows where")
+        fail(f"{type(error).__name__}: {error}; mrlab --debug ... shows where", BROKEN)
+
+
+def refused(error: OSError) -> tuple[str, int]:
+    """Return what to do where the disk refuses, and the exit code: of any other error BROKEN."""
+    do = OF_THE_DISK.get(error.errno or 0)
+    if do is None:
+        return f"{type(error).__name__}: {error}; mrlab --debug ... shows where", BROKEN
+    return f"{error.filename or 'a file could not be written'}: {error.strerror}; {do}", 1
 
 
 def without_graph(error: ModuleNotFoundError) -> str:
@@ -186,12 +229,12 @@ def hang_up(number: int, frame: FrameType | None) -> None:
     signal.default_int_handler(number, frame)
 
 
-def fail(sentence: str) -> None:
-    """Print one sentence, with the traceback under --debug, and end with 1."""
+def fail(sentence: str, code: int = 1) -> None:
+    """Print one sentence, with the traceback under --debug, and end with `code`."""
     if Settings.debug:
         traceback.print_exc()
     print(f"mrlab: {sentence}", file=sys.stderr)
-    sys.exit(1)
+    sys.exit(code)
 
 
 if __name__ == "__main__":

@@ -38,6 +38,9 @@ PROBE = (
 )
 
 
+# What a shell prints in a clone that was moved, or copied, from the folder that its files name.
+MOVED = "echo 'mrlab: this was set up in {} and moved or copied; set it up here: make demo' >&2"
+
 # How often a long step says that it still runs, s.
 PROGRESS_S = 15
 
@@ -367,7 +370,13 @@ class Setup:
 
     def environment(self):
         env = self.env()
-        lines = ["# Written by scripts/bootstrap.py: source it to use the lab from a shell."]
+        script = VENV / "mrlab.sh"
+        # A shell that knows the file it reads compares it: of a copy the original would be used.
+        lines = [
+            "# Written by scripts/bootstrap.py: source it to use the lab from a shell.",
+            "[ -e '{0}' ] && [ \"${{BASH_SOURCE:-{0}}}\" -ef '{0}' ] ||".format(script),
+            "{{ {}; return 1; }}".format(MOVED.format(ROOT)),
+        ]
         for key in (
             "VIRTUAL_ENV",
             "LD_LIBRARY_PATH",
@@ -391,13 +400,15 @@ class Setup:
             'export {0}="${{{0}:-{1}}}"'.format(profiles, ROOT / "config" / "fastdds.xml")
         )
         lines.append("export PATH='{}':\"$PATH\"".format(VENV / "bin"))
-        script = VENV / "mrlab.sh"
         script.write_text("\n".join(lines) + "\n")
         command = VENV / "bin" / "mrlab"
         # A file such as json.py in the student's folder is none of the lab's modules.
         command.write_text(
-            "#!/bin/sh\n. '{}'\nexport PYTHONSAFEPATH=1\n"
-            "exec '{}' -m mrlab_ros.cli \"$@\"\n".format(script, self.venv_python)
+            "#!/bin/sh\n[ \"$0\" -ef '{0}' ] || {{ {1}; exit 1; }}\n"
+            ". '{2}'\nexport PYTHONSAFEPATH=1\n"
+            "exec '{3}' -m mrlab_ros.cli \"$@\"\n".format(
+                command, MOVED.format(ROOT), script, self.venv_python
+            )
         )
         command.chmod(0o755)
 

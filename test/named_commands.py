@@ -222,6 +222,8 @@ ELSEWHERE = {
     "class --jobs": "with its options in test/unit/commands/test_class.py",
     "class --json": "with its options in test/unit/commands/test_class.py",
     "class --out": "with its options in test/unit/commands/test_class.py",
+    " --install-completion": "test/unit/commands/test_completion.py",
+    " --show-completion": "test/unit/commands/test_completion.py",
     "class --pseudonyms": "with its options in test/unit/commands/test_class.py",
     "class --rubric": "with its options in test/unit/commands/test_class.py",
     "class --backend": "needs machines; bench/check.py --class has it with dask",

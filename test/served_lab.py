@@ -5,7 +5,6 @@ from __future__ import annotations
 import json
 import os
 import signal
-import socket
 import subprocess
 import sys
 import time
@@ -17,8 +16,9 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from child_process import start_child
+from own_domain import own_domain
+from own_port import free_endpoint, free_port
 
-from mrlab_ros.commands.demo.lab import claim_free_domain
 from mrlab_ros.core.bridge.rules import Role
 
 MRLAB = (sys.executable, "-m", "mrlab_ros.cli")
@@ -70,14 +70,6 @@ class Gateway:
         return f"{self.url}/invitation/{accounts.invite(name, time.time())}"
 
 
-def free_port() -> int:
-    """Return a port that is free now."""
-    with socket.socket() as found:
-        found.bind(("127.0.0.1", 0))
-        port: int = found.getsockname()[1]
-        return port
-
-
 @contextmanager
 def process(log: Path, *argv: str, env: dict[str, str], ready: str) -> Iterator[None]:
     """Run a process until the block ends; it is ready when its page `ready` answers."""
@@ -111,15 +103,7 @@ def answers(url: str) -> bool:
 @contextmanager
 def served_lab(folder: Path, *options: str) -> Iterator[ServedLab]:
     """Run a lab with one UR5e and its pages on free ports."""
-    run_file, domain = claim_free_domain()
-    run_file.release()
-    environment = dict(
-        os.environ,
-        ROS_DOMAIN_ID=str(domain),
-        ROS_AUTOMATIC_DISCOVERY_RANGE="LOCALHOST",
-        XDG_RUNTIME_DIR=str(folder),
-    )
-    http, zenoh = free_port(), f"tcp/127.0.0.1:{free_port()}"
+    http, zenoh = free_port(), free_endpoint()
     state = folder / "state"
     url = f"http://127.0.0.1:{http}"
     command = (
@@ -127,12 +111,19 @@ def served_lab(folder: Path, *options: str) -> Iterator[ServedLab]:
         *("--zenoh-listen", zenoh, "--state-dir", str(state), *options),
     )
     log = folder / "up.log"
-    with process(log, *command, env=environment, ready=f"{url}/api/session"):
-        end = time.monotonic() + DEADLINE
-        while "is ready" not in log.read_text():
-            assert time.monotonic() < end, log.read_text()
-            time.sleep(0.1)
-        yield ServedLab(url, zenoh, state, environment)
+    with own_domain() as domain:
+        environment = dict(
+            os.environ,
+            ROS_DOMAIN_ID=str(domain),
+            ROS_AUTOMATIC_DISCOVERY_RANGE="LOCALHOST",
+            XDG_RUNTIME_DIR=str(folder),
+        )
+        with process(log, *command, env=environment, ready=f"{url}/api/session"):
+            end = time.monotonic() + DEADLINE
+            while "is ready" not in log.read_text():
+                assert time.monotonic() < end, log.read_text()
+                time.sleep(0.1)
+            yield ServedLab(url, zenoh, state, environment)
 
 
 @contextmanager

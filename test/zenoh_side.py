@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import json
 import os
-import socket
 import subprocess
 import sys
 from pathlib import Path
@@ -16,16 +15,6 @@ from sensor_msgs.msg import JointState
 CLIENTS = Path(__file__).parents[1] / "examples" / "clients" / "python"
 JOINTS = "ur5e_1/joint_states"
 STATISTICS = "@mrlab/bridge/statistics"
-
-
-def free_port():
-    with socket.socket() as probe:
-        probe.bind(("127.0.0.1", 0))
-        return probe.getsockname()[1]
-
-
-def free_endpoint():
-    return f"tcp/127.0.0.1:{free_port()}"
 
 
 def connect(*endpoints, **settings):

@@ -49,7 +49,8 @@ def dds(topics: list[str]) -> Iterator[list[Callable[[bytes], None]]]:
 @contextmanager
 def zenoh_alone(topics: list[str], endpoint: str) -> Iterator[list[Callable[[bytes], None]]]:
     """Yield what puts on each topic's key, with stamps as the bridge's."""
-    from mrlab_ros.adapters.zenoh_session import ZenohSession, configuration
+    from mrlab_ros.adapters.zenoh.configuration import configuration
+    from mrlab_ros.adapters.zenoh.session import ZenohSession
     from mrlab_ros.core.bridge.latency import attachment
     from mrlab_ros.core.bridge.rules import Congestion, TopicRule
 

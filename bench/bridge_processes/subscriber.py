@@ -67,7 +67,9 @@ def over_zenoh(endpoint: str, sessions: int, ages: Ages) -> Any:
         return zenoh.open(config)
 
     def receive(sample: zenoh.Sample) -> None:
-        (bridged_ns,) = bridged.unpack_from(sample.attachment.to_bytes())
+        # The stock bridge attaches nothing.
+        stamps = sample.attachment
+        bridged_ns = bridged.unpack_from(stamps.to_bytes())[0] if stamps else None
         ages.note(sample.payload.to_bytes(), bridged_ns)
 
     def count(_: zenoh.Sample) -> None:
@@ -88,20 +90,20 @@ def over_dds(robots: int, ages: Ages) -> Any:
     from sensor_msgs.msg import JointState
 
     from mrlab_ros.messages import qos
-    from mrlab_ros.ros.raw_callback import Stamped
-    from mrlab_ros.ros.spinning import SpunNode
+    from mrlab_ros.ros.arrivals import Arrivals
+
+    def receive(payload: bytes, _: int) -> None:
+        ages.note(payload, None)
 
     rclpy.init()
     node = Node("bench_subscriber")
+    arrivals = Arrivals("bench_subscriber", print)
     for i in range(robots):
-        node.create_subscription(
-            JointState,
-            f"/bench_{i}/joint_states",
-            Stamped(lambda payload, _: ages.note(payload, None)),
-            qos.STREAM,
-            raw=True,
+        subscription = node.create_subscription(
+            JointState, f"/bench_{i}/joint_states", receive, qos.STREAM, raw=True
         )
-    return SpunNode(node)
+        arrivals.add(subscription, receive)
+    return arrivals
 
 
 def main() -> None:

@@ -10,7 +10,8 @@ import select
 import sys
 import time
 
-from mrlab_ros.adapters.zenoh_session import ZenohSession, configuration
+from mrlab_ros.adapters.zenoh.configuration import configuration
+from mrlab_ros.adapters.zenoh.session import ZenohSession
 from mrlab_ros.core.bridge.latency import attachment, clock_answer
 from mrlab_ros.core.bridge.rules import (
     Congestion,

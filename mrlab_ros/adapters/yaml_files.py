@@ -8,6 +8,7 @@ from typing import Any
 
 import yaml
 
+from mrlab_ros.adapters.nearby import like_file
 from mrlab_ros.core.errors import BadInput
 
 _Safe: Any = getattr(yaml, "CSafeLoader", yaml.SafeLoader)
@@ -84,7 +85,8 @@ def read_with_lines(path: Path) -> tuple[object, dict[tuple[str | int, ...], int
     if not path.is_file():
         # Reading a pipe would wait for ever.
         what = "a folder" if path.is_dir() else "no file" if path.exists() else "missing"
-        raise BadInput(f"{path} cannot be read: it is {what}; expected a YAML file")
+        like = like_file(path) if what == "missing" else ""
+        raise BadInput(f"{path} cannot be read: it is {what}; expected a YAML file{like}")
     lines: dict[tuple[str | int, ...], int] = {}
     seen: set[int] = set()
 

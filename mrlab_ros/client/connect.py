@@ -3,11 +3,10 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Sequence
 
 from mrlab_ros.core.bridge.links import local_endpoint
 from mrlab_ros.core.errors import LabError
-from mrlab_ros.processes.run_file import RunFile, domains
+from mrlab_ros.processes.run_file import RunFile, domains, nobody
 from mrlab_ros.ros.calls import NoAnswer
 from mrlab_ros.ros.domain import domain_id
 from mrlab_ros.ros.graph import GraphClient
@@ -61,15 +60,3 @@ def _found(graph: GraphClient) -> GraphClient:
         time.sleep(LOOK_PERIOD_S)
     graph.close()
     raise NoAnswer(nobody(graph.domain, domains()))
-
-
-def nobody(domain: int, labs: Sequence[int]) -> str:
-    """Return what to say of an empty domain; labs: the domains on which this user runs labs."""
-    begin = f"no lab answers on ROS domain {domain}; "
-    if not labs:
-        return f"{begin}start one with: mrlab up (or set ROS_DOMAIN_ID to the domain of one)"
-    listed = ", ".join(map(str, labs))
-    return (
-        f"{begin}yours {'runs on domain' if len(labs) == 1 else 'run on domains'} {listed}: "
-        f"export ROS_DOMAIN_ID={labs[0]}"
-    )

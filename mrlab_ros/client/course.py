@@ -10,18 +10,17 @@ from mrlab_msgs import msg
 
 from mrlab_ros.core.errors import LabError, Misuse
 
-# What a halt says of its contact, and what the lab calls an object unless it was named.
+# What a halt says of its contact.
 CONTACT = re.compile(r"touches (\S+)")
-OBJECT = re.compile(r"[a-z][a-z0-9_]*_\d+")
 
 
 class Course:
     """Reads a run off its states: how it stands, and how it ended."""
 
-    def __init__(self, robot: str, robots: Callable[[], Collection[str]] = tuple) -> None:
-        """robots: returns the names of the robots of the scene."""
+    def __init__(self, robot: str, objects: Callable[[], Collection[str]] = tuple) -> None:
+        """objects: returns the names of the objects of the scene."""
         self._robot = robot
-        self._robots = robots
+        self._objects = objects
         self.moving = False
         self.complete = False
 
@@ -33,19 +32,22 @@ class Course:
         elif state.state == kind.COMPLETE:
             self.complete = True
         elif state.state == kind.COLLISION_HALT:
-            raise Misuse(halted(self._robot, state.message, self._robots()))
+            raise Misuse(halted(self._robot, state.message, self._objects()))
         elif state.state == kind.IDLE and self.moving:
-            raise LabError(f"the playback of {self._robot} was restarted; play again")
+            raise LabError(
+                f"the playback of {self._robot} was restarted, or stood aside for a replay; where "
+                f"it stands: mrlab status; play on from there with: mrlab resume {self._robot}"
+            )
         elif state.state == kind.READY and self.moving and not self.complete:
             raise Misuse(
                 f"{self._robot} ended before its last frame: {state.message or 'stopped'}"
             )
 
 
-def halted(robot: str, why: str, robots: Collection[str] = ()) -> str:
+def halted(robot: str, why: str, objects: Collection[str] = ()) -> str:
     """Return what is said of a robot that a collision halted, with the commands that end it.
 
-    robots: the names of those in the scene, which are no objects.
+    objects: the names of those in the scene, which can be removed.
     """
     contact = CONTACT.search(why)
     if why and contact is None:
@@ -58,7 +60,7 @@ def halted(robot: str, why: str, robots: Collection[str] = ()) -> str:
         )
     other = contact.group(1) if contact else ""
     away = f"place the robot elsewhere: mrlab place {robot} --at X,Y"
-    if OBJECT.fullmatch(other) and other not in robots:
+    if other in objects:
         away = f"take {other} away: mrlab objects remove {other}, or {away}"
     return (
         f"{robot} was halted by a collision: {why or 'its arm touches something'}. Its arm goes "

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import time
 from statistics import median
 from typing import Any
 
@@ -31,6 +32,8 @@ class Follower:
         self.watch: Watch[Any] = Watch(f"/{robot}/playback_state")
         self.states: list[Any] = []
         self.telemetry: Any = None
+        # When the robot was heard last, s on the monotonic clock.
+        self.heard = time.monotonic()
         # The deadline errors that telemetry reported, s.
         self.errors: list[float] = []
         self.error_max = math.nan
@@ -43,10 +46,15 @@ class Follower:
         if state.state == msg.PlaybackState.PLAYING and state.clock.rate > 0:
             offset = round(state.clock.position / state.clock.rate * SECOND)
             self.start_ns = time_from_message(state.clock.stamp) - offset
+        self.heard = time.monotonic()
         self.states.append(state)
         self.watch.set(state)
 
     def _on_telemetry(self, telemetry: Any) -> None:
+        self.heard = time.monotonic()
+        if self.telemetry is not None and telemetry.frames_sent < self.telemetry.frames_sent:
+            # Another run began; the playback's own maximum begins anew with it, too.
+            self.errors.clear()
         self.telemetry = telemetry
         if telemetry.frames_sent:
             self.errors.append(telemetry.deadline_error)

@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-import math
+import atexit
 import os
 from collections.abc import Callable, Sequence
+from dataclasses import replace
 from pathlib import Path
 from types import TracebackType
 from typing import TYPE_CHECKING, Any
@@ -14,11 +15,9 @@ from std_srvs.srv import Trigger
 
 from mrlab_ros.client.connect import open_graph
 from mrlab_ros.client.motion import Motion, motion_of
-from mrlab_ros.client.robot import LabRobot
+from mrlab_ros.client.robot import LabRobot, standing, surviving
 from mrlab_ros.core.conversion.options import Options
-from mrlab_ros.core.errors import BadInput
-from mrlab_ros.core.geometry import Pose
-from mrlab_ros.messages.poses import pose_to_message
+from mrlab_ros.core.errors import BadInput, Misuse
 from mrlab_ros.ros.graph import GraphClient
 
 if TYPE_CHECKING:
@@ -27,7 +26,7 @@ if TYPE_CHECKING:
 CONVERT_TIMEOUT_S = 60.0
 STOP_RECORDING_TIMEOUT_S = 30.0
 # Endings of what a recorded bag's folder holds.
-BAG_FILES = (".mcap", ".db3")
+BAG_FILES = (".mcap", ".db3", ".mcap.zstd", ".db3.zstd")
 
 
 class FileRefused(BadInput):
@@ -52,9 +51,13 @@ class Lab:
         except BaseException:
             self.graph.close()
             raise
+        # A script that ends without close(), by an exception say, ends as it would without a lab:
+        # a thread that still spins then would abort it.
+        atexit.register(self.close)
 
     def close(self) -> None:
         """End all subscriptions; the lab goes on."""
+        atexit.unregister(self.close)
         self.graph.close()
 
     def __enter__(self) -> Lab:
@@ -95,7 +98,9 @@ class Lab:
             model=model, end_effector=end_effector, name=name, automatic=at is None
         )
         if at is not None:
-            request.pose = pose_to_message(standing(*at, yaw))
+            if len(at) != 2:
+                raise Misuse(f"at is {at!r}; expected x and y, m, such as (1.0, 0.5)")
+            request.pose = standing(*at, yaw)
         answer = self.graph.order(srv.SpawnRobot, "/lab/spawn_robot", request)
         return LabRobot(self.graph, answer.robot, answer.message)
 
@@ -137,10 +142,15 @@ class Lab:
             from mrlab_ros.messages.trajectories import result_from_response  # seldom needed
 
             raise FileRefused(result_from_response(path.name, answer))
-        return motion_of(answer.trajectory)
+        if not answer.diagnostics:
+            return motion_of(answer.trajectory)
+        from mrlab_ros.messages.trajectories import diagnostic_from_message  # seldom needed
+
+        findings = tuple(map(diagnostic_from_message, answer.diagnostics))
+        return replace(motion_of(answer.trajectory), findings=findings)
 
     def record(
-        self, bag: str | Path = "", topics: Sequence[str] = (), split: float = 0.0
+        self, bag: str | Path = "", topics: Sequence[str] | str = (), split: float = 0.0
     ) -> Recording:
         """Start a recording; as a context manager it ends with the block.
 
@@ -148,7 +158,9 @@ class Lab:
         /*/joint_states; none: all of the lab's. split: s after which a new file begins; 0: never.
         """
         request = srv.StartRecording.Request(
-            bag=os.path.abspath(bag) if bag else "", topics=list(topics), split_duration=split
+            bag=os.path.abspath(bag) if bag else "",
+            topics=[topics] if isinstance(topics, str) else list(topics),
+            split_duration=split,
         )
         answer = self.graph.order(srv.StartRecording, "/recorder/start", request)
         return Recording(self.graph, answer.bag)
@@ -164,11 +176,12 @@ class Lab:
         """Call `callback` with every message of a topic, in a thread of the lab client's own.
 
         kind: the message's class, such as mrlab_msgs.msg.SceneObjects. A latched topic gives its
-        newest message at once.
+        newest message at once. What `callback` raises is printed, and the next message comes all
+        the same.
         """
         from mrlab_ros.messages import qos
 
-        self.graph.subscribe(kind, topic, callback, qos.LATCHED)
+        self.graph.subscribe(kind, topic, surviving(callback), qos.LATCHED)
 
 
 class Recording:
@@ -197,16 +210,11 @@ class Recording:
         self.stop()
 
 
-def standing(x: float, y: float, yaw: float, z: float = 0.0) -> Pose:
-    """Return the pose of a base that stands upright; m, rad."""
-    return Pose((x, y, z), (0.0, 0.0, math.sin(yaw / 2), math.cos(yaw / 2)))
-
-
 def one_file(path: Path) -> Path:
     """Return `path`, or the one file of the bag that is its folder; raise BadInput."""
     if not path.is_dir():
         return path
-    inside = sorted(each for each in path.iterdir() if each.suffix in BAG_FILES)
+    inside = sorted(each for each in path.iterdir() if each.name.endswith(BAG_FILES))
     if len(inside) != 1:
         raise BadInput(
             f"the folder '{path}' holds {len(inside)} files of a bag; name one file of it"

@@ -15,6 +15,7 @@ from rclpy.serialization import deserialize_message, serialize_message
 
 from mrlab_ros.adapters.zenoh_link import NoQueryable, Refusal, ZenohLink
 from mrlab_ros.core.bridge.keys import key_of
+from mrlab_ros.messages.requests import fitted
 from mrlab_ros.ros.calls import NoAnswer
 from mrlab_ros.ros.graph import CALL_TIMEOUT_S, FIND_TIMEOUT_S, GraphClient
 
@@ -82,7 +83,7 @@ class LinkGraph(GraphClient):
         find_timeout: float = FIND_TIMEOUT_S,
     ) -> Any:
         key = key_of(service, self._prefix)
-        payload = serialize_message(request)
+        payload = serialize_message(fitted(request))
         deadline = time.monotonic() + FOUND_S
         while True:
             try:

@@ -2,16 +2,19 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 from mrlab_msgs import msg
+
+from mrlab_ros.core.diagnostics import Diagnostic
 
 
 @dataclass(frozen=True)
 class Motion:
-    """A trajectory of the catalogue. frame_rate: Hz; duration: s; warnings: sentences.
+    """A trajectory of the catalogue. frame_rate: Hz; duration: s.
 
-    version: grows with each conversion under the same id; 0: not known.
+    version: grows with each conversion under the same id; 0: not known. Known only of a file that
+    was just converted: warnings, sentences, and findings, with the notes and each with its remedy.
     """
 
     id: str
@@ -21,6 +24,7 @@ class Motion:
     duration: float
     warnings: tuple[str, ...] = ()
     version: int = 0
+    findings: tuple[Diagnostic, ...] = field(default=(), repr=False)
 
 
 def motion_of(info: msg.TrajectoryInfo) -> Motion:

@@ -4,27 +4,33 @@ from __future__ import annotations
 
 import math
 import time
+import traceback
 from collections.abc import Callable, Collection, Sequence
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, TypeVar
 
 from mrlab_msgs import msg, srv
-from sensor_msgs.msg import JointState  # type: ignore[import-untyped]
 from std_srvs.srv import SetBool, Trigger
 
 from mrlab_ros.client.course import Course, halted
 from mrlab_ros.client.follow import Follower
 from mrlab_ros.client.motion import Motion
 from mrlab_ros.core.errors import LabError, Misuse
-from mrlab_ros.core.geometry import Pose
 from mrlab_ros.messages import qos
-from mrlab_ros.messages.poses import pose_to_message
 from mrlab_ros.messages.time import time_from_message
+from mrlab_ros.ros.calls import NoAnswer
 from mrlab_ros.ros.graph import GraphClient
 
+T = TypeVar("T")
 # A robot of the scene has published its state by then, and moves by then after play, s.
 STATE_TIMEOUT_S = 5.0
+# The objects are latched; where physics is away, a sentence does without them, s.
+OBJECTS_TIMEOUT_S = 1.0
 POLL_PERIOD_S = 0.02
+# A robot that moves reports ten times a second; one that is silent for longer than this has gone,
+# or its machine stands still, s.
+SILENCE_S = 10.0
+MOVING = (msg.PlaybackState.ADJUSTING, msg.PlaybackState.PLAYING)
 
 
 @dataclass(frozen=True)
@@ -89,7 +95,7 @@ class LabRobot:
             self.set_loop(loop)
         since = len(follower.states)
         self.resume()
-        return Run(follower, since, self._robots)
+        return Run(follower, since, self._objects)
 
     def _has_loaded(self, motion: Motion | str) -> bool:
         """Return whether the newest version of `motion` is loaded: a file may change."""
@@ -106,9 +112,9 @@ class LabRobot:
     def run(self) -> Run | None:
         """Return the run that goes on; None where the robot stands."""
         follower = self.follower
-        if follower.state.state not in (msg.PlaybackState.ADJUSTING, msg.PlaybackState.PLAYING):
+        if follower.state.state not in MOVING:
             return None
-        return Run(follower, len(follower.states) - 1, self._robots)
+        return Run(follower, len(follower.states) - 1, self._objects)
 
     def resume(self) -> str:
         """Play on from where it stands."""
@@ -140,8 +146,7 @@ class LabRobot:
 
     def place(self, x: float, y: float, yaw: float = 0.0, z: float = 0.0) -> str:
         """Move its base; x, y, z in m, yaw in rad about the vertical."""
-        pose = Pose((x, y, z), (0.0, 0.0, math.sin(yaw / 2), math.cos(yaw / 2)))
-        request = srv.PlaceRobot.Request(robot=self.name, pose=pose_to_message(pose))
+        request = srv.PlaceRobot.Request(robot=self.name, pose=standing(x, y, yaw, z))
         return str(self._graph.order(srv.PlaceRobot, "/lab/place_robot", request).message)
 
     def set_end_effector(self, end_effector: str) -> str:
@@ -157,23 +162,35 @@ class LabRobot:
         return str(self._graph.order(srv.Remove, "/lab/remove_robot", request).message)
 
     def watch(self, callback: Callable[[JointSample], None]) -> None:
-        """Call `callback` with every joint state, in a thread of the lab client's own."""
-        self._graph.subscribe(
-            JointState,
-            f"/{self.name}/joint_states",
-            lambda message: callback(
+        """Call `callback` with every joint state, in a thread of the lab client's own.
+
+        What it raises is printed, and the next joint state comes all the same.
+        """
+        # It loads numpy, which no other command of a robot needs.
+        from sensor_msgs.msg import JointState  # type: ignore[import-untyped]
+
+        surviving_callback = surviving(callback)
+
+        def receive(message: JointState) -> None:
+            surviving_callback(
                 JointSample(
                     time_from_message(message.header.stamp),
                     tuple(message.name),
                     tuple(message.position),
                     tuple(message.velocity),
                 )
-            ),
-            qos.STREAM,
-        )
+            )
 
-    def _robots(self) -> list[str]:
-        return [robot.name for robot in self._graph.robots()]
+        self._graph.subscribe(JointState, f"/{self.name}/joint_states", receive, qos.STREAM)
+
+    def _objects(self) -> list[str]:
+        """Return the names of the objects of the scene; none where nobody says them at once."""
+        try:
+            watch = self._graph.watch(msg.SceneObjects, "/objects")
+            said = watch.wait(lambda _: True, OBJECTS_TIMEOUT_S, "the objects")
+        except NoAnswer:
+            return []
+        return [thing.name for thing in said.objects]
 
     def _trigger(self, verb: str) -> str:
         return self._say(Trigger, verb, Trigger.Request())
@@ -186,7 +203,7 @@ class LabRobot:
         state = self.follower.state
         halt = state.state == msg.PlaybackState.COLLISION_HALT
         if halt and verb in ("play", "load") and f"in {state.label}" in answer.message:
-            raise Misuse(halted(self.name, state.message, self._robots()))
+            raise Misuse(halted(self.name, state.message, self._objects()))
         raise Misuse(f"{self.name}: {answer.message}")
 
 
@@ -194,11 +211,11 @@ class Run:
     """A run that `play` began."""
 
     def __init__(
-        self, follower: Follower, since: int, robots: Callable[[], Collection[str]] = tuple
+        self, follower: Follower, since: int, objects: Callable[[], Collection[str]] = tuple
     ) -> None:
         self.follower = follower
         self._since = since
-        self._course = Course(follower.robot, robots)
+        self._course = Course(follower.robot, objects)
         self._deadline = time.monotonic() + STATE_TIMEOUT_S
 
     def advance(self) -> Sequence[Any]:
@@ -215,6 +232,12 @@ class Run:
                 f"{self.follower.robot} accepted play but does not move after "
                 f"{STATE_TIMEOUT_S:g} s; mrlab status shows what runs"
             )
+        silent = time.monotonic() - self.follower.heard
+        if self.follower.state.state in MOVING and silent > SILENCE_S:
+            raise NoAnswer(
+                f"{self.follower.robot} moved and has said nothing for {silent:.0f} s: it was "
+                "removed, or its part of the lab has ended; mrlab status shows what runs"
+            )
         return new
 
     @property
@@ -225,7 +248,7 @@ class Run:
     def wait(self, timeout: float = math.inf) -> bool:
         """Wait until the last frame was played; return False where `timeout` s were not enough.
 
-        Raises LabError where the run was stopped or halted.
+        Raises LabError where the run was stopped or halted, or the robot is heard no more.
         """
         end = time.monotonic() + timeout
         while not self.complete:
@@ -236,5 +259,26 @@ class Run:
         return True
 
 
+def surviving(callback: Callable[[T], None]) -> Callable[[T], None]:
+    """Return `callback` with its exceptions printed: one would end the thread of all answers."""
+
+    def call(value: T) -> None:
+        try:
+            callback(value)
+        except Exception:
+            traceback.print_exc()
+
+    return call
+
+
 def _id(motion: Motion | str) -> str:
     return motion if isinstance(motion, str) else motion.id
+
+
+def standing(x: float, y: float, yaw: float, z: float = 0.0) -> Any:
+    """Return the pose message of a base that stands upright; m, rad."""
+    # They load numpy, which commands of a robot that place nothing do not need.
+    from mrlab_ros.core.geometry import Pose
+    from mrlab_ros.messages.poses import pose_to_message
+
+    return pose_to_message(Pose((x, y, z), (0.0, 0.0, math.sin(yaw / 2), math.cos(yaw / 2))))

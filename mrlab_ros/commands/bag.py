@@ -21,7 +21,10 @@ if TYPE_CHECKING:
 
 app = typer.Typer(help="Inspect, report and repair bags.", no_args_is_help=True)
 BagArgument = Annotated[
-    str, typer.Argument(help="Folder of a bag, an MCAP file, or its name among the recorder's.")
+    str,
+    typer.Argument(
+        help="Folder of a bag, an MCAP or .db3 file, or its name among the recorder's."
+    ),
 ]
 
 
@@ -34,13 +37,20 @@ def path_of(bag: str) -> Path:
     return usual if not path.exists() and usual.exists() else path
 
 
+def opened(bag: str) -> Bag:
+    """Return a bag of any kind that is named as path_of() has it."""
+    from mrlab_ros.adapters.bags.other import open_bag
+    from mrlab_ros.messages.definitions import definition
+
+    return open_bag(path_of(bag), definition)
+
+
 @app.command()
 def info(bag: BagArgument, as_json: AsJson = False) -> None:
     """Show topics, counts, length and attachments of a bag."""
-    from mrlab_ros.adapters.bags.reader import Bag
     from mrlab_ros.adapters.bags.repair import refresh_metadata
 
-    found = Bag(path_of(bag))
+    found = opened(bag)
     anew = refresh_metadata(found.path)
     if as_json:
         sys.stdout.write(json.dumps(_facts(found), indent=2) + "\n")
@@ -109,9 +119,7 @@ def extract(
     as_json: AsJson = False,
 ) -> None:
     """Write a bag's attachments to files: URDFs, meshes, trajectories, scene, parameters."""
-    from mrlab_ros.adapters.bags.reader import Bag
-
-    found = Bag(path_of(bag))
+    found = opened(bag)
     root = out.resolve()
     names = found.attachments()
     for name in names:
@@ -143,18 +151,17 @@ def report(
     as_json: AsJson = False,
 ) -> None:
     """Report who did what, when, with what result: one row a run, technical figures last."""
-    from mrlab_ros.adapters.bags.reader import Bag
     from mrlab_ros.adapters.bags.session import model_that_played, read_session
     from mrlab_ros.core.recording.report_text import report_lines
 
-    found = Bag(path_of(bag))
+    found = opened(bag)
     compared = None
     if reference is not None:
         from mrlab_ros.commands.reference import reference_of
 
         compared = reference_of(reference, model_that_played(found))
     session = read_session(found, compared)
-    lines = [f"{found.path.name}, {_began(found)}", *report_lines(session)]
+    lines = [_title(found), *report_lines(session)]
     text = "\n".join(lines) + "\n"
     said = {"bag": str(found.path.resolve()), **session.facts()}
     facts = json.dumps(said, indent=2) + "\n"
@@ -179,9 +186,13 @@ def _write_report(bag: Bag, session: SessionReport, out: Path, text: str, facts:
     out.mkdir(parents=True, exist_ok=True)
     (out / "report.txt").write_text(text)
     (out / "report.json").write_text(facts)
-    draw(session, f"{bag.path.name}, {_began(bag)}", out / "report.png")
+    draw(session, _title(bag), out / "report.png")
     (out / "report.html").write_text(page, encoding="utf-8")
     print(f"wrote report.txt, .json, .png and .html to {out}", file=sys.stderr)
+
+
+def _title(bag: Bag) -> str:
+    return f"{bag.path.name}, {_began(bag)}" if bag.message_count else bag.path.name
 
 
 def _began(bag: Bag) -> str:
@@ -195,7 +206,7 @@ def _facts(bag: Bag) -> dict[str, Any]:
         "duration": bag.duration,
         "messages": bag.message_count,
         "bytes": bag.size,
-        "files": [file.path.name for file in bag.files],
+        "files": [path.name for path in bag.paths],
         "live": bag.live,
         "troubles": bag.troubles,
         "gaps": [asdict(gap) for gap in bag.gaps()],
@@ -223,7 +234,7 @@ def _print(bag: Bag) -> None:
     began = f"{bag.duration:.1f} s from {_began(bag)}, " if bag.message_count else ""
     console.print(
         f"{bag.path}: {began}{bag.message_count} messages, "
-        f"{bag.size / 1e6:.1f} MB in {len(bag.files)} file{'s' * (len(bag.files) != 1)}",
+        f"{bag.size / 1e6:.1f} MB in {len(bag.paths)} file{'s' * (len(bag.paths) != 1)}",
         soft_wrap=True,
     )
     if bag.live:

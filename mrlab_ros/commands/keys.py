@@ -250,7 +250,7 @@ def router(
     renew --host.
     """
     from mrlab_ros.adapters.keys.folder import Keys, now
-    from mrlab_ros.adapters.zenoh_session import limits
+    from mrlab_ros.adapters.zenoh.configuration import limits
     from mrlab_ros.core.bridge.rules import checked_prefix
     from mrlab_ros.ros import share
 
@@ -280,12 +280,13 @@ def rules_of(allow_list: Path | None) -> Rules:
     """Read an allow-list, the shipped one if none is named; raise BadInput where it is none."""
     import yaml
 
+    from mrlab_ros.adapters.yaml_files import Loader
     from mrlab_ros.core.bridge.rules import parse
     from mrlab_ros.ros import share
 
     path = allow_list or share.directory() / "config" / "bridge.yaml"
     try:
-        return parse(yaml.safe_load(path.read_text()))
+        return parse(yaml.load(path.read_text(), Loader=Loader))
     except (OSError, yaml.YAMLError) as error:
         raise BadInput(f"the allow-list {path} cannot be read: {error}") from error
 

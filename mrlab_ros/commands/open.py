@@ -10,7 +10,7 @@ import typer
 
 from mrlab_ros.commands.up.web import open_in_browser, opening_url
 from mrlab_ros.core.errors import Misuse
-from mrlab_ros.processes.run_file import RunFile
+from mrlab_ros.processes.run_file import RunFile, domains, nobody
 from mrlab_ros.ros.domain import domain_id
 
 
@@ -40,10 +40,7 @@ def running_web() -> dict[str, Any]:
     domain = domain_id()
     found = RunFile(domain).read()
     if found is None:
-        raise Misuse(
-            f"no lab runs on ROS domain {domain}; start one with: mrlab up (or set ROS_DOMAIN_ID "
-            "to the domain of a running one)"
-        )
+        raise Misuse(nobody(domain, domains()))
     web: dict[str, Any] | None = found.get("web")
     if web is None:
         raise Misuse(

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
+from mrlab_ros.commands import completion
 from mrlab_ros.commands.convert.options import FIELDS, with_options, words_of
 from mrlab_ros.commands.output import say
 from mrlab_ros.core.conversion.options import Options
@@ -21,13 +22,21 @@ if TYPE_CHECKING:
     from mrlab_ros.client.robot import LabRobot, Run
 
 # What is a file by its name, also where it does not exist.
-ENDINGS = (".mat", ".gz", ".csv", ".txt", ".tsv", ".lvm", ".npz", ".json", ".mcap", ".db3")
+ENDINGS = (
+    *(".mat", ".csv", ".txt", ".tsv", ".lvm", ".npz", ".json", ".mcap", ".db3"),
+    *(".gz", ".zst", ".zstd"),
+)
 
 
 @with_options
 def play(
     options: Options,
-    robot: Annotated[str, typer.Argument(help="A robot of the scene, such as ur5e_1.")],
+    robot: Annotated[
+        str,
+        typer.Argument(
+            help="A robot of the scene, such as ur5e_1.", autocompletion=completion.robots
+        ),
+    ],
     trajectory: Annotated[
         str,
         typer.Argument(
@@ -63,7 +72,9 @@ def play(
     with Lab() as lab:
         found = lab.robot(robot)
         if trajectory:
-            motion = in_catalogue(lab, found, trajectory, options)
+            pace = ["--speed", f"{speed:g}"] if speed is not None else []
+            given = ["mrlab", "play", robot, trajectory, *pace, *(["--loop"] if loop else [])]
+            motion = in_catalogue(lab, found, trajectory, options, given, console)
             run = found.play(motion, speed=1.0 if speed is None else speed, loop=loop)
         else:
             _check_no_file_options(options, "what is loaded")
@@ -85,14 +96,23 @@ def play(
 def is_file(trajectory: str) -> bool:
     """Return whether this names a file or a folder and no trajectory of the catalogue."""
     path = Path(trajectory)
-    return path.suffix.lower() in ENDINGS or ("/" in trajectory and path.exists()) or path.is_dir()
+    if path.suffix.lower() in ENDINGS or path.is_dir():
+        return True
+    return ("/" in trajectory or path.suffix != "") and path.exists()
 
 
-def in_catalogue(lab: Lab, robot: LabRobot, trajectory: str, options: Options) -> str:
-    """Return the trajectory's id; convert it first where it is a file.
+def in_catalogue(
+    lab: Lab,
+    robot: LabRobot,
+    trajectory: str,
+    options: Options,
+    given: list[str],
+    console: Console,
+) -> str:
+    """Return the trajectory's id; convert it first where it is a file, and say what was doubted.
 
-    A file that is refused is reported with its findings and the commands that mend it; the
-    command then ends as mrlab convert does.
+    given: the words of the command, without `options`. A file that is refused is reported with its
+    findings and the commands that mend it; the command then ends as mrlab convert does.
     """
     if not is_file(trajectory):
         _check_no_file_options(options, f"the trajectory '{trajectory}'")
@@ -100,13 +120,18 @@ def in_catalogue(lab: Lab, robot: LabRobot, trajectory: str, options: Options) -
     from mrlab_ros.client.lab import FileRefused
 
     try:
-        return lab.convert(trajectory, robot, options).id
+        motion = lab.convert(trajectory, robot, options)
     except FileRefused as refusal:
         from mrlab_ros.commands.convert import report
         from mrlab_ros.commands.convert.outcomes import EXIT_CODES
 
-        report.show(refusal.result, None, ["mrlab", "play", robot.name, trajectory], options)
+        report.show(refusal.result, None, given, options, console)
         raise typer.Exit(EXIT_CODES[refusal.result.outcome]) from None
+    if doubted := [finding for finding in motion.findings if finding.remedy or finding.severity]:
+        from mrlab_ros.commands.convert import report
+
+        report.show_findings(doubted, console)
+    return motion.id
 
 
 def _check_no_file_options(options: Options, what: str) -> None:

@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 import json
+import sys
 import time
 from collections.abc import Callable
+from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
@@ -23,6 +25,10 @@ SILENCE = 5.0
 RETURN = 20.0
 # A bag of such a name is a command that was meant otherwise.
 COMMANDS = {"stop": "mrlab record --stop", "start": "mrlab record"}
+# A recorder answers by then, but where it closes a bag of hours or is frozen, s.
+ANSWER_S = 3.5
+# A process gives a sign of life once a second; one without any for this long is frozen, s.
+FROZEN_S = 2.5
 # A bag of hours is closed by then, s.
 STOP_TIMEOUT_S = 30.0
 
@@ -48,10 +54,7 @@ def record(
     The bag is one of rosbag2 (MCAP), complete in itself: robots, meshes, trajectories, scene and
     parameters are in it. Ends with 0 once the bag is closed, 1 when the disk refused.
     """
-    from mrlab_msgs import msg, srv
-    from rich.console import Console
-    from rich.live import Live
-    from std_srvs.srv import Trigger
+    from mrlab_msgs import srv
 
     from mrlab_ros.client.connect import open_graph
 
@@ -60,43 +63,72 @@ def record(
         return
     if bag is not None and (meant := COMMANDS.get(str(bag))) is not None:
         raise Misuse(f"'{bag}' is no name for a bag; use {meant}, or the whole path of the bag")
-    console = Console(highlight=False)
     request = srv.StartRecording.Request(
         bag=str(bag.absolute()) if bag else "",
         topics=[topic.strip() for topic in topics.split(",") if topic.strip()],
         split_duration=split,
     )
     with open_graph() as graph:
-        watch = graph.watch(msg.RecorderState, "/recorder/state")
-        begun = False
+        begun = ""
         try:
-            answer = graph.order(srv.StartRecording, "/recorder/start", request)
-            begun = True
-            if as_json:
-                print(json.dumps({"bag": answer.bag}), flush=True)
-                _follow(watch, _print_state, _print_message, answer.bag)
-                return
-            console.print(
-                f"records into {answer.bag}; Ctrl-C ends it, or mrlab record --stop",
-                soft_wrap=True,
-            )
-            with Live(console=console, auto_refresh=False, transient=True) as live:
-                _follow(
-                    watch,
-                    lambda *states: live.update(_line(*states), refresh=True),
-                    lambda said: console.print(said, soft_wrap=True),
-                    answer.bag,
-                )
+            # First: what happens until then is not recorded.
+            begun = graph.order(srv.StartRecording, "/recorder/start", request).bag
+            _show(graph, begun, as_json=as_json)
         except KeyboardInterrupt:
-            if not begun:
-                # It may have begun all the same.
-                graph.call(Trigger, "/recorder/stop", Trigger.Request())
-                raise typer.Exit(130) from None
-            said = _stop(graph)
-            if as_json:
-                _print_message(said)
-            else:
-                console.print(said, soft_wrap=True)
+            _interrupted(graph, begun, as_json=as_json)
+
+
+def _show(graph: GraphClient, bag: str, *, as_json: bool) -> None:
+    """Show the progress until another client ends it; raise LabError where it failed."""
+    from mrlab_msgs import msg
+
+    if as_json:
+        print(json.dumps({"bag": bag}), flush=True)
+        watch = graph.watch(msg.RecorderState, "/recorder/state")
+        _follow(watch, _print_state, _print_message, bag, lambda: size_of(bag))
+        return
+    print(f"records into {bag}; Ctrl-C ends it, or mrlab record --stop", flush=True)
+
+    from rich.console import Console
+    from rich.live import Live
+
+    console = Console(highlight=False)
+    watch = graph.watch(msg.RecorderState, "/recorder/state")
+    with Live(console=console, auto_refresh=False, transient=True) as live:
+        _follow(
+            watch,
+            lambda *states: live.update(_line(*states), refresh=True),
+            lambda said: console.print(said, soft_wrap=True),
+            bag,
+            lambda: size_of(bag),
+        )
+
+
+def _interrupted(graph: GraphClient, begun: str, *, as_json: bool) -> None:
+    """End the recording at Ctrl-C or SIGTERM; a second one does not wait for that.
+
+    begun: the bag; empty where no recording was begun, as far as is known.
+    """
+    try:
+        said = _stop(graph, lambda: size_of(begun))
+    except KeyboardInterrupt:
+        print(
+            "mrlab: did not wait for the recorder; mrlab status shows whether it still records, "
+            "and mrlab record --stop ends that",
+            file=sys.stderr,
+        )
+        raise typer.Exit(130) from None
+    except LabError:
+        if begun:
+            raise
+        raise typer.Exit(130) from None
+    if not begun:
+        # It had begun all the same.
+        raise typer.Exit(130)
+    if as_json:
+        _print_message(said)
+    else:
+        print(said)
 
 
 def _end(bag: Path | None, *, as_json: bool) -> None:
@@ -113,30 +145,39 @@ def _end(bag: Path | None, *, as_json: bool) -> None:
         )
         if state.state != msg.RecorderState.RECORDING:
             raise Misuse("nothing is recorded; mrlab record begins a recording")
-        said = _stop(graph)
+        said = _stop(graph, lambda: size_of(state.bag))
     print(json.dumps({"bag": state.bag, "message": said}) if as_json else said)
 
 
-def _follow(watch: Watch[Any], show: Any, say: Callable[[str], None], bag: str) -> None:
+def _follow(
+    watch: Watch[Any],
+    show: Any,
+    say: Callable[[str], None],
+    bag: str,
+    size: Callable[[], int],
+) -> None:
     """Show the progress until another client ends the recording; raise LabError where it failed.
 
-    A recorder that was killed and restarted goes on in the same bag: it is waited for. say: takes
-    a sentence where that happens.
+    A recorder that was killed and restarted goes on in the same bag: it is waited for. One whose
+    bag grows records, whatever is between it and here. say: takes a sentence where that happens;
+    size: returns the bytes of the bag.
     """
     last, received_at, began = None, time.monotonic(), False
     waiting, said = False, ""
+    grown_at, known = received_at, 0
     while True:
         state = watch.value
         if state is not last:
             gap = time.monotonic() - received_at
             before, last, received_at = last, state, time.monotonic()
+            grown_at, known = received_at, 0
             # What is latched from before this recording says nothing of it.
             if state.state == RecorderState.RECORDING.value and state.bag == bag:
                 show(state, before if began else None)
                 if state.message and state.message != said:
                     say(f"{state.message}; the recording goes on in {bag}")
                 elif waiting:
-                    say(f"the recorder is back; the recording goes on in {bag}")
+                    say(f"the recorder answers again; the recording goes on in {bag}")
                 began, waiting, said = True, False, state.message
             elif began and not state.message and gap < SILENCE / 2:
                 say(f"another client ended the recording; mrlab bag info {bag} says what it holds")
@@ -150,7 +191,10 @@ def _follow(watch: Watch[Any], show: Any, say: Callable[[str], None], bag: str) 
         silent = time.monotonic() - received_at
         if silent > SILENCE and not began and state is not None and state.message:
             raise LabError(state.message)
-        if silent > RETURN:
+        if silent > SILENCE / 2 and (now := size()) != known:
+            # The first look says nothing of growth.
+            grown_at, known = time.monotonic() if known else grown_at, now
+        if min(silent, time.monotonic() - grown_at) > RETURN:
             raise LabError(
                 f"the recorder has been silent for {RETURN:g} s; what it wrote into {bag} stays "
                 "readable; a restarted recorder goes on in that bag: mrlab record --stop ends it; "
@@ -158,7 +202,11 @@ def _follow(watch: Watch[Any], show: Any, say: Callable[[str], None], bag: str) 
             )
         if silent > SILENCE and not waiting:
             waiting = True
-            say(f"the recorder has been silent for {SILENCE:g} s; waits for it to be restarted")
+            if grown_at > received_at:
+                goes_on = f"the recording goes on in {bag}; Ctrl-C ends it"
+                say(f"the lab has been silent for {SILENCE:g} s, but {goes_on}")
+            else:
+                say(f"the recorder has been silent for {SILENCE:g} s; waits for its restart")
         time.sleep(REFRESH)
 
 
@@ -179,23 +227,80 @@ def _line(state: Any, before: Any) -> str:
     return f"{state.position:.0f} s  {state.messages} messages  {megabytes(state.bytes)}{rate}"
 
 
-def _stop(graph: GraphClient) -> str:
-    """End the recording; raise LabError where the recorder does not answer."""
+def _stop(graph: GraphClient, size: Callable[[], int]) -> str:
+    """End the recording; raise LabError where the recorder does not answer.
+
+    size: returns the bytes of its bag; one that grows has a recorder that can be asked elsewhere.
+    """
+    from diagnostic_msgs.msg import DiagnosticArray
+    from mrlab_msgs import msg
     from std_srvs.srv import Trigger
 
+    from mrlab_ros.messages import qos
+    from mrlab_ros.messages.diagnostics import living_in
     from mrlab_ros.ros.calls import NoAnswer
 
+    signs = Signs(time.monotonic())
+
+    def hear(message: Any) -> None:
+        if "recorder" in living_in(message):
+            signs.last = time.monotonic()
+
+    graph.subscribe(DiagnosticArray, "/diagnostics", hear, qos.LATCHED)
+    before = size()
     try:
         answer = graph.call(
-            Trigger, "/recorder/stop", Trigger.Request(), STOP_TIMEOUT_S, find_timeout=RETURN
+            Trigger, "/recorder/stop", Trigger.Request(), ANSWER_S, find_timeout=RETURN
         )
-    except NoAnswer as error:
-        raise NoAnswer(
-            f"{error}; a restarted recorder goes on in its bag: mrlab record --stop ends it"
-        ) from None
+    except NoAnswer:
+        silent = time.monotonic() - signs.last
+        if silent > FROZEN_S and size() > before:
+            return _stop_elsewhere()
+        if silent > FROZEN_S:
+            raise NoAnswer(
+                f"the recorder gave no sign of life for {silent:.0f} s; what it wrote stays "
+                "readable, and if it goes on it ends the recording; mrlab status shows it, and "
+                "mrlab record --stop asks again"
+            ) from None
+        state = graph.watch(msg.RecorderState, "/recorder/state")
+        state.wait(
+            lambda now: now.state != msg.RecorderState.RECORDING, STOP_TIMEOUT_S, "the bag's end"
+        )
+        return "the bag is closed"
     if not answer.success:
         raise Misuse(answer.message)
     return str(answer.message)
+
+
+def _stop_elsewhere() -> str:
+    """End the recording of a recorder that works, through a client that is opened anew."""
+    from std_srvs.srv import Trigger
+
+    from mrlab_ros.client.connect import open_graph
+
+    with open_graph() as graph:
+        timeout = STOP_TIMEOUT_S
+        answer = graph.call(
+            Trigger, "/recorder/stop", Trigger.Request(), timeout, find_timeout=RETURN
+        )
+    if not answer.success:
+        raise Misuse(answer.message)
+    return str(answer.message)
+
+
+def size_of(bag: str) -> int:
+    """Return the bytes of a bag's files on this machine; 0: none can be seen."""
+    try:
+        return sum(file.stat().st_size for file in Path(bag).glob("*.mcap"))
+    except OSError:
+        return 0
+
+
+@dataclass
+class Signs:
+    """When the recorder's process last gave a sign of life, s of the steady clock."""
+
+    last: float
 
 
 def megabytes(size: int) -> str:

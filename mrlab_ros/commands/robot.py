@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
+from mrlab_ros.commands import completion
 from mrlab_ros.commands.convert.options import with_options
 from mrlab_ros.commands.output import AsJson, say
 from mrlab_ros.core.conversion.options import Options
@@ -17,19 +18,36 @@ if TYPE_CHECKING:
     from mrlab_ros.client.lab import Lab
     from mrlab_ros.client.robot import LabRobot
 
-Name = Annotated[str, typer.Argument(metavar="ROBOT", help="A robot of the scene, as ur5e_1.")]
+Name = Annotated[
+    str,
+    typer.Argument(
+        metavar="ROBOT",
+        help="A robot of the scene, as ur5e_1.",
+        autocompletion=completion.robots,
+    ),
+]
 Yaw = Annotated[float, typer.Option(help="Turn about the vertical, degrees.")]
 
 
 def spawn(
     model: Annotated[
-        str, typer.Argument(metavar="MODEL", help="A robot model; mrlab robots lists them.")
+        str,
+        typer.Argument(
+            metavar="MODEL",
+            help="A robot model; mrlab robots lists them.",
+            autocompletion=completion.models,
+        ),
     ],
     at: Annotated[
         str, typer.Option("--at", help="Where its base goes, X,Y in m; not given: a free place.")
     ] = "",
     yaw: Yaw = 0.0,
-    tool: Annotated[str, typer.Option("--tool", help="An end effector; empty: none.")] = "",
+    tool: Annotated[
+        str,
+        typer.Option(
+            "--tool", help="An end effector; empty: none.", autocompletion=completion.tools
+        ),
+    ] = "",
     name: Annotated[str, typer.Option(help="Its name; empty: the model and a number.")] = "",
     as_json: AsJson = False,
 ) -> None:
@@ -63,7 +81,10 @@ def place(
 def tool(
     robot: Name,
     end_effector: Annotated[
-        str, typer.Argument(help="An end effector; none: a bare flange.")
+        str,
+        typer.Argument(
+            help="An end effector; none: a bare flange.", autocompletion=completion.tools
+        ),
     ] = "",
     as_json: AsJson = False,
 ) -> None:
@@ -84,9 +105,13 @@ def load(
     """Load a trajectory into a robot; mrlab resume then plays it."""
 
     def load_it(lab: Lab, found: LabRobot) -> str:
+        from rich.console import Console
+
         from mrlab_ros.commands.play import in_catalogue
 
-        return found.load(in_catalogue(lab, found, trajectory, options))
+        given = ["mrlab", "load", robot, trajectory]
+        console = Console(stderr=as_json)
+        return found.load(in_catalogue(lab, found, trajectory, options, given, console))
 
     _do(robot, load_it, as_json=as_json)
 
@@ -133,9 +158,6 @@ def loop(
 ) -> None:
     """Have a robot start over after its last frame, or not."""
     _do(robot, lambda _, found: found.set_loop(on), as_json=as_json)
-
-
-VERBS = (spawn, remove, place, tool, load, pause, resume, stop, seek, rate, loop)
 
 
 def _do(robot: str, work: Callable[[Lab, LabRobot], str], *, as_json: bool) -> None:

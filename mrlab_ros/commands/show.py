@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
+from mrlab_ros.commands import completion
 from mrlab_ros.commands.convert.options import with_options
 from mrlab_ros.commands.output import AsJson
 from mrlab_ros.core.conversion.options import Options
@@ -28,9 +29,15 @@ def show(
         typer.Argument(help="Workspace, table, trajectory file, recorded bag, or its report."),
     ],
     robot: Annotated[
-        str, typer.Option(help="Robot that a workspace or a table is for, such as ur5e.")
+        str,
+        typer.Option(
+            help="Robot that a workspace or a table is for, such as ur5e.",
+            autocompletion=completion.models,
+        ),
     ] = "",
-    end_effector: Annotated[str, typer.Option(help="End effector; empty: none.")] = "",
+    end_effector: Annotated[
+        str, typer.Option(help="End effector; empty: none.", autocompletion=completion.tools)
+    ] = "",
     output: Annotated[
         Path | None,
         typer.Option("--out", "--output", "-o", help="The page; none: FILE with .html, here."),
@@ -98,14 +105,12 @@ def _page(
 
 def _recorded(file: Path) -> Bag | None:
     """Return the bag of a session, or None: it is another file, or a bag of a mere trajectory."""
-    from mrlab_ros.commands.bag import path_of
+    from mrlab_ros.commands.bag import opened, path_of
 
     path = _bag_of_report(file) or path_of(str(file))
-    if not path.is_dir() and path.suffix != ".mcap":
+    if not path.is_dir() and path.suffix not in (".mcap", ".db3"):
         return None
-    from mrlab_ros.adapters.bags.reader import Bag
-
-    bag = Bag(path)
+    bag = opened(str(path))
     if path.is_dir() or any(t.type == "mrlab_msgs/msg/Robots" for t in bag.topics.values()):
         return bag
     return None

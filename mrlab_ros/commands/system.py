@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
+from mrlab_ros.commands import completion
 from mrlab_ros.commands.output import AsJson, say
 from mrlab_ros.core.errors import BadInput, Misuse
 from mrlab_ros.core.naming import checked_name, did_you_mean
@@ -23,7 +24,13 @@ app = typer.Typer(
 )
 # A negative number is no option.
 NEGATIVE = {"ignore_unknown_options": True}
-Name = Annotated[str, typer.Argument(help="A system of the lab; mrlab system list shows them.")]
+Name = Annotated[
+    str,
+    typer.Argument(
+        help="A system of the lab; mrlab system list shows them.",
+        autocompletion=completion.systems,
+    ),
+]
 
 
 @app.command("list")
@@ -89,7 +96,7 @@ def create(
             _check_entry(graph, system)
         for system in systems:
             members = tuple(
-                replace(member, trajectory=_trajectory(graph, file.parent, member))
+                replace(member, trajectory=_trajectory(graph, file, member))
                 for member in system.members
             )
             request = create_system_request(replace(system, members=members))
@@ -122,8 +129,10 @@ def _check_entry(graph: GraphClient, system: SystemEntry) -> None:
         checked_name(system.name, frozenset(taken), "system")
 
 
-def _trajectory(graph: GraphClient, folder: Path, member: MemberEntry) -> str:
-    """Return the id of the member's trajectory; convert it where the file names a workspace."""
+def _trajectory(graph: GraphClient, cell: Path, member: MemberEntry) -> str:
+    """Return the id of the member's trajectory; convert it where `cell` names a workspace."""
+    from rich.console import Console
+
     from mrlab_ros.client.lab import Lab
     from mrlab_ros.commands.play import in_catalogue, is_file
     from mrlab_ros.core.conversion.options import Options
@@ -132,7 +141,17 @@ def _trajectory(graph: GraphClient, folder: Path, member: MemberEntry) -> str:
     if not name or not is_file(name):
         return name
     lab = Lab(graph)
-    return in_catalogue(lab, lab.robot(member.robot), str(folder / name), Options())
+    file = str(cell.parent / name)
+    given = ["mrlab", "load", member.robot, file]
+    console = Console(stderr=True, highlight=False)
+    try:
+        return in_catalogue(lab, lab.robot(member.robot), file, Options(), given, console)
+    except typer.Exit:
+        console.print(
+            f"{cell} was not made into a system. Once the file is loaded, write the name that is "
+            f"printed in place of {name} there, and run: mrlab system create {cell}"
+        )
+        raise
 
 
 @app.command()
@@ -204,7 +223,7 @@ _simple("pause", "Pause all members; play continues from there.")
 _simple("stop", "End the run; the next play begins at the start.")
 
 
-@app.command()
+@app.command(context_settings=NEGATIVE)
 def seek(
     name: Name,
     position: Annotated[float, typer.Argument(help="Place on the timeline, s.")],
@@ -323,7 +342,8 @@ def _system(graph: GraphClient, name: str) -> Any:
             return system
     known = [system.name for system in systems]
     raise Misuse(
-        f"there is no system '{name}'; there are: {', '.join(known) or 'none'}"
+        f"there is no system '{name}'; there are: "
+        f"{', '.join(known) or 'none; mrlab system create cell.yaml makes one'}"
         f"{did_you_mean(name, known)}"
     )
 

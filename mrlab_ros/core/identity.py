@@ -5,12 +5,14 @@ from __future__ import annotations
 import re
 from collections.abc import Callable
 
+from mrlab_ros.core.freezes import harmless
+
 
 class Identity:
     """The id of this lab, and those of others that were met. log: takes a sentence for each.
 
     Without an id, in the graph of a single node for instance, every message is of this lab; so is
-    one that names none.
+    one that names none, but for lists of what the lab consists of.
     """
 
     def __init__(self, lab: str, log: Callable[[str], None]) -> None:
@@ -32,6 +34,23 @@ class Identity:
             self._log(self.sentence(lab))
         return False
 
+    def obeys(self, lab: str) -> bool:
+        """Return whether a list that names `lab`, such as its robots, says what this one is.
+
+        A node named lab that was started by hand has no id: its empty list would remove all
+        robots.
+        """
+        if self.lab and not lab:
+            if lab not in self.others:
+                self.others.add(lab)
+                self._log(
+                    f"a lab node without an id is on this ROS domain; this lab, {self.lab}, "
+                    "ignores the robots it lists. Stop that node, or start it with another "
+                    "ROS_DOMAIN_ID"
+                )
+            return False
+        return self.accepts(lab)
+
     def sentence(self, lab: str) -> str:
         """Return what to say of another lab."""
         return (
@@ -44,8 +63,6 @@ class Identity:
 # A coordinator that met another lab names its systems once a second; a lab that has said nothing
 # for longer is gone, s.
 PRESENT_S = 5.0
-# Services that both labs may answer: what stops an arm, and what changes nothing.
-HARMLESS = re.compile(r"(pause|stop)$|(list|get)_[^/]*$")
 
 
 class Neighbours:
@@ -65,7 +82,7 @@ class Neighbours:
 
     def why_not(self, service: str, servers: int, now: float) -> str:
         """Return why a call would reach more than this lab; empty where it does not, or may."""
-        if servers < 2 or HARMLESS.search(service.rpartition("/")[2]):
+        if servers < 2 or harmless(service):
             return ""
         present = [lab for lab, seen in self._seen.items() if now - seen < PRESENT_S]
         if not present:

@@ -224,11 +224,6 @@ def enum_values(kind: type[EnumT]) -> Choice[EnumT]:
     return Choice({member.value: member for member in kind})
 
 
-def enum_names(kind: type[EnumT]) -> Choice[EnumT]:
-    """Return the choice of an enum's names, in lower case."""
-    return Choice({name.lower(): member for name, member in kind.__members__.items()})
-
-
 @dataclass(frozen=True)
 class Numbers:
     """A list of `count` numbers; of at least one where `count` is None."""

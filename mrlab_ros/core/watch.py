@@ -13,6 +13,8 @@ FORGOTTEN_AFTER_S = 60.0
 # For so long a process says that it was restarted, or that it did not run, s.
 RESTART_SHOWN_S = 60.0
 FREEZE_SHOWN_S = 60.0
+# Is in what a process says of its restart.
+RESTARTED = "was restarted"
 
 
 @dataclass(frozen=True)
@@ -47,7 +49,7 @@ class Sign:
             said = f"lost: {lost}" if lost else "nothing was lost"
             if self.lost is None:
                 said = "what was lost is being determined"
-            lost = f"it died{ended} and was restarted {age:.0f} s ago; {said}"
+            lost = f"it died{ended} and {RESTARTED} {age:.0f} s ago; {said}"
         frozen = ""
         if self.freeze is not None:
             duration, ago = self.freeze.duration, self.freeze.ago

@@ -14,6 +14,7 @@ from dataclasses import fields
 from pathlib import Path
 from typing import Any
 
+from mrlab_ros.adapters.launcher import end_with_launcher
 from mrlab_ros.core.errors import BadInput, LabError, Unavailable
 from mrlab_ros.gateway.settings import PORT, Settings, parsed_address
 
@@ -32,6 +33,7 @@ def main() -> None:
     # A supervisor starts its processes with SIGINT blocked, see processes/supervisor.py.
     signal.signal(signal.SIGINT, signal.SIG_DFL)
     signal.pthread_sigmask(signal.SIG_UNBLOCK, {signal.SIGINT})
+    end_with_launcher()
     # As ROS's nodes log, for a lab's common output.
     logging.addLevelName(logging.WARNING, "WARN")
     logging.basicConfig(
@@ -118,7 +120,15 @@ def serve(settings: Settings) -> None:
     scheme = "https" if settings.https else "http"
     address = f"{scheme}://{f'[{host}]' if ':' in host else host}:{port}"
     logging.info("serves the pages on %s", address)
+    # uvicorn ends with the signal that stopped it, which a launcher calls a crash.
+    for stop in (signal.SIGINT, signal.SIGTERM):
+        signal.signal(stop, _end)
     uvicorn.Server(config).run(sockets=[listening])
+
+
+def _end(_signal: int, _frame: object) -> None:
+    """End the process as a wanted stop."""
+    sys.exit(0)
 
 
 def listen(settings: Settings) -> socket.socket:

@@ -15,6 +15,7 @@ import yaml
 from fastapi import Depends
 from fastapi.requests import HTTPConnection
 
+from mrlab_ros.adapters.yaml_files import Loader
 from mrlab_ros.core.bridge.policy import Policy, Verb
 from mrlab_ros.core.bridge.rules import Role, parse
 from mrlab_ros.core.errors import BadInput
@@ -111,7 +112,7 @@ def read_policy(allow_list: Path | None) -> Policy:
     """
     path = allow_list or directory() / "config" / "bridge.yaml"
     try:
-        return Policy(parse(yaml.safe_load(path.read_text())))
+        return Policy(parse(yaml.load(path.read_text(), Loader=Loader)))
     except (OSError, yaml.YAMLError) as error:
         raise BadInput(f"the allow-list {path} cannot be read: {error}") from error
 

@@ -25,6 +25,7 @@ def text(value: str) -> bytes:
 
 @lru_cache(maxsize=64)
 def names(joints: tuple[str, ...]) -> bytes:
+    """Return a sequence of strings as CDR."""
     return COUNT.pack(len(joints)) + b"".join(map(text, joints))
 
 

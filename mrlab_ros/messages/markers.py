@@ -45,6 +45,7 @@ Colour = tuple[float, float, float, float]
 
 
 def array(markers: Iterable[Marker]) -> MarkerArray:
+    """Return markers as one message."""
     return MarkerArray(markers=list(markers))
 
 

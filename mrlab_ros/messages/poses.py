@@ -16,7 +16,8 @@ def pose_from_message(message: PoseMessage) -> Pose:
 
 def pose_to_message(pose: Pose) -> PoseMessage:
     """Return the pose as a message: position in m, unit quaternion."""
-    (x, y, z), (qx, qy, qz, qw) = pose.position, pose.orientation
+    # rosidl sends another number where a whole one stands in a decimal field.
+    x, y, z, qx, qy, qz, qw = map(float, pose.position + pose.orientation)
     return PoseMessage(
         position=Point(x=x, y=y, z=z), orientation=Quaternion(x=qx, y=qy, z=qz, w=qw)
     )

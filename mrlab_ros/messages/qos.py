@@ -39,6 +39,7 @@ def topic_of(name: str, ends: list[TopicEndpointInfo]) -> Topic:
 
 
 def quality_of(end: TopicEndpointInfo) -> QosProfile:
+    """Return the QoS of a topic's publisher or subscription."""
     qos = end.qos_profile
     return QosProfile(
         history=qos.history.name.lower(),

@@ -255,8 +255,9 @@ class ConverterNode(ParameterNode[ConverterParameters]):
         if request.draft:
             self._store.put_file(request.draft, file)
             return head | {"owner": request.owner, "version": 0, "shared": False}
+        name = request.id or self.trajectories.free_name(head, request.owner)
         record, version = self.trajectories.keep(
-            head, file, head["id"], request.owner, shared=request.shared
+            head, file, name, request.owner, shared=request.shared
         )
         return head_of(record, version)
 

@@ -276,7 +276,7 @@ class BridgeParameters:
     )
     discovery_period: float = field(
         Number(between(0.01, 60), "s"),
-        "Time between two checks of the graph for new topics and services.",
+        "Time between two checks for new topics and services while the graph changes.",
         0.2,
         changeable=True,
     )

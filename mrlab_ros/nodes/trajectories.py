@@ -21,7 +21,7 @@ from mrlab_ros.adapters.trajectories.npz_file import Damaged
 from mrlab_ros.adapters.trajectories.plain_folder import import_folder
 from mrlab_ros.core.errors import BadInput, LabError
 from mrlab_ros.core.trajectory.names import TrajectoryName, checked_id, parse
-from mrlab_ros.core.trajectory.record import Record, Version, head_of, newest
+from mrlab_ros.core.trajectory.record import Record, Version, free_name, head_of, newest
 from mrlab_ros.messages import qos, trajectories
 from mrlab_ros.messages.trajectories import catalogue_to_message, info_from_head
 from mrlab_ros.ros.worker import Worker
@@ -160,7 +160,12 @@ class TrajectoryServices:
         with self._opened(draft) as path:
             npz_file.read(path)
             head = npz_file.read_head(path)
-        return self.keep(head, draft, name or head["id"], owner, shared=shared)
+        name = name or self.free_name(head, owner)
+        return self.keep(head, draft, name, owner, shared=shared)
+
+    def free_name(self, head: dict[str, Any], owner: str) -> str:
+        """Return a name for a trajectory that was given none; see record.free_name()."""
+        return free_name(head["id"], owner, head["robot_model"], self.catalogue.records())
 
     def keep(
         self, head: dict[str, Any], source: BinaryIO | str, name: str, owner: str, *, shared: bool

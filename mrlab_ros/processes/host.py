@@ -6,13 +6,16 @@ Python raises KeyboardInterrupt, and in the middle of an import that prints a tr
 
 from __future__ import annotations
 
+import os
 import signal
 import sys
 from pathlib import Path
 
+from mrlab_ros.adapters.launcher import end_with_launcher
+
 
 def main(names: list[str] | None = None) -> None:
-    """Run the nodes named in `names`, or on the command line before --ros-args.
+    """Run the nodes named in `names`, or on the command line before --ros-args; --help prints.
 
     Until rclpy is initialised, SIGINT and SIGTERM end the process at once: there is nothing to
     close yet. From then on rclpy handles both. A supervisor may start the process with SIGINT
@@ -20,13 +23,26 @@ def main(names: list[str] | None = None) -> None:
     """
     signal.signal(signal.SIGINT, signal.SIG_DFL)
     signal.pthread_sigmask(signal.SIG_UNBLOCK, {signal.SIGINT})
+    end_with_launcher()
     from mrlab_ros.processes.lab import NODES
 
     arguments = sys.argv[1:]
+    if "--ros-args" in arguments:
+        arguments = arguments[: arguments.index("--ros-args")]
+    wants_help = {"-h", "--help"} & {*arguments}
     if names is None:
-        end = arguments.index("--ros-args") if "--ros-args" in arguments else len(arguments)
-        names = arguments[:end]
+        names = [word for word in arguments if word not in wants_help]
+    elif arguments and not wants_help:
+        sys.exit(
+            f"{names[0]}: found {' '.join(arguments)}; expected nothing before --ros-args. "
+            f"Parameters are given as in: {names[0]} --ros-args -p NAME:=VALUE"
+        )
     unknown = [name for name in names if name not in NODES]
+    if wants_help and not unknown:
+        from mrlab_ros.processes.usage import usage
+
+        print(usage(names))
+        return
     if unknown or not names:
         sys.exit(
             f"host: found {'no node' if not names else ', '.join(unknown)}; expected one or more "
@@ -34,7 +50,9 @@ def main(names: list[str] | None = None) -> None:
         )
     from mrlab_ros.processes.node_runner import run
 
-    sys.exit(run(names))
+    # Everything is closed. A thread of Fast DDS or zenoh that comes back to Python while the
+    # interpreter ends would abort the process.
+    os._exit(run(names))
 
 
 def run_named_node() -> None:

@@ -40,10 +40,13 @@ class NodeEntry:
     graph_name: str
     state: tuple[str, str] | None = None
     in_replay: bool = False
+    numpy: bool = True
 
 
 NODES = {
-    "bridge": NodeEntry("mrlab_ros.nodes.bridge.node", "BridgeNode", "bridge", in_replay=True),
+    "bridge": NodeEntry(
+        "mrlab_ros.nodes.bridge.node", "BridgeNode", "bridge", in_replay=True, numpy=False
+    ),
     "converter": NodeEntry(
         "mrlab_ros.nodes.converter",
         "ConverterNode",

@@ -19,8 +19,10 @@ from mrlab_ros.processes.lab import NODES, PROCESSES
 from mrlab_ros.processes.stand_aside import StandAside
 from mrlab_ros.processes.supervisor import RESTARTS, WRONG_CONFIGURATION
 from mrlab_ros.processes.watcher import Watcher
+from mrlab_ros.ros import freezes
 from mrlab_ros.ros.parameters import WrongParameters
 from mrlab_ros.ros.spinning import SpunNode, shut_down, start_up
+from mrlab_ros.ros.type_supports import postpone_numpy
 
 # How often a process checks whether it was asked to stop, s.
 POLL_PERIOD_S = 0.1
@@ -38,6 +40,16 @@ def maker(name: str) -> Callable[[], Node]:
 
 def _nothing() -> None:
     """Prepare nothing in a node's thread."""
+
+
+def _spin(node: Node) -> SpunNode:
+    """Spin a node; where a signal has shut the context down meanwhile, destroy it and raise."""
+    try:
+        return SpunNode(node, getattr(node, "prepare_thread", _nothing))
+    except Exception:
+        # Its threads must not outlive the interpreter.
+        node.destroy_node()
+        raise
 
 
 def process_of(names: list[str]) -> str:
@@ -60,6 +72,8 @@ def run(names: list[str]) -> int:
     except BadInput as error:
         print(error, file=sys.stderr, flush=True)
         return WRONG_CONFIGURATION
+    if not any(NODES[name].numpy for name in names):
+        postpone_numpy()
     running = rclpy.utilities.get_default_context().ok
     aside: StandAside | None = None
     watcher: Watcher | None = None
@@ -69,7 +83,9 @@ def run(names: list[str]) -> int:
     try:
         if not all(NODES[name].in_replay for name in names):
             aside = StandAside()
-        watcher = Watcher(process_of(names))
+        process = process_of(names)
+        freezes.PROCESS.process = process
+        watcher = Watcher(process)
         makers = {name: maker(name) for name in names}
         if aside is not None:
             aside.wait_for_recorder(
@@ -85,8 +101,7 @@ def run(names: list[str]) -> int:
             for name in wanted:
                 if name not in spun:
                     try:
-                        made = makers[name]()
-                        spun[name] = SpunNode(made, getattr(made, "prepare_thread", _nothing))
+                        spun[name] = _spin(makers[name]())
                     except WrongParameters as error:
                         mistakes.append(str(error))
             if mistakes:

@@ -5,7 +5,6 @@ from __future__ import annotations
 import getpass
 import os
 import platform
-import secrets
 import time
 from dataclasses import dataclass
 from pathlib import Path
@@ -69,4 +68,4 @@ def new_lab_id() -> str:
     except (KeyError, OSError):
         user = str(os.getuid())
     since = time.strftime("%Y-%m-%d %H:%M")
-    return f"{secrets.token_hex(4)} ({user}@{platform.node()}, since {since})"
+    return f"{os.urandom(4).hex()} ({user}@{platform.node()}, since {since})"

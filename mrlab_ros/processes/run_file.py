@@ -7,6 +7,7 @@ import json
 import os
 import tempfile
 import time
+from collections.abc import Sequence
 from dataclasses import asdict
 from pathlib import Path
 from typing import IO, Any
@@ -95,6 +96,18 @@ def domains() -> list[int]:
     found = (path.stem.removeprefix("domain-") for path in _folder().glob("domain-*.json"))
     return sorted(
         domain for domain in map(int, filter(str.isdecimal, found)) if RunFile(domain).read()
+    )
+
+
+def nobody(domain: int, labs: Sequence[int]) -> str:
+    """Return what to say of an empty domain; labs: the domains on which this user runs labs."""
+    begin = f"no lab answers on ROS domain {domain}; "
+    if not labs:
+        return f"{begin}start one with: mrlab up (or set ROS_DOMAIN_ID to the domain of one)"
+    listed = ", ".join(map(str, labs))
+    return (
+        f"{begin}yours {'runs on domain' if len(labs) == 1 else 'run on domains'} {listed}: "
+        f"export ROS_DOMAIN_ID={labs[0]}"
     )
 
 

@@ -140,6 +140,15 @@ def describe_exit(code: int) -> str:
         return f"signal {-code}"
 
 
+def _why_not(error: OSError) -> str:
+    if isinstance(error, FileNotFoundError):
+        return (
+            f"there is no {error.filename}; if the lab's folder was moved, stop this lab and set "
+            "it up where it is now: make demo"
+        )
+    return str(error)
+
+
 Emit = Callable[[str, str], None]
 
 
@@ -230,6 +239,8 @@ class Child:
     def _run_once(self) -> tuple[int | None, str]:
         """Run the process to its end; return its exit code, and in words how it ended."""
         command = guarded(self.spec.argv, unblock_sigint=not self.spec.unblocks_sigint)
+        # Before the start: a program that cannot be started has not run since the one before it.
+        self._policy.started(time.monotonic())
         with self._lock:
             if self._stop.is_set():
                 return None, "not started"
@@ -248,10 +259,9 @@ class Child:
                     start_new_session=True,
                 )
             except OSError as error:
-                return None, f"could not be started: {error}"
+                return None, f"could not be started: {_why_not(error)}"
             self._process = process
             self._start_now.clear()
-        self._policy.started(time.monotonic())
         self._enter(Phase.RUNNING)
         assert process.stdout is not None
         reader = threading.Thread(target=self._read, args=(process.stdout,), daemon=True)

@@ -58,7 +58,8 @@ class Watcher:
             use_global_arguments=False,
         )
         self._topic = self._node.create_publisher(DiagnosticArray, TOPIC, qos.LATCHED)
-        self._node.create_subscription(DiagnosticArray, TOPIC, self._hear, qos.LATCHED_EVENTS)
+        # Not latched: diagnostics of other robots seldom are, and rclpy would warn of each.
+        self._node.create_subscription(DiagnosticArray, TOPIC, self._hear, qos.EVENTS)
         every(self._node, PERIOD_S, self._give_sign)
         self._spun = SpunNode(self._node)
 
@@ -95,5 +96,5 @@ class Watcher:
         that gave the process up while it did not run count as neither.
         """
         self._node.destroy_publisher(
-            self._node.create_publisher(DiagnosticArray, TOPIC, qos.EVENTS)
+            self._node.create_publisher(DiagnosticArray, TOPIC, qos.LATCHED)
         )

@@ -1,4 +1,4 @@
-"""Answers of services: failures as `success = false` with the reason, and deferred answers."""
+"""Services: failures as `success = false` with the reason, deferred answers, late requests."""
 
 from __future__ import annotations
 
@@ -10,9 +10,12 @@ from typing import Any, TypeVar
 
 from rclpy.impl.implementation_singleton import rclpy_implementation
 from rclpy.node import Node
+from rclpy.service import Service
 
 from mrlab_ros.core.errors import LabError
+from mrlab_ros.core.freezes import harmless
 from mrlab_ros.messages import qos
+from mrlab_ros.ros import freezes
 
 Response = TypeVar("Response")
 
@@ -63,24 +66,42 @@ def end_service(node: Node, service: Any, why: str) -> None:
             _, header = service.handle.service_take_request(service.srv_type.Request)
             if header is None:
                 break
-            service.send_response(answer, header)
+            Service.send_response(service, answer, header)
     node.destroy_service(service)
+
+
+def create_service(
+    node: Node,
+    kind: Any,
+    name: str,
+    callback: Callable[[Any, Any], Any],
+    halts: Callable[[Any], bool] = lambda request: False,
+) -> Service:
+    """Create a service whose `callback(request, response)` returns the response.
+
+    A request that waited while this process did not run is refused: its caller was told that
+    nobody answered. What stops an arm, and what changes nothing, is carried out however late;
+    halts: says of a request that it only does that, where the service's name does not.
+    """
+
+    def work(request: Any, response: Any, send: Callable[[Any], None]) -> None:
+        send(callback(request, response))
+
+    return _offer(node, kind, name, work, halts)
 
 
 def create_deferred_service(
     node: Node, kind: Any, name: str, begin: Callable[[Any, Any], Future[Any]], **options: Any
-) -> Any:
+) -> Service:
     """Create a service whose `begin(request, response)` returns a future of the response.
 
     The executor goes on at once; the response is sent by the thread that completes the future.
     Where the future is cancelled, the answer says that the service ended. A coroutine would be
     polled by the executor without pause, and a callback that waits would block the other
-    callbacks of its thread.
+    callbacks of its thread. Late requests are refused as by create_service().
     """
-    service = node.create_service(kind, name, begin, **options, qos_profile=qos.SERVICES)
-    send = service.send_response
 
-    def send_when_done(future: Future[Any], header: Any) -> None:
+    def work(request: Any, response: Any, send: Callable[[Any], None]) -> None:
         def forward(done: Future[Any]) -> None:
             try:
                 answer = done.result()
@@ -89,9 +110,41 @@ def create_deferred_service(
             # InvalidHandle: the service was destroyed meanwhile, nobody waits for the answer
             with contextlib.suppress(rclpy_implementation.InvalidHandle):
                 if answer is not None and node.context.ok():
-                    send(answer, header)
+                    send(answer)
 
-        future.add_done_callback(forward)
+        begin(request, response).add_done_callback(forward)
 
-    service.send_response = send_when_done  # type: ignore[method-assign, assignment]
+    service = _offer(node, kind, name, work, lambda request: False, **options)
+    return service
+
+
+def _offer(
+    node: Node,
+    kind: Any,
+    name: str,
+    work: Callable[[Any, Any, Callable[[Any], None]], None],
+    halts: Callable[[Any], bool],
+    **options: Any,
+) -> Service:
+    """Create a service whose work(request, response, send) is done where its response is sent.
+
+    Only there rclpy hands out the header, which says when the request was sent.
+    """
+    service = node.create_service(
+        kind, name, lambda *taken: taken, **options, qos_profile=qos.SERVICES
+    )
+
+    def carry_out(taken: tuple[Any, Any], header: Any) -> None:
+        def send(answer: Any) -> None:
+            Service.send_response(service, answer, header)
+
+        why = "" if harmless(name) or halts(taken[0]) else freezes.why_late(header)
+        refused = refusal(kind, why) if why else None
+        if refused is None:
+            work(*taken, send)
+            return
+        node.get_logger().warning(f"{service.srv_name}: {why}")
+        send(refused)
+
+    service.send_response = carry_out  # type: ignore[method-assign, assignment]
     return service

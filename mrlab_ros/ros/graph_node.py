@@ -19,7 +19,9 @@ from rclpy.node import Node
 from rclpy.qos import DurabilityPolicy, QoSPolicyKind, QoSProfile, ReliabilityPolicy
 from rclpy.signals import SignalHandlerOptions
 
+from mrlab_ros.core.errors import Misuse
 from mrlab_ros.messages import qos
+from mrlab_ros.messages.requests import fitted
 from mrlab_ros.ros import fast_dds
 from mrlab_ros.ros.calls import NoAnswer, call
 from mrlab_ros.ros.domain import domain_id
@@ -110,6 +112,7 @@ class Graph(GraphClient):
     def subscribe(
         self, kind: Any, topic: str, callback: Callable[[Any], None], quality: QoSProfile
     ) -> None:
+        self._check_open()
         _Ear(self.node, kind, topic, callback, quality)
 
     def call(
@@ -120,6 +123,8 @@ class Graph(GraphClient):
         timeout: float = CALL_TIMEOUT_S,
         find_timeout: float = FIND_TIMEOUT_S,
     ) -> Any:
+        self._check_open()
+        fitted(request)
         client = self._clients.get(service)
         if client is None:
             client = self._clients[service] = self.node.create_client(
@@ -128,6 +133,10 @@ class Graph(GraphClient):
         if not client.wait_for_service(timeout_sec=find_timeout):
             raise NoAnswer(f"nobody offers {service} on ROS domain {self.domain}; {self.advice()}")
         return call(client, request, timeout)
+
+    def _check_open(self) -> None:
+        if self._closing.is_set():
+            raise Misuse("this client of the lab is closed; open another one: Lab()")
 
     def node_names(self) -> Collection[str]:
         names: list[str] = self.node.get_node_names()

@@ -157,8 +157,9 @@ def descriptor(record: Field) -> ParameterDescriptor:
     elif isinstance(limits, Range) and isinstance(record.check, records.Number):
         result.floating_point_range = [
             FloatingPointRange(
-                from_value=max(limits.low, -LARGEST_DOUBLE),
-                to_value=min(limits.high, LARGEST_DOUBLE),
+                # rosidl sends another number where a whole one stands here.
+                from_value=float(max(limits.low, -LARGEST_DOUBLE)),
+                to_value=float(min(limits.high, LARGEST_DOUBLE)),
             )
         ]
     return result

@@ -24,7 +24,8 @@ from rclpy.node import Node
 from rclpy.task import Future
 
 from mrlab_ros.core.errors import BadInput
-from mrlab_ros.ros import fast_dds
+from mrlab_ros.ros import fast_dds, freezes
+from mrlab_ros.ros.type_supports import skip_generator
 
 # The longest the executor waits at a time, s; what arrives is handed on at once all the same.
 WAIT_S = 0.2
@@ -42,22 +43,25 @@ def spin(executor: Executor, context: Context, stop: threading.Event | None = No
     of something that another thread has just destroyed raises InvalidHandle and is forgotten.
     """
     never = Future()
-    while context.ok() and not (stop is not None and stop.is_set()):
-        try:
-            executor.spin_until_future_complete(never, timeout_sec=WAIT_S)
-        except (KeyboardInterrupt, ExternalShutdownException):
-            return
-        except rclpy_implementation.InvalidHandle:
-            continue
-        except Exception:
-            # What fails because the context was shut down beneath it is no mistake.
-            if context.ok():
-                traceback.print_exc()
+    with freezes.watching():
+        while context.ok() and not (stop is not None and stop.is_set()):
+            freezes.look()
+            try:
+                executor.spin_until_future_complete(never, timeout_sec=WAIT_S)
+            except (KeyboardInterrupt, ExternalShutdownException):
+                return
+            except rclpy_implementation.InvalidHandle:
+                continue
+            except Exception:
+                # What fails because the context was shut down beneath it is no mistake.
+                if context.ok():
+                    traceback.print_exc()
 
 
 def start_up() -> None:
     """Initialise the default context; raise BadInput where rcl refuses the command line."""
     fast_dds.prepare()
+    skip_generator()
     try:
         rclpy.init()
     except (rclpy_implementation.RCLError, rclpy_implementation.UnknownROSArgsError) as error:

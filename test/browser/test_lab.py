@@ -9,9 +9,10 @@ from pathlib import Path
 import numpy as np
 import pytest
 from browser_side import difference, eventually, pixels
+from own_port import free_port
 from page_objects import LabPage, SignInPage
 from playwright.sync_api import Browser, BrowserContext, Page, StorageState, expect
-from served_lab import Gateway, ServedLab, free_port, gateway_with_people
+from served_lab import Gateway, ServedLab, gateway_with_people
 
 from mrlab_ros.core.bridge.rules import Role
 

@@ -103,14 +103,20 @@ def test_a_motion_is_drawn_and_moves(shown: Open) -> None:
     # the robot is dark and blue on a light ground: a canvas that draws nothing is one colour
     assert len(np.unique(first.reshape(-1, 3), axis=0)) > 200
     slider = watched.page.get_by_role("slider")
-    slider.fill("1.6")
-    expect(slider).to_have_attribute("aria-valuetext", "1.60 s, row 161")
-    second = pixels(canvas)
-    assert difference(first, second) > 0.01
-    slider.fill("0")
-    expect(slider).to_have_attribute("aria-valuetext", "0.00 s, row 1")
-    # a slow machine draws coarsely at first
-    eventually(watched.page, lambda: difference(first, pixels(canvas)) < 0.004)
+
+    def at(place: str, text: str) -> np.ndarray:
+        slider.fill(place)
+        expect(slider).to_have_attribute("aria-valuetext", text)
+        return pixels(canvas)
+
+    def moves_and_comes_back() -> bool:
+        begin = at("0", "0.00 s, row 1")
+        moved = at("1.6", "1.60 s, row 161")
+        back = at("0", "0.00 s, row 1")
+        return difference(begin, moved) > 0.01 and difference(begin, back) < 0.004
+
+    # a busy machine draws coarsely for a while
+    eventually(watched.page, moves_and_comes_back)
     assert watched.errors == []
     assert watched.foreign() == []
 
@@ -230,7 +236,8 @@ def test_a_session_is_drawn_and_its_events_lead_there(shown: Open) -> None:
     first = pixels(canvas)
     green = (first[..., 1] > first[..., 0] + 60) & (first[..., 1] > first[..., 2] + 60)
     assert green.sum() > 200
-    watched.page.get_by_role("button", name="hit table").click()
+    events = watched.page.get_by_role("region", name="Events")
+    events.get_by_role("button", name="hit table").click()
     slider = watched.page.get_by_role("slider")
     expect(slider).to_have_attribute("aria-valuetext", "3.00 s, row 301")
     assert difference(first, pixels(canvas)) > 0.01
@@ -238,5 +245,14 @@ def test_a_session_is_drawn_and_its_events_lead_there(shown: Open) -> None:
     expect(row).to_contain_text("halted by a collision")
     row.get_by_role("button", name="go to its beginning").click()
     expect(slider).to_have_attribute("aria-valuetext", "0.00 s, row 1")
+    # paper shows what is folded, and pictures at what was done
+    folded = watched.page.locator("details:not([open])")
+    before = folded.count()
+    assert before > 0
+    watched.page.evaluate("dispatchEvent(new Event('beforeprint'))")
+    assert folded.count() == 0
+    assert watched.page.locator(".film img").count() == 2
+    watched.page.evaluate("dispatchEvent(new Event('afterprint'))")
+    assert (folded.count(), watched.page.locator(".film").count()) == (before, 0)
     assert watched.errors == []
     assert watched.foreign() == []

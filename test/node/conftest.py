@@ -5,7 +5,8 @@ from collections.abc import Iterator
 import pytest
 import yaml
 from graph import Graph
-from zenoh_side import connect, free_endpoint
+from own_port import free_endpoint
+from zenoh_side import connect
 
 
 @pytest.fixture

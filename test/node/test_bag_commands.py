@@ -10,12 +10,14 @@ from typing import Any
 import numpy as np
 import pytest
 import scipy.io
+import zstandard
 from mrlab_msgs import msg
 from PIL import Image
 from rclpy.serialization import deserialize_message, serialize_message
-from rosbags.rosbag2 import StoragePlugin, Writer
+from rosbags.rosbag2 import CompressionFormat, CompressionMode, StoragePlugin, Writer
 from rosbags.typesys import Stores, get_types_from_msg, get_typestore
 from sensor_msgs.msg import JointState
+from sqlite_bag import as_sqlite
 from typer.testing import CliRunner
 
 from mrlab_ros.adapters.bags.reader import Bag
@@ -132,13 +134,69 @@ def test_a_reference_takes_the_place_of_what_was_played(bag, tmp_path):
         run("bag", "report", bag, "--reference", tmp_path / "ref.mat")
 
 
-def foreign(folder: Path, plugin: StoragePlugin, prefix: str = "") -> Path:
+def test_a_bag_without_a_session_says_what_it_has(tmp_path: Path) -> None:
+    writer = BagWriter(tmp_path / "empty", definition)
+    writer.close()
+    page = tmp_path / "page.html"
+    said = run("bag", "report", tmp_path / "empty", "--out", page)
+    assert "nothing was recorded in it" in said
+    assert "nothing was recorded in it" in page.read_text()
+    assert "1970" not in said
+    said = run("bag", "report", foreign(tmp_path / "foreign", StoragePlugin.MCAP))
+    assert "no robot of a lab is in it, but /joint_states (sensor_msgs/msg/JointState)" in said
+    assert "mrlab bag import" in said
+
+
+def test_a_report_goes_on_where_the_clock_was_set_and_an_attachment_is_broken(
+    tmp_path: Path,
+) -> None:
+    writer = BagWriter(tmp_path / "class", definition)
+    writer.attach("trajectories/wave.json", "application/json", b"{", 0)
+    topic = Topic("/a/playback_state", "mrlab_msgs/msg/PlaybackState", (QosProfile(),), "RIHS01_0")
+    writer.add_topic(topic)
+    for at, label in ((0, "PLAYING"), (2, "READY"), (-60, "PLAYING"), (-58, "READY")):
+        at_ns = START_NS + at * 10**9
+        state = msg.PlaybackState(header=make_header(at_ns), label=label, trajectory_id="wave")
+        writer.write(topic.name, at_ns, serialize_message(state), START_NS)
+    writer.close()
+    said = run("bag", "report", tmp_path / "class")
+    assert "trajectories/wave.json cannot be read" in said
+    assert said.count("the clock was set back by 62.0 s; what was recorded until it had") == 1
+    assert "2 runs" in said
+
+
+def test_a_report_counts_what_cannot_be_read_and_knows_a_bag_of_even_times(tmp_path: Path) -> None:
+    writer = BagWriter(tmp_path / "class", definition)
+    topic = Topic("/a/playback_state", "mrlab_msgs/msg/PlaybackState", (QosProfile(),), "RIHS01_0")
+    writer.add_topic(topic)
+    for at, stamp, label in ((0, 0, "PLAYING"), (2, -60, "PLAYING"), (4, -58, "READY")):
+        state = msg.PlaybackState(
+            header=make_header(START_NS + stamp * 10**9), label=label, trajectory_id="wave"
+        )
+        writer.write(topic.name, START_NS + at * 10**9, serialize_message(state), START_NS)
+    writer.write(topic.name, START_NS + 5 * 10**9, b"\0\1\0\0" + bytes(8) + b"\xff" * 8, START_NS)
+    writer.close()
+    said = run("bag", "report", tmp_path / "class")
+    assert "at 2.00 s the clock was set back by 62.0 s; the times of this report go on" in said
+    assert "1 message of /a/playback_state cannot be read and is left out" in said
+    assert "1 run" in said
+
+
+def foreign(
+    folder: Path,
+    plugin: StoragePlugin,
+    prefix: str = "",
+    mode: CompressionMode = CompressionMode.NONE,
+) -> Path:
     """A bag of another lab's recorder: an arm's joints in its own order, and a type of its own."""
     types = get_typestore(Stores.ROS2_HUMBLE)
     types.register(get_types_from_msg("int32 x\n", "acme_msgs/msg/Secret"))
     kind = "sensor_msgs/msg/JointState"
     names = [f"{prefix}{name}" for name in (*UR5E[::-1], "finger")]
-    with Writer(folder, version=9, storage_plugin=plugin) as bag:
+    writer = Writer(folder, version=9, storage_plugin=plugin)
+    if mode is not CompressionMode.NONE:
+        writer.set_compression(mode, CompressionFormat.ZSTD)
+    with writer as bag:
         joints = bag.add_connection("/joint_states", kind, typestore=types)
         secret = bag.add_connection("/secret", "acme_msgs/msg/Secret", typestore=types)
         for i in range(3):
@@ -174,16 +232,72 @@ def test_any_ros_bag_becomes_one_of_the_lab(tmp_path: Path, plugin: StoragePlugi
     assert "ur5e_1" in page.read_text()
 
 
+@pytest.mark.parametrize("mode", [CompressionMode.FILE, CompressionMode.MESSAGE])
+def test_a_compressed_file_alone_becomes_a_bag(tmp_path: Path, mode: CompressionMode) -> None:
+    source = foreign(tmp_path / "foreign", StoragePlugin.MCAP, mode=mode)
+    (file,) = (each for each in source.iterdir() if each.name != "metadata.yaml")
+    alone = file.rename(tmp_path / file.name)
+    done = json.loads(run("bag", "import", alone, tmp_path / "mine", "--json"))
+    assert done["robots"] == {"ur5e_1": "ur5e"}
+    if mode is CompressionMode.FILE:
+        alone.write_bytes(alone.read_bytes()[:-9])
+        with pytest.raises(BadInput, match=r"cannot be read as a ROS 2 bag \(its end is missing"):
+            run("bag", "import", alone, tmp_path / "other")
+
+
 def test_a_foreign_bag_is_refused_with_what_it_holds(tmp_path: Path) -> None:
     source = foreign(tmp_path / "foreign", StoragePlugin.SQLITE3)
     with pytest.raises(BadInput, match="no joint states of kuka_kr3_r540.*/joint_states: wrist_3"):
         run("bag", "import", source, tmp_path / "mine", "--robot", "kuka_kr3_r540")
-    with pytest.raises(BadInput, match=f"made with: mrlab bag import {source} NEW"):
-        run("bag", "info", source)
+    with pytest.raises(BadInput, match=f"becomes one with: mrlab bag import {source} NEW"):
+        run("bag", "repair", source)
     (tmp_path / "no.db3").write_bytes(b"no database")
-    with pytest.raises(BadInput, match="cannot be read as a ROS 2 bag"):
-        run("bag", "import", tmp_path / "no.db3", tmp_path / "other")
+    (tmp_path / "cut.db3").write_bytes(b"SQLite format 3\0" + bytes(99))
+    (tmp_path / "lone.mcap.zst").write_bytes(zstandard.compress(b"\x89MCAP0\r\n"))
+    for name in ("no.db3", "cut.db3", "lone.mcap.zst"):
+        with pytest.raises(BadInput, match="cannot be read as a ROS 2 bag"):
+            run("bag", "import", tmp_path / name, tmp_path / "other")
+    for name in ("cut.db3", "lone.mcap.zst"):
+        with pytest.raises(BadInput, match="cannot be read as a ROS 2 bag"):
+            run("bag", "info", tmp_path / name)
     assert not (tmp_path / "mine").exists()
+
+
+def test_a_sqlite3_bag_is_read_as_it_is(bag: Path, tmp_path: Path) -> None:
+    other = as_sqlite(Bag(bag), tmp_path / "other")
+    facts, known = (json.loads(run("bag", "info", each, "--json")) for each in (other, bag))
+    assert facts["files"] == ["other.db3"]
+    for name in ("start_ns", "duration", "messages"):
+        assert facts[name] == known[name]
+    counts = [{t["name"]: t["messages"] for t in each["topics"]} for each in (facts, known)]
+    assert counts[0] == counts[1]
+    assert "in 1 file" in run("bag", "info", other)
+    first, second = (json.loads(run("bag", "report", each, "--json")) for each in (bag, other))
+    for each in (first, second):
+        del each["bag"]
+    assert second["runs"][0]["actions"] == first["runs"][0]["actions"]
+    # A recorder that was killed wrote no metadata.yaml; the page is one of a session, too.
+    (other / "metadata.yaml").unlink()
+    assert json.loads(run("bag", "report", other, "--json"))["runs"] == second["runs"]
+    run("show", other / "other.db3", "-o", tmp_path / "page.html", "--no-open")
+    assert "hit table with wrist_3_link" in (tmp_path / "page.html").read_text()
+    assert run("bag", "import", other, tmp_path / "mine").startswith(str(tmp_path / "mine"))
+
+
+@pytest.mark.parametrize("mode", [CompressionMode.FILE, CompressionMode.MESSAGE])
+def test_a_compressed_bag_is_read_as_it_is(tmp_path: Path, mode: CompressionMode) -> None:
+    source = foreign(tmp_path / "foreign", StoragePlugin.SQLITE3, mode=mode)
+    assert json.loads(run("bag", "info", source, "--json"))["messages"] == 4
+    assert "no robot of a lab is in it, but /joint_states" in run("bag", "report", source)
+
+
+def test_joints_of_no_robot_are_named(tmp_path: Path) -> None:
+    source = foreign(tmp_path / "foreign", StoragePlugin.MCAP)
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr("mrlab_ros.adapters.bags.foreign.chosen_models", lambda *_: {})
+        said = run("bag", "import", source, tmp_path / "mine")
+    assert "/joint_states moves no robot" in said
+    assert "wrist_3_joint, " in said
 
 
 def test_info_says_what_is_in_the_bag(bag):

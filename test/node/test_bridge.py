@@ -65,6 +65,23 @@ def test_frames_arrive_in_order_and_untouched(graph, bridge, session):
     assert got == sent
 
 
+def test_a_stream_is_received_only_while_somebody_subscribes(graph, bridge, session, monkeypatch):
+    monkeypatch.setattr("mrlab_ros.nodes.bridge.outward.LINGER_S", 0.0)
+    stream = graph.client.create_publisher(JointState, JOINTS, qos.STREAM)
+    state = graph.client.create_publisher(Robots, "robots", qos.LATCHED)
+    wait_for(state.get_subscription_count, "the state, which late joiners need, to be received")
+    assert stream.get_subscription_count() == 0
+    got = []
+    for _ in range(2):
+        subscriber = session.declare_subscriber(JOINTS, got.append)
+        wait_for(lambda: heard(session, JOINTS), "the bridge to hear of the subscriber")
+        stream.publish(joints(0.5))
+        wait_for(lambda: got, "the frame")
+        del got[:]
+        subscriber.undeclare()
+        wait_for(lambda: not stream.get_subscription_count(), "the end of the subscription")
+
+
 def test_a_late_joiner_gets_the_newest_state_and_only_that(graph, bridge, session):
     publisher = graph.client.create_publisher(Robots, "robots", qos.LATCHED)
     for name in ("ur5e_1", "ur5e_2", "kr6_1"):
@@ -286,10 +303,10 @@ class StuckSession:
         self.moved = []
         self.released = threading.Event()
 
-    def publisher(self, key, rule, cache):
+    def publisher(self, key, rule, cache, on_match=None):
         return self.Publisher(self, rule.congestion is Congestion.BLOCK)
 
-    def queryable(self, key, on_query):
+    def queryable(self, key, on_query, quick=False):
         return self.Publisher(self, False)
 
     def token(self, key):

@@ -55,6 +55,7 @@ def test_the_bridge_reports_how_long_messages_took_to_it(graph, bridge, session)
     reports = graph.listen(Latency, "latency", qos.LATCHED)
     over_zenoh = []
     session.declare_subscriber("latency", lambda s: over_zenoh.append(s.payload.to_bytes()))
+    session.declare_subscriber(JOINTS, lambda _: None)
     publisher = graph.client.create_publisher(JointState, JOINTS, qos.STREAM)
     wait_for(publisher.get_subscription_count, "the bridge's subscription")
     for i in range(50):

@@ -6,11 +6,12 @@ import json
 import signal
 import threading
 
-import domain_coordinator
 import pytest
 import zenoh
 from graph import Graph, wait_for
 from mrlab_msgs.msg import Robot, Robots
+from own_domain import own_domain
+from own_port import free_endpoint
 from rclpy.serialization import deserialize_message
 from sensor_msgs.msg import JointState
 from std_srvs.srv import SetBool, Trigger
@@ -20,7 +21,6 @@ from zenoh_side import (
     JOINTS,
     ask,
     connect,
-    free_endpoint,
     heard,
     joints,
     start_client,
@@ -28,7 +28,7 @@ from zenoh_side import (
     tokens,
 )
 
-from mrlab_ros.adapters.zenoh_session import configuration
+from mrlab_ros.adapters.zenoh.configuration import configuration
 from mrlab_ros.core.bridge.latency import stamps
 from mrlab_ros.messages import qos
 from mrlab_ros.nodes.bridge.node import BridgeNode
@@ -72,7 +72,7 @@ def router():
 @pytest.fixture
 def other_graph(monkeypatch):
     """Make a graph on another domain, as another lab has."""
-    with domain_coordinator.domain_id() as domain:
+    with own_domain() as domain:
         monkeypatch.setenv("ROS_DOMAIN_ID", str(domain))
         graph = Graph()
         yield graph

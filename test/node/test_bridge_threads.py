@@ -12,7 +12,8 @@ from rclpy.task import Future
 from std_msgs.msg import String
 from std_srvs.srv import Trigger
 
-from mrlab_ros.adapters.zenoh_session import ZenohSession, configuration
+from mrlab_ros.adapters.zenoh.configuration import configuration
+from mrlab_ros.adapters.zenoh.session import ZenohSession
 from mrlab_ros.core.bridge.rules import ServiceRule, TopicRule
 from mrlab_ros.nodes.bridge.context import BridgeContext, Count
 from mrlab_ros.nodes.bridge.inward import Inward
@@ -30,7 +31,7 @@ class Zenoh:
     def __init__(self):
         self.asked = {}
 
-    def queryable(self, key, on_query):
+    def queryable(self, key, on_query, quick=False):
         self.asked[key] = on_query
         return self
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import time
 from collections.abc import Callable
 from typing import Any
 
@@ -22,7 +23,9 @@ from small_lab import LIBRARY, labels, listen_state, spawn
 from std_srvs.srv import Trigger
 from trajectory_msgs.msg import JointTrajectory, JointTrajectoryPoint
 
+from mrlab_ros.core.freezes import Freezes
 from mrlab_ros.messages import qos
+from mrlab_ros.ros import freezes
 
 Result = FollowJointTrajectory.Result
 
@@ -133,6 +136,22 @@ def test_a_bad_goal_is_aborted_with_code_and_sentence_and_disturbs_none(
     assert (done.status, done.result.error_code) == (GoalStatus.STATUS_ABORTED, code)
     assert words in done.result.error_string
     assert client.result(first).status == GoalStatus.STATUS_SUCCEEDED
+
+
+def test_a_goal_that_may_have_waited_in_a_freeze_is_aborted(stage, monkeypatch) -> None:
+    graph, robot, model = stage
+    client = Client(graph, robot)
+    thawed = Freezes("playback", lambda: 0.0)
+    thawed.begin()
+    # It ran 30 s ago, and runs again from now on.
+    thawed.look(time.monotonic() - 30.0)
+    monkeypatch.setattr(freezes, "PROCESS", thawed)
+    done = client.result(client.send(goal(path(model, (0.2, 0.1)))))
+    assert (done.status, done.result.error_code) == (
+        GoalStatus.STATUS_ABORTED,
+        Result.INVALID_GOAL,
+    )
+    assert "playback did not run for 30 s" in done.result.error_string
 
 
 def test_a_cancelled_goal_holds_and_a_new_one_replaces_it(stage) -> None:

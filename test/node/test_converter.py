@@ -176,6 +176,23 @@ def test_bytes_with_a_gripper_are_converted_under_the_name_asked_for(graph, tmp_
     assert [t.id for t in listed.trajectories] == ["mine"]
 
 
+def test_one_file_for_two_robots_is_two_trajectories(graph, tmp_path):
+    path = str(save(tmp_path, q=motion()))
+    for model, name in (
+        ("ur5e", "pick"),
+        ("kuka_kr6_r900_sixx", "pick_kuka_kr6_r900_sixx"),
+        ("kuka_kr6_r900_sixx", "pick_kuka_kr6_r900_sixx"),
+        ("ur5e", "pick"),
+    ):
+        answer = graph.call(ConvertTrajectory, "convert", path=path, robot_model=model)
+        assert answer.trajectory.id == name, answer.message
+    listed = graph.call(ListTrajectories, "list").trajectories
+    assert [(t.id, t.robot_model, t.version) for t in listed] == [
+        ("pick", "ur5e", 2),
+        ("pick_kuka_kr6_r900_sixx", "kuka_kr6_r900_sixx", 2),
+    ]
+
+
 def test_a_doubtful_file_offers_candidates_and_changes_nothing(graph, tmp_path):
     path = save(tmp_path, q1=motion(), q2=motion() / 2)
     answer = graph.call(ConvertTrajectory, "convert", path=str(path), robot_model="ur5e")

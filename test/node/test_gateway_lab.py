@@ -7,9 +7,11 @@ import json
 from collections.abc import Callable
 
 import pytest
-from zenoh_side import free_endpoint
+from own_port import free_endpoint
 
-from mrlab_ros.adapters.zenoh_session import Publisher, Query, ZenohSession, configuration
+from mrlab_ros.adapters.zenoh.configuration import configuration
+from mrlab_ros.adapters.zenoh.port import Publisher, Query
+from mrlab_ros.adapters.zenoh.session import ZenohSession
 from mrlab_ros.core.bridge.latency import attachment
 from mrlab_ros.core.bridge.rules import (
     Direction,

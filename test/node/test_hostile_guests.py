@@ -10,15 +10,15 @@ import zenoh
 from graph import wait_for
 from mrlab_msgs.msg import Latency
 from mrlab_msgs.srv import ListTrajectories
+from own_port import free_endpoint
 from rclpy.serialization import serialize_message
-from zenoh_side import free_endpoint
 
 from mrlab_ros.adapters.keys.folder import Keys, now
 from mrlab_ros.core.bridge import guests
 from mrlab_ros.core.bridge.access import Login
 from mrlab_ros.core.bridge.rules import Role
 from mrlab_ros.messages import qos
-from mrlab_ros.nodes.bridge import node
+from mrlab_ros.nodes.bridge import zenoh_settings
 from mrlab_ros.nodes.bridge.node import BridgeNode
 
 REPORTS = "latency/clients"
@@ -35,7 +35,7 @@ def keys(tmp_path_factory):
 
 @pytest.fixture
 def endpoint():
-    return free_endpoint().replace("tcp/127.0.0.1", "tls/localhost")
+    return free_endpoint("tls", "localhost")
 
 
 @pytest.fixture
@@ -124,7 +124,7 @@ def test_messages_that_are_too_large_or_too_many_do_not_reach_the_bridge(start, 
 
 def test_one_viewer_cannot_keep_the_teacher_out(start, enter, monkeypatch):
     # Together fewer sessions than the viewer tries to have.
-    monkeypatch.setattr(node, "LEAST_SESSIONS", 0)
+    monkeypatch.setattr(zenoh_settings, "LEAST_SESSIONS", 0)
     monkeypatch.setattr(guests, "SPARE", 10)
     start(sessions_each=3)
     crowd = []

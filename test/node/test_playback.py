@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import threading
+import time
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -16,12 +18,14 @@ from small_lab import LIBRARY, TRAJECTORIES, labels, listen_state, load, spawn
 from std_srvs.srv import SetBool, Trigger
 
 from mrlab_ros.core.errors import LabError
+from mrlab_ros.core.freezes import Freezes
 from mrlab_ros.messages import qos
 from mrlab_ros.messages.joint_states import JointStateEncoder
 from mrlab_ros.messages.time import make_header, time_from_message
 from mrlab_ros.nodes.lab.node import LabNode
 from mrlab_ros.nodes.playback import node
 from mrlab_ros.nodes.playback.host import PlaybackHostNode
+from mrlab_ros.ros import freezes
 
 
 @pytest.fixture
@@ -105,6 +109,42 @@ def test_a_command_in_the_wrong_state_is_refused_with_what_is_possible(graph, la
     answer = graph.call(srv.LoadTrajectory, f"/{robot}/load", id="kuka")
     assert not answer.success
     assert "made for kuka_kr6_r900_sixx, this robot is a ur5e" in answer.message
+
+
+@pytest.fixture
+def thawed(monkeypatch):
+    """Make this process one that was frozen until now, and all requests as old as `age` s."""
+
+    def thaw(age: float, frozen: float = 30.0) -> None:
+        now = time.monotonic()
+        noted = Freezes("playback", lambda: 0.0)
+        noted.begin()
+        noted.look(now - frozen)
+        noted.look(now)
+        stamp = SimpleNamespace(
+            monotonic=time.monotonic, time_ns=lambda: time.time_ns() + int(age * 1e9)
+        )
+        monkeypatch.setattr(freezes, "PROCESS", noted)
+        monkeypatch.setattr(freezes, "time", stamp)
+
+    return thaw
+
+
+def test_what_waited_in_a_freeze_moves_no_robot_when_it_ends(graph, lab, thawed):
+    robot = spawn(graph)
+    load(graph, robot, "long")
+    for age, carried_out in ((25.0, False), (0.0, True)):
+        thawed(age)
+        # A load is a deferred service.
+        again = graph.call(srv.LoadTrajectory, f"/{robot}/load", id="long")
+        played = graph.call(Trigger, f"/{robot}/play")
+        assert (again.success, played.success) == (carried_out, carried_out)
+        assert ("did not run for 30 s" in played.message) is not carried_out
+        orders = {"system": "", "orders": [msg.DriveOrder(robot=robot, command=4)]}
+        host = "/playback_host/command_members"
+        late = graph.call(srv.CommandMembers, host, **orders)
+        assert "did not run" not in late.message, "a pause is carried out however late"
+        assert graph.call(Trigger, f"/{robot}/stop").success
 
 
 def test_a_trajectory_for_another_end_effector_is_refused_until_it_is_fitted(graph, lab):

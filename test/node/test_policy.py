@@ -6,7 +6,6 @@ No graph: a session with a lab's settings offers every key of the allow-list, an
 from __future__ import annotations
 
 import json
-import socket
 from collections.abc import Iterator
 from pathlib import Path
 
@@ -14,9 +13,10 @@ import pytest
 import yaml
 import zenoh
 from graph import wait_for
+from own_port import free_endpoint
 
 from mrlab_ros.adapters.keys.folder import Keys, now
-from mrlab_ros.adapters.zenoh_session import configuration
+from mrlab_ros.adapters.zenoh.configuration import configuration
 from mrlab_ros.core.bridge.access import Login
 from mrlab_ros.core.bridge.policy import Policy, Verb
 from mrlab_ros.core.bridge.rules import Direction, Role, parse
@@ -47,9 +47,7 @@ class Lab:
     """A session in the place of the bridge: it answers every service and hears every topic."""
 
     def __init__(self, keys: Keys) -> None:
-        with socket.socket() as probe:
-            probe.bind(("127.0.0.1", 0))
-            self.endpoint = f"tls/localhost:{probe.getsockname()[1]}"
+        self.endpoint = free_endpoint("tls", "localhost")
         settings = keys.settings(RULES, "", now())
         self.session = zenoh.open(configuration(listen=(self.endpoint,), security=settings))
         self.heard: set[tuple[str, str]] = set()

@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+import threading
+import time
+
 import pytest
 from graph import wait_for
 from rclpy.node import Node
@@ -9,6 +12,7 @@ from rclpy.serialization import deserialize_message
 from std_msgs.msg import String
 
 from mrlab_ros.messages import qos
+from mrlab_ros.ros.arrivals import BATCH, Arrivals
 from mrlab_ros.ros.raw_streams import Received, TopicPoll, WaitSetThread
 
 
@@ -102,6 +106,115 @@ class TestWaitSetThread:
         thread.start()
         wait_for(lambda: len(turns) > 10, "turns")
         thread.stop()
+
+
+class TestArrivals:
+    @pytest.fixture
+    def errors(self):
+        return []
+
+    @pytest.fixture
+    def arrivals(self, streams, errors):
+        made = Arrivals("test", errors.append)
+        yield made
+        made.close()
+
+    def test_each_subscription_has_its_messages_in_order_with_their_stamps(
+        self, graph, streams, arrivals
+    ):
+        got = {"a": [], "b": []}
+        for topic, inbox in got.items():
+            arrivals.add(
+                subscribe(streams, topic),
+                lambda data, published_ns, inbox=inbox: inbox.append((text(data), published_ns)),
+            )
+        began = time.time_ns()
+        for topic in got:
+            out = publisher(graph, topic)
+            for i in range(2 * BATCH):
+                out.publish(String(data=f"{topic}{i}"))
+        wait_for(lambda: all(len(inbox) == 2 * BATCH for inbox in got.values()), "all messages")
+        for topic, inbox in got.items():
+            assert [words for words, _ in inbox] == [f"{topic}{i}" for i in range(2 * BATCH)]
+            stamps = [published_ns for _, published_ns in inbox]
+            assert stamps == sorted(stamps)
+            assert began <= stamps[0] <= stamps[-1] <= time.time_ns()
+
+    def test_what_came_before_it_is_taken(self, graph, streams, arrivals):
+        subscription = subscribe(streams, "a")
+        out = publisher(graph, "a")
+        for i in range(2 * BATCH):
+            out.publish(String(data=str(i)))
+        out.wait_for_all_acked()
+        got = []
+        arrivals.add(subscription, lambda data, _: got.append(text(data)))
+        wait_for(lambda: len(got) == 2 * BATCH, "the messages from before")
+
+    def test_a_callback_that_raises_is_reported_and_the_next_message_taken(
+        self, graph, streams, arrivals, errors
+    ):
+        got = []
+
+        def take(data, _):
+            if text(data) == "bad":
+                raise ValueError("bad")
+            got.append(text(data))
+
+        arrivals.add(subscribe(streams, "a"), take)
+        out = publisher(graph, "a")
+        for word in ("one", "bad", "two"):
+            out.publish(String(data=word))
+        wait_for(lambda: len(got) == 2, "both good messages")
+        assert got == ["one", "two"]
+        assert [str(error) for error in errors] == ["bad"]
+
+    def test_what_a_publisher_sent_in_vain_is_counted(self, graph, streams, arrivals):
+        got, gaps = [], []
+        held = threading.Event()
+
+        def take(data, _):
+            got.append(text(data))
+            held.wait(20)
+
+        subscription = streams.create_subscription(String, "a", lambda _: None, 1, raw=True)
+        arrivals.add(subscription, take, gaps.append)
+        out = graph.client.create_publisher(String, "a", 1)
+        wait_for(out.get_subscription_count, "a subscription")
+        out.publish(String(data="0"))
+        wait_for(lambda: got, "the first message")
+        for i in range(1, 6):
+            out.publish(String(data=str(i)))
+            out.wait_for_all_acked()
+        held.set()
+        wait_for(lambda: "5" in got, "the newest message")
+        assert len(got) + sum(gaps) == 6
+        assert sum(gaps) == 4
+
+    def test_a_removed_subscription_may_be_destroyed_at_once_under_a_flood(
+        self, graph, streams, arrivals, errors
+    ):
+        got = []
+        out = graph.client.create_publisher(String, "a", qos.STREAM)
+        over = threading.Event()
+
+        def flood():
+            while not over.is_set():
+                out.publish(String(data="x"))
+
+        flooding = threading.Thread(target=flood)
+        flooding.start()
+        try:
+            for _ in range(10):
+                subscription = subscribe(streams, "a")
+                arrivals.add(subscription, lambda data, _: got.append(1))
+                count = len(got)
+                wait_for(lambda count=count: len(got) > count, "a message")
+                arrivals.remove(subscription)
+                streams.destroy_subscription(subscription)
+        finally:
+            over.set()
+            flooding.join()
+        assert errors == []
 
 
 class TestTopicPoll:

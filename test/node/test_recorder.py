@@ -24,6 +24,7 @@ from rclpy.serialization import serialize_message
 from rosbags.highlevel import AnyReader
 from rosbags.typesys import Stores, get_types_from_msg, get_typestore
 from sensor_msgs.msg import JointState
+from sqlite_bag import as_sqlite
 from std_msgs.msg import String
 from std_srvs.srv import SetBool, Trigger
 
@@ -39,6 +40,7 @@ from mrlab_ros.messages.definitions import definition
 from mrlab_ros.nodes.recorder import node as recorder_node
 from mrlab_ros.nodes.recorder import recording, replaying
 from mrlab_ros.nodes.recorder.node import RecorderNode
+from mrlab_ros.ros.raw_streams import Received
 from mrlab_ros.ros.share import directory
 
 State = msg.RecorderState
@@ -328,6 +330,35 @@ def test_what_a_topic_said_before_is_recorded_as_its_newest_value_alone(
     assert words(bag, "/systems") == ["old 4", "new"]
 
 
+def test_every_value_of_a_latched_topic_is_recorded_where_the_clock_is_set(
+    graph, recorder, states, monkeypatch
+):
+    said = publisher(graph, "/systems", qos.LATCHED_EVENTS)
+    said("old")
+    folder = start(graph, "class", ("/systems",))
+    wait_for(lambda: states.last() and states.last().messages == 1, "the present value")
+    # What follows was published before the topic was followed, by the clock.
+    hour_ns = 3600 * 10**9
+    (followed,) = recorder._recording._followed.values()
+    followed.since_ns += hour_ns
+    for number in range(3):
+        said(f"new {number}")
+    wait_for(lambda: states.last().messages == 4, "all values")
+    order(graph, "stop")
+    assert words(folder, "/systems") == ["old", "new 0", "new 1", "new 2"]
+
+
+def test_a_value_of_before_a_clock_was_set_back_is_no_event_of_the_recording():
+    topic = Topic("/systems", "std_msgs/msg/String", (QosProfile(durability="transient_local"),))
+    followed = recording.Followed(None, topic, 1)
+    late_ns = followed.since_ns + 3600 * 10**9
+    for published_ns in (late_ns, followed.since_ns - 1):
+        assert not followed.takes(Received(0, "/systems", b"", published_ns, 0))
+    assert followed.takes(Received(0, "/systems", b"", followed.since_ns, 0))
+    assert followed.take_before() is None
+    assert followed.take_before(at_once=True).published_ns == followed.since_ns - 1
+
+
 def test_a_disk_that_refuses_is_told_at_once_and_the_recorder_lives_on(
     graph, counter, launch, states, tmp_path
 ):
@@ -447,6 +478,15 @@ def test_a_replay_says_the_same_in_the_same_order(graph, recorder, session, stat
     assert ears.of("/latency") == []
     assert graph.client.count_publishers("/ur5e_1/telemetry") == 0
     assert words(session, "/ur5e_1/telemetry") == [f"event {n}" for n in range(100)]
+
+
+def test_a_sqlite3_bag_is_replayed_as_it_is(graph, recorder, session, states, tmp_path):
+    as_sqlite(Bag(session), tmp_path / "other")
+    ears = Ears(graph)
+    replay(graph, "other", rate=10.0, start=0.6)
+    wait_until_over(states)
+    assert ears.of("/ur5e_1/grasp") == ["state 50", "state 75"]
+    assert ears.of("/ur5e_1/telemetry") == [f"event {n}" for n in range(60, 100)]
 
 
 def test_a_replay_that_starts_later_says_first_how_things_are(graph, recorder, session, states):

@@ -7,7 +7,6 @@ from __future__ import annotations
 
 import json
 import os
-import socket
 import subprocess
 import sys
 from datetime import timedelta
@@ -19,6 +18,7 @@ from child_process import HOST, start_child
 from graph import wait_for
 from mrlab_msgs.msg import Latency, Robot, Robots
 from mrlab_msgs.srv import ListTrajectories, Remove, Step
+from own_port import free_endpoint
 from rclpy.parameter import Parameter
 from rclpy.serialization import serialize_message
 from sensor_msgs.msg import JointState
@@ -84,9 +84,7 @@ def keys(folders):
 
 @pytest.fixture
 def endpoint():
-    with socket.socket() as probe:
-        probe.bind(("127.0.0.1", 0))
-        return f"tls/localhost:{probe.getsockname()[1]}"
+    return free_endpoint("tls", "localhost")
 
 
 @pytest.fixture

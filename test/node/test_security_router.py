@@ -10,15 +10,16 @@ import zenoh
 from graph import wait_for
 from mrlab_msgs.msg import Latency, Robots
 from mrlab_msgs.srv import Remove
+from own_port import free_endpoint
 from rclpy.parameter import Parameter
 from rclpy.serialization import serialize_message
 from sensor_msgs.msg import JointState
 from std_srvs.srv import Trigger
 from zenoh import ext
-from zenoh_side import JOINTS, free_port, tokens
+from zenoh_side import JOINTS, tokens
 
 from mrlab_ros.adapters.keys.folder import Keys, now
-from mrlab_ros.adapters.zenoh_session import limits
+from mrlab_ros.adapters.zenoh.configuration import limits
 from mrlab_ros.core.bridge.access import Login
 from mrlab_ros.core.bridge.rules import Role, parse
 from mrlab_ros.core.errors import BadInput, Misuse
@@ -52,7 +53,7 @@ def keys(tmp_path_factory):
 
 @pytest.fixture
 def endpoint():
-    return f"tls/localhost:{free_port()}"
+    return free_endpoint("tls", "localhost")
 
 
 @pytest.fixture

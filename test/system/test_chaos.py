@@ -25,7 +25,7 @@ from pathlib import Path
 import pytest
 from chaos_model import Client, Model
 from launched_lab import done, launched_lab, mrlab
-from zenoh_side import free_endpoint
+from own_port import free_endpoint
 
 from mrlab_ros.processes.run_file import RunFile
 

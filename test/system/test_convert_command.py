@@ -1,9 +1,9 @@
 """The `mrlab convert` command as a student runs it."""
 
 import json
-import subprocess
-import sys
 
+import in_process
+import launched_lab
 import numpy as np
 import pytest
 import rclpy
@@ -22,21 +22,9 @@ def motion(rows=200):
     return (10 * u**3 - 15 * u**4 + 6 * u**5) * np.linspace(0.2, 0.9, 6) - 0.3
 
 
-def run(*arguments):
-    return subprocess.run(
-        [
-            sys.executable,
-            "-m",
-            "mrlab_ros.cli",
-            "convert",
-            "--robot",
-            "ur5e",
-            *map(str, arguments),
-        ],
-        capture_output=True,
-        text=True,
-        timeout=100,
-    )
+def run(*arguments, start=in_process.mrlab):
+    """Run it in this process, or by `start` in one of its own."""
+    return start("convert", "--robot", "ur5e", *arguments)
 
 
 @pytest.fixture
@@ -51,7 +39,7 @@ def folder(tmp_path):
 
 
 def test_one_json_object_a_file_and_the_exit_code_of_the_worst(folder, tmp_path):
-    done = run("--json", "--out", tmp_path / "out", folder)
+    done = run("--json", "--out", tmp_path / "out", folder, start=launched_lab.mrlab)
     assert done.returncode == 1, done.stderr
     bad, good, two = (json.loads(line) for line in done.stdout.splitlines())
     assert (bad["outcome"], bad["diagnostics"][0]["code"]) == ("rejected", "unsupported_format")
@@ -112,16 +100,16 @@ def test_a_joint_trajectory_comes_from_a_topic(tmp_path):
 
 
 @pytest.mark.parametrize(
-    ("arguments", "words"),
+    ("arguments", "words", "start"),
     [
-        (["--robot", "r2d2", "x.mat"], "r2d2"),
-        (["--to", "doc", "x.mat"], "csv"),
-        (["--end-effector", "hook", "x.mat"], "hook"),
-        ([], "--topic"),
+        (["--robot", "r2d2", "x.mat"], "r2d2", launched_lab.mrlab),
+        (["--to", "doc", "x.mat"], "csv", in_process.mrlab),
+        (["--end-effector", "hook", "x.mat"], "hook", in_process.mrlab),
+        ([], "--topic", in_process.mrlab),
     ],
 )
-def test_a_wrong_call_is_one_sentence(arguments, words):
-    done = run(*arguments)
+def test_a_wrong_call_is_one_sentence(arguments, words, start):
+    done = run(*arguments, start=start)
     assert done.returncode == 1
     assert words in done.stderr
     assert "Traceback" not in done.stderr

@@ -6,10 +6,12 @@ import json
 import socket
 import subprocess
 import sys
+from collections.abc import Iterator
 from pathlib import Path
 
 import numpy as np
 import pytest
+from own_domain import own_domain
 from rclpy.serialization import serialize_message
 from sensor_msgs.msg import JointState
 
@@ -39,8 +41,11 @@ def demo(*arguments: str) -> subprocess.CompletedProcess[str]:
 
 
 @pytest.fixture(autouse=True)
-def runtime(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def runtime(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[None]:
     monkeypatch.setenv("XDG_RUNTIME_DIR", str(tmp_path))
+    with own_domain() as domain:
+        monkeypatch.setenv("ROS_DOMAIN_ID", str(domain))
+        yield
 
 
 def test_two_robots_play_and_every_frame_arrives() -> None:
@@ -127,10 +132,8 @@ def test_a_port_in_use_is_not_chosen() -> None:
     assert free_port(ZENOH_PORT) > 0
 
 
-def test_a_domain_in_use_is_not_chosen(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.delenv("ROS_DOMAIN_ID", raising=False)
+def test_a_domain_in_use_is_not_chosen() -> None:
     first, domain = claim_free_domain()
-    monkeypatch.setenv("ROS_DOMAIN_ID", str(domain))
     second, other = claim_free_domain()
     assert other != domain
     second.release()

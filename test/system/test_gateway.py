@@ -14,17 +14,19 @@ import subprocess
 import sys
 import time
 from collections.abc import Iterator
+from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
 import httpx
+import in_process
 import pytest
 from child_process import start_child
-from launched_lab import done, mrlab
+from launched_lab import done
+from own_port import free_endpoint
 from websockets.exceptions import ConnectionClosed, InvalidStatus
 from websockets.sync.client import ClientConnection, connect
 
-from mrlab_ros.commands.demo.lab import free_port
 from mrlab_ros.commands.up.web import opening_url
 from mrlab_ros.gateway.people.database import FILE
 
@@ -37,11 +39,12 @@ class Gateway:
     """A gateway on a free port, and what it prints."""
 
     def __init__(self, folder: Path, *options: str | Path) -> None:
+        self.folder = folder
         self._log = folder / "gateway.log"
         with self._log.open("wb") as output:
             self.process = start_child(
                 *(sys.executable, "-m", "mrlab_ros.gateway", "--http", "127.0.0.1:0"),
-                *("--state-dir", str(folder), "--zenoh", f"tcp/127.0.0.1:{free_port(0)}"),
+                *("--state-dir", str(folder), "--zenoh", free_endpoint()),
                 *map(str, options),
                 stdout=output,
                 stderr=subprocess.STDOUT,
@@ -76,15 +79,30 @@ class Gateway:
         )
 
 
-@pytest.fixture
-def local(tmp_path: Path) -> Iterator[Gateway]:
-    gateway = Gateway(tmp_path)
+@contextmanager
+def running(folder: Path, *options: str | Path) -> Iterator[Gateway]:
+    """Run a gateway that answers."""
+    gateway = Gateway(folder, *options)
     try:
         gateway.wait()
         yield gateway
     finally:
         gateway.process.kill()
         gateway.process.wait()
+
+
+@pytest.fixture
+def own(tmp_path: Path) -> Iterator[Gateway]:
+    """A gateway of one's own."""
+    with running(tmp_path) as gateway:
+        yield gateway
+
+
+@pytest.fixture(scope="module")
+def local(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Gateway]:
+    """A gateway that several tests use."""
+    with running(tmp_path_factory.mktemp("local")) as gateway:
+        yield gateway
 
 
 @pytest.fixture(scope="module")
@@ -94,16 +112,11 @@ def keys(tmp_path_factory: pytest.TempPathFactory) -> Path:
     return folder
 
 
-@pytest.fixture
-def secured(tmp_path: Path, keys: Path) -> Iterator[Gateway]:
-    gateway = Gateway(tmp_path, "--keys", keys)
-    try:
-        gateway.wait()
+@pytest.fixture(scope="module")
+def secured(tmp_path_factory: pytest.TempPathFactory, keys: Path) -> Iterator[Gateway]:
+    with running(tmp_path_factory.mktemp("secured"), "--keys", keys) as gateway:
         gateway.url = gateway.url.replace("127.0.0.1", "localhost")
         yield gateway
-    finally:
-        gateway.process.kill()
-        gateway.process.wait()
 
 
 def browser_of(gateway: Gateway, keys: Path) -> httpx.Client:
@@ -116,10 +129,10 @@ def refusal(response: httpx.Response) -> tuple[int, str]:
     return response.status_code, response.json()["error"]["code"]
 
 
-def test_only_the_opened_browser_reaches_a_local_lab(local: Gateway, tmp_path: Path) -> None:
+def test_only_the_opened_browser_reaches_a_local_lab(local: Gateway) -> None:
     with httpx.Client(base_url=local.url, follow_redirects=True) as browser:
         assert refusal(browser.get("/api/devices")) == (401, "not_signed_in")
-        browser.get(opening_url(local.url, tmp_path / FILE))
+        browser.get(opening_url(local.url, local.folder / FILE))
         assert browser.get("/api/session").json()["user"]["name"] == "local"
         # A name that was made to point here, and a page of another site.
         for path in ("/", "/api/devices"):
@@ -130,6 +143,11 @@ def test_only_the_opened_browser_reaches_a_local_lab(local: Gateway, tmp_path: P
         assert refusal(without) == (403, "csrf")
         assert local.send(browser, "DELETE", "/api/session").status_code == 204
         assert browser.get("/api/session").json()["user"] is None
+
+
+def users(*words: str, keys: Path) -> subprocess.CompletedProcess[str]:
+    """Run `mrlab users` in this process."""
+    return in_process.mrlab("users", *words, "--dir", keys)
 
 
 def test_people_sign_in_over_https_until_they_are_removed(secured: Gateway, keys: Path) -> None:
@@ -146,17 +164,19 @@ def test_people_sign_in_over_https_until_they_are_removed(secured: Gateway, keys
         cookie = answer.headers["set-cookie"]
         assert cookie.startswith("__Host-mrlab-")
         assert {"HttpOnly", "Secure", "SameSite=strict"} <= set(cookie.split("; "))
-        done("users", "role", "anna", "operator", "--dir", keys)
+        assert users("role", "anna", "operator", keys=keys).returncode == 0
         assert browser.get("/api/session").json()["user"]["role"] == "operator"
-        assert "operator" in done("users", "list", "--dir", keys)
-        done("users", "remove", "anna", "--dir", keys)
+        listed = users("list", keys=keys)
+        assert listed.returncode == 0
+        assert "operator" in listed.stdout
+        assert users("remove", "anna", keys=keys).returncode == 0
         assert browser.get("/api/session").json()["user"] is None
         again = secured.send(
             browser, "POST", "/api/session", json={"name": "anna", "password": PASSWORD}
         )
         assert refusal(again) == (401, "not_signed_in")
     for name, words in (("anna", "nobody called 'anna'"), ("ben", "nobody called 'ben'")):
-        assert words in mrlab("users", "remove", name, "--dir", keys).stderr
+        assert words in users("remove", name, keys=keys).stderr
 
 
 def handshake(gateway: Gateway, browser: httpx.Client) -> dict[str, Any]:
@@ -178,9 +198,9 @@ def reason_of_end(link: ClientConnection) -> str:
         return ended.rcvd.reason if ended.rcvd is not None else ""
 
 
-def test_a_sign_in_that_ends_closes_its_socket(local: Gateway, tmp_path: Path) -> None:
+def test_a_sign_in_that_ends_closes_its_socket(local: Gateway) -> None:
     with httpx.Client(base_url=local.url, follow_redirects=True) as browser:
-        browser.get(opening_url(local.url, tmp_path / FILE))
+        browser.get(opening_url(local.url, local.folder / FILE))
         with (
             pytest.raises(InvalidStatus, match="403"),
             connect(**handshake(local, browser), origin=FOREIGN),
@@ -206,13 +226,13 @@ def test_who_does_not_trust_the_authority_does_not_connect(secured: Gateway) -> 
 
 
 @pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
-def test_it_ends_when_it_is_asked_to(local: Gateway, number: signal.Signals) -> None:
-    with httpx.Client(base_url=local.url) as browser:
+def test_it_ends_when_it_is_asked_to(own: Gateway, number: signal.Signals) -> None:
+    with httpx.Client(base_url=own.url) as browser:
         browser.get("/healthz")
-        local.process.send_signal(number)
-        assert local.process.wait(DEADLINE) in (0, -number)
-    assert "Traceback" not in local.said
-    assert "ERROR" not in local.said
+        own.process.send_signal(number)
+        assert own.process.wait(DEADLINE) in (0, -number)
+    assert "Traceback" not in own.said
+    assert "ERROR" not in own.said
 
 
 @pytest.mark.parametrize(
@@ -236,11 +256,10 @@ def test_a_wrong_configuration_is_one_sentence(
 
 def test_a_port_in_use_says_what_to_do(local: Gateway, tmp_path: Path) -> None:
     where = local.url.removeprefix("http://")
-    (tmp_path / "other").mkdir()
-    other = Gateway(tmp_path / "other", "--http", where)
+    other = Gateway(tmp_path, "--http", where)
     # Not lasting: the other program may end.
     assert other.process.wait(DEADLINE) == 1
     assert "choose another one with --http" in other.said
-    refused = mrlab("up", "--http", where)
+    refused = in_process.mrlab("up", "--http", where)
     assert refused.returncode == 1
     assert "choose another one with --http" in refused.stderr

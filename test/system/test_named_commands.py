@@ -18,11 +18,11 @@ from child_process import start_child
 from graph import wait_for
 from launched_lab import DEADLINE, MRLAB, launched_lab
 from named_commands import GROUPS, PEOPLE
+from own_port import free_endpoint
 from page_blocks import ROOT, Block, all_blocks, pattern, plain
 from rosbags.rosbag2 import Writer
 from rosbags.typesys import Stores, get_typestore
 from typer.testing import CliRunner
-from zenoh_side import free_endpoint
 
 from mrlab_ros import Lab
 from mrlab_ros.cli import make_app

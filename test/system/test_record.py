@@ -15,10 +15,10 @@ import zenoh
 from child_process import start_child
 from launched_lab import DEADLINE, MRLAB, done, launched_lab
 from mrlab_msgs import msg
+from own_port import free_endpoint
 from sensor_msgs.msg import JointState
 
 from mrlab_ros.adapters.bags.reader import Bag
-from mrlab_ros.commands.demo.lab import free_port
 from mrlab_ros.messages import qos
 from mrlab_ros.ros.graph_node import Graph
 
@@ -37,7 +37,7 @@ def wait_for(condition: Callable[[], Any], what: str) -> Any:
 @pytest.fixture
 def endpoint(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[str]:
     """Where the bridge of a running lab with one robot listens."""
-    where = f"tcp/127.0.0.1:{free_port(0)}"
+    where = free_endpoint()
     with launched_lab(tmp_path, monkeypatch, "--robots", "ur5e", "--zenoh-listen", where):
         yield where
 

@@ -19,9 +19,10 @@ import scipy.io
 from graph import wait_for
 from launched_lab import done, launched_lab
 from mrlab_msgs.msg import TrajectoryCatalogue
+from own_port import free_endpoint
 from rclpy.serialization import deserialize_message
 from s3_server import BUCKET, s3_server
-from zenoh_side import connect, free_endpoint
+from zenoh_side import connect
 
 LONG = 90.0
 

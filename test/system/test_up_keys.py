@@ -11,24 +11,24 @@ from pathlib import Path
 from typing import Any
 
 import httpx
+import in_process
 import pytest
 import zenoh
 from launched_lab import DEADLINE, done, launched_lab, mrlab
-
-from mrlab_ros.commands.demo.lab import free_port
+from own_port import free_endpoint, free_port
 
 
 @pytest.fixture
 def keys(tmp_path: Path) -> Path:
     folder = tmp_path / "keys"
-    assert mrlab("keys", "init", "--dir", folder).returncode == 0
-    assert mrlab("keys", "add", "anna", "--role", "display", "--dir", folder).returncode == 0
+    for words in (("init",), ("add", "anna", "--role", "display")):
+        assert in_process.mrlab("keys", *words, "--dir", folder).returncode == 0
     return folder
 
 
 @pytest.fixture
 def endpoint(keys: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[str]:
-    where = f"tls/127.0.0.1:{free_port(0)}"
+    where = free_endpoint("tls")
     options = ("--keys", keys, "--zenoh-listen", where, "--robots", "ur5e")
     with launched_lab(tmp_path, monkeypatch, *options):
         yield where
@@ -77,7 +77,7 @@ def test_people_reach_a_lab_with_keys_by_its_pages(
     keys: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """The gateway has its own key, and people of its own sign in over HTTPS."""
-    listen, http = f"tls/127.0.0.1:{free_port(0)}", f"127.0.0.1:{free_port(0)}"
+    listen, http = free_endpoint("tls"), f"127.0.0.1:{free_port()}"
     options = ("--keys", keys, "--zenoh-listen", listen, "--http", http, "--robots", "ur5e")
     trusted = ssl.create_default_context(cafile=str(keys / "ca.pem"))
     with (
@@ -103,6 +103,6 @@ def test_a_lab_that_may_not_listen_so_does_not_start(keys: Path) -> None:
         (("--zenoh-listen", "tcp/127.0.0.1:7447", "--keys", str(keys)), "leave the keys out"),
         (("--keys", str(keys / "clients")), "mrlab keys init"),
     ):
-        refused = mrlab("up", *arguments)
+        refused = in_process.mrlab("up", *arguments)
         assert refused.returncode == 1
         assert words in refused.stderr

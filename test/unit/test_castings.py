@@ -9,18 +9,24 @@ from typing import Any
 
 import numpy as np
 import pytest
+import trimesh
 
 ROOT = Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "scripts" / "robots"))
 
 import casting  # noqa: E402
+import castings  # noqa: E402
 import convex  # noqa: E402
 import cuts  # noqa: E402
+import drums  # noqa: E402
+import fairing  # noqa: E402
 import figure  # noqa: E402
 import kuka  # noqa: E402
 import measure  # noqa: E402
 import measured  # noqa: E402
 import mesher  # noqa: E402
+import outlines  # noqa: E402
+import solids  # noqa: E402
 from body import BLACK, ORANGE  # noqa: E402
 
 from mrlab_ros.adapters.robots import hulls as fits  # noqa: E402
@@ -91,11 +97,57 @@ def test_a_drum_cut_across_becomes_round_again() -> None:
         },
     }
     body = casting.casting(lying)
-    turned = casting.turned_true(body, np.eye(4))
+    turned = drums.turned_true(body, np.eye(4))
     angle = np.linspace(-0.7, 0.7, 50)
     rim = np.column_stack([0.06 * np.cos(angle), 0.06 * np.sin(angle), np.full(50, 0.05)])
     assert np.abs(turned.distance(rim)).mean() < 0.0016
     assert np.std(turned.distance(rim)) < 0.7 * np.std(body.distance(rim))
+
+
+def leaning_rim() -> dict[str, Any]:
+    """A wall that leans over by more than its thickness from one section to the next one."""
+    heights = range(10, 120, 20)
+    return {
+        "box": [[0, -40, 0], [132, 40, 120]],
+        "slice_axis": "z",
+        "section_axes": "xy",
+        "sections": [
+            {"at": z, "outlines": [[z, -40, z + 12, -40, z + 12, 40, z, 40]]} for z in heights
+        ],
+        "silhouettes": {
+            "xy": {"outer": [[0, -40, 132, -40, 132, 40, 0, 40]]},
+            "xz": {"outer": [[0, 0, 12, 0, 132, 120, 120, 120]]},
+            "yz": {"outer": [[-40, 0, 40, 0, 40, 120, -40, 120]]},
+        },
+    }
+
+
+def test_a_thin_wall_that_leans_does_not_tear_between_sections() -> None:
+    body = casting.casting(leaning_rim())
+    height = np.linspace(0.012, 0.108, 60)
+    middle = np.column_stack([height + 0.006, np.zeros(60), height])
+    # A plain blend of two walls that lie apart is empty half-way.
+    assert body.distance(middle).max() < -0.0015
+
+
+def test_fairing_closes_slits_and_leaves_walls_where_they_are() -> None:
+    wall = solids.block(np.array([0.3, 0.2, 0.1]), 0.0)
+    slit = solids.block(np.array([0.002, 0.4, 0.2]), 0.0)
+    body = fairing.faired(wall - slit, 0.002)
+    faces = [[x, y, z] for x in (0.01, 0.07) for y in (0.03, -0.06) for z in (0.05, -0.05)]
+    assert np.abs(body.distance(np.array(faces))).max() < 0.0004
+    assert body.distance(np.array([[0.0, 0.02, 0.0]]))[0] < -0.001
+
+
+def test_halves_that_are_nearly_alike_become_equal() -> None:
+    skew = solids.block(np.array([0.3, 0.2, 0.1]), 0.0).moved(0.0, 0.001, 0.0)
+    even = fairing.mirrored(skew, 0.004)
+    sides = even.distance(np.array([[0.0, 0.1, 0.0], [0.0, -0.1, 0.0]]))
+    assert sides[0] == pytest.approx(sides[1], abs=1e-9)
+    lop = skew.moved(0.0, 0.02, 0.0)
+    assert fairing.mirrored(lop, 0.004).distance(np.array([[0.0, 0.121, 0.0]]))[0] == (
+        pytest.approx(0.0, abs=1e-9)
+    )
 
 
 def test_a_painted_mesh_keeps_its_surface_and_has_no_gap(drum: Any) -> None:
@@ -126,6 +178,27 @@ def test_few_hulls_hold_a_casting_and_stay_close_to_it(drum: Any) -> None:
     assert fits.stands_off(faces, found, 4000) <= fits.MOST_LARGER
 
 
+def test_what_lies_outside_all_hulls_becomes_a_corner_of_the_nearest() -> None:
+    corners = np.array(np.meshgrid(*[[0.0, 0.1]] * 3)).reshape(3, -1).T
+    hulls = [corners, corners + np.array([0.3, 0, 0])]
+    inside, beside = np.full(3, 0.05), np.array([0.05, 0.05, 0.102])
+    # above no face, beyond an edge: 5.7 mm away, 4 mm above each plane
+    beyond = np.array([0.404, 0.104, 0.05])
+    assert convex.held(hulls, np.array([inside, beside])) == hulls
+    first, second = convex.held(hulls, np.array([inside, beside, beyond]))
+    assert first is corners
+    assert (second == beyond).all(axis=1).any()
+    assert len(second) == 9
+
+
+def test_a_surface_beyond_the_stated_box_is_whole() -> None:
+    ball = solids.Solid(
+        lambda points: np.linalg.norm(points, axis=1) - 0.05, np.full(3, -0.04), np.full(3, 0.04)
+    )
+    reach = np.linalg.norm(mesher.contour(ball, 0.004).vertices, axis=1)
+    assert np.allclose(reach, 0.05, atol=1e-3)
+
+
 def test_slits_between_the_pieces_of_a_collision_mesh_are_closed() -> None:
     slit = stepped_drum()
     for section in slit["sections"]:
@@ -137,6 +210,55 @@ def test_slits_between_the_pieces_of_a_collision_mesh_are_closed() -> None:
     assert measure.solid(slit).body_count > measure.solid(whole).body_count == 1
     assert measure.solid(whole).volume > 1.05 * measure.solid(slit).volume
     assert np.ptp(measure.solid(whole).vertices, axis=0) == pytest.approx([120, 118, 120], abs=1.5)
+
+
+def ball(radius: float, cell: float, middle: float = 0.0) -> mesher.Mesh:
+    return mesher.contour(solids.ball(radius).moved(middle, 0, 0), cell)
+
+
+def test_what_is_thinned_together_is_as_exact_everywhere_and_stays_in_place() -> None:
+    large, small = castings.together([ball(0.5, 0.03), ball(0.05, 0.004, 0.3)], 1500)
+    assert len(large.faces) + len(small.faces) == pytest.approx(1500, rel=0.03)
+    assert len(large.faces) > 3 * len(small.faces)
+    for mesh, radius, middle in ((large, 0.5, 0.0), (small, 0.05, 0.3)):
+        away = np.linalg.norm(mesh.vertices - [middle, 0, 0], axis=1)
+        assert np.abs(away - radius).max() < 0.004
+
+
+def test_a_thinned_ball_is_shaded_as_the_fine_one() -> None:
+    fine = mesher.creased(ball(0.5, 0.02))
+    thin = mesher.creased(mesher.decimated(fine, 300))
+
+    def off(mesh: mesher.Mesh) -> float:
+        true = mesh.vertices / np.linalg.norm(mesh.vertices, axis=1, keepdims=True)
+        return float(
+            np.degrees(np.arccos(np.clip((true * mesh.normals).sum(axis=1), -1, 1))).max()
+        )
+
+    told = castings.shaded(thin, fine)
+    assert off(told) < 0.4 * off(thin)
+    # a wall that looks the other way tells nothing
+    turned = mesher.Mesh(fine.vertices, fine.faces, -fine.normals)
+    np.testing.assert_allclose(castings.shaded(thin, turned).normals, thin.normals, atol=1e-4)
+
+
+def test_sections_are_measured_on_an_open_mesh() -> None:
+    box = trimesh.creation.box((0.1, 0.06, 0.08))
+    box.apply_scale(1000)
+    # one end is missing
+    box.update_faces(box.triangles_center[:, 0] < 49)
+    link = {"slice_axis": "x", "section_axes": "yz", "box": [[-50, -30, -40], [50, 30, 40]]}
+    found = outlines.sections(box, link, 4)
+    assert [section["at"] for section in found] == [-37.5, -12.5, 12.5, 37.5]
+    for section in found:
+        (outline,) = section["outlines"]
+        points = np.array(outline).reshape(-1, 2)
+        np.testing.assert_allclose(
+            [points.min(axis=0), points.max(axis=0)], [[-30, -40], [30, 40]]
+        )
+    assert outlines.overlap(box, {**link, "sections": found}) > 0.99
+    moved = [{"at": -10, "outlines": [[0, 0, 60, 0, 60, 80, 0, 80]]}]
+    assert outlines.overlap(box, {**link, "sections": moved}) < 0.4
 
 
 def test_the_person_has_the_measures_it_names() -> None:

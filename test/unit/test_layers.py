@@ -5,12 +5,10 @@ from __future__ import annotations
 import ast
 import re
 import sys
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from functools import cache
 from graphlib import CycleError, TopologicalSorter
 from pathlib import Path
-
-import pytest
 
 PACKAGE = Path(__file__).parents[2] / "mrlab_ros"
 TESTS = Path(__file__).parent
@@ -129,6 +127,8 @@ def built_messages(source: str) -> set[str]:
     for node in ast.walk(tree):
         if isinstance(node, ast.Assign) and _of_module(node.value, modules):
             classes.update(ast.unparse(target) for target in node.targets)
+    if not classes and not modules:
+        return set()
     return {
         ast.unparse(node.func)
         for node in ast.walk(tree)
@@ -154,50 +154,60 @@ def within(name: str, package: str) -> bool:
     return name == package or name.startswith(package + ".")
 
 
-@pytest.mark.parametrize("path", CORE, ids=lambda path: path.stem)
-def test_core_imports_only_the_standard_library_numpy_and_itself(path: Path) -> None:
-    foreign = {
-        name
-        for name in imports_of(path)
-        if not within(name, "mrlab_ros.core")
-        and name.split(".")[0] not in {*sys.stdlib_module_names, "numpy"}
-    }
-    assert not foreign
+def of_graph(path: Path) -> set[str]:
+    return {name for name in imports_of(path) if name.split(".")[0] in GRAPH}
 
 
-@pytest.mark.parametrize("path", CORE, ids=lambda path: path.stem)
-def test_core_neither_reads_a_clock_nor_logs(path: Path) -> None:
+def found_in(paths: Iterable[Path], find: Callable[[Path], Iterable[str]]) -> dict[str, list[str]]:
+    """Return what `find` finds in each module, of those in which it finds anything."""
+    found = {module_name(path): sorted(find(path)) for path in paths}
+    return {module: names for module, names in found.items() if names}
+
+
+def test_core_imports_only_the_standard_library_numpy_and_itself() -> None:
+    known = {*sys.stdlib_module_names, "numpy"}
+
+    def foreign(path: Path) -> set[str]:
+        names = {name for name in imports_of(path) if not within(name, "mrlab_ros.core")}
+        return {name for name in names if name.split(".")[0] not in known}
+
+    assert found_in(CORE, foreign) == {}
+
+
+def test_core_neither_reads_a_clock_nor_logs() -> None:
     clocks = {"time", "datetime", "logging", "asyncio", "threading", "subprocess", "socket"}
-    assert not {name for name in imports_of(path) if name.split(".")[0] in clocks}
+
+    def of_clocks(path: Path) -> set[str]:
+        return {name for name in imports_of(path) if name.split(".")[0] in clocks}
+
+    assert found_in(CORE, of_clocks) == {}
 
 
-@pytest.mark.parametrize("path", ADAPTERS, ids=lambda path: path.stem)
-def test_adapters_know_no_node_and_nothing_above_them(path: Path) -> None:
-    names = imports_of(path)
-    assert not {name for name in names if name.split(".")[0] in GRAPH}
-    assert not {
-        name
-        for name in names
-        if name.startswith("mrlab_ros.")
-        and not within(name, "mrlab_ros.core")
-        and not within(name, "mrlab_ros.adapters")
-    }
+def test_adapters_know_no_node_and_nothing_above_them() -> None:
+    assert found_in(ADAPTERS, of_graph) == {}
+    below = ("mrlab_ros.core", "mrlab_ros.adapters")
+
+    def above(path: Path) -> set[str]:
+        own = {name for name in imports_of(path) if name.startswith("mrlab_ros.")}
+        return {name for name in own if not any(within(name, folder) for folder in below)}
+
+    assert found_in(ADAPTERS, above) == {}
 
 
-@pytest.mark.parametrize("path", GATEWAY, ids=module_name)
-def test_the_gateway_is_no_node(path: Path) -> None:
-    assert not {name for name in imports_of(path) if name.split(".")[0] in GRAPH}
+def test_the_gateway_is_no_node() -> None:
+    assert found_in(GATEWAY, of_graph) == {}
 
 
-@pytest.mark.parametrize("path", SOURCES, ids=module_name)
-def test_a_layer_imports_only_the_layers_below_it(path: Path) -> None:
-    module = module_name(path)
-    if module == "mrlab_ros":
-        # The Python API, imported when it is asked for.
-        assert {layer_of(name) for name in own_imports(path)} == {"client", "core"}
-        return
-    allowed = {layer_of(module), *LAYERS[layer_of(module)]}
-    assert not {name for name in own_imports(path) if layer_of(name) not in allowed}
+def test_a_layer_imports_only_the_layers_below_it() -> None:
+    def others(path: Path) -> set[str]:
+        module = module_name(path)
+        allowed = {layer_of(module), *LAYERS[layer_of(module)]}
+        return {name for name in own_imports(path) if layer_of(name) not in allowed}
+
+    # The package itself: the Python API, imported when it is asked for.
+    package = MODULES["mrlab_ros"]
+    assert {layer_of(name) for name in own_imports(package)} == {"client", "core"}
+    assert found_in([path for path in SOURCES if path != package], others) == {}
 
 
 def test_no_module_imports_itself_over_others() -> None:
@@ -210,19 +220,19 @@ def test_the_layers_are_the_folders_of_the_package() -> None:
     assert {path.name for path in PACKAGE.glob("*.py")} == {"__init__.py", "cli.py"}
 
 
-@pytest.mark.parametrize("path", SOURCES, ids=module_name)
-def test_only_ros_touches_the_insides_of_rclpy(path: Path) -> None:
-    if "ros" not in path.relative_to(PACKAGE).parts[:1]:
-        assert INSIDES.findall(path.read_text()) == []
+def test_only_ros_touches_the_insides_of_rclpy() -> None:
+    outside = [path for path in SOURCES if "ros" not in path.relative_to(PACKAGE).parts[:1]]
+    assert found_in(outside, lambda path: INSIDES.findall(path.read_text())) == {}
 
 
-@pytest.mark.parametrize("path", SOURCES, ids=module_name)
-def test_only_messages_builds_messages(path: Path) -> None:
+def test_only_messages_builds_messages() -> None:
     """ros/parameters.py fills in rclpy's own descriptors of parameters."""
-    module = module_name(path)
     others = ("mrlab_ros.ros.parameters", "mrlab_ros.commands.system", "mrlab_ros.nodes.lab")
-    if not any(within(module, name) for name in ("mrlab_ros.messages", *others)):
-        assert built_messages(path.read_text()) == set()
+    builders = ("mrlab_ros.messages", *others)
+    rest = [
+        path for module, path in MODULES.items() if not any(within(module, b) for b in builders)
+    ]
+    assert found_in(rest, lambda path: built_messages(path.read_text())) == {}
 
 
 def test_unit_tests_lie_where_what_they_test_lies() -> None:
@@ -262,24 +272,33 @@ def test_built_messages_are_found_in_every_form() -> None:
     assert built_messages(source) == {"Text", "msg.Robots", "Kind"}
 
 
-def calls_of_services(path: Path) -> Iterator[ast.Call]:
-    for node in ast.walk(ast.parse(path.read_text())):
-        if (
-            isinstance(node, ast.Call)
-            and isinstance(node.func, ast.Attribute)
-            and node.func.attr in ("create_service", "create_client")
-        ):
-            yield node
+def shallow_services(source: str) -> list[str]:
+    """Return the services and clients that `source` makes without the deep queues."""
+    if "create_service" not in source and "create_client" not in source:
+        return []
+    return [
+        ast.unparse(node)
+        for node in ast.walk(ast.parse(source))
+        if isinstance(node, ast.Call)
+        and isinstance(node.func, ast.Attribute)
+        and node.func.attr in ("create_service", "create_client")
+        and [ast.unparse(k.value) for k in node.keywords if k.arg == "qos_profile"]
+        != ["qos.SERVICES"]
+    ]
 
 
-@pytest.mark.parametrize("path", sorted(PACKAGE.rglob("*.py")), ids=lambda path: path.stem)
-def test_every_service_and_client_has_the_deep_queues(path: Path) -> None:
-    for call in calls_of_services(path):
-        profiles = [ast.unparse(k.value) for k in call.keywords if k.arg == "qos_profile"]
-        assert profiles == ["qos.SERVICES"], ast.unparse(call)
+def test_every_service_and_client_has_the_deep_queues() -> None:
+    assert found_in(SOURCES, lambda path: shallow_services(path.read_text())) == {}
 
 
-@pytest.mark.parametrize("path", SOURCES, ids=module_name)
-def test_no_timer_goes_by_a_clock_that_may_be_set(path: Path) -> None:
-    if path.name != "timers.py":
-        assert "create_timer(" not in path.read_text(), "use mrlab_ros.ros.timers.every"
+def test_services_without_the_deep_queues_are_found() -> None:
+    deep = "node.create_client(Seek, 'seek', qos_profile=qos.SERVICES)"
+    other = "node.create_service(Seek, 'seek', seek, qos_profile=qos.EVENTS)"
+    none = "node.create_client(Seek, 'seek')"
+    assert shallow_services("\n".join((deep, other, none))) == [other, none]
+
+
+def test_no_timer_goes_by_a_clock_that_may_be_set() -> None:
+    """mrlab_ros.ros.timers.every makes one that does not."""
+    timers = [path for path in SOURCES if path.name != "timers.py"]
+    assert found_in(timers, lambda path: re.findall("create_timer\\(", path.read_text())) == {}

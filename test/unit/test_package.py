@@ -143,6 +143,14 @@ def test_type_checkers_find_the_types_of_the_python_api() -> None:
     assert 'package_data={package_name: ["py.typed"]}' in (ROOT / "setup.py").read_text()
 
 
+def test_the_python_api_is_imported_by_its_names() -> None:
+    assert {*mrlab_ros.__all__} == {*mrlab_ros._MODULES, "__version__"}
+    for name in mrlab_ros.__all__:
+        assert getattr(mrlab_ros, name), name
+    with pytest.raises(AttributeError, match="no attribute 'Labb'"):
+        _ = mrlab_ros.Labb  # type: ignore[attr-defined]
+
+
 def test_all_parts_have_the_version_of_the_package() -> None:
     found = {
         path: re.findall("<version>(.+)</version>", (ROOT / path).read_text())

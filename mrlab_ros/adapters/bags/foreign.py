@@ -7,7 +7,7 @@ a robot of the library, that robot is added: in the scene, with its description 
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Collection, Iterator, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
@@ -17,6 +17,15 @@ from rosbags.rosbag2 import Reader
 from rosbags.typesys import Stores, get_types_from_msg, get_typestore
 from rosbags.typesys.store import Typestore
 
+from mrlab_ros.adapters.bags.other import (
+    definition_of,
+    merged,
+    opened,
+    plain_file,
+    readable,
+    sources_of,
+    topic_of,
+)
 from mrlab_ros.adapters.bags.writer import BagWriter
 from mrlab_ros.adapters.robots import urdf
 from mrlab_ros.adapters.robots.library import RobotLibrary
@@ -35,18 +44,29 @@ APART = 1.5
 
 @dataclass
 class Imported:
-    """What became of a bag. robots: model by name; skipped: why, by topic."""
+    """What became of a bag.
+
+    robots: model by name; skipped: why, by topic; strange: names of joints that no robot of the
+    library has, by topic.
+    """
 
     folder: Path
     messages: int = 0
     robots: dict[str, str] = field(default_factory=dict)
     skipped: dict[str, str] = field(default_factory=dict)
+    strange: dict[str, list[str]] = field(default_factory=dict)
 
     def describe(self, name: str) -> str:
         """Return it as a sentence; name: of the bag."""
         said = f"{name} holds {self.messages} messages"
         for name, model in self.robots.items():
             said += f"; the joints move {name} ({model})"
+        for topic, joints in self.strange.items():
+            said += (
+                f"; {topic} moves no robot, for none of the lab has its joints "
+                f"({', '.join(joints) or 'it names none'}); a robot is added with its URDF: "
+                "mrlab robots import URDF"
+            )
         for topic, why in self.skipped.items():
             said += f"; left out {topic}: {why}"
         return said
@@ -64,40 +84,36 @@ def import_bag(
     asked: models whose joints the bag holds; empty: found by the names. definition: returns the
     text of an installed type. Raises BadInput where it is no ROS 2 bag, or has not those joints.
     """
-    try:
-        with Reader(source) as reader:
-            return _Import(reader, source, asked, library, definition).write(folder)
-    except (BadInput, OSError):
-        raise
-    except Exception as error:  # what damage makes rosbags raise has no common base
-        if isinstance(error, AssertionError) or type(error).__module__.startswith("mrlab_ros"):
-            raise
-        raise BadInput(
-            f"{source} cannot be read as a ROS 2 bag ({error}); expected its folder with "
-            "metadata.yaml, an MCAP file, or a .db3 file"
-        ) from None
+    with (
+        readable(source),
+        plain_file(source) as plain,
+        opened(sources_of(plain)) as readers,
+    ):
+        return _Import(readers, source, asked, library, definition).write(folder)
 
 
 class _Import:
     def __init__(
         self,
-        reader: Reader,
+        readers: list[Reader],
         source: Path,
         asked: Sequence[str],
         library: RobotLibrary,
         definition: Callable[[str], str],
     ) -> None:
-        self._reader = reader
+        self._readers = readers
+        self._source = source
         self._library = library
         self._installed = definition
         self._texts: dict[str, str] = {}
         self._skipped: dict[str, str] = {}
         known = get_typestore(Stores.ROS2_JAZZY)
-        for connection in reader.connections:
+        connections = [connection for reader in readers for connection in reader.connections]
+        for connection in connections:
             why = self._take_text(connection, known)
             if why:
                 self._skipped[connection.topic] = why
-        self._kept = [c for c in reader.connections if c.topic not in self._skipped]
+        self._kept = [c for c in connections if c.topic not in self._skipped]
         if not self._kept:
             why = "; ".join(f"{topic}: {why}" for topic, why in self._skipped.items())
             raise BadInput(f"{source} holds nothing that can be replayed{f' ({why})' * bool(why)}")
@@ -110,28 +126,34 @@ class _Import:
     def write(self, folder: Path) -> Imported:
         writer = BagWriter(folder, self._text)
         done = Imported(folder, skipped=self._skipped)
+        done.strange = {
+            topic: names for topic, names in self._joint_names.items() if topic not in self._models
+        }
         names = self._names()
         try:
             for connection in self._kept:
-                writer.add_topic(_topic(connection))
+                writer.add_topic(topic_of(connection))
             for topic, name in names.items():
                 done.robots[name] = self._models[topic]
             if names:
                 self._add_scene(writer, done.robots)
-            for connection, time_ns, data in self._reader.messages(self._kept):
+            for connection, time_ns, data in self._messages({c.topic for c in self._kept}):
                 name = names.get(connection.topic, "")
                 # A topic of the same name as the robot's would be written twice.
                 if f"/{name}/joint_states" != connection.topic:
-                    writer.write(connection.topic, time_ns, bytes(data), time_ns)
+                    writer.write(connection.topic, time_ns, data, time_ns)
                 if name:
-                    moved = self._mapped(connection.topic, bytes(data), time_ns)
+                    moved = self._mapped(connection.topic, data, time_ns)
                     if moved is not None:
                         writer.write(f"/{name}/joint_states", time_ns, moved, time_ns)
-            writer.note("mrlab", {"imported_from": str(self._reader.path)})
+            writer.note("mrlab", {"imported_from": str(self._source)})
         finally:
             writer.close()
         done.messages = sum(part.messages for part in writer.facts.parts)
         return done
+
+    def _messages(self, topics: Collection[str]) -> Iterator[tuple[Any, int, bytes]]:
+        return merged(self._readers, topics)
 
     # types ----------------------------------------------------------------------------------
 
@@ -142,16 +164,10 @@ class _Import:
             return f"it is {connection.ext.serialization_format}, not CDR"
         if kind in self._texts:
             return ""
-        given = connection.msgdef
-        if given.data and given.format.name == "MSG":
-            self._texts[kind] = given.data
-            return ""
-        try:
-            self._texts[kind] = self._installed(kind)
-        except BadInput:
-            if kind not in known.fielddefs:
-                return f"the bag does not define {kind}, and it is not installed here"
-            self._texts[kind] = known.generate_msgdef(kind, ros_version=2)[0]
+        text = definition_of(connection, self._installed, known)
+        if text is None:
+            return f"the bag does not define {kind}, and it is not installed here"
+        self._texts[kind] = text
         return ""
 
     def _text(self, kind: str) -> str:
@@ -171,6 +187,7 @@ class _Import:
 
     def _chosen(self, asked: Sequence[str]) -> dict[str, str]:
         """Return the model of each topic of joint states; none in a bag of a lab."""
+        self._joint_names: dict[str, list[str]] = {}
         if any(connection.msgtype == ROBOTS for connection in self._kept) and not asked:
             return {}
         models = {
@@ -181,7 +198,7 @@ class _Import:
         wanted = [c for c in self._kept if c.msgtype == JOINTS]
         for connection in wanted:
             names = topics.setdefault(connection.topic, {})
-            for number, (_, _, data) in enumerate(self._reader.messages([connection])):
+            for number, (_, _, data) in enumerate(self._messages({connection.topic})):
                 if number >= LOOKED_AT:
                     break
                 state: Any = self._types.deserialize_cdr(data, JOINTS)
@@ -219,7 +236,7 @@ class _Import:
     def _add_scene(self, writer: BagWriter, robots: dict[str, str]) -> None:
         """Write the robots, their descriptions, meshes and topics."""
         latched = (QosProfile(durability="transient_local", history="keep_last", depth=1),)
-        start_ns = self._reader.start_time
+        start_ns = min(r.start_time for r in self._readers if r.message_count)
         writer.add_topic(Topic("/robots", ROBOTS, latched))
         entries = []
         meshes: set[str] = set()
@@ -254,16 +271,3 @@ class _Import:
 
     def _make(self, kind: str, *values: Any) -> Any:
         return self._types.types[kind](*values)
-
-
-def _topic(connection: Any) -> Topic:
-    qualities = tuple(
-        QosProfile(
-            history=quality.history.name.lower(),
-            depth=quality.depth,
-            reliability=quality.reliability.name.lower(),
-            durability=quality.durability.name.lower(),
-        )
-        for quality in connection.ext.offered_qos_profiles
-    )
-    return Topic(connection.topic, connection.msgtype, qualities, connection.digest or "")

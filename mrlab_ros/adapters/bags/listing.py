@@ -4,8 +4,6 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from mrlab_ros.adapters.bags.reader import mcap_files_in
-
 # Names that an answer holds: a lab records for years.
 MOST = 200
 
@@ -19,8 +17,8 @@ def bags_in(folder: Path, most: int = MOST) -> list[str]:
         return []
     for entry in entries:
         try:
-            files = mcap_files_in(entry) if entry.is_dir() else [entry]
-            files = [file for file in files if file.suffix == ".mcap"]
+            files = list(entry.iterdir()) if entry.is_dir() else [entry]
+            files = [file for file in files if file.suffix in (".mcap", ".db3")]
             if files and "\n" not in entry.name:
                 found.append((max(file.stat().st_mtime for file in files), entry.name))
         except OSError:

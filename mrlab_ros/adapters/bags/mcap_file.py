@@ -19,6 +19,7 @@ from mcap.stream_reader import get_chunk_data_stream
 from mcap.writer import MCAP0_MAGIC
 from zstandard import ZstdError
 
+from mrlab_ros.adapters.inflate import is_compressed
 from mrlab_ros.core.errors import BadInput
 
 RECORD = struct.Struct("<BQ")
@@ -74,15 +75,17 @@ class BagFile:
 
     def records(self, chunk: ChunkRef) -> bytes:
         """Return the chunk's records, decompressed and checked against their checksum."""
-        with open(self.path, "rb") as file:
-            file.seek(chunk.offset + RECORD.size)
-            try:
+        try:
+            with open(self.path, "rb") as file:
+                file.seek(chunk.offset + RECORD.size)
                 return _decompressed(Chunk.read(ReadDataStream(file)))
-            except DAMAGE as error:
-                raise BadInput(
-                    f"{self.path} is damaged at byte {chunk.offset} ({error}); bring back a copy "
-                    "of the file, or let mrlab bag repair leave that part out"
-                ) from None
+        except DAMAGE as error:
+            raise BadInput(
+                f"{self.path} is damaged at byte {chunk.offset} ({error}); bring back a copy "
+                "of the file, or let mrlab bag repair leave that part out"
+            ) from None
+        except OSError as error:
+            raise BadInput(gone(self.path, error)) from None
 
     def messages(self, chunk: ChunkRef, topics: Collection[str] | None = None) -> list[Message]:
         """Return the chunk's messages of `topics`, None: of all, in the order of log time."""
@@ -112,6 +115,14 @@ class BagFile:
             yield Attachment.read(ReadDataStream(source))
 
 
+def gone(path: Path, error: OSError) -> str:
+    """Return a sentence about a file that was open before and cannot be opened any more."""
+    return (
+        f"{path} cannot be read any more ({error.strerror}); was the bag renamed, removed, or its "
+        "disk taken away? name it where it is now"
+    )
+
+
 def open_file(path: Path) -> BagFile:
     """Read what a file holds, by its index where it has one, record by record otherwise."""
     try:
@@ -120,6 +131,11 @@ def open_file(path: Path) -> BagFile:
             if len(beginning) < len(MCAP0_MAGIC) and MCAP0_MAGIC.startswith(beginning):
                 trouble = f"{path.name} ends before its first record: its writer was killed"
                 return BagFile(path, indexed=False, trouble=trouble)
+            if is_compressed(beginning):
+                raise BadInput(
+                    f"{path} is compressed as a whole; a plain bag of it is made with: mrlab bag "
+                    f"import {path} NEW_FOLDER"
+                )
             if beginning != MCAP0_MAGIC:
                 raise BadInput(
                     f"{path} is no MCAP file: it does not begin with MCAP's magic bytes; "

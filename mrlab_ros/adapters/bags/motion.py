@@ -49,8 +49,12 @@ def read_motion(bag: Bag) -> RecordedMotion:
             if time - before < OBJECT_INTERVAL:
                 continue
             before = time
-        data = decode(kind, message.data)
+        try:
+            data = decode(kind, message.data)
+        except BadInput:  # the report counts it
+            continue
         if kind == "mrlab_msgs/msg/Robots":
+            found.scene(time, {entry.name for entry in data.robots})
             for entry in data.robots:
                 robot = found.robot(entry.name)
                 robot.model, robot.end_effector = entry.model, entry.end_effector
@@ -79,7 +83,7 @@ def _take_joints(robot: RecordedRobot, time: float, state: Any) -> None:
             for earlier in robot.track.values:
                 earlier.append(0.0)
     values = list(robot.track.values[-1]) if robot.track.values else [0.0] * len(robot.joints)
-    for name, value in zip(state.name, state.position, strict=True):
+    for name, value in zip(state.name, state.position, strict=False):
         values[robot.joints.index(name)] = float(value)
     robot.track.add(time, values)
 

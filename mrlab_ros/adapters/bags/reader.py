@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Collection, Iterator, Sequence
 from pathlib import Path
-from typing import Any
 
 import yaml
 from mcap.data_stream import ReadDataStream
@@ -14,9 +13,12 @@ from mrlab_ros.adapters.bags.mcap_file import (
     RECORD,
     BagFile,
     Message,
+    gone,
     open_file,
 )
 from mrlab_ros.adapters.bags.writer import is_being_written
+from mrlab_ros.adapters.nearby import like_file
+from mrlab_ros.adapters.yaml_files import Loader
 from mrlab_ros.core.errors import BadInput
 from mrlab_ros.core.recording.metadata import (
     GAP,
@@ -29,7 +31,6 @@ from mrlab_ros.core.recording.metadata import (
 )
 
 METADATA = "metadata.yaml"
-_LOADER: Any = getattr(yaml, "CSafeLoader", yaml.SafeLoader)
 
 
 class Bag:
@@ -60,9 +61,14 @@ class Bag:
         return sum(topic.messages for topic in self.topics.values())
 
     @property
+    def paths(self) -> list[Path]:
+        """Its files, oldest first."""
+        return [file.path for file in self.files]
+
+    @property
     def size(self) -> int:
         """Bytes of all its files."""
-        return sum(file.path.stat().st_size for file in self.files)
+        return sum(path.stat().st_size for path in self.paths)
 
     @property
     def live(self) -> bool:
@@ -160,10 +166,13 @@ class Bag:
         """Return an attachment; the newest of that name. Raises BadInput where there is none."""
         for file in reversed(self.files):
             if name in file.attachments:
-                with open(file.path, "rb") as source:
-                    source.seek(file.attachments[name] + RECORD.size)
-                    found: Attachment = Attachment.read(ReadDataStream(source))
-                    return found
+                try:
+                    with open(file.path, "rb") as source:
+                        source.seek(file.attachments[name] + RECORD.size)
+                        found: Attachment = Attachment.read(ReadDataStream(source))
+                        return found
+                except OSError as error:
+                    raise BadInput(gone(file.path, error)) from None
         known = ", ".join(sorted(n for file in self.files for n in file.attachments)) or "none"
         raise BadInput(f"{self.path} has no attachment '{name}'; it has: {known}")
 
@@ -190,12 +199,14 @@ def files_of(path: Path) -> list[Path]:
     if path.is_file():
         return [path]
     if not path.is_dir():
-        raise BadInput(f"there is no bag {path}; name the folder of a bag or an MCAP file")
+        raise BadInput(
+            f"there is no bag {path}; name the folder of a bag or an MCAP file{like_file(path)}"
+        )
     listed: list[str] = []
     metadata = path / METADATA
     if metadata.exists():
         try:
-            document = yaml.load(metadata.read_text(), Loader=_LOADER)
+            document = yaml.load(metadata.read_text(), Loader=Loader)
         except (yaml.YAMLError, UnicodeDecodeError) as error:
             raise BadInput(
                 f"{metadata} is no YAML ({str(error).splitlines()[0]}); remove it, or let mrlab "
@@ -220,7 +231,7 @@ def files_of(path: Path) -> list[Path]:
 
 def mcap_files_in(folder: Path) -> list[Path]:
     """Return the MCAP files of a folder in the order in which they were written."""
-    return sorted(folder.glob("*.mcap"), key=_number)
+    return sorted(folder.glob("*.mcap"), key=number_of)
 
 
 def _topics(files: Sequence[BagFile]) -> dict[str, Topic]:
@@ -229,7 +240,7 @@ def _topics(files: Sequence[BagFile]) -> dict[str, Topic]:
     for file in files:
         for number, channel in file.channels.items():
             text = channel.metadata.get("offered_qos_profiles", "")
-            listed = yaml.load(text, Loader=_LOADER) if text else []
+            listed = yaml.load(text, Loader=Loader) if text else []
             schema = file.schemas.get(channel.schema_id)
             before = topics.get(channel.topic)
             topics[channel.topic] = Topic(
@@ -250,6 +261,7 @@ def _channels_of(file: BagFile, topics: Collection[str] | None) -> frozenset[int
     )
 
 
-def _number(path: Path) -> tuple[int, str]:
+def number_of(path: Path) -> tuple[int, str]:
+    """Return what sorts a bag's files as they were written."""
     last = path.stem.rpartition("_")[2]
     return (int(last) if last.isdecimal() else 0, path.name)

@@ -2,6 +2,10 @@
 
 from __future__ import annotations
 
+import fcntl
+import os
+from collections.abc import Iterator
+from contextlib import contextmanager, suppress
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -32,14 +36,45 @@ def repair(path: Path) -> Repaired:
 
     path: the folder of a bag, or one of its files, which alone is rewritten then. Raises BadInput
     where nothing can be read, where an earlier original is in the way, or where the folder cannot
-    be written; the bag is as it was then.
+    be written; the bag is as it was then. Raises Misuse where it is recorded or repaired just now.
     """
     if not path.exists():
         raise BadInput(f"there is no bag {path}; name the folder of a bag or an MCAP file")
+    with _only_one(path):
+        return _repair(path)
+
+
+@contextmanager
+def _only_one(path: Path) -> Iterator[None]:
+    """Keep other repairs of the bag away; raise Misuse where one runs."""
+    try:
+        folder = os.open(path.parent if path.is_file() else path, os.O_RDONLY | os.O_CLOEXEC)
+    except OSError as error:
+        raise BadInput(
+            f"{path} cannot be read ({error.strerror}); check its permissions"
+        ) from None
+    try:
+        # Some file systems have no locks.
+        with suppress(OSError):
+            try:
+                fcntl.flock(folder, fcntl.LOCK_EX | fcntl.LOCK_NB)
+            except BlockingIOError:
+                raise Misuse(
+                    f"another mrlab bag repair of {path} is at work; wait for its end"
+                ) from None
+        yield
+    finally:
+        os.close(folder)
+
+
+def _repair(path: Path) -> Repaired:
     alone = path.is_file()
     paths = [path] if alone else mcap_files_in(path)
     if not paths:
-        raise BadInput(f"{path} is no bag: it holds no MCAP file; name the folder of a bag")
+        raise BadInput(
+            f"{path} holds no MCAP file, which alone is mended; a bag of another kind becomes one "
+            f"with: mrlab bag import {path} NEW_FOLDER"
+        )
     if any(map(is_being_written, paths)):
         raise Misuse(
             f"the bag {path} is being recorded and needs no repair; end the recording first: "
@@ -56,23 +91,26 @@ def repair(path: Path) -> Repaired:
             if file.path in damages:
                 _rewrite(file, file.path.with_suffix(NEW))
         for damaged in damages:
-            damaged.rename(_kept(damaged))
-            damaged.with_suffix(NEW).rename(damaged)
+            _keep(damaged)
+            damaged.with_suffix(NEW).replace(damaged)
         bag = Bag(path, paths)
         if stale:
+            new = metadata.with_suffix(NEW)
+            new.write_text(metadata_text(bag.facts()))
             if metadata.exists():
-                metadata.rename(_kept(metadata))
-            metadata.write_text(metadata_text(bag.facts()))
+                _keep(metadata)
+            new.replace(metadata)
         if not alone:
             (path / RESERVE).unlink(missing_ok=True)
     except OSError as error:
         raise BadInput(
             f"the bag {path} cannot be mended ({error.strerror}); make room on that disk, or "
-            "check that folder"
+            "copy the bag to where you may write and mend the copy"
         ) from None
     finally:
-        for damaged in damages:
-            damaged.with_suffix(NEW).unlink(missing_ok=True)
+        for written in (*damages, metadata):
+            with suppress(OSError):
+                written.with_suffix(NEW).unlink(missing_ok=True)
     names = [damaged.name for damaged in damages] + [METADATA] * stale
     return Repaired(names, list(damages.values()), bag.message_count)
 
@@ -123,8 +161,18 @@ def _kept(path: Path) -> Path:
     return path.with_name(path.name + KEPT)
 
 
+def _keep(path: Path) -> None:
+    """Give a file its second name; the first one stays until another file takes its place."""
+    _kept(path).unlink(missing_ok=True)
+    try:
+        os.link(path, _kept(path))
+    except OSError:  # a file system without links
+        path.rename(_kept(path))
+
+
 def _must_be_free(path: Path) -> None:
-    if _kept(path).exists():
+    """Raise BadInput where an earlier original has that name; a killed repair leaves a link."""
+    if _kept(path).exists() and not (path.exists() and _kept(path).samefile(path)):
         raise BadInput(
             f"{_kept(path)} is there from an earlier repair; move it away, then repair again"
         )

@@ -4,11 +4,13 @@ from __future__ import annotations
 
 import contextlib
 import math
+import struct
 from collections.abc import Callable
 from typing import Any
 
 import numpy as np
 import orjson
+from rosbags.serde import SerdeError
 from rosbags.typesys import Stores, get_types_from_msg, get_typestore
 
 from mrlab_ros.adapters.bags.courses import Reference, Samples, add_courses
@@ -39,8 +41,16 @@ FINGERS = "/finger_states"
 OBJECT_INTERVAL = 1 / 30
 # The values of LatencyHop.hop.
 HOPS = ("published to bridged", "bridged to received", "published to received")
+# s: stamps that go back further are of a clock that was set.
+SET_BACK = 1.0
+# What reading a message raises whose bytes are damaged, or of another type.
+BROKEN = (SerdeError, struct.error, ValueError, IndexError, MemoryError)
+# Topics of a foreign bag that are named.
+NAMED = 6
 # Joint states of one robot that are compared with the trajectory; of more, every k-th.
 COMPARED = 20_000
+# Joint states of all robots that are compared, for the memory that takes: 0.4 kB each.
+ALL_COMPARED = 400_000
 
 
 class Decoder:
@@ -61,8 +71,13 @@ class Decoder:
         # Not deserialize_cdr: that refuses what follows the last field, and rclpy's serialiser
         # leaves room there for the doubles of empty arrays.
         known = self._store.get_msgdef(kind)
-        read = known.deserialize_cdr_le if data[1] else known.deserialize_cdr_be
-        return read(data[4:], 0, known.cls, self._store)[0]
+        try:
+            read = known.deserialize_cdr_le if data[1] else known.deserialize_cdr_be
+            return read(data[4:], 0, known.cls, self._store)[0]
+        except BROKEN as error:
+            raise BadInput(
+                f"a message is no {kind} ({error}); bring back a copy of the bag"
+            ) from None
 
 
 def read_session(bag: Bag, reference: Reference | None = None) -> SessionReport:
@@ -74,6 +89,7 @@ def read_session(bag: Bag, reference: Reference | None = None) -> SessionReport:
     for message in bag.messages(topics=reader.topics):
         reader.take(message)
     report = reader.report
+    report.troubles += [*reader.troubles(), *_missing(bag, report)]
     report.runs = runs_of(report, reader.objects, reader.targets)
     add_courses(report, reader.samples, reader.descriptions, reader.courses, reference)
     return report
@@ -94,21 +110,28 @@ class _Reader:
     def __init__(self, bag: Bag) -> None:
         self._bag = bag
         self._decode = Decoder(bag.definitions())
-        self.courses = {
-            name.removeprefix("trajectories/").removesuffix(".json"): _course(
-                bag.attachment(name).data
-            )
-            for file in bag.files
-            for name in file.attachments
-            if name.startswith("trajectories/")
-        }
+        self.courses: dict[str, ReferenceTrajectory] = {}
+        unread = []
+        for name in [name for file in bag.files for name in file.attachments]:
+            if not name.startswith("trajectories/"):
+                continue
+            try:
+                course = _course(bag.attachment(name).data)
+            except (ValueError, TypeError, LookupError):
+                unread.append(f"{name} cannot be read, so runs of it are compared with nothing")
+            else:
+                self.courses[name.removeprefix("trajectories/").removesuffix(".json")] = course
         counts = [topic.messages for topic in bag.topics.values() if topic.type == JOINTS]
-        step = math.ceil(max(counts, default=0) / COMPARED) or 1
+        step = math.ceil(max(max(counts, default=0) / COMPARED, sum(counts) / ALL_COMPARED)) or 1
         self.report = SessionReport(
             bag.duration,
             bag.start_ns,
             step=step,
-            troubles=[*_condition(bag), *(gap.describe(bag.start_ns) for gap in bag.gaps())],
+            troubles=[
+                *_condition(bag),
+                *(gap.describe(bag.start_ns) for gap in bag.gaps()),
+                *unread,
+            ],
         )
         self.objects: dict[str, ObjectTrack] = {}
         self.targets: dict[str, Targets] = {}
@@ -116,6 +139,12 @@ class _Reader:
         # URDFs by robot.
         self.descriptions: dict[str, str] = {}
         self._seen = -1.0
+        # When a robot's stamps went back, s of the session; by how much, s; the stamp before, ns.
+        self._set_back: tuple[float, float, int] | None = None
+        # Whether the times of the bag went on evenly after that.
+        self._even = False
+        # Messages that cannot be read, by topic.
+        self._broken: dict[str, int] = {}
         self._readers: dict[str, Callable[[float, RobotReport, Any], None]] = {
             "mrlab_msgs/msg/PlaybackState": self._state,
             "mrlab_msgs/msg/Telemetry": self._telemetry,
@@ -137,7 +166,31 @@ class _Reader:
             if topic.type in known or topic.name.endswith(DESCRIPTION)
         }
 
+    def troubles(self) -> list[str]:
+        """Return what was wrong with the messages, for a person."""
+        said = [
+            f"{count} message{'s' * (count > 1)} of {topic} cannot be read and "
+            f"{'are' if count > 1 else 'is'} left out"
+            for topic, count in self._broken.items()
+        ]
+        if self._set_back is not None:
+            at, back, _ = self._set_back
+            then = (
+                "the times of this report go on evenly"
+                if self._even
+                else "what was recorded until it had caught up stands at that instant"
+            )
+            said.append(f"at {at:.2f} s the clock was set back by {back:.1f} s; {then}")
+        return said
+
     def take(self, message: Message) -> None:
+        """Take a message; one that cannot be read is counted."""
+        try:
+            self._take(message)
+        except BadInput:
+            self._broken[message.topic] = self._broken.get(message.topic, 0) + 1
+
+    def _take(self, message: Message) -> None:
         kind = self._bag.topics[message.topic].type
         time = (message.log_time_ns - self._bag.start_ns) / SECOND
         if kind in self._general:
@@ -171,9 +224,18 @@ class _Reader:
 
     def _state(self, time: float, robot: RobotReport, state: Any) -> None:
         clock = PlaybackClock(_ns(state.clock.stamp), state.clock.position, state.clock.rate)
+        stamp_ns = _ns(state.header.stamp)
+        if self._set_back is not None:
+            at, _, stamp_before_ns = self._set_back
+            self._even |= time > at + SET_BACK / 10 and stamp_ns < stamp_before_ns
+        elif robot.reported:
+            before = robot.reported[-1]
+            back = (before.stamp_ns - stamp_ns) / SECOND
+            if back > SET_BACK:
+                self._set_back = (time, back + time - before.time, before.stamp_ns)
         robot.add(
             ReportedState(
-                _ns(state.header.stamp),
+                stamp_ns,
                 state.label,
                 state.trajectory_id,
                 clock,
@@ -254,6 +316,21 @@ class _Reader:
                 continue
             if hop.topic.endswith("/joint_states") or not hop.topic:
                 series.setdefault(name, Series()).add(time, hop.p50)
+
+
+def _missing(bag: Bag, report: SessionReport) -> list[str]:
+    """Return what a bag has in place of a session of a lab; nothing where it has robots."""
+    if not bag.message_count:
+        return ["nothing was recorded in it"]
+    if report.robots:
+        return []
+    topics = sorted(bag.topics.values(), key=lambda topic: topic.name)
+    held = ", ".join(f"{topic.name} ({topic.type})" for topic in topics[:NAMED])
+    more = f" and {len(topics) - NAMED} more" if len(topics) > NAMED else ""
+    found = f"no robot of a lab is in it, but {held}{more}"
+    if any(topic.type == JOINTS for topic in topics):
+        found += "; mrlab bag import makes a session of it by the joints' names"
+    return [found]
 
 
 def _condition(bag: Bag) -> list[str]:

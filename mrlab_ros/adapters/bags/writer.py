@@ -33,7 +33,7 @@ TAIL = struct.pack("<BQI", Opcode.DATA_END, 4, 0) + (
     struct.pack("<BQQQI", Opcode.FOOTER, 20, 0, 0, 0) + MCAP0_MAGIC
 )
 CHUNK_SIZE = 1 << 20
-# ObjectSnapshot free beside a bag, so that on a full disk its last chunk and its index still fit.
+# Kept free beside a bag, so that on a full disk its last chunk and its index still fit.
 RESERVE = ".reserve"
 RESERVE_SIZE = 8 << 20
 FULL = (errno.ENOSPC, errno.EDQUOT)
@@ -166,9 +166,12 @@ class BagWriter:
                 self._earlier_bytes += (folder / part.path).stat().st_size
             self._keep_reserve()
             self._begin_part()
-        except OSError as error:
+        except (OSError, DiskTrouble) as error:
+            trouble = self._trouble(error) if isinstance(error, OSError) else error
             self._give_up_reserve()
-            raise self._trouble(error) from None
+            if after is None:
+                self._remove()
+            raise trouble from None
 
     # what goes in ---------------------------------------------------------------------------
 
@@ -317,12 +320,35 @@ class BagWriter:
         self._channels[topic.name] = channel
         return channel
 
+    def _remove(self) -> None:
+        """Take away what a bag has left that could not be begun."""
+        with contextlib.suppress(OSError):
+            for file in self.folder.iterdir():
+                file.unlink()
+            self.folder.rmdir()
+
     def _trouble(self, error: OSError) -> DiskTrouble:
-        do = "make room on that disk" if error.errno in FULL else "check that folder"
+        if error.errno not in FULL:
+            return DiskTrouble(
+                f"the bag {self.folder} cannot be written ({error.strerror}); what was recorded "
+                "stays readable; check that folder, then start a new recording"
+            )
         return DiskTrouble(
-            f"the bag {self.folder} cannot be written ({error.strerror}); what was recorded stays "
-            f"readable; {do}, then start a new recording"
+            f"the bag {self.folder} cannot be written: {_room(self.folder, error)}; a recording "
+            f"needs {(RESERVE_SIZE + CHUNK_SIZE) / 1e6:.0f} MB; what was recorded stays readable; "
+            "make room on that disk, or name a folder on another one, then start a new recording"
         )
+
+
+def _room(folder: Path, error: OSError) -> str:
+    """Return how much room there is on a disk that has refused, for a person."""
+    try:
+        disk = os.statvfs(folder)
+    except OSError:
+        return str(error.strerror)
+    free, size = disk.f_bavail * disk.f_frsize / 1e6, disk.f_blocks * disk.f_frsize / 1e6
+    whose = "your quota there is used up" if error.errno == errno.EDQUOT else "its disk is full"
+    return f"{whose} ({free:.1f} of {size:.0f} MB are free)"
 
 
 _DUMPER: Any = getattr(yaml, "CSafeDumper", yaml.SafeDumper)

@@ -24,7 +24,9 @@ def session_page(bag: Bag, share: Path, report: SessionReport | None = None) -> 
     motion = read_motion(bag)
     title = bag.path.name
     document = session(title, said, motion)
-    began = datetime.fromtimestamp(bag.start_ns / 1e9).strftime("%Y-%m-%d %H:%M:%S")
+    began = ""
+    if bag.message_count:
+        began = datetime.fromtimestamp(bag.start_ns / 1e9).strftime("%Y-%m-%d %H:%M:%S")
     with mesh_files(bag, share) as resolve:
         meshes = ingredients.meshes_of((robot["urdf"] for robot in document["robots"]), resolve)
         objects = {thing["mesh"] for thing in document["objects"] if thing["mesh"]}

@@ -98,7 +98,8 @@ def sticks_out(body: Array, hulls: list[Array], most: int) -> float:
 
 def stands_off(body: Array, hulls: list[Array], most: int) -> float:
     """Return how far the furthest point of the hulls lies outside the body, m."""
-    skin = cKDTree(samples(body, SPACING))
+    # Of a tree that is asked once, building is what takes time.
+    skin = cKDTree(samples(body, SPACING), compact_nodes=False, balanced_tree=False)
     points = _few(samples(np.concatenate(hulls), SPACING), most)
     away = skin.query(points)[0]
     order = np.argsort(-away)
@@ -116,12 +117,19 @@ def inside(body: Array, points: Array) -> NDArray[np.bool_]:
 
     By the solid angles of the triangles (van Oosterom and Strackee 1983).
     """
-    corners = [body[None, :, i] - points[:, None] for i in range(3)]
-    a, b, c = corners
-    la, lb, lc = (np.linalg.norm(corner, axis=2) for corner in corners)
-    triple = (a * np.cross(b, c)).sum(axis=2)
-    rest = la * lb * lc
-    rest += (a * b).sum(axis=2) * lc + (b * c).sum(axis=2) * la + (a * c).sum(axis=2) * lb
+    # Dot products of the corners seen from each point, by products of matrices: a.b is
+    # A.B - p.(A + B) + p.p, and the triple product n.(A - p) with the normal n, not normalised.
+    corners = [body[:, i] for i in range(3)]
+    of_point = np.square(points).sum(axis=1)[:, None]
+
+    def dots(i: int, j: int) -> Array:
+        here = np.einsum("fc,fc->f", corners[i], corners[j])
+        return np.asarray(here - points @ (corners[i] + corners[j]).T + of_point)
+
+    la, lb, lc = (np.sqrt(np.maximum(dots(i, i), 0.0)) for i in range(3))
+    normal = np.cross(corners[1] - corners[0], corners[2] - corners[0])
+    triple = np.einsum("fc,fc->f", corners[0], normal) - points @ normal.T
+    rest = la * lb * lc + dots(0, 1) * lc + dots(1, 2) * la + dots(0, 2) * lb
     return np.asarray(np.arctan2(triple, rest).sum(axis=1) > np.pi)
 
 
@@ -135,7 +143,7 @@ def samples(faces: Array, spacing: float) -> Array:
         keep = i + j <= step
         u, v = i[keep] / step, j[keep] / step
         weights = np.column_stack([u, v, 1 - u - v])
-        result.append(np.einsum("kw,nwc->nkc", weights, faces[steps == step]).reshape(-1, 3))
+        result.append((weights @ faces[steps == step]).reshape(-1, 3))
     return np.concatenate(result)
 
 

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-import os
 import xml.etree.ElementTree as ET
 from functools import cache
 from pathlib import Path
@@ -12,6 +11,7 @@ from typing import Any
 import numpy as np
 
 from mrlab_ros.adapters.robots import drawn, urdf
+from mrlab_ros.adapters.robots.places import imported_folder
 from mrlab_ros.adapters.yaml_files import read_yaml
 from mrlab_ros.core.errors import BadInput
 from mrlab_ros.core.naming import did_you_mean
@@ -22,15 +22,6 @@ END_EFFECTORS = "end_effectors"
 TIP = "tool0"
 MESH_PREFIX = "package://mrlab_ros/robots/"
 ADAPTER_THICKNESS = 0.012  # m
-
-
-def imported_folder() -> Path:
-    """Return where `mrlab robots import` puts robots: MRLAB_ROBOTS, or the user's data folder."""
-    named = os.environ.get("MRLAB_ROBOTS")
-    if named:
-        return Path(named)
-    data = os.environ.get("XDG_DATA_HOME") or Path.home() / ".local" / "share"
-    return Path(data) / "mrlab" / "robots"
 
 
 class RobotLibrary:

@@ -12,6 +12,7 @@ from pathlib import Path
 
 import yaml
 
+from mrlab_ros.adapters.nearby import like_file
 from mrlab_ros.adapters.yaml_files import Loader
 from mrlab_ros.core.errors import BadInput
 from mrlab_ros.core.naming import NAME, did_you_mean
@@ -69,7 +70,8 @@ def content(path: Path) -> object:
     if not path.is_file():
         # Reading a pipe would wait for ever.
         what = "a folder" if path.is_dir() else "no file" if path.exists() else "missing"
-        raise BadInput(f"{path.name} cannot be read: it is {what}")
+        like = like_file(path) if what == "missing" else ""
+        raise BadInput(f"{path.name} cannot be read: it is {what}{like}")
     try:
         data = path.read_bytes()
         as_json = path.suffix == ".json"

@@ -86,14 +86,17 @@ def uploads(name: str, number: str = "") -> str:
 
 
 def draft(name: str, number: str) -> str:
+    """Return the key of a draft of a user's."""
     return f"{user(name)}/drafts/{_checked(number)}.npz"
 
 
 def motion(name: str, number: str) -> str:
+    """Return the key of the note of what an upload of a user's became."""
     return f"{user(name)}/motions/{_checked(number)}.json"
 
 
 def record(owner: str, name: str) -> str:
+    """Return the key of a trajectory's record; owner: empty for the lab's own."""
     return f"{RECORDS}/{segment(owner) if owner else LAB}/{segment(name)}.json"
 
 

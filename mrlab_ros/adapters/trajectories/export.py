@@ -16,6 +16,7 @@ from mrlab_ros.core.conversion.preview import Preview
 from mrlab_ros.core.design import JOINTS, SEVERITIES
 from mrlab_ros.core.diagnostics import Diagnostic, Severity
 from mrlab_ros.core.errors import BadInput
+from mrlab_ros.core.naming import did_you_mean
 from mrlab_ros.core.robots.model import RobotModel
 from mrlab_ros.core.trajectory.trajectory import Array, Trajectory
 
@@ -112,7 +113,10 @@ def path(name: str, trajectory_id: str, folder: Path) -> Path:
 def writer(name: str) -> Writer:
     """Return the writer of the format `name`; raise BadInput that lists the formats."""
     if name not in WRITERS:
-        raise BadInput(f"'{name}' is no format that is written; there are: {', '.join(WRITERS)}")
+        raise BadInput(
+            f"'{name}' is no format that is written; there are: {', '.join(WRITERS)}"
+            f"{did_you_mean(name, WRITERS)}"
+        )
     return WRITERS[name]
 
 

@@ -76,7 +76,7 @@ def read_bag(data: memoryview, form: str, sink: Sink, limit: int) -> None:
                     sink.add(Found(other.topic, other.msgtype, ()))
             found: dict[str, list[bytes]] = {c.topic: [] for c in wanted}
             for connection, _, message in bag.messages(wanted) if wanted else ():
-                found[connection.topic].append(message)
+                found[connection.topic].append(_plain(message, limit))
     except MemoryError:
         raise
     except Exception as error:
@@ -90,6 +90,18 @@ def read_bag(data: memoryview, form: str, sink: Sink, limit: int) -> None:
         for number, message in enumerate(messages, 1):
             path = topic if len(messages) == 1 else f"{topic}({number})"
             _hand_over(path, message, types, sink)
+
+
+def _plain(message: bytes, limit: int) -> bytes:
+    """Return a message whose bag may have compressed it by itself."""
+    from mrlab_ros.adapters.inflate import ZSTD, inflate_zstd
+
+    if not message.startswith(ZSTD):
+        return message
+    inflated = inflate_zstd(message, limit)
+    if inflated is None:
+        raise ValueError(f"a message inflates to more than {limit / 2**20:.0f} MiB")
+    return bytes(inflated)
 
 
 def read_cdr(data: memoryview, path: str, sink: Sink) -> None:

@@ -475,6 +475,7 @@ def read_mat4(data: memoryview, sink: Sink) -> None:
 
 SIGNATURES: tuple[tuple[bytes, str], ...] = (
     (b"PK\x03\x04", "a ZIP archive (or an Office, .mlx or .slx file)"),
+    (b"\x93NUMPY", "a NumPy array (save it so: np.savez('traj.npz', q=q, fs=100))"),
     (b"\x89PNG", "a PNG picture"),
     (b"\xff\xd8\xff", "a JPEG picture"),
     (b"GIF8", "a GIF picture"),
@@ -489,13 +490,13 @@ SIGNATURES: tuple[tuple[bytes, str], ...] = (
     (b"BZh", "a bzip2 archive"),
     (b"\xfd7zXZ", "an xz archive"),
     (b"\x89MCAP", "mcap"),
-    (b"\x28\xb5\x2f\xfd", "a Zstandard archive (unpack it first: unzstd)"),
+    (b"\x28\xb5\x2f\xfd", "zstd"),
 )
 HDF5_SIGNATURE = b"\x89HDF\r\n\x1a\n"
 
 
 def recognise(data: memoryview) -> str:
-    """Return mat4, mat5, hdf5, gzip, mcap, sqlite3, or in words what else the bytes are."""
+    """Return mat4, mat5, hdf5, gzip, zstd, mcap, sqlite3, or in words what else the bytes are."""
     head = bytes(data[:4096])
     if not head:
         return "an empty file"

@@ -49,10 +49,12 @@ def decoded_strings(stored: Any) -> Iterator[str]:
 
 
 def is_numbers(value: Any) -> bool:
+    """Say whether a value is an array of floating-point numbers."""
     return isinstance(value, np.ndarray) and value.dtype.kind == "f"
 
 
 def kind_of(values: NDArray[Any]) -> str:
+    """Return MATLAB's name of the class of floating-point numbers."""
     return "single" if values.dtype.itemsize == 4 else "double"
 
 
@@ -70,6 +72,7 @@ def inner(value: Any) -> dict[str, Any]:
 
 
 def struct(value: Any) -> dict[str, Any]:
+    """Return the fields of a 1x1 struct, else nothing."""
     if isinstance(value, np.ndarray) and value.dtype.names and value.size == 1:
         return {name: value[name].flat[0] for name in value.dtype.names}
     return {}
@@ -84,6 +87,7 @@ def cells(value: Any) -> list[Any]:
 
 
 def texts(value: Any) -> list[str]:
+    """Return the elements of a cell array as texts, in MATLAB's order."""
     return [text(element) for element in cells(value)]
 
 

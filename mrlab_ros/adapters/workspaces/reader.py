@@ -7,10 +7,7 @@ import json
 import os
 import pickle
 import signal
-import socket
 import stat
-import subprocess
-import sys
 import tempfile
 import threading
 import weakref
@@ -19,7 +16,7 @@ from dataclasses import asdict, dataclass
 from pathlib import Path
 from typing import Any, BinaryIO, TypeVar
 
-import mrlab_ros
+from mrlab_ros.adapters.warm_process import WarmProcess
 from mrlab_ros.adapters.workspaces import content, results
 from mrlab_ros.core.conversion.options import MOST_ROWS
 from mrlab_ros.core.conversion.workspace import Workspace
@@ -60,22 +57,21 @@ class WorkspaceReader:
         self.limits = limits or Limits()
         self._lock = threading.Lock()
         self._closed = False
-        self._process: subprocess.Popen[bytes] | None = None
-        self._connection: socket.socket | None = None
+        self._worker = WarmProcess(
+            "mrlab_ros.adapters.workspaces.worker", start_limit=START_LIMIT, folder=Path("/")
+        )
 
     def start(self) -> None:
         """Start the worker where there is none, so that the first file need not wait for it."""
         with self._lock:
-            self._warm()
+            self._worker.warm()
 
     def close(self) -> None:
         """End the worker; a file that is being read is given up at once."""
         self._closed = True
-        process = self._process
-        if process is not None:
-            _kill(process)
+        self._worker.kill()
         with self._lock:
-            self._stop()
+            self._worker.stop()
 
     def __enter__(self) -> WorkspaceReader:
         return self
@@ -181,76 +177,9 @@ class WorkspaceReader:
         limits = self.limits
         message = json.dumps({**asdict(limits), **more, "name": name[-255:]}).encode()
         with self._lock:
-            connection = self._warm()
-            try:
-                socket.send_fds(connection, [message], descriptors)
-                # the kernel's own timer ends the reading process; this deadline is the last resort
-                connection.settimeout(limits.time + 5)
-                answer = connection.recv(4096)
-            except TimeoutError:
-                self._stop()
-                return None
-            except OSError:
-                answer = b""
-            if not answer:
-                self._stop()
-                return -signal.SIGKILL
-            status: int = json.loads(answer)["status"]
-            return status
-
-    def _warm(self) -> socket.socket:
-        if self._process and self._process.poll() is None and self._connection:
-            return self._connection
-        self._stop()
-        ours, theirs = socket.socketpair(socket.AF_UNIX, socket.SOCK_SEQPACKET)
-        package = str(Path(mrlab_ros.__file__).parent.parent)
-        environment = os.environ | {
-            "PYTHONPATH": os.pathsep.join([package, os.environ.get("PYTHONPATH", "")]),
-            # forking is safe with one thread only
-            "OPENBLAS_NUM_THREADS": "1",
-            "OMP_NUM_THREADS": "1",
-        }
-        command = [
-            sys.executable,
-            "-m",
-            "mrlab_ros.adapters.workspaces.worker",
-            str(theirs.fileno()),
-        ]
-        self._process = subprocess.Popen(
-            command,
-            pass_fds=[theirs.fileno()],
-            stdin=subprocess.DEVNULL,
-            stdout=subprocess.DEVNULL,
-            env=environment,
-            cwd="/",
-            start_new_session=True,
-        )
-        theirs.close()
-        ours.settimeout(START_LIMIT)
-        self._connection = ours
-        try:
-            ready = ours.recv(4096)
-        except OSError:
-            ready = b""
-        if not ready:
-            self._stop()
-            raise RuntimeError("the process that reads workspace files did not start")
-        return ours
-
-    def _stop(self) -> None:
-        if self._connection:
-            self._connection.close()
-        if self._process:
-            _kill(self._process)
-            self._process.wait()
-        self._process = self._connection = None
-
-
-def _kill(process: subprocess.Popen[bytes]) -> None:
-    """End a worker and the process that reads for it."""
-    if process.returncode is None:
-        with contextlib.suppress(ProcessLookupError):
-            os.killpg(process.pid, signal.SIGKILL)
+            self._worker.warm()
+            # the kernel's own timer ends the reading process; this deadline is the last resort
+            return self._worker.ask(message, limits.time + 5, descriptors)
 
 
 @contextlib.contextmanager

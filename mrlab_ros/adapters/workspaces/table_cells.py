@@ -47,6 +47,7 @@ def separator_of(lines: list[str], asked: str) -> str | None:
 
 
 def cells_of(line: str, separator: str | None) -> list[str]:
+    """Return the cells of a row; separator: None: white space. Raises NotATable."""
     if separator is None:
         return DAY_AND_TIME.sub(r"\1T", line).split()
     try:
@@ -63,6 +64,7 @@ def is_value(cell: str, separator: str | None) -> bool:
 
 
 def is_number(text: str) -> bool:
+    """Say whether a text is a number with a decimal point, nan and inf included."""
     try:
         float(text)
     except ValueError:

@@ -25,6 +25,8 @@ from mrlab_ros.core.conversion.unit_names import against
 KNOWN_UNITS = {"", "-", "rad", "deg", "grad", "°", "degree", "degrees", "radian", "radians"}
 KNOWN_UNITS |= {"s", "sec", "ms", "us", "bool"}
 TIMES = ("t", "time", "time_from_start")
+# What a spreadsheet writes for a cell without a value, in its own language.
+SHEET_ERROR = re.compile(r"\s*(#(?:N/?[A-Z]+|[^\W\d_]+(?:/0)?[!?]))(?=[\s;,]|$)")
 LABVIEW_X, LABVIEW_COMMENT = "x_value", "comment"
 
 
@@ -51,6 +53,9 @@ def parsed(data: bytes) -> TextTable:
     """
     text = decoded(data).replace("\r\n", "\n").replace("\r", "\n")
     lines = text.split("\n")
+    # A spreadsheet writes rows of empty cells below the table as far as it was ever edited.
+    while len(lines) > 1 and not lines[-1].strip('\t ;,"'):
+        lines.pop()
     stated: dict[str, float] = {}
     begin, asked, units = labview(lines, stated)
     if not begin:
@@ -152,6 +157,10 @@ def _numbers(
     NotATable with the first line that does not fit.
     """
     lines, separator, instants = _plain(lines, separator, first_line)
+    for number, line in enumerate(lines, first_line):
+        # loadtxt takes a line that begins with # for a comment.
+        if error := SHEET_ERROR.match(line):
+            raise NotATable(f"line {number} has '{error[1]}' where a number is expected")
     try:
         values = np.loadtxt(lines, delimiter=separator, ndmin=2, dtype=np.float64)
     except ValueError:
@@ -223,6 +232,8 @@ def _misfit(lines: list[str], separator: str | None, first_line: int) -> NotATab
     for number, line in enumerate(lines, first_line):
         cells = [c.strip() for c in (line.split(separator) if separator else line.split())]
         if not any(cells):
+            if line.strip():
+                return NotATable(f"line {number} has empty cells where numbers are expected")
             continue
         width = width or len(cells)
         wrong = next((c for c in cells if not is_number(c)), None)

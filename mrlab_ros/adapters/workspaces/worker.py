@@ -63,8 +63,12 @@ MOST_VARIABLES = 50_000
 MESSAGE_SIZE = 65_536
 # what the index says of a variable beside its numbers
 FACTS = ("note", "columns", "units", "time", "is_object", "label", "text")
+# how many bytes one byte of them can hold at most
+COMPRESSED = {"gzip": 1100, "zstd": 33_000}
 # what a table may look like before its rows are read
 TEXTS = ("a text file", "a file of an unknown kind")
+TABLES = (".csv", ".txt", ".tsv", ".lvm")
+NUMBER_BEGINS = tuple(b"%c" % c for c in b"+-.0123456789")
 
 
 class OutputFile:
@@ -107,25 +111,35 @@ def _is_kept(shape: tuple[int, ...]) -> bool:
     return len(shape) >= 2 and (is_motion(shape) or (len(shape) == 3 and shape[:2] == (4, 4)))
 
 
-def inflate(data: memoryview, limit: int) -> bytes:
-    """Return the contents of a gzip file; raise Damaged, or TooLarge above `limit` bytes."""
+def inflate(data: memoryview, form: str, limit: int) -> memoryview:
+    """Return the contents of a gzip or zstd file.
+
+    Raises Damaged, or TooLarge above `limit` bytes.
+    """
+    inflated: bytes | bytearray | None
     try:
-        with gzip.open(View(data)) as file:
-            inflated = file.read(limit + 1)
-    except (OSError, EOFError, zlib.error) as error:
-        raise mat5.Damaged(f"the gzip file cannot be inflated ({error})") from error
-    if len(inflated) > limit:
+        if form == "zstd":
+            from mrlab_ros.adapters.inflate import inflate_zstd
+
+            inflated = inflate_zstd(data, limit)
+        else:
+            with gzip.open(View(data)) as file:
+                inflated = file.read(limit + 1)
+    except (OSError, EOFError, zlib.error, ValueError) as error:
+        raise mat5.Damaged(f"the {form} file cannot be inflated ({error})") from error
+    if inflated is None or len(inflated) > limit:
         raise mat5.TooLarge(f"it inflates to more than {limit / 2**20:.0f} MiB")
-    return inflated
+    return memoryview(inflated)
 
 
 def read(data: memoryview, name: str, sink: Sink, limit: int) -> str:
     """Hand the variables of a file of any known format to the sink; return the format's name."""
     form = mat5.recognise(data)
-    if form == "gzip":
-        data = memoryview(inflate(data, limit))
+    if form in COMPRESSED:
+        data = inflate(data, form, limit)
         form = mat5.recognise(data)
-        name = name.removesuffix(".gz")
+        for suffix in (".gz", ".zst", ".zstd"):
+            name = name.removesuffix(suffix)
     if form in ("mat5", "hdf5"):
         found = ObjectSink(sink)
         if form == "mat5":
@@ -149,7 +163,9 @@ def read(data: memoryview, name: str, sink: Sink, limit: int) -> str:
     if name.lower().endswith(".json"):
         tables.read_json(data, sink)
         return "JSON"
-    if form in TEXTS and name.lower().endswith((".csv", ".txt", ".tsv", ".lvm")):
+    # save -ascii of MATLAB writes a table of numbers, and calls it .mat where it is told to.
+    ascii_table = form == TEXTS[0] and bytes(data[:64]).lstrip()[:1] in NUMBER_BEGINS
+    if form in TEXTS and (name.lower().endswith(TABLES) or ascii_table):
         tables.read_csv(data, sink)
         return "CSV"
     raise mat5.NotAWorkspace(form)
@@ -161,8 +177,9 @@ def read_again(data: memoryview, numbers: int, places: list[list[Any]]) -> tuple
     numbers: the memory file that `read` filled. places: path, shape, offset and numpy type of
     each matrix. Returns the path of the first that differs and what differs, or nothing twice.
     """
-    if mat5.recognise(data) == "gzip":
-        data = memoryview(inflate(data, len(data) * 1100 + (1 << 20)))
+    form = mat5.recognise(data)
+    if form in COMPRESSED:
+        data = inflate(data, form, len(data) * COMPRESSED[form] + (1 << 20))
     size = os.fstat(numbers).st_size
     with_numbers = mmap.mmap(numbers, size, prot=mmap.PROT_READ)
     loaded: dict[str, Any] = {}

@@ -9,6 +9,7 @@ from typing import Annotated
 
 import typer
 
+from mrlab_ros.commands import completion
 from mrlab_ros.commands.convert.options import with_options
 from mrlab_ros.core.conversion.options import Options
 from mrlab_ros.core.errors import LabError, Misuse
@@ -26,11 +27,19 @@ def check(
     file: Annotated[
         Path, typer.Argument(help="Workspace, table or trajectory file; or a cell (.yaml).")
     ],
-    robot: Annotated[str, typer.Option(help="Robot that the motion is for, such as ur5e.")] = "",
+    robot: Annotated[
+        str,
+        typer.Option(
+            help="Robot that the motion is for, such as ur5e.", autocompletion=completion.models
+        ),
+    ] = "",
     tool: Annotated[
         str,
         typer.Option(
-            "--tool", "--end-effector", help="End effector; empty: that of the scene, or none."
+            "--tool",
+            "--end-effector",
+            help="End effector; empty: that of the scene, or none.",
+            autocompletion=completion.tools,
         ),
     ] = "",
     scene: Annotated[

@@ -2,14 +2,11 @@
 
 from __future__ import annotations
 
-import contextlib
 import json
 import os
 import shutil
 import signal
-import socket
 import subprocess
-import sys
 import tempfile
 import threading
 import time
@@ -19,7 +16,7 @@ from pathlib import Path
 
 import orjson
 
-import mrlab_ros
+from mrlab_ros.adapters.warm_process import WarmProcess
 from mrlab_ros.adapters.workspaces.content import death
 from mrlab_ros.commands.classroom import worker
 from mrlab_ros.commands.classroom.setup import Setup, Task
@@ -29,8 +26,6 @@ from mrlab_ros.core.errors import BadInput
 START_LIMIT = 120.0  # s for the process to import and to check the reference, on a busy machine
 PARENT_PERIOD = 2.0  # s between two looks whether the class still runs
 GRACE = 15.0  # s beyond the kernel's own timer
-# The libraries draw nothing from more threads, and forking is safe with one only.
-ONE_THREAD = {"OPENBLAS_NUM_THREADS": "1", "OMP_NUM_THREADS": "1", "MKL_NUM_THREADS": "1"}
 _graders: dict[bytes, Grader] = {}
 
 
@@ -42,8 +37,12 @@ class Grader:
         self.setup = setup
         self._scratch = Path(tempfile.mkdtemp(prefix="mrlab-class-", dir=scratch or None))
         (self._scratch / "setup").write_bytes(setup.packed)
-        self._process: subprocess.Popen[bytes] | None = None
-        self._connection: socket.socket | None = None
+        self._worker = WarmProcess(
+            "mrlab_ros.commands.classroom.worker",
+            [str(self._scratch)],
+            start_limit=START_LIMIT,
+            errors=subprocess.DEVNULL,
+        )
 
     def check(self, task: Task) -> dict[str, bytes]:
         """Return what was found of a submission: files by the names that `worker` gives them.
@@ -68,7 +67,7 @@ class Grader:
 
     def close(self) -> None:
         """End the process and remove what it left."""
-        self._stop()
+        self._worker.stop()
         shutil.rmtree(self._scratch, ignore_errors=True)
 
     def _given(self, task: Task, folder: Path) -> list[str]:
@@ -93,57 +92,14 @@ class Grader:
 
     def _ask(self, request: Mapping[str, object]) -> int | None:
         """Return the exit status of the process that did a request, None past the time limit."""
-        connection = self._warm()
         try:
-            connection.send(json.dumps(request).encode())
-            connection.settimeout(self.setup.bounds.wall + GRACE)
-            answer = connection.recv(4096)
-        except TimeoutError:
-            self._stop()
-            return None
-        except OSError:
-            answer = b""
-        if not answer:
-            self._stop()
-            return -signal.SIGKILL
-        return int(json.loads(answer)["status"])
-
-    def _warm(self) -> socket.socket:
-        if self._process and self._process.poll() is None and self._connection:
-            return self._connection
-        self._stop()
-        ours, theirs = socket.socketpair(socket.AF_UNIX, socket.SOCK_SEQPACKET)
-        package = str(Path(mrlab_ros.__file__).parent.parent)
-        environment = os.environ | ONE_THREAD
-        environment["PYTHONPATH"] = os.pathsep.join([package, os.environ.get("PYTHONPATH", "")])
-        module = "mrlab_ros.commands.classroom.worker"
-        self._process = subprocess.Popen(
-            [sys.executable, "-m", module, str(theirs.fileno()), str(self._scratch)],
-            pass_fds=[theirs.fileno()], stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL,
-            stderr=subprocess.DEVNULL, env=environment, start_new_session=True,
-        )  # fmt: skip
-        theirs.close()
-        ours.settimeout(START_LIMIT)
-        self._connection = ours
-        try:
-            ready = ours.recv(worker.MESSAGE_SIZE)
-        except OSError:
-            ready = b""
-        said = json.loads(ready) if ready else {"error": "the process that checks did not start"}
-        if "error" in said:
-            self._stop()
+            ready = self._worker.warm()
+        except RuntimeError:
+            raise BadInput("the process that checks did not start") from None
+        if ready and "error" in (said := json.loads(ready)):
+            self._worker.stop()
             raise BadInput(str(said["error"]))
-        return ours
-
-    def _stop(self) -> None:
-        if self._process:
-            # before the connection is closed: a process that lives removes the folder then
-            with contextlib.suppress(ProcessLookupError):
-                os.killpg(self._process.pid, signal.SIGKILL)
-            self._process.wait()
-        if self._connection:
-            self._connection.close()
-        self._process = self._connection = None
+        return self._worker.ask(json.dumps(request).encode(), self.setup.bounds.wall + GRACE)
 
 
 def checked(setup: Setup, task: Task, scratch: str = "", owner: int = 0) -> dict[str, bytes]:

@@ -20,6 +20,7 @@ import orjson
 from rich.console import Console
 from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn
 
+from mrlab_ros.adapters.nearby import like_file
 from mrlab_ros.adapters.robots.library import RobotLibrary
 from mrlab_ros.adapters.trajectories import export, npz_file
 from mrlab_ros.adapters.trajectories.coefficients import load_coefficients
@@ -53,7 +54,10 @@ BADNESS = (0, 2, 1)
 AHEAD = 64  # files that may be converted before the first of them is reported
 MANY_PLOTS = 8  # from so many on, processes that draw are worth their start
 LEAST_MEMORY, LEAST_TIME, MOST_LIMIT = 64, 0.1, 1_000_000  # MiB, s, either
-SUFFIXES = (".mat", ".mat.gz", ".csv", ".lvm", ".npz", ".json", ".mcap", ".db3")
+SUFFIXES = (
+    *(".mat", ".mat.gz", ".csv", ".lvm", ".npz", ".json", ".mcap", ".db3"),
+    *(".mcap.zst", ".mcap.zstd", ".db3.zst", ".db3.zstd"),
+)
 
 
 @dataclass(frozen=True)
@@ -190,7 +194,9 @@ def convert_files(wanted: Sequence[Wanted]) -> list[ConversionResult]:
     for each in wanted:
         path = each.path
         if not path.is_file():
-            raise BadInput(f"there is no file {path}; check the folder and the name")
+            raise BadInput(
+                f"there is no file {path}; check the folder and the name{like_file(path)}"
+            )
         inputs.append(Input(str(path), path.name, path.name, partial(opened, path)))
         tasks.append(
             Task(

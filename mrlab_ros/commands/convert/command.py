@@ -7,6 +7,7 @@ from typing import Annotated
 
 import typer
 
+from mrlab_ros.commands import completion
 from mrlab_ros.commands.convert.options import with_options
 from mrlab_ros.core.conversion.options import Options
 
@@ -14,7 +15,13 @@ from mrlab_ros.core.conversion.options import Options
 @with_options
 def convert(
     options: Options,
-    robot: Annotated[str, typer.Option(help="Robot that the trajectory is for, such as ur5e.")],
+    robot: Annotated[
+        str,
+        typer.Option(
+            help="Robot that the trajectory is for, such as ur5e.",
+            autocompletion=completion.models,
+        ),
+    ],
     files: Annotated[
         list[Path] | None, typer.Argument(help="Workspace files, bags, or folders of them.")
     ] = None,
@@ -22,7 +29,9 @@ def convert(
         str, typer.Option(help="Take the next JointTrajectory of this topic instead of a file.")
     ] = "",
     timeout: Annotated[float, typer.Option(help="How long to wait for the topic, s.")] = 10.0,
-    end_effector: Annotated[str, typer.Option(help="End effector; empty: none.")] = "",
+    end_effector: Annotated[
+        str, typer.Option(help="End effector; empty: none.", autocompletion=completion.tools)
+    ] = "",
     out: Annotated[Path | None, typer.Option(help="Folder for what is written.")] = None,
     to: Annotated[str, typer.Option(help="json, csv, mat, npz or jointtrajectory.")] = "json",
     force: Annotated[

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import asdict
 from itertools import zip_longest
 from pathlib import Path
@@ -10,6 +11,7 @@ from typing import Any
 from rich.console import Console
 from rich.table import Table
 
+from mrlab_ros.adapters.nearby import like_file
 from mrlab_ros.commands.convert.options import command_with
 from mrlab_ros.core.conversion.candidates import SPARK_WIDTH
 from mrlab_ros.core.conversion.convert import ConversionResult
@@ -50,30 +52,25 @@ def record(given: str, result: ConversionResult, written: Path | None) -> dict[s
 
 
 def show(
-    result: ConversionResult, written: Path | None, words: list[str], options: Options
+    result: ConversionResult,
+    written: Path | None,
+    words: list[str],
+    options: Options,
+    console: Console | None = None,
 ) -> None:
     """Print what became of a file, every finding, and what there is to choose from.
 
     words: of the command that was given, without its `options`; findings name it with one more.
+    console: None: standard output.
     """
-    console = Console()
+    console = console or Console()
     outcome = result.outcome.name.lower()
     console.print(outcome, style=OUTCOME_STYLES[outcome], end="  ")
     console.print(
         result.message if result.trajectory else result.file, markup=False, highlight=False
     )
-    for d, following in zip_longest(result.diagnostics, result.diagnostics[1:]):
-        severity = d.severity.name.lower()
-        label, style = f"  {severity} {d.code}: ", SEVERITY_STYLES[severity]
-        console.print(label + d.message, style=style, markup=False, highlight=False)
-        if following and _advice(following) == _advice(d):
-            continue  # said once, below the last of them
-        if d.remedy:
-            console.print(f"      {d.remedy}", markup=False, highlight=False)
-        if result.trajectory is None:
-            for fix in d.fixes:
-                if fix.option:
-                    _say_next(console, command_with(words, options, fix.option, fix.value))
+    next_words = words if result.trajectory is None else []
+    show_findings(result.diagnostics, console, next_words, options)
     if result.candidates:
         console.print(_choices(result))
         if not any(fix.option == "variable" for d in result.diagnostics for fix in d.fixes):
@@ -81,6 +78,35 @@ def show(
             _say_next(console, command_with(words, options, "variable", likeliest))
     if written:
         console.print(f"  written to {written}", markup=False, highlight=False)
+
+
+def show_findings(
+    findings: Sequence[Diagnostic],
+    console: Console,
+    words: list[str] | None = None,
+    options: Options | None = None,
+) -> None:
+    """Print findings with their remedies, and with `words` the commands that mend them."""
+    for d, following in zip_longest(findings, findings[1:]):
+        severity = d.severity.name.lower()
+        label, style = f"  {severity} {d.code}: ", SEVERITY_STYLES[severity]
+        console.print(label + d.message, style=style, markup=False, highlight=False)
+        if following and _advice(following) == _advice(d):
+            continue  # said once, below the last of them
+        if d.remedy:
+            like = _like(d, words or [])
+            remedy = d.remedy.removesuffix(".") + like if like else d.remedy
+            console.print(f"      {remedy}", markup=False, highlight=False)
+        for fix in d.fixes if words else ():
+            if fix.option:
+                command = command_with(words or [], options or Options(), fix.option, fix.value)
+                _say_next(console, command)
+
+
+def _like(d: Diagnostic, words: list[str]) -> str:
+    """Return which file may have been meant by the one of `words` that is missing."""
+    files = (Path(word) for word in words[2:]) if d.code == "missing" else ()
+    return next(filter(None, (like_file(file) for file in files if not file.exists())), "")
 
 
 def _advice(d: Diagnostic) -> tuple[str, str, list[tuple[str, str]]]:

@@ -11,7 +11,7 @@ from typing import Annotated
 
 import typer
 
-from mrlab_ros.commands.up.command import stop_signals
+from mrlab_ros.commands.up.surroundings import stop_signals
 from mrlab_ros.core.errors import BadInput
 
 

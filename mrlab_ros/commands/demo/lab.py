@@ -13,11 +13,8 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from mrlab_ros.commands.up.command import (
-    Speaker,
-    folder_for_state,
-    stay_on_this_machine,
-)
+from mrlab_ros.commands.up.speaker import Speaker
+from mrlab_ros.commands.up.surroundings import folder_for_state, stay_on_this_machine
 from mrlab_ros.commands.up.web import open_in_browser, opening_url, run_facts
 from mrlab_ros.core.errors import LabError, Misuse
 from mrlab_ros.processes.lab import lab_processes, parameter_file

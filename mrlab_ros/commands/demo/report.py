@@ -9,7 +9,7 @@ from dataclasses import asdict, dataclass, field
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from mrlab_ros.commands.up.command import COLOURS
+from mrlab_ros.commands.up.speaker import COLOURS
 from mrlab_ros.commands.up.web import opening_url
 from mrlab_ros.core.errors import LabError
 from mrlab_ros.processes.supervisor import SELF

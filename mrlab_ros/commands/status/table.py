@@ -15,6 +15,7 @@ from rich.text import Text
 
 from mrlab_ros.client.follow import milliseconds
 from mrlab_ros.core.design import OUTCOME_STYLES, SEVERITY_STYLES, STATE_STYLES
+from mrlab_ros.core.watch import RESTARTED
 
 if TYPE_CHECKING:
     from rich.console import RenderableType
@@ -44,13 +45,19 @@ def _head(facts: Mapping[str, Any], nodes: Mapping[str, bool]) -> Iterator[Text]
     yield Text(f"Lab on ROS domain {facts['domain']}, {kept}", "bold")
     if absent := [name for name, present in nodes.items() if not present]:
         yield Text(f"Not in the graph: {', '.join(absent)}", ERROR)
+    # A restarted process says itself how it ended, and what was lost; one that is not back cannot.
+    trouble = dict(facts["trouble"])
     for process in (supervisor or {}).get("processes", ()):
         if line := _died_lately(process):
-            yield Text(line, WARNING)
+            name = process["name"]
+            if process["phase"] != "running":
+                trouble.pop(name, None)
+            if RESTARTED not in trouble.get(name, ""):
+                yield Text(line, WARNING)
     if web := facts["web"]:
         how = "" if web["answers"] else ", which do not answer"
         yield Text(f"Pages at {web['address']}{how}; open them with: mrlab open")
-    for name, text in facts["trouble"].items():
+    for name, text in trouble.items():
         yield Text(f"{name}: {text}", ERROR)
     if recorder := recorder_line(facts["recorder"]):
         yield Text(recorder)
@@ -114,7 +121,7 @@ def _sections(facts: Mapping[str, Any]) -> Iterator[tuple[str, tuple[str, ...], 
     )
     yield (
         "Trajectories",
-        ("id", "for", "frames", "Hz", "duration", "warnings"),
+        ("id", "for", "frames", "Hz", "duration"),
         [
             _row(
                 t["id"],
@@ -122,7 +129,6 @@ def _sections(facts: Mapping[str, Any]) -> Iterator[tuple[str, tuple[str, ...], 
                 str(t["frame_count"]),
                 f"{t['frame_rate']:g}",
                 f"{t['duration']:.2f} s",
-                str(len(t["warnings"])),
             )
             for t in facts["trajectories"]
         ],

@@ -216,7 +216,6 @@ class View:
                     "frame_rate": t.frame_rate,
                     "frame_count": t.frame_count,
                     "duration": t.duration,
-                    "warnings": [w.message for w in t.warnings],
                 }
                 for t in (self._catalogue.value.trajectories if self._catalogue.value else ())
             ],

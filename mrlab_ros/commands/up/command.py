@@ -2,15 +2,11 @@
 
 from __future__ import annotations
 
-import os
-import signal
-import tempfile
 import threading
 import time
-from collections.abc import Callable, Iterable, Iterator
-from contextlib import contextmanager
+from collections.abc import Callable
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import Annotated
 
 import typer
 
@@ -23,16 +19,21 @@ from mrlab_ros.commands.up.keys import (
     keys_changed_at,
     tell_when_keys_expire,
 )
+from mrlab_ros.commands.up.refusals import Refusals
+from mrlab_ros.commands.up.speaker import Speaker
+from mrlab_ros.commands.up.surroundings import (
+    folder_for_state,
+    stay_on_this_machine,
+    stop_signals,
+)
 from mrlab_ros.commands.up.web import (
     checked_web,
     prepare_keys,
     run_facts,
     say_where,
 )
-from mrlab_ros.core.errors import BadInput
 from mrlab_ros.processes import physics_support
 from mrlab_ros.processes.lab import (
-    PROCESSES,
     lab_nodes,
     lab_processes,
     parameter_file,
@@ -42,25 +43,9 @@ from mrlab_ros.processes.options import LabOptions, new_lab_id
 from mrlab_ros.processes.parameter_file import parameter
 from mrlab_ros.processes.readiness import READY_TIMEOUT_S, wait_until_complete
 from mrlab_ros.processes.run_file import RunFile
-from mrlab_ros.processes.supervisor import SELF, Phase, ProcessState, Supervisor
+from mrlab_ros.processes.supervisor import SELF, ProcessState, Supervisor
 from mrlab_ros.processes.web import gateway_answers
 from mrlab_ros.ros.domain import domain_id
-
-if TYPE_CHECKING:
-    from rich.console import Console
-
-
-PALETTE = ("cyan", "green", "red", "yellow", "bright_cyan", "magenta", "bright_blue")
-COLOURS = {SELF: "bold"} | {
-    process.name: colour for process, colour in zip(PROCESSES, PALETTE, strict=True)
-}
-# Any of these says that the user has chosen whom the graph can see.
-DISCOVERY = (
-    "ROS_AUTOMATIC_DISCOVERY_RANGE",
-    "ROS_DISCOVERY_SERVER",
-    "ROS_LOCALHOST_ONLY",
-    "ROS_STATIC_PEERS",
-)
 
 
 def up(
@@ -300,79 +285,3 @@ def follow_late(
         pass
     if not stop.is_set():
         say_ready()
-
-
-class Refusals:
-    """The processes that refuse their configuration at their first start; they set `stop`.
-
-    One that refuses after a restart does not end a lab that runs.
-    """
-
-    def __init__(self, stop: threading.Event) -> None:
-        self._stop = stop
-        self._names: set[str] = set()
-
-    def check(self, states: Iterable[ProcessState]) -> None:
-        first = (s for s in states if s.phase == Phase.REFUSED.value and not s.restarts)
-        self._names |= {s.name for s in first}
-        if self._names:
-            self._stop.set()
-
-    def raise_any(self) -> None:
-        """Raise BadInput where a process refused."""
-        if self._names:
-            raise BadInput(
-                f"the lab does not start: {', '.join(sorted(self._names))} refused the "
-                "configuration and said above what is wrong; correct it and start again"
-            )
-
-
-class Speaker:
-    """Prints lines with the coloured name of the process that said them."""
-
-    def __init__(self, console: Console | None = None) -> None:
-        from rich.console import Console
-
-        self._console = console or Console()
-
-    def __call__(self, name: str, line: str) -> None:
-        from rich.text import Text
-
-        text = Text.assemble((f"{name:<9}", COLOURS.get(name, "blue")), Text.from_ansi(line))
-        self._console.print(text, soft_wrap=True)
-
-
-def stay_on_this_machine() -> None:
-    """Keep the graph off the network unless the user has chosen otherwise."""
-    if not any(os.environ.get(name) for name in DISCOVERY):
-        os.environ["ROS_AUTOMATIC_DISCOVERY_RANGE"] = "LOCALHOST"
-
-
-@contextmanager
-def folder_for_state(chosen: Path | None) -> Iterator[Path]:
-    """Make the folder for scene and trajectories; a temporary one goes with the lab."""
-    if chosen is not None:
-        try:
-            chosen.mkdir(parents=True, exist_ok=True)
-        except OSError as error:
-            raise BadInput(
-                f"--state-dir {chosen} cannot be used: {error.strerror}; expected a folder, or a "
-                "path where one can be made"
-            ) from None
-        yield chosen.resolve()
-        return
-    with tempfile.TemporaryDirectory(prefix="mrlab-", ignore_cleanup_errors=True) as made:
-        yield Path(made)
-
-
-@contextmanager
-def stop_signals() -> Iterator[threading.Event]:
-    """Yield an event that Ctrl-C, SIGTERM and a closed terminal set."""
-    stop = threading.Event()
-    numbers = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
-    before = {number: signal.signal(number, lambda *_: stop.set()) for number in numbers}
-    try:
-        yield stop
-    finally:
-        for number, handler in before.items():
-            signal.signal(number, handler)

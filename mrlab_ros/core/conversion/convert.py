@@ -20,6 +20,7 @@ from mrlab_ros.core.conversion import (
     kinematics_match,
     left_out_columns,
     limits,
+    rate_findings,
     resampling,
 )
 from mrlab_ros.core.conversion.assessment import Assessment
@@ -85,7 +86,8 @@ class ConversionResult:
 
 def id_from(file: str) -> str:
     """Return a name for the catalogue from a file's name: its letters, digits, '.', '_', '-'."""
-    stem = re.sub(r"(\.(mat|csv|txt|tsv|lvm|npz|json|mcap|gz|db3|cdr))+$", "", file, flags=re.I)
+    endings = r"(\.(mat|csv|txt|tsv|lvm|npz|json|mcap|gz|zstd?|db3|cdr))+$"
+    stem = re.sub(endings, "", file, flags=re.I)
     cleaned = re.sub(r"[^A-Za-z0-9._-]+", "_", stem).strip("._-")[:128]
     return cleaned or "trajectory"
 
@@ -371,7 +373,7 @@ def _made_even(
         even = found.rate
         notes += found.notes
     else:
-        flaws = frame_rate.flaws(clock)
+        flaws = rate_findings.flaws(clock)
         if clock.backward:
             raise Refused(replace(flaws[0], severity=Severity.ERROR))
         notes += [n for n in found.notes if n not in flaws and not n.code.startswith("time_")]

@@ -143,9 +143,18 @@ def no_trajectory(survey: Survey, file: str) -> Diagnostic:
         robot=robot.id,
         joints=joints,
         found=contents(survey.workspace) + looks,
-        fixes=tuple(Fix("variable", a.path, saving(a.path)) for a in others)
-        or (Fix(matlab="save('traj.mat', 'q')"),),
+        fixes=tuple(_naming(a) for a in others) or (Fix(matlab="save('traj.mat', 'q')"),),
     )
+
+
+def _naming(a: Assessment) -> Fix:
+    """Return what takes a matrix all the same; no command plays what is known to be no positions.
+
+    Who follows commands one after the other would see velocities played as a motion.
+    """
+    if a.name.hint is Hint.AGAINST or a.velocity_of:
+        return Fix(matlab=saving(a.path))
+    return Fix("variable", a.path, saving(a.path))
 
 
 def _looks(a: Assessment) -> str:

@@ -42,6 +42,7 @@ class Name:
 
 
 def words(text: str) -> frozenset[str]:
+    """Return the words of a text, in lower case."""
     return frozenset(text.lower().split())
 
 

@@ -7,12 +7,12 @@ the same events.
 
 from __future__ import annotations
 
-import math
 from collections.abc import Sequence
 
 from mrlab_ros.core.clock import SECOND
 from mrlab_ros.core.errors import Misuse
 from mrlab_ros.core.geometry import Pose, Vector, compose, relative
+from mrlab_ros.core.physics.arm_motion import ArmMotion
 from mrlab_ros.core.physics.catalogue import Catalogue
 from mrlab_ros.core.physics.collisions import Collisions
 from mrlab_ros.core.physics.engine import BodyState, Engine, LinkPairs
@@ -20,25 +20,18 @@ from mrlab_ros.core.physics.events import Contact, Event
 from mrlab_ros.core.physics.grasp import Gripper
 from mrlab_ros.core.physics.grasp_load import Tool
 from mrlab_ros.core.physics.grippers import Grippers
-from mrlab_ros.core.physics.joint_stream import Joints, between
 from mrlab_ros.core.physics.objects import Inventory
 from mrlab_ros.core.physics.rest import Rest
 from mrlab_ros.core.physics.scrubbing import Rewind
 from mrlab_ros.core.physics.settings import Settings
 from mrlab_ros.core.physics.simulated_robot import GripperProgram, Playing, Robot
+from mrlab_ros.core.physics.step_grid import ROOM_STEPS, SLOW_STEPS, StepGrid
 from mrlab_ros.core.physics.surfaces import Surface
 from mrlab_ros.core.physics.world_state import SceneObject, WorldState
-from mrlab_ros.core.playback.states import State
 
-# Clearance and snapshots run every SLOW_STEPS steps; every ROOM_STEPS, a multiple of it, what has
-# left the room is looked for.
-SLOW_STEPS = 12
-ROOM_STEPS = 60
 # A gap longer than this between two calls of advance(), ns, counts as a stall, not as silence of
 # an arm.
 STALL_NS = SECOND // 50
-# A robot that moved in a step: start and end positions, and velocities.
-Moved = tuple[Robot, Joints, Joints, Joints]
 
 
 class World:
@@ -53,11 +46,11 @@ class World:
         self._inventory = Inventory(self._world_state, catalogue, self._grippers)
         self._collisions = Collisions(self._world_state)
         self._rewind = Rewind(self._world_state, self._grippers)
+        self._arm_motion = ArmMotion(self._world_state, self._grippers, self._collisions)
         self._rest = Rest(self._world_state)
-        self._epoch_ns: int | None = None
+        self._grid = StepGrid(settings.step_rate)
         # now_ns of the last call of advance().
         self._called_ns = 0
-        self._count = 0
         self.steps = 0
         self.skipped_ns = 0
         self.set_surfaces([])
@@ -259,25 +252,17 @@ class World:
     @property
     def next_ns(self) -> int:
         """When the next step is due: a world at rest makes every SLOW_STEPS-th only."""
-        return self._stamp(self._next_count)
-
-    @property
-    def _next_count(self) -> int:
-        if self._rest.resting:
-            return (self._count // SLOW_STEPS + 1) * SLOW_STEPS
-        return self._count + 1
-
-    def _stamp(self, count: int) -> int:
-        assert self._epoch_ns is not None
-        return self._epoch_ns + round(count * SECOND / self._settings.step_rate)
+        return self._grid.stamp(self._grid.next(resting=self._rest.resting))
 
     def advance(self, now_ns: int, most: int | None = None) -> int:
         """Step until `now_ns`, or as far as the arms' motion is known; return the steps made.
 
         most: steps in one call; the rest is left to the next one.
         """
-        if self._epoch_ns is None:
-            self._epoch_ns = self._world_state.now_ns = self._called_ns = now_ns
+        grid = self._grid
+        if not grid.started:
+            grid.start(now_ns)
+            self._world_state.now_ns = self._called_ns = now_ns
         waited_ns = min(max(now_ns - self._called_ns, 0), STALL_NS)
         self._called_ns = now_ns
         if now_ns < self._world_state.now_ns - SECOND:
@@ -296,11 +281,11 @@ class World:
             self._shift(behind_ns)
         made = 0
         while made != most:
-            count = self._next_count
-            stamp_ns = self._stamp(count)
+            count = grid.next(resting=self._rest.resting)
+            stamp_ns = grid.stamp(count)
             if stamp_ns > target_ns:
                 break
-            self._count, self._world_state.now_ns = count, stamp_ns
+            grid.count, self._world_state.now_ns = count, stamp_ns
             self._step(stamp_ns)
             made += 1
         self.steps += made
@@ -308,7 +293,7 @@ class World:
 
     def shift(self, by_ns: int) -> None:
         """Go on as before after the clock of advance() was set by `by_ns`."""
-        if self._epoch_ns is not None:
+        if self._grid.started:
             self._shift(by_ns)
             self._called_ns += by_ns
             for robot in self._robots.values():
@@ -316,17 +301,17 @@ class World:
 
     def _shift(self, by_ns: int) -> None:
         """Shift the world's clock."""
-        assert self._epoch_ns is not None
-        self._epoch_ns += by_ns
+        self._grid.shift(by_ns)
         self._world_state.now_ns += by_ns
 
     def _step(self, now_ns: int) -> None:
         for robot in self._robots.values():
             if robot.queued:
                 self._apply_due(robot, now_ns)
-        moved = self._move_arms(now_ns)
+        slow = self._grid.count % SLOW_STEPS == 0
+        moved = self._arm_motion.pose(now_ns, check=slow)
         whole = 1.0 / self._settings.step_rate
-        divisions = self._divisions(moved) if moved else 1
+        divisions = self._arm_motion.divisions(moved) if moved else 1
         if self._inventory.fast:
             divisions = max(divisions, self._inventory.divisions(whole))
         duration = whole / divisions
@@ -335,9 +320,7 @@ class World:
         present = [robot for robot in self._robots.values() if robot.placed is not None]
         for k in range(1, divisions + 1):
             if divisions > 1:
-                for robot, start, end, velocities in moved:
-                    at = between(start, end, k / divisions)
-                    self._engine.move_arm(robot.name, at, velocities)
+                self._arm_motion.pose_between(moved, k / divisions)
             self._engine.step(duration)
             for robot in present:
                 self._collisions.observe(robot, now_ns, duration)
@@ -346,10 +329,10 @@ class World:
                 self._grippers.follow(robot, now_ns, duration * divisions)
             if robot.pending is not None:
                 self._rewind.restore(robot, now_ns)
-        if self._count % SLOW_STEPS == 0:
+        if slow:
             motions = self._inventory.motions()
             self._inventory.look_for_fast(motions)
-            if self._count % ROOM_STEPS == 0 and self._inventory.keep_in_room(motions):
+            if self._grid.count % ROOM_STEPS == 0 and self._inventory.keep_in_room(motions):
                 motions = self._inventory.motions()
             self._rewind.record(now_ns, motions)
             for robot in present:
@@ -358,46 +341,3 @@ class World:
                 if robot.held:
                     self._grippers.weigh(robot, now_ns, duration * divisions * SLOW_STEPS)
             self._rest.compare(self._inventory.motions)
-
-    def _move_arms(self, now_ns: int) -> list[Moved]:
-        """Pose every arm by its joint states; return those that moved."""
-        moved: list[Moved] = []
-        check = self._count % SLOW_STEPS == 0
-        for robot in self._robots.values():
-            placed = robot.stream.at(now_ns)
-            if placed is None:
-                continue
-            before = robot.placed
-            same = before == placed.positions
-            # Contacts can drift a standing arm; re-place it only while something touches it.
-            idle = same and not (check or robot.touches or robot.held)
-            if idle and not any(placed.velocities):
-                continue
-            jumped = placed.jumped or before is None
-            self._engine.move_arm(robot.name, placed.positions, placed.velocities, jumped=jumped)
-            robot.placed = placed.positions
-            if jumped:
-                self._grippers.carry(robot)
-                if robot.pending is not None:
-                    robot.pending = (now_ns, robot.pending[1])
-                if before is None and robot.playing.state is not State.COLLISION_HALT:
-                    self._collisions.tolerate(robot)
-            elif before is not None and not same:
-                moved.append((robot, before, placed.positions, placed.velocities))
-        return moved
-
-    def _divisions(self, moved: list[Moved]) -> int:
-        """Return into how many parts to divide a step so that no arm passes through a plate."""
-        most = 0.0
-        for robot, start, end, velocities in moved:
-            # Upper bound: the way of the arm's end if it were fully stretched.
-            bound = robot.reach(end, start)
-            if bound > self._settings.max_travel:
-                if velocities is not robot.share_of:
-                    # The share is constant along a straight motion in joint space.
-                    stretched = robot.reach(velocities)
-                    speed = self._engine.speed(robot.name)
-                    robot.share = min(speed / stretched, 1.0) if stretched else 1.0
-                    robot.share_of = velocities
-                most = max(most, bound * robot.share)
-        return min(math.ceil(most / self._settings.max_travel) or 1, self._settings.max_divisions)

@@ -84,12 +84,14 @@ class Gap:
         """How long it lasted, s."""
         return (self.until_ns - self.from_ns) / SECOND
 
+    def missing(self) -> str:
+        """Return what is missing: a clock that was set back meanwhile does not say how long."""
+        return f"{self.duration:.1f} s are missing" if self.duration else "some time is missing"
+
     def describe(self, start_ns: int) -> str:
         """Return a sentence about it. start_ns: of the bag."""
-        return (
-            f"{self.duration:.1f} s are missing from {(self.from_ns - start_ns) / SECOND:.1f} s "
-            "on: the recorder was restarted"
-        )
+        since = (self.from_ns - start_ns) / SECOND
+        return f"{self.missing()} from {since:.1f} s on: the recorder was restarted"
 
     def note(self) -> dict[str, str]:
         """Return the metadata record of it."""
@@ -211,7 +213,8 @@ def paths_in(document: object, name: str) -> list[str]:
     facts = document.get(ROOT) if isinstance(document, Mapping) else None
     if not isinstance(facts, Mapping):
         raise BadInput(
-            f"{name} is not the metadata of a bag: it has no {ROOT}; name the folder of a bag"
+            f"{name} is not the metadata of a bag: it has no {ROOT}; name the folder of a bag, "
+            "or let mrlab bag repair write it anew"
         )
     version, storage = facts.get("version"), facts.get("storage_identifier")
     if not isinstance(version, int) or version > VERSION:

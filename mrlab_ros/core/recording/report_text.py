@@ -11,23 +11,47 @@ from mrlab_ros.core.recording.runs import Deed, Deviation, Run, RunJoint
 HEADINGS = ("run", "robot", "trajectory", "began", "took", "result")
 # Beyond this a run did not follow its reference, rad or m: rounding is far below.
 FOLLOWED = 1e-4
+# Below this a figure is rounding, in any unit that is shown.
+NOTHING = 1e-9
 
 
 def report_lines(report: SessionReport) -> list[str]:
     """Return the report as lines of text."""
     lines = [summary(report), *report.troubles, ""]
     lines += _table(report.runs)
-    idle = [name for name in report.robots if not any(r.robot == name for r in report.runs)]
+    idle = without_runs(report)
     if idle:
         lines += ["", f"without a run: {', '.join(idle)}"]
-    lines += ["", "technical"]
-    return lines + technical_lines(report)
+    technical = technical_lines(report)
+    return [*lines, "", "technical", *technical] if technical else lines
+
+
+def without_runs(report: SessionReport) -> list[str]:
+    """Return the names of the robots that played nothing."""
+    played = {run.robot for run in report.runs}
+    return [name for name in report.robots if name not in played]
+
+
+def lasting(seconds: float, digits: int = 2) -> str:
+    """Return a length of time for a person: 7.60 s, from 100 s on 2:05.3 min or 1:02:05 h."""
+    if round(seconds, digits) < 100:
+        return f"{seconds:.{digits}f} s"
+    tenths = round(seconds * 10)
+    if tenths < 36_000:
+        return f"{tenths // 600}:{tenths % 600 / 10:04.1f} min"
+    whole = round(seconds)
+    return f"{whole // 3600}:{whole // 60 % 60:02d}:{whole % 60:02d} h"
+
+
+def shown(value: float) -> str:
+    """Return a figure in three digits; what differs from nothing by rounding alone is 0."""
+    return f"{value:.3g}" if abs(value) >= NOTHING else "0"
 
 
 def summary(report: SessionReport) -> str:
     """Return how long it was, how many played how often, and how that ended, in one line."""
     robots, runs = len(report.robots), len(report.runs)
-    parts = [f"{report.duration:.1f} s", _count(robots, "robot"), _count(runs, "run")]
+    parts = [lasting(report.duration, 1), _count(robots, "robot"), _count(runs, "run")]
     done = sum(run.result.name == "COMPLETED" for run in report.runs)
     hits = sum(a.deed is Deed.HIT for run in report.runs for a in run.actions)
     if runs:
@@ -45,8 +69,8 @@ def row_of(run: Run) -> tuple[str, ...]:
         str(run.number),
         f"{run.robot}{system}",
         f"{run.trajectory}{speed}",
-        f"{run.start:.2f} s",
-        f"{run.duration:.2f} s",
+        lasting(run.start),
+        lasting(run.duration),
         run.outcome(),
     )
 
@@ -64,7 +88,7 @@ def deviation_text(deviation: Deviation, joints: Sequence[RunJoint]) -> str:
     )
     return (
         f"up to {most} from {deviation.reference} ({deviation.joint} at "
-        f"{deviation.time:.2f} s){tool}"
+        f"{lasting(deviation.time)}){tool}"
     )
 
 
@@ -106,7 +130,11 @@ def _table(runs: Sequence[Run]) -> list[str]:
     indent = " " * (widths[0] + 2)
     for run in runs:
         lines.append(line(row_of(run)))
-        lines += [f"{indent}{action.time:8.2f} s  {action.text}" for action in run.actions]
+        lines += [
+            f"{indent}{lasting(action.time):>10}  {action.text}"
+            + (f", {action.detail}" if action.detail else "")
+            for action in run.actions
+        ]
         if run.deviation is not None:
             lines.append(f"{indent}{'':10}  {deviation_text(run.deviation, run.joints)}")
     return lines
@@ -117,7 +145,8 @@ def _figures(what: str, series: Series, unit: str, scale: float) -> list[str]:
     if not figures["count"]:
         return []
     values = ", ".join(
-        f"{name} {float(figures[name] or 0) * scale:.3g} {unit}" for name in ("p50", "p95", "max")
+        f"{name} {shown(float(figures[name] or 0) * scale)} {unit}"
+        for name in ("p50", "p95", "max")
     )
     return [f"    {what}: {values} ({figures['count']})"]
 

@@ -24,6 +24,8 @@ BEGINS, ENDS = ("ADJUSTING", "PLAYING"), ("COMPLETE", "READY", "IDLE")
 AFTER = 2.0
 # s of a trajectory: a release so near to a programmed one is that one.
 NEAR = 1.0
+# ns: the stamps of two states that differ so much from their receipts are of a clock that was set.
+SET_NS = SECOND
 # s after its release an object counts as lying where it lies for good.
 SETTLED = 2.0
 
@@ -60,7 +62,9 @@ def _runs(robot: RobotReport, end: float) -> Iterator[Run]:
     for state in robot.reported:
         if run is not None and before is not None:
             same = (state.trajectory, state.version) == (run.trajectory, run.version)
-            run.end, run.position = state.time, _position(before, state)
+            run.end = state.time
+            if before.label == "PLAYING":
+                run.position = _position(before, state)
             if state.label in ENDS or not same:
                 done = state.label == "COMPLETE" and same
                 run.result = Result.COMPLETED if done else Result.STOPPED
@@ -84,7 +88,6 @@ def _runs(robot: RobotReport, end: float) -> Iterator[Run]:
         before = state
     if run is not None and before is not None:
         run.end = end
-        run.position = before.clock.position
         if before.label == "PLAYING":
             run.position = _within(
                 before, before.clock.at(before.stamp_ns + _ns(end - before.time))
@@ -102,18 +105,22 @@ def _note(run: Run, before: ReportedState | None, state: ReportedState) -> None:
     if not run.speeds or run.speeds[-1] != state.clock.rate:
         run.speeds.append(state.clock.rate)
     if before is not None and before.label == "PLAYING" and run.length:
-        reached = before.clock.at(state.clock.stamp_ns)
+        reached = before.clock.at(state.clock.stamp_ns - clock_step_ns(before, state))
         over = reached >= run.length - 1e-6 if state.clock.rate > 0 else reached <= 1e-6
         run.loops += over and abs(reached - state.clock.position) > run.length / 2
 
 
+def clock_step_ns(before: ReportedState, state: ReportedState) -> int:
+    """Return by how much the wall clock was set between two states, ns; 0: it was not."""
+    step_ns = state.stamp_ns - before.stamp_ns - _ns(state.time - before.time)
+    return step_ns if abs(step_ns) > SET_NS else 0
+
+
 def _position(before: ReportedState, state: ReportedState) -> float:
-    """Return where on its trajectory a robot was when a state ended, s."""
+    """Return where on its trajectory a robot was when it ceased to play, s."""
     if state.label in ("PAUSED", "COLLISION_HALT"):
         return state.clock.position
-    if before.label == "PLAYING":
-        return _within(before, before.clock.at(state.stamp_ns))
-    return before.clock.position
+    return _within(before, before.clock.at(state.stamp_ns - clock_step_ns(before, state)))
 
 
 def _within(state: ReportedState, position: float) -> float:
@@ -136,21 +143,29 @@ def _actions(
         if remark.label:
             yield Action(remark.start, Deed.REMARK, remark.label)
     spans = robot.grasps.spans(end)
+    before = ""
     for span, following in zip_longest(spans, spans[1:]):
-        if span.label == "EMPTY":
+        # Fingers are empty, too, once what they held is lost or handed over.
+        if span.label == "EMPTY" and before != HOLDING:
             yield Action(span.start, Deed.MISSED, "closed the gripper on nothing")
+        before = span.label
         if span.label != HOLDING:
             continue
         track = objects.get(span.detail)
         place = None if track is None else track.at(span.start)
         spot = None if place is None else place.position
         borne = robot.borne.get(span.detail)
-        carrying = f", {borne.label}" if borne is not None else ""
         yield Action(
-            span.start, Deed.GRASPED, f"grasped {span.detail}{carrying}", span.detail, place=spot
+            span.start,
+            Deed.GRASPED,
+            f"grasped {span.detail}",
+            span.detail,
+            place=spot,
+            detail="" if borne is None else borne.label,
         )
         if following is not None:
-            yield _released(robot, span.detail, span.start, span.end, track, targets)
+            deed = Deed.LOST if following.label == "EMPTY" else Deed.RELEASED
+            yield _let_go(robot, span.detail, span.start, span.end, track, targets, deed)
 
 
 def _hit(contact: Contact) -> Action:
@@ -158,33 +173,37 @@ def _hit(contact: Contact) -> Action:
     return Action(contact.time, Deed.HIT, text, contact.other, contact.link)
 
 
-def _released(
+def _let_go(
     robot: RobotReport,
     name: str,
     since: float,
     time: float,
     track: ObjectTrack | None,
     targets: Targets | None,
+    deed: Deed,
 ) -> Action:
-    """Return the release of an object: where it lies then, and where the trajectory puts it."""
+    """Return how an object left the gripper: where it lies then, and where it was to lie.
+
+    deed: RELEASED, or LOST where the fingers did not open.
+    """
     place = None if track is None else track.at_rest(time, SETTLED)
     if track is None or place is None:
-        return Action(time, Deed.RELEASED, f"released {name}", name)
+        return Action(time, deed, f"{deed.value} {name}", name)
     taken = track.taken_by(time, robot.name)
     if taken:
         return Action(time, Deed.RELEASED, f"handed {name} to {taken}", name)
     target = None
     in_tool = track.in_tool(since)
-    if targets is not None and in_tool is not None:
+    if targets is not None and in_tool is not None and deed is Deed.RELEASED:
         tool = targets.release(time, robot.position_at(time), NEAR)
         if tool is not None:
             target = compose(compose(robot.base_at(time), tool), in_tool).position
-    action = Action(time, Deed.RELEASED, "", name, "", place.position, target)
+    action = Action(time, deed, "", name, "", place.position, target)
     where = f"at {_metres(place)}"
     if action.off is not None:
         off = f"{action.off * 1e3:.0f} mm from" if action.off >= 5e-4 else "at"
         where = f"{off} its programmed place, {where}"
-    return replace(action, text=f"released {name} {where}")
+    return replace(action, text=f"{deed.value} {name} {where}")
 
 
 def _metres(pose: Pose) -> str:

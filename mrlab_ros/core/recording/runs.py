@@ -32,6 +32,7 @@ class Deed(Enum):
 
     GRASPED = "grasped"
     RELEASED = "released"
+    LOST = "lost"
     MISSED = "missed"
     REMARK = "remark"
     HIT = "hit"
@@ -39,7 +40,10 @@ class Deed(Enum):
 
 @dataclass(frozen=True)
 class Action:
-    """Something that a robot did. target: where the trajectory puts what was released."""
+    """Something that a robot did. target: where the trajectory puts what was released.
+
+    detail: figures that belong to it, such as the mass of what was grasped.
+    """
 
     time: float
     deed: Deed
@@ -48,6 +52,7 @@ class Action:
     link: str = ""
     place: tuple[float, float, float] | None = None
     target: tuple[float, float, float] | None = None
+    detail: str = ""
 
     @property
     def off(self) -> float | None:
@@ -61,6 +66,7 @@ class Action:
             "time": self.time,
             "deed": self.deed.value,
             "text": self.text,
+            "detail": self.detail,
             "object": self.object,
             "link": self.link,
             "place": self.place,
@@ -70,7 +76,12 @@ class Action:
 
 
 # How grave a deed is; the others: info.
-SEVERITY = {Deed.HIT: "error", Deed.MISSED: "warning", Deed.REMARK: "warning"}
+SEVERITY = {
+    Deed.HIT: "error",
+    Deed.LOST: "warning",
+    Deed.MISSED: "warning",
+    Deed.REMARK: "warning",
+}
 
 
 def severity(action: Action) -> str:
@@ -131,7 +142,10 @@ class Course:
 
 @dataclass
 class Run:
-    """One run. position: s of the trajectory at its end; speeds: as they were set, in order."""
+    """One run. speeds: as they were set, in order.
+
+    position: s of the trajectory up to which it played; an arm that was taken back stands before.
+    """
 
     robot: str
     model: str

@@ -94,7 +94,7 @@ def reason(state: RecorderState, event: RecorderEvent, bag: str) -> str:
     """
     if event in (RecorderEvent.START, RecorderEvent.REPLAY):
         if state is RecorderState.RECORDING:
-            return f"a recording into {bag} runs; stop it first"
+            return f"a recording into {bag} runs; stop it first: mrlab record --stop"
         return f"{bag} is being replayed; stop that first"
     if event is RecorderEvent.SPLIT:
         return "nothing is recorded; start a recording first"

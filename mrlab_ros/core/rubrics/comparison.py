@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from mrlab_ros.core.rubrics.alignment import Apart, apart, sampled
 from mrlab_ros.core.rubrics.checked import Checked, Motion
 from mrlab_ros.core.rubrics.ground import Ground
-from mrlab_ros.core.rubrics.poses import no_robot
+from mrlab_ros.core.rubrics.motions import no_motion
 from mrlab_ros.core.rubrics.quantities import ANGLE, LENGTH
 from mrlab_ros.core.rubrics.rubric import Measure, Outcome
 from mrlab_ros.core.rubrics.sentences import Form, Gaps, Given
@@ -30,7 +30,7 @@ class NearReference:
             return Outcome(0.0, "There is no reference motion to compare with.", 0.0)
         motions = checked.played(self.robot)
         if not motions:
-            return no_robot(self.robot, checked)
+            return no_motion(self.robot, checked)
         found: list[tuple[float, float, str]] = []
         for number, motion in enumerate(motions):
             other = _partner(motion, number, reference)

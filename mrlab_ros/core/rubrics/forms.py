@@ -5,6 +5,7 @@ from __future__ import annotations
 from mrlab_ros.core.rubrics import (
     comparison,
     contacts,
+    ends,
     grasps,
     limits,
     paths,
@@ -16,7 +17,7 @@ from mrlab_ros.core.rubrics.sentences import Form
 
 FAMILIES: dict[str, tuple[Form, ...]] = {
     "contact and distance": contacts.FORMS,
-    "poses, beginning and end": poses.FORMS,
+    "poses, beginning and end": poses.FORMS + ends.FORMS,
     "grasps": grasps.FORMS,
     "places": places.FORMS,
     "time and mode": timing.FORMS,

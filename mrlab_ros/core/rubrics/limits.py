@@ -9,7 +9,7 @@ import numpy as np
 
 from mrlab_ros.core.rubrics.checked import Checked, Motion
 from mrlab_ros.core.rubrics.ground import Ground
-from mrlab_ros.core.rubrics.poses import no_robot
+from mrlab_ros.core.rubrics.motions import no_motion
 from mrlab_ros.core.rubrics.quantities import SHARE
 from mrlab_ros.core.rubrics.rubric import Outcome
 from mrlab_ros.core.rubrics.sentences import Form
@@ -30,7 +30,7 @@ class WithinLimits:
     def assess(self, checked: Checked, reference: Checked | None) -> Outcome:
         motions = checked.played(self.robot)
         if not motions:
-            return no_robot(self.robot, checked)
+            return no_motion(self.robot, checked)
         uses = [use for motion in motions for use in self._uses(motion)]
         if not uses:
             return Outcome(0.0, f"No limit of {self.of[0]} is stated for this robot.", 0.0)

@@ -122,7 +122,8 @@ def _marked(test: Test, checked: Checked, reference: Checked | None) -> Mark:
 def points_of(points: float, share: float) -> float:
     """Return a share, 0 to 1, of points, in hundredths that are rounded down."""
     share = min(max(share, 0.0), 1.0)
-    return math.floor(points * share * HUNDREDTHS + ROUNDING) / HUNDREDTHS
+    hundredths = math.floor(points * share * HUNDREDTHS + ROUNDING)
+    return min(hundredths / HUNDREDTHS, points)
 
 
 def _refused(checked: Checked) -> str:

@@ -1,4 +1,4 @@
-"""Measures of where the tool goes, and of how a motion begins and ends."""
+"""Measures of where the tool goes."""
 
 from __future__ import annotations
 
@@ -7,28 +7,15 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from mrlab_ros.core.checking.joints import REST_SHARE
 from mrlab_ros.core.checking.waypoints import segments
 from mrlab_ros.core.geometry import Array, Pose, Quaternion, Vector, rotate
 from mrlab_ros.core.rubrics.checked import Checked, Motion
 from mrlab_ros.core.rubrics.ground import Ground
+from mrlab_ros.core.rubrics.motions import no_motion
 from mrlab_ros.core.rubrics.quantities import ANGLE, LENGTH
 from mrlab_ros.core.rubrics.reachable import nearest
 from mrlab_ros.core.rubrics.rubric import Measure, Outcome
 from mrlab_ros.core.rubrics.sentences import Form, Gaps, Given
-from mrlab_ros.core.rubrics.threshold import Threshold
-
-HOME = float(np.radians(1.0))
-
-
-def no_robot(robot: str, checked: Checked) -> Outcome:
-    """Return what a test gets whose robot has no motion, or has not played it to its end."""
-    for motion in checked.of(robot):
-        if (wait := checked.stuck.get(motion.robot.name)) is not None:
-            words = f"{motion.robot.name} waits for ever: '{wait}' does not come true."
-            return Outcome(0.0, words, motion.start)
-    names = ", ".join(m.robot.name for m in checked.motions)
-    return Outcome(0.0, f"{robot} has no motion in this file; those that have: {names}.", 0.0)
 
 
 @dataclass(frozen=True)
@@ -57,7 +44,7 @@ class Passes:
     def assess(self, checked: Checked, reference: Checked | None) -> Outcome:
         motion = next(iter(checked.played(self.robot)), None)
         if motion is None:
-            return no_robot(self.robot, checked)
+            return no_motion(self.robot, checked)
         found = self.visits(motion)
         passed = sum(visit.passed for visit in found)
         share = passed / len(found)
@@ -70,7 +57,7 @@ class Passes:
             words = f"{words}, at most {LENGTH.words(worst)} away."
             return Outcome(1.0, words, None, worst, limit, unit)
         number, first = next((i, v) for i, v in enumerate(found, 1) if not v.passed)
-        name = f"pose {number} ({_place(self.poses[number - 1])})"
+        name = f"pose {number} ({place_words(self.poses[number - 1])})"
         if first.early:
             words = f"The tool passes {name} before the one that comes first"
         elif first.distance > self.length:
@@ -145,7 +132,7 @@ class Passes:
             short = [nearest(robot, pose, self.angle) for robot in robots]
             if short and min(short) > self.length > 0:
                 yield (
-                    f"pose {number} ({_place(pose)}) is out of reach: the tool comes within "
+                    f"pose {number} ({place_words(pose)}) is out of reach: the tool comes within "
                     f"{LENGTH.words(min(short))} of it, not within {LENGTH.words(self.length)}"
                 )
 
@@ -161,111 +148,10 @@ def _angles(motion: Motion, orientation: Quaternion, instants: Array) -> Array:
     return angles
 
 
-def _place(pose: Pose | Vector) -> str:
+def place_words(pose: Pose | Vector) -> str:
+    """Return a position, m, as people read it."""
     position = pose.position if isinstance(pose, Pose) else pose
     return ", ".join(f"{v:.4g}" for v in position)
-
-
-@dataclass(frozen=True)
-class End:
-    """A motion begins (`last` False) or ends at a place of tool0, m in world."""
-
-    robot: str
-    place: Vector
-    last: bool
-    threshold: Threshold
-
-    def assess(self, checked: Checked, reference: Checked | None) -> Outcome:
-        motion = next(iter(checked.played(self.robot)), None)
-        if motion is None:
-            return no_robot(self.robot, checked)
-        at = -1 if self.last else 0
-        tool = motion.figures.tool[at]
-        count = len(self.place)
-        off = float(np.linalg.norm(tool[:count] - np.asarray(self.place)))
-        verb = "ends" if self.last else "begins"
-        words = f"The tool {verb} {{}} away from ({_place(self.place)})"
-        return self.threshold.outcome(off, words, _instant(motion, self.last))
-
-    def flaws(self, ground: Ground) -> Iterator[str]:
-        yield from ground.robot_flaws(self.robot)
-        yield from self.threshold.flaws()
-        robots = ground.of(self.robot)
-        short = [nearest(robot, self.place, None) for robot in robots if len(self.place) == 3]
-        if short and min(short) > self.threshold.limit:
-            yield (
-                f"({_place(self.place)}) is out of reach: the tool comes within "
-                f"{LENGTH.words(min(short))} of it"
-            )
-
-
-@dataclass(frozen=True)
-class AtJoints:
-    """A motion begins or ends at its robot's home pose, or (`back`) ends where it began."""
-
-    robot: str
-    last: bool
-    back: bool
-    threshold: Threshold
-
-    def assess(self, checked: Checked, reference: Checked | None) -> Outcome:
-        motions = checked.played(self.robot)
-        if not motions:
-            return no_robot(self.robot, checked)
-        found = []
-        for motion in motions:
-            q = motion.trajectory.positions
-            model = motion.robot.model
-            wanted = q[0] if self.back else model.home
-            off = np.abs(q[-1 if self.last else 0] - wanted)
-            worst = int(off.argmax())
-            found.append((float(off[worst]), model.joint_names[worst], motion))
-        off, joint, motion = max(found, key=lambda each: each[0])
-        where = "where it began" if self.back else "home"
-        verb = "ends" if self.last else "begins"
-        words = f"{joint} {verb} {{}} away from {where}"
-        return self.threshold.outcome(off, words, _instant(motion, self.last))
-
-    def flaws(self, ground: Ground) -> Iterator[str]:
-        yield from ground.robot_flaws(self.robot)
-        yield from self.threshold.flaws()
-
-
-@dataclass(frozen=True)
-class AtRest:
-    """Every joint begins or ends at no more than 2% of its largest speed."""
-
-    robot: str
-    last: bool
-
-    def assess(self, checked: Checked, reference: Checked | None) -> Outcome:
-        motions = checked.played(self.robot)
-        if not motions:
-            return no_robot(self.robot, checked)
-        share, joint, motion = max(
-            (
-                (
-                    (j.last_speed if self.last else j.first_speed) / j.joint.max_velocity,
-                    j.joint.name,
-                    motion,
-                )
-                for motion in motions
-                for j in motion.figures.joints
-            ),
-            key=lambda each: each[0],
-        )
-        verb = "ends" if self.last else "begins"
-        if share <= REST_SHARE:
-            return Outcome(1.0, f"It {verb} at rest.", None, share, REST_SHARE)
-        words = f"{joint} {verb} at {100 * share:.3g}% of its largest speed; expected at most 2%."
-        return Outcome(0.0, words, _instant(motion, self.last), share, REST_SHARE)
-
-    def flaws(self, ground: Ground) -> Iterator[str]:
-        yield from ground.robot_flaws(self.robot)
-
-
-def _instant(motion: Motion, last: bool) -> float:
-    return motion.start + (float(motion.figures.times[-1]) if last else 0.0)
 
 
 def _passes(gaps: Gaps, given: Given, *, ordered: bool = True) -> Measure:
@@ -273,29 +159,6 @@ def _passes(gaps: Gaps, given: Given, *, ordered: bool = True) -> Measure:
     poses = given.poses if place is None else (place,)
     robot = gaps.get("robot") or ""
     return Passes(robot, poses, gaps["length"], gaps.get("angle"), ordered, given.each)
-
-
-def _end(last: bool) -> Form:
-    verb = "ends" if last else "begins"
-    return Form(
-        f"{verb} within LENGTH of PLACE [by ROBOT]",
-        lambda gaps, given: End(
-            gaps.get("robot") or "", gaps["place"], last,
-            Threshold(LENGTH, gaps["length"], given.until),
-        ),
-        f"Where tool0 is in the {'last' if last else 'first'} frame.", until=LENGTH,
-    )  # fmt: skip
-
-
-def _home(text: str, last: bool, about: str, *, back: bool = False) -> Form:
-    return Form(
-        f"{text} [within ANGLE] [by ROBOT]",
-        lambda gaps, given: AtJoints(
-            gaps.get("robot") or "", last, back,
-            Threshold(ANGLE, HOME if gaps.get("angle") is None else gaps["angle"], given.until),
-        ),
-        about, until=ANGLE,
-    )  # fmt: skip
 
 
 FORMS = (
@@ -310,17 +173,4 @@ FORMS = (
         "The same, in whatever order.", poses=True, each=True,
     ),
     Form("passes within LENGTH of PLACE [by ROBOT]", _passes, "tool0 passes one place."),
-    _end(False),
-    _end(True),
-    _home("begins at home", False, "Every joint of the first frame, within 1 deg by itself."),
-    _home("ends at home", True, "Every joint of the last frame."),
-    _home("ends where it began", True, "Every joint of the last frame.", back=True),
-    Form(
-        "begins at rest [by ROBOT]", lambda gaps, given: AtRest(gaps.get("robot") or "", False),
-        "No joint faster than 2% of its limit in the first frame.",
-    ),
-    Form(
-        "ends at rest [by ROBOT]", lambda gaps, given: AtRest(gaps.get("robot") or "", True),
-        "The same, in the last frame.",
-    ),
 )  # fmt: skip

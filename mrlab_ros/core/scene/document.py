@@ -86,6 +86,8 @@ class ObjectEntry:
 
 @dataclass(frozen=True)
 class SceneDocument:
+    """What a scene holds, or a cell, which has systems alone. about: a sentence for people."""
+
     robots: tuple[RobotEntry, ...] = ()
     objects: tuple[ObjectEntry, ...] = ()
     surfaces: tuple[Surface, ...] = ()

@@ -31,6 +31,8 @@ class Present:
 
 @dataclass(frozen=True)
 class DissolveSystems:
+    """Dissolve systems; their robots stay."""
+
     names: tuple[str, ...]
 
     def __str__(self) -> str:
@@ -60,6 +62,8 @@ class SetObjects:
 
 @dataclass(frozen=True)
 class SpawnRobots:
+    """Spawn robots where their entries place them."""
+
     robots: tuple[RobotEntry, ...]
 
     def __str__(self) -> str:

@@ -73,6 +73,8 @@ def check_document(
                 "track": _track(recorded.robots[robot.name]),
                 "base": Track([0.0], [list(robot.base)]).document(),
                 "states": _states(recorded, robot.name),
+                "there": [],
+                "collisions": [],
             }
             for robot in robots
             if robot.name in recorded.robots

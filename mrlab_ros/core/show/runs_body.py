@@ -9,8 +9,9 @@ from html import escape
 import numpy as np
 
 from mrlab_ros.core.recording.report import SessionReport
-from mrlab_ros.core.recording.report_text import deviation_text
-from mrlab_ros.core.recording.runs import Course, Result, Run, RunJoint, severity
+from mrlab_ros.core.recording.report_text import deviation_text, lasting
+from mrlab_ros.core.recording.runs import Action, Course, Result, Run, RunJoint, severity
+from mrlab_ros.core.show.run_figures_body import run_figures
 from mrlab_ros.core.show.svg import HATCH, Mark, Strip, strip_svg, time_axis_svg
 from mrlab_ros.core.show.tool_path import Spot, tool_path_svg
 
@@ -31,37 +32,68 @@ ICONS = {
 }
 
 
-def runs_table(report: SessionReport) -> str:
-    """Return the table of all runs, one a row, with what was done in each."""
+def runs_table(report: SessionReport, began: str) -> str:
+    """Return the table of all runs, one a row, with what was done in each.
+
+    began: the session, as `2026-01-01 08:00:00`.
+    """
     if not report.runs:
-        return '<section class="runs"><h2>Runs</h2><p>No robot played.</p></section>'
+        return '<section class="runs"><h2>Runs</h2><p class="said">No robot played.</p></section>'
     heads = "".join(
         f'<th scope="col">{head}</th>'
         for head in ("Run", "Robot", "Trajectory", "Began", "Took", "Result", "What it did")
     )
+    rows = "".join(_row(run, began) for run in report.runs)
     return (
         f'<section class="runs" aria-label="Runs"><h2>Runs</h2><table><thead><tr>{heads}</tr>'
-        f"</thead><tbody>{''.join(map(_row, report.runs))}</tbody></table></section>"
+        f"</thead><tbody>{rows}</tbody></table></section>"
     )
 
 
-def _row(run: Run) -> str:
-    speed = "".join(f" at {s:g}x" for s in run.speeds[-1:] if s not in (0.0, 1.0))
+def _row(run: Run, began: str) -> str:
     system = f"<small>{escape(run.system)}</small>" if run.system else ""
     done = "".join(
         f'<li class="{severity(a)}"><button type="button" data-time="{a.time:.3f}">'
-        f"{a.time:.2f} s</button> {escape(a.text)}</li>"
+        f"{lasting(a.time)}</button> <span>{_words(a)}</span></li>"
         for a in run.actions
     )
     return (
         f'<tr><td class="no"><button type="button" data-time="{run.start:.3f}" '
         f'aria-label="Run {run.number}, go to its beginning">{run.number}</button></td>'
-        f'<td class="robot">{escape(run.robot)}{system}</td>'
-        f"<td>{escape(run.trajectory)}{speed}</td>"
-        f'<td class="figure">{run.start:.2f} s</td><td class="figure">{run.duration:.2f} s</td>'
+        f'<td class="robot">{breakable(run.robot)}{system}</td>'
+        f"<td>{breakable(run.trajectory)}{_speed(run)}</td>"
+        f'<td class="figure">{lasting(run.start)}<small>{_of_day(began, run.start)}</small></td>'
+        f'<td class="figure"><span class="head-word">Took</span> {lasting(run.duration)}</td>'
         f'<td class="result {CLASSES[run.result]}">{_icon(run)}'
-        f"<span>{escape(run.outcome())}</span></td><td><ul>{done}</ul>{_followed(run)}</td></tr>"
+        f'<span class="said">{escape(run.outcome())}</span></td>'
+        f"<td><ul>{done}</ul>{_followed(run)}</td></tr>"
     )
+
+
+def _of_day(began: str, seconds: float) -> str:
+    """Return the time of the day `seconds` after the session began."""
+    hours, minutes, whole = map(int, began[-8:].split(":"))
+    at = hours * 3600 + minutes * 60 + int(whole + seconds)
+    return f"{at // 3600 % 24:02d}:{at // 60 % 60:02d}:{at % 60:02d}"
+
+
+def breakable(name: str) -> str:
+    """Return a name that may be broken after its underscores, as HTML."""
+    return escape(name).replace("_", "_<wbr>")
+
+
+def _speed(run: Run) -> str:
+    return "".join(
+        f" <small>{s:g}\N{MULTIPLICATION SIGN}</small>"
+        for s in run.speeds[-1:]
+        if s not in (0.0, 1.0)
+    )
+
+
+def _words(action: Action) -> str:
+    figures = escape(action.detail.replace("N*m", "N·m"))
+    detail = f'<small class="said">{figures}</small>' if figures else ""
+    return f'<span class="said">{escape(action.text)}</span>{detail}'
 
 
 def _icon(run: Run) -> str:
@@ -71,7 +103,7 @@ def _icon(run: Run) -> str:
 def _followed(run: Run) -> str:
     if run.deviation is None:
         return ""
-    return f'<p class="followed">{escape(deviation_text(run.deviation, run.joints))}</p>'
+    return f'<p class="followed said">{escape(deviation_text(run.deviation, run.joints))}</p>'
 
 
 def run_plots(report: SessionReport) -> str:
@@ -84,7 +116,8 @@ def run_plots(report: SessionReport) -> str:
     ]
     if len(drawn) > MOST_DRAWN:
         parts.append(
-            f"<p>The first {MOST_DRAWN} of {len(drawn)} runs are drawn. report.json has all.</p>"
+            f'<p class="said">The first {MOST_DRAWN} of {len(drawn)} runs are drawn; '
+            "report.json has all.</p>"
         )
     return (HATCH if parts else "") + "".join(parts)
 
@@ -97,16 +130,15 @@ def _plots(run: Run, course: Course, *, opened: bool) -> str:
         if action.time <= run.end
     )
     strips = "".join(
-        f"<div><h3>{escape(joint.name)}</h3>"
+        f"<div><h3>{escape(joint.name)}{_range(joint)}</h3>"
         f"{strip_svg(_strip(course, run.joints, j, marks), course.times, duration, run.start)}"
         f"{time_axis_svg(duration, begin=run.start)}</div>"
         for j, joint in enumerate(run.joints)
     )
-    compared = "" if run.deviation is None else f" · dashed: {escape(run.deviation.reference)}"
     return (
         f"<details{' open' * opened}><summary><h2>Run {run.number}</h2> "
-        f"<span>{escape(run.robot)} · {escape(run.trajectory)} · {escape(run.outcome())}"
-        f"{compared}</span></summary>{_way(run, course)}"
+        f"<span>{escape(run.robot)} · {escape(run.trajectory)} · "
+        f'<span class="said">{escape(run.outcome())}</span></span></summary>{_motion(run, course)}'
         f'<div class="strips">{strips}</div></details>'
     )
 
@@ -127,8 +159,33 @@ def _strip(course: Course, joints: Sequence[RunJoint], j: int, marks: tuple[Mark
     )
 
 
+def _range(joint: RunJoint) -> str:
+    """Return the range that a joint may be in; empty where none is known."""
+    if joint.lower is None or joint.upper is None:
+        return ""
+    scale, unit = (1.0, " m") if joint.prismatic else (math.degrees(1.0), "°")
+    low, high = (
+        f"{value * scale:.4g}".replace("-", "\N{MINUS SIGN}")
+        for value in (joint.lower, joint.upper)
+    )
+    return f" <small>{low} … {high}{unit}</small>"
+
+
+def _motion(run: Run, course: Course) -> str:
+    """Return the tool's way with the places of what was done, beside the run's figures."""
+    items = "".join(
+        f'<li class="{severity(a)}"><button type="button" data-time="{a.time:.3f}">'
+        f'<span class="number" aria-hidden="true">{number}</span>'
+        f"<span><b>{lasting(a.time)}</b> {_words(a)}</span></button></li>"
+        for number, a in enumerate(run.actions, 1)
+    )
+    return (
+        f'<div class="run-motion">{_way(run, course)}<div class="run-said">'
+        f"{run_figures(run, course)}{f'<ol>{items}</ol>' if items else ''}</div></div>"
+    )
+
+
 def _way(run: Run, course: Course) -> str:
-    """Return the tool's way with the places of what was done, and the list of that."""
     if course.tool is None or not np.isfinite(course.tool).any():
         return ""
     spots = []
@@ -138,14 +195,15 @@ def _way(run: Run, course: Course) -> str:
         if np.isfinite(place).all():
             x, y, z = (float(v) for v in place)
             spots.append(Spot(number, severity(action), (x, y, z)))
-    items = "".join(
-        f'<li class="{severity(a)}"><span class="number" aria-hidden="true">{number}</span>'
-        f"<span><b>{a.time:.2f} s</b> {escape(a.text)}</span></li>"
-        for number, a in enumerate(run.actions, 1)
-    )
     reference = course.expected_tool
     drawn = None if reference is None or not np.isfinite(reference).any() else reference
+    dashed = (
+        ' <span><i class="key dashed"></i> <span>reference</span></span>'
+        if drawn is not None
+        else ""
+    )
     return (
-        f'<div class="way"><div><h3>Way of the tool</h3>'
-        f"{tool_path_svg(course.tool, drawn, spots)}</div><ol>{items}</ol></div>"
+        '<div><h3>Way of the tool</h3><p class="keys"><span><i class="key first"></i> '
+        '<span>begins</span></span> <span><i class="key last"></i> <span>ends</span></span>'
+        f'{dashed}</p><div class="tool-way">{tool_path_svg(course.tool, drawn, spots)}</div></div>'
     )

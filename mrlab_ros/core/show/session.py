@@ -6,6 +6,7 @@ qz, qw in the frame world, m.
 
 from __future__ import annotations
 
+from collections.abc import Collection
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -54,7 +55,11 @@ class Track:
 
 @dataclass
 class RecordedRobot:
-    """What was recorded of a robot; joints: names in the order of track's values."""
+    """What was recorded of a robot; joints: names in the order of track's values.
+
+    there: from when to when the scene had it, s, the end None where it was there to the last;
+    empty: nothing says.
+    """
 
     urdf: str = ""
     model: str = ""
@@ -62,6 +67,7 @@ class RecordedRobot:
     joints: list[str] = field(default_factory=list)
     track: Track = field(default_factory=Track)
     base: Track = field(default_factory=Track)
+    there: list[tuple[float, float | None]] = field(default_factory=list)
 
 
 @dataclass
@@ -86,6 +92,21 @@ class RecordedMotion:
     def robot(self, name: str) -> RecordedRobot:
         return self.robots.setdefault(name, RecordedRobot())
 
+    def scene(self, time: float, names: Collection[str]) -> None:
+        """Take note of which robots the scene has from a time on, s.
+
+        Those that it had first were there from the beginning: the recorder heard of them late.
+        """
+        if not any(robot.there for robot in self.robots.values()):
+            time = 0.0
+        for name in names:
+            there = self.robot(name).there
+            if not there or there[-1][1] is not None:
+                there.append((time, None))
+        for name, robot in self.robots.items():
+            if name not in names and robot.there and robot.there[-1][1] is None:
+                robot.there[-1] = (robot.there[-1][0], time)
+
 
 def session(title: str, report: SessionReport, motion: RecordedMotion) -> dict[str, Any]:
     """Return the document of a session: its robots, objects and events."""
@@ -103,6 +124,8 @@ def session(title: str, report: SessionReport, motion: RecordedMotion) -> dict[s
                 "track": robot.track.document(),
                 "base": robot.base.document(),
                 "states": [[span.start, span.label] for span in _states(report, name)],
+                "there": [list(span) for span in robot.there],
+                "collisions": _collisions(report, name),
             }
             for name, robot in motion.robots.items()
             if robot.urdf
@@ -126,6 +149,11 @@ def session(title: str, report: SessionReport, motion: RecordedMotion) -> dict[s
 def _states(report: SessionReport, name: str) -> list[Any]:
     known = report.robots.get(name)
     return [] if known is None else known.states.spans(report.duration)
+
+
+def _collisions(report: SessionReport, name: str) -> list[list[Any]]:
+    known = report.robots.get(name)
+    return [] if known is None else [[each.time, each.link] for each in known.collisions]
 
 
 def events(report: SessionReport) -> list[dict[str, Any]]:

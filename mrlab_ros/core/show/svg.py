@@ -16,6 +16,10 @@ WIDTH, HEIGHT = 640.0, 104.0  # of a strip, in its own units
 LEFT, RIGHT = 52.0, 92.0  # for the axis and for the last value
 TOP, BOTTOM = 8.0, 8.0
 MOST_BLOCKS = 250  # about two units of width each
+# From here on an axis of time shows minutes and hours, s; and what lies between its marks.
+LONG = 100.0
+HOUR = 3600
+STEPS = (1, 2, 5, 10, 20, 30, 60, 120, 300, 600, 1200, 1800)
 
 # What the forbidden ranges of all plots are filled with.
 HATCH = (
@@ -99,16 +103,50 @@ def strip_svg(strip: Strip, times: Array, duration: float, begin: float = 0.0) -
     return "".join(parts) + "</svg>"
 
 
-def time_axis_svg(duration: float, width: float = WIDTH, begin: float = 0.0) -> str:
-    """Return the axis of time that stands below strips of this width; begin: at its left, s."""
-    place = _Place(duration, 0.0, 1.0, width, begin)
-    ticks = [t for t in _ticks(begin, begin + duration, 8) if begin <= t <= begin + duration]
+def time_axis_svg(
+    duration: float,
+    width: float = WIDTH,
+    begin: float = 0.0,
+    margins: tuple[float, float] = (LEFT, RIGHT),
+) -> str:
+    """Return the axis of time that stands below strips of this width; begin: at its left, s.
+
+    margins: what strips leave free at their left and right end.
+    """
+    left, right = margins
+
+    def x(time: float) -> float:
+        share = (time - begin) / duration if duration else 0.0
+        return left + share * (width - left - right)
+
+    most = max(int(width / 90), 3)
+    end = begin + duration
+    long = end >= LONG
+    ticks = _moments(begin, end, most) if long else _ticks(begin, end, most)
+    ticks = [t for t in ticks if begin <= t <= end]
+    unit = " s" if not long else " min" if not ticks or ticks[-1] < HOUR else " h"
     parts = [f'<svg class="axis" viewBox="0 0 {width:g} 24" aria-hidden="true">']
     parts += [
-        f'<text x="{place.x(t):.1f}" y="15">{_number(t)}{" s" * (t == ticks[0])}</text>'
+        f'<text x="{x(t):.1f}" y="15">'
+        f"{_clock(t, ticks[-1]) if long else _number(t)}{unit * (t == ticks[0])}</text>"
         for t in ticks
     ]
     return "".join(parts) + "</svg>"
+
+
+def _moments(low: float, high: float, most: int) -> list[float]:
+    """Return moments that a clock shows as round, s, `most` of them at most."""
+    steps = (*STEPS, *(HOUR * n for n in (1, 2, 6, 12, 24, 24 * 7, 24 * 365)))
+    step = next((s for s in steps if (high - low) / s <= most), steps[-1])
+    return [n * step for n in range(math.ceil(low / step), math.floor(high / step + 1e-9) + 1)]
+
+
+def _clock(seconds: float, last: float) -> str:
+    """Return 2:05 of 125 s, and 0:02:05 where the last moment of the axis is beyond an hour."""
+    whole = round(seconds)
+    if last < HOUR:
+        return f"{whole // 60}:{whole % 60:02d}"
+    return f"{whole // HOUR}:{whole // 60 % 60:02d}:{whole % 60:02d}"
 
 
 @dataclass(frozen=True)
@@ -116,12 +154,11 @@ class _Place:
     duration: float
     low: float
     high: float
-    width: float = WIDTH
     begin: float = 0.0
 
     def x(self, time: float) -> float:
         share = (time - self.begin) / self.duration if self.duration else 0.0
-        return LEFT + share * (self.width - LEFT - RIGHT)
+        return LEFT + share * (WIDTH - LEFT - RIGHT)
 
     def y(self, value: float) -> float:
         share = (value - self.low) / (self.high - self.low)

@@ -8,6 +8,7 @@ from html import escape
 import numpy as np
 
 from mrlab_ros.core.recording.report import Series, SessionReport
+from mrlab_ros.core.recording.report_text import shown
 from mrlab_ros.core.show.svg import Strip, strip_svg, time_axis_svg
 
 MOST_DRAWN = 16
@@ -17,6 +18,8 @@ Row = tuple[str, str, str, Series, float]
 def technical(report: SessionReport) -> str:
     """Return a table of figures and a strip for each quantity that was measured."""
     rows = list(_rows(report))
+    if not rows and not report.robots:
+        return ""
     counts = "".join(
         f"<tr><td>{escape(robot.name)}</td><td>joint states</td>"
         f'<td class="figure" colspan="3">{robot.joint_states} recorded, {robot.frames_lost} left '
@@ -60,7 +63,7 @@ def _figures(row: Row) -> str:
     owner, what, unit, series, scale = row
     summary = series.summary()
     cells = "".join(
-        f'<td class="figure">{float(summary[name] or 0) * scale:.3g} {unit}</td>'
+        f'<td class="figure">{shown(float(summary[name] or 0) * scale)} {unit}</td>'
         for name in ("p50", "p95", "max")
     )
     return f"<tr><td>{escape(owner)}</td><td>{escape(what)}</td>{cells}</tr>"

@@ -1,4 +1,4 @@
-"""The way of a tool as SVG, from above and from the side, in one scale."""
+"""The way of a tool as SVG, from above, from the side and from the front, in one scale."""
 
 from __future__ import annotations
 
@@ -10,11 +10,12 @@ import numpy as np
 
 from mrlab_ros.core.show.svg import Array
 
-WIDTH, GAP, LEFT, TOP, BOTTOM = 640.0, 48.0, 40.0, 26.0, 26.0
-LEAST, MOST = 120.0, 360.0  # height of a view
+# Of a view, in its own units; below it and to its left stand the numbers of its axes.
+WIDTH, LEFT, RIGHT, TOP, BOTTOM = 320.0, 40.0, 6.0, 8.0, 24.0
+LEAST, MOST = 120.0, 320.0  # height of a view
 MOST_POINTS = 400
-# Letters before a view's axes: index of the coordinate to the right and upwards.
-VIEWS = (("from above", 0, 1), ("from the side", 0, 2))
+# Of each view its title, and the coordinates to the right and upwards.
+VIEWS = (("from above", 0, 1), ("from the side", 0, 2), ("from the front", 1, 2))
 
 
 @dataclass(frozen=True)
@@ -27,7 +28,10 @@ class Spot:
 
 
 def tool_path_svg(path: Array, reference: Array | None, spots: Sequence[Spot]) -> str:
-    """Return both views. path, reference: (N, 3) m in the world, rows of NaN where unknown."""
+    """Return the views, a figure each. path, reference: (N, 3) m in the world, NaN where unknown.
+
+    What is much smaller than a view is wide stands in the middle of a view of at least 5 cm.
+    """
     known = path[np.isfinite(path).all(axis=1)]
     everything = [known, *(np.array([spot.place]) for spot in spots)]
     if reference is not None:
@@ -35,31 +39,35 @@ def tool_path_svg(path: Array, reference: Array | None, spots: Sequence[Spot]) -
     points = np.concatenate(everything)
     low, high = points.min(axis=0), points.max(axis=0)
     middle, size = (low + high) / 2, np.maximum(high - low, 0.05) * 1.12
-    width = (WIDTH - GAP - LEFT) / 2
+    width = WIDTH - LEFT - RIGHT
     room = MOST - TOP - BOTTOM
-    scale = min(width / size[0], room / size[1], room / size[2])
+    scale = min(width / size[0], width / size[1], room / size[1], room / size[2])
     height = max(scale * max(size[1], size[2]), LEAST - TOP - BOTTOM)
-    whole = height + TOP + BOTTOM
+    return "".join(
+        _view(title, _View(width, height, scale, middle, across, up), path, reference, spots)
+        for title, across, up in VIEWS
+    )
+
+
+def _view(
+    title: str, view: _View, path: Array, reference: Array | None, spots: Sequence[Spot]
+) -> str:
     parts = [
-        f'<svg class="path" viewBox="0 0 {WIDTH:g} {whole:.0f}" role="img" '
-        f'aria-label="Way of the tool from above and from the side, in metres">'
+        f'<figure><figcaption>{title}</figcaption><svg class="path" role="img" '
+        f'viewBox="0 0 {WIDTH:g} {view.height + TOP + BOTTOM:.0f}" '
+        f'aria-label="Way of the tool {title}, in metres">'
     ]
-    for number, (title, across, up) in enumerate(VIEWS):
-        left = LEFT + number * (width + GAP)
-        view = _View(left, width, height, scale, middle, across, up)
-        parts.append(f'<text class="title" x="{left:.1f}" y="14">{title}</text>')
-        parts += view.grid()
-        if reference is not None:
-            parts += view.line(reference, "reference")
-        parts += view.line(path, "line")
-        parts += view.ends(known)
-        parts += [view.mark(spot) for spot in spots]
-    return "".join(parts) + "</svg>"
+    parts += view.grid()
+    if reference is not None:
+        parts += view.line(reference, "reference")
+    parts += view.line(path, "line")
+    parts += view.ends(path[np.isfinite(path).all(axis=1)])
+    parts += [view.mark(spot) for spot in spots]
+    return "".join(parts) + "</svg></figure>"
 
 
 @dataclass(frozen=True)
 class _View:
-    left: float
     width: float
     height: float
     scale: float
@@ -71,13 +79,13 @@ class _View:
         """Return (N, 2) in the picture's units of points (N, 3) m."""
         x = (points[:, self.across] - self.middle[self.across]) * self.scale
         y = (points[:, self.up] - self.middle[self.up]) * self.scale
-        found: Array = np.column_stack([x + self.left + self.width / 2, TOP + self.height / 2 - y])
+        found: Array = np.column_stack([x + LEFT + self.width / 2, TOP + self.height / 2 - y])
         return found
 
     def grid(self) -> list[str]:
-        right, bottom = self.left + self.width, TOP + self.height
+        right, bottom = LEFT + self.width, TOP + self.height
         parts = [
-            f'<rect class="frame" x="{self.left:.1f}" y="{TOP:g}" width="{self.width:.1f}" '
+            f'<rect class="frame" x="{LEFT:g}" y="{TOP:g}" width="{self.width:.1f}" '
             f'height="{self.height:.1f}" rx="4"/>'
         ]
         step = _step(min(self.width, self.height) / self.scale / 4)
@@ -97,14 +105,14 @@ class _View:
                     )
                 else:
                     parts.append(
-                        f'<line class="grid" x1="{self.left:.1f}" x2="{right:.1f}" '
+                        f'<line class="grid" x1="{LEFT:g}" x2="{right:.1f}" '
                         f'y1="{y:.1f}" y2="{y:.1f}"/><text class="tick" '
-                        f'x="{self.left - 5:.1f}" y="{y + 4:.1f}">{label}</text>'
+                        f'x="{LEFT - 5:.1f}" y="{y + 4:.1f}">{label}</text>'
                     )
         names = "xyz"
         parts.append(
             f'<text class="tick" x="{right - 4:.1f}" y="{bottom - 6:.1f}">{names[self.across]} m'
-            f'</text><text class="name" x="{self.left + 6:.1f}" y="{TOP + 14:g}">'
+            f'</text><text class="name" x="{LEFT + 6:.1f}" y="{TOP + 14:g}">'
             f"{names[self.up]} m</text>"
         )
         return parts

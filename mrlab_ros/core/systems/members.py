@@ -27,6 +27,10 @@ class Command(Enum):
     HOLD = 8
 
 
+# Commands that move nothing, or stop what moves.
+HALTING = frozenset({Command.RELEASE, Command.PAUSE, Command.STOP})
+
+
 @dataclass(frozen=True)
 class Order:
     """One command to one member; position and until in s on its own trajectory."""

@@ -7,7 +7,8 @@ from dataclasses import dataclass
 
 from mrlab_ros.core.errors import BadInput
 
-ID = re.compile(r"[A-Za-z0-9][A-Za-z0-9._-]{0,127}")
+LONGEST_NAME = 128
+ID = re.compile(rf"[A-Za-z0-9][A-Za-z0-9._-]{{0,{LONGEST_NAME - 1}}}")
 VERSION = re.compile(r"[1-9][0-9]{0,8}")
 
 
@@ -33,7 +34,7 @@ def checked_id(name: str) -> str:
     if not ID.fullmatch(name):
         raise BadInput(
             f"the name '{name}' cannot be used; expected letters, digits, '.', '_' and '-', at "
-            "most 128, beginning with a letter or digit"
+            f"most {LONGEST_NAME}, beginning with a letter or digit"
         )
     return name
 

@@ -11,7 +11,7 @@ from functools import cached_property
 from typing import Any
 
 from mrlab_ros.core.errors import BadInput
-from mrlab_ros.core.trajectory.names import TrajectoryName
+from mrlab_ros.core.trajectory.names import LONGEST_NAME, TrajectoryName
 
 FORMAT = 1
 
@@ -138,6 +138,19 @@ def head_of(record: Record, version: Version) -> dict[str, Any]:
         "version": version.number,
         "shared": record.shared,
     }
+
+
+def free_name(name: str, owner: str, robot_model: str, found: Iterable[Record]) -> str:
+    """Return `name`, or with the robot model behind it where `name` is another model's motion.
+
+    The same file converted for two robots is two trajectories: neither takes the other's place.
+    """
+    for record in found:
+        if (record.owner, record.name) == (owner, name) and not record.deleted_ns:
+            if record.newest.head["robot_model"] != robot_model:
+                return f"{name[: LONGEST_NAME - len(robot_model) - 1]}_{robot_model}"
+            break
+    return name
 
 
 def newest(found: Sequence[Record], most: int) -> list[Record]:

@@ -24,7 +24,6 @@ STD_SRVS = {
 }
 # What ROS puts into a message without fields.
 EMPTY = "structure_needs_at_least_one_member"
-LITTLE_ENDIAN = b"\x00\x01\x00\x00"
 
 
 class Definitions:

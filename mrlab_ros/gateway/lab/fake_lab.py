@@ -122,10 +122,6 @@ class FakeLab:
             if matches(pattern, key):
                 on_sample(sample)
 
-    def put_value(self, key: str, payload: bytes, attachment: bytes = b"") -> None:
-        """Let a get on a key that is no topic, such as schema, return this."""
-        self._newest[key] = deque([Sample(key, payload, attachment=attachment)])
-
     async def call(
         self,
         service: str,

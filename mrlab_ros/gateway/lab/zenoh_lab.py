@@ -14,7 +14,7 @@ from typing import Any
 
 import zenoh
 
-from mrlab_ros.adapters.zenoh_session import LOOPBACK, configuration
+from mrlab_ros.adapters.zenoh.configuration import LOOPBACK, configuration
 from mrlab_ros.core.bridge.latency import stamps
 from mrlab_ros.core.errors import LabError
 from mrlab_ros.gateway.lab.connection import (

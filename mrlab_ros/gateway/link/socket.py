@@ -15,6 +15,7 @@ from starlette.websockets import WebSocketDisconnect
 
 from mrlab_ros.core.bridge.policy import Policy, Verb
 from mrlab_ros.core.errors import BadInput, LabError
+from mrlab_ros.core.freezes import LOOK_PERIOD_S, Freezes, harmless
 from mrlab_ros.gateway.errors import SOCKET_REFUSED, NotAllowed, TooMany
 from mrlab_ros.gateway.lab.connection import CALL_TIMEOUT_S, LabConnection, NoAnswer, TimedOut
 from mrlab_ros.gateway.link import frames, hands, presence
@@ -54,6 +55,7 @@ class LinkPort:
         self.limits = limits
         self.may = may
         self.clock = LabClock(sessions.lab)
+        self.freezes = Freezes("web", time.process_time)
         self.calls: set[asyncio.Task[None]] = set()
 
 
@@ -257,6 +259,8 @@ class _Socket:
                 "not_allowed",
                 f"your role, {role}, may not call {frame.key}; ask your instructor",
             )
+        elif not harmless(frame.key) and (why := self._port.freezes.why_doubtful(now)):
+            session.fail(frame.request, "refused", why)
         elif self._waiting >= self._limits.calls_waiting or not self._calls.take(1, now):
             session.fail(
                 frame.request, "too_many", "too many calls at once; wait for their answers"
@@ -291,13 +295,20 @@ class _Socket:
             self._waiting -= 1
 
     async def _watch(self) -> None:
-        while True:
-            longest = HIDDEN_SILENCE_S if self._hidden else SILENCE_S
-            left = self._heard + longest - time.monotonic()
-            if left <= 0:
-                self._close = SILENT, f"nothing came from this page for {longest:g} s"
-                return
-            await asyncio.sleep(min(left, 1.0) + 0.01)
+        freezes = self._port.freezes
+        freezes.begin()
+        try:
+            while True:
+                now = time.monotonic()
+                freezes.look(now)
+                longest = HIDDEN_SILENCE_S if self._hidden else SILENCE_S
+                left = self._heard + longest - now
+                if left <= 0:
+                    self._close = SILENT, f"nothing came from this page for {longest:g} s"
+                    return
+                await asyncio.sleep(min(left, LOOK_PERIOD_S) + 0.01)
+        finally:
+            freezes.end()
 
     async def _sign_in(self, ended: asyncio.Event) -> None:
         await ended.wait()

@@ -12,7 +12,7 @@ from fastapi import Depends, Response
 from fastapi.requests import HTTPConnection
 
 from mrlab_ros.core.bridge.rules import Role
-from mrlab_ros.gateway.people.accounts import Account, Accounts
+from mrlab_ros.gateway.people.accounts import Accounts
 from mrlab_ros.gateway.people.database import FILE, Database
 from mrlab_ros.gateway.people.pairing import Pairings
 from mrlab_ros.gateway.people.passwords import Passwords
@@ -98,11 +98,6 @@ class People:
             samesite="strict",
         )
         return self.sign_ins.csrf(secret)
-
-    def sign_in_account(self, response: Response, account: Account) -> Person:
-        """Sign a person of the lab in."""
-        self.sign_in(response, account.name, account.role)
-        return Person(account.name, account.role)
 
     def sign_out(self, response: Response, person: Person | None) -> None:
         """End the sign-in of a request, and its cookie."""

@@ -24,7 +24,10 @@ from mrlab_ros.gateway.errors import TooLarge
 MiB = 1 << 20
 BLOCK = MiB  # bytes that are hashed and written at once
 # What the converter reads; it looks into the file for what it really is.
-ENDINGS = (".mat", ".csv", ".txt", ".tsv", ".npz", ".json", ".mcap", ".db3", ".cdr", ".gz")
+ENDINGS = (
+    *(".mat", ".csv", ".txt", ".tsv", ".npz", ".json", ".mcap", ".db3", ".cdr"),
+    *(".gz", ".zst", ".zstd"),
+)
 LONGEST_NAME = 255
 
 

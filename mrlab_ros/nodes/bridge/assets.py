@@ -8,13 +8,12 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable
 from concurrent.futures import ThreadPoolExecutor
-from functools import cache, partial
+from functools import cache, cached_property, partial
 from pathlib import Path
 from threading import Semaphore
+from typing import TYPE_CHECKING
 
-from mrlab_ros.adapters.assets.library import Assets
-from mrlab_ros.adapters.robots.library import RobotLibrary
-from mrlab_ros.adapters.zenoh_session import Query
+from mrlab_ros.adapters.zenoh.port import Query
 from mrlab_ros.core.bridge.assets import (
     ASSETS,
     SCHEMA,
@@ -25,6 +24,9 @@ from mrlab_ros.core.bridge.assets import (
 from mrlab_ros.core.errors import BadInput
 from mrlab_ros.messages.schema import schema
 from mrlab_ros.nodes.bridge.context import BridgeContext, Count
+
+if TYPE_CHECKING:
+    from mrlab_ros.adapters.assets.library import Assets
 
 SCHEMA_DOCUMENT = "schema.json"
 KEYS = (f"/{ASSETS}/**", f"/{SCHEMA}")
@@ -41,15 +43,23 @@ class AssetRoutes:
 
     def __init__(self, bridge: BridgeContext, share: Path, types: Iterable[str]) -> None:
         self._bridge = bridge
-        definitions = cache(partial(schema, tuple(types)))
-        library = RobotLibrary(share / "robots")
-        self._assets = Assets(share, library, {SCHEMA_DOCUMENT: definitions})
+        self._share = share
+        self._definitions = cache(partial(schema, tuple(types)))
         self._threads = ThreadPoolExecutor(THREADS, thread_name_prefix="bridge_assets")
         self._free = Semaphore(WAITING)
         self._declared = [
             bridge.session.queryable(key, self._on_query(bridge.count(key, "", "asset")))
             for key in map(bridge.key, KEYS)
         ]
+
+    @cached_property
+    def _assets(self) -> Assets:
+        # Here: who draws robots from the pages needs no geometry in the bridge's memory.
+        from mrlab_ros.adapters.assets.library import Assets
+        from mrlab_ros.adapters.robots.library import RobotLibrary
+
+        library = RobotLibrary(self._share / "robots")
+        return Assets(self._share, library, {SCHEMA_DOCUMENT: self._definitions})
 
     def stop(self) -> None:
         """End once the replies that are being sent are sent; drop the rest."""

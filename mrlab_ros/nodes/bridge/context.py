@@ -12,20 +12,21 @@ from rclpy.node import Node
 from rclpy.qos import DurabilityPolicy, QoSProfile, ReliabilityPolicy
 from rclpy.topic_endpoint_info import TopicEndpointInfo
 
-from mrlab_ros.adapters.zenoh_session import Session
+from mrlab_ros.adapters.zenoh.port import Session
 from mrlab_ros.core.bridge.keys import key_of
 from mrlab_ros.core.bridge.rules import Direction, TopicQos, TopicRule
 
 
 @dataclass
 class Count:
-    """Traffic of one key since the bridge started."""
+    """Traffic of one key since the bridge started; lost: before they reached the bridge."""
 
     type: str
     direction: str
     messages: int = 0
     bytes: int = 0
     refused: int = 0
+    lost: int = 0
 
 
 @dataclass

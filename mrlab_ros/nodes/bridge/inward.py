@@ -10,65 +10,38 @@ from typing import Any
 from rclpy.exceptions import InvalidHandle
 from rclpy.publisher import Publisher
 from rclpy.serialization import deserialize_message
+from rclpy.topic_endpoint_info import TopicEndpointInfo
 
-from mrlab_ros.adapters.zenoh_session import Declared
+from mrlab_ros.adapters.zenoh.port import Declared
 from mrlab_ros.core.bridge import rules
-from mrlab_ros.core.bridge.rules import Direction, TopicQos, TopicRule
+from mrlab_ros.core.bridge.rules import Direction, TopicRule
 from mrlab_ros.core.bucket import Bucket
-from mrlab_ros.nodes.bridge.context import BridgeContext, Count, profile
+from mrlab_ros.nodes.bridge.context import Count, profile
+from mrlab_ros.nodes.bridge.routes import Route, TopicRoutes
 
 
 @dataclass
-class InRoute:
-    """The route of one topic; readers: its subscriptions at the last check."""
+class InRoute(Route):
+    """ends: the topic's subscriptions."""
 
-    type: str
-    qos: TopicQos
-    readers: int
     publisher: Publisher
     subscriber: Declared
     token: Declared
 
 
-class Inward:
+class Inward(TopicRoutes[InRoute]):
     """The routes from zenoh to the graph."""
 
-    def __init__(self, bridge: BridgeContext) -> None:
-        self._bridge = bridge
-        self._routes: dict[str, InRoute] = {}
+    def _count_ends(self, name: str) -> int:
+        count: int = self._bridge.streams.count_subscribers(name)
+        return count
 
-    def keep(self, wanted: dict[str, tuple[TopicRule, str]], thorough: bool = True) -> None:
-        """Open and close routes until they are those of `wanted`: name -> rule and type.
+    def _ends(self, name: str) -> list[TopicEndpointInfo]:
+        ends: list[TopicEndpointInfo] = self._bridge.streams.get_subscriptions_info_by_topic(name)
+        return ends
 
-        Unless `thorough`, a topic whose number of subscriptions is unchanged is not checked
-        further.
-        """
-        for name in [n for n in self._routes if n not in wanted]:
-            self._close(name)
-        for name, (rule, type_name) in wanted.items():
-            self._renew(name, rule, type_name, thorough)
-            self._bridge.give_way()
-
-    def _renew(self, name: str, rule: TopicRule, type_name: str, thorough: bool) -> None:
-        bridge = self._bridge
-        known = self._routes.get(name)
-        readers = bridge.streams.count_subscribers(name)
-        if (
-            known is not None
-            and not thorough
-            and (known.readers, known.type) == (readers, type_name)
-        ):
-            return
-        ends = bridge.streams.get_subscriptions_info_by_topic(name)
-        qos = bridge.quality(ends, rule, type_name)
-        if known is not None and (known.qos, known.type) == (qos, type_name):
-            known.readers = readers
-            return
-        if known is not None:
-            self._close(name)
-        kind = bridge.kind(name, type_name)
-        if qos is None or kind is None:
-            return
+    def _open(self, name: str, rule: TopicRule, route: Route, kind: Any) -> None:
+        bridge, type_name, qos = self._bridge, route.type, route.qos
         key, session = bridge.key(name), bridge.session
         publisher = bridge.streams.create_publisher(kind, name, profile(qos))
         count = bridge.count(key, type_name, Direction.IN.value)
@@ -79,7 +52,7 @@ class Inward:
             qos.latched and rule.history > 0,
         )
         token = session.token(rules.topic_token(session.zid, Direction.IN, key, type_name, qos))
-        self._routes[name] = InRoute(type_name, qos, readers, publisher, subscriber, token)
+        self._routes[name] = InRoute(type_name, qos, route.ends, publisher, subscriber, token)
 
     def _close(self, name: str) -> None:
         route = self._routes.pop(name)

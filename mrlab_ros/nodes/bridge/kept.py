@@ -8,10 +8,11 @@ import time
 from collections import deque
 from typing import Any
 
+from rclpy.event_handler import SubscriptionEventCallbacks
 from rclpy.node import Node
 from rclpy.qos import QoSProfile
 
-from mrlab_ros.adapters.zenoh_session import Query
+from mrlab_ros.adapters.zenoh.port import Query
 
 # Who reports does so once a second; what is older says nothing of now, s.
 KEPT_FOR_S = 5.0
@@ -24,7 +25,11 @@ class Kept:
 
     def __init__(self, node: Node, kind: Any, topic: str, quality: QoSProfile) -> None:
         self._messages: deque[tuple[float, bytes]] = deque(maxlen=MOST)
-        node.create_subscription(kind, topic, self._keep, quality, raw=True)
+        # What is not published as `quality` asks is of no program of the lab; rclpy would warn.
+        silent = SubscriptionEventCallbacks(incompatible_qos=lambda _: None)
+        node.create_subscription(
+            kind, topic, self._keep, quality, raw=True, event_callbacks=silent
+        )
 
     def _keep(self, message: bytes) -> None:
         self._messages.append((time.monotonic(), message))

@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 import sys
 import time
+import traceback
 from functools import lru_cache
 from pathlib import Path
 from typing import Any
@@ -16,24 +17,12 @@ from rclpy.context import Context
 from rclpy.node import Node
 from rclpy.parameter import Parameter
 
-from mrlab_ros.adapters.zenoh_session import (
-    LOOPBACK,
-    Query,
-    Session,
-    ZenohSession,
-    configuration,
-    log_logins,
-)
+from mrlab_ros.adapters.yaml_files import Loader
+from mrlab_ros.adapters.zenoh.port import Query, Session
+from mrlab_ros.adapters.zenoh.session import ZenohSession
 from mrlab_ros.core.bridge import rules
-from mrlab_ros.core.bridge.access import bounds
-from mrlab_ros.core.bridge.guests import Guests, Share
 from mrlab_ros.core.bridge.latency import Ledger, clock_answer
-from mrlab_ros.core.bridge.links import (
-    EVERYWHERE,
-    check_endpoints,
-    check_router,
-    local_endpoint,
-)
+from mrlab_ros.core.bridge.pace import Pace
 from mrlab_ros.core.bridge.rules import Direction, ServiceRule, TopicRule
 from mrlab_ros.core.errors import BadInput
 from mrlab_ros.core.identity import Neighbours
@@ -47,9 +36,11 @@ from mrlab_ros.nodes.bridge.inward import Inward
 from mrlab_ros.nodes.bridge.kept import Kept
 from mrlab_ros.nodes.bridge.outward import Outward
 from mrlab_ros.nodes.bridge.services import Services
-from mrlab_ros.nodes.parameters import AUTOMATIC, BridgeParameters
+from mrlab_ros.nodes.bridge.zenoh_settings import zenoh_settings
+from mrlab_ros.nodes.parameters import BridgeParameters
 from mrlab_ros.ros import share
 from mrlab_ros.ros.clock import LabClock
+from mrlab_ros.ros.graph_changes import GraphChanges
 from mrlab_ros.ros.parameters import ParameterNode
 from mrlab_ros.ros.spinning import SpunNode
 from mrlab_ros.ros.timers import every
@@ -58,11 +49,8 @@ STATISTICS = "/@mrlab/bridge/statistics"
 CLOCK = "/@mrlab/bridge/clock"
 KEPT = "/@mrlab/bridge/kept"
 REPORT_PERIOD_S = 1.0
-# zenoh's setting of the sessions of all people together, and its least value.
-MAX_SESSIONS = "transport/unicast/max_sessions"
-LEAST_SESSIONS = 200
-# At every nth check of the graph the QoS of each publisher is read too.
-THOROUGH = 10
+# How often calls that have waited too long are refused, s.
+LATE_PERIOD_S = 0.2
 # Names whose rules are remembered.
 NAMES = 4096
 # How long the forwarding thread may wait for another Python thread, s; Python's own is 5 ms.
@@ -91,12 +79,10 @@ class BridgeNode(ParameterNode[BridgeParameters]):
         self._topic_rule = lru_cache(NAMES)(self._rules.topic)
         self._service_rule = lru_cache(NAMES)(self._rules.service)
         prefix = self.parameters.prefix
-        self._guests: Guests | None = None
-        settings = self._zenoh_settings(prefix)
+        settings, guests = zenoh_settings(self.parameters, self._rules)
         self._session: Session = session or ZenohSession(settings)
         self._lab_clock = LabClock(self)
         self._started = time.monotonic()
-        self._checks = 0
         self._logged: set[str] = set()
         # The forwarding publishers, subscriptions and clients are on a node of their own.
         streams = Node(
@@ -108,13 +94,17 @@ class BridgeNode(ParameterNode[BridgeParameters]):
         )
         self._bridge = BridgeContext(self._session, streams, prefix, self._warn_once)
         self._ledger = Ledger()
-        self._outward = Outward(self._bridge, self._ledger, self.parameters.lab_id)
+        self._pace = Pace(self.parameters.discovery_period)
+        self._graph: GraphChanges | None = None
+        self._outward = Outward(self._bridge, self._ledger, self.parameters.lab_id, self._wake)
         self._inward = Inward(self._bridge)
         self._neighbours = Neighbours(self.parameters.lab_id)
         if self.parameters.lab_id:
             for said, topic in ((Robots, "/robots"), (RobotSystems, "/systems")):
                 self.create_subscription(said, topic, self._on_lab, qos.LATCHED)
-        self._service_routes = Services(self._bridge)
+        # By service: how many servers it had at the last check.
+        self._servers: dict[str, int] = {}
+        self._service_routes = Services(self._bridge, self._why_not)
         self._assets = AssetRoutes(self._bridge, share.directory(), self._rules.types)
         self._streams = SpunNode(streams)
         sys.setswitchinterval(SWITCH_INTERVAL_S)
@@ -125,8 +115,8 @@ class BridgeNode(ParameterNode[BridgeParameters]):
             self._session.queryable(self._bridge.key(CLOCK), self._answer_clock),
         ]
         self._watch: GuestWatch | None = None
-        if self._guests is not None:
-            self._watch = GuestWatch(self._guests, self.get_logger().warning)
+        if guests is not None:
+            self._watch = GuestWatch(guests, self.get_logger().warning)
             self._declared.append(self._session.follow_links(self._watch.on_link))
         self._reports = self.create_publisher(Latency, "latency", qos.LATCHED)
         for kind, topic in ((Latency, "latency/clients"), (DiagnosticArray, "diagnostics")):
@@ -136,71 +126,38 @@ class BridgeNode(ParameterNode[BridgeParameters]):
             self._declared.append(self._session.queryable(key, kept.answer))
         self._reported = time.monotonic()
         every(self, REPORT_PERIOD_S, self._report)
-        self._discovery = every(self, self.parameters.discovery_period, self.discover)
+        every(self, LATE_PERIOD_S, self._service_routes.refuse_late)
+        self._graph = GraphChanges(self._bridge.streams, "bridge_graph", self._turn)
         self.get_logger().info(
             f"carries what {len(self._rules.topics)} rules for topics and "
             f"{len(self._rules.services)} for services name, under '{prefix or '/'}', zenoh {zid}"
         )
 
     def parameters_changed(self) -> None:
-        self.destroy_timer(self._discovery)
-        self._discovery = every(self, self.parameters.discovery_period, self.discover)
+        self._pace.period = self.parameters.discovery_period
+        self._wake()
 
-    def _zenoh_settings(self, prefix: str) -> Any:
-        values = self.parameters
-        file, folder, mode = values.zenoh_config, values.keys, values.mode
-        connect, listen, lease = values.connect, values.listen, values.lease
-        if AUTOMATIC in listen:
-            listen = () if folder and connect else EVERYWHERE if folder else LOOPBACK
-        if file and folder:
-            raise BadInput(
-                f"the bridge has both zenoh_config ({file}) and keys ({folder}); expected "
-                "one, as each decides who may connect"
-            )
-        if folder and mode == "client" and not connect:
-            raise BadInput(
-                f"the bridge has keys ({folder}) and mode client; name the router to connect to "
-                "with the parameter connect, or leave mode out"
-            )
-        if file:
-            return configuration(Path(file))
-        check_endpoints(listen, values.insecure, bool(folder))
-        limits = bounds(self._rules, prefix)
-        # A client of a router listens nowhere.
-        door = values.socket if mode != "client" else ""
-        if door:
-            listen = (*listen, local_endpoint(door))
-        if not folder:
-            return configuration(
-                mode=mode, listen=listen, connect=connect, lease=lease, security=limits
-            )
-        # Here: a lab without keys needs no cryptography in its memory.
-        from mrlab_ros.adapters.keys.folder import Keys, now
+    def _wake(self) -> None:
+        if self._graph is not None:
+            self._graph.wake()
 
-        keys = Keys(Path(folder))
-        keys.check(now())
-        if connect:
-            check_router(mode, listen, connect)
-            security = keys.lab_settings(now())
-        else:
-            security = keys.settings(self._rules, prefix, now(), local=bool(door)) | limits
-            share_of_each = Share(values.sessions_each, values.guest_rate, values.guest_burst)
-            self._guests = Guests(
-                keys.people(now()), share_of_each, by_certificate=keys.login.by_certificate
-            )
-            security[MAX_SESSIONS] = max(LEAST_SESSIONS, self._guests.room)
-        log_logins(passwords=keys.login.by_password)
-        return configuration(
-            mode=mode,
-            listen=listen,
-            connect=connect,
-            lease=lease,
-            base=share.directory() / "config" / "zenoh" / "lab.json5",
-            security=security,
-        )
+    def _turn(self, changed: bool) -> float:
+        """Check the graph where that is due; return the time until it is due again, s."""
+        now = time.monotonic()
+        if changed:
+            self._pace.changed(now)
+        try:
+            if self._pace.wait(now) == 0.0:
+                self._check(thorough=self._pace.check(now))
+            self._outward.match()
+        except Exception:
+            # What fails because the context was shut down beneath it is no mistake.
+            if self.context.ok():
+                self.get_logger().error(traceback.format_exc())
+        return self._pace.wait(time.monotonic())
 
-    def discover(self) -> None:
-        """Open and close routes as the graph changed; refuse calls that wait too long."""
+    def _check(self, thorough: bool) -> None:
+        """Open and close routes as the graph changed."""
         going_out: dict[str, tuple[TopicRule, str]] = {}
         coming_in: dict[str, tuple[TopicRule, str]] = {}
         for name, types in self.get_topic_names_and_types():
@@ -209,12 +166,10 @@ class BridgeNode(ParameterNode[BridgeParameters]):
                 if rule is not None:
                     out = rule.direction is Direction.OUT
                     (going_out if out else coming_in).setdefault(name, (rule, type_name))
-        self._checks += 1
-        self._outward.keep(going_out, thorough=self._checks % THOROUGH == 0)
-        self._inward.keep(coming_in, thorough=self._checks % THOROUGH == 0)
+        self._outward.keep(going_out, thorough)
+        self._inward.keep(coming_in, thorough)
         called: dict[str, tuple[ServiceRule, str]] = {}
-        shared: dict[str, str] = {}
-        now = time.monotonic()
+        servers: dict[str, int] = {}
         for name, types in self.get_service_names_and_types():
             # A client keeps its service's name in the graph, and the bridge has clients itself.
             for type_name in types:
@@ -222,13 +177,16 @@ class BridgeNode(ParameterNode[BridgeParameters]):
                 if service is None:
                     continue
                 self._bridge.give_way()
-                if servers := self.count_services(name):
+                if count := self.count_services(name):
                     called.setdefault(name, (service, type_name))
-                    if why_not := self._neighbours.why_not(name, servers, now):
-                        shared[name] = why_not
-        self._service_routes.shared = shared
+                    servers[name] = count
+        self._servers = servers
         self._service_routes.keep(called)
-        self._service_routes.refuse_late()
+
+    def _why_not(self, service: str) -> str:
+        """Return why a service is not called now: another lab would carry out the call, too."""
+        servers = self._servers.get(service, 0)
+        return self._neighbours.why_not(service, servers, time.monotonic())
 
     def _on_lab(self, message: Robots | RobotSystems) -> None:
         self._neighbours.notice(message.lab, time.monotonic())
@@ -244,10 +202,10 @@ class BridgeNode(ParameterNode[BridgeParameters]):
 
     def statistics(self) -> dict[str, Any]:
         """Return the traffic since the start: totals and each key's."""
-        subscribed = self._outward.subscribed()
+        heard = self._outward.heard()
         counts = self._bridge.counts.copy()
         keys = {
-            key: {**vars(count), **({"heard": subscribed[key]} if key in subscribed else {})}
+            key: {**vars(count), **({"heard": heard[key]} if key in heard else {})}
             for key, count in sorted(counts.items())
         }
         return {
@@ -257,6 +215,7 @@ class BridgeNode(ParameterNode[BridgeParameters]):
             "messages": sum(count.messages for count in counts.values()),
             "bytes": sum(count.bytes for count in counts.values()),
             "refused": sum(count.refused for count in counts.values()),
+            "lost": sum(count.lost for count in counts.values()),
             "keys": keys,
         }
 
@@ -276,6 +235,8 @@ class BridgeNode(ParameterNode[BridgeParameters]):
     def destroy_node(self) -> None:
         """Close everything and log the totals."""
         total = self.statistics()
+        if self._graph is not None:
+            self._graph.close()
         for declared in self._declared:
             declared.undeclare()
         if self._watch is not None:
@@ -298,7 +259,7 @@ class BridgeNode(ParameterNode[BridgeParameters]):
 def _rules(path: Path) -> rules.Rules:
     path = path if path.name else share.directory() / "config" / "bridge.yaml"
     try:
-        document = yaml.safe_load(path.read_text())
+        document = yaml.load(path.read_text(), Loader=Loader)
     except (OSError, yaml.YAMLError) as error:
         raise BadInput(
             f"the bridge cannot read its allow-list {path}: {error}; name a YAML file with the "

@@ -1,106 +1,147 @@
 """Forwards topics from the graph to zenoh, undecoded, each message with its stamps.
 
 The thread that receives from the graph also publishes what may be dropped. What must arrive is
-published by a second thread, so that a client that does not read delays no motion.
+published by a second thread, so that a client that does not read delays no motion. A stream that
+no client subscribes to is not received at all.
 """
 
 from __future__ import annotations
 
 import time
+from collections.abc import Callable
 from dataclasses import dataclass
 from functools import partial
 from typing import Any
 
+from rclpy.event_handler import SubscriptionEventCallbacks
+from rclpy.node import Node
 from rclpy.serialization import deserialize_message
 from rclpy.subscription import Subscription
+from rclpy.topic_endpoint_info import TopicEndpointInfo
 
-from mrlab_ros.adapters.zenoh_session import Declared, Publisher
+from mrlab_ros.adapters.zenoh.port import Declared, Publisher
 from mrlab_ros.core.bridge import rules
 from mrlab_ros.core.bridge.latency import Ledger, attachment
 from mrlab_ros.core.bridge.rules import (
     Congestion,
     Direction,
-    TopicQos,
     TopicRule,
 )
 from mrlab_ros.nodes.bridge.context import BridgeContext, Count, profile
 from mrlab_ros.nodes.bridge.rate_caps import RateCaps
+from mrlab_ros.nodes.bridge.routes import Route, TopicRoutes
 from mrlab_ros.nodes.bridge.sender import Sender
-from mrlab_ros.ros.raw_callback import OnMessage, Stamped
+from mrlab_ros.ros.arrivals import Arrivals, OnMessage
+
+# How long a stream is received on after its last zenoh subscriber has gone, s: a page that is
+# loaded again finds it running.
+LINGER_S = 5.0
 
 
 @dataclass
-class OutRoute:
-    """The route of one topic; sources: its publishers at the last check."""
+class OutRoute(Route):
+    """ends: the topic's publishers.
 
-    type: str
-    qos: TopicQos
-    sources: int
+    subscribe: opens its subscription. always: it is received without a zenoh subscriber, too.
+    unheard_since: when its last zenoh subscriber had gone, s.
+    """
+
     publisher: Publisher
     token: Declared
-    subscription: Subscription
+    subscribe: Callable[[], Subscription]
+    always: bool
+    subscription: Subscription | None = None
+    unheard_since: float | None = None
+
+    def heard(self) -> bool:
+        """Return whether messages go from the graph to a zenoh subscriber now."""
+        subscription = self.subscription
+        try:
+            return (
+                subscription is not None
+                and self.publisher.has_subscriber()
+                and subscription.get_publisher_count() > 0
+            )
+        except Exception:  # closed meanwhile, or the context is shut down
+            return False
 
 
-class Outward:
-    """The routes from the graph to zenoh."""
+class Outward(TopicRoutes[OutRoute]):
+    """The routes from the graph to zenoh. All methods but `heard` are for one thread."""
 
-    def __init__(self, bridge: BridgeContext, ledger: Ledger, lab: str) -> None:
-        """lab: the id of this lab; what another lab says of itself is not forwarded."""
-        self._bridge = bridge
+    def __init__(
+        self, bridge: BridgeContext, ledger: Ledger, lab: str, on_match: Callable[[], None]
+    ) -> None:
+        """lab: the id of this lab; what another lab says of itself is not forwarded.
+
+        on_match: called in any thread when `match` is to be called.
+        """
+        super().__init__(bridge)
         self._ledger = ledger
         self._lab = lab
+        self._on_match = on_match
         self._caps = RateCaps()
-        self._routes: dict[str, OutRoute] = {}
         self._must_arrive = Sender("bridge_sender", bridge.warn_once)
+        # No executor spins this node: its subscriptions have a thread that does nothing else.
+        self._receiver = Node(
+            "_bridge_receiver",
+            context=bridge.streams.context,
+            start_parameter_services=False,
+            enable_rosout=False,
+            use_global_arguments=False,
+        )
+        self._arrivals = Arrivals("bridge_out", bridge.warn_of_loss)
 
     def stop(self) -> None:
         """Stop receiving, publish what waits, close all routes."""
         for route in self._routes.values():
-            self._bridge.streams.destroy_subscription(route.subscription)
+            self._unsubscribe(route)
+        self._arrivals.close()
         self._caps.stop()
         self._must_arrive.stop()
         self.keep({})
+        self._receiver.destroy_node()
 
-    def keep(self, wanted: dict[str, tuple[TopicRule, str]], thorough: bool = True) -> None:
-        """Open and close routes until they are those of `wanted`: name -> rule and type.
+    def heard(self) -> dict[str, bool]:
+        """Return for every key whether its messages reach a zenoh subscriber."""
+        return {self._bridge.key(n): route.heard() for n, route in list(self._routes.items())}
 
-        Unless `thorough`, a topic whose number of publishers is unchanged is not checked further.
-        """
-        for name in [n for n in self._routes if n not in wanted]:
-            self._close(name)
-        for name, (rule, type_name) in wanted.items():
-            self._renew(name, rule, type_name, thorough)
-            self._bridge.give_way()
+    def match(self) -> None:
+        """Receive the streams with a zenoh subscriber, and those that had one a moment ago."""
+        now = time.monotonic()
+        for route in self._routes.values():
+            if route.always or route.publisher.has_subscriber():
+                route.unheard_since = None
+                if route.subscription is None:
+                    route.subscription = route.subscribe()
+            elif route.unheard_since is None:
+                route.unheard_since = now
+            elif now - route.unheard_since > LINGER_S:
+                self._unsubscribe(route)
 
-    def subscribed(self) -> dict[str, bool]:
-        """Return for every key whether it has a zenoh subscriber."""
-        bridge = self._bridge
-        return {bridge.key(n): r.publisher.has_subscriber() for n, r in list(self._routes.items())}
+    def _unsubscribe(self, route: OutRoute) -> None:
+        subscription, route.subscription = route.subscription, None
+        if subscription is not None:
+            self._arrivals.remove(subscription)
+            self._receiver.destroy_subscription(subscription)
 
-    def _renew(self, name: str, rule: TopicRule, type_name: str, thorough: bool) -> None:
-        bridge = self._bridge
-        known = self._routes.get(name)
-        # Counting takes a fifth of the time of the full information.
-        sources = bridge.streams.count_publishers(name)
-        if (
-            known is not None
-            and not thorough
-            and (known.sources, known.type) == (sources, type_name)
-        ):
-            return
-        infos = bridge.streams.get_publishers_info_by_topic(name)
-        qos = bridge.quality(infos, rule, type_name)
-        if known is not None and (known.qos, known.type) == (qos, type_name):
-            known.sources = sources
-            return
-        if known is not None:
-            self._close(name)
-        kind = bridge.kind(name, type_name)
-        if qos is None or kind is None:
-            return
+    def _count_ends(self, name: str) -> int:
+        count: int = self._bridge.streams.count_publishers(name)
+        return count
+
+    def _ends(self, name: str) -> list[TopicEndpointInfo]:
+        ends: list[TopicEndpointInfo] = self._bridge.streams.get_publishers_info_by_topic(name)
+        return ends
+
+    def _open(self, name: str, rule: TopicRule, route: Route, kind: Any) -> None:
+        bridge, type_name, qos = self._bridge, route.type, route.qos
         key, session = bridge.key(name), bridge.session
         count = bridge.count(key, type_name, Direction.OUT.value)
-        publisher = session.publisher(key, rule, rule.history if qos.latched else 0)
+        # Who comes late to what is latched, or counts, must find it.
+        always = qos.latched or rule.congestion is Congestion.BLOCK
+        publisher = session.publisher(
+            key, rule, rule.history if qos.latched else 0, None if always else self._on_match
+        )
         token = session.token(rules.topic_token(session.zid, Direction.OUT, key, type_name, qos))
         on_message = self._emitter(name, publisher, count)
         if self._lab and "lab" in kind.get_fields_and_field_types():
@@ -109,14 +150,30 @@ class Outward:
             on_message = self._queued(on_message)
         if rule.max_rate:
             on_message = self._caps.limit(rule.max_rate, on_message)
-        subscription = bridge.streams.create_subscription(
-            kind, name, Stamped(on_message), profile(qos), raw=True
+
+        def subscribe() -> Subscription:
+            subscription = self._receiver.create_subscription(
+                kind,
+                name,
+                _unused,
+                profile(qos),
+                raw=True,
+                event_callbacks=SubscriptionEventCallbacks(use_default_callbacks=False),
+            )
+            if qos.latched or rule.depth == 1:  # only the newest counts
+                self._arrivals.add(subscription, on_message)
+            else:
+                self._arrivals.add(subscription, on_message, self._gap(name, count))
+            return subscription
+
+        self._routes[name] = OutRoute(
+            type_name, qos, route.ends, publisher, token, subscribe, always
         )
-        self._routes[name] = OutRoute(type_name, qos, sources, publisher, token, subscription)
+        self.match()
 
     def _close(self, name: str) -> None:
         route = self._routes.pop(name)
-        self._bridge.streams.destroy_subscription(route.subscription)
+        self._unsubscribe(route)
         route.token.undeclare()
         route.publisher.undeclare()
         self._ledger.forget(name)
@@ -146,6 +203,19 @@ class Outward:
 
         return emit
 
+    def _gap(self, name: str, count: Count) -> Callable[[int], None]:
+        def on_gap(missing: int) -> None:
+            # Numbers of several publishers say nothing.
+            if self._receiver.count_publishers(name) == 1:
+                count.lost += missing
+                self._bridge.warn_once(
+                    f"messages of {name} were lost on their way to the bridge: it stood still, or "
+                    "they are published faster than it forwards them. The bridge's statistics "
+                    "count them (lost)"
+                )
+
+        return on_gap
+
     def _own(self, kind: Any, emit: OnMessage) -> OnMessage:
         """Forward what names this lab, or none."""
         own = self._lab.encode()
@@ -160,3 +230,7 @@ class Outward:
     def _queued(self, emit: OnMessage) -> OnMessage:
         send = self._must_arrive.send
         return lambda payload, published: send(partial(emit, payload, published), len(payload))
+
+
+def _unused(_: bytes) -> None:
+    """Stand in for a callback: no executor spins the subscription's node."""

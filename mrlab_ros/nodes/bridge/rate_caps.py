@@ -6,7 +6,7 @@ import threading
 import time
 
 from mrlab_ros.core.bridge.rules import SECOND, RateCap
-from mrlab_ros.ros.raw_callback import OnMessage
+from mrlab_ros.ros.arrivals import OnMessage
 from mrlab_ros.ros.worker import Worker
 
 # A message's CDR and when it was published, ns since 1970.

@@ -18,12 +18,14 @@ from rclpy.client import Client
 from rclpy.serialization import deserialize_message, serialize_message
 from rclpy.task import Future
 
-from mrlab_ros.adapters.zenoh_session import Declared, Query
+from mrlab_ros.adapters.zenoh.port import Declared, Query
 from mrlab_ros.core.bridge import rules
 from mrlab_ros.core.bridge.rules import ServiceRule
+from mrlab_ros.core.freezes import harmless
 from mrlab_ros.messages import qos
 from mrlab_ros.nodes.bridge.context import BridgeContext, Count
 from mrlab_ros.nodes.bridge.sender import Sender
+from mrlab_ros.ros import freezes
 
 # Calls that one service has at a time; DDS keeps ten for a server and drops older ones.
 IN_FLIGHT = 8
@@ -59,12 +61,14 @@ class ServiceRoute:
 class Services:
     """The routes of services.
 
-    shared: by service why it is not called now, as another lab would carry out the call too.
+    why_not: gets a service and returns why it is not called now, empty where it is.
     """
 
-    def __init__(self, bridge: BridgeContext) -> None:
+    def __init__(
+        self, bridge: BridgeContext, why_not: Callable[[str], str] = lambda _: ""
+    ) -> None:
         self._bridge = bridge
-        self.shared: dict[str, str] = {}
+        self._why_not = why_not
         # Reentrant: add_done_callback may run at once when the response is already there.
         self._lock = threading.RLock()
         self._routes: dict[str, ServiceRoute] = {}
@@ -97,7 +101,10 @@ class Services:
             self._routes[name] = route
         if not route.declared and route.client.service_is_ready():
             token = rules.service_token(session.zid, key, type_name)
-            route.declared = [session.queryable(key, self._on_query(route)), session.token(token)]
+            route.declared = [
+                session.queryable(key, self._on_query(route), quick=True),
+                session.token(token),
+            ]
 
     def _close(self, name: str) -> None:
         route = self._routes.pop(name)
@@ -133,7 +140,11 @@ class Services:
                 self._refuse(route, query, words)
                 return
             request, why_not = read(query.payload)
-            why_not = why_not or self.shared.get(route.name, "")
+            why_not = why_not or self._why_not(route.name)
+            if not why_not and not harmless(route.name):
+                why_not = freezes.why_doubtful()
+                if why_not:
+                    self._bridge.warn_once(f"{route.name}: {why_not}")
             if why_not:
                 self._refuse(route, query, why_not)
                 return
@@ -183,7 +194,9 @@ class Services:
     def refuse_late(self) -> None:
         """Refuse the calls whose deadline has passed."""
         now = time.monotonic_ns()
-        for route in self._routes.values():
+        for route in list(self._routes.values()):
+            if not route.in_flight and not route.waiting:
+                continue
             with self._lock:
                 late = [c for c in (*route.in_flight, *route.waiting) if c.deadline_ns <= now]
                 route.in_flight.difference_update(late)

@@ -36,7 +36,7 @@ from mrlab_ros.nodes import parameters
 from mrlab_ros.nodes.coordinator.checks import MemberChecks
 from mrlab_ros.nodes.coordinator.fleet import Hosts, MemberClient, RosFleet
 from mrlab_ros.nodes.parameters import CoordinatorParameters
-from mrlab_ros.ros.answers import answered, end_service
+from mrlab_ros.ros.answers import answered, create_service, end_service
 from mrlab_ros.ros.calls import NoAnswer
 from mrlab_ros.ros.clock import LabClock
 from mrlab_ros.ros.parameters import ParameterNode
@@ -90,12 +90,8 @@ class CoordinatorNode(ParameterNode[CoordinatorParameters]):
         self.worker = Worker("coordinator", self._poll, self._poll_period)
         self._topic = self.create_publisher(msg.RobotSystems, "/systems", qos.LATCHED)
         self.create_subscription(msg.Robots, "/robots", self._on_robots, qos.LATCHED)
-        self.create_service(
-            srv.CreateSystem, "~/create_system", self._create, qos_profile=qos.SERVICES
-        )
-        self.create_service(
-            srv.Remove, "~/dissolve_system", self._dissolve, qos_profile=qos.SERVICES
-        )
+        create_service(self, srv.CreateSystem, "~/create_system", self._create)
+        create_service(self, srv.Remove, "~/dissolve_system", self._dissolve)
         self._journal = Journal.of(self.parameters.state_dir, self.get_name(), log.error)
         self.worker.do(self._restore)
         self._publish()
@@ -154,9 +150,7 @@ class CoordinatorNode(ParameterNode[CoordinatorParameters]):
         self._members.update(clients)
         self._fleets[name] = fleet
         self._offered[name] = [
-            self.create_service(
-                kind, f"/{name}/{service}", self._callback(name, action), qos_profile=qos.SERVICES
-            )
+            create_service(self, kind, f"/{name}/{service}", self._callback(name, action))
             for kind, service, action in (
                 (Trigger, "play", self._play),
                 (Trigger, "pause", self._pause),
@@ -294,7 +288,7 @@ class CoordinatorNode(ParameterNode[CoordinatorParameters]):
             self.get_logger().warning(str(error))
 
     def _on_robots(self, message: msg.Robots) -> None:
-        if not self._identity.accepts(message.lab):
+        if not self._identity.obeys(message.lab):
             return
         robots = {robot.name: robot for robot in message.robots}
         self.worker.later(lambda: self._set_robots(robots))

@@ -143,7 +143,7 @@ class FramesNode(ParameterNode[FramesParameters]):
             self._moving.publish(moved)
 
     def _on_robots(self, message: msg.Robots) -> None:
-        if not self._identity.accepts(message.lab):
+        if not self._identity.obeys(message.lab):
             return
         wanted = {robot.name: robot for robot in message.robots}
         for name in [name for name in self._robots if name not in wanted]:

@@ -33,7 +33,7 @@ from mrlab_ros.nodes.lab.restore import LabRestore, Return
 from mrlab_ros.nodes.lab.scenes import Scenes
 from mrlab_ros.nodes.parameters import LabParameters
 from mrlab_ros.ros import share
-from mrlab_ros.ros.answers import answered
+from mrlab_ros.ros.answers import answered, create_service
 from mrlab_ros.ros.clock import LabClock
 from mrlab_ros.ros.parameters import ParameterNode
 from mrlab_ros.ros.spinning import Caller
@@ -107,7 +107,7 @@ class LabNode(ParameterNode[LabParameters]):
             (srv.SceneFile, "load_scene", self._on_load_scene),
             (srv.ListScenes, "list_scenes", self._on_list_scenes),
         ):
-            self.create_service(kind, f"~/{name}", callback, qos_profile=qos.SERVICES)
+            create_service(self, kind, f"~/{name}", callback)
         every(self, SAVE_PERIOD_S, self._save)
         self._return.start()
 
@@ -192,7 +192,7 @@ class LabNode(ParameterNode[LabParameters]):
         self._file.save(self._document())
 
     def _on_robots(self, message: msg.Robots) -> None:
-        self._identity.accepts(message.lab)
+        self._identity.obeys(message.lab)
 
     def _meet(self, said: str) -> None:
         """Name another lab, also on /diagnostics."""

@@ -119,7 +119,7 @@ class GraphListener:
         self._log.error(f"physics: {said}", throttle_duration_sec=1.0)
 
     def _on_robots(self, message: msg.Robots) -> None:
-        if not self._identity.accepts(message.lab):
+        if not self._identity.obeys(message.lab):
             return
         wanted = {robot.name: robot for robot in message.robots}
         self.known_robots = frozenset(wanted)

@@ -26,7 +26,6 @@ from mrlab_ros.core.physics.settings import Settings
 from mrlab_ros.core.physics.world import World
 from mrlab_ros.core.scene.restore import counted
 from mrlab_ros.messages import physics as messages
-from mrlab_ros.messages import qos
 from mrlab_ros.messages.poses import pose_from_message
 from mrlab_ros.messages.scenes import placement_to_message, placements_from_messages
 from mrlab_ros.nodes import parameters
@@ -35,7 +34,7 @@ from mrlab_ros.nodes.physics.contents import Contents
 from mrlab_ros.nodes.physics.listener import GraphListener
 from mrlab_ros.nodes.physics.publishers import WorldPublishers
 from mrlab_ros.ros import share
-from mrlab_ros.ros.answers import answered
+from mrlab_ros.ros.answers import answered, create_service
 from mrlab_ros.ros.clock import LabClock
 from mrlab_ros.ros.deadlines import SWITCH_INTERVAL_S
 from mrlab_ros.ros.parameters import ParameterNode
@@ -120,7 +119,7 @@ class PhysicsNode(ParameterNode[PhysicsParameters]):
             (srv.GetObjects, "get_objects", self._on_get),
             (srv.SetObjects, "set_objects", self._on_set),
         ):
-            self.create_service(kind, f"~/{name}", callback, qos_profile=qos.SERVICES)
+            create_service(self, kind, f"~/{name}", callback)
         every(self, SAVE_PERIOD, self._contents.save)
         # With Python's default of 5 ms another thread could delay a halt.
         sys.setswitchinterval(SWITCH_INTERVAL_S)

@@ -13,7 +13,7 @@ from rclpy.timer import Timer
 from sensor_msgs.msg import JointState
 from trajectory_msgs.msg import JointTrajectory
 
-from mrlab_ros.core.errors import LabError
+from mrlab_ros.core.errors import LabError, Misuse
 from mrlab_ros.core.playback.goal import Code, WrongGoal
 from mrlab_ros.core.playback.playback import Playback, PlaybackStatus
 from mrlab_ros.core.playback.pursuit import Bounds, Outcome, Pursuit
@@ -25,6 +25,7 @@ from mrlab_ros.messages.goals import (
     goal_from_message,
     result_to_message,
 )
+from mrlab_ros.ros import freezes
 from mrlab_ros.ros.actions import GoalServer
 from mrlab_ros.ros.deadlines import Command, Player
 from mrlab_ros.ros.timers import every
@@ -109,6 +110,7 @@ class Commanders:
                 raise WrongGoal(
                     Code.INVALID_GOAL, "the goal has a multi_dof_trajectory; expected none"
                 )
+            _refuse_doubtful()
             self._pursue(request.trajectory, bounds_from_goal(request))
         except LabError as error:
             code = error.code if isinstance(error, WrongGoal) else Code.INVALID_GOAL
@@ -129,6 +131,7 @@ class Commanders:
 
     def _on_trajectory(self, message: JointTrajectory) -> None:
         try:
+            _refuse_doubtful()
             self._pursue(message, Bounds())
             self._pursuit = None  # nobody waits for its end
         except LabError as error:
@@ -138,6 +141,7 @@ class Commanders:
         begins, refused = False, ""
         with self._command() as now_ns:
             try:
+                _refuse_doubtful()
                 begins = self._playback.command(
                     now_ns, message.name, message.position, message.velocity
                 )
@@ -197,3 +201,10 @@ class Commanders:
         if self._timer is not None:
             self._node.destroy_timer(self._timer)
             self._timer = None
+
+
+def _refuse_doubtful() -> None:
+    """Raise Misuse while what comes may have waited for the end of a freeze of this process."""
+    why = freezes.why_doubtful()
+    if why:
+        raise Misuse(why)

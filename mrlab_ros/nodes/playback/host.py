@@ -21,7 +21,7 @@ from mrlab_ros.core.identity import Identity
 from mrlab_ros.core.playback import journal as entries
 from mrlab_ros.core.playback.playback import Kept
 from mrlab_ros.core.systems.leases import Leases
-from mrlab_ros.core.systems.members import NOT_PLAYED
+from mrlab_ros.core.systems.members import HALTING, NOT_PLAYED
 from mrlab_ros.core.trajectory.trajectory import Trajectory
 from mrlab_ros.messages import qos
 from mrlab_ros.messages.systems import order_from_message, reply_to_message
@@ -31,7 +31,7 @@ from mrlab_ros.nodes.catalogue import CatalogueClient
 from mrlab_ros.nodes.parameters import PlaybackParameters
 from mrlab_ros.nodes.playback.node import PlaybackNode
 from mrlab_ros.ros import share
-from mrlab_ros.ros.answers import answered
+from mrlab_ros.ros.answers import answered, create_service
 from mrlab_ros.ros.clock import LabClock
 from mrlab_ros.ros.deadlines import Scheduler
 from mrlab_ros.ros.parameters import ParameterNode
@@ -127,11 +127,14 @@ class PlaybackHostNode(ParameterNode[PlaybackParameters]):
         # Named by the lab too: the coordinator of another one on the same domain must not drive
         # robots that happen to have the names of its own.
         self._host = f"{self.get_fully_qualified_name()}{self._identity.namespace}"
-        orders.create_service(
+        create_service(
+            orders,
             srv.CommandMembers,
             f"{self._host}/command_members",
             self._command_members,
-            qos_profile=qos.SERVICES,
+            halts=lambda request: all(
+                order_from_message(order).command in HALTING for order in request.orders
+            ),
         )
         self._telemetry_timer = every(self, 1 / self.parameters.telemetry_rate, self._telemetry)
         self._turn = 0
@@ -175,7 +178,7 @@ class PlaybackHostNode(ParameterNode[PlaybackParameters]):
         super().destroy_node()
 
     def _on_robots(self, message: msg.Robots) -> None:
-        if not self._identity.accepts(message.lab):
+        if not self._identity.obeys(message.lab):
             return
         wanted = {r.name: r for r in message.robots if not self._only or r.name in self._only}
         for robot, node in list(self.nodes.items()):

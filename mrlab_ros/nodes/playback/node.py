@@ -31,7 +31,7 @@ from mrlab_ros.messages.playback import (
 )
 from mrlab_ros.messages.telemetry import TelemetryEncoder
 from mrlab_ros.nodes.playback.commanders import Commanders
-from mrlab_ros.ros.answers import answered, create_deferred_service
+from mrlab_ros.ros.answers import answered, create_deferred_service, create_service
 from mrlab_ros.ros.calls import NoAnswer
 from mrlab_ros.ros.deadlines import Command, Player, Scheduler
 from mrlab_ros.ros.raw_publish import raw_publish
@@ -123,7 +123,7 @@ class PlaybackNode(Node):
             (SetBool, "set_loop", self._set_loop),
             (Trigger, "clear_halt", self._clear_halt),
         ):
-            self.create_service(kind, name, callback, qos_profile=qos.SERVICES)
+            create_service(self, kind, name, callback)
         create_deferred_service(self, srv.LoadTrajectory, "load", self._begin_load)
         if self._back is not None:
             with self._scheduler.command() as now_ns:

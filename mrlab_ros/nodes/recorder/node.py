@@ -16,6 +16,7 @@ from std_srvs.srv import SetBool, Trigger
 
 from mrlab_ros.adapters.bags.empty import remove_empty
 from mrlab_ros.adapters.bags.listing import bags_in
+from mrlab_ros.adapters.bags.other import open_bag
 from mrlab_ros.adapters.bags.reader import Bag, default_folder
 from mrlab_ros.adapters.bags.writer import BagWriter
 from mrlab_ros.adapters.journal import Journal
@@ -36,7 +37,7 @@ from mrlab_ros.nodes.recorder.attachments import SessionContent, versions
 from mrlab_ros.nodes.recorder.recording import Recording
 from mrlab_ros.nodes.recorder.replaying import Replaying
 from mrlab_ros.nodes.recorder.trajectories import ReplayedTrajectories
-from mrlab_ros.ros.answers import answered
+from mrlab_ros.ros.answers import answered, create_service
 from mrlab_ros.ros.parameters import ParameterNode
 from mrlab_ros.ros.spinning import Caller
 from mrlab_ros.ros.timers import every
@@ -97,7 +98,7 @@ class RecorderNode(ParameterNode[RecorderParameters]):
             (srv.SetRate, "set_rate", self._set_rate),
             (SetBool, "set_loop", self._set_loop),
         ):
-            self.create_service(kind, f"~/{name}", callback, qos_profile=qos.SERVICES)
+            create_service(self, kind, f"~/{name}", callback)
         every(self, 1.0, self._publish_while_working)
         every(self, 0.25, self._discover)
         self._journal = Journal.of(
@@ -171,12 +172,12 @@ class RecorderNode(ParameterNode[RecorderParameters]):
         try:
             bag = Bag(entry.folder)
             facts = bag.facts()
-            gap = Gap(facts.end_ns, time.time_ns())
+            gap = Gap(facts.end_ns, max(time.time_ns(), facts.end_ns))
             writer = BagWriter(entry.folder, definition, after=facts)
             writer.note(GAP, gap.note())
             split = Split(entry.split_duration, self.parameters.split_size * MEGABYTE)
             said = (
-                f"the recorder was restarted: {gap.duration:.1f} s are missing"
+                f"the recorder was restarted: {gap.missing()}"
                 if facts.messages
                 else "the recorder was restarted before it had received anything"
             )
@@ -238,7 +239,8 @@ class RecorderNode(ParameterNode[RecorderParameters]):
     def _replay(self, request: Any, response: Any) -> str:
         self._check(RecorderEvent.REPLAY)
         path = Path(request.bag).expanduser()
-        bag = Bag(path if path.is_absolute() or path.exists() else self._folder / path)
+        path = path if path.is_absolute() or path.exists() else self._folder / path
+        bag = open_bag(path, definition)
         timeline = ReplayTimeline(bag.duration, request.rate, request.start, request.loop)
         replaying = Replaying(self._streams, bag, timeline, self._on_replay_end)
         with self._lock:

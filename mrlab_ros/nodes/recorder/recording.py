@@ -27,6 +27,8 @@ FLUSH_NS = 400_000_000
 METADATA_NS = 10 * SECOND
 # What a latched topic said before it was followed has arrived within this time, ns.
 PRESENT_NS = SECOND // 2
+# A stamp that is so far in the future is of before the clock was set back, ns.
+AHEAD_NS = SECOND // 10
 # Messages kept for the recorder while a disk or the machine stalls: 10 s at 100 Hz.
 DEPTH = 1000
 
@@ -39,22 +41,28 @@ class Followed:
         self.topic = topic
         self.publishers = publishers
         self.since_ns = time.time_ns()
+        # By this time of the clock that nobody sets, what was published before has arrived.
+        self._present_ns = time.monotonic_ns() + PRESENT_NS
         # The newest of what was published before: a latched topic keeps several values, and the
         # older ones are no events of this recording.
         self.before: Received | None = None
 
     def takes(self, message: Received) -> bool:
-        """Return whether to write `message` now; keep back what was published before."""
+        """Return whether to write `message` now; keep back what was published before.
+
+        A stamp of the future is of before the clock was set back.
+        """
         alone = self.topic.latched and self.publishers == 1
-        if not alone or message.published_ns >= self.since_ns:
+        if not alone or time.monotonic_ns() >= self._present_ns:
             return True
-        if self.before is None or message.published_ns >= self.before.published_ns:
-            self.before = message
+        if self.since_ns <= message.published_ns <= time.time_ns() + AHEAD_NS:
+            return True
+        self.before = message
         return False
 
-    def take_before(self, now_ns: int, *, at_once: bool = False) -> Received | None:
+    def take_before(self, *, at_once: bool = False) -> Received | None:
         """Return the value from before once it is certain to be the newest."""
-        if self.before is None or not (at_once or now_ns - self.since_ns >= PRESENT_NS):
+        if self.before is None or not (at_once or time.monotonic_ns() >= self._present_ns):
             return None
         taken, self.before = self.before, None
         return taken
@@ -97,6 +105,8 @@ class Recording:
         # How long ago a recorder that was killed began this bag, s.
         facts = writer.facts
         self._earlier = max(time.time_ns() - facts.start_ns, 0) / SECOND if facts.messages else 0.0
+        # Where the clock was set back while no recorder ran, its messages follow the earlier ones.
+        self._later_ns = max(facts.end_ns - time.time_ns(), 0) if facts.messages else 0
         self._closed = False
         # Why the recording ended by itself.
         self._trouble: LabError | None = None
@@ -222,22 +232,22 @@ class Recording:
 
     def _write(self, message: Received) -> None:
         received_ns, topic, data, published_ns, sequence = message
+        received_ns += self._later_ns
         self._writer.write(topic, received_ns, data, published_ns, sequence & 0xFFFFFFFF)
 
     def _present(self, messages: list[Received], *, last: bool) -> list[Received]:
         """Return what to write: of what latched topics said before, the newest alone."""
-        now_ns = time.time_ns()
         wanted: list[Received] = []
         for message in messages:
             followed = self._followed.get(message.topic)
             if followed is not None:
                 if not followed.takes(message):
                     continue
-                if (before := followed.take_before(now_ns, at_once=True)) is not None:
+                if (before := followed.take_before(at_once=True)) is not None:
                     wanted.append(before)
             wanted.append(message)
         for followed in list(self._followed.values()):
-            if (before := followed.take_before(now_ns, at_once=last)) is not None:
+            if (before := followed.take_before(at_once=last)) is not None:
                 wanted.append(before)
         return wanted
 
@@ -275,6 +285,9 @@ class Recording:
                 self._writer.close()
             except LabError as second:
                 self._complain(str(second))
+            else:
+                error = type(error)(f"{error}; the bag is whole, with {self.messages} messages")
+                self._trouble = error
             self._leave()
             self._on_trouble(error)
             return False

@@ -9,6 +9,7 @@ from collections.abc import Callable
 from concurrent.futures import Future, ThreadPoolExecutor
 from typing import Any
 
+from rclpy.duration import Duration
 from rclpy.node import Node
 from rclpy.publisher import Publisher
 
@@ -35,6 +36,8 @@ MATCH_TIMEOUT_S = 2.0
 POLL_PERIOD_S = 0.02
 # Subscribers that wait for a topic, such as the bridge, have matched after this time, s.
 SETTLE_TIME_S = 0.5
+# How long the end of a replay waits for subscribers to have its last messages, s.
+ARRIVAL_TIMEOUT_S = 1.0
 
 
 class Feed:
@@ -194,7 +197,11 @@ class Replaying:
             self._thread.join()
         if self._feed is not None:
             self._feed.stop()
+        deadline = time.monotonic() + ARRIVAL_TIMEOUT_S
         for publisher in self._publishers.values():
+            # What a publisher has not handed over goes with it.
+            left_s = max(deadline - time.monotonic(), 0.0)
+            publisher.wait_for_all_acked(Duration(seconds=left_s))
             self._streams.destroy_publisher(publisher)
         self._publishers.clear()
 

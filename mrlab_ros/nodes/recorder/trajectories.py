@@ -10,9 +10,9 @@ from rclpy.node import Node
 from mrlab_ros.adapters.bags.reader import Bag
 from mrlab_ros.adapters.trajectories.json_file import parse
 from mrlab_ros.core.errors import BadInput
-from mrlab_ros.messages import qos, trajectories
+from mrlab_ros.messages import trajectories
 from mrlab_ros.nodes.recorder.attachments import trajectory_name
-from mrlab_ros.ros.answers import answered
+from mrlab_ros.ros.answers import answered, create_service
 
 
 class ReplayedTrajectories:
@@ -21,9 +21,7 @@ class ReplayedTrajectories:
     def __init__(self, node: Node, bag: Bag) -> None:
         self._node = node
         self._bag = bag
-        self._service = node.create_service(
-            srv.GetTrajectory, "/converter/get", self._get, qos_profile=qos.SERVICES
-        )
+        self._service = create_service(node, srv.GetTrajectory, "/converter/get", self._get)
 
     def close(self) -> None:
         self._node.destroy_service(self._service)

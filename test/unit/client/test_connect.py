@@ -7,6 +7,8 @@ from pathlib import Path
 import pytest
 
 from mrlab_ros.client import connect
+from mrlab_ros.commands.open import running_web
+from mrlab_ros.core.errors import Misuse
 from mrlab_ros.processes.run_file import RunFile, domains
 from mrlab_ros.ros.calls import NoAnswer
 
@@ -43,6 +45,14 @@ def test_a_domain_of_tools_alone_has_no_lab(
     with pytest.raises(NoAnswer, match=r"no lab answers on ROS domain 7; start one .*mrlab up"):
         connect.open_graph()
     assert lone.closed
+
+
+def test_pages_are_looked_for_on_the_domain_of_a_lab() -> None:
+    elsewhere = RunFile(9)
+    elsewhere.claim()
+    with pytest.raises(Misuse, match=r"domain 7; yours runs on domain 9: .*ROS_DOMAIN_ID=9"):
+        running_web()
+    elsewhere.release()
 
 
 def test_any_other_node_may_be_a_lab(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -2,16 +2,22 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from contextlib import suppress
 from pathlib import Path
 from types import SimpleNamespace
 
 import pytest
+import typer
 
 from mrlab_ros.commands import record as command
 from mrlab_ros.commands.record import record
 from mrlab_ros.core.errors import LabError, Misuse
 from mrlab_ros.core.recording.states import RecorderState
+from mrlab_ros.core.watch import Sign
+from mrlab_ros.messages.diagnostics import signs_to_message
+from mrlab_ros.ros.calls import NoAnswer
+from mrlab_ros.ros.graph import Watch
 
 
 @pytest.mark.parametrize(
@@ -48,10 +54,17 @@ def state(which: RecorderState, message: str = "") -> SimpleNamespace:
     return SimpleNamespace(state=which.value, bag=BAG, message=message)
 
 
-def follow(recorder: Recorder) -> list[str]:
+def follow(recorder: Recorder, until: float = 0.0) -> list[str]:
+    """Follow a recording. until: s, when its bag ceases to grow."""
     said: list[str] = []
     with suppress(KeyboardInterrupt):
-        command._follow(recorder, lambda *_: None, said.append, BAG)
+        command._follow(
+            recorder,
+            lambda *_: None,
+            said.append,
+            BAG,
+            lambda: 1000 + int(100 * min(recorder.now, until)),
+        )
     return said
 
 
@@ -65,7 +78,7 @@ def test_a_recorder_that_returns_after_seven_seconds_is_followed_again(monkeypat
     gap = "the recorder was restarted: 6.4 s are missing"
     states = recording(until=4.0) | recording(gap, since=10.0)
     assert follow(Recorder(monkeypatch, states)) == [
-        "the recorder has been silent for 5 s; waits for it to be restarted",
+        "the recorder has been silent for 5 s; waits for its restart",
         f"{gap}; the recording goes on in {BAG}",
     ]
 
@@ -75,6 +88,18 @@ def test_a_recorder_that_does_not_return_is_given_up_with_the_way_to_end_it(monk
     with pytest.raises(LabError, match=r"silent for 20 s.*goes on in that bag: .*record --stop"):
         follow(recorder)
     assert 23.0 < recorder.now < 25.0
+
+
+def test_a_recording_whose_bag_grows_is_watched_on_also_where_the_bridge_is_frozen(monkeypatch):
+    states = recording(until=4.0) | recording(since=60.0)
+    assert follow(Recorder(monkeypatch, states), until=60.0) == [
+        f"the lab has been silent for 5 s, but the recording goes on in {BAG}; Ctrl-C ends it",
+        f"the recorder answers again; the recording goes on in {BAG}",
+    ]
+    recorder = Recorder(monkeypatch, recording(until=4.0))
+    with pytest.raises(LabError, match="silent for 20 s"):
+        follow(recorder, until=30.0)
+    assert 49.0 < recorder.now < 51.0
 
 
 def test_a_recorder_that_returns_without_the_recording_ends_the_command(monkeypatch):
@@ -88,3 +113,59 @@ def test_a_recording_that_another_client_ends_has_ended_well(monkeypatch):
     assert follow(Recorder(monkeypatch, states)) == [
         f"another client ended the recording; mrlab bag info {BAG} says what it holds"
     ]
+
+
+class Lab:
+    """A graph whose recorder does not answer in time. living: whether it gives signs of life."""
+
+    def __init__(self, monkeypatch: pytest.MonkeyPatch, *, living: bool = False):
+        self.now, self.living, self.calls = 0.0, living, 0
+        self.interrupted = 0
+        self.ended: Watch[SimpleNamespace] = Watch("/recorder/state")
+        monkeypatch.setattr(command, "time", SimpleNamespace(monotonic=lambda: self.now))
+
+    def subscribe(self, kind: object, topic: str, callback: Callable, quality: object) -> None:
+        self.hear = callback
+
+    def call(self, *_: object, find_timeout: float) -> None:
+        self.calls += 1
+        if self.interrupted:
+            raise KeyboardInterrupt
+        self.now += command.ANSWER_S
+        if self.living:
+            self.hear(signs_to_message(0, Sign("recorder"), 1.0, {}))
+        else:
+            self.hear(signs_to_message(0, Sign("physics"), 1.0, {"recorder": 3.0}))
+        raise NoAnswer("Timeout")
+
+    def watch(self, kind: object, topic: str) -> Watch[SimpleNamespace]:
+        return self.ended
+
+
+def test_a_frozen_recorder_is_given_up_soon_with_what_becomes_of_the_bag(monkeypatch):
+    lab = Lab(monkeypatch)
+    with pytest.raises(NoAnswer, match=r"no sign of life for 4 s; .*stays readable"):
+        command._stop(lab, lambda: 1000)
+    assert (lab.calls, lab.now < 5.0) == (1, True)
+
+
+def test_a_recorder_behind_a_frozen_bridge_is_asked_elsewhere(monkeypatch):
+    lab = Lab(monkeypatch)
+    monkeypatch.setattr(command, "_stop_elsewhere", lambda: "asked elsewhere")
+    assert command._stop(lab, lambda: int(lab.now * 1000)) == "asked elsewhere"
+
+
+def test_a_recorder_that_lives_may_take_its_time_to_close_a_bag(monkeypatch):
+    lab = Lab(monkeypatch, living=True)
+    lab.ended.set(state(RecorderState.STOPPED))
+    assert command._stop(lab, lambda: 1000) == "the bag is closed"
+    assert lab.calls == 1
+
+
+def test_a_second_interrupt_waits_for_nothing(monkeypatch, capsys):
+    lab = Lab(monkeypatch)
+    lab.interrupted = True
+    with pytest.raises(typer.Exit) as ended:
+        command._interrupted(lab, BAG, as_json=False)
+    assert ended.value.exit_code == 130
+    assert "mrlab record --stop ends that" in capsys.readouterr().err

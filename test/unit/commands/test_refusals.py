@@ -4,7 +4,7 @@ import threading
 
 import pytest
 
-from mrlab_ros.commands.up.command import Refusals
+from mrlab_ros.commands.up.refusals import Refusals
 from mrlab_ros.core.errors import BadInput
 from mrlab_ros.processes.supervisor import Phase, ProcessState
 

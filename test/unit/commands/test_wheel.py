@@ -8,6 +8,7 @@ import pytest
 from typer.testing import CliRunner
 
 from mrlab_ros import cli
+from mrlab_ros.core.errors import LabError
 
 
 @pytest.mark.parametrize("name", ["rclpy", "mrlab_msgs.msg", "builtin_interfaces"])
@@ -33,3 +34,26 @@ def test_help_lists_what_cannot_run_here(monkeypatch: pytest.MonkeyPatch) -> Non
     assert "Needs ROS 2" in said.stdout
     with pytest.raises(ModuleNotFoundError):
         cli.make_app(["status"])
+
+
+@pytest.mark.parametrize(
+    ("error", "code"),
+    [
+        (LabError("the motion is no verdict"), 1),
+        (ZeroDivisionError("a bug"), 3),
+        (ModuleNotFoundError("No module named 'pybullet'", name="pybullet"), 3),
+        (KeyboardInterrupt(), 130),
+    ],
+)
+def test_an_error_of_the_program_is_no_verdict(
+    error: BaseException, code: int, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def broken(_: object) -> None:
+        raise error
+
+    monkeypatch.setattr(cli, "make_app", broken)
+    monkeypatch.setattr(cli.signal, "signal", lambda *_: None)
+    monkeypatch.setattr(sys, "argv", ["mrlab", "check"])
+    with pytest.raises(SystemExit) as ended:
+        cli.main()
+    assert ended.value.code == code

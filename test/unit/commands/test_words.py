@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import errno
 import inspect
+import os
 import re
 import shlex
 import subprocess
@@ -31,7 +33,7 @@ from named_commands import (
 )
 from typer.core import TyperGroup
 
-from mrlab_ros.cli import COMMANDS, make_app
+from mrlab_ros.cli import COMMANDS, make_app, refused
 from mrlab_ros.commands.convert.options import declared, with_options, words_of
 from mrlab_ros.core.conversion.options import Options
 from mrlab_ros.core.diagnostics import KINDS
@@ -163,6 +165,7 @@ def test_a_command_that_reaches_the_bridge_loads_neither_nodes_nor_the_message_g
     program = (
         "import sys\n"
         "from mrlab_ros.client import connect, lab, link\n"
+        "print('numpy' in sys.modules)\n"
         "connect.skip_generator()\n"
         "from mrlab_msgs.msg import Robots\n"
         "from rclpy.serialization import deserialize_message, serialize_message\n"
@@ -173,7 +176,7 @@ def test_a_command_that_reaches_the_bridge_loads_neither_nodes_nor_the_message_g
     done = subprocess.run(
         [sys.executable, "-c", program], capture_output=True, text=True, check=True
     )
-    assert done.stdout.strip() == "[]"
+    assert done.stdout.split() == ["False", "[]"]
 
 
 def test_every_command_and_option_that_is_named_is_run() -> None:
@@ -199,3 +202,20 @@ def test_what_is_run_elsewhere_is(what: str, why: str) -> None:
         text = (ROOT / file).read_text()
         if file == why:
             assert f'"{what.split()[-1]}"' in text
+
+
+@pytest.mark.parametrize(
+    ("number", "name", "words"),
+    [
+        (errno.ENOSPC, None, "a file could not be written: .*; make room on that disk"),
+        (errno.EACCES, "page.html", "page.html: Permission denied; check who may"),
+    ],
+)
+def test_a_disk_that_refuses_is_no_error_of_the_program(number, name, words):
+    sentence, code = refused(OSError(number, os.strerror(number), name))
+    assert code == 1
+    assert re.search(words, sentence)
+    assert refused(OSError(errno.EIO, "")) == (
+        "OSError: [Errno 5] ; mrlab --debug ... shows where",
+        3,
+    )

@@ -25,6 +25,17 @@ def test_what_names_no_lab_is_accepted():
     assert said == []
 
 
+def test_a_list_that_names_no_lab_removes_no_robots():
+    said: list[str] = []
+    own = Identity("a1", said.append)
+    assert own.obeys("a1")
+    assert not own.obeys("")
+    assert not own.obeys("")
+    (sentence,) = said
+    assert "a lab node without an id" in sentence
+    assert Identity("", said.append).obeys("")
+
+
 @pytest.mark.parametrize(
     ("lab", "namespace"), [("", ""), ("a1b2", "/lab_a1b2"), ("my lab/1", "/lab_mylab1")]
 )

@@ -57,7 +57,6 @@ CHECKS = [
     Matrix(3),
     Matrix(3, whole=True),
     records.enum_values(Colour),
-    records.enum_names(Colour),
 ]
 
 
@@ -116,7 +115,6 @@ def test_any_value_is_read_or_refused_in_words(check, value):
         (records.Texts(single=True), "a", ("a",)),
         (Numbers(2), [1, 2.5], (1.0, 2.5)),
         (records.enum_values(Colour), "g", Colour.GREEN),
-        (records.enum_names(Colour), "red", Colour.RED),
         (records.Choice({0: "zero", 1: "one"}), 1, "one"),
     ],
 )
@@ -153,7 +151,6 @@ def test_a_value_has_the_type_of_its_check(check, value, result):
         (Matrix(3), [[1, 2, math.nan]], "expected a list of rows"),
         (Matrix(3, whole=True), [[0, 1, 2.5]], "rows of 3 whole numbers each"),
         (Matrix(3, whole=True), [[0, 1, 2**40]], "rows of 3 whole numbers each"),
-        (records.enum_names(Colour), "blue", "x is 'blue'; expected red or green"),
         (records.Choice({0: 0, 1: 1, 2: 2}), True, "x is true; expected 0, 1 or 2"),
     ],
 )

@@ -8,6 +8,11 @@ import sys
 
 import pytest
 
+from mrlab_ros.core.records import fields_of
+from mrlab_ros.nodes.parameters import NODES as PARAMETERS
+from mrlab_ros.processes import host
+from mrlab_ros.processes.lab import NODES
+
 # Runs with SIGINT blocked, as the supervisor starts it. {before}, {within}: what happens before
 # main() is called, and at the first import inside it.
 START = """
@@ -43,3 +48,42 @@ def test_the_imports_of_the_test_above_are_those_of_main() -> None:
         (sys.executable, "-c", code), capture_output=True, timeout=60, check=False
     )
     assert (done.returncode, done.stdout) == (3, b"imports mrlab_ros.processes.lab\n")
+
+
+def said_by(monkeypatch: pytest.MonkeyPatch, *words: str, names: list[str] | None = None) -> str:
+    """Return what the host exits with; it must not come to its nodes."""
+    monkeypatch.setattr(sys, "argv", ["host", *words])
+    monkeypatch.setattr(signal, "signal", lambda *_: None)
+    with pytest.raises(SystemExit) as ended:
+        host.main(names)
+    return str(ended.value)
+
+
+@pytest.mark.parametrize("flag", ["-h", "--help"])
+@pytest.mark.parametrize("names", [[name] for name in NODES], ids=list(NODES))
+def test_help_lists_the_parameters_and_starts_nothing(names, flag, monkeypatch, capsys) -> None:
+    monkeypatch.setattr(sys, "argv", [names[0], flag])
+    monkeypatch.setattr(signal, "signal", lambda *_: None)
+    host.main(names)
+    said = capsys.readouterr().out
+    assert said.startswith(f"usage: ros2 run mrlab_ros {names[0]} [--ros-args ")
+    for field in fields_of(PARAMETERS[NODES[names[0]].graph_name]).values():
+        assert f"\n  {field.name} (default " in said
+    # The executable that takes several nodes says the same.
+    monkeypatch.setattr(sys, "argv", ["host", names[0], flag])
+    host.main()
+    assert capsys.readouterr().out == said
+
+
+def test_help_of_the_host_names_the_nodes(monkeypatch, capsys) -> None:
+    monkeypatch.setattr(sys, "argv", ["host", "--help"])
+    monkeypatch.setattr(signal, "signal", lambda *_: None)
+    host.main()
+    said = capsys.readouterr().out
+    assert all(name in said for name in NODES)
+
+
+def test_a_word_that_is_no_ros_argument_is_refused(monkeypatch) -> None:
+    said = said_by(monkeypatch, "rate:=5", names=["frames"])
+    assert said.startswith("frames: found rate:=5; expected nothing before --ros-args")
+    assert "found frame; expected" in said_by(monkeypatch, "frame", "--help")

@@ -5,6 +5,7 @@ from __future__ import annotations
 import ast
 import importlib.util
 import json
+import os
 import sys
 import types
 from collections.abc import Callable
@@ -16,7 +17,8 @@ import pytest
 
 from mrlab_ros.adapters.keys.folder import Keys, now
 from mrlab_ros.commands.demo.lab import free_port
-from mrlab_ros.commands.up.command import COLOURS, folder_for_state
+from mrlab_ros.commands.up.speaker import COLOURS
+from mrlab_ros.commands.up.surroundings import folder_for_state
 from mrlab_ros.core.bridge.access import Login
 from mrlab_ros.core.errors import BadInput
 from mrlab_ros.gateway.__main__ import settings_of
@@ -30,6 +32,7 @@ from mrlab_ros.processes.lab import (
     robot_models,
 )
 from mrlab_ros.processes.options import LabOptions, WebOptions
+from mrlab_ros.processes.supervisor import WRONG_CONFIGURATION
 from mrlab_ros.processes.web import web_address, zenoh_endpoint
 
 ROOT = Path(__file__).parents[3]
@@ -208,10 +211,17 @@ class Recorded:
 
 
 class Configuration(Recorded):
-    """Stands for launch.substitutions.LaunchConfiguration; the context is a mapping."""
+    """Stands for launch.substitutions.LaunchConfiguration."""
 
-    def perform(self, context: dict[str, str]) -> str:
-        return context[self.args[0]]
+    def perform(self, context: Context) -> str:
+        return context.launch_configurations[self.args[0]]
+
+
+class Context:
+    """Stands for launch.LaunchContext."""
+
+    def __init__(self, given: dict[str, str]) -> None:
+        self.launch_configurations = given
 
 
 Launched = Callable[..., list[Recorded]]
@@ -220,11 +230,15 @@ MODULES = {
     "launch": ("LaunchDescription",),
     "launch.actions": (
         "DeclareLaunchArgument",
+        "EmitEvent",
         "ExecuteProcess",
+        "LogInfo",
         "OpaqueFunction",
         "RegisterEventHandler",
     ),
     "launch.event_handlers": ("OnProcessExit",),
+    "launch.events": ("matches_action",),
+    "launch.events.process": ("ShutdownProcess",),
     "launch.substitutions": (),
     "launch_ros": (),
     "launch_ros.actions": ("Node",),
@@ -250,11 +264,10 @@ def launcher(monkeypatch: pytest.MonkeyPatch) -> Callable[[str], Launched]:
 
         def run(**values: str) -> list[Recorded]:
             *declared, opaque = module.generate_launch_description().args[0]
-            context = {each.args[0]: each.kwargs.get("default_value") for each in declared}
-            assert values.keys() <= context.keys()
-            context.update(values)
-            assert None not in context.values(), "an argument without a default is missing"
-            processes: list[Recorded] = opaque.kwargs["function"](context)
+            given = {each.args[0]: each.kwargs.get("default_value") for each in declared}
+            given.update(values)
+            assert None not in given.values(), "an argument without a default is missing"
+            processes: list[Recorded] = opaque.kwargs["function"](Context(given))
             return processes
 
         return run
@@ -269,6 +282,11 @@ def launched(launcher: Callable[[str], Launched]) -> Launched:
 
 def named(processes: list[Recorded], name: str) -> Recorded:
     return next(p for p in processes if p.kwargs.get("name") == name)
+
+
+def handlers(processes: list[Recorded]) -> list[Recorded]:
+    """Return the handlers of ends of processes."""
+    return [p.args[0] for p in processes if type(p).__name__ == "RegisterEventHandler"]
 
 
 def hosts(processes: list[Recorded]) -> list[Recorded]:
@@ -304,6 +322,8 @@ def test_the_launch_file_starts_the_same_processes_as_up(
     assert (web.kwargs["name"], tuple(web.kwargs["cmd"])) == (gateway.name, gateway.argv)
     assert [node.kwargs["exec_name"] for node in nodes] == [spec.name for spec in specs]
     assert [tuple(node.kwargs["arguments"]) for node in nodes] == [spec.argv[3:] for spec in specs]
+    for process in (web, *nodes):
+        assert process.kwargs["additional_env"] == {"MRLAB_LAUNCHER": str(os.getpid())}
     for node in nodes:
         assert node.kwargs["executable"] == "host"
         # A name here would rename every node of the process.
@@ -318,14 +338,37 @@ def test_the_launch_file_starts_nothing_for_ever(launched: Launched) -> None:
     assert "respawn" not in named(found, "ready").kwargs
 
 
+def test_a_process_that_refuses_its_configuration_is_not_started_again(launched: Launched) -> None:
+    (handler,) = (h for h in handlers(launched(web="false")) if "target_action" not in h.kwargs)
+    then, process = handler.kwargs["on_exit"], object()
+    (end,) = then(types.SimpleNamespace(returncode=WRONG_CONFIGURATION, action=process), None)
+    shutdown = end.kwargs["event"]
+    assert type(shutdown).__name__ == "ShutdownProcess"
+    assert shutdown.kwargs["process_matcher"].args == (process,)
+    assert then(types.SimpleNamespace(returncode=1, action=process), None) == []
+
+
+def test_the_launch_file_warns_of_a_name_that_is_nearly_an_argument(launched: Launched) -> None:
+    found = launched(web="false", robot="ur5e", something_of_a_file_that_includes_it="1")
+    warnings = [p.kwargs["msg"] for p in found if type(p).__name__ == "LogInfo"]
+    (warning,) = warnings
+    assert "robot:= is no argument of the lab" in warning
+    assert warning.endswith("did you mean 'robots'?")
+
+
+@pytest.mark.parametrize("listen", ["0.0.0.0", "tcp/0.0.0.0:7447", "tls/0.0.0.0:7447"])
+def test_the_launch_file_refuses_to_listen_where_the_bridge_would(launched, listen: str) -> None:
+    with pytest.raises(BadInput, match="the bridge is to listen on"):
+        launched(web="false", listen=listen)
+
+
 def test_the_launch_file_says_when_the_lab_is_ready_and_then_goes_on(launched: Launched) -> None:
     found = launched(robots="ur5e,ur5e", web="false", scene="handover", record="/class.bag")
     ready = named(found, "ready")
     nodes = [node for process in lab_processes(options()) for node in process.nodes]
     expected = [n for n in nodes if n != "physics" or not physics_support.missing()]
     assert ready.kwargs["cmd"][2:] == ["mrlab_ros.processes.ready", "2", *expected]
-    (handler,) = next(p for p in found if type(p).__name__ == "RegisterEventHandler").args
-    assert handler.kwargs["target_action"] is ready
+    (handler,) = (h for h in handlers(found) if h.kwargs.get("target_action") is ready)
     then = handler.kwargs["on_exit"]
     commands = then(types.SimpleNamespace(returncode=0), None)
     assert [c.kwargs["cmd"][3:] for c in commands] == [
@@ -335,7 +378,16 @@ def test_the_launch_file_says_when_the_lab_is_ready_and_then_goes_on(launched: L
     assert then(types.SimpleNamespace(returncode=1), None) == []
 
 
-def test_the_launch_file_remaps_and_shows_the_lab_in_rviz(launched: Launched) -> None:
+def test_the_launch_file_starts_nothing_where_rviz_is_missing(launched: Launched) -> None:
+    with pytest.raises(BadInput, match="RViz is not installed; install it"):
+        launched(web="false", rviz="true")
+
+
+def test_the_launch_file_remaps_and_shows_the_lab_in_rviz(
+    launcher: Callable[[str], Launched], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("ament_index_python.packages.get_package_prefix", lambda _: "/opt")
+    launched = launcher("lab.launch.py")
     found = launched(web="false", rviz="true", remap="/clock:=/sim/clock, /a:=/b")
     pairs = [("/clock", "/sim/clock"), ("/a", "/b")]
     assert all(node.kwargs["remappings"] == pairs for node in hosts(found))

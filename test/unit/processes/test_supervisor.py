@@ -190,6 +190,25 @@ class TestSupervisor:
             wait_for(lambda: len(lines.of("mrlab")) >= 2, "two tries")
         assert "FileNotFoundError" in " ".join(lines.of("a"))
 
+    def test_a_lab_whose_folder_was_moved_says_so_and_does_not_flood_the_log(
+        self, lines: Lines, monkeypatch: pytest.MonkeyPatch
+    ) -> None:
+        policy = RestartPolicy(0.01, longest=60.0, stable=60.0)
+        with Supervisor([spec("a", SLEEPER)], lines, policy=lambda: policy) as supervisor:
+            wait_for(lambda: lines.of("a"), "a running")
+            policy.started(time.monotonic() - 100.0)
+            monkeypatch.setattr(sys, "executable", "/moved/python")
+            os.kill(supervisor.states[0].pid or 0, signal.SIGKILL)
+            wait_for(lambda: len(lines.of("mrlab")) >= 4, "four tries")
+        said = lines.of("mrlab")
+        assert "there is no /moved/python; if the lab's folder was moved" in said[1]
+        assert [line.rpartition("restarts in ")[2] for line in said[:4]] == [
+            "0.01 s",
+            "0.02 s",
+            "0.04 s",
+            "0.08 s",
+        ]
+
     def test_stop_lets_processes_end_cleanly(self, lines: Lines) -> None:
         with Supervisor([spec("a", SLEEPER), spec("b", SLEEPER)], lines) as supervisor:
             wait_for(lambda: lines.of("a") and lines.of("b"), "both up")

@@ -10,9 +10,10 @@ import pytest
 import rclpy
 from hypothesis import given
 from hypothesis import strategies as st
-from rcl_interfaces.msg import ParameterType
+from rcl_interfaces.msg import ParameterDescriptor, ParameterType
 from rclpy.context import Context
 from rclpy.parameter import Parameter
+from rclpy.serialization import deserialize_message, serialize_message
 
 from mrlab_ros.core import records
 from mrlab_ros.core.records import (
@@ -173,6 +174,16 @@ def test_changes_are_all_or_none(shared: SampleNode) -> None:
     assert "rate is -1.0" in result.reason
     assert "mode is 1" in result.reason
     assert shared.parameters.count == 3
+
+
+@pytest.mark.parametrize("node", NODES)
+def test_the_ranges_arrive_as_they_are_written(node: str) -> None:
+    """`limits` of whole numbers arrived as 5e-324."""
+    for record in records.fields_of(NODES[node]).values():
+        sent = serialize_message(descriptor(record))
+        for found in deserialize_message(sent, ParameterDescriptor).floating_point_range:
+            limits = record.check.limits  # type: ignore[attr-defined]
+            assert (found.from_value, found.to_value) == (limits.low, limits.high), record.name
 
 
 def test_a_descriptor_teaches(shared: SampleNode) -> None:

@@ -42,6 +42,10 @@ export interface SessionRobot {
   readonly base: SessionTrack
   /** When each state began, and its name, such as PLAYING. */
   readonly states: readonly (readonly [number, string])[]
+  /** From when to when the scene had it, null: to the last; empty: always. */
+  readonly there: readonly (readonly [number, number | null])[]
+  /** When it was halted by a collision, and which link touched. */
+  readonly collisions: readonly (readonly [number, string])[]
 }
 
 export interface SessionObject {

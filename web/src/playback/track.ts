@@ -50,6 +50,18 @@ export class Track {
   }
 }
 
+/** Return whether one of some spans holds at `time`; null: without an end. Without spans: true. */
+export function within(
+  spans: readonly (readonly [number, number | null])[],
+  time: number,
+): boolean {
+  if (spans.length === 0) return true
+  for (const [from, to] of spans) {
+    if (from <= time && (to === null || time < to)) return true
+  }
+  return false
+}
+
 /** Return the value of the last change not after `time`; `none` before the first. */
 export function changeAt(
   changes: readonly (readonly [number, string])[],

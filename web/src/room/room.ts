@@ -110,6 +110,7 @@ export class Room {
     this.scene = new LabScene(this.stage, this.meshes, () => {
       this.troubles.value = [...this.scene.troubles]
     })
+    this.scene.setStill(() => this.settings.still.value)
     this.sound = soundFeedback((signal, strength, ms) =>
       this.visit.inputs?.pulse(signal.pointer, strength, ms),
     )

@@ -54,7 +54,7 @@ export class RoomStage implements SceneHost {
   readonly canvas = document.createElement('canvas')
   theme: SceneTheme = themeNow()
   private readonly floor = new Floor()
-  private readonly sun = new DirectionalLight(0xffffff, 2.0)
+  private readonly sun = new DirectionalLight(0xffffff, 1.6)
   private readonly shadowFloor = new Mesh(
     new CircleGeometry(6, 48),
     new ShadowMaterial({ color: 0x0a1420, opacity: 0.35 }),
@@ -233,20 +233,20 @@ export class RoomStage implements SceneHost {
     const generator = new PMREMGenerator(this.renderer)
     const room = new RoomEnvironment()
     this.scene.environment = generator.fromScene(room, 0.04).texture
-    this.scene.environmentIntensity = 0.6
+    this.scene.environmentIntensity = 0.55
     room.dispose()
     generator.dispose()
     const { shadow } = this.sun
     this.sun.castShadow = true
     shadow.mapSize.set(1024, 1024)
     shadow.bias = -0.0003
-    shadow.normalBias = 0.01
+    shadow.normalBias = 0.016
     shadow.radius = 5
     shadow.camera.left = shadow.camera.bottom = -SHADOW
     shadow.camera.right = shadow.camera.top = SHADOW
     shadow.camera.near = 0.1
     shadow.camera.far = 8
-    this.scene.add(new HemisphereLight(0xffffff, 0x8895a5, 0.6), this.sun, this.sun.target)
+    this.scene.add(new HemisphereLight(0xffffff, 0x8895a5, 0.2), this.sun, this.sun.target)
   }
 }
 

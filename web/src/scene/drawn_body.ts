@@ -1,14 +1,17 @@
-import { LOD, Matrix4, type Mesh, type Object3D, type Vector3 } from 'three'
+import { Matrix4, type Mesh, type Object3D, type Vector3 } from 'three'
 import { pushCorners } from './corners'
+import { FadingLevels } from './fading_levels'
 import type { Hose } from './hose'
 import { type HoseDetail, hoseMesh } from './hose_mesh'
 import type { Looks } from './looks'
-import { detach, type Part, partsBelow, RobotBody } from './robot_body'
+import { atlasOf, detach, type Part, partsBelow, RobotBody } from './robot_body'
 
 /** m beyond a robot's reach from its base, from where on it is drawn with few triangles. */
 const FAR = 3
 /** Of that distance: a robot at the border does not change back and forth. */
 const HYSTERESIS = 0.08
+/** s in which one level dissolves into the other: both are drawn so long. */
+const FADE = 0.25
 const NEAR_HOSE = { sides: 10, ribbed: true }
 const FAR_HOSE = { sides: 6, ribbed: false }
 
@@ -17,17 +20,23 @@ export type Look = 'own' | 'grey' | 'ghost'
 /** What is drawn of a robot: its links and hoses as one mesh, and as one of few triangles for a
  * robot that stands far off. */
 export class DrawnBody {
-  private readonly detail = new LOD()
+  private readonly levels: FadingLevels
   private readonly bodies: RobotBody[] = []
   private parts: readonly Part[] = []
+  private look: Look = 'own'
 
-  /** root: of the robot. linkOf: the link of a mesh. */
+  /** root: of the robot. linkOf: the link of a mesh. changed: another picture is due. */
   constructor(
     private readonly root: Object3D,
     private readonly linkOf: (mesh: Mesh) => Object3D | null,
     private readonly hoses: readonly Hose[],
     private readonly looks: Looks,
-  ) {}
+    changed: () => void,
+  ) {
+    // what is seen through would be seen through twice
+    const duration = () => (this.look === 'ghost' || looks.still() ? 0 : FADE)
+    this.levels = new FadingLevels(changed, duration)
+  }
 
   /** There is a mesh in place of those of the links. */
   get isMerged(): boolean {
@@ -37,12 +46,12 @@ export class DrawnBody {
   /** Take in what lies below the robot, as it is seen nearby. */
   merge(): void {
     const { root } = this
-    this.parts = partsBelow(root, this.linkOf)
+    this.parts = alike(partsBelow(root, this.linkOf))
     const body = this.bodyOf(this.parts, NEAR_HOSE)
     if (body === null) return
     detach(this.parts)
-    this.detail.addLevel(body)
-    root.add(this.detail)
+    this.levels.setNear(body)
+    root.add(this.levels)
   }
 
   /** Add what is seen from afar in place of what came packed. levels: packed files, a child a link. */
@@ -55,10 +64,9 @@ export class DrawnBody {
       if (link === undefined) continue
       for (const part of partsBelow(child, () => child)) parts.push({ ...part, link })
     }
-    const far = this.bodyOf(parts, FAR_HOSE)
+    const far = this.bodyOf(alike(parts), FAR_HOSE)
     if (far === null) return
-    far.visible = false
-    this.detail.addLevel(far, FAR + this.reach(near), HYSTERESIS)
+    this.levels.setFar(far, FAR + this.reach(near), HYSTERESIS)
   }
 
   /** The links have moved, and their frames in the world are computed. */
@@ -69,25 +77,27 @@ export class DrawnBody {
 
   paint(look: Look, failing: string): void {
     const { looks } = this
+    this.look = look
     const ghost = look === 'ghost'
     const grey = look === 'grey' || failing !== ''
-    const material = ghost ? looks.ghost : grey ? looks.grey : looks.body
+    this.levels.settle()
     for (const body of this.bodies) {
-      body.castShadow = !ghost
+      const material = ghost ? looks.ghost : grey ? looks.grey : body.own
       body.receiveShadow = !ghost
       body.renderOrder = ghost ? 1 : 0
       body.paint(material, ghost ? '' : failing, looks.failing)
     }
+    this.levels.setCasting(!ghost)
   }
 
   release(): void {
+    this.levels.release()
     for (const body of this.bodies) body.release()
-    this.detail.removeFromParent()
   }
 
   private bodyOf(parts: readonly Part[], detail: HoseDetail): RobotBody | null {
     const all = [...parts, ...this.hoses.map((hose) => partOf(hose, detail))]
-    const body = RobotBody.of(all, this.looks.body, this.looks.shadow)
+    const body = RobotBody.of(all, this.looks.bodyOf(atlasOf(parts)), this.looks.shadow)
     if (body !== null) this.bodies.push(body)
     return body
   }
@@ -98,6 +108,12 @@ export class DrawnBody {
     pushCorners(body, this.root, corners)
     return Math.max(0, ...corners.map((corner) => corner.length()))
   }
+}
+
+/** Return the parts that can be drawn with one atlas, that of the first one which has any. */
+function alike(parts: readonly Part[]): Part[] {
+  const atlas = atlasOf(parts)
+  return parts.filter((part) => [null, atlas].includes(atlasOf([part])))
 }
 
 function partOf(hose: Hose, detail: HoseDetail): Part {

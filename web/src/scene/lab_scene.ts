@@ -147,6 +147,19 @@ export class LabScene {
     this.stage.invalidate()
   }
 
+  /** Have a person's choice of less motion looked up elsewhere than in the browser. */
+  setStill(still: () => boolean): void {
+    this.looks.still = still
+  }
+
+  /** Draw a robot, or leave it out of the picture. */
+  showRobot(name: string, there: boolean): void {
+    const entry = this.robots.get(name)
+    if (entry === undefined || entry.base.visible === there) return
+    entry.base.visible = there
+    this.stage.invalidate()
+  }
+
   /** Grey a robot and paint the link that collides; empty: it does not. */
   setCollision(name: string, link: string): void {
     this.robots.get(name)?.robot.setLook(link === '' ? 'own' : 'grey', link)

@@ -1,9 +1,17 @@
-import { Color, LineBasicMaterial, MeshDepthMaterial, MeshStandardMaterial } from 'three'
+import {
+  Color,
+  LineBasicMaterial,
+  MeshDepthMaterial,
+  MeshStandardMaterial,
+  type Texture,
+} from 'three'
 import { bodyMaterial } from './robot_body'
-import type { SceneTheme } from './theme'
+import { reducedMotion, type SceneTheme } from './theme'
 
 /** The materials that robots share. */
 export class Looks {
+  /** Whether the person asked for less motion. */
+  still: () => boolean = reducedMotion
   readonly grey = new MeshStandardMaterial({ roughness: 0.75, metalness: 0 })
   readonly failing = new MeshStandardMaterial({ roughness: 0.5, metalness: 0 })
   readonly ghost = new MeshStandardMaterial({
@@ -15,10 +23,19 @@ export class Looks {
     polygonOffsetFactor: 2,
     polygonOffsetUnits: 8,
   })
-  /** Of a robot as it is made, and of its shadow. */
-  readonly body = bodyMaterial()
+  /** Of robots as they are made, by what is drawn on their links. */
+  private readonly bodies = new Map<Texture | null, MeshStandardMaterial>()
   readonly shadow = new MeshDepthMaterial()
   readonly missing = new LineBasicMaterial({ color: 0xd6006c })
+
+  /** Return the look of a robot as it is made; atlas: what is drawn on its links, null: nothing. */
+  bodyOf(atlas: Texture | null): MeshStandardMaterial {
+    const known = this.bodies.get(atlas)
+    if (known !== undefined) return known
+    const made = bodyMaterial(atlas)
+    this.bodies.set(atlas, made)
+    return made
+  }
 
   setTheme(theme: SceneTheme): void {
     const dark = theme.name === 'dark'
@@ -30,7 +47,9 @@ export class Looks {
   }
 
   dispose(): void {
-    const { grey, failing, ghost, body, shadow, missing } = this
-    for (const material of [grey, failing, ghost, body, shadow, missing]) material.dispose()
+    const { grey, failing, ghost, shadow, missing } = this
+    for (const material of [grey, failing, ghost, shadow, missing]) material.dispose()
+    for (const material of this.bodies.values()) material.dispose()
+    this.bodies.clear()
   }
 }

@@ -87,7 +87,7 @@ export class SceneRobot {
     this.root = loader.parse(description)
     const { links } = this.root
     const hoses = hosesOf(description).flatMap((stated) => Hose.between(stated, links) ?? [])
-    this.body = new DrawnBody(this.root, linkAbove, hoses, looks)
+    this.body = new DrawnBody(this.root, linkAbove, hoses, looks, changed)
     this.meshCount = wanted.length
     this.root.updateMatrixWorld = () => this.settle()
     for (const joint of Object.values(this.root.joints)) {

@@ -15,6 +15,7 @@ import {
   type Object3D,
   Skeleton,
   SkinnedMesh,
+  type Texture,
   Vector3,
 } from 'three'
 
@@ -53,12 +54,16 @@ export class RobotBody extends SkinnedMesh<BufferGeometry, Material | Material[]
   readonly boxes: readonly Box3[]
   private readonly ranges = new Map<string, { readonly start: number; readonly count: number }>()
 
-  private constructor(parts: readonly Part[], own: Material, shadow: MeshDepthMaterial) {
+  private constructor(
+    parts: readonly Part[],
+    readonly own: MeshStandardMaterial,
+    shadow: MeshDepthMaterial,
+  ) {
     const links = [...new Set(parts.flatMap(({ link, bones }) => bones ?? [link]))]
     const ordered = links.flatMap((link) =>
       parts.filter((part) => (part.bones?.[0] ?? part.link) === link),
     )
-    const geometry = geometryOf(ordered, links)
+    const geometry = geometryOf(ordered, links, own.map)
     super(geometry, own)
     this.name = 'body'
     this.boxes = boxesOf(geometry, links.length)
@@ -87,7 +92,11 @@ export class RobotBody extends SkinnedMesh<BufferGeometry, Material | Material[]
   }
 
   /** Return the parts as one body; null: there is none. own: a material made by bodyMaterial. */
-  static of(parts: readonly Part[], own: Material, shadow: MeshDepthMaterial): RobotBody | null {
+  static of(
+    parts: readonly Part[],
+    own: MeshStandardMaterial,
+    shadow: MeshDepthMaterial,
+  ): RobotBody | null {
     const bones = new Set(parts.flatMap((part) => part.bones ?? [part.link]))
     if (bones.size === 0 || bones.size > MOST_LINKS) return null
     return new RobotBody(parts, own, shadow)
@@ -150,9 +159,24 @@ export function detach(parts: readonly Part[]): void {
   }
 }
 
-/** Return the material of bodies: colour, roughness and metalness come with the vertices. */
-export function bodyMaterial(): MeshStandardMaterial {
-  const material = new MeshStandardMaterial({ vertexColors: true, roughness: 1, metalness: 1 })
+/** Return the picture of what is drawn on parts; null: nothing is. */
+export function atlasOf(parts: readonly Part[]): Texture | null {
+  for (const { mesh } of parts) {
+    const found = plain(mesh.material as Material | Material[])
+    if (found !== null && found.map !== null) return found.map
+  }
+  return null
+}
+
+/** Return the material of bodies: colour, roughness and metalness come with the vertices, what is
+ * drawn on them with an atlas, which is white elsewhere. */
+export function bodyMaterial(atlas: Texture | null): MeshStandardMaterial {
+  const material = new MeshStandardMaterial({
+    vertexColors: true,
+    roughness: 1,
+    metalness: 1,
+    map: atlas,
+  })
   material.onBeforeCompile = (shader) => {
     shader.vertexShader = shader.vertexShader
       .replace(
@@ -184,13 +208,19 @@ function plain(material: Material | Material[]): Plain | null {
 
 function fits({ material, geometry }: Mesh): boolean {
   const found = plain(material as Material | Material[])
-  if (found === null || found.map !== null || found.transparent || found.opacity < 1) return false
+  if (found === null || found.transparent || found.opacity < 1) return false
+  // other textures than an atlas are not for vertices that have their colour
+  if (found.map !== null && found.map.userData.white === undefined) return false
   const painted = found.vertexColors && geometry.getAttribute('color') !== undefined
   if (painted && geometry.getAttribute('finish') === undefined) return false
   return geometry.getAttribute('position') !== undefined
 }
 
-function geometryOf(parts: readonly Part[], links: readonly Object3D[]): BufferGeometry {
+function geometryOf(
+  parts: readonly Part[],
+  links: readonly Object3D[],
+  atlas: Texture | null,
+): BufferGeometry {
   let vertices = 0
   let corners = 0
   for (const { mesh } of parts) {
@@ -205,6 +235,8 @@ function geometryOf(parts: readonly Part[], links: readonly Object3D[]): BufferG
   const finish = new Uint8Array(vertices * 2)
   const bone = new Uint8Array(vertices * 4)
   const weight = new Uint8Array(vertices * 4)
+  const drawn = new Uint16Array(atlas === null ? 0 : vertices * 2)
+  const white = (atlas?.userData.white ?? [0, 0]) as readonly [number, number]
   const index = vertices > 65535 ? new Uint32Array(corners) : new Uint16Array(corners)
   let at = 0
   let corner = 0
@@ -218,6 +250,7 @@ function geometryOf(parts: readonly Part[], links: readonly Object3D[]): BufferG
     const material = plain(mesh.material as Material | Material[])
     const look = material?.color ?? new Color(0xb9bfc7)
     const standard = material instanceof MeshStandardMaterial ? material : null
+    const onAtlas = material?.map === null ? undefined : geometry.getAttribute('uv')
     turn.getNormalMatrix(inLink)
     for (let i = 0; i < places.count; i++) {
       const v = at + i
@@ -237,6 +270,10 @@ function geometryOf(parts: readonly Part[], links: readonly Object3D[]): BufferG
         point.fromBufferAttribute(geometry.getAttribute('color'), i).toArray(colour, v * 3)
         finish[v * 2] = Math.round(255 * painted.getX(i))
         finish[v * 2 + 1] = Math.round(255 * painted.getY(i))
+      }
+      if (atlas !== null) {
+        drawn[v * 2] = Math.round(65535 * (onAtlas?.getX(i) ?? white[0]))
+        drawn[v * 2 + 1] = Math.round(65535 * (onAtlas?.getY(i) ?? white[1]))
       }
       if (bones === undefined) {
         bone[v * 4] = first
@@ -268,6 +305,7 @@ function geometryOf(parts: readonly Part[], links: readonly Object3D[]): BufferG
   geometry.setAttribute('finish', new BufferAttribute(finish, 2, true))
   geometry.setAttribute('skinIndex', new BufferAttribute(bone, 4))
   geometry.setAttribute('skinWeight', new BufferAttribute(weight, 4, true))
+  if (atlas !== null) geometry.setAttribute('uv', new BufferAttribute(drawn, 2, true))
   geometry.setIndex(new BufferAttribute(index, 1))
   return geometry
 }

@@ -48,7 +48,7 @@ export class Stage {
   private readonly renderer: WebGLRenderer
   private readonly controls: OrbitControls
   private readonly floor = new Floor()
-  private readonly sun = new DirectionalLight(0xffffff, 2.1)
+  private readonly sun = new DirectionalLight(0xffffff, 1.7)
   private readonly listeners = new Set<FrameListener>()
   private readonly themed = new Set<(theme: SceneTheme) => void>()
   private readonly undo: (() => void)[] = []
@@ -79,7 +79,7 @@ export class Stage {
     const software = drawsInSoftware(this.renderer)
     if (software) this.sharpness = LEAST_SHARPNESS
     this.renderer.toneMapping = NeutralToneMapping
-    this.renderer.toneMappingExposure = 1.05
+    this.renderer.toneMappingExposure = software ? 1.05 : 1
     this.renderer.shadowMap.enabled = true
     this.renderer.shadowMap.type = PCFShadowMap
     container.append(this.canvas)
@@ -178,6 +178,13 @@ export class Stage {
     this.camera.position.copy(this.controls.target).add(offset)
     this.controls.update()
     this.invalidate()
+  }
+
+  /** Return the picture as it is now, a data: URL. */
+  picture(): string {
+    for (const listener of this.listeners) listener(performance.now() / 1000)
+    this.renderer.render(this.scene, this.camera)
+    return this.canvas.toDataURL()
   }
 
   dispose(): void {
@@ -334,7 +341,7 @@ export class Stage {
       room.dispose()
       generator.dispose()
       this.sun.shadow.mapSize.set(2048, 2048)
-      this.scene.add(new HemisphereLight(0xffffff, 0x8895a5, 0.5))
+      this.scene.add(new HemisphereLight(0xffffff, 0x8895a5, 0.2))
     }
     this.sun.shadow.bias = -0.0002
     this.sun.shadow.normalBias = 0.008

@@ -1,5 +1,5 @@
 import { expect, test } from 'vitest'
-import { changeAt, Track } from '../../src/playback/track'
+import { changeAt, Track, within } from '../../src/playback/track'
 
 function packed(values: number[], shape: number[]) {
   const bytes = new Uint8Array(Float32Array.from(values).buffer)
@@ -41,4 +41,20 @@ test('a change holds until the next', () => {
   expect(changeAt(changes, 0.5)).toBe('')
   expect(changeAt(changes, 1)).toBe('a')
   expect(changeAt(changes, 9)).toBe('b')
+})
+
+test('a robot is there within its spans, and always where nothing says', () => {
+  const spans = [
+    [0, 7],
+    [9, null],
+  ] as const
+  expect([0, 6.9, 7, 8.9, 9, 1e6].map((time) => within(spans, time))).toEqual([
+    true,
+    true,
+    false,
+    false,
+    true,
+    true,
+  ])
+  expect(within([], 3)).toBe(true)
 })

@@ -4,20 +4,25 @@ import {
   BufferAttribute,
   Group,
   LOD,
+  type Material,
   type Matrix4,
   Mesh,
   MeshStandardMaterial,
   Object3D,
   PerspectiveCamera,
+  ShaderLib,
   SphereGeometry,
+  Texture,
+  type Vector2,
   Vector3,
 } from 'three'
-import { describe, expect, test } from 'vitest'
+import { describe, expect, test, vi } from 'vitest'
+import { Dissolve, originOf } from '../../src/scene/dissolve'
 import { Hose } from '../../src/scene/hose'
 import { hosesOf, levelsOf } from '../../src/scene/levels'
 import { Looks } from '../../src/scene/looks'
 import { SceneRobot } from '../../src/scene/robot'
-import { RobotBody } from '../../src/scene/robot_body'
+import { bodyMaterial, RobotBody } from '../../src/scene/robot_body'
 
 const HOSE = `<hose radius="0.02" length="0.9">
   <end link="base" xyz="0.1 0 0.2" direction="0 0 2"/>
@@ -57,7 +62,7 @@ function packed(corners: number): Group {
   return whole
 }
 
-async function robot(beside: string, files: Record<string, () => Object3D>) {
+async function robot(beside: string, files: Record<string, () => Object3D>, still = true) {
   const asked: string[] = []
   const load = (uri: string) => {
     asked.push(uri.slice('package://p/r/'.length))
@@ -65,7 +70,13 @@ async function robot(beside: string, files: Record<string, () => Object3D>) {
     return made === undefined ? Promise.reject(new Error('404')) : Promise.resolve(made())
   }
   const source = { load, dispose: () => undefined }
-  const arm = new SceneRobot(urdf(beside), ['turn'], source, new Looks(), () => undefined)
+  const looks = new Looks()
+  looks.still = () => still
+  let pictures = 0
+  const changed = () => {
+    pictures++
+  }
+  const arm = new SceneRobot(urdf(beside), ['turn'], source, looks, changed)
   await arm.ready
   // the far level comes after what is seen nearby
   await new Promise((resolve) => setTimeout(resolve))
@@ -73,12 +84,35 @@ async function robot(beside: string, files: Record<string, () => Object3D>) {
   arm.root.traverse((node) => {
     if (node instanceof RobotBody) bodies.push(node)
   })
-  return { arm, asked, bodies }
+  return { arm, asked, bodies, looks, pictures: () => pictures }
 }
 
 const box = () => new Mesh(new BoxGeometry(), new MeshStandardMaterial())
 
 describe('levels of detail', () => {
+  test('what is drawn on links is drawn with them; of two pictures the second stays apart', async () => {
+    const [first, second] = [new Texture(), new Texture()]
+    for (const atlas of [first, second]) atlas.userData.white = [0.5, 0.25]
+    const near = packed(6)
+    near.traverse((node) => {
+      if (node instanceof Mesh) node.material.map = node.parent?.name === 'arm' ? first : second
+    })
+    const { arm, bodies } = await robot(LEVEL + HOSE, { 'lod/near.glb': () => near })
+    const [body] = bodies as [RobotBody]
+    expect(body.own.map).toBe(first)
+    expect(body.material).toBe(body.own)
+    const uv = body.geometry.getAttribute('uv')
+    const places = Array.from({ length: uv.count }, (_, i) => [uv.getX(i), uv.getY(i)])
+    // of the arm its own, of the hose the white one
+    expect(places[0]?.[1]).toBeCloseTo(1)
+    expect(places.at(-1)).toEqual([expect.closeTo(0.5, 4), expect.closeTo(0.25, 4)])
+    const apart: Mesh[] = []
+    arm.root.traverse((node) => {
+      if (node instanceof Mesh && !(node instanceof RobotBody)) apart.push(node)
+    })
+    expect(apart.map(({ material }) => (material as MeshStandardMaterial).map)).toEqual([second])
+  })
+
   test('packed files stand for the meshes of the links, near at hand and from afar', async () => {
     const files = { 'lod/near.glb': () => packed(12), 'lod/far.glb': () => packed(4) }
     const { arm, asked, bodies } = await robot(LEVEL, files)
@@ -110,6 +144,78 @@ describe('levels of detail', () => {
     expect(seenFrom(border * 0.97)).toEqual([true, false])
     arm.setLook('ghost')
     expect(far.material).toBe(near.material)
+  })
+
+  test('dissolve into each other where the eye goes away, and cast one shadow', async () => {
+    const files = { 'lod/near.glb': () => packed(12), 'lod/far.glb': () => packed(4) }
+    const { arm, bodies, looks, pictures } = await robot(LEVEL, files, false)
+    const [near, far] = bodies as [RobotBody, RobotBody]
+    const clock = vi.spyOn(performance, 'now')
+    const camera = new PerspectiveCamera()
+    const seenFrom = (distance: number, ms: number) => {
+      clock.mockReturnValue(ms)
+      camera.position.set(distance, 0, 0)
+      camera.updateMatrixWorld()
+      arm.root.updateMatrixWorld(true)
+      ;(near.parent as LOD).update(camera)
+      return [near.visible, far.visible]
+    }
+    // new ones are both drawn once, so that nothing is compiled when they dissolve
+    expect(seenFrom(1.5, 1000)).toEqual([true, true])
+    expect([originOf(near.material as Material), near.material === near.own]).toEqual([
+      near.own,
+      false,
+    ])
+    expect(seenFrom(1.5, 1016)).toEqual([true, false])
+    expect(near.material).toBe(near.own)
+    const before = pictures()
+    expect(seenFrom(9, 2000)).toEqual([true, true])
+    expect([near.castShadow, far.castShadow]).toEqual([true, false])
+    expect(seenFrom(9, 2150)).toEqual([true, true])
+    expect([near.castShadow, far.castShadow]).toEqual([false, true])
+    expect(pictures()).toBe(before + 2)
+    const [drawn] = [far.material as Material]
+    expect(seenFrom(9, 2260)).toEqual([false, true])
+    expect([far.material, far.castShadow]).toEqual([far.own, true])
+    // nothing asks for pictures of what stands, and the next time nothing is made anew
+    expect(pictures()).toBe(before + 2)
+    seenFrom(1.5, 3000)
+    expect(far.material).toBe(drawn)
+    // a look that changes ends it
+    arm.setLook('grey')
+    expect(seenFrom(1.5, 3010)).toEqual([true, false])
+    expect([near.material, near.castShadow]).toEqual([looks.grey, true])
+    arm.setLook('ghost')
+    expect(seenFrom(9, 4000)).toEqual([false, true])
+    clock.mockRestore()
+  })
+
+  test('each pixel shows one of both: what dissolves draws a range of one noise', async () => {
+    const mesh = new Mesh<BoxGeometry, Material | Material[]>(new BoxGeometry(), [
+      bodyMaterial(null),
+      new MeshStandardMaterial(),
+    ])
+    const own = mesh.material
+    const dissolve = new Dissolve(mesh)
+    dissolve.show(0.25, 1)
+    const [first] = mesh.material as Material[]
+    const shader = {
+      uniforms: {} as Record<string, { value: Vector2 }>,
+      vertexShader: ShaderLib.standard.vertexShader,
+      fragmentShader: ShaderLib.standard.fragmentShader,
+    }
+    first?.onBeforeCompile(shader as never, null as never)
+    expect(shader.uniforms.dissolve?.value.toArray()).toEqual([0.25, 1])
+    expect(shader.fragmentShader).toMatch(
+      /uniform vec2 dissolve;[\s\S]*void main\(\) \{[\s\S]*discard/,
+    )
+    expect(shader.fragmentShader).toContain('vFinish')
+    dissolve.show(0.75, 1)
+    expect(shader.uniforms.dissolve?.value.x).toBe(0.75)
+    const keys = (mesh.material as Material[]).map((each) => each.customProgramCacheKey())
+    expect(new Set(keys).size).toBe(2)
+    dissolve.end()
+    expect(mesh.material).toBe(own)
   })
 
   test('where they are missing the meshes of the links are drawn', async () => {

@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import errno
+import fcntl
 import os
+import re
 from pathlib import Path
 from typing import Any
 
@@ -14,9 +16,11 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from mcap.writer import Writer
 from rosbags.highlevel import AnyReader
+from sqlite_bag import as_sqlite
 
 from mrlab_ros.adapters.bags.empty import remove_empty
 from mrlab_ros.adapters.bags.listing import bags_in
+from mrlab_ros.adapters.bags.other import open_bag
 from mrlab_ros.adapters.bags.reader import Bag
 from mrlab_ros.adapters.bags.repair import refresh_metadata, repair
 from mrlab_ros.adapters.bags.writer import (
@@ -129,6 +133,25 @@ def test_a_split_bag_is_one_session(tmp_path):
     writer.close()
     assert read(folder) == read_by_rosbags(folder) == messages
     assert [file.path.name for file in Bag(folder).files] == ["class_0.mcap", "class_1.mcap"]
+
+
+def test_a_sqlite3_bag_is_read_from_anywhere_as_an_mcap_bag_is(tmp_path):
+    writer = begin(tmp_path / "class")
+    messages = fill(writer, 1000)
+    writer.close()
+    other = open_bag(as_sqlite(Bag(tmp_path / "class"), tmp_path / "other"), lambda _: DEFINITION)
+    assert (other.start_ns, other.end_ns) == (messages[0][0], messages[-1][0])
+    assert other.topics["/state"].latched
+    assert not other.topics["/events"].latched
+    for at_ns in (START_NS, START_NS + 3_333_333_333, messages[-1][0]):
+        read_on = [(m.log_time_ns, m.topic, m.data) for m in other.messages(at_ns)]
+        assert read_on == [each for each in messages if each[0] >= at_ns]
+    assert [
+        m.data for m in other.newest_before(START_NS + 5_001_000_000, ["/state", "/none"])
+    ] == [text("message 500")]
+    assert other.newest_before(START_NS, ["/state"]) == []
+    far = other.newest_before(START_NS + 10**18, ["/state", "/events"])
+    assert [m.data for m in far] == [text("message 990"), text("message 999")]
 
 
 def test_the_newest_state_before_a_place_is_found_in_any_file(tmp_path):
@@ -260,6 +283,40 @@ def test_a_repair_that_fails_leaves_the_bag_as_it_was(tmp_path, monkeypatch):
     assert {path.name: path.read_bytes() for path in folder.iterdir()} == before
     assert repair(folder).messages == 20
     assert read(folder) == messages
+
+
+def test_a_repair_that_ends_between_two_steps_leaves_a_bag_that_opens(tmp_path, monkeypatch):
+    folder = tmp_path / "class"
+    writer = begin(folder)
+    messages = fill(writer, 20)
+    writer.flush()
+    writer._file.close()
+
+    def refuse(*_: Any) -> None:
+        raise OSError(errno.EIO, os.strerror(errno.EIO))
+
+    with monkeypatch.context() as patch:
+        patch.setattr(Path, "replace", refuse)
+        with pytest.raises(BadInput, match="cannot be mended"):
+            repair(folder)
+    assert read(folder) == messages
+    assert repair(folder).messages == 20
+    assert read(folder) == read_by_rosbags(folder) == messages
+
+
+def test_two_repairs_at_once_do_not_meet(tmp_path):
+    folder = tmp_path / "class"
+    writer = begin(folder)
+    messages = fill(writer, 20)
+    writer.flush()
+    writer._file.close()
+    other = os.open(folder, os.O_RDONLY)
+    fcntl.flock(other, fcntl.LOCK_EX)
+    for path in (folder, folder / "class_0.mcap"):
+        with pytest.raises(Misuse, match="another mrlab bag repair"):
+            repair(path)
+    os.close(other)
+    assert repair(folder).messages == len(messages)
 
 
 def test_a_repair_of_what_is_well_changes_nothing(tmp_path):
@@ -394,7 +451,10 @@ def fill_disk(writer: BagWriter) -> tuple[list[Any], list[Any]]:
             words = str(error)
             break
         messages += wanted
-    assert "No space left on device" in words
+    assert re.search(
+        r"its disk is full \(\d+\.\d of \d+ MB are free\); a recording needs 9 MB; .*make room",
+        words,
+    )
     return messages, wanted
 
 
@@ -456,6 +516,19 @@ def test_a_next_file_that_cannot_be_opened_costs_nothing_either(tmp_path):
     assert read(folder) == read_by_rosbags(folder) == messages
 
 
+def test_a_bag_that_cannot_be_begun_leaves_nothing(tmp_path, monkeypatch):
+    def refuse(*_: Any) -> None:
+        raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC))
+
+    with monkeypatch.context() as patch:
+        patch.setattr(os, "posix_fallocate", refuse)
+        with pytest.raises(DiskTrouble, match="its disk is full"):
+            begin(tmp_path / "class")
+    with pytest.raises(DiskTrouble, match="its disk is full"):
+        begin(tmp_path / "class", open_file=lambda path: WholeFile(path, FullDisk(0)))
+    assert list(tmp_path.iterdir()) == []
+
+
 def test_folders_that_cannot_be_made_are_named(tmp_path):
     (tmp_path / "there").mkdir()
     with pytest.raises(BadInput, match="exists already"):
@@ -507,6 +580,18 @@ def test_a_renamed_folder_ends_the_recording_at_once_and_the_bag_is_whole(tmp_pa
     with pytest.raises(DiskTrouble):
         writer.close()
     assert read(tmp_path / "moved") == messages
+
+
+def test_a_bag_that_is_renamed_while_it_is_read_is_said_so(tmp_path):
+    writer = begin(tmp_path / "class")
+    fill(writer, 20)
+    writer.attach("scene.json", "application/json", b"[]", START_NS)
+    writer.close()
+    bag = Bag(tmp_path / "class")
+    (tmp_path / "class").rename(tmp_path / "other")
+    for read_it in (lambda: list(bag.messages()), lambda: bag.attachment("scene.json")):
+        with pytest.raises(BadInput, match=r"cannot be read any more .* was the bag renamed"):
+            read_it()
 
 
 def test_a_bag_that_goes_on_counts_its_earlier_bytes(tmp_path):

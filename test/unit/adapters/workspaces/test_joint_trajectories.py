@@ -8,7 +8,7 @@ from fakes import make_model
 from found_matrices import matrix
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from rosbags.rosbag2 import Reader, StoragePlugin, Writer
+from rosbags.rosbag2 import CompressionFormat, CompressionMode, Reader, StoragePlugin, Writer
 from rosbags.typesys import Stores, get_typestore
 
 from mrlab_ros.adapters.trajectories import export
@@ -62,9 +62,12 @@ def message(points=POINTS, names=NAMES, velocities=None):
     return bytes(TYPES.serialize_cdr(trajectory, JOINT_TRAJECTORY))
 
 
-def bag(folder, topics, storage="mcap"):
+def bag(folder, topics, storage="mcap", compressed=None):
     """Return the bytes of a bag with the messages of `topics`: name -> list of CDR."""
-    with Writer(folder, version=9, storage_plugin=StoragePlugin[storage.upper()]) as writer:
+    opened = Writer(folder, version=9, storage_plugin=StoragePlugin[storage.upper()])
+    if compressed:
+        opened.set_compression(compressed, CompressionFormat.ZSTD)
+    with opened as writer:
         note = writer.add_connection("/note", "std_msgs/msg/String", typestore=TYPES)
         text = TYPES.types["std_msgs/msg/String"]("hello")
         writer.write(note, 1, TYPES.serialize_cdr(text, "std_msgs/msg/String"))
@@ -72,7 +75,7 @@ def bag(folder, topics, storage="mcap"):
             connection = writer.add_connection(topic, JOINT_TRAJECTORY, typestore=TYPES)
             for at, data in enumerate(messages, 2):
                 writer.write(connection, at, data)
-    (path,) = (p for p in folder.iterdir() if p.suffix in (".mcap", ".db3"))
+    (path,) = (p for p in folder.iterdir() if p.suffix in (".mcap", ".db3", ".zstd"))
     return path.read_bytes()
 
 
@@ -94,6 +97,16 @@ def test_the_only_joint_trajectory_of_a_bag_is_taken(storage, suffix, tmp_path):
     np.testing.assert_array_equal(t.positions[[0, 50, 100]], [q for _, q in POINTS])
     np.testing.assert_allclose(t.positions[25], [0.25, 0.25, 0.25], atol=1e-12)
     assert codes(result) == ["resampled"]
+
+
+@pytest.mark.parametrize("compressed", [CompressionMode.FILE, CompressionMode.MESSAGE])
+@pytest.mark.parametrize("storage", ["mcap", "sqlite3"])
+def test_a_file_of_a_compressed_bag_needs_no_metadata(storage, compressed, tmp_path):
+    data = bag(tmp_path / "bag", {"/arm/joint_trajectory": [message()]}, storage, compressed)
+    trajectory = converted(data, "run.mcap.zstd").trajectory
+    assert trajectory is not None
+    assert trajectory.id == "run"
+    np.testing.assert_array_equal(trajectory.positions[[0, 50, 100]], [q for _, q in POINTS])
 
 
 def test_several_are_offered_by_topic_and_number(tmp_path):

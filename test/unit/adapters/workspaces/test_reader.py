@@ -126,7 +126,7 @@ def test_time_is_kept_by_the_kernel():
 def test_a_file_that_kills_the_reading_process_is_reported(number):
     with WorkspaceReader() as reader, ThreadPoolExecutor(1) as pool:
         reader.start()
-        worker = psutil.Process(reader._process.pid)
+        worker = psutil.Process(reader._worker.pid)
         slow = bomb(400)
         pending = pool.submit(refusal, reader.read_bytes, slow, "evil.mat")
         (reading,) = wait_for(worker.children, "the reading process")
@@ -142,7 +142,7 @@ def test_a_file_that_kills_the_reading_process_is_reported(number):
 def test_a_file_whose_process_is_killed_is_read_once_more(kills):
     with WorkspaceReader() as reader, ThreadPoolExecutor(1) as pool:
         reader.start()
-        worker = psutil.Process(reader._process.pid)
+        worker = psutil.Process(reader._worker.pid)
         pending = pool.submit(refusal, reader.read_bytes, bomb(400), "evil.mat")
         seen = set()
         for _ in range(kills):
@@ -157,7 +157,7 @@ def test_a_file_whose_process_is_killed_is_read_once_more(kills):
 def test_a_lost_worker_is_replaced():
     with WorkspaceReader() as reader:
         reader.start()
-        worker = psutil.Process(reader._process.pid)
+        worker = psutil.Process(reader._worker.pid)
         worker.kill()
         wait_for(lambda: worker.status() == psutil.STATUS_ZOMBIE, "its end")
         assert reader.read_bytes(saved(q=Q), "traj.mat").find("q") is not None
@@ -167,7 +167,7 @@ def test_closing_gives_up_a_file_that_is_being_read():
     reader = WorkspaceReader()
     reader.start()
     with ThreadPoolExecutor(1) as pool:
-        worker = psutil.Process(reader._process.pid)
+        worker = psutil.Process(reader._worker.pid)
         slow = bomb(400)
         pending = pool.submit(refusal, reader.read_bytes, slow, "slow.mat")
         (reading,) = wait_for(worker.children, "the reading process")
@@ -179,7 +179,7 @@ def test_closing_gives_up_a_file_that_is_being_read():
 def test_closing_ends_the_worker():
     reader = WorkspaceReader()
     reader.start()
-    worker = psutil.Process(reader._process.pid)
+    worker = psutil.Process(reader._worker.pid)
     reader.close()
     assert not worker.is_running()
     reader.close()
@@ -263,6 +263,13 @@ def test_tables_as_other_programs_write_them_are_read(reader, data):
     assert q.columns == ("q1", "q2")
     np.testing.assert_array_equal(q.values, [[0.1, 0.2], [0.3, 0.4]])
     np.testing.assert_array_equal(workspace.find("t").values, [[0.0], [0.01]])
+
+
+def test_numbers_that_save_ascii_wrote_are_a_table_whatever_its_name(reader):
+    rows = "  1.0000000e-01   2.0000000e-01\n  3.0000000e-01   4.0000000e-01\n"
+    values = reader.read_bytes(rows.encode(), "q.mat").find("q").values
+    np.testing.assert_array_equal(values, [[0.1, 0.2], [0.3, 0.4]])
+    assert refusal(reader.read_bytes, b"q = [1 2 3];\n", "q.mat").code == "unsupported_format"
 
 
 def test_a_table_of_windows_1252_and_one_with_a_row_of_units_are_read(reader):

@@ -1,5 +1,6 @@
 """Tables as spreadsheets, loggers and LabVIEW write them."""
 
+import re
 from datetime import datetime, timedelta
 
 import numpy as np
@@ -65,6 +66,32 @@ def test_a_row_that_is_cut_off_is_no_line_above():
         read(*lines()[:1], "0.1,0.2", *lines()[1:])
     with pytest.raises(NotATable, match="line 5 has 'x'"):
         read(",".join(HEADINGS), *lines()[:3], "0,x,0", *lines()[3:])
+
+
+@pytest.mark.parametrize("error", ["#NV", "#N/A", "#DIV/0!", "#WERT!", "#NAME?"])
+@pytest.mark.parametrize("separator", [";", ",", "\t"])
+def test_a_row_of_a_sheet_without_values_is_refused_and_no_comment(error, separator):
+    wrong = separator.join([error] * 3)
+    with pytest.raises(NotATable, match=f"line 4 has '{re.escape(error)}'"):
+        read(separator.join(HEADINGS), *lines(separator)[:2], wrong, *lines(separator)[2:])
+
+
+@pytest.mark.parametrize("comment", ["# paused", "# Note, of Bob", "#NOTE: slower"])
+def test_a_comment_between_rows_is_none(comment):
+    np.testing.assert_allclose(read(*lines()[:2], comment, *lines()[2:]).values, TABLE)
+
+
+@pytest.mark.parametrize(("separator", "decimal"), [(";", ","), (",", "."), ("\t", ".")])
+def test_rows_of_empty_cells_below_a_table_are_none(separator, decimal):
+    empty = separator * 2
+    found = read(separator.join(HEADINGS), *lines(separator, decimal), empty, empty, "", empty)
+    np.testing.assert_allclose(found.values, TABLE)
+    assert found.headings == HEADINGS
+
+
+def test_a_row_of_empty_cells_within_a_table_is_named():
+    with pytest.raises(NotATable, match="line 4 has empty cells"):
+        read(",".join(HEADINGS), *lines()[:2], ",,", *lines()[2:])
 
 
 LABVIEW = """LabVIEW Measurement\t

@@ -11,7 +11,7 @@ from mrlab_ros.core.clock import PlaybackClock
 from mrlab_ros.core.geometry import Pose
 from mrlab_ros.core.recording.moves import ObjectTrack, Placed, Target, Targets
 from mrlab_ros.core.recording.report import Contact, ReportedState, SessionReport
-from mrlab_ros.core.recording.report_text import deviation_text, report_lines
+from mrlab_ros.core.recording.report_text import deviation_text, lasting, report_lines
 from mrlab_ros.core.recording.run_finding import runs_of
 from mrlab_ros.core.recording.runs import Course, Deed, Result, RunJoint
 
@@ -59,6 +59,14 @@ def found(report, objects=None, targets=None):
             6,
         ),
         (
+            # the arm was taken back to its first frame
+            ((3, "COLLISION_HALT", 2, 0), (4, "COLLISION_HALT", 0, 0), (5, "PAUSED", 0, 0),
+             (6, "READY", 0, 0)),
+            Result.STOPPED,
+            "stopped after a collision at 2.00 of 8.00 s",
+            6,
+        ),
+        (
             ((3, "COLLISION_HALT", 2, 0),),
             Result.HALTED,
             "halted by a collision at 2.00 of 8.00 s when the recording ended",
@@ -78,6 +86,20 @@ def test_a_run_ends_as_its_states_say(states, result, outcome, end):
     assert (run.start, run.end) == (1, end)
     assert run.result is result
     assert run.outcome() == outcome
+
+
+@pytest.mark.parametrize("hours", [2, -2])
+def test_a_clock_that_is_set_is_no_loop_and_no_place_on_the_trajectory(hours):
+    report = SessionReport(60.0, 0)
+    robot = report.robot("ur5e_1")
+    # The same motion by the clock before and after; it is set back before the robot stops.
+    for time, label, off, rate in (
+        (1, "PLAYING", 0, 1), (3, "PLAYING", hours * 3600, 1), (4, "READY", 0, 0),
+    ):  # fmt: skip
+        clock = PlaybackClock((1 + off) * SECOND, 0.0, rate)
+        robot.add(ReportedState((time + off) * SECOND, label, "wave", clock, time, length=8.0))
+    (run,) = found(report)
+    assert (run.loops, run.outcome()) == (0, "stopped at 3.00 of 8.00 s")
 
 
 def test_runs_are_numbered_over_all_robots_in_order_of_time():
@@ -186,3 +208,36 @@ def test_the_text_has_one_row_a_run_and_no_state_changes():
     assert "without a run: kuka_1" in lines
     assert not any("PAUSED" in line for line in lines)
     assert lines.index("technical") > lines.index("without a run: kuka_1")
+
+
+def test_fingers_that_are_empty_after_they_held_something_closed_on_it():
+    report, robot = session((0, "READY", 0, 0), (1, "PLAYING", 0, 1), (9, "COMPLETE", 8, 0))
+    for time, label, name in (
+        (2.0, "HOLDING", "rod_1"), (3.0, "EMPTY", ""), (3.5, "OPEN", ""),
+        (4.0, "HOLDING", "cube_1"), (5.0, "EMPTY", ""), (6.0, "OPEN", ""), (7.0, "EMPTY", ""),
+    ):  # fmt: skip
+        robot.grasps.add(time, label, name)
+    rod, cube = ObjectTrack(), ObjectTrack()
+    for time, holder in ((2.0, "ur5e_1"), (3.1, "kuka_1")):
+        rod.add(time, placed(time, holder, pose(0.0)))
+    for time, holder in ((4.0, "ur5e_1"), (5.0, "")):
+        cube.add(time, placed(time, holder, pose(0.0) if holder else None))
+    (run,) = found(report, {"rod_1": rod, "cube_1": cube})
+    assert [(a.deed, a.text) for a in run.actions] == [
+        (Deed.GRASPED, "grasped rod_1"),
+        (Deed.RELEASED, "handed rod_1 to kuka_1"),
+        (Deed.GRASPED, "grasped cube_1"),
+        (Deed.LOST, "lost cube_1 at 5.000, 0.000, 0.000 m"),
+        (Deed.MISSED, "closed the gripper on nothing"),
+    ]
+
+
+@pytest.mark.parametrize(
+    ("seconds", "words"),
+    [
+        (0.0, "0.00 s"), (99.994, "99.99 s"), (99.996, "1:40.0 min"), (125.34, "2:05.3 min"),
+        (3599.94, "59:59.9 min"), (3599.96, "1:00:00 h"), (3725.4, "1:02:05 h"),
+    ],
+)  # fmt: skip
+def test_a_length_of_time_for_a_person(seconds, words):
+    assert lasting(seconds) == words

@@ -39,8 +39,8 @@ def test_a_replay_is_announced_before_it_begins():
         (
             (RecorderEvent.START,),
             RecorderEvent.REPLAY,
-            "cannot start a replay in RECORDING; a recording into class.bag runs; stop it first; "
-            "possible now: split the recording, stop",
+            "cannot start a replay in RECORDING; a recording into class.bag runs; stop it first: "
+            "mrlab record --stop; possible now: split the recording, stop",
         ),
         (
             (RecorderEvent.REPLAY,),

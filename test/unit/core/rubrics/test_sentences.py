@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import contextlib
 import math
+import pickle
 import re
 
 import pytest
@@ -13,7 +14,7 @@ from hypothesis import strategies as st
 from mrlab_ros.core.errors import BadInput
 from mrlab_ros.core.rubrics.forms import FORMS
 from mrlab_ros.core.rubrics.quantities import ANGLE, LENGTH, SHARE, TIME
-from mrlab_ros.core.rubrics.sentences import GAPS, form_of
+from mrlab_ros.core.rubrics.sentences import GAPS, Given, form_of
 
 GAP = re.compile("|".join(sorted(GAPS, key=len, reverse=True)))
 WORDS = {"OBJECT": "cube_1", "THING": "bin_1", "ROBOT": "ur5e_1", "OTHER": "kr6_1",
@@ -25,16 +26,27 @@ def read(sentence):
     return form.text, {k: v for k, v in gaps.items() if v is not None}
 
 
-@pytest.mark.parametrize("form", FORMS, ids=lambda form: form.text)
-@pytest.mark.parametrize("whole", [True, False])
-def test_each_form_reads_what_it_says_and_no_other_form_is_taken_for_it(form, whole):
+def sentence_of(form, whole):
+    """Return a form's sentence, `whole` with all that it may leave out."""
     text = form.text
     while "[" in text:
         text = re.sub(r"\s?\[([^\[\]]*)\]", r" \1" if whole else "", text)
     text = text.replace(" ,", ",")
-    sentence = GAP.sub(lambda m: WORDS.get(m[0]) or GAPS[m[0]][1].example, text)
-    assert form_of(sentence, FORMS)[0] is form
+    return GAP.sub(lambda m: WORDS.get(m[0]) or GAPS[m[0]][1].example, text)
+
+
+@pytest.mark.parametrize("form", FORMS, ids=lambda form: form.text)
+@pytest.mark.parametrize("whole", [True, False])
+def test_each_form_reads_what_it_says_and_no_other_form_is_taken_for_it(form, whole):
+    assert form_of(sentence_of(form, whole), FORMS)[0] is form
     assert form.about.endswith(".")
+
+
+@pytest.mark.parametrize("form", FORMS, ids=lambda form: form.text)
+def test_each_measure_reaches_another_process_as_it_is(form):
+    gaps = form_of(sentence_of(form, whole=True), FORMS)[1]
+    measure = form.build(gaps, Given(poses=((0.1, 0.2),)))
+    assert pickle.loads(pickle.dumps(measure)) == measure
 
 
 @pytest.mark.parametrize(

@@ -16,8 +16,10 @@ from mrlab_ros.core.show import session as module
 from mrlab_ros.core.show.packed import unpacked
 from mrlab_ros.core.show.session import RecordedMotion, RecordedObject, Track, session
 from mrlab_ros.core.show.session_body import session_body
+from mrlab_ros.core.show.timeline_body import timeline
 
 CONTRACT = Path(__file__).parents[4] / "web" / "src" / "playback" / "session.ts"
+BEGAN = "2026-01-01 23:59:58"
 SHAPE = {
     "mesh": "",
     "size": {"x": 1.0, "y": 1.0, "z": 1.0},
@@ -123,15 +125,18 @@ def test_an_empty_track_is_empty():
 
 def test_the_page_says_it_without_a_script():
     report, motion = recorded()
-    text = session_body("class", session("class", report, motion), report, "2026-01-01")
+    text = session_body("class", session("class", report, motion), report, BEGAN)
     assert "1 robot" in text
-    assert text.count('class="state ') == 3
-    assert 'class="hit"' in text
+    wide = re.search(r'<svg class="strip states wide".*?</svg>', text, re.S).group(0)
+    assert wide.count('<rect class="state ') == 3
+    assert wide.count('class="hit"') == 1
+    assert "1 · pick" in wide
+    assert "00:00:00" in text  # 2 s after the session began
     assert "holds &lt;cube&gt;" in text
     assert "<cube>" not in text
     assert 'data-time="6.000"' in text
     assert 'class="result halted"' in text
-    assert text.count('class="path"') == 1
+    assert text.count('class="path"') == 3
     assert "limit 28.65 deg" in text  # 0.5 rad of the first joint, which comes near
     assert "Technical" in text
 
@@ -139,6 +144,48 @@ def test_the_page_says_it_without_a_script():
 def test_a_session_in_which_nothing_was_played_says_so():
     text = session_body(
         "class", session("class", SessionReport(1.0, 0), RecordedMotion()),
-        SessionReport(1.0, 0), "2026-01-01",
+        SessionReport(1.0, 0), BEGAN,
     )  # fmt: skip
     assert "No robot played." in text
+
+
+def test_a_robot_is_drawn_while_the_scene_has_it():
+    motion = RecordedMotion()
+    for time, names in ((0.6, ["a"]), (5.0, ["a", "b"]), (7.0, ["b"]), (9.0, ["a", "b"])):
+        motion.scene(time, names)
+    # the recorder heard of the first ones late
+    assert motion.robots["a"].there == [(0.0, 7.0), (9.0, None)]
+    assert motion.robots["b"].there == [(5.0, None)]
+
+
+def test_the_link_that_touched_is_painted():
+    (robot,) = session("c", *recorded())["robots"]
+    assert robot["collisions"] == [[6.0, "forearm_link"]]
+
+
+def test_states_that_differ_in_what_is_loaded_alone_are_one_bar():
+    report = SessionReport(100.0, 0)
+    robot = report.robot("ur5e_1")
+    for time, label, loaded in (
+        (0.0, "IDLE", ""), (10.0, "READY", "a"), (20.0, "READY", "b"),
+        (30.0, "PLAYING", "b"), (30.01, "COMPLETE", "b"), (60.0, "PLAYING", "b"),
+    ):  # fmt: skip
+        robot.states.add(time, label, loaded)
+    report.robot("silent <1>")
+    text = timeline(report)
+    wide = re.search(r'<svg class="strip states wide".*?</svg>', text, re.S).group(0)
+    assert re.findall(r'class="state ([a-z-]+)"', wide) == [
+        "idle", "ready", "playing", "complete", "playing",
+    ]  # fmt: skip
+    assert "Without a run</span>: silent &lt;1&gt;" in text
+    assert "1:00" in text  # the axis of what lasts longer than 100 s, or as long, shows minutes
+    assert timeline(SessionReport(1.0, 0)) == ""
+
+
+def test_the_figures_of_a_run_stand_beside_the_way_of_its_tool():
+    report, motion = recorded()
+    text = session_body("class", session("class", report, motion), report, BEGAN)
+    figures = re.search(r'<dl class="run-figures">.*?</dl>', text, re.S).group(0)
+    assert "4.00 / 8.00 s, 1\N{MULTIPLICATION SIGN}" in figures
+    assert "(a)" in figures  # the joint that came nearest to its limit
+    assert "Reference" not in figures

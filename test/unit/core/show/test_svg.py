@@ -84,3 +84,19 @@ def test_nothing_but_attributes_styles_it():
 
 def test_the_axis_of_time_says_seconds():
     assert "".join(parse(time_axis_svg(4.0)).itertext()).startswith("0 s")
+
+
+@pytest.mark.parametrize(
+    ("begin", "duration", "texts"),
+    [
+        (0.0, 4.0, ["0 s", "1", "2", "3", "4"]),
+        (90.0, 60.0, ["1:30 min", "1:40", "1:50", "2:00", "2:10", "2:20", "2:30"]),
+        (3600.0, 4.0, ["1:00:00 h", "1:00:01", "1:00:02", "1:00:03", "1:00:04"]),
+        (0.0, 7200.0, ["0:00:00 h", "0:20:00", "0:40:00", "1:00:00", "1:20:00", "1:40:00",
+                       "2:00:00"]),
+        (0.0, 0.0, ["0 s"]),
+    ],
+)  # fmt: skip
+def test_an_axis_of_time_shows_seconds_or_what_a_clock_does(begin, duration, texts):
+    axis = parse(time_axis_svg(duration, begin=begin))
+    assert [text.text for text in axis.iter(f"{SVG}text")] == texts

@@ -27,6 +27,22 @@ def numbers(record):
     return [v.number for v in record.versions]
 
 
+def test_a_file_for_another_robot_gets_a_name_of_its_own():
+    def of(model, name, owner="", deleted_ns=0):
+        head = {"robot_model": model}
+        return Record(owner, name, False, (Version(1, "k", 1, head, 0),), deleted_ns)
+
+    found = [of("ur5e", "pick"), of("kr6", "pick_kr6"), of("kr6", "gone", deleted_ns=1)]
+    found += [of("kr6", "pick", "anna"), of("kr6", "x" * 128)]
+    assert records.free_name("pick", "", "ur5e", found) == "pick"
+    assert records.free_name("pick", "", "kr6", found) == "pick_kr6"
+    assert records.free_name("pick", "anna", "kr6", found) == "pick"
+    assert records.free_name("gone", "", "ur5e", found) == "gone"
+    assert records.free_name("new", "", "ur5e", found) == "new"
+    long = records.free_name("x" * 128, "", "ur5e", found)
+    assert checked_id(long).endswith("x_ur5e")
+
+
 @pytest.mark.parametrize(("text", "owner", "name", "number"), [
     ("pick", "", "pick", 0), ("pick@3", "", "pick", 3), ("anna/pick", "anna", "pick", 0),
     ("a b@c.de/pick.v2@12", "a b@c.de", "pick.v2", 12), ("a/b/pick", "a/b", "pick", 0),

@@ -408,6 +408,33 @@ async def test_the_lab_that_goes_takes_its_keys_along(stage: Stage) -> None:
 
 
 @scene
+async def test_another_lab_at_the_same_address_takes_the_place_of_the_first(
+    stage: Stage,
+) -> None:
+    kind, read = "mrlab_msgs/msg/Robots", stage.lab.definitions.decode
+    stage.lab.offer("robots", kind, latched=True)
+    for _ in range(5):
+        stage.lab.publish("robots", {"lab": "first", "robots": [{"name": "a"}]})
+    side = stage.side()
+    side.hello(_1="robots")
+    side.grant(9)
+    await side.until(lambda: side.values)
+    stage.lab.set_phase(Phase.LOST)
+    await side.until(lambda: side.of("lab")[-1]["phase"] == "lost")
+    # The bridge of the second counts its messages from the beginning.
+    stage.lab._sequence.clear()
+    stage.lab.set_phase(Phase.OPEN)
+    stage.lab.offer("robots", kind, latched=True)
+    stage.lab.publish("robots", {"lab": "second"})
+    await side.until(lambda: read(kind, side.payloads("robots")[-1]).lab == "second")
+    late = stage.side()
+    late.hello(_1="robots")
+    late.grant(1)
+    await late.until(lambda: late.values)
+    assert [read(kind, said).lab for said in late.payloads("robots")] == ["second"]
+
+
+@scene
 async def test_a_client_that_does_not_read_costs_no_memory(stage: Stage) -> None:
     stage.lab.offer("objects/removed", "mrlab_msgs/msg/ObjectRemoved")
     stage.lab.offer("ur5e_1/joint_states", JOINTS)

@@ -1,3 +1,5 @@
+import { germanSentence } from './session_german'
+
 /** The page's own words; the sentences of converter and report stay as they are. */
 const WORDS: Readonly<Record<string, string>> = {
   Accepted: 'Angenommen',
@@ -23,6 +25,23 @@ const WORDS: Readonly<Record<string, string>> = {
   'Way of the tool': 'Weg des Werkzeugs',
   'from above': 'von oben',
   'from the side': 'von der Seite',
+  'from the front': 'von vorn',
+  begins: 'Anfang',
+  ends: 'Ende',
+  reference: 'Vorgabe',
+  Reference: 'Vorgabe',
+  Played: 'Gespielt',
+  Fastest: 'Am schnellsten',
+  'Nearest limit': 'Nächste Grenze',
+  'Largest deviation': 'Größte Abweichung',
+  'Tool, at most': 'Werkzeug, höchstens',
+  'Without a run': 'Ohne Lauf',
+  'holds an object': 'hält einen Gegenstand',
+  collision: 'Kollision',
+  'joint states': 'Gelenkstellungen',
+  'joint states late': 'Gelenkstellungen, verspätet',
+  'tracking error': 'Abweichung von der Bahn',
+  'all topics': 'alle Topics',
   Technical: 'Technik',
   'deadlines, latency, tracking': 'Fristen, Latenz, Bahntreue',
   Quantity: 'Größe',
@@ -64,22 +83,44 @@ const BEFORE: Readonly<Record<string, string>> = {
   'Tool of ': 'Werkzeug von ',
   'Joints of ': 'Gelenke von ',
 }
+/** The states of a robot. */
+export const STATES: Readonly<Record<string, string>> = {
+  IDLE: 'untätig',
+  READY: 'bereit',
+  ADJUSTING: 'fährt zum Start',
+  PLAYING: 'läuft',
+  PAUSED: 'Pause',
+  COLLISION_HALT: 'Kollisionshalt',
+  COMPLETE: 'fertig',
+}
 const SEPARATOR = ' \u00b7 '
 
 const PLACES =
-  'h2, h3, th, summary span, .verdict b, .findings button b, .path .title, .marks .result span, .marks .test small, .runs .result span, .runs td.robot'
+  'h2, h3, th, dt, figcaption, .in-bar, .keys span, .others span, .head-word, .technical td, summary span, .verdict b, .findings button b, .path .title, .marks .result span, .marks .test small, .runs .result span, .runs td.robot'
 
-/** Put the fixed words of a page, which is written in English, into German. */
+/** Put the fixed words and what a session says of its runs, which are English, into German. */
 export function translate(page: HTMLElement): void {
-  for (const place of page.querySelectorAll(PLACES)) {
+  for (const place of page.querySelectorAll('.said')) {
     const text = place.textContent ?? ''
-    const german = WORDS[text] ?? germanParts(text)
+    const german = germanSentence(text)
+    if (german !== text) place.textContent = german
+  }
+  for (const place of page.querySelectorAll(PLACES)) {
+    if (place.childElementCount > 0 && !place.matches('h2, h3')) continue
+    const text = place.textContent ?? ''
+    const german = WORDS[text] ?? germanState(text) ?? germanParts(text)
     if (german !== text) place.textContent = german
   }
   for (const place of page.querySelectorAll('.findings button b')) {
     const rows = place.nextSibling
     if (rows instanceof Text) rows.data = germanRows(rows.data)
   }
+}
+
+/** Return the word for a state that is written as `collision halt`, and `Run 3` as `Lauf 3`. */
+function germanState(text: string): string | undefined {
+  const [, run] = /^Run (\d+)$/.exec(text) ?? []
+  return run === undefined ? STATES[text.toUpperCase().replace(' ', '_')] : `Lauf ${run}`
 }
 
 /** Return a text with its first words in German, such as those of `refuses · 0.41 s · elbow`. */

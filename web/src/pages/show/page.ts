@@ -19,9 +19,9 @@ function start(data: ShownData): void {
     showClass(data.document)
     return
   }
+  if (navigator.language.startsWith('de')) translate(document.body)
   const view = document.getElementById('view')
   if (view === null) return
-  if (navigator.language.startsWith('de')) translate(document.body)
   const shown = data.document as MotionDocument | SessionDocument
   if (shown.schema === 'mrlab.session.1') showSession(view, shown, data.meshes)
   else showMotion(view, shown, data.meshes)

@@ -1,8 +1,8 @@
 import type { Vector3 } from 'three'
 import { STATE_NAMES, THEMES } from '../../design/tokens'
 import { MotionPlayer } from '../../playback/player'
-import type { SessionDocument, SessionObject } from '../../playback/session'
-import { changeAt, Track } from '../../playback/track'
+import type { SessionDocument, SessionEvent, SessionObject } from '../../playback/session'
+import { changeAt, Track, within } from '../../playback/track'
 import { Controls } from '../../scene/controls'
 import type { ShownObject } from '../../scene/lab_objects'
 import { LabScene } from '../../scene/lab_scene'
@@ -11,15 +11,23 @@ import { NoWebGL } from '../../scene/renderer'
 import { Stage } from '../../scene/stage'
 import { themeNow } from '../../scene/theme'
 import { ENGLISH, GERMAN } from '../../scene/words'
+import { STATES } from './german'
 import { instantOf } from './instant'
 import { attachCursors } from './plots'
+import { printWhole } from './print'
+import { germanSentence } from './session_german'
 
 const POSE = 7
 const POSES = 9 // times at which the robots are taken into the picture
+const MOST_MARKS = 60
+const LATE = 0.1 // s, by which a halt may be recorded before the collision that it is of
 
 /** Put a recorded session into its page: the scene, the timeline, the events. */
 export function showSession(view: HTMLElement, session: SessionDocument, bytes: MeshBytes): void {
-  const words = navigator.language.startsWith('de') ? GERMAN : ENGLISH
+  const german = navigator.language.startsWith('de')
+  const words = german ? GERMAN : ENGLISH
+  const wordOf = (state: string) =>
+    (german && STATES[state]) || state.toLowerCase().replace('_', ' ')
   const player = new MotionPlayer(session.duration, () => performance.now() / 1000)
   const element = document.createElement('div')
   element.className = 'scene-preview'
@@ -38,6 +46,7 @@ export function showSession(view: HTMLElement, session: SessionDocument, bytes: 
   }
   const controls = new Controls(player, words, 0.1, (time) => Math.floor(time * 100) + 1, [])
   element.append(controls.element)
+  controls.setMarks(marked(session.events, german ? germanSentence : String))
   const setCursors = attachCursors(session.duration, (time) => player.seek(time))
   const seek = (time: number) => {
     player.pause()
@@ -62,6 +71,7 @@ export function showSession(view: HTMLElement, session: SessionDocument, bytes: 
       session,
       new MeshLibrary(bytes),
       () => player.position(),
+      wordOf,
       (troubles) => say(words.missing(troubles)),
     )
   } catch (error) {
@@ -69,6 +79,13 @@ export function showSession(view: HTMLElement, session: SessionDocument, bytes: 
     picture.hidden = true
     say(words.noWebGL)
   }
+  printWhole(view, (time) => {
+    if (stage === null) return ''
+    draw(time)
+    const picture = stage.picture()
+    draw(player.position())
+    return picture
+  })
   let last = -1
   const step = (): boolean => {
     const time = player.position()
@@ -101,6 +118,7 @@ function drawing(
   session: SessionDocument,
   meshes: MeshLibrary,
   now: () => number,
+  wordOf: (state: string) => string,
   say: (troubles: string) => void,
 ): (time: number) => void {
   const scene = new LabScene(stage, meshes, () => say([...scene.troubles].join('; ')))
@@ -122,15 +140,19 @@ function drawing(
   const objects = session.objects.map((object) => ({ object, track: new Track(object.track) }))
   let present = ''
   const draw = (time: number): void => {
+    const { states } = THEMES[themeNow().name]
     for (const [i, { robot, track, values }] of robots.entries()) {
       track.sample(time, values)
       scene.robot(robot.name)?.setPositions(values)
       bases[i]?.sample(time, pose)
       scene.placeRobot(robot.name, poseOf(pose))
-      const name = STATE_NAMES.find((known) => known === changeAt(robot.states, time)) ?? 'IDLE'
-      const colour = THEMES[themeNow().name].states[name]
-      const halted = name === 'COLLISION_HALT'
-      scene.setState(robot.name, name.toLowerCase().replace('_', ' '), colour, halted)
+      scene.showRobot(robot.name, within(robot.there, time))
+      const state = changeAt(robot.states, time)
+      const name = STATE_NAMES.find((known) => known === state)
+      const colour = name === undefined ? '' : states[name]
+      const halted = state === 'COLLISION_HALT'
+      scene.setState(robot.name, wordOf(state), colour, halted)
+      scene.setCollision(robot.name, halted ? changeAt(robot.collisions, time + LATE) : '')
     }
     const there = objects.filter(({ object }) => object.first <= time && time <= object.last + 0.1)
     const names = there.map(({ object }) => object.name).join()
@@ -160,6 +182,18 @@ function drawing(
     return false
   })
   return draw
+}
+
+/** Return what of a session's events is marked on its timeline: what went wrong. */
+function marked(events: readonly SessionEvent[], said: (text: string) => string) {
+  return events
+    .filter(({ severity }) => severity !== 'info')
+    .slice(0, MOST_MARKS)
+    .map(({ time, severity, robot, text }) => ({
+      time,
+      severity,
+      words: `${robot} ${said(text)}`,
+    }))
 }
 
 function objectAt(object: SessionObject, pose: ShownObject['pose'], holder: string): ShownObject {

@@ -1,5 +1,6 @@
 import {
   ExternalTexture,
+  type Material,
   Matrix4,
   Mesh,
   MeshLambertMaterial,
@@ -10,6 +11,7 @@ import {
   Vector4,
   type WebGLRenderer,
 } from 'three'
+import { originOf } from '../../scene/dissolve'
 import { hidden } from './material'
 
 /** s between two looks for materials that came with new robots and objects. */
@@ -110,7 +112,8 @@ export class Occlusion {
     else this.patch(material)
   }
 
-  private patch(material: unknown): void {
+  private patch(drawn: Material): void {
+    const material = originOf(drawn)
     const kind = KINDS.find((each) => material instanceof each)
     if (kind !== undefined) hidden(material as MeshStandardMaterial, this.uniforms)
   }

@@ -1,48 +1,27 @@
-"""zenoh behind a small port: publishers, subscribers, queryables, liveliness tokens."""
+"""The bridge's port on zenoh itself."""
 
 from __future__ import annotations
 
 import json
 from collections import deque
 from collections.abc import Callable, Mapping
-from pathlib import Path
-from typing import Any, Protocol
+from concurrent.futures import ThreadPoolExecutor
+from functools import partial
+from threading import Semaphore
+from typing import Any
 
 import zenoh
 from zenoh import ext
 
+from mrlab_ros.adapters.zenoh.configuration import first_line
+from mrlab_ros.adapters.zenoh.port import Declared, Publisher, Query
 from mrlab_ros.core.bridge.guests import Link
-from mrlab_ros.core.bridge.links import (
-    LEASE_BEYOND,
-    LEASE_WITHIN,
-    healing,
-    is_local,
-)
 from mrlab_ros.core.bridge.rules import Congestion, Reliability, TopicRule
-from mrlab_ros.core.errors import BadInput, Unavailable
+from mrlab_ros.core.errors import Unavailable
 
-LOOPBACK = ("tcp/127.0.0.1:7447",)
-# How long a put waits for a full link, us, before its message is dropped, and before the client of
-# that link is disconnected. zenoh's defaults are 1,000 and 5,000,000.
-WAIT_BEFORE_DROP = 0
-WAIT_BEFORE_CLOSE = 1_000_000
-# Size of a link's socket buffer, bytes. Linux alone would let it grow to megabytes, and a client
-# that reads slowly would receive motion that is many seconds old.
-SEND_BUFFER = 131_072
-# The settings in config/zenoh/lab.json5.
-LIMITS = (
-    "scouting/multicast/enabled",
-    "scouting/gossip/enabled",
-    "adminspace/enabled",
-    "transport/unicast/accept_timeout",
-    "transport/unicast/accept_pending",
-    "transport/unicast/max_sessions",
-    "transport/link/protocols",
-    "transport/link/rx/max_message_size",
-)
-# zenoh's log targets for TLS and for subjects unknown to access control, and for passwords.
-LOGINS = "error,zenoh_link_tls=debug,zenoh::net::routing::interceptor::access_control=info"
-PASSWORDS = "zenoh_transport::unicast::establishment::accept=debug"
+# Threads that answer queries for latched topics, and how many queries may wait for them.
+ANSWER_THREADS = 2
+ANSWERS_WAITING = 4096
 CONGESTION = {
     Congestion.DROP: zenoh.CongestionControl.DROP,
     Congestion.BLOCK: zenoh.CongestionControl.BLOCK,
@@ -63,149 +42,11 @@ PRIORITY = (
 )
 
 
-class Declared(Protocol):
-    """Something declared on a session."""
-
-    def undeclare(self) -> None: ...
-
-
-class Publisher(Declared, Protocol):
-    """A key to publish on."""
-
-    def put(self, payload: bytes, attachment: bytes) -> None: ...
-
-    def has_subscriber(self) -> bool:
-        """Return whether the key has a subscriber."""
-        ...
-
-
-class Query(Protocol):
-    """A query that waits for its one reply; `payload` is None where it has none.
-
-    key: the queried key expression, perhaps a pattern such as `*/play`. parameters: what stands
-    behind the `?` of its selector.
-    """
-
-    @property
-    def key(self) -> str: ...
-
-    @property
-    def parameters(self) -> Mapping[str, str]: ...
-
-    @property
-    def size(self) -> int:
-        """Bytes of the payload, which is not copied for it."""
-        ...
-
-    @property
-    def payload(self) -> bytes | None: ...
-
-    def reply(self, payload: bytes) -> None: ...
-
-    def reply_asset(self, payload: bytes, media_type: str, attachment: bytes) -> None:
-        """Reply on the queried key, which must not be a pattern."""
-        ...
-
-    def refuse(self, reason: str) -> None: ...
-
-    def ignore(self) -> None:
-        """End the caller's wait without a reply."""
-        ...
-
-
-class Session(Protocol):
-    """What the bridge needs of zenoh. Callbacks run in the session's threads."""
-
-    @property
-    def zid(self) -> str: ...
-
-    def publisher(self, key: str, rule: TopicRule, cache: int) -> Publisher:
-        """Declare a publisher that keeps the newest `cache` messages for late joiners."""
-        ...
-
-    def subscriber(
-        self,
-        key: str,
-        admit: Callable[[int], bool],
-        on_payload: Callable[[bytes], None],
-        late: bool,
-    ) -> Declared:
-        """Declare a subscriber to other sessions; `late`: it also gets their cached messages.
-
-        admit: gets a message's size, bytes, and says whether it is to be read at all.
-        """
-        ...
-
-    def queryable(self, key: str, on_query: Callable[[Query], None]) -> Declared: ...
-
-    def token(self, key: str) -> Declared:
-        """Declare a liveliness token."""
-        ...
-
-    def follow_links(self, on_link: Callable[[Link, bool], None]) -> Declared:
-        """Call `on_link` with every link that is opened (True) or closed (False)."""
-        ...
-
-    def close(self) -> None: ...
-
-
-def configuration(
-    file: Path | None = None,
-    *,
-    mode: str = "peer",
-    listen: tuple[str, ...] = LOOPBACK,
-    connect: tuple[str, ...] = (),
-    base: Path | None = None,
-    security: Mapping[str, object] | None = None,
-    lease: float = 0.0,
-) -> zenoh.Config:
-    """Return zenoh's configuration: `file` (json5) where given, else from the other arguments.
-
-    base: a json5 file that the others add to. security: path -> value, such as a keys folder's.
-    lease: s after which a silent link counts as broken; 0: by the endpoints. Without a file
-    multicast discovery is off. Raises BadInput where zenoh refuses one.
-    """
-    try:
-        if file is not None:
-            return zenoh.Config.from_file(str(file))
-        config = zenoh.Config() if base is None else zenoh.Config.from_file(str(base))
-        config.insert_json5("mode", json.dumps(mode))
-        config.insert_json5("listen/endpoints", json.dumps(listen))
-        config.insert_json5("connect/endpoints", json.dumps(connect))
-        config.insert_json5("scouting/multicast/enabled", "false")
-        queue = "transport/link/tx/queue/congestion_control"
-        config.insert_json5(f"{queue}/drop/wait_before_drop", json.dumps(WAIT_BEFORE_DROP))
-        config.insert_json5(f"{queue}/block/wait_before_close", json.dumps(WAIT_BEFORE_CLOSE))
-        if not lease:
-            within = all(is_local(endpoint) for endpoint in (*listen, *connect))
-            lease = LEASE_WITHIN if within else LEASE_BEYOND
-        config.insert_json5("transport/link/tcp/so_sndbuf", json.dumps(SEND_BUFFER))
-        config.insert_json5("transport/link/tls/so_sndbuf", json.dumps(SEND_BUFFER))
-        for path, value in (healing(lease) | dict(security or {})).items():
-            config.insert_json5(path, json.dumps(value))
-    except (zenoh.ZError, OSError) as error:
-        raise BadInput(
-            f"zenoh does not accept {file or f'mode {mode}, listen {listen}, connect {connect}'}: "
-            f"{_first_line(error)}; see docs/bridge.md for examples"
-        ) from error
-    return config
-
-
-def limits(file: Path) -> dict[str, object]:
-    """Return the settings in config/zenoh/lab.json5, path -> value."""
-    config = zenoh.Config.from_file(str(file))
-    return {path: json.loads(config.get_json(path)) for path in LIMITS}
-
-
-def log_logins(*, passwords: bool) -> None:
-    """Have zenoh log to stdout who connects and who is refused; RUST_LOG overrides that."""
-    zenoh.init_log_from_env_or(f"{LOGINS},{PASSWORDS}" if passwords else LOGINS)
-
-
 class ZenohSession:
     """A Session on zenoh itself."""
 
     def __init__(self, config: zenoh.Config) -> None:
+        self._answers = _Answers()
         # The publisher's cache for late joiners orders its messages by time.
         config.insert_json5("timestamping/enabled", "true")
         try:
@@ -217,10 +58,12 @@ class ZenohSession:
     def zid(self) -> str:
         return str(self._session.zid())
 
-    def publisher(self, key: str, rule: TopicRule, cache: int) -> Publisher:
+    def publisher(
+        self, key: str, rule: TopicRule, cache: int, on_match: Callable[[], None] | None = None
+    ) -> Publisher:
         if cache:
-            return _LatchedPublisher(self._session, key, rule, cache)
-        return _Publisher(self._session, key, rule)
+            return _LatchedPublisher(self._session, key, rule, cache, self._answers)
+        return _Publisher(self._session, key, rule, on_match)
 
     def subscriber(
         self,
@@ -242,8 +85,15 @@ class ZenohSession:
             )
         return self._session.declare_subscriber(key, on_sample, allowed_origin=origin)
 
-    def queryable(self, key: str, on_query: Callable[[Query], None]) -> Declared:
-        return self._session.declare_queryable(key, lambda query: on_query(_Query(key, query)))
+    def queryable(
+        self, key: str, on_query: Callable[[Query], None], quick: bool = False
+    ) -> Declared:
+        def on_zenoh_query(query: zenoh.Query) -> None:
+            on_query(_Query(key, query))
+
+        return self._session.declare_queryable(
+            key, zenoh.handlers.Callback(on_zenoh_query, indirect=not quick)
+        )
 
     def token(self, key: str) -> Declared:
         return self._session.liveliness().declare_token(key)
@@ -257,13 +107,41 @@ class ZenohSession:
         return self._session.info.declare_link_events_listener(on_event)
 
     def close(self) -> None:
+        self._answers.close()
         self._session.close()
+
+
+class _Answers:
+    """Answers queries for latched topics: a thread a topic would be a hundred with ten robots."""
+
+    def __init__(self) -> None:
+        self._threads = ThreadPoolExecutor(ANSWER_THREADS, thread_name_prefix="zenoh_answers")
+        self._free = Semaphore(ANSWERS_WAITING)
+
+    def give(self, answer: Callable[[zenoh.Query], None], query: zenoh.Query) -> None:
+        """Call `answer` in another thread; a query too many ends without a reply."""
+        if not self._free.acquire(blocking=False):
+            query.drop()
+            return
+        try:
+            self._threads.submit(answer, query).add_done_callback(lambda _: self._free.release())
+        except RuntimeError:  # closed meanwhile
+            query.drop()
+
+    def close(self) -> None:
+        self._threads.shutdown(cancel_futures=True)
 
 
 class _Publisher:
     """Publishes a stream: no message is cached."""
 
-    def __init__(self, session: zenoh.Session, key: str, rule: TopicRule) -> None:
+    def __init__(
+        self,
+        session: zenoh.Session,
+        key: str,
+        rule: TopicRule,
+        on_match: Callable[[], None] | None = None,
+    ) -> None:
         self._publisher = session.declare_publisher(
             key,
             congestion_control=CONGESTION[rule.congestion],
@@ -271,6 +149,15 @@ class _Publisher:
             priority=PRIORITY[rule.priority - 1],
             express=rule.express,
         )
+        self._listener: Declared | None = None
+        if on_match is not None:
+
+            def on_status(_: zenoh.MatchingStatus) -> None:
+                on_match()
+
+            self._listener = self._publisher.declare_matching_listener(
+                zenoh.handlers.Callback(on_status, indirect=False)
+            )
 
     def put(self, payload: bytes, attachment: bytes) -> None:
         self._publisher.put(payload, attachment=attachment)
@@ -284,6 +171,8 @@ class _Publisher:
         return bool(status.matching)
 
     def undeclare(self) -> None:
+        if self._listener is not None:
+            self._listener.undeclare()
         self._publisher.undeclare()
 
 
@@ -294,7 +183,9 @@ class _LatchedPublisher:
     consolidation NONE all that are kept: of tf_static each publisher's state counts.
     """
 
-    def __init__(self, session: zenoh.Session, key: str, rule: TopicRule, cache: int) -> None:
+    def __init__(
+        self, session: zenoh.Session, key: str, rule: TopicRule, cache: int, answers: _Answers
+    ) -> None:
         self._key = key
         self._kept: deque[tuple[bytes, bytes, zenoh.Timestamp]] = deque(maxlen=cache)
         self._now = session.new_timestamp
@@ -310,7 +201,10 @@ class _LatchedPublisher:
             cache=ext.CacheConfig(cache),
             publisher_detection=True,
         )
-        self._queryable = session.declare_queryable(key, self._answer)
+        give = partial(answers.give, self._answer)
+        self._queryable = session.declare_queryable(
+            key, zenoh.handlers.Callback(give, indirect=False)
+        )
 
     def put(self, payload: bytes, attachment: bytes) -> None:
         stamp = self._now()
@@ -324,6 +218,8 @@ class _LatchedPublisher:
         # By their timestamps zenoh consolidates the replies of one key to the newest.
         for payload, attachment, stamp in tuple(self._kept):
             query.reply(self._key, payload, attachment=attachment, timestamp=stamp)
+        # zenoh ends the caller's wait only when the query is dropped.
+        query.drop()
 
     def undeclare(self) -> None:
         self._queryable.undeclare()
@@ -377,10 +273,6 @@ class _Query:
         self._query.drop()
 
 
-def _first_line(error: Exception) -> str:
-    return str(error).split(" at /", 1)[0].strip()
-
-
 def _why_not_open(config: zenoh.Config, error: zenoh.ZError) -> Unavailable:
     endpoints = ", ".join(_endpoints(config.get_json("listen/endpoints")))
     if "Address already in use" in str(error):
@@ -389,7 +281,7 @@ def _why_not_open(config: zenoh.Config, error: zenoh.ZError) -> Unavailable:
             "lab that still runs; stop it, or choose another port with the parameter listen"
         )
     return Unavailable(
-        f"the bridge cannot open zenoh on {endpoints}: {_first_line(error)}; check the "
+        f"the bridge cannot open zenoh on {endpoints}: {first_line(error)}; check the "
         "parameters listen, connect and zenoh_config"
     )
 

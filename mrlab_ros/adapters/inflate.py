@@ -1,0 +1,72 @@
+"""Inflates what is compressed as a whole, with bounds, and notices where its end is missing."""
+
+from __future__ import annotations
+
+import gzip
+import zlib
+from collections.abc import Iterator
+from pathlib import Path
+from typing import BinaryIO
+
+import zstandard
+
+GZIP, ZSTD = b"\x1f\x8b", b"\x28\xb5\x2f\xfd"
+# A KiB of Zstandard can hold 32 MiB; that much may come beyond a limit before it is noticed.
+PIECE = 1024
+BLOCK = 1 << 20
+
+
+class Incomplete(ValueError):
+    """Compressed bytes that are damaged, or whose end is missing."""
+
+
+def is_compressed(data: bytes) -> bool:
+    """Return whether bytes begin as gzip or Zstandard does."""
+    return data.startswith((GZIP, ZSTD))
+
+
+def inflate_zstd(data: bytes | memoryview, limit: int) -> bytearray | None:
+    """Return what Zstandard's frames hold, None where it is more than `limit` bytes.
+
+    Raises Incomplete.
+    """
+    inflated = bytearray()
+    for block in _frames(data[at : at + PIECE] for at in range(0, len(data), PIECE)):
+        inflated += block
+        if len(inflated) > limit:
+            return None
+    return inflated
+
+
+def inflate_file(source: Path, target: BinaryIO) -> None:
+    """Write what a gzip or Zstandard file holds into `target`; raise Incomplete or OSError."""
+    with open(source, "rb") as file:
+        compressed = file.read(len(ZSTD))
+        file.seek(0)
+        if compressed == ZSTD:
+            for block in _frames(iter(lambda: file.read(PIECE), b"")):
+                target.write(block)
+            return
+        try:
+            with gzip.open(file) as plain:
+                while block := plain.read(BLOCK):
+                    target.write(block)
+        except (EOFError, zlib.error, gzip.BadGzipFile) as error:
+            raise Incomplete(str(error)) from None
+
+
+def _frames(pieces: Iterator[bytes | memoryview]) -> Iterator[bytes]:
+    """Yield the contents of one Zstandard frame after another."""
+    frame = None
+    try:
+        for piece in pieces:
+            rest: bytes | memoryview = piece
+            while len(rest):
+                if frame is None or frame.eof:
+                    frame = zstandard.ZstdDecompressor().decompressobj()
+                yield frame.decompress(rest)
+                rest = frame.unused_data
+    except zstandard.ZstdError as error:
+        raise Incomplete(str(error)) from None
+    if frame is None or not frame.eof:
+        raise Incomplete("its end is missing")

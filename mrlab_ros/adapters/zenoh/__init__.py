@@ -1,0 +1,1 @@
+"""zenoh: the port that the bridge uses, its configuration, and a session on it."""

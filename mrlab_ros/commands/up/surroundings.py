@@ -1,0 +1,57 @@
+"""What a lab has around it: who sees its graph, its folder for state, the signals that end it."""
+
+from __future__ import annotations
+
+import os
+import signal
+import tempfile
+import threading
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+
+from mrlab_ros.core.errors import BadInput
+
+# Any of these says that the user has chosen whom the graph can see.
+DISCOVERY = (
+    "ROS_AUTOMATIC_DISCOVERY_RANGE",
+    "ROS_DISCOVERY_SERVER",
+    "ROS_LOCALHOST_ONLY",
+    "ROS_STATIC_PEERS",
+)
+
+
+def stay_on_this_machine() -> None:
+    """Keep the graph off the network unless the user has chosen otherwise."""
+    if not any(os.environ.get(name) for name in DISCOVERY):
+        os.environ["ROS_AUTOMATIC_DISCOVERY_RANGE"] = "LOCALHOST"
+
+
+@contextmanager
+def folder_for_state(chosen: Path | None) -> Iterator[Path]:
+    """Make the folder for scene and trajectories; a temporary one goes with the lab."""
+    if chosen is not None:
+        try:
+            chosen.mkdir(parents=True, exist_ok=True)
+        except OSError as error:
+            raise BadInput(
+                f"--state-dir {chosen} cannot be used: {error.strerror}; expected a folder, or a "
+                "path where one can be made"
+            ) from None
+        yield chosen.resolve()
+        return
+    with tempfile.TemporaryDirectory(prefix="mrlab-", ignore_cleanup_errors=True) as made:
+        yield Path(made)
+
+
+@contextmanager
+def stop_signals() -> Iterator[threading.Event]:
+    """Yield an event that Ctrl-C, SIGTERM and a closed terminal set."""
+    stop = threading.Event()
+    numbers = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
+    before = {number: signal.signal(number, lambda *_: stop.set()) for number in numbers}
+    try:
+        yield stop
+    finally:
+        for number, handler in before.items():
+            signal.signal(number, handler)

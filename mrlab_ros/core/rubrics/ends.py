@@ -1,0 +1,164 @@
+"""Measures of how a motion begins and ends."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+
+import numpy as np
+
+from mrlab_ros.core.checking.joints import REST_SHARE
+from mrlab_ros.core.geometry import Array, Vector
+from mrlab_ros.core.rubrics.checked import Checked, Motion
+from mrlab_ros.core.rubrics.ground import Ground
+from mrlab_ros.core.rubrics.motions import Figure, WorstFigure, no_motion
+from mrlab_ros.core.rubrics.poses import place_words
+from mrlab_ros.core.rubrics.quantities import ANGLE, LENGTH
+from mrlab_ros.core.rubrics.reachable import nearest
+from mrlab_ros.core.rubrics.rubric import Outcome
+from mrlab_ros.core.rubrics.sentences import Form
+from mrlab_ros.core.rubrics.threshold import Threshold
+
+# How near every joint is to its home where the sentence names no angle, rad.
+HOME = float(np.radians(1.0))
+
+
+@dataclass(frozen=True)
+class End:
+    """A motion begins (`last` False) or ends at a place of tool0, m in world."""
+
+    robot: str
+    place: Vector
+    last: bool
+    threshold: Threshold
+
+    def assess(self, checked: Checked, reference: Checked | None) -> Outcome:
+        motion = next(iter(checked.played(self.robot)), None)
+        if motion is None:
+            return no_motion(self.robot, checked)
+        at = -1 if self.last else 0
+        tool = motion.figures.tool[at]
+        count = len(self.place)
+        off = float(np.linalg.norm(tool[:count] - np.asarray(self.place)))
+        verb = "ends" if self.last else "begins"
+        words = f"The tool {verb} {{}} away from ({place_words(self.place)})"
+        return self.threshold.outcome(off, words, motion.start + _instant(motion, self.last))
+
+    def flaws(self, ground: Ground) -> Iterator[str]:
+        yield from ground.robot_flaws(self.robot)
+        yield from self.threshold.flaws()
+        robots = ground.of(self.robot)
+        short = [nearest(robot, self.place, None) for robot in robots if len(self.place) == 3]
+        if short and min(short) > self.threshold.limit:
+            yield (
+                f"({place_words(self.place)}) is out of reach: the tool comes within "
+                f"{LENGTH.words(min(short))} of it"
+            )
+
+
+@dataclass(frozen=True)
+class AtRest:
+    """Every joint begins or ends at no more than 2% of its largest speed."""
+
+    robot: str
+    last: bool
+
+    def assess(self, checked: Checked, reference: Checked | None) -> Outcome:
+        motions = checked.played(self.robot)
+        if not motions:
+            return no_motion(self.robot, checked)
+        share, joint, motion = max(
+            (
+                (
+                    (j.last_speed if self.last else j.first_speed) / j.joint.max_velocity,
+                    j.joint.name,
+                    motion,
+                )
+                for motion in motions
+                for j in motion.figures.joints
+            ),
+            key=lambda each: each[0],
+        )
+        verb = "ends" if self.last else "begins"
+        if share <= REST_SHARE:
+            return Outcome(1.0, f"It {verb} at rest.", None, share, REST_SHARE)
+        words = f"{joint} {verb} at {100 * share:.3g}% of its largest speed; expected at most 2%."
+        return Outcome(0.0, words, motion.start + _instant(motion, self.last), share, REST_SHARE)
+
+    def flaws(self, ground: Ground) -> Iterator[str]:
+        yield from ground.robot_flaws(self.robot)
+
+
+def _first_off_home(motion: Motion, threshold: Threshold) -> Figure:
+    """Return how far the farthest joint begins from its robot's home, rad."""
+    return _farthest(motion, motion.robot.model.home, False, "home")
+
+
+def _last_off_home(motion: Motion, threshold: Threshold) -> Figure:
+    """Return how far the farthest joint ends from its robot's home, rad."""
+    return _farthest(motion, motion.robot.model.home, True, "home")
+
+
+def _off_start(motion: Motion, threshold: Threshold) -> Figure:
+    """Return how far the farthest joint ends from where the motion began, rad."""
+    return _farthest(motion, motion.trajectory.positions[0], True, "where it began")
+
+
+def _farthest(motion: Motion, wanted: Array, last: bool, where: str) -> Figure:
+    """Return how far the farthest joint begins or ends from `wanted`, (J,) rad."""
+    off = np.abs(motion.trajectory.positions[-1 if last else 0] - wanted)
+    worst = int(off.argmax())
+    joint = motion.robot.model.joint_names[worst]
+    words = f"{joint} {'ends' if last else 'begins'} {{}} away from {where}"
+    return Figure(float(off[worst]), _instant(motion, last), words)
+
+
+def _instant(motion: Motion, last: bool) -> float:
+    """Return when a motion begins or ends, s of the motion."""
+    return float(motion.figures.times[-1]) if last else 0.0
+
+
+def _end(last: bool) -> Form:
+    verb = "ends" if last else "begins"
+    return Form(
+        f"{verb} within LENGTH of PLACE [by ROBOT]",
+        lambda gaps, given: End(
+            gaps.get("robot") or "", gaps["place"], last,
+            Threshold(LENGTH, gaps["length"], given.until),
+        ),
+        f"Where tool0 is in the {'last' if last else 'first'} frame.", until=LENGTH,
+    )  # fmt: skip
+
+
+def _near(text: str, figure: Callable[[Motion, Threshold], Figure], about: str) -> Form:
+    return Form(
+        f"{text} [within ANGLE] [by ROBOT]",
+        lambda gaps, given: WorstFigure(
+            gaps.get("robot") or "", figure,
+            Threshold(ANGLE, HOME if gaps.get("angle") is None else gaps["angle"], given.until),
+        ),
+        about, until=ANGLE,
+    )  # fmt: skip
+
+
+FORMS = (
+    _end(False),
+    _end(True),
+    _near(
+        "begins at home", _first_off_home,
+        "Every joint of the first frame, within 1 deg by itself.",
+    ),
+    _near(
+        "ends at home", _last_off_home,
+        "Every joint of the last frame.",
+    ),
+    _near("ends where it began", _off_start, "Every joint of the last frame."),
+    Form(
+        "begins at rest [by ROBOT]", lambda gaps, given: AtRest(gaps.get("robot") or "", False),
+        "No joint faster than 2% of its limit in the first frame.",
+    ),
+    Form(
+        "ends at rest [by ROBOT]", lambda gaps, given: AtRest(gaps.get("robot") or "", True),
+        "The same, in the last frame.",
+    ),
+)  # fmt: skip

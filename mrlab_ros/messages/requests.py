@@ -1,0 +1,54 @@
+"""Checks a request before it is serialized: a field of another type would end the process."""
+
+from __future__ import annotations
+
+from numbers import Integral, Real
+from typing import Any
+
+from mrlab_ros.core.errors import Misuse
+
+REALS = {"double", "float"}
+INTEGERS = {f"{sign}int{bits}" for sign in ("", "u") for bits in (8, 16, 32, 64)}
+
+
+def fitted(message: Any, where: str = "") -> Any:
+    """Return `message` with its numbers in the types of its fields, such as 2 as 2.0.
+
+    where: what the message is a part of. Raises Misuse where a field has a value of another kind:
+    the serialization aborts the process there.
+    """
+    for name, kind in message.get_fields_and_field_types().items():
+        value = getattr(message, name)
+        if kind.startswith("sequence<") or kind.endswith("]"):
+            item = kind.removeprefix("sequence<").split(",")[0].split("[")[0].rstrip(">")
+            if item.startswith("string") or "/" in item:
+                for entry in value:
+                    _fit(entry, item, f"{where}{name}")
+            continue
+        fitting = _fit(value, kind, f"{where}{name}")
+        if fitting is not value:
+            setattr(message, name, fitting)
+    return message
+
+
+def _fit(value: Any, kind: str, name: str) -> Any:
+    """Return a field's value in its type; raise Misuse."""
+    if kind in REALS:
+        if isinstance(value, Real) and not isinstance(value, bool):
+            return value if isinstance(value, float) else float(value)
+        expected = "a number"
+    elif kind in INTEGERS:
+        if isinstance(value, Integral) and not isinstance(value, bool):
+            return value if isinstance(value, int) else int(value)
+        expected = "a whole number"
+    elif kind == "boolean":
+        if isinstance(value, bool):
+            return value
+        expected = "True or False"
+    elif kind.startswith("string"):
+        if isinstance(value, str):
+            return value
+        expected = "a text"
+    else:
+        return fitted(value, f"{name}.") if hasattr(value, "get_fields_and_field_types") else value
+    raise Misuse(f"{name} is {value!r}; expected {expected}")

@@ -1,0 +1,67 @@
+"""A script's view of a robot: what its callbacks raise, and runs whose robot is heard no more."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import pytest
+from mrlab_msgs import msg
+from sensor_msgs.msg import JointState
+
+from mrlab_ros.client import robot as under_test
+from mrlab_ros.client.follow import Follower
+from mrlab_ros.client.robot import LabRobot, Run
+from mrlab_ros.ros.calls import NoAnswer
+
+
+class FakeGraph:
+    """Stands for a GraphClient: keeps the subscriptions."""
+
+    def __init__(self) -> None:
+        self.callbacks: dict[str, Any] = {}
+
+    def subscribe(self, kind: Any, topic: str, callback: Any, quality: Any) -> None:
+        self.callbacks[topic] = callback
+
+
+@pytest.fixture
+def graph() -> FakeGraph:
+    return FakeGraph()
+
+
+def playing(state: int = msg.PlaybackState.PLAYING) -> msg.PlaybackState:
+    return msg.PlaybackState(state=state)
+
+
+def test_a_callback_that_raises_gets_the_next_joint_state(graph, capsys) -> None:
+    seen = []
+
+    def callback(sample: Any) -> None:
+        seen.append(sample.positions)
+        raise ValueError("in a script")
+
+    LabRobot(graph, msg.Robot(name="ur5e_1")).watch(callback)
+    for position in (1.0, 2.0):
+        graph.callbacks["/ur5e_1/joint_states"](JointState(position=[position]))
+    assert seen == [(1.0,), (2.0,)]
+    assert capsys.readouterr().err.count("ValueError: in a script") == 2
+
+
+@pytest.mark.parametrize("state", under_test.MOVING)
+def test_waiting_for_a_robot_that_is_heard_no_more_ends(graph, monkeypatch, state: int) -> None:
+    clock = [100.0]
+    monkeypatch.setattr("time.monotonic", lambda: clock[0])
+    follower = Follower(graph, "ur5e_1")
+    run = Run(follower, 0)
+    graph.callbacks["/ur5e_1/playback_state"](playing(state))
+    clock[0] += under_test.SILENCE_S
+    run.advance()
+    clock[0] += 1
+    with pytest.raises(NoAnswer, match="ur5e_1 moved and has said nothing for 11 s: it was rem"):
+        run.wait()
+    # Its telemetry alone is a sign of life; and one that stands paused need give none.
+    graph.callbacks["/ur5e_1/telemetry"](msg.Telemetry())
+    run.advance()
+    graph.callbacks["/ur5e_1/playback_state"](playing(msg.PlaybackState.PAUSED))
+    clock[0] += 100
+    run.advance()

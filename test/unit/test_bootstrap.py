@@ -1,0 +1,74 @@
+"""What set-up writes for shells, and what that says in a clone that was moved or copied."""
+
+from __future__ import annotations
+
+import importlib.util
+import shutil
+import subprocess
+from pathlib import Path
+from types import ModuleType
+
+import pytest
+
+SCRIPT = Path(__file__).parents[2] / "scripts" / "bootstrap.py"
+SAYS = "was set up in {} and moved or copied; set it up here: make demo"
+
+
+@pytest.fixture
+def clone(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    """A clone whose `python` prints its arguments."""
+    spec = importlib.util.spec_from_file_location("bootstrap", SCRIPT)
+    assert spec is not None
+    assert spec.loader is not None
+    bootstrap: ModuleType = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(bootstrap)
+    root = tmp_path / "a clone"
+    (root / ".venv" / "bin").mkdir(parents=True)
+    for name, path in {
+        "ROOT": root,
+        "VENV": root / ".venv",
+        "INSTALL": root / "install",
+    }.items():
+        monkeypatch.setattr(bootstrap, name, path)
+    setup = object.__new__(bootstrap.Setup)
+    setup.python = {"version": "3.11"}
+    setup.venv_python = root / ".venv" / "bin" / "python"
+    setup.venv_python.write_text('#!/bin/sh\necho "$@"\n')
+    setup.venv_python.chmod(0o755)
+    setup.site = root / ".venv" / "site-packages"
+    setup.environment()
+    return root
+
+
+def run(*command: str | Path) -> subprocess.CompletedProcess[str]:
+    return subprocess.run([*map(str, command)], capture_output=True, text=True, check=False)
+
+
+@pytest.mark.parametrize("shell", ["sh", "bash"])
+def test_a_clone_in_its_place_works(clone: Path, shell: str) -> None:
+    assert run(clone / ".venv/bin/mrlab", "status").stdout == "-m mrlab_ros.cli status\n"
+    link = clone / "link"
+    link.symlink_to(clone / ".venv/bin/mrlab")
+    assert run(link).returncode == 0
+    sourced = run(shell, "-c", f"cd '{clone}' && . .venv/mrlab.sh && command -v mrlab")
+    assert sourced.stdout == f"{clone}/.venv/bin/mrlab\n"
+
+
+def test_a_moved_clone_says_what_to_do(clone: Path) -> None:
+    moved = clone.rename(clone.parent / "moved")
+    for done in (
+        run(moved / ".venv/bin/mrlab", "status"),
+        run("sh", "-c", f". {moved}/.venv/mrlab.sh && echo went on"),
+    ):
+        assert (done.returncode, done.stdout) == (1, "")
+        assert SAYS.format(clone) in done.stderr
+
+
+def test_a_copy_does_not_run_the_original(clone: Path) -> None:
+    copy = Path(shutil.copytree(clone, clone.parent / "copy"))
+    for done in (
+        run(copy / ".venv/bin/mrlab", "status"),
+        run("bash", "-c", f". {copy}/.venv/mrlab.sh && echo went on"),
+    ):
+        assert (done.returncode, done.stdout) == (1, "")
+        assert SAYS.format(clone) in done.stderr
