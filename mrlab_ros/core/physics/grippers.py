@@ -23,6 +23,7 @@ from mrlab_ros.core.physics.grasp_load import Grip, fingers_grip
 from mrlab_ros.core.physics.holding import Holding
 from mrlab_ros.core.physics.seal import OUT, leak, lip
 from mrlab_ros.core.physics.simulated_robot import COMMANDING, Robot
+from mrlab_ros.core.physics.snapshots import HeldSnapshot
 from mrlab_ros.core.physics.world_state import SceneObject, WorldState
 from mrlab_ros.core.playback.states import State
 
@@ -119,25 +120,19 @@ class Grippers:
             self._engine.set_object(robot.held, BodyState(pose))
             robot.holding.velocity = None
 
-    def put_in_hand(
-        self,
-        robot: Robot,
-        thing: SceneObject,
-        in_hand: Pose,
-        grip: Grip | None,
-        fingers: Sequence[float],
-    ) -> None:
-        """Let a robot hold an object at `in_hand`, T_hand_object, its fingers at `fingers`."""
-        self._engine.set_fingers(robot.name, fingers)
+    def put_in_hand(self, robot: Robot, thing: SceneObject, kept: HeldSnapshot) -> None:
+        """Let a robot hold an object as it held it once, for as long."""
+        self._engine.set_fingers(robot.name, kept.fingers)
         again = robot.held == thing.name
         if again:
             self.let_go(robot)
         hand = self._world_state.hand(robot).pose
-        self._engine.set_object(thing.name, BodyState(compose(hand, in_hand)))
+        self._engine.set_object(thing.name, BodyState(compose(hand, kept.in_hand)))
         if again:
-            self._holding.fix(robot, thing, grip)
+            self._holding.fix(robot, thing, kept.grip)
         else:
-            self._seize(robot, thing, grip)
+            self._seize(robot, thing, kept.grip)
+        robot.held_since_ns = self._world_state.now_ns - kept.for_ns
 
     def announce(self, robot: Robot) -> None:
         """Add an event with the state of a gripper."""
@@ -158,7 +153,8 @@ class Grippers:
             position = robot.playing.position(robot.stream.shown_ns(now_ns))
             closed = robot.program.closed_at(position)
             if closed is not None and closed != robot.closed:
-                robot.takes_over = robot.playing.state is State.PLAYING
+                playing = robot.playing
+                robot.takes_over = playing.state is State.PLAYING and playing.clock.rate > 0
                 self._set_closed(robot, closed, now_ns)
         if robot.held:
             fallen = self._holding.slip(robot, duration)

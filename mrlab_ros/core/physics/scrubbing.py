@@ -7,10 +7,15 @@ from collections.abc import Mapping
 from mrlab_ros.core.clock import SECOND
 from mrlab_ros.core.geometry import Pose, pose_between
 from mrlab_ros.core.physics.engine import BodyState
-from mrlab_ros.core.physics.grasp import GraspEvent
+from mrlab_ros.core.physics.grasp import Grasp, GraspEvent
 from mrlab_ros.core.physics.grippers import Grippers
 from mrlab_ros.core.physics.simulated_robot import Playing, Robot
-from mrlab_ros.core.physics.snapshots import ObjectSnapshot, Snapshot
+from mrlab_ros.core.physics.snapshots import (
+    GripperSnapshot,
+    HeldSnapshot,
+    ObjectSnapshot,
+    Snapshot,
+)
 from mrlab_ros.core.physics.world_state import WorldState
 from mrlab_ros.core.playback.states import State
 
@@ -57,7 +62,7 @@ class Rewind:
             position = playing.position(robot.stream.shown_ns(now_ns))
             if robot.snapshots.wants(position):
                 kept = kept or self._kept(motions)
-                robot.snapshots.add(Snapshot(position, kept, robot.closed))
+                robot.snapshots.add(Snapshot(position, kept, _gripper(robot, now_ns)))
 
     def _kept(self, motions: Mapping[str, BodyState]) -> dict[str, ObjectSnapshot]:
         kept = {}
@@ -65,13 +70,13 @@ class Rewind:
             held_by = self._world_state.objects[name].held_by
             holder = self._world_state.robots.get(held_by)
             holding = holder.holding if holder is not None else None
-            if holding is None:
+            if holder is None or holding is None:
                 kept[name] = ObjectSnapshot(motion, held_by)
             else:
                 fingers = tuple(state.position for state in self._engine.fingers(held_by))
-                kept[name] = ObjectSnapshot(
-                    motion, held_by, holding.in_hand, holding.grip, fingers
-                )
+                for_ns = self._world_state.now_ns - holder.held_since_ns
+                held = HeldSnapshot(holding.in_hand, holding.grip, fingers, for_ns)
+                kept[name] = ObjectSnapshot(motion, held_by, held)
         return kept
 
     def retrace(self, robot: Robot, now_ns: int) -> None:
@@ -93,9 +98,9 @@ class Rewind:
             thing = self._world_state.objects.get(name)
             if thing is None or thing.held_by not in ("", robot.name) or thing.hand is not None:
                 continue
-            if kept.held_by == robot.name and kept.in_hand is not None:
+            if kept.held_by == robot.name and kept.held is not None:
                 if robot.held != name:
-                    self._grippers.put_in_hand(robot, thing, kept.in_hand, kept.grip, kept.fingers)
+                    self._grippers.put_in_hand(robot, thing, kept.held)
             elif not kept.held_by and not thing.held_by:
                 then = after.objects.get(name)
                 pose = kept.motion.pose
@@ -117,20 +122,30 @@ class Rewind:
             if thing is None or thing.held_by not in ("", robot.name):
                 continue
             holder = self._world_state.robots.get(kept.held_by)
-            if holder is None or kept.in_hand is None:
+            if holder is None or kept.held is None:
                 if not kept.held_by and not thing.held_by:
                     self._engine.set_object(name, kept.motion)
             elif holder is robot or (holder.closed and not holder.held):
                 # In a seek of a whole system a robot gives back what it took from another one.
-                self._grippers.put_in_hand(holder, thing, kept.in_hand, kept.grip, kept.fingers)
-        robot.closed = snapshot.closed
+                self._grippers.put_in_hand(holder, thing, kept.held)
+        robot.closed = snapshot.gripper.closed
+        robot.takes_over = snapshot.gripper.takes_over
         if not robot.held:
             robot.fire(GraspEvent.OPEN)
-            if snapshot.closed and self._grippers.command(robot, True):
-                robot.closing_since_ns = now_ns
+            if robot.closed and self._grippers.command(robot, True):
+                robot.closing_since_ns = now_ns - snapshot.gripper.for_ns
+                robot.lost = snapshot.gripper.lost
+                if snapshot.gripper.grasp is Grasp.EMPTY:
+                    robot.fire(GraspEvent.SHUT)
             robot.watch.reset()
         self._engine.drive_fingers(robot.name, robot.finger_velocities())
         self._grippers.announce(robot)
+
+
+def _gripper(robot: Robot, now_ns: int) -> GripperSnapshot:
+    takes_over = robot.takes_over and robot.grasp is Grasp.CLOSING
+    for_ns = now_ns - robot.closing_since_ns
+    return GripperSnapshot(robot.closed, for_ns, robot.grasp, takes_over, robot.lost)
 
 
 def _same(a: Pose, b: Pose) -> bool:

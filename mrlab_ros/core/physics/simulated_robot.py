@@ -149,7 +149,7 @@ class Robot:
     share_of: Joints | None = None
     closed: bool = False
     closing_since_ns: int = 0
-    # Whether it closed along its motion: then it may take over what another robot holds.
+    # Whether it closed as its motion goes on: then it may take over what another robot holds.
     takes_over: bool = True
     held: str = ""
     held_since_ns: int = 0

@@ -8,28 +8,49 @@ from dataclasses import dataclass, replace
 
 from mrlab_ros.core.geometry import Pose
 from mrlab_ros.core.physics.engine import BodyState
+from mrlab_ros.core.physics.grasp import Grasp
 from mrlab_ros.core.physics.grasp_load import Grip
 
 
 @dataclass(frozen=True)
+class HeldSnapshot:
+    """How a robot held an object. in_hand: T_hand_object. grip: None where it was attached by
+    service. fingers: their positions. for_ns: how long it had held it."""
+
+    in_hand: Pose
+    grip: Grip | None
+    fingers: tuple[float, ...]
+    for_ns: int
+
+
+@dataclass(frozen=True)
 class ObjectSnapshot:
-    """An object at one instant. held_by: the robot that held it, with its pose in the hand's
-    frame, its grip and the positions of the fingers; empty: free."""
+    """An object at one instant. held_by: the robot that held it, empty: none; held: how."""
 
     motion: BodyState
     held_by: str = ""
-    in_hand: Pose | None = None
-    grip: Grip | None = None
-    fingers: tuple[float, ...] = ()
+    held: HeldSnapshot | None = None
+
+
+@dataclass(frozen=True)
+class GripperSnapshot:
+    """A gripper at one instant. closed: by command, for_ns ago. takes_over: whether it was about
+    to take what another robot held. lost: the object that was taken from it."""
+
+    closed: bool = False
+    for_ns: int = 0
+    grasp: Grasp = Grasp.OPEN
+    takes_over: bool = False
+    lost: str = ""
 
 
 @dataclass(frozen=True)
 class Snapshot:
-    """All objects when one robot's run passed `position`, s. closed: that robot's gripper."""
+    """All objects, and the gripper of one robot, when that robot's run passed `position`, s."""
 
     position: float
     objects: Mapping[str, ObjectSnapshot]
-    closed: bool
+    gripper: GripperSnapshot = GripperSnapshot()
 
     def held_by(self, robot: str) -> frozenset[str]:
         """Return the names of the objects that `robot` held."""

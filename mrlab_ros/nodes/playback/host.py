@@ -187,10 +187,10 @@ class PlaybackHostNode(ParameterNode[PlaybackParameters]):
         for robot in wanted.values():
             if robot.name not in self.nodes:
                 try:
-                    self._add(robot.name, robot.model)
+                    self._add(robot)
                 except LabError as error:
                     self.get_logger().error(f"{robot.name} has no playback: {error}")
-                    continue
+                continue
             node = self.nodes[robot.name]
             with self.scheduler.command(node.player):
                 node.playback.end_effector = robot.end_effector
@@ -249,23 +249,26 @@ class PlaybackHostNode(ParameterNode[PlaybackParameters]):
         fits = kept is not None and len(kept.arm) == len(self._library.model(model).joints)
         return kept if fits and had == model else None
 
-    def _add(self, robot: str, model: str) -> None:
+    def _add(self, robot: msg.Robot) -> None:
         node = PlaybackNode(
-            robot,
-            self._library.model(model),
+            robot.name,
+            self._library.model(robot.model),
             self._planner,
             self.scheduler,
             self._fetch,
             self.parameters.standing_rate,
             host=self._host,
             lab=self._identity.lab,
-            kept=self._kept_of(robot, model),
+            kept=self._kept_of(robot.name, robot.model),
             warn=self.get_logger().warning,
             context=self.context,
         )
-        self.nodes[robot] = node
+        with self.scheduler.command(node.player):
+            # Before the executor's thread answers the first call.
+            node.playback.end_effector = robot.end_effector
+        self.nodes[robot.name] = node
         self._safety.executor.add_node(node)
-        self.get_logger().info(f"added the playback of {robot} ({model})")
+        self.get_logger().info(f"added the playback of {robot.name} ({robot.model})")
 
     def _remove(self, robot: str) -> None:
         node = self.nodes.pop(robot)

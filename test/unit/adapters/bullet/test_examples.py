@@ -136,6 +136,16 @@ def test_a_rod_is_handed_from_one_gripper_to_the_other(stages):
     assert not stage.hits()
     end = stage.place("rod_1")
     assert end == pytest.approx([1.2 - 0.5 * np.cos(np.radians(40)), -0.3214, 0.08], abs=0.01)
+    # Where both grippers are closed on it, it stays with the one that took it.
+    stage.seek(4.6)
+    stage.stand()
+    assert stage.world.object("rod_1").held_by == taker
+    assert stage.world.robot(giver).grasp is Grasp.EMPTY
+    # Where the second is just closing it takes the rod, as it did.
+    stage.seek(4.3)
+    stage.play(8.0)
+    stage.stand()
+    assert np.abs(stage.place("rod_1") - end).max() < 0.01
     # Scrubbed together, each robot has again what it had then.
     for position, holder, place in ((6.0, taker, None), (3.0, giver, None), (1.0, "", start)):
         stage.seek(position)

@@ -578,7 +578,7 @@ def test_snapshots_are_bounded_and_keep_the_whole_run():
     snapshots = Snapshots(10.0, 20)
     for i in range(1000):
         if snapshots.wants(i / 100):
-            snapshots.add(Snapshot(i / 100, {}, False))
+            snapshots.add(Snapshot(i / 100, {}))
     assert len(snapshots) <= 20
     assert snapshots.at(0.0).position == 0.0
     assert snapshots.at(9.9).position > 8.5
