@@ -1,5 +1,5 @@
 import { Matrix4, Vector3 } from 'three'
-import type { Room } from './room'
+import type { Fixtures } from './fixtures'
 
 /** s between a frame's start and the instant at which it is seen, where the device does not tell. */
 const AHEAD_S = 0.015
@@ -12,7 +12,7 @@ const scale = new Vector3()
 export class Frame {
   private last = 0
 
-  constructor(private readonly room: Room) {}
+  constructor(private readonly room: Fixtures) {}
 
   /** time: of the frame, ms; frame: of a session, undefined without a headset. */
   draw(time: number, frame: XRFrame | undefined): void {
@@ -46,7 +46,7 @@ export class Frame {
     if (room.people.update(now, step)) room.stage.invalidate()
     room.panels.update(now, step)
     room.systems.update(now, step)
-    room.stage.lightAbout(room.handles.values())
+    room.stage.lightAbout(room.robots.handles.values())
     if (room.stage.draw(now)) room.frames++
     room.frameMs = performance.now() - began
     room.stats.frame(now, room.frameMs)

@@ -1,6 +1,5 @@
 import { Vector2 } from 'three'
-import { RayPointer } from './input/pointer'
-import type { Target } from './input/target'
+import { RayPointer, type Target } from './input/pointer'
 import type { RoomStage } from './stage'
 
 /** The mouse, or a finger on a touch screen, as a pointer into the room. */

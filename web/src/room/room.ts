@@ -1,20 +1,16 @@
 import { signal } from '@preact/signals'
 import { Quaternion, Vector3 } from 'three'
-import type { Link } from '../link/link'
 import type { LabFollower } from '../pages/lab/follow'
-import type { CourseOf } from '../pages/lab/followed_robot'
-import type { CheckApi } from '../pages/lab/robot_check'
 import { type TrajectoryInfo, trajectoryCatalogueType } from '../protocol/mrlab_msgs'
 import { LabScene } from '../scene/lab_scene'
 import { MeshLibrary } from '../scene/meshes'
 import type { ShownSurface } from '../scene/surfaces'
-import type { Words } from '../words/en'
 import { Alignment, SEATED } from './anchor/alignment'
 import { SceneAnchor } from './anchor/anchor'
 import { TouchAlignment } from './anchor/touch_alignment'
-import type { Entry } from './context'
 import { Drawings } from './drawings/drawings'
 import { soundFeedback } from './feedback'
+import type { Fixtures, RoomParts } from './fixtures'
 import { followedScene } from './follow/followed_scene'
 import { roomFollower } from './follow/follower'
 import { listen } from './follow/listen'
@@ -28,11 +24,9 @@ import { Overlays } from './overlays'
 import { Board } from './panels/board'
 import { BoardPlace } from './panels/board_place'
 import { boardTabs } from './panels/board_tabs'
-import type { Lesson } from './panels/lesson'
 import { RobotPanels } from './panels/robot_panels'
 import { pauseNews } from './people/pausing'
 import { People } from './people/people'
-import type { Person } from './people/people_tab'
 import { Spawning } from './placement/spawning'
 import { type Support, supportsOf } from './placement/supports'
 import { contextOf } from './room_context'
@@ -46,25 +40,8 @@ import { Creation } from './systems/creation'
 import { SystemPanels } from './systems/system_panels'
 import { Guide } from './tour/guide'
 
-/** What the room is made from. */
-export interface RoomParts {
-  readonly container: HTMLElement
-  readonly link: Link
-  readonly words: Words
-  readonly robots: readonly Entry[]
-  readonly endEffectors: readonly Entry[]
-  /** Who is signed in here. */
-  readonly person: Person
-  readonly courseOf: CourseOf
-  readonly checks: CheckApi
-  /** Whether the person plays robots. */
-  readonly commands: boolean
-  /** The class that a teacher steps through; null: there is none, or the person is no teacher. */
-  readonly lesson: Lesson | null
-}
-
 /** The lab in a person's room: wires what the folders beside it do, once a frame. */
-export class Room {
+export class Room implements Fixtures {
   readonly troubles = signal<readonly string[]>([])
   readonly head = new Vector3().copy(SEATED.head)
   readonly look = new Quaternion()

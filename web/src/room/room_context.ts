@@ -1,7 +1,7 @@
 import { Vector3 } from 'three'
 import type { RoomContext } from './context'
+import type { Fixtures, RoomParts } from './fixtures'
 import type { Feedback } from './panels/panel'
-import type { Room, RoomParts } from './room'
 
 /** m */
 const READ_AT = 0.9
@@ -9,7 +9,7 @@ const READ_AT = 0.9
 const tip = new Vector3()
 
 /** Return what the parts of a room share; what changes is read from the room. */
-export function contextOf(room: Room, parts: RoomParts, feedback: Feedback): RoomContext {
+export function contextOf(room: Fixtures, parts: RoomParts, feedback: Feedback): RoomContext {
   const { link, words, robots, endEffectors, checks, commands } = parts
   return {
     link,

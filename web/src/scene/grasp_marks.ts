@@ -8,8 +8,8 @@ import {
   MeshBasicMaterial,
   TorusGeometry,
 } from 'three'
-import { type Pose, place } from './lab_objects'
 import { Label } from './labels'
+import { type Pose, place } from './pose'
 import type { SceneTheme } from './theme'
 
 const LENGTH = 0.06 // m, of the pointer along the tool's z

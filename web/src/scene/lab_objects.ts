@@ -1,18 +1,9 @@
 import { Group, Matrix4, type Object3D, Quaternion, Vector3 } from 'three'
 import { type Instance, Instances, partsOf } from './instances'
-import type { SceneHost } from './lab_scene'
 import type { MeshSource } from './meshes'
+import { type Pose, place } from './pose'
+import type { SceneHost } from './scene_host'
 import { colourOf, kindOf, primitiveParts, type Shape, scaleOf } from './shapes'
-
-export interface Pose {
-  readonly position: { readonly x: number; readonly y: number; readonly z: number }
-  readonly orientation: {
-    readonly x: number
-    readonly y: number
-    readonly z: number
-    readonly w: number
-  }
-}
 
 /** An object of the scene: the fields of mrlab_msgs/msg/SceneObject that are drawn. */
 export interface ShownObject extends Shape {
@@ -21,27 +12,6 @@ export interface ShownObject extends Shape {
   readonly held_by: string
   /** Its pose in the tool0 of the robot that holds it; a quaternion of zeros: not said. */
   readonly in_tool?: Pose
-}
-
-/** Smaller changes are not seen: m, and of a quaternion's numbers. */
-const STILL = 1e-5
-
-/** Write a pose into an object's own position and quaternion; return whether that changes it. */
-export function place(object: Object3D, pose: Pose): boolean {
-  const { position: p, orientation: q } = pose
-  const { position, quaternion } = object
-  const change =
-    Math.abs(position.x - p.x) +
-    Math.abs(position.y - p.y) +
-    Math.abs(position.z - p.z) +
-    Math.abs(quaternion.x - q.x) +
-    Math.abs(quaternion.y - q.y) +
-    Math.abs(quaternion.z - q.z) +
-    Math.abs(quaternion.w - q.w)
-  if (change < STILL) return false
-  position.set(p.x, p.y, p.z)
-  quaternion.set(q.x, q.y, q.z, q.w)
-  return true
 }
 
 interface Entry {

@@ -10,11 +10,13 @@ import { Contacts } from './contacts'
 import { pushCorners } from './corners'
 import { contactPatch } from './floor'
 import { GraspMarks, type ShownTarget } from './grasp_marks'
-import { LabObjects, type Pose, place, type ShownObject } from './lab_objects'
+import { LabObjects, type ShownObject } from './lab_objects'
 import { Label } from './labels'
 import { Looks } from './looks'
 import type { MeshSource } from './meshes'
+import { type Pose, place } from './pose'
 import { SceneRobot } from './robot'
+import type { SceneHost } from './scene_host'
 import { LabSurfaces, type ShownSurface } from './surfaces'
 import type { SceneTheme } from './theme'
 
@@ -29,18 +31,6 @@ export interface ShownRobot {
   readonly urdf: string
   readonly pose: Pose
   readonly joint_names: readonly string[]
-}
-
-/** Where a lab is drawn: a page's picture, or the room. */
-export interface SceneHost {
-  /** The lab's frame `world`: z up, m. */
-  readonly world: Object3D
-  readonly theme: SceneTheme
-  onTheme(listener: (theme: SceneTheme) => void): () => void
-  /** Ask for a new picture. */
-  invalidate(): void
-  /** Show points of the world's frame whole; a view that a person chose stays, unless `again`. */
-  frame(points: readonly Vector3[], again?: boolean): void
 }
 
 interface Entry {

@@ -12,7 +12,7 @@ import {
   Shape,
   ShapeGeometry,
 } from 'three'
-import { type Pose, place } from './lab_objects'
+import { type Pose, place } from './pose'
 import type { SceneTheme } from './theme'
 
 const CREASE = 25 // deg, from which an edge of a mesh is drawn

@@ -1,9 +1,23 @@
 import type uPlot from 'uplot'
 import type { Theme } from '../theme'
-import type { Strip, StripWords } from './strip'
 
 export const FONT = '13px system-ui, -apple-system, "Segoe UI", Roboto, sans-serif'
 const TEXT = 15 // height of a label of a limit, CSS pixels
+
+/** The limits of a line, in the unit that is shown; null: it has none. */
+export interface Limits {
+  readonly lower: number | null
+  readonly upper: number | null
+  /** As shown, such as deg. */
+  readonly unit: string
+}
+
+export interface LimitWords {
+  /** Such as "limit 180". */
+  limit(value: string): string
+  /** Such as "limits -180 and 180". */
+  limits(low: string, high: string): string
+}
 
 function hatch(colour: string, ratio: number): CanvasPattern | null {
   const size = Math.round(7 * ratio)
@@ -24,7 +38,7 @@ function hatch(colour: string, ratio: number): CanvasPattern | null {
 }
 
 /** Hatch what lies beyond the limits, and name them. */
-export function drawForbidden(plot: uPlot, strip: Strip, theme: Theme, words: StripWords): void {
+export function drawForbidden(plot: uPlot, line: Limits, theme: Theme, words: LimitWords): void {
   const { ctx, bbox } = plot
   const ratio = devicePixelRatio
   const colour = theme.states.COLLISION_HALT
@@ -48,8 +62,8 @@ export function drawForbidden(plot: uPlot, strip: Strip, theme: Theme, words: St
   }
   const places: number[] = []
   for (const [limit, above] of [
-    [strip.upper, true],
-    [strip.lower, false],
+    [line.upper, true],
+    [line.lower, false],
   ] as const) {
     if (limit === null) continue
     const y = plot.valToPos(limit, 'y', true)
@@ -67,7 +81,7 @@ export function drawForbidden(plot: uPlot, strip: Strip, theme: Theme, words: St
     ctx.stroke()
     places.push(y)
   }
-  const { upper, lower } = strip
+  const { upper, lower } = line
   const [top, low] = places
   if (top !== undefined && low !== undefined && low - top < 2 * TEXT * ratio) {
     // too near to each other for a label each
@@ -89,7 +103,7 @@ export function drawForbidden(plot: uPlot, strip: Strip, theme: Theme, words: St
 }
 
 /** Say by an arrow at the edge where a limit is that the axis does not reach. */
-export function drawFarLimits(plot: uPlot, strip: Strip, theme: Theme): void {
+export function drawFarLimits(plot: uPlot, line: Limits, theme: Theme): void {
   const { ctx, bbox } = plot
   const ratio = devicePixelRatio
   const bottom = bbox.top + bbox.height
@@ -98,13 +112,13 @@ export function drawFarLimits(plot: uPlot, strip: Strip, theme: Theme): void {
   ctx.textAlign = 'right'
   ctx.textBaseline = 'middle'
   for (const [limit, arrow] of [
-    [strip.upper, '↑'],
-    [strip.lower, '↓'],
+    [line.upper, '↑'],
+    [line.lower, '↓'],
   ] as const) {
     if (limit === null) continue
     const y = plot.valToPos(limit, 'y', true)
     if (y > bbox.top && y < bottom) continue
-    const text = `${arrow} ${limit.toFixed(0)}${strip.unit === '°' ? '°' : ''}`
+    const text = `${arrow} ${limit.toFixed(0)}${line.unit === '°' ? '°' : ''}`
     const width = ctx.measureText(text).width
     const right = bbox.left + bbox.width - 4 * ratio
     const middle = arrow === '↑' ? bbox.top + 8 * ratio : bottom - 8 * ratio

@@ -1,19 +1,15 @@
 import uPlot from 'uplot'
 import 'uplot/dist/uPlot.min.css'
 import type { Theme } from '../theme'
-import { drawFarLimits, drawForbidden, FONT } from './limits'
+import { drawFarLimits, drawForbidden, FONT, type Limits, type LimitWords } from './limits'
 
 /** One line over time with its limits, in the unit that is shown. */
-export interface Strip {
+export interface Strip extends Limits {
   readonly label: string
-  /** As shown, such as deg. */
-  readonly unit: string
   /** NaN: a gap */
   readonly values: Float64Array
   /** A second motion's values at the same times; null: none. */
   readonly compared: Float64Array | null
-  readonly lower: number | null
-  readonly upper: number | null
   /** Place in the theme's colours of joints. */
   readonly colour: number
 }
@@ -28,13 +24,6 @@ export interface Mark {
   readonly strip: number | null
 }
 
-export interface StripWords {
-  /** Such as "limit 180". */
-  limit(value: string): string
-  /** Such as "limits -180 and 180". */
-  limits(low: string, high: string): string
-}
-
 export interface StripPlot {
   resize(width: number): void
   /** Show the playhead at a time, s. */
@@ -47,7 +36,7 @@ interface StripOptions {
   readonly strip: Strip
   readonly marks: readonly Mark[]
   readonly theme: Theme
-  readonly words: StripWords
+  readonly words: LimitWords
   readonly height: number
   /** The last strip has the axis of time. */
   readonly axis: boolean

@@ -7,8 +7,7 @@ import {
 } from '../../protocol/mrlab_msgs'
 import type { LabScene } from '../../scene/lab_scene'
 import { order, type RoomContext } from '../context'
-import type { Pointer } from '../input/pointer'
-import type { Hit, Signal, Target } from '../input/target'
+import type { Hit, Pointer, Signal, Target } from '../input/pointer'
 
 /** m */
 const REACH = 0.06

@@ -1,11 +1,10 @@
 import { Matrix4, Mesh, MeshBasicMaterial, type Object3D, Ray, RingGeometry, Vector3 } from 'three'
 import { placeRobotType } from '../../protocol/mrlab_msgs'
-import type { Pose } from '../../scene/lab_objects'
 import type { LabScene } from '../../scene/lab_scene'
+import type { Pose } from '../../scene/pose'
 import { order, type RoomContext } from '../context'
 import { upright } from '../frames'
-import type { Pointer } from '../input/pointer'
-import type { Hit, Signal, Target } from '../input/target'
+import type { Hit, Pointer, Signal, Target } from '../input/pointer'
 import { isClear, isOn, landing, type Place } from '../placement/supports'
 import { ArmShape } from '../systems/arm_shape'
 

@@ -1,8 +1,7 @@
 import { Matrix4, type Object3D, Quaternion, Vector3 } from 'three'
 import { InputModel } from './models'
-import { type Hand, type Pointer, RayPointer, TouchPointer } from './pointer'
+import { type Hand, type Pointer, RayPointer, type Target, TouchPointer } from './pointer'
 import { PointerLook } from './pointer_look'
-import type { Target } from './target'
 
 /** A stick this far out counts. */
 const DEAD_ZONE = 0.2

@@ -1,4 +1,4 @@
-import type { Target } from './target'
+import type { Target } from './pointer'
 
 /** What there is to point at. A pointer must forget what is removed. */
 export class Targets {

@@ -1,6 +1,6 @@
 import type { RoomContext } from '../context'
+import type { Fixtures } from '../fixtures'
 import { type Person, peopleTab } from '../people/people_tab'
-import type { Room } from '../room'
 import { orderSurfaces } from '../room-scan/scan'
 import { roomLines, roomTab } from '../settings/room_tab'
 import { settingsTab } from '../settings/settings_tab'
@@ -16,7 +16,7 @@ const OBJECT_AWAY = 0.8 // m
 /** Return the tabs of the board of a room. own: who is signed in. lesson: null: no class. */
 export function boardTabs(
   context: RoomContext,
-  room: Room,
+  room: Fixtures,
   own: Person,
   lesson: Lesson | null,
 ): readonly Tab[] {

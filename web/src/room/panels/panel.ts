@@ -11,7 +11,7 @@ import {
   SRGBColorSpace,
   Vector3,
 } from 'three'
-import type { Hit, Signal, Target } from '../input/target'
+import type { Hit, Signal, Target } from '../input/pointer'
 import { Pen, TEXELS, type Zone } from './pen'
 
 const MM = 0.001

@@ -8,8 +8,8 @@ import {
   Vector3,
 } from 'three'
 import { Presence } from '../../protocol/mrlab_msgs'
-import type { Pose } from '../../scene/lab_objects'
 import { Label } from '../../scene/labels'
+import type { Pose } from '../../scene/pose'
 
 /** m */
 const HEAD = 0.11

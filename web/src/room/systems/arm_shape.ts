@@ -1,5 +1,5 @@
 import { Line3, type Object3D, type Ray, Vector3 } from 'three'
-import type { Hit } from '../input/target'
+import type { Hit } from '../input/pointer'
 
 /** m: how thick an arm counts around the line through its links. */
 const RADIUS = 0.07

@@ -1,13 +1,28 @@
 import type { Vector3 } from 'three'
+import type { LabFollower } from '../../pages/lab/follow'
 import type { RoomContext } from '../context'
 import type { XrInputs } from '../input/sources'
 import type { Targets } from '../input/targets'
-import type { Room } from '../room'
+import type { Stats } from '../latency/stats'
+import type { Board } from '../panels/board'
+import type { RobotPanels } from '../panels/robot_panels'
+import type { Settings } from '../settings/settings'
+import type { RoomStage } from '../stage'
 import { type Seen, Tour } from './tour'
 import { TourPanel } from './tour_panel'
 
 /** mm that the figures of time take below the board. */
 const STATS = 172
+
+/** The parts of a room that the guide watches, or stands at. */
+interface Watched {
+  readonly stage: RoomStage
+  readonly settings: Settings
+  readonly board: Board
+  readonly stats: Stats
+  readonly panels: RobotPanels
+  readonly follower: LabFollower
+}
 
 /** Leads a newcomer through the first steps, and watches that they are done. */
 export class Guide {
@@ -16,7 +31,7 @@ export class Guide {
 
   constructor(
     private readonly context: RoomContext,
-    private readonly room: Room,
+    private readonly room: Watched,
     private readonly targets: Targets,
   ) {
     const { settings, board, stage } = room

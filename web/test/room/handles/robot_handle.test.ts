@@ -5,8 +5,8 @@ import { upright } from '../../../src/room/frames'
 import { RobotHandle } from '../../../src/room/handles/robot_handle'
 import { RayPointer } from '../../../src/room/input/pointer'
 import { supportsOf } from '../../../src/room/placement/supports'
-import { type Pose, place } from '../../../src/scene/lab_objects'
 import type { LabScene } from '../../../src/scene/lab_scene'
+import { type Pose, place } from '../../../src/scene/pose'
 
 const settled = () => new Promise((resolve) => setTimeout(resolve))
 

@@ -1,7 +1,12 @@
 import type { Ray, Vector3 } from 'three'
 import { beforeEach, describe, expect, it } from 'vitest'
-import { RayPointer, TouchPointer } from '../../../src/room/input/pointer'
-import type { Hit, Signal, Target } from '../../../src/room/input/target'
+import {
+  type Hit,
+  RayPointer,
+  type Signal,
+  type Target,
+  TouchPointer,
+} from '../../../src/room/input/pointer'
 
 /** A face at z, which spans x and y from -1 to 1. */
 class Wall implements Target {

@@ -1,6 +1,6 @@
 import { Object3D, Ray, Vector3 } from 'three'
 import { describe, expect, it } from 'vitest'
-import { newHit } from '../../../src/room/input/target'
+import { newHit } from '../../../src/room/input/pointer'
 import { ArmShape } from '../../../src/room/systems/arm_shape'
 
 /** An arm of two links of 1 m, straight up from (2, 0, 0), with joints between. */
