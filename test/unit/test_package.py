@@ -196,6 +196,24 @@ def test_a_ros_machine_gets_what_the_package_imports() -> None:
     assert third_party() <= by_pip | by_rosdep | {"mat-io"}
 
 
+def required() -> list[str]:
+    """The names of all packages that set-up, checks, site and pages ask for."""
+    names = []
+    for file in ("requirements.in", "requirements-dev.in", "requirements-docs.in"):
+        names += re.findall(r"^([A-Za-z][\w-]*)", (ROOT / file).read_text(), re.M)
+    pages = json.loads((ROOT / "web/package.json").read_text())
+    return [*names, *pages["dependencies"], *pages["devDependencies"]]
+
+
+@pytest.mark.parametrize("name", required())
+def test_each_required_package_has_its_reason(name: str) -> None:
+    """A row names a family once, and the others of it by their ends: `-gtest`."""
+    page = (ROOT / "docs/dependencies.md").read_text()
+    rows = re.findall(r"^\| (`[^|]*)\|", page, re.M)
+    named = [re.split(r"[<\[]", word)[0] for row in rows for word in re.findall(r"`([^`]+)`", row)]
+    assert any(name == word or (word[0] == "-" and name.endswith(word)) for word in named)
+
+
 # By fastapi, uvicorn, authlib and matplotlib, which are nothing without it.
 BROUGHT_ALONG = {"anyio", "h11", "joserfc", "pillow", "pydantic", "starlette"}
 
