@@ -1,50 +1,25 @@
-"""`mrlab up`: the lab's processes under the supervisor, until Ctrl-C."""
+"""`mrlab up`: checks what a lab is started with, and keeps it running until Ctrl-C."""
 
 from __future__ import annotations
 
-import threading
-import time
-from collections.abc import Callable
 from pathlib import Path
 from typing import Annotated
 
 import typer
 
-from mrlab_ros.adapters.scenes.state_file import SCENE_FILE
 from mrlab_ros.adapters.store.objects import open_store
-from mrlab_ros.commands.up.keys import (
-    checked_listen,
-    checked_router,
-    follow_keys,
-    keys_changed_at,
-    tell_when_keys_expire,
-)
-from mrlab_ros.commands.up.refusals import Refusals
-from mrlab_ros.commands.up.speaker import Speaker
+from mrlab_ros.commands.up.keys import checked_listen, checked_router
+from mrlab_ros.commands.up.lab_run import LabRun
 from mrlab_ros.commands.up.surroundings import (
     folder_for_state,
     stay_on_this_machine,
     stop_signals,
 )
-from mrlab_ros.commands.up.web import (
-    checked_web,
-    prepare_keys,
-    run_facts,
-    say_where,
-)
+from mrlab_ros.commands.up.web import checked_web, prepare_keys
 from mrlab_ros.processes import physics_support
-from mrlab_ros.processes.lab import (
-    lab_nodes,
-    lab_processes,
-    parameter_file,
-    robot_models,
-)
+from mrlab_ros.processes.lab import parameter_file, robot_models
 from mrlab_ros.processes.options import LabOptions, new_lab_id
-from mrlab_ros.processes.parameter_file import parameter
-from mrlab_ros.processes.readiness import READY_TIMEOUT_S, wait_until_complete
 from mrlab_ros.processes.run_file import RunFile
-from mrlab_ros.processes.supervisor import SELF, ProcessState, Supervisor
-from mrlab_ros.processes.web import gateway_answers
 from mrlab_ros.ros.domain import domain_id
 
 
@@ -182,7 +157,6 @@ def up(
     stay_on_this_machine()
     domain = domain_id()
     run_file = RunFile(domain)
-    say = Speaker()
     with folder_for_state(state_dir) as folder, stop_signals() as stop:
         options = LabOptions(
             lab_id=new_lab_id(),
@@ -201,87 +175,9 @@ def up(
             web=pages,
             sim_time=sim_time,
         )
-        facts: dict[str, object] = {
-            "state_dir": str(folder),
-            "zenoh": listen,
-            "socket": options.socket if not zenoh_connect else "",
-            "prefix": parameter(options.config, "bridge", "prefix") or "",
-        }
-        where = run_facts(options) if pages is not None else {}
-        if where:
-            facts["web"] = where
-        specs = [process.spec(options) for process in lab_processes(options)]
-        seen = keys_changed_at(keys) if keys is not None and bridge else ()
-        run_file.claim(**facts)
-        begin = time.monotonic()
-        refusals = Refusals(stop)
-
-        def changed(states: list[ProcessState]) -> None:
-            run_file.write(states)
-            refusals.check(states)
-
-        try:
-            with Supervisor(specs, say, changed) as supervisor:
-                say(SELF, f"starts the lab on ROS domain {domain}; Ctrl-C stops it")
-                if models and (folder / SCENE_FILE).exists():
-                    say(
-                        SELF,
-                        f"--state-dir {folder} holds a scene, which is brought back; "
-                        "--robots is for an empty one",
-                    )
-                if listen is not None and insecure:
-                    say(SELF, f"--insecure: whoever reaches {listen} sees and moves everything")
-                if keys is not None and bridge:
-                    tell_when_keys_expire(keys, say, router=bool(zenoh_connect))
-                if no_physics:
-                    say(SELF, no_physics)
-                if sim_time:
-                    say(SELF, "--sim-time: nothing moves until somebody publishes /clock")
-                answers = gateway_answers(where["here"]) if where else None
-
-                def wait() -> str:
-                    return wait_until_complete(stop, lab_nodes(options), len(models), answers)
-
-                def say_ready() -> None:
-                    took = time.monotonic() - begin
-                    zenoh = f"; zenoh clients connect to {listen}" if bridge else ""
-                    say(SELF, f"the lab is ready after {took:.1f} s{zenoh}")
-
-                missing = wait()
-                refusals.raise_any()
-                if missing:
-                    say(
-                        SELF,
-                        f"not complete after {READY_TIMEOUT_S:g} s: {missing} missing; waits on",
-                    )
-                elif not stop.is_set():
-                    say_ready()
-                if pages is not None and not stop.is_set():
-                    say_where(where, say)
-                if missing:
-                    late = threading.Thread(target=follow_late, args=(stop, wait, say_ready))
-                    late.start()
-                if keys is None or not bridge or zenoh_connect:
-                    stop.wait()
-                else:
-                    follow_keys(keys, seen, stop, say, supervisor.restart)
-                # Another lab on this domain may have been taken for the process that refused.
-                refusals.raise_any()
-                say(SELF, "stops")
-        finally:
-            run_file.release()
+        LabRun(options, listen, no_physics, stop).keep(run_file, domain)
 
 
 def checked_store(place: str) -> str:
     """Return the store's URL or its folder's whole path; raise BadInput for one of no use."""
     return open_store(place).place if place else ""
-
-
-def follow_late(
-    stop: threading.Event, wait: Callable[[], str], say_ready: Callable[[], None]
-) -> None:
-    """Wait on until a lab is complete that was not in time, and say so; ends with `stop`."""
-    while wait():
-        pass
-    if not stop.is_set():
-        say_ready()
