@@ -38,6 +38,7 @@ emulated Quest 3; starts a lab of its own, which ends with it.
 const lab = await startLab()
 const figures = []
 let largest = []
+let heap = []
 const note = (what, value, unit, mark) => {
   figures.push({ what, value, unit, mark, meets: mark === null ? null : value < mark })
 }
@@ -69,6 +70,7 @@ try {
     note('scrub to pose change, p50', scrub.p50, 'ms', 50)
     note('scrub to pose change, p95', scrub.p95, 'ms', null)
     const memory = await measureMemory(page, client, Number(options.minutes))
+    heap = memory.series
     note(`heap growth over ${options.minutes} min`, memory.growth, 'kB', null)
     note('heap growth a minute, second half', memory.slope, 'kB/min', 100)
     note('garbage a frame', memory.garbage, 'kB', null)
@@ -91,9 +93,11 @@ for (const { what, value, unit, mark, meets } of figures) {
   const beside = mark === null ? '' : `  ${meets ? 'meets' : 'MISSES'} < ${mark}`
   console.log(`  ${what.padEnd(width)}  ${number.padStart(9)} ${unit.padEnd(6)}${beside}`)
 }
+const sizes = heap.map((kilobytes) => (kilobytes / 1000).toFixed(2)).join(' ')
+console.log(`Heap after a collection, evenly over ${options.minutes} min, MB: ${sizes}`)
 if (options.profile) {
   console.log('Where the time of the scripts goes, ms a frame:')
   for (const [where, spent] of largest) console.log(`  ${spent.toFixed(3)}  ${where}`)
 }
 console.log(machine)
-if (options.json) writeFileSync(options.json, JSON.stringify({ machine, figures }, null, 1))
+if (options.json) writeFileSync(options.json, JSON.stringify({ machine, figures, heap }, null, 1))

@@ -124,7 +124,8 @@ export async function measureScrub(page) {
   return { p50: quantile(times, 0.5), p95: quantile(times, 0.95) }
 }
 
-/** Measure how the heap grows while everything goes on, each value after a collection; kB. */
+/** Measure how the heap grows while everything goes on, each value after a collection; kB. `series`:
+ * the sizes, evenly over the time, one a minute or more. */
 export async function measureMemory(page, client, minutes) {
   await page.evaluate(() => {
     window.again = setInterval(() => {
@@ -138,7 +139,7 @@ export async function measureMemory(page, client, minutes) {
     if (collect) await client.send('HeapProfiler.collectGarbage')
     return (await client.send('Runtime.getHeapUsage')).usedSize / 1000
   }
-  const steps = 8
+  const steps = Math.max(8, 2 * Math.round(minutes / 2))
   const found = []
   let garbage = Number.POSITIVE_INFINITY
   for (let i = 0; i <= steps; i++) {
@@ -156,5 +157,5 @@ export async function measureMemory(page, client, minutes) {
   }
   const growth = found[steps] - found[0]
   const slope = (found[steps] - found[steps / 2]) / (minutes / 2)
-  return { growth, slope, garbage }
+  return { growth, slope, garbage, series: found }
 }
