@@ -6,7 +6,7 @@ import threading
 import time
 from collections import deque
 from collections.abc import Callable
-from concurrent.futures import CancelledError, Future
+from concurrent.futures import Future
 from typing import Any, NamedTuple
 
 Work = Callable[[], Any]
@@ -52,10 +52,13 @@ class Worker:
         return self.later(work).result()
 
     def later(self, work: Work) -> Future[Any]:
-        """Run `work` after what waits; the future is cancelled where the worker is closed."""
+        """Run `work` after what waits, unless the future is cancelled before its turn.
+
+        The worker cancels it where it is closed.
+        """
         future: Future[Any] = Future()
         if not self._put(_Task(work, 0, future)):
-            future.set_exception(CancelledError())
+            future.cancel()
         return future
 
     def send(self, work: Work, size: int = 0) -> None:
@@ -73,7 +76,7 @@ class Worker:
             self._tasks.clear()
         for task in dropped:
             if task.future is not None:
-                task.future.set_exception(CancelledError())
+                task.future.cancel()
         self._thread.join()
 
     def end(self) -> None:
@@ -108,6 +111,8 @@ class Worker:
             task = self._next()
             if task is None:
                 return
+            if task.future is not None and not task.future.set_running_or_notify_cancel():
+                continue
             try:
                 result = task.work()
             except Exception as error:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import threading
+from types import SimpleNamespace
 
 import pytest
 import small_lab
@@ -21,6 +22,7 @@ from std_srvs.srv import SetBool, Trigger
 
 from mrlab_ros.messages import qos
 from mrlab_ros.nodes.playback.host import PlaybackHostNode
+from mrlab_ros.ros import turns
 
 
 @pytest.fixture
@@ -152,6 +154,33 @@ def test_a_play_that_waits_when_its_system_is_dissolved_is_answered(graph, lab):
     wait_for(lambda: gone.done() and all(answer.done() for answer in waiting), "all answers")
     assert gone.result().success
     assert not any(answer.result().success for answer in waiting if not answer.result().message)
+
+
+def test_what_waited_long_behind_a_busy_coordinator_moves_no_robot(graph, lab, monkeypatch):
+    assert make_system(graph, {spawn(graph): "wave"}).success
+    asked: list[float] = []
+    late = threading.Event()
+
+    def monotonic() -> float:
+        asked.append(10.0 if late.is_set() else 0.0)
+        return asked[-1]
+
+    clients = [graph.client.create_client(Trigger, f"/cell/{name}") for name in ("play", "stop")]
+    assert all(client.wait_for_service(15.0) for client in clients)
+    monkeypatch.setattr(turns, "time", SimpleNamespace(monotonic=monotonic))
+    held = threading.Event()
+    lab.coordinator.worker.send(lambda: (held.set(), late.wait(15.0)))
+    assert held.wait(15.0)
+    answers = [client.call_async(Trigger.Request()) for client in clients]
+    wait_for(lambda: len(asked) == len(answers), "the requests to be taken")
+    late.set()
+    wait_for(lambda: all(answer.done() for answer in answers), "the answers")
+    played, stopped = (answer.result() for answer in answers)
+    assert not played.success
+    assert "waited 10 s for the ones before it, so it was not carried out" in played.message
+    assert stopped.success, "a stop is carried out however late"
+    monkeypatch.undo()
+    assert graph.call(Trigger, "/cell/play").success
 
 
 def test_a_sequential_system_shows_each_share_and_seeks_across_them(graph, lab):

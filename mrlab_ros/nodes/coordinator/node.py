@@ -36,12 +36,12 @@ from mrlab_ros.nodes import parameters
 from mrlab_ros.nodes.coordinator.checks import MemberChecks
 from mrlab_ros.nodes.coordinator.fleet import Hosts, MemberClient, RosFleet
 from mrlab_ros.nodes.parameters import CoordinatorParameters
-from mrlab_ros.ros.answers import answered, create_service, end_service
 from mrlab_ros.ros.calls import NoAnswer
 from mrlab_ros.ros.clock import LabClock
 from mrlab_ros.ros.parameters import ParameterNode
 from mrlab_ros.ros.spinning import Caller
 from mrlab_ros.ros.timers import every
+from mrlab_ros.ros.turns import Turns
 from mrlab_ros.ros.worker import Worker
 
 # Period at which an active system is polled, s.
@@ -88,10 +88,11 @@ class CoordinatorNode(ParameterNode[CoordinatorParameters]):
         self._checks = MemberChecks(self.caller.node)
         # Every use of a system runs in this one thread, one after another.
         self.worker = Worker("coordinator", self._poll, self._poll_period)
+        self._turns = Turns(self, self.worker)
         self._topic = self.create_publisher(msg.RobotSystems, "/systems", qos.LATCHED)
         self.create_subscription(msg.Robots, "/robots", self._on_robots, qos.LATCHED)
-        create_service(self, srv.CreateSystem, "~/create_system", self._create)
-        create_service(self, srv.Remove, "~/dissolve_system", self._dissolve)
+        self._turns.offer(srv.CreateSystem, "~/create_system", self._create)
+        self._turns.offer(srv.Remove, "~/dissolve_system", self._dissolve)
         self._journal = Journal.of(self.parameters.state_dir, self.get_name(), log.error)
         self.worker.do(self._restore)
         self._publish()
@@ -99,6 +100,7 @@ class CoordinatorNode(ParameterNode[CoordinatorParameters]):
         every(self.caller.node, RENEWAL_PERIOD_S, self._renew)
 
     def destroy_node(self) -> None:
+        self._turns.close()
         self.worker.close()
         self.caller.close()
         self._journal.close()
@@ -106,15 +108,7 @@ class CoordinatorNode(ParameterNode[CoordinatorParameters]):
 
     # services -------------------------------------------------------------------------------
 
-    @answered
     def _create(self, request: Any, response: Any) -> str:
-        return str(self.worker.do(lambda: self._do_create(request, response)))
-
-    @answered
-    def _dissolve(self, request: Any, response: Any) -> str:
-        return str(self.worker.do(lambda: self._do_dissolve(request.name, "dissolved")))
-
-    def _do_create(self, request: Any, response: Any) -> str:
         try:
             mode, policy = Mode(request.mode), Policy(request.policy)
         except ValueError:
@@ -141,6 +135,9 @@ class CoordinatorNode(ParameterNode[CoordinatorParameters]):
         response.system = system_to_message(system)
         return f"{name} drives {', '.join(robots)}: {system.duration:g} s, {mode.name.lower()}"
 
+    def _dissolve(self, request: Any, response: Any) -> str:
+        return self._do_dissolve(request.name, "dissolved")
+
     def _adopt(
         self, system: RobotSystem, clients: dict[str, MemberClient], fleet: RosFleet
     ) -> None:
@@ -150,7 +147,7 @@ class CoordinatorNode(ParameterNode[CoordinatorParameters]):
         self._members.update(clients)
         self._fleets[name] = fleet
         self._offered[name] = [
-            create_service(self, kind, f"/{name}/{service}", self._callback(name, action))
+            self._turns.offer(kind, f"/{name}/{service}", self._callback(name, action))
             for kind, service, action in (
                 (Trigger, "play", self._play),
                 (Trigger, "pause", self._pause),
@@ -165,18 +162,14 @@ class CoordinatorNode(ParameterNode[CoordinatorParameters]):
 
     def _callback(
         self, name: str, action: Callable[[RobotSystem, Any], str]
-    ) -> Callable[[Any, Any], Any]:
-        def work(request: Any) -> str:
+    ) -> Callable[[Any, Any], str]:
+        def callback(request: Any, response: Any) -> str:
             try:
                 return action(self._systems.get(name), request)
             finally:
                 self._publish()
 
-        @answered
-        def callback(node: Any, request: Any, response: Any) -> str:
-            return str(self.worker.do(lambda: work(request)))
-
-        return lambda request, response: callback(self, request, response)
+        return callback
 
     def _do_dissolve(self, name: str, why: str) -> str:
         system = self._systems.dissolve(name)
@@ -192,7 +185,7 @@ class CoordinatorNode(ParameterNode[CoordinatorParameters]):
         for robot in system.members:
             self._members.pop(robot).close()
         for service in self._offered.pop(name, []):
-            end_service(self, service, f"the system {name} is dissolved")
+            self._turns.end(service, f"the system {name} is dissolved")
         self._publish()
         if why:
             self.get_logger().info(f"system {name}: {why}")

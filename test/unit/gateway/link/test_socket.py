@@ -1,6 +1,7 @@
 from __future__ import annotations
 
 import asyncio
+import time
 from collections.abc import Awaitable, Callable, Coroutine
 from pathlib import Path
 from typing import Any
@@ -231,6 +232,28 @@ async def test_a_service_answers_by_request_and_is_called_once(stage: Stage) -> 
     ]
     assert side.records[0][2] == trigger(stage.lab)
     assert len(stage.lab.calls) == 2
+
+
+@scene
+async def test_what_waited_while_the_gateway_was_frozen_is_refused_but_a_pause(
+    stage: Stage,
+) -> None:
+    for name in ("play", "pause"):
+        stage.lab.serve(f"ur5e_1/{name}", TRIGGER, lambda request: {"success": True})
+    side = stage.side()
+    side.hello()
+    await side.welcome()
+    freezes = stage.gateway.app.state.link.freezes
+    freezes.look(time.monotonic() - 30.0)
+    side.call("ur5e_1/play", 1)
+    side.call("ur5e_1/pause", 2)
+    await side.until(lambda: len(side.records) == 2)
+    by_request = {about: (kind, about, data) for kind, about, data in side.records}
+    error = error_of(by_request[1])
+    assert error["code"] == "refused"
+    assert "web did not run for 30 s" in error["message"]
+    assert by_request[2][0] == RecordKind.RESPONSE
+    assert [key for key, *_ in stage.lab.calls] == ["ur5e_1/pause"]
 
 
 @scene
