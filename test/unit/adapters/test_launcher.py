@@ -18,21 +18,46 @@ found = signal.sigtimedwait({signal.SIGTERM}, float(sys.argv[1]))
 print("ends" if found else "goes on", flush=True)
 """
 LAUNCHER = """
-import os, signal, subprocess, sys
+import os, shlex, signal, subprocess, sys
 from mrlab_ros.adapters.launcher import LAUNCHER
-named = {"itself": str(os.getpid()), "another": "1"}.get(sys.argv[1])
+named = {"itself": str(os.getpid()), "another": sys.argv[5], "ended": "4194305"}.get(sys.argv[1])
 environment = {**os.environ, **({LAUNCHER: named} if named else {})}
-subprocess.Popen([sys.executable, "-c", sys.argv[2], sys.argv[3]], env=environment)
+words = [*shlex.split(sys.argv[4]), sys.executable, "-c", sys.argv[2], sys.argv[3]]
+subprocess.Popen(words, env=environment)
 signal.pause()
 """
 
 
+# A shell that stays between the two, as a terminal or a tracer does.
+STAYS = "sh -c '\"$@\"; exit' prefix"
+DETACHES = "setsid --fork"
+
+
+@pytest.fixture
+def another():
+    """The id of a process that is no ancestor of those of a launcher."""
+    process = subprocess.Popen(["sleep", "60"])
+    yield str(process.pid)
+    process.kill()
+    process.wait()
+
+
 @pytest.mark.parametrize(
-    ("named", "patience", "then"),
-    [("itself", "20", "ends"), ("another", "0.1", "goes on"), ("", "0.1", "goes on")],
+    ("named", "prefix", "patience", "then"),
+    [
+        ("itself", "", "20", "ends"),
+        ("itself", "nice -n 1", "20", "ends"),
+        ("itself", STAYS, "20", "ends"),
+        ("itself", DETACHES, "0.1", "goes on"),
+        ("another", "", "0.1", "goes on"),
+        ("ended", "", "20", "ends"),
+        ("", "", "0.1", "goes on"),
+    ],
 )
-def test_a_process_ends_with_the_launcher_that_named_itself(named, patience, then):
-    words = [sys.executable, "-c", LAUNCHER, named, CHILD, patience]
+def test_a_process_ends_with_the_launcher_that_named_itself(
+    named, prefix, patience, then, another
+):
+    words = [sys.executable, "-c", LAUNCHER, named, CHILD, patience, prefix, another]
     launcher = subprocess.Popen(words, stdout=subprocess.PIPE, text=True)
     assert launcher.stdout is not None
     assert launcher.stdout.readline() == "runs\n"
