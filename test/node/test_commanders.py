@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import time
 from collections.abc import Callable
+from types import SimpleNamespace
 from typing import Any
 
 import pytest
@@ -14,6 +15,7 @@ from control_msgs.action import FollowJointTrajectory
 from control_msgs.msg import JointTolerance
 from graph import Graph, wait_for
 from mrlab_msgs import msg
+from rcl_interfaces.msg import Log
 from rclpy.action import ActionClient
 from rclpy.action.client import ClientGoalHandle
 from rclpy.qos import QoSProfile
@@ -25,6 +27,7 @@ from trajectory_msgs.msg import JointTrajectory, JointTrajectoryPoint
 
 from mrlab_ros.core.freezes import Freezes
 from mrlab_ros.messages import qos
+from mrlab_ros.nodes.playback import commanders
 from mrlab_ros.ros import freezes
 
 Result = FollowJointTrajectory.Result
@@ -236,3 +239,42 @@ def test_a_stream_of_set_points_moves_the_robot(stage, reliability) -> None:
 
     wait_for(refused, "the refusal in the robot's state")
     wait_for(lambda: states.last().label == "PAUSED", "the end of the stream")
+
+
+def test_what_is_refused_again_and_again_is_logged_once_a_second(stage, monkeypatch) -> None:
+    graph, robot, model = stage
+    now = 100.0
+    monkeypatch.setattr(commanders, "time", SimpleNamespace(monotonic=lambda: now))
+    logged = graph.listen(Log, "/rosout", qos.LATCHED_EVENTS)
+    many = QoSProfile(depth=1000)
+    node, name = graph.client, f"/{robot}/joint"
+    commands = node.create_publisher(JointState, f"{name}_command", many)
+    trajectories = node.create_publisher(JointTrajectory, f"{name}_trajectory", many)
+    for publisher in (commands, trajectories):
+        wait_for(publisher.get_subscription_count, "the playback")
+    states = listen_state(graph, robot)
+
+    def said(words: str) -> int:
+        return sum(words in line.msg for line in list(logged))
+
+    def refuse() -> None:
+        """Send good and bad set-points in turn, and bad trajectories."""
+        for i in range(50):
+            commands.publish(JointState(position=(model.home + 0.001 * i).tolist()))
+            commands.publish(JointState(position=[99.0] * 6))
+            trajectories.publish(path(model, (1.0, 99.0)))
+
+    def refused_again() -> bool:
+        refuse()
+        return said("refuses a joint_trajectory") > 1
+
+    refuse()
+    wait_for(lambda: said("99 rad in the joint") and said("refuses a joint_traj"), "the warnings")
+    wait_for(lambda: "live" in {state.trajectory_id for state in states}, "the stream")
+    # A good trajectory is played when all before it were refused.
+    wait_for(lambda: states.last().label == "PAUSED", "the end of the stream")
+    trajectories.publish(path(model, (0.1, 0.05)))
+    wait_for(lambda: states.last().trajectory_id == "follow_joint_trajectory", "the motion")
+    assert said("99 rad in the joint command") == said("refuses a joint_trajectory") == 1
+    now += 1.5
+    wait_for(refused_again, "the next warning")

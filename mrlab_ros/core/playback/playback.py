@@ -291,7 +291,7 @@ class Playback:
                 self._refused_ns = now_ns
                 self._announce(f"refused: {error}")
             raise
-        if self._refused_ns:
+        if self._refused_ns and now_ns - self._refused_ns > REFUSAL_NS:
             self._refused_ns = 0
             self._announce(LIVE_MESSAGE)
         return begins

@@ -153,7 +153,7 @@ class BridgeNode(ParameterNode[BridgeParameters]):
         except Exception:
             # What fails because the context was shut down beneath it is no mistake.
             if self.context.ok():
-                self.get_logger().error(traceback.format_exc())
+                self.get_logger().error(traceback.format_exc(), throttle_duration_sec=1.0)
         return self._pace.wait(time.monotonic())
 
     def _check(self, thorough: bool) -> None:

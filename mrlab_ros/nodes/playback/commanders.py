@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import math
+import time
 from collections import deque
 from collections.abc import Callable
 from typing import Any
@@ -30,6 +32,8 @@ from mrlab_ros.ros.actions import GoalServer
 from mrlab_ros.ros.deadlines import Command, Player
 from mrlab_ros.ros.timers import every
 
+# Refusals of one kind are logged so far apart, s: a stream of thousands must not fill /rosout.
+WARNING_PERIOD_S = 1.0
 # How often feedback is sent and a goal's end is looked for, s.
 FEEDBACK_PERIOD_S = 0.05
 # Best effort takes what reliable publishers send, too.
@@ -65,6 +69,8 @@ class Commanders:
         self._timer: Timer | None = None
         # Changes of state that the goal's watch has not seen yet.
         self._statuses: deque[PlaybackStatus] = deque()
+        # By what is refused, when that was logged last, monotonic s.
+        self._warned: dict[str, float] = {}
         self._last_warning = ""
         self._server = GoalServer(
             node,
@@ -114,7 +120,7 @@ class Commanders:
             self._pursue(request.trajectory, bounds_from_goal(request))
         except LabError as error:
             code = error.code if isinstance(error, WrongGoal) else Code.INVALID_GOAL
-            self._warn(f"{self._robot} refuses a goal: {error}")
+            self._warn_seldom("goal", f"{self._robot} refuses a goal: {error}")
             self._finish(goal, Outcome(code, str(error)), "abort")
             return
         self._goal = goal
@@ -135,7 +141,8 @@ class Commanders:
             self._pursue(message, Bounds())
             self._pursuit = None  # nobody waits for its end
         except LabError as error:
-            self._warn(f"{self._robot} refuses a joint_trajectory: {error}")
+            said = f"{self._robot} refuses a joint_trajectory: {error}"
+            self._warn_seldom("joint_trajectory", said)
 
     def _on_set_point(self, message: JointState) -> None:
         begins, refused = False, ""
@@ -152,10 +159,21 @@ class Commanders:
             self._loaded(now_ns, trajectory)
         # The same refusal comes with every set-point; its numbers differ.
         kind = refused.split(":")[0]
-        if kind != self._last_warning:
+        if not refused:
+            self._last_warning = ""
+        elif kind != self._last_warning and self._warn_seldom(
+            "joint_command", f"{self._robot}: {refused}"
+        ):
             self._last_warning = kind
-            if refused:
-                self._warn(f"{self._robot}: {refused}")
+
+    def _warn_seldom(self, what: str, said: str) -> bool:
+        """Warn, unless the same was refused a moment ago; return whether it was said."""
+        now = time.monotonic()
+        if now - self._warned.get(what, -math.inf) < WARNING_PERIOD_S:
+            return False
+        self._warned[what] = now
+        self._warn(said)
+        return True
 
     def _watch(self) -> None:
         goal, pursuit, last = self._goal, self._pursuit, self._player.last

@@ -166,10 +166,23 @@ def test_a_jump_is_refused_and_the_stream_goes_on(stage: Stage) -> None:
     with pytest.raises(BadInput, match="jumps: shoulder_pan_joint by 1 rad"):
         stage.command(1.0)
     assert stage.playback.status().message.startswith("refused: the joint command jumps")
-    stage.stream([0.01 * i for i in range(10)])
+    # The refusal can be read for a second.
+    stage.stream([0.01 * i for i in range(52)])
     assert stage.playback.status().message == "follows joint commands"
     assert stage.playback.state is State.PLAYING
     assert stage.fastest() < 3.15
+
+
+def test_a_stream_with_a_jump_at_each_second_set_point_announces_few(stage: Stage) -> None:
+    stage.stream([0.0] * 10)
+    stage.playback.take_statuses()
+    for _ in range(1000):
+        with pytest.raises(BadInput, match="jumps"):
+            stage.command(1.0)
+        stage.stream([0.0], 0.002)
+    told = [status.message for status in stage.playback.take_statuses()]
+    assert len(told) <= 5, "two for each second of the stream"
+    assert told[0].startswith("refused: the joint command jumps")
 
 
 @pytest.mark.parametrize(
