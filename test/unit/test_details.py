@@ -25,7 +25,10 @@ from mesher import Mesh  # noqa: E402
 from pieces import Piece  # noqa: E402
 from relief import grooved, lined, places, screwed  # noqa: E402
 
+from mrlab_ros.adapters.robots.hulls import samples  # noqa: E402
+
 TABLES = sorted((ROOT / "scripts/robots/details").glob("*.yaml"))
+FOLDERS = sorted(path.parent for path in (ROOT / "robots").glob("*/robot.yaml"))
 
 
 def flat(count: int = 4) -> Piece:
@@ -151,6 +154,28 @@ def test_no_screw_stands_on_a_label(file: Path) -> None:
             off = places(screw, outwards) / details.MM - label["at"]
             across = np.linalg.norm(off - np.outer(off @ outwards, outwards), axis=1)
             assert across.min() > (label["height"] + screw["size"]) / 2, label
+
+
+@pytest.mark.parametrize("folder", FOLDERS, ids=lambda folder: folder.name)
+def test_no_hose_ends_in_mid_air(folder: Path) -> None:
+    figures = yaml.safe_load((folder / "robot.yaml").read_text())
+    clamps = details.table(folder.name).get("clamps", [])
+    root = figures["joints"][0]["parent"]
+    for hose in figures.get("hoses", []):
+        for end in hose["ends"]:
+            at = np.array(end["xyz"])
+            held = any(
+                clamp["link"] == end["link"] and np.allclose(at / details.MM, clamp["at"])
+                for clamp in clamps
+            )
+            if held or (end["link"] == root and at[2] == 0):  # in the surface it stands on
+                continue
+            surface = np.concatenate(
+                [mesh.vertices[mesh.faces]
+                 for _, mesh in glb.read(folder / "meshes" / f"{end['link']}.glb")]
+            )  # fmt: skip
+            away = np.linalg.norm(samples(surface, 0.005) - at, axis=1).min()
+            assert away < 1.34 * hose["radius"], end
 
 
 def test_markings_lie_on_their_links() -> None:
