@@ -28,7 +28,7 @@ from mrlab_ros.core.conversion.candidates import Candidate
 from mrlab_ros.core.conversion.explain import bad_message, contents
 from mrlab_ros.core.conversion.headings import split_tables
 from mrlab_ros.core.conversion.layout import Chosen, Layout, lay_out, pick, reshaped
-from mrlab_ros.core.conversion.measuring import fits
+from mrlab_ros.core.conversion.measuring import fits, is_coarse
 from mrlab_ros.core.conversion.options import DEFAULT_FRAME_RATE, MOST_ROWS, Options
 from mrlab_ros.core.conversion.preview import Preview, preview
 from mrlab_ros.core.conversion.stated import with_headings, with_statements
@@ -306,7 +306,8 @@ def _at_a_rate(
     if options.frame_rate and not options.resample:
         notes += _waypoints(variable.path, layout.arm, options.frame_rate, timed=False)
         return layout, options.frame_rate
-    assessment = survey.of(variable)
+    # what the options took of the matrix, in rad; with a column of time or in degrees all is far
+    assessment = replace(survey.of(variable), coarse=is_coarse(layout.arm))
     if layout.scale != 1.0:
         # a derivative in rad/s of positions in another unit says nothing of the rate
         assessment = replace(assessment, rates=())

@@ -40,6 +40,13 @@ def fits(variable: Variable, robot: RobotModel) -> bool:
     return variable.shape[1] - len(robot.joints) in (0, 1)
 
 
+def is_coarse(arm: NDArray[Any]) -> bool:
+    """Say whether the rows of joint positions, (N, J) rad, are waypoints rather than samples."""
+    near = arm[relations.busiest(arm, SMOOTH_ROWS)].astype(np.float64)
+    steps = np.abs(np.diff(near, axis=0))[:, np.ptp(near, axis=0) > 1e-6]
+    return bool(steps.size) and bool(np.median(steps, axis=0).max() > COARSE)
+
+
 def measured(
     variable: Variable, name: Name, robot: RobotModel, vectors: dict[int, list[Variable]]
 ) -> Assessment:
@@ -67,7 +74,6 @@ def measured(
     smooth = None
     if moving.any() and rows >= ENOUGH_ROWS:
         smooth = float((steps[:, moving].mean(axis=0) / span[moving]).mean()) <= ROUGH
-    usual = np.median(steps[:, moving], axis=0) if moving.any() else np.zeros(1)
     last_is_joint = False
     if columns > joints:
         last = values[:, joints]
@@ -77,7 +83,7 @@ def measured(
         base,
         unit=units.evidence(arm, low[:joints], high[:joints], robot, name.unit),
         unfilled=_unfilled(arm, steps),
-        coarse=bool(usual.max() > COARSE),
+        coarse=is_coarse(arm),
         still=not span.any(),
         smooth=smooth,
         between_zeros=_between_zeros(arm, span),

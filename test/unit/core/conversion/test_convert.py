@@ -295,6 +295,16 @@ def test_degrees_are_converted_when_declared_and_only_then():
     np.testing.assert_allclose(t.positions, q, atol=1e-15)
 
 
+@pytest.mark.parametrize(("unit", "turn"), [("", 1.0), ("deg", 180 / np.pi)])
+def test_times_in_milliseconds_beside_the_joints_are_no_seconds(unit, turn):
+    q = motion(rows=301)
+    values = np.column_stack([np.arange(301.0) * 10, q * turn])
+    result = convert(var("data", values), columns="2:7", units=unit)
+    assert result.trajectory is not None, result.message
+    assert result.trajectory.frame_rate == 100
+    assert "time_unit" in codes(result)
+
+
 def test_unwrap_removes_full_turns():
     q = motion(reach=1.5)
     jumped = q.copy()
