@@ -81,8 +81,16 @@ def published(
 ) -> Record:
     """Return the record with `version` as its next one, of which the newest `kept` stay.
 
-    record: what was there, deleted or not; None: nothing. The lab's own are always shared.
+    record: what was there, deleted or not; None: nothing. The lab's own are always shared. Raises
+    BadInput where what is there is another model's motion: its robot could not load it any more.
     """
+    if record is not None and not record.deleted_ns:
+        there, model = record.newest.head["robot_model"], version.head["robot_model"]
+        if there != model:
+            raise BadInput(
+                f"'{record.id}' is a trajectory of {there} already, and this one is for {model}; "
+                f"choose another name, such as {name.name}_{model}, or delete '{record.id}' first"
+            )
     before = record.versions if record is not None else ()
     number = before[-1].number + 1 if before else 1
     versions = (*before, replace(version, number=number))[-kept:]

@@ -10,8 +10,9 @@ from mrlab_ros.core.trajectory.record import Record, Version
 NAME = TrajectoryName("anna", "pick")
 
 
-def version(key="k", size=10, at=0, draft=""):
-    return Version(0, key, size, {"id": "pick", "frame_count": 2}, at, draft)
+def version(key="k", size=10, at=0, draft="", model="ur5e"):
+    head = {"id": "pick", "frame_count": 2, "robot_model": model}
+    return Version(0, key, size, head, at, draft)
 
 
 def made(*keys, kept=10, **more):
@@ -74,6 +75,15 @@ def test_versions_are_counted_and_the_oldest_go():
     assert record.version(3).key == "c"
     with pytest.raises(BadInput, match="no version 1; kept are: 2, 3, 4"):
         record.version(1)
+
+
+def test_a_motion_of_another_robot_takes_the_place_of_none_that_is_there():
+    record = made("a")
+    other = version("b", model="kr6")
+    with pytest.raises(BadInput, match="'anna/pick' is a trajectory of ur5e .* such as pick_kr6"):
+        records.published(record, NAME, other, shared=False, kept=10)
+    gone = records.deleted(record, 1)
+    assert records.published(gone, NAME, other, shared=False, kept=10).newest.key == "b"
 
 
 def test_who_sees_what():
