@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import shlex
 import sys
 import time
 from collections.abc import Callable
@@ -165,6 +166,7 @@ def _follow(
     last, received_at, began = None, time.monotonic(), False
     waiting, said = False, ""
     grown_at, known = received_at, 0
+    look = f"mrlab bag info {shlex.quote(bag)}"
     while True:
         state = watch.value
         if state is not last:
@@ -180,13 +182,13 @@ def _follow(
                     say(f"the recorder answers again; the recording goes on in {bag}")
                 began, waiting, said = True, False, state.message
             elif began and not state.message and gap < SILENCE / 2:
-                say(f"another client ended the recording; mrlab bag info {bag} says what it holds")
+                say(f"another client ended the recording; {look} says what it holds")
                 return
             elif began:
                 raise LabError(
                     state.message
                     or f"the recording into {bag} has ended: the recorder was restarted; "
-                    f"mrlab bag info {bag} shows what it holds"
+                    f"{look} shows what it holds"
                 )
         silent = time.monotonic() - received_at
         if silent > SILENCE and not began and state is not None and state.message:

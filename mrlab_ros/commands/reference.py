@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import shlex
 from pathlib import Path
 
 from mrlab_ros.adapters.bags.courses import Reference
@@ -20,7 +21,8 @@ def reference_of(file: Path, model: str) -> Reference:
     if result.trajectory is None:
         raise BadInput(
             f"the reference {file.name} is refused for {model}: {result.message.rstrip('.')}. "
-            f"Mend it, and name what this writes: mrlab convert {file} --robot {model} --out ."
+            "Mend it, and name what this writes: "
+            f"mrlab convert {shlex.quote(str(file))} --robot {model} --out ."
         )
     found = result.trajectory
     return Reference(file.name, model, ReferenceTrajectory(found.frame_rate, found.positions))

@@ -246,10 +246,10 @@ def test_a_compressed_file_alone_becomes_a_bag(tmp_path: Path, mode: Compression
 
 
 def test_a_foreign_bag_is_refused_with_what_it_holds(tmp_path: Path) -> None:
-    source = foreign(tmp_path / "foreign", StoragePlugin.SQLITE3)
+    source = foreign(tmp_path / "last week", StoragePlugin.SQLITE3)
     with pytest.raises(BadInput, match="no joint states of kuka_kr3_r540.*/joint_states: wrist_3"):
         run("bag", "import", source, tmp_path / "mine", "--robot", "kuka_kr3_r540")
-    with pytest.raises(BadInput, match=f"becomes one with: mrlab bag import {source} NEW"):
+    with pytest.raises(BadInput, match=f"becomes one with: mrlab bag import '{source}' NEW"):
         run("bag", "repair", source)
     (tmp_path / "no.db3").write_bytes(b"no database")
     (tmp_path / "cut.db3").write_bytes(b"SQLite format 3\0" + bytes(99))

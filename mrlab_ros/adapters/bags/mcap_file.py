@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import io
+import shlex
 import struct
 import zlib
 from collections.abc import Collection, Iterator
@@ -134,7 +135,7 @@ def open_file(path: Path) -> BagFile:
             if is_compressed(beginning):
                 raise BadInput(
                     f"{path} is compressed as a whole; a plain bag of it is made with: mrlab bag "
-                    f"import {path} NEW_FOLDER"
+                    f"import {shlex.quote(str(path))} NEW_FOLDER"
                 )
             if beginning != MCAP0_MAGIC:
                 raise BadInput(

@@ -7,6 +7,7 @@ installed definition, or else that of ROS 2 Jazzy.
 from __future__ import annotations
 
 import heapq
+import shlex
 import tempfile
 from collections.abc import Callable, Collection, Iterator
 from contextlib import ExitStack, contextmanager
@@ -177,12 +178,23 @@ def readable(path: Path) -> Iterator[None]:
         if "malformed" in str(error):
             raise BadInput(
                 f"{path} is damaged ({error}); bring back a copy, or read on with what is left: "
-                "sqlite3 FILE.db3 .recover | sqlite3 NEW.db3"
+                + _rescue(path)
             ) from None
         raise BadInput(
             f"{path} cannot be read as a ROS 2 bag ({error}); expected its folder with "
             "metadata.yaml, an MCAP file, or a .db3 file"
         ) from None
+
+
+def _rescue(path: Path) -> str:
+    """Return the command that copies what can be read of a damaged database to a new one.
+
+    sqlite3's own .recover finds nothing in a file that was cut off; .dump takes its changes back
+    where it met damage, so that ROLLBACK becomes COMMIT.
+    """
+    files = [path] if path.is_file() else sorted(path.glob("*.db3"), key=number_of)
+    name = shlex.quote(str(files[0])) if len(files) == 1 else "FILE.db3"
+    return f"sqlite3 {name} .dump | sed 's/^ROLLBACK.*/COMMIT;/' | sqlite3 NEW.db3"
 
 
 @contextmanager

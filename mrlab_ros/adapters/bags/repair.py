@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import fcntl
 import os
+import shlex
 from collections.abc import Iterator
 from contextlib import contextmanager, suppress
 from dataclasses import dataclass
@@ -73,7 +74,7 @@ def _repair(path: Path) -> Repaired:
     if not paths:
         raise BadInput(
             f"{path} holds no MCAP file, which alone is mended; a bag of another kind becomes one "
-            f"with: mrlab bag import {path} NEW_FOLDER"
+            f"with: mrlab bag import {shlex.quote(str(path))} NEW_FOLDER"
         )
     if any(map(is_being_written, paths)):
         raise Misuse(

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import shlex
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from pathlib import Path
@@ -92,7 +93,8 @@ def read(file: Path, scene: SceneDocument, named: str) -> tuple[SystemEntry, Sce
         if not named:
             raise Misuse(
                 f"{file.name} names robots, and not where they stand; add the scene with them: "
-                f"mrlab check {file} --scene handover, or put robots into the file"
+                f"mrlab check {shlex.quote(str(file))} --scene handover, or "
+                "put robots into the file"
             )
     if len(systems) != 1:
         names = ", ".join(system.name for system in systems) or "none"

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import shlex
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any
@@ -225,7 +226,7 @@ def paths_in(document: object, name: str) -> list[str]:
         raise BadInput(
             f"{name} names storage {storage} with compression "
             f"'{facts.get('compression_format') or 'none'}'; expected plain mcap, which is made "
-            f"with: mrlab bag import {name.rpartition('/')[0] or '.'} NEW_FOLDER"
+            f"with: mrlab bag import {shlex.quote(name.rpartition('/')[0] or '.')} NEW_FOLDER"
         )
     paths = facts.get("relative_file_paths")
     if not isinstance(paths, Sequence) or not all(isinstance(path, str) for path in paths):

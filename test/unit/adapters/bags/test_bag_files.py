@@ -6,6 +6,8 @@ import errno
 import fcntl
 import os
 import re
+import shutil
+import subprocess
 from pathlib import Path
 from typing import Any
 
@@ -152,6 +154,23 @@ def test_a_sqlite3_bag_is_read_from_anywhere_as_an_mcap_bag_is(tmp_path):
     assert other.newest_before(START_NS, ["/state"]) == []
     far = other.newest_before(START_NS + 10**18, ["/state", "/events"])
     assert [m.data for m in far] == [text("message 990"), text("message 999")]
+
+
+@pytest.mark.skipif(shutil.which("sqlite3") is None, reason="needs the sqlite3 command")
+def test_what_is_left_of_a_sqlite3_bag_is_read_by_the_command_that_its_message_names(tmp_path):
+    writer = begin(tmp_path / "class")
+    messages = fill(writer, 1000)
+    writer.close()
+    folder = as_sqlite(Bag(tmp_path / "class"), tmp_path / "last week")
+    (database,) = folder.glob("*.db3")
+    os.truncate(database, database.stat().st_size // 2)
+    with pytest.raises(BadInput, match="is damaged") as refused:
+        open_bag(folder, lambda _: DEFINITION)
+    command = str(refused.value).partition("what is left: ")[2]
+    subprocess.run(command, shell=True, check=True, cwd=tmp_path, capture_output=True)
+    left = list(open_bag(tmp_path / "NEW.db3", lambda _: DEFINITION).messages())
+    assert 100 < len(left) < len(messages)
+    assert [m.data for m in left] == [data for _, _, data in messages[: len(left)]]
 
 
 def test_the_newest_state_before_a_place_is_found_in_any_file(tmp_path):
