@@ -11,13 +11,16 @@ import yourdfpy
 from builtin_interfaces.msg import Time
 from graph import wait_for
 from mrlab_msgs import msg, srv
+from rcl_interfaces.msg import Log
 from sensor_msgs.msg import JointState
 from shape_msgs.msg import SolidPrimitive
 from std_msgs.msg import Header, String
 from tf2_msgs.msg import TFMessage
 from visualization_msgs.msg import Marker, MarkerArray
 
+from mrlab_ros.core.clock import SECOND
 from mrlab_ros.messages import qos
+from mrlab_ros.messages.time import time_from_message
 from mrlab_ros.nodes.frames.node import FramesNode
 from mrlab_ros.nodes.lab.node import LabNode
 
@@ -167,3 +170,20 @@ def test_objects_surfaces_contacts_and_robots_have_markers(stage):
         ),
         "the end of the halt",
     )
+
+
+def test_an_error_that_repeats_is_logged_once_a_second(stage):
+    robot = spawn(stage, model="ur5e")
+    logged = stage.listen(Log, "/rosout", qos.LATCHED_EVENTS)
+    fingers = stage.client.create_publisher(
+        JointState, f"/{robot.name}/finger_states", qos.LATCHED
+    )
+    wait_for(fingers.get_subscription_count, "the frames node")
+
+    def errors():
+        fingers.publish(JointState(name=["a finger without a position"]))
+        return [line for line in list(logged) if line.msg.startswith("frames:")]
+
+    wait_for(lambda: len(errors()) > 1, "two errors")
+    first, second = (time_from_message(line.stamp) for line in errors()[:2])
+    assert second - first > 0.9 * SECOND
