@@ -28,6 +28,8 @@ from websockets.exceptions import ConnectionClosed, InvalidStatus
 from websockets.sync.client import ClientConnection, connect
 
 from mrlab_ros.commands.up.web import opening_url
+from mrlab_ros.core.errors import BadInput, Unavailable
+from mrlab_ros.gateway.__main__ import WRONG_CONFIGURATION, serve, settings_of
 from mrlab_ros.gateway.people.database import FILE
 
 DEADLINE = 60.0
@@ -235,23 +237,33 @@ def test_it_ends_when_it_is_asked_to(own: Gateway, number: signal.Signals) -> No
     assert "ERROR" not in own.said
 
 
+def test_a_wrong_configuration_is_one_sentence(tmp_path: Path) -> None:
+    gateway = Gateway(tmp_path, "--oidc", "/nowhere.yaml")
+    assert gateway.process.wait(DEADLINE) == WRONG_CONFIGURATION
+    assert "/nowhere.yaml cannot be read" in gateway.said
+    assert gateway.said.count("\n") == 1
+
+
 @pytest.mark.parametrize(
-    ("options", "code", "words"),
+    ("options", "words"),
     [
-        (("--http", "0.0.0.0:0"), 78, "give the lab keys"),
-        (("--http", "127.0.0.1:port"), 78, "expected HOST:PORT"),
-        (("--allow-list", "/nowhere.yaml"), 78, "the allow-list /nowhere.yaml cannot be read"),
-        (("--keys", "/nowhere"), 78, "there is no file /nowhere/server.pem"),
-        (("--oidc", "/nowhere.yaml"), 78, "/nowhere.yaml cannot be read"),
+        (("--http", "0.0.0.0:0"), "give the lab keys"),
+        (("--http", "127.0.0.1:port"), "expected HOST:PORT"),
+        (("--allow-list", "/nowhere.yaml"), "the allow-list /nowhere.yaml cannot be read"),
+        (("--keys", "/nowhere"), "there is no file /nowhere/server.pem"),
+        (("--oidc", "/nowhere.yaml"), "/nowhere.yaml cannot be read"),
     ],
 )
-def test_a_wrong_configuration_is_one_sentence(
-    tmp_path: Path, options: tuple[str, ...], code: int, words: str
+def test_each_wrong_configuration_is_refused_for_good(
+    tmp_path: Path, options: tuple[str, ...], words: str
 ) -> None:
-    gateway = Gateway(tmp_path, *options)
-    assert gateway.process.wait(DEADLINE) == code
-    assert words in gateway.said
-    assert gateway.said.count("\n") == 1
+    given = {"--http": "127.0.0.1:0", "--state-dir": str(tmp_path), "--zenoh": free_endpoint()}
+    given.update([options])
+    with pytest.raises(BadInput, match=words) as refused:
+        serve(settings_of([word for option in given.items() for word in option]))
+    # A supervisor starts again what another program's port ends.
+    assert not isinstance(refused.value, Unavailable)
+    assert "\n" not in str(refused.value)
 
 
 def test_a_port_in_use_says_what_to_do(local: Gateway, tmp_path: Path) -> None:
