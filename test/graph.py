@@ -14,9 +14,11 @@ from mrlab_ros.ros.shared_memory import remove_abandoned
 from mrlab_ros.ros.spinning import SpunNode
 
 Value = TypeVar("Value")
+# Of what comes within a second on a machine with nothing else to do, s.
+TIMEOUT_S = 30.0
 
 
-def wait_for(condition: Callable[[], Value], what: str, timeout: float = 15.0) -> Value:
+def wait_for(condition: Callable[[], Value], what: str, timeout: float = TIMEOUT_S) -> Value:
     """Return the condition's first true value; fail the test after `timeout` s."""
     deadline = time.monotonic() + timeout
     while not (value := condition()):
@@ -55,7 +57,7 @@ class Graph:
         """Take a node of the lab out of the graph, as if its process had ended."""
         self._spun.pop(node).close()
 
-    def call(self, kind: Any, service: str, /, timeout: float = 15.0, **fields: Any) -> Any:
+    def call(self, kind: Any, service: str, /, timeout: float = TIMEOUT_S, **fields: Any) -> Any:
         """Call a service and return its answer."""
         client = self.client.create_client(kind, service)
         assert client.wait_for_service(timeout_sec=timeout), f"nobody offers {service}"

@@ -14,6 +14,8 @@ from mrlab_ros.gateway.link.frames import CALL, ENTRY, HEAD, NUMBER, ToClient, T
 from mrlab_ros.gateway.link.socket import PROTOCOL
 
 HOST = "localhost:8080"
+# Of a frame, or of the end of a socket, s.
+TIMEOUT_S = 30.0
 
 
 class Closed(Exception):
@@ -99,12 +101,12 @@ class LinkSide:
 
     async def ended(self) -> None:
         """Wait until the gateway has done with this socket."""
-        await asyncio.wait_for(asyncio.shield(self._task), 5)
+        await asyncio.wait_for(asyncio.shield(self._task), TIMEOUT_S)
 
     async def until(self, condition: Callable[[], Any]) -> Any:
         """Take frames until `condition` holds, and return it. Raises Closed."""
         while not (found := condition()):
-            self.take(await asyncio.wait_for(self._out.get(), 5))
+            self.take(await asyncio.wait_for(self._out.get(), TIMEOUT_S))
         return found
 
     async def settle(self) -> None:

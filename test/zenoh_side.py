@@ -42,7 +42,7 @@ def start_client(script, *arguments):
 
 def ask(session, key, payload=None):
     """Return a query's one answer as (payload, None) or (None, reason)."""
-    replies = list(session.get(key, payload=payload, timeout=10.0))
+    replies = list(session.get(key, payload=payload, timeout=30.0))
     assert len(replies) == 1, f"{len(replies)} answers on {key}"
     if replies[0].ok is None:
         return None, replies[0].err.payload.to_string()

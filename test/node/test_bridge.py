@@ -46,7 +46,7 @@ def test_a_stock_client_receives_the_frames(graph, bridge, session, endpoint):
     wait_for(lambda: heard(session, JOINTS), "the bridge to hear of the client")
     for i in range(5):
         publisher.publish(joints(0.125 * i))
-    out, err = watcher.communicate(timeout=30)
+    out, err = watcher.communicate(timeout=60)
     assert watcher.returncode == 0, err
     lines = out.splitlines()
     assert len(lines) == 5
@@ -113,7 +113,7 @@ def test_a_stock_client_reads_a_state(graph, bridge, session, endpoint, given):
     wait_for(lambda: list(session.get("robots")), "the state on zenoh")
     options = (*given, "--latched", "--count", "1")
     watcher = client(endpoint, "watch", "robots", "mrlab_msgs/msg/Robots", *options)
-    out, err = watcher.communicate(timeout=30)
+    out, err = watcher.communicate(timeout=60)
     assert watcher.returncode == 0, err
     assert "ur5e_1" in out
 
@@ -126,7 +126,7 @@ def test_a_stock_client_calls_a_service(graph, bridge, session, endpoint):
     graph.client.create_service(SetBool, "ur5e_1/set_loop", answer)
     wait_for(lambda: any("set_loop" in t for t in tokens(session)), "the service on zenoh")
     caller = client(endpoint, "call", "ur5e_1/set_loop", "std_srvs/srv/SetBool", "data=true")
-    out, err = caller.communicate(timeout=30)
+    out, err = caller.communicate(timeout=60)
     assert caller.returncode == 0, err
     assert "said yes" in out
 
@@ -396,6 +396,6 @@ def test_the_process_ends_when_asked_and_tells_what_it_carried(graph, endpoint, 
     with connect(endpoint) as session:
         wait_for(lambda: any("joint_states" in t for t in tokens(session)), "the topic on zenoh")
     process.send_signal(number)
-    rest, _ = process.communicate(timeout=20)
+    rest, _ = process.communicate(timeout=60)
     assert process.returncode == 0, rest
     assert re.search(r"carried \d+ messages and \d+ bytes over \d+ keys", rest)

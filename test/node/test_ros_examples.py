@@ -42,18 +42,21 @@ def test_the_action(graph: Graph, robot: str) -> None:
     done = run("follow_joint_trajectory.py", robot)
     assert done.returncode == 0, done.stderr
     assert f"{robot}: Goal successfully reached!" in done.stdout
-    assert "COMPLETE" in labels(states)
+    wait_for(lambda: "COMPLETE" in labels(states), "the end")
 
 
 def test_the_stream(graph: Graph, robot: str) -> None:
     states = listen_state(graph, robot)
     joints = graph.listen(JointState, f"/{robot}/joint_states", qos.STREAM)
+    sent = graph.listen(JointState, f"/{robot}/joint_command", qos.STREAM)
     done = run("joint_command.py", robot, "1.2")
     assert done.returncode == 0, done.stderr
     wait_for(lambda: labels(states)[-1:] == ["PAUSED"], "the end of the stream")
     assert "refused" not in " ".join(state.message for state in states)
-    ways = np.array([message.position for message in joints])
-    assert np.ptp(ways[:, 0]) == pytest.approx(0.3, abs=0.03)
+    asked, moved = (np.ptp([each.position[0] for each in inbox]) for inbox in (sent, joints))
+    # A busy machine sends few of the set-points, and the furthest may be missing.
+    assert 0.1 < asked < 0.301
+    assert moved == pytest.approx(asked, abs=0.03)
 
 
 # What the ROS Toolbox offers, as far as the script uses it, for Octave.

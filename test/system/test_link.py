@@ -179,11 +179,13 @@ def gateway_process(lab: ServedLab) -> psutil.Process:
     """Return the gateway of a lab: who listens on its port."""
     port = int(lab.url.rpartition(":")[2])
     for process in psutil.process_iter(["cmdline"]):
-        if "mrlab_ros.gateway" in (process.info["cmdline"] or []) and any(
-            connection.status == psutil.CONN_LISTEN and connection.laddr.port == port
-            for connection in process.net_connections()
-        ):
-            return process
+        # A gateway of another test may end at any instant.
+        with contextlib.suppress(psutil.NoSuchProcess):
+            if "mrlab_ros.gateway" in (process.info["cmdline"] or []) and any(
+                connection.status == psutil.CONN_LISTEN and connection.laddr.port == port
+                for connection in process.net_connections()
+            ):
+                return process
     raise AssertionError(f"nobody listens on {port}")
 
 

@@ -183,6 +183,14 @@ def test_a_recording_is_ended_from_another_terminal(lab: None, tmp_path: Path) -
     assert (tmp_path / "second.bag" / "metadata.yaml").is_file()
 
 
+def wait_until_at(positions: np.ndarray[Any, Any], samples: list[Any]) -> None:
+    """Wait for the joint states of a robot that has come to `positions`."""
+    wait_for(
+        lambda: samples and np.allclose(samples[-1].positions, positions, atol=1e-9),
+        "the last frame",
+    )
+
+
 def test_the_python_api_drives_a_robot(lab: None, tmp_path: Path) -> None:
     scipy.io.savemat(tmp_path / "api.mat", {"q": np.degrees(motion()), "fs": RATE})
     with Lab() as lab_:
@@ -198,16 +206,11 @@ def test_the_python_api_drives_a_robot(lab: None, tmp_path: Path) -> None:
         robot.watch(samples.append)
         run = robot.play(found, speed=4.0)
         assert run.wait(DEADLINE)
-        np.testing.assert_allclose(samples[-1].positions, motion()[-1], atol=1e-9)
+        wait_until_at(motion()[-1], samples)
         run = robot.play(speed=0.1)
         robot.stop()
         with pytest.raises(Misuse, match="ended before its last frame: stopped"):
             run.wait(DEADLINE)
-
-
-def wait_until_at(positions: np.ndarray[Any, Any], samples: list[Any]) -> None:
-    """Wait for the joint states of a robot that has come to `positions`."""
-    wait_for(lambda: np.allclose(samples[-1].positions, positions, atol=1e-9), "the last frame")
 
 
 def test_a_file_that_changed_is_played_anew_under_its_name(lab: None, tmp_path: Path) -> None:
