@@ -225,6 +225,14 @@ KINDS: dict[str, Kind] = {
         "Save one row a sample and one column a joint{pick}.",
         (("", "", "size({name})"),),
     ),
+    "recorded_states": Kind(
+        ERROR,
+        "A bag holds joint states, one message an instant: a recording, no trajectory.",
+        "'{variable}' holds joint states, one message an instant: a recording, no trajectory.",
+        "Play it as it was recorded, with mrlab replay BAG --robot {robot}, or look at it with "
+        "mrlab show BAG --robot {robot}; BAG is the folder or the file.",
+        (("", "", "save('traj.mat', 'q')"),),
+    ),
     "transforms": Kind(
         ERROR,
         "An array holds 4 x 4 transforms: poses of a tool or a body, no joint positions.",

@@ -20,7 +20,7 @@ from mrlab_ros.core.conversion.options import columns_text
 from mrlab_ros.core.conversion.scoring import FEW_ROWS
 from mrlab_ros.core.conversion.survey import Survey
 from mrlab_ros.core.conversion.variable_names import Hint
-from mrlab_ros.core.conversion.workspace import Variable, Workspace
+from mrlab_ros.core.conversion.workspace import JOINT_STATE, Variable, Workspace
 from mrlab_ros.core.diagnostics import Diagnostic, Fix, finding
 from mrlab_ros.core.robots.model import RobotModel
 
@@ -84,7 +84,11 @@ def refusal(survey: Survey, file: str) -> Diagnostic:
     misses: list[tuple[int, Diagnostic]] = []
     for v in workspace.variables:
         rank = ranks.get(survey.name(v).hint, 9)
-        if rank == 9 or not (v.is_message or not re.search(r"[({]\d", v.path)):
+        if (
+            rank == 9
+            or v.kind == JOINT_STATE
+            or not (v.is_message or not re.search(r"[({]\d", v.path))
+        ):
             continue
         miss = near_miss(v, survey)
         if miss is not None:
@@ -117,7 +121,14 @@ def refusal(survey: Survey, file: str) -> Diagnostic:
     poses = next((v for v in workspace.variables if is_transforms(v.values)), None)
     if poses is not None and not survey.fitting:
         return _transforms(poses)
+    recorded = next((v for v in workspace.variables if v.kind == JOINT_STATE), None)
+    if recorded is not None and not survey.fitting:
+        return _recorded(recorded, survey)
     return no_trajectory(survey, file)
+
+
+def _recorded(variable: Variable, survey: Survey) -> Diagnostic:
+    return finding("recorded_states", variable=variable.path, robot=survey.robot.id)
 
 
 def _states(survey: Survey) -> Diagnostic | None:
@@ -213,6 +224,8 @@ def near_miss(variable: Variable, survey: Survey) -> Diagnostic | None:
     named = survey.name(variable).hint is Hint.POSITIONS
     if variable.is_message and variable.note:
         return bad_message(variable, variable.note)
+    if variable.kind == JOINT_STATE:
+        return _recorded(variable, survey)
     if variable.values is not None and (wrong := misnamed(variable, robot)) is not None:
         return wrong
     if len(shape) < 2 or variable.is_object or variable.kind in ("struct", "cell", "char"):

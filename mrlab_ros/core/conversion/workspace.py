@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 JOINT_TRAJECTORY = "trajectory_msgs/msg/JointTrajectory"
+JOINT_STATE = "sensor_msgs/msg/JointState"
 
 
 @dataclass(frozen=True, eq=False)

@@ -305,6 +305,14 @@ def test_times_in_milliseconds_beside_the_joints_are_no_seconds(unit, turn):
     assert "time_unit" in codes(result)
 
 
+@pytest.mark.parametrize("named", ["", "/joint_states"])
+def test_recorded_joint_states_are_said_to_be_replayed(named):
+    states = Variable("/joint_states", "sensor_msgs/msg/JointState")
+    result = convert(var("/tf", kind="tf2_msgs/msg/TFMessage"), states, variable=named)
+    assert result.diagnostics[0].code == "recorded_states"
+    assert "mrlab replay BAG --robot fake" in result.diagnostics[0].remedy
+
+
 def test_unwrap_removes_full_turns():
     q = motion(reach=1.5)
     jumped = q.copy()

@@ -75,6 +75,7 @@ EXAMPLES = {
     "inside_container": Example([var(f"q{i + 1}", Q[:, i]) for i in range(6)]),
     "pieces_differ": Example([var(f"q{i + 1}", Q[: ROWS - i, i]) for i in range(6)]),
     "wrong_shape": Example([var("log", np.column_stack([T, Q, DQ]))]),
+    "recorded_states": Example([Variable("/joint_states", "sensor_msgs/msg/JointState", ())]),
     "transforms": Example(
         [Variable("T", "double", (4, 4, 60), corpus.poses(Q[:60]).transpose(1, 2, 0))]
     ),
