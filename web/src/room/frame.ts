@@ -37,6 +37,7 @@ export class Frame {
     room.objects.update(now)
     if (room.follower.pose(Math.min(ahead, MOST_AHEAD_S))) room.stage.invalidate()
     if (room.drawings.update()) room.stage.invalidate()
+    room.stage.lightAbout(room.robots.handles.values())
     room.scene.update()
     room.overlays.setPicked(room.creation.picked)
     room.overlays.update(room.settings.still.value ? 0 : now)
@@ -46,7 +47,6 @@ export class Frame {
     if (room.people.update(now, step)) room.stage.invalidate()
     room.panels.update(now, step)
     room.systems.update(now, step)
-    room.stage.lightAbout(room.robots.handles.values())
     if (room.stage.draw(now)) room.frames++
     room.frameMs = performance.now() - began
     room.stats.frame(now, room.frameMs)

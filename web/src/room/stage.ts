@@ -20,13 +20,15 @@ import { XREstimatedLight } from 'three/examples/jsm/webxr/XREstimatedLight.js'
 import { Floor } from '../scene/floor'
 import { NoWebGL } from '../scene/renderer'
 import type { SceneHost } from '../scene/scene_host'
+import { ShadowFit } from '../scene/shadow_fit'
 import { onTheme, type SceneTheme, themeNow } from '../scene/theme'
 import { Occlusion } from './depth/occlusion'
 import { stand } from './frames'
 
 /** m above the floor, of the eyes of the desktop view. */
 const EYES = 1.6
-const SHADOW = 1.6 // m, half of what the shadow covers
+const SHADOW = 1.6 // m, half of what the shadow covers at least
+const SUN = new Vector3(1.2, 3.2, 1.4)
 /** s */
 const STILL_PERIOD = 0.5
 const LONGEST_PAUSE = 0.4
@@ -55,6 +57,7 @@ export class RoomStage implements SceneHost {
   theme: SceneTheme = themeNow()
   private readonly floor = new Floor()
   private readonly sun = new DirectionalLight(0xffffff, 1.6)
+  readonly shadow = new ShadowFit(this.sun, SUN)
   private readonly shadowFloor = new Mesh(
     new CircleGeometry(6, 48),
     new ShadowMaterial({ color: 0x0a1420, opacity: 0.35 }),
@@ -139,6 +142,7 @@ export class RoomStage implements SceneHost {
     this.stirred = false
     this.drawnAt = now
     this.occlusion.update(now)
+    this.shadow.apply()
     this.renderer.render(this.scene, this.camera)
     return true
   }
@@ -178,9 +182,7 @@ export class RoomStage implements SceneHost {
     }
     if (count === 0) return
     place.divideScalar(count)
-    this.sun.target.position.copy(place)
-    this.sun.position.set(place.x + 1.2, place.y + 3.2, place.z + 1.4)
-    this.sun.target.updateMatrixWorld()
+    this.shadow.about(place, SHADOW)
   }
 
   dispose(): void {
@@ -239,13 +241,7 @@ export class RoomStage implements SceneHost {
     const { shadow } = this.sun
     this.sun.castShadow = true
     shadow.mapSize.set(1024, 1024)
-    shadow.bias = -0.0003
-    shadow.normalBias = 0.016
     shadow.radius = 5
-    shadow.camera.left = shadow.camera.bottom = -SHADOW
-    shadow.camera.right = shadow.camera.top = SHADOW
-    shadow.camera.near = 0.1
-    shadow.camera.far = 8
     this.scene.add(new HemisphereLight(0xffffff, 0x8895a5, 0.2), this.sun, this.sun.target)
   }
 }

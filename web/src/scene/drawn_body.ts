@@ -1,10 +1,11 @@
-import { Matrix4, type Mesh, type Object3D, type Vector3 } from 'three'
+import { Box3, Matrix4, type Mesh, type Object3D, type Vector3 } from 'three'
 import { pushCorners } from './corners'
 import { FadingLevels } from './fading_levels'
 import type { Hose } from './hose'
 import { type HoseDetail, hoseMesh } from './hose_mesh'
 import type { Looks } from './looks'
 import { atlasOf, detach, type Part, partsBelow, RobotBody } from './robot_body'
+import type { ShadowFit } from './shadow_fit'
 
 /** m beyond a robot's reach from its base, from where on it is drawn with few triangles. */
 const FAR = 3
@@ -14,6 +15,8 @@ const HYSTERESIS = 0.08
 const FADE = 0.25
 const NEAR_HOSE = { sides: 10, ribbed: true }
 const FAR_HOSE = { sides: 6, ribbed: false }
+
+const part = new Box3()
 
 export type Look = 'own' | 'grey' | 'ghost'
 
@@ -75,6 +78,28 @@ export class DrawnBody {
     for (const body of this.bodies) body.follow()
   }
 
+  /** Return how high its highest point is, m in the scene; -Infinity until it is drawn. */
+  top(): number {
+    return this.bodies[0]?.top() ?? Number.NEGATIVE_INFINITY
+  }
+
+  /** Let a shadow cover the links where they are now. */
+  castInto(shadow: ShadowFit): void {
+    this.bodies[0]?.castInto(shadow)
+  }
+
+  /** Return how wide the links are together that are `meant`, across the robot's axis, m. */
+  widthOf(meant: (link: Object3D) => boolean): number {
+    const all = new Box3()
+    const [body] = this.bodies
+    body?.boxes.forEach((box, i) => {
+      const link = body.skeleton.bones[i]
+      if (link === undefined || box.isEmpty() || !meant(link)) return
+      all.union(part.copy(box).applyMatrix4(toRoot(link, this.root)))
+    })
+    return all.isEmpty() ? 0 : Math.max(all.max.x - all.min.x, all.max.y - all.min.y)
+  }
+
   paint(look: Look, failing: string): void {
     const { looks } = this
     this.look = look
@@ -108,6 +133,11 @@ export class DrawnBody {
     pushCorners(body, this.root, corners)
     return Math.max(0, ...corners.map((corner) => corner.length()))
   }
+}
+
+/** Return the frame of a link in that of its robot. */
+function toRoot(link: Object3D, root: Object3D): Matrix4 {
+  return root.matrixWorld.clone().invert().multiply(link.matrixWorld)
 }
 
 /** Return the parts that can be drawn with one atlas, that of the first one which has any. */

@@ -10,6 +10,8 @@ import {
 import type { SceneTheme } from './theme'
 
 const RADIUS = 9 // m; the lines have faded before
+const USUAL = 0.17 // m, width of a small robot's foot
+const SOFT = 0.25 // m, how much wider a patch is
 
 const VERTEX = `
 varying vec2 place;
@@ -40,8 +42,9 @@ void main() {
 const BLOB = `
 varying vec2 place;
 uniform float strength;
+uniform float dark;
 void main() {
-  float near = 1.0 - smoothstep(0.1, 1.0, length(place) * 2.0);
+  float near = 1.0 - smoothstep(dark, 1.0, length(place) * 2.0);
   gl_FragColor = vec4(0.0, 0.0, 0.0, near * near * strength);
 }`
 
@@ -93,17 +96,34 @@ export class Floor {
 }
 
 /** A soft dark patch where something stands on the floor: it joins the two. */
-export function contactPatch(diameter: number): Mesh<PlaneGeometry, ShaderMaterial> {
-  const material = new ShaderMaterial({
-    vertexShader: VERTEX,
-    fragmentShader: BLOB,
-    uniforms: { strength: { value: 0.45 } },
-    transparent: true,
-    depthWrite: false,
-    toneMapped: false,
-  })
-  const patch = new Mesh(new PlaneGeometry(1, 1), material)
-  patch.scale.set(diameter, diameter, 1)
-  patch.position.z = 0.0005
-  return patch
+export class ContactPatch extends Mesh<PlaneGeometry, ShaderMaterial> {
+  constructor() {
+    const material = new ShaderMaterial({
+      vertexShader: VERTEX,
+      fragmentShader: BLOB,
+      uniforms: { strength: { value: 0.45 }, dark: { value: 0 } },
+      transparent: true,
+      depthWrite: false,
+      toneMapped: false,
+    })
+    super(new PlaneGeometry(1, 1), material)
+    this.position.z = 0.0005
+    this.fit(USUAL)
+  }
+
+  /** Fit it to what stands there. width: of its foot, m. */
+  fit(width: number): void {
+    const diameter = width + SOFT
+    this.scale.set(diameter, diameter, 1)
+    const dark = this.material.uniforms.dark
+    // from within the foot on, so that its edge lies in the shade
+    if (dark) dark.value = Math.max(0, width - SOFT / 2) / diameter
+  }
+
+  /** Free it, and take it out of the picture. */
+  release(): void {
+    this.removeFromParent()
+    this.geometry.dispose()
+    this.material.dispose()
+  }
 }

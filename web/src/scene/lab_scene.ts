@@ -1,14 +1,7 @@
-import {
-  Group,
-  type Mesh,
-  type Object3D,
-  type PlaneGeometry,
-  type ShaderMaterial,
-  type Vector3,
-} from 'three'
+import { Group, type Object3D, type Vector3 } from 'three'
 import { Contacts } from './contacts'
 import { pushCorners } from './corners'
-import { contactPatch } from './floor'
+import { ContactPatch } from './floor'
 import { GraspMarks, type ShownTarget } from './grasp_marks'
 import { LabObjects, type ShownObject } from './lab_objects'
 import { Label } from './labels'
@@ -22,8 +15,7 @@ import type { SceneTheme } from './theme'
 
 const NAME = 0.021 // of a label, as a part of the distance to it
 const NAME_PROJECTED = 0.036 // readable at 8 m
-const ABOVE = 0.16 // m, of a label over the highest joint
-const PATCH = 0.42 // m
+const ABOVE = 0.07 // m, of a label over a robot
 
 /** A robot of the scene: the fields of mrlab_msgs/msg/Robot that are drawn, and its URDF. */
 export interface ShownRobot {
@@ -38,7 +30,7 @@ interface Entry {
   robot: SceneRobot
   urdf: string
   readonly joints: readonly string[]
-  readonly patch: Mesh<PlaneGeometry, ShaderMaterial>
+  readonly patch: ContactPatch
   readonly marks: GraspMarks
   targets: readonly ShownTarget[]
   label: Label | null
@@ -203,7 +195,8 @@ export class LabScene {
   update(): void {
     this.stage.world.updateMatrixWorld(true)
     this.objects.follow()
-    for (const { robot, label } of this.robots.values()) {
+    for (const { base, robot, label } of this.robots.values()) {
+      if (base.visible) robot.castInto(this.stage.shadow)
       if (label !== null) label.sprite.position.z = robot.height() + ABOVE
     }
   }
@@ -220,7 +213,7 @@ export class LabScene {
     this.stage.world.updateMatrixWorld(true)
     for (const { base, robot } of this.robots.values()) {
       into.push(base.position.clone())
-      into.push(base.position.clone().setZ(base.position.z + robot.height() + 2 * ABOVE))
+      into.push(base.position.clone().setZ(base.position.z + robot.height() + 3 * ABOVE))
       pushCorners(base, this.stage.world, into)
     }
   }
@@ -242,7 +235,7 @@ export class LabScene {
     const changed = () => this.stage.invalidate()
     const robot = new SceneRobot(shown.urdf, shown.joint_names, this.meshes, this.looks, changed)
     const base = new Group()
-    const patch = contactPatch(PATCH)
+    const patch = new ContactPatch()
     const marks = new GraspMarks()
     base.add(robot.root, patch, marks.group)
     this.stage.world.add(base)
@@ -265,6 +258,7 @@ export class LabScene {
       if (this.robots.get(shown.name) !== entry) return
       for (const sentence of robot.troubles) this.troubles.add(sentence)
       if (robot.troubles.length > 0) this.onTrouble()
+      patch.fit(robot.footprint())
       this.frame()
     })
     return entry
@@ -275,8 +269,7 @@ export class LabScene {
     entry.robot.dispose()
     entry.label?.dispose()
     entry.marks.dispose()
-    entry.patch.geometry.dispose()
-    entry.patch.material.dispose()
+    entry.patch.release()
     entry.base.removeFromParent()
   }
 

@@ -2,7 +2,7 @@ import { Vector3 } from 'three'
 import type { Course } from '../playback/course'
 import type { MotionDocument, MotionFinding } from '../playback/motion'
 import { pushCorners } from './corners'
-import { contactPatch } from './floor'
+import { ContactPatch } from './floor'
 import { Label } from './labels'
 import { Looks } from './looks'
 import type { MeshSource } from './meshes'
@@ -34,7 +34,7 @@ export class PreviewScene {
   private readonly markers: Marker[] = []
   private readonly ends: readonly Label[]
   private readonly looks = new Looks()
-  private readonly patch = contactPatch(0.42)
+  private readonly patch = new ContactPatch()
   private readonly positions: Float64Array
   private readonly undo: (() => void)[] = []
   private chosen = 0
@@ -98,6 +98,7 @@ export class PreviewScene {
     )
 
     this.ready = Promise.all([this.robot, ...this.ghosts].map((one) => one.ready)).then(() => {
+      this.patch.fit(this.robot.footprint())
       this.fit(track)
     })
     this.fit(track)
@@ -165,8 +166,7 @@ export class PreviewScene {
     for (const { label } of this.markers) label.dispose()
     for (const label of this.ends) label.dispose()
     this.path.dispose()
-    this.patch.geometry.dispose()
-    this.patch.material.dispose()
+    this.patch.release()
     this.looks.dispose()
   }
 

@@ -17,6 +17,7 @@ import { Hose } from './hose'
 import { hosesOf, type Level, levelsOf } from './levels'
 import type { Looks } from './looks'
 import type { MeshSource } from './meshes'
+import type { ShadowFit } from './shadow_fit'
 
 const PLACEHOLDER = 0.09 // m, edge of the box that stands for a missing mesh
 const ONE = new Vector3(1, 1, 1)
@@ -179,15 +180,25 @@ export class SceneRobot {
     return new Chain(joints, between)
   }
 
-  /** Return how high above its base the highest joint is, m, as it was last drawn. */
+  /** Return how high above its base its body or a joint is, m, as it was last drawn. */
   height(): number {
-    let highest = 0
     const base = this.root.matrixWorld.elements[13] as number
+    let highest = Math.max(0, this.body.top() - base)
     for (const { joint } of this.movables.values()) {
       // the scene's y is the world's z
       highest = Math.max(highest, (joint.matrixWorld.elements[13] as number) - base)
     }
     return highest
+  }
+
+  /** Let a shadow cover it where it is now. */
+  castInto(shadow: ShadowFit): void {
+    this.body.castInto(shadow)
+  }
+
+  /** Return how wide the part of it is that no joint moves, m; 0 until it is drawn. */
+  footprint(): number {
+    return this.body.widthOf((link) => stands(link, this.root))
   }
 
   /** Return the link that a joint moves; empty where there is no such joint. */
@@ -310,6 +321,8 @@ export class SceneRobot {
   /** Draw the links as one mesh from now on, and from afar as one of few triangles. */
   private merge(levels: readonly Level[], meshes: MeshSource): void {
     if (this.disposed) return
+    // one that collided while it was loaded is painted: its body is made of what it looks like else
+    for (const [mesh, material] of this.own) mesh.material = material
     this.body.merge()
     this.settleBody()
     if (levels.length === 0) return
@@ -378,6 +391,16 @@ function linkAbove(object: Object3D): Object3D | null {
     if ('isURDFLink' in node || 'isURDFRobot' in node) return node
   }
   return null
+}
+
+/** Return whether a link is fixed to the base of its robot. */
+function stands(link: Object3D, root: Object3D): boolean {
+  for (let node: Object3D | null = link; node !== null; node = node.parent) {
+    if (node === root) return true
+    const { jointType } = node as URDFJoint
+    if (jointType !== undefined && jointType !== 'fixed') return false
+  }
+  return false
 }
 
 /** Return whether an object or what is below it can be drawn. */

@@ -15,9 +15,11 @@ import {
   type Object3D,
   Skeleton,
   SkinnedMesh,
+  Sphere,
   type Texture,
   Vector3,
 } from 'three'
+import type { ShadowFit } from './shadow_fit'
 
 /** Of a mesh that says nothing of its surface. */
 const ROUGH = 0.6
@@ -52,6 +54,7 @@ export interface Part {
 export class RobotBody extends SkinnedMesh<BufferGeometry, Material | Material[]> {
   /** The box about the part of each link, in the link's frame. */
   readonly boxes: readonly Box3[]
+  private readonly balls: readonly Sphere[]
   private readonly ranges = new Map<string, { readonly start: number; readonly count: number }>()
 
   private constructor(
@@ -67,6 +70,7 @@ export class RobotBody extends SkinnedMesh<BufferGeometry, Material | Material[]
     super(geometry, own)
     this.name = 'body'
     this.boxes = boxesOf(geometry, links.length)
+    this.balls = this.boxes.map((box) => box.getBoundingSphere(new Sphere()))
     let start = 0
     for (const { mesh, link } of ordered) {
       const count = mesh.geometry.index?.count ?? mesh.geometry.getAttribute('position').count
@@ -105,6 +109,35 @@ export class RobotBody extends SkinnedMesh<BufferGeometry, Material | Material[]
   /** Its links have moved. */
   follow(): void {
     ;(this.skeleton as Links).moved = true
+  }
+
+  /** Let a shadow cover its links where they are now. */
+  castInto(shadow: ShadowFit): void {
+    const { balls, skeleton } = this
+    for (let i = 0; i < balls.length; i++) {
+      const { center, radius } = balls[i] as Sphere
+      if (radius < 0) continue
+      point.copy(center).applyMatrix4((skeleton.bones[i] as Bone).matrixWorld)
+      shadow.take(point, radius)
+    }
+  }
+
+  /** Return how high its highest point is at most, m in the scene, whose y is up. */
+  top(): number {
+    const { boxes, skeleton } = this
+    let highest = Number.NEGATIVE_INFINITY
+    for (let i = 0; i < boxes.length; i++) {
+      const { min, max } = boxes[i] as Box3
+      if (max.x < min.x) continue
+      const { elements } = (skeleton.bones[i] as Bone).matrixWorld
+      const x = elements[1] as number
+      const y = elements[5] as number
+      const z = elements[9] as number
+      const across = x * (x > 0 ? max.x : min.x) + y * (y > 0 ? max.y : min.y)
+      const here = (elements[13] as number) + across + z * (z > 0 ? max.z : min.z)
+      highest = Math.max(highest, here)
+    }
+    return highest
   }
 
   /** Draw it with a material; `failing` names a link that gets another one. */

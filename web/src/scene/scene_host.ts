@@ -1,4 +1,5 @@
 import type { Object3D, Vector3 } from 'three'
+import type { ShadowFit } from './shadow_fit'
 import type { SceneTheme } from './theme'
 
 /** Where a lab is drawn: a page's picture, or the room. */
@@ -6,6 +7,7 @@ export interface SceneHost {
   /** The lab's frame `world`: z up, m. */
   readonly world: Object3D
   readonly theme: SceneTheme
+  readonly shadow: ShadowFit
   onTheme(listener: (theme: SceneTheme) => void): () => void
   /** Ask for a new picture. */
   invalidate(): void

@@ -17,6 +17,7 @@ import { OrbitControls } from 'three/examples/jsm/controls/OrbitControls.js'
 import { RoomEnvironment } from 'three/examples/jsm/environments/RoomEnvironment.js'
 import { Floor } from './floor'
 import { drawsInSoftware, matt, rendererOn } from './renderer'
+import { ShadowFit } from './shadow_fit'
 import { onTheme, reducedMotion, type SceneTheme, themeNow } from './theme'
 
 const MOST_PIXEL_RATIO = 2
@@ -28,7 +29,8 @@ const LONGEST_WAIT = 0.3 // s
 const STANDS = 0.4 // s without a new picture
 // From the front right and a little above, in ROS axes: as the pictures of the robots are taken.
 const VIEW = new Vector3(1.05, -1.0, 0.62).normalize()
-const LIGHT = new Vector3(0.55, -0.75, 1.5).normalize()
+const LIGHT = new Vector3(0.55, 1.5, 0.75).normalize() // in the scene's axes
+const SHADOW = 1.25 // half of what the shadow covers, radii of what is shown
 const MARGIN = 1.08 // of the distance at which everything just fits
 const TURN = Math.PI / 24 // rad, a press of an arrow key
 
@@ -49,6 +51,7 @@ export class Stage {
   private readonly controls: OrbitControls
   private readonly floor = new Floor()
   private readonly sun = new DirectionalLight(0xffffff, 1.7)
+  readonly shadow = new ShadowFit(this.sun, LIGHT)
   private readonly listeners = new Set<FrameListener>()
   private readonly themed = new Set<(theme: SceneTheme) => void>()
   private readonly undo: (() => void)[] = []
@@ -147,7 +150,7 @@ export class Stage {
       .setFromPoints(this.framed)
       .getBoundingSphere(new Sphere())
     this.floor.setReach(Math.max(radius, 0.1) * 5)
-    this.lightFor(center, Math.max(radius, 0.1))
+    this.shadow.about(center, Math.max(radius, 0.1) * SHADOW)
     if (!this.touched || again) {
       this.touched = false
       this.place()
@@ -183,6 +186,7 @@ export class Stage {
   /** Return the picture as it is now, a data: URL. */
   picture(): string {
     for (const listener of this.listeners) listener(performance.now() / 1000)
+    this.shadow.apply()
     this.renderer.render(this.scene, this.camera)
     return this.canvas.toDataURL()
   }
@@ -210,6 +214,7 @@ export class Stage {
     this.controls.update()
     this.adapt(now)
     if (this.scene.environment === null) this.scene.traverse(matt)
+    this.shadow.apply()
     this.renderer.render(this.scene, this.camera)
     this.drawn++
     if (more) this.invalidate()
@@ -332,7 +337,7 @@ export class Stage {
       this.sun.shadow.mapSize.set(1024, 1024)
       this.sun.intensity = 2.4
       const fill = new DirectionalLight(0xffffff, 0.9)
-      fill.position.set(-LIGHT.x, LIGHT.z * 0.35, LIGHT.y)
+      fill.position.set(-LIGHT.x, LIGHT.y * 0.35, -LIGHT.z)
       this.scene.add(new HemisphereLight(0xffffff, 0x9aa4b0, 1.7), fill)
     } else {
       const generator = new PMREMGenerator(this.renderer)
@@ -343,26 +348,8 @@ export class Stage {
       this.sun.shadow.mapSize.set(2048, 2048)
       this.scene.add(new HemisphereLight(0xffffff, 0x8895a5, 0.2))
     }
-    this.sun.shadow.bias = -0.0002
-    this.sun.shadow.normalBias = 0.008
     this.sun.shadow.radius = 6
     this.scene.add(this.sun, this.sun.target)
-  }
-
-  /** Fit the shadow to a sphere, in the scene's frame. */
-  private lightFor(centre: Vector3, radius: number): void {
-    const { camera } = this.sun.shadow
-    const reach = radius * 1.25
-    camera.left = camera.bottom = -reach
-    camera.right = camera.top = reach
-    camera.near = 0.05
-    camera.far = radius * 6
-    camera.updateProjectionMatrix()
-    this.sun.position
-      .set(LIGHT.x, LIGHT.z, -LIGHT.y)
-      .multiplyScalar(radius * 3)
-      .add(centre)
-    this.sun.target.position.copy(centre)
   }
 
   private setTheme(theme: SceneTheme): void {

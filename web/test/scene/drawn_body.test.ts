@@ -62,7 +62,12 @@ function packed(corners: number): Group {
   return whole
 }
 
-async function robot(beside: string, files: Record<string, () => Object3D>, still = true) {
+async function robot(
+  beside: string,
+  files: Record<string, () => Object3D>,
+  still = true,
+  before: (arm: SceneRobot) => void = () => undefined,
+) {
   const asked: string[] = []
   const load = (uri: string) => {
     asked.push(uri.slice('package://p/r/'.length))
@@ -77,6 +82,7 @@ async function robot(beside: string, files: Record<string, () => Object3D>, stil
     pictures++
   }
   const arm = new SceneRobot(urdf(beside), ['turn'], source, looks, changed)
+  before(arm)
   await arm.ready
   // the far level comes after what is seen nearby
   await new Promise((resolve) => setTimeout(resolve))
@@ -111,6 +117,33 @@ describe('levels of detail', () => {
       if (node instanceof Mesh && !(node instanceof RobotBody)) apart.push(node)
     })
     expect(apart.map(({ material }) => (material as MeshStandardMaterial).map)).toEqual([second])
+  })
+
+  test('one that collides while it is loaded keeps what is drawn on it, and its colours', async () => {
+    const atlas = new Texture()
+    atlas.userData.white = [0.5, 0.25]
+    const near = packed(6)
+    near.traverse((node) => {
+      if (node instanceof Mesh) node.material.map = atlas
+    })
+    const plate = `<link name="plate"><visual><geometry>
+      <mesh filename="package://p/r/plates/plate.glb"/></geometry></visual></link>
+      <joint name="screws" type="fixed"><parent link="arm"/><child link="plate"/></joint>`
+    const red = () => new Mesh(new BoxGeometry(), new MeshStandardMaterial({ color: 0xff0000 }))
+    const files = { 'lod/near.glb': () => near, 'plates/plate.glb': red }
+    const { arm, bodies } = await robot(LEVEL + plate, files, true, (arm) =>
+      arm.setLook('grey', 'arm'),
+    )
+    const [body] = bodies as [RobotBody]
+    expect(body.own.map).toBe(atlas)
+    const colour = body.geometry.getAttribute('color')
+    const colours = Array.from({ length: colour.count }, (_, i) =>
+      [colour.getX(i), colour.getY(i), colour.getZ(i)].join(),
+    )
+    expect(new Set(colours)).toEqual(new Set(['0.25,0.25,0.25', '1,0,0']))
+    expect(body.material).not.toBe(body.own)
+    arm.setLook('own')
+    expect(body.material).toBe(body.own)
   })
 
   test('packed files stand for the meshes of the links, near at hand and from afar', async () => {
@@ -241,6 +274,20 @@ describe('levels of detail', () => {
     const positions = (body?: RobotBody) => body?.geometry.getAttribute('position').count
     const spheres = 2 * new SphereGeometry(0.2, 4, 4).getAttribute('position').count
     expect(positions(bodies[1])).toBe(spheres + corners)
+  })
+
+  test('its height and its foot are those of what is drawn', async () => {
+    const files = { 'lod/near.glb': () => packed(12), 'lod/far.glb': () => packed(4) }
+    const { arm } = await robot(LEVEL, files)
+    // as in a scene, whose y is up
+    arm.root.rotation.x = -Math.PI / 2
+    arm.root.position.y = 2
+    arm.root.updateMatrix()
+    arm.root.updateMatrixWorld(true)
+    expect(arm.height()).toBeCloseTo(0.7)
+    expect(arm.footprint()).toBeCloseTo(0.4, 1)
+    const { arm: missing } = await robot('', {})
+    expect(missing.footprint()).toBe(0)
   })
 
   test('a description without any names none', () => {
