@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable
 
 from mrlab_msgs import msg
 
@@ -60,13 +60,9 @@ def systems_to_message(
     )
 
 
-def member_to_message(
-    robot: str, trajectory_id: str = "", dwell: float = 0.0, waits: Sequence[str] = ()
-) -> msg.SystemMember:
-    """Return a member as a request to create a system names it. dwell: s."""
-    return msg.SystemMember(
-        robot=robot, trajectory_id=trajectory_id, dwell=dwell, waits=list(waits)
-    )
+def member_to_message(robot: str, trajectory_id: str) -> msg.SystemMember:
+    """Return a member that waits for nothing, as a request to create a system names it."""
+    return msg.SystemMember(robot=robot, trajectory_id=trajectory_id)
 
 
 def member_from_message(message: msg.SystemMember) -> Member:

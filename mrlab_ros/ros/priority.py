@@ -16,7 +16,7 @@ REALTIME = 10
 NICE = -10
 
 
-def take_precedence(realtime: int = REALTIME, nice: int = NICE) -> str:
+def take_precedence(realtime: int = REALTIME) -> str:
     """Raise the calling thread's priority as far as permitted; return in words what it has.
 
     What the thread starts has ordinary priority again.
@@ -25,8 +25,8 @@ def take_precedence(realtime: int = REALTIME, nice: int = NICE) -> str:
         os.sched_setscheduler(0, os.SCHED_RR | os.SCHED_RESET_ON_FORK, os.sched_param(realtime))
         return f"SCHED_RR {realtime}"
     with contextlib.suppress(OSError):
-        os.setpriority(os.PRIO_PROCESS, threading.get_native_id(), nice)
-        return f"nice {nice}"
+        os.setpriority(os.PRIO_PROCESS, threading.get_native_id(), NICE)
+        return f"nice {NICE}"
     return (
         "ordinary priority: neither SCHED_RR (ulimit -r) nor a nice level (ulimit -e) is permitted"
     )

@@ -22,9 +22,9 @@ class Apart:
     row: int
 
 
-def sampled(times: Array, values: Array, count: int = SAMPLES) -> tuple[Array, Array]:
-    """Return `count` instants, s, evenly over a motion, and its (count, D) values there."""
-    instants = np.linspace(times[0], times[-1], count)
+def sampled(times: Array, values: Array) -> tuple[Array, Array]:
+    """Return SAMPLES instants, s, evenly over a motion, and its (SAMPLES, D) values there."""
+    instants = np.linspace(times[0], times[-1], SAMPLES)
     columns = [np.interp(instants, times, column) for column in values.T]
     return instants, np.stack(columns, axis=1)
 

@@ -85,7 +85,6 @@ def preview_motion(
     verdict: str = "refused",
     frame_rate: float = DEFAULT_FRAME_RATE,
     diagnostics: Sequence[Diagnostic] = (),
-    sha256: str = "",
 ) -> dict[str, Any] | None:
     """Return the document of some rows of a matrix that was not taken, or None.
 
@@ -108,7 +107,7 @@ def preview_motion(
         "velocities": None,
         "effort_proxies": None,
         "findings": findings(diagnostics),
-        "source": asdict(Source(file, preview.variable, sha256)),
+        "source": asdict(Source(file, preview.variable, "")),
     }
 
 

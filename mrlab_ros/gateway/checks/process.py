@@ -24,9 +24,6 @@ log = logging.getLogger("mrlab.gateway")
 class CheckProcess:
     """Checks by `mrlab_ros.adapters.checking.in_lab`."""
 
-    def __init__(self, patience: float = PATIENCE_S) -> None:
-        self._patience = patience
-
     async def check(self, task: Task) -> Mapping[str, Any]:
         command = (sys.executable, "-m", "mrlab_ros.adapters.checking.in_lab")
         process = await asyncio.create_subprocess_exec(
@@ -34,11 +31,11 @@ class CheckProcess:
         )
         try:
             said, problems = await asyncio.wait_for(
-                process.communicate(pickle.dumps(task)), self._patience
+                process.communicate(pickle.dumps(task)), PATIENCE_S
             )
         except asyncio.TimeoutError:
             raise Unavailable(
-                f"the check took longer than {self._patience:.0f} s, because this machine is busy "
+                f"the check took longer than {PATIENCE_S:.0f} s, because this machine is busy "
                 "or the motion is long; pause what plays and check again"
             ) from None
         finally:

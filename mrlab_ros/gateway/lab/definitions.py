@@ -151,10 +151,10 @@ def installed_definitions() -> Definitions:
     return Definitions(texts_of(folder))
 
 
-def texts_of(folder: Path, package: str = PACKAGE) -> dict[str, str]:
-    """Return the definitions in a package's folder with msg/ and srv/: type name -> text."""
+def texts_of(folder: Path) -> dict[str, str]:
+    """Return the definitions in PACKAGE's folder with msg/ and srv/: type name -> text."""
     return {
-        f"{package}/{kind}/{file.stem}": file.read_text()
+        f"{PACKAGE}/{kind}/{file.stem}": file.read_text()
         for kind in ("msg", "srv")
         for file in sorted(folder.glob(f"{kind}/*.{kind}"))
         if file.is_file()  # a link may be left of a type that is no more

@@ -58,9 +58,9 @@ class Fetches:
     Robots that load the same trajectory one after another share its matrices.
     """
 
-    def __init__(self, fetch: Callable[[str], Trajectory], most: int = MOST_LOADS) -> None:
+    def __init__(self, fetch: Callable[[str], Trajectory]) -> None:
         self._fetch = fetch
-        self._slots = threading.BoundedSemaphore(most)
+        self._slots = threading.BoundedSemaphore(MOST_LOADS)
         self._lock = threading.Lock()
         self._same: weakref.WeakValueDictionary[str, _Turn] = weakref.WeakValueDictionary()
 
