@@ -27,9 +27,10 @@ from mrlab_ros.core.conversion.assessment import Assessment
 from mrlab_ros.core.conversion.candidates import Candidate
 from mrlab_ros.core.conversion.explain import bad_message, contents
 from mrlab_ros.core.conversion.headings import split_tables
-from mrlab_ros.core.conversion.layout import Chosen, Layout, lay_out, pick, reshaped
+from mrlab_ros.core.conversion.layout import Layout, lay_out
 from mrlab_ros.core.conversion.measuring import fits, is_coarse
 from mrlab_ros.core.conversion.options import DEFAULT_FRAME_RATE, MOST_ROWS, Options
+from mrlab_ros.core.conversion.picking import Chosen, pick, reshaped
 from mrlab_ros.core.conversion.preview import Preview, preview
 from mrlab_ros.core.conversion.stated import with_headings, with_statements
 from mrlab_ros.core.conversion.survey import Survey, survey

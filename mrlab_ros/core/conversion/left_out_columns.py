@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from mrlab_ros.core.conversion import cartesian, relations
-from mrlab_ros.core.conversion.layout import Chosen
+from mrlab_ros.core.conversion.picking import Chosen
 from mrlab_ros.core.diagnostics import Diagnostic, finding
 from mrlab_ros.core.robots.model import RobotModel
 
