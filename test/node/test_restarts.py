@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 import small_lab
+from builtin_interfaces.msg import Duration
 from graph import Graph, wait_for
 from mrlab_msgs import msg, srv
 from sensor_msgs.msg import JointState
@@ -19,6 +20,7 @@ from small_lab import (
     state_of,
 )
 from std_srvs.srv import SetBool, Trigger
+from trajectory_msgs.msg import JointTrajectory, JointTrajectoryPoint
 
 from mrlab_ros.messages import qos
 from mrlab_ros.nodes.coordinator.node import CoordinatorNode
@@ -112,6 +114,29 @@ def test_a_robot_whose_trajectory_is_gone_stands_idle(graph, lab, folder, monkey
     graph.add(PlaybackHostNode, state_dir=folder)
     wait_for(lambda: states.last().label == "IDLE", "the end")
     load(graph, robot, "long")
+
+
+def test_a_robot_that_followed_a_goal_stands_where_it_was(graph, lab, folder):
+    robot = spawn(graph)
+    states = listen_state(graph, robot)
+    joints = graph.listen(JointState, f"/{robot}/joint_states", qos.STREAM)
+    model = small_lab.LIBRARY.model("ur5e")
+    publisher = graph.client.create_publisher(
+        JointTrajectory, f"/{robot}/joint_trajectory", qos.EVENTS
+    )
+    wait_for(publisher.get_subscription_count, "the playback")
+    there = (model.home + 0.1).tolist()
+    point = JointTrajectoryPoint(positions=there, time_from_start=Duration(nanosec=10**9 // 2))
+    publisher.publish(JointTrajectory(joint_names=list(model.joint_names), points=[point]))
+    wait_for(lambda: "COMPLETE" in labels(states), "the end of the goal")
+    graph.drop(lab.host)
+    joints.clear()
+    lab.host = graph.add(PlaybackHostNode, state_dir=folder)
+    (lost,) = wait_for(lambda: lab.host.lost, "a word on the goal")
+    assert f"{robot} stands where it was: the goal" in lost
+    wait_for(lambda: joints, "joint states")
+    assert all(list(state.position) == pytest.approx(there) for state in list(joints))
+    assert states.last().label == "IDLE"
 
 
 def test_a_restarted_coordinator_has_its_systems_again(graph, lab, folder):

@@ -161,6 +161,13 @@ class PlaybackNode(Node):
         return announced or self.playback.moving
 
     def _do_come_back(self, kept: Kept) -> str:
+        if not kept.version:
+            # It was in no catalogue.
+            self._back = None
+            return (
+                f"{self.robot} stands where it was: the goal or the stream of joint commands that "
+                "it followed ended with its process; send it again"
+            )
         deadline = time.monotonic() + RETURN_TIMEOUT_S
         while True:
             try:
