@@ -33,6 +33,7 @@ from mrlab_ros.core.bridge.links import check_endpoints
 from mrlab_ros.core.errors import BadInput
 from mrlab_ros.core.naming import did_you_mean
 from mrlab_ros.processes import physics_support
+from mrlab_ros.processes.child import WRONG_CONFIGURATION
 from mrlab_ros.processes.lab import (
     HOST_EXECUTABLE,
     LabProcess,
@@ -41,7 +42,6 @@ from mrlab_ros.processes.lab import (
     robot_models,
 )
 from mrlab_ros.processes.options import LabOptions, new_lab_id
-from mrlab_ros.processes.supervisor import WRONG_CONFIGURATION
 from mrlab_ros.ros import share
 
 # A process that ends is started again after this time, s, and at most so many times; one that

@@ -6,8 +6,8 @@ import subprocess
 import sys
 from typing import Any
 
+from mrlab_ros.processes.child import guarded
 from mrlab_ros.processes.lab import HOST_MODULE
-from mrlab_ros.processes.supervisor import guarded
 
 HOST = (sys.executable, "-m", HOST_MODULE)
 

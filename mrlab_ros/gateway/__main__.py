@@ -30,7 +30,7 @@ LARGEST_FRAME = 4 * 1024 * 1024
 
 def main() -> None:
     """Serve; a wrong configuration is one sentence and exit code 78."""
-    # A supervisor starts its processes with SIGINT blocked, see processes/supervisor.py.
+    # A supervisor starts its processes with SIGINT blocked, see processes/child.py.
     signal.signal(signal.SIGINT, signal.SIG_DFL)
     signal.pthread_sigmask(signal.SIG_UNBLOCK, {signal.SIGINT})
     end_with_launcher()

@@ -14,8 +14,8 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from mrlab_ros.core.errors import BadInput
+from mrlab_ros.processes.child import ProcessSpec
 from mrlab_ros.processes.options import LabOptions
-from mrlab_ros.processes.supervisor import ProcessSpec
 from mrlab_ros.processes.web import GatewayProcess
 
 # The module that runs the nodes of a process, and its name as a ROS executable.

@@ -15,9 +15,9 @@ import rclpy.utilities
 from rclpy.node import Node
 
 from mrlab_ros.core.errors import BadInput, LabError, Unavailable
+from mrlab_ros.processes.child import RESTARTS, WRONG_CONFIGURATION
 from mrlab_ros.processes.lab import NODES, PROCESSES
 from mrlab_ros.processes.stand_aside import StandAside
-from mrlab_ros.processes.supervisor import RESTARTS, WRONG_CONFIGURATION
 from mrlab_ros.processes.watcher import Watcher
 from mrlab_ros.ros import freezes
 from mrlab_ros.ros.parameters import WrongParameters

@@ -13,7 +13,7 @@ from pathlib import Path
 from typing import IO, Any
 
 from mrlab_ros.core.errors import Misuse
-from mrlab_ros.processes.supervisor import ProcessState
+from mrlab_ros.processes.child import ProcessState
 
 # `mrlab status` holds the lock for a moment; a claim retries for this long, s.
 CLAIM_TIMEOUT_S = 0.2

@@ -14,7 +14,7 @@ from rclpy.node import Node
 from mrlab_ros.core.watch import PERIOD_S, Sign, Watch
 from mrlab_ros.messages import qos
 from mrlab_ros.messages.diagnostics import living_in, signs_to_message
-from mrlab_ros.processes.supervisor import LAST_EXIT, RESTARTS
+from mrlab_ros.processes.child import LAST_EXIT, RESTARTS
 from mrlab_ros.ros.spinning import SpunNode
 from mrlab_ros.ros.timers import every
 

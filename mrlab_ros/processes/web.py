@@ -10,8 +10,8 @@ from typing import TYPE_CHECKING
 from urllib.parse import urlsplit
 
 from mrlab_ros.core.bridge.links import from_here
+from mrlab_ros.processes.child import ProcessSpec
 from mrlab_ros.processes.options import LabOptions
-from mrlab_ros.processes.supervisor import ProcessSpec
 
 if TYPE_CHECKING:
     import ssl

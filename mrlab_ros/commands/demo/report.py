@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any
 from mrlab_ros.commands.up.speaker import COLOURS
 from mrlab_ros.commands.up.web import opening_url
 from mrlab_ros.core.errors import LabError
-from mrlab_ros.processes.supervisor import SELF
+from mrlab_ros.processes.child import SELF
 
 if TYPE_CHECKING:
     from rich.console import Console

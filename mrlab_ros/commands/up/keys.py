@@ -8,7 +8,7 @@ from collections.abc import Callable
 from pathlib import Path
 
 from mrlab_ros.core.errors import BadInput
-from mrlab_ros.processes.supervisor import SELF
+from mrlab_ros.processes.child import SELF
 
 LISTEN = "tcp/127.0.0.1:7447"
 # Period at which a lab checks whether its keys have changed, s.

@@ -11,12 +11,13 @@ from mrlab_ros.commands.up.keys import follow_keys, keys_changed_at, tell_when_k
 from mrlab_ros.commands.up.refusals import Refusals
 from mrlab_ros.commands.up.speaker import Speaker
 from mrlab_ros.commands.up.web import run_facts, say_where
+from mrlab_ros.processes.child import SELF, ProcessState
 from mrlab_ros.processes.lab import lab_nodes, lab_processes
 from mrlab_ros.processes.options import LabOptions
 from mrlab_ros.processes.parameter_file import parameter
 from mrlab_ros.processes.readiness import READY_TIMEOUT_S, wait_until_complete
 from mrlab_ros.processes.run_file import RunFile
-from mrlab_ros.processes.supervisor import SELF, ProcessState, Supervisor
+from mrlab_ros.processes.supervisor import Supervisor
 from mrlab_ros.processes.web import gateway_answers
 
 

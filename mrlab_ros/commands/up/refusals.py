@@ -6,7 +6,7 @@ import threading
 from collections.abc import Iterable
 
 from mrlab_ros.core.errors import BadInput
-from mrlab_ros.processes.supervisor import Phase, ProcessState
+from mrlab_ros.processes.child import Phase, ProcessState
 
 
 class Refusals:

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from mrlab_ros.processes.child import SELF
 from mrlab_ros.processes.lab import PROCESSES
-from mrlab_ros.processes.supervisor import SELF
 
 if TYPE_CHECKING:
     from rich.console import Console

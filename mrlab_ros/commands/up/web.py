@@ -12,8 +12,8 @@ from pathlib import Path
 from typing import Any
 
 from mrlab_ros.core.errors import BadInput
+from mrlab_ros.processes.child import SELF
 from mrlab_ros.processes.options import LabOptions, WebOptions
-from mrlab_ros.processes.supervisor import SELF
 from mrlab_ros.processes.web import web_address
 
 HTTP = "127.0.0.1:8080"

@@ -6,7 +6,7 @@ import pytest
 
 from mrlab_ros.commands.up.refusals import Refusals
 from mrlab_ros.core.errors import BadInput
-from mrlab_ros.processes.supervisor import Phase, ProcessState
+from mrlab_ros.processes.child import Phase, ProcessState
 
 
 def state(name, phase, restarts=0):

@@ -23,6 +23,7 @@ from mrlab_ros.core.bridge.access import Login
 from mrlab_ros.core.errors import BadInput
 from mrlab_ros.gateway.__main__ import settings_of
 from mrlab_ros.processes import physics_support
+from mrlab_ros.processes.child import WRONG_CONFIGURATION
 from mrlab_ros.processes.lab import (
     NODES,
     PROCESSES,
@@ -32,7 +33,6 @@ from mrlab_ros.processes.lab import (
     robot_models,
 )
 from mrlab_ros.processes.options import LabOptions, WebOptions
-from mrlab_ros.processes.supervisor import WRONG_CONFIGURATION
 from mrlab_ros.processes.web import web_address, zenoh_endpoint
 
 ROOT = Path(__file__).parents[3]

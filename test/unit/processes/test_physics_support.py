@@ -12,7 +12,7 @@ import pytest
 from mrlab_ros.adapters.bullet import support
 from mrlab_ros.core.errors import BadInput
 from mrlab_ros.processes import physics_support
-from mrlab_ros.processes.supervisor import WRONG_CONFIGURATION
+from mrlab_ros.processes.child import WRONG_CONFIGURATION
 
 # An interpreter that finds everything but pybullet.
 WITHOUT = """

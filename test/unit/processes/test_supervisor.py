@@ -15,15 +15,15 @@ import psutil
 import pytest
 
 from mrlab_ros.core.errors import Misuse
-from mrlab_ros.processes.run_file import RunFile
-from mrlab_ros.processes.supervisor import (
+from mrlab_ros.processes.child import (
     RESTARTS,
     WRONG_CONFIGURATION,
     ProcessSpec,
     RestartPolicy,
-    Supervisor,
     describe_exit,
 )
+from mrlab_ros.processes.run_file import RunFile
+from mrlab_ros.processes.supervisor import Supervisor
 
 DEADLINE = 20.0
 
@@ -290,7 +290,8 @@ class TestSupervisor:
     def test_no_orphan_when_the_supervisor_is_killed(self, tmp_path: Path) -> None:
         code = f"""
             import sys, time
-            from mrlab_ros.processes.supervisor import ProcessSpec, Supervisor
+            from mrlab_ros.processes.child import ProcessSpec
+            from mrlab_ros.processes.supervisor import Supervisor
             argv = (sys.executable, "-u", "-S", "-c", {textwrap.dedent(STUBBORN)!r})
             specs = [ProcessSpec("a", argv), ProcessSpec("b", argv)]
             ups = []

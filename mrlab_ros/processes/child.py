@@ -1,0 +1,290 @@
+"""One process that is kept running: its start, its output, its restarts with back-off.
+
+Should the supervisor be killed, the kernel kills its children: each is started through a few
+lines of Python that ask for that (PR_SET_PDEATHSIG) and then become the real program. A hook
+between fork and exec would do the same, but is unsafe beside threads.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import os
+import signal
+import subprocess
+import sys
+import threading
+import time
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field
+from enum import Enum
+from typing import IO
+
+from mrlab_ros.core.repeated_lines import RepeatedLines
+
+FIRST_DELAY_S = 0.1
+LONGEST_DELAY_S = 10.0
+STABLE_AFTER_S = 10.0
+# The last lines of an ended process are read in this time, s.
+READ_TIMEOUT_S = 1.0
+# The name of the supervisor's own lines.
+SELF = "mrlab"
+# What zenoh's own lines contain.
+ZENOH = "zenoh"
+
+# Runs as: python -I -S -c GUARDED <pid of the supervisor> <1: unblock SIGINT> program argument...
+# It starts with SIGINT blocked: a stop at this moment must not print a traceback. The death signal
+# is tied to the thread that forked: Child's own thread, which lives as long.
+GUARDED = """
+import ctypes, os, signal, sys
+ctypes.CDLL(None).prctl(1, signal.SIGKILL)
+signal.signal(signal.SIGINT, signal.SIG_DFL)
+if sys.argv[2] == "1":
+    signal.pthread_sigmask(signal.SIG_UNBLOCK, {signal.SIGINT})
+if os.getppid() == int(sys.argv[1]):
+    os.execvp(sys.argv[3], sys.argv[3:])
+"""
+
+
+def guarded(argv: tuple[str, ...], *, unblock_sigint: bool = True) -> tuple[str, ...]:
+    """Return the command that runs `argv` until its end or that of the thread that starts it."""
+    unblock = "1" if unblock_sigint else "0"
+    return (sys.executable, "-I", "-S", "-c", GUARDED, str(os.getpid()), unblock, *argv)
+
+
+@dataclass(frozen=True)
+class ProcessSpec:
+    """A process to keep: a short name, its command, and what it adds to the environment.
+
+    unblocks_sigint: the program is started with SIGINT blocked and unblocks it once it has decided
+    what SIGINT does. Python would otherwise answer a SIGINT during its start with a traceback.
+    """
+
+    name: str
+    argv: tuple[str, ...]
+    env: Mapping[str, str] = field(default_factory=dict)
+    unblocks_sigint: bool = False
+
+
+# The environment variable with the number of restarts of a process so far.
+RESTARTS = "MRLAB_RESTARTS"
+# That with how it ended the last time; empty before the first end.
+LAST_EXIT = "MRLAB_LAST_EXIT"
+# EX_CONFIG of sysexits.h: the configuration is wrong, so a restart would end the same way.
+WRONG_CONFIGURATION = 78
+
+
+class RestartPolicy:
+    """Decides how long to wait before a process that ended is started again.
+
+    Delays double from `first` to `longest` (s); a process that ran for `stable` (s) resets them.
+    """
+
+    def __init__(
+        self,
+        first: float = FIRST_DELAY_S,
+        longest: float = LONGEST_DELAY_S,
+        stable: float = STABLE_AFTER_S,
+    ) -> None:
+        self._first, self._longest, self._stable = first, longest, stable
+        self._next = first
+        self._started = 0.0
+
+    def started(self, now: float) -> None:
+        """Note that the process was started at `now` (s)."""
+        self._started = now
+
+    def ended(self, now: float) -> float:
+        """Return the delay, s, after which a process that ended at `now` (s) starts again."""
+        if now - self._started >= self._stable:
+            self._next = self._first
+        delay = self._next
+        self._next = min(2 * delay, self._longest)
+        return delay
+
+
+class Phase(Enum):
+    """The phase of a supervised process."""
+
+    STARTING = "starting"
+    RUNNING = "running"
+    WAITING = "waiting to restart"
+    REFUSED = "wrong configuration"
+    STOPPED = "stopped"
+
+
+@dataclass(frozen=True)
+class ProcessState:
+    """One supervised process as `mrlab status` shows it; since: s of wall time."""
+
+    name: str
+    phase: str
+    pid: int | None
+    restarts: int
+    since: float
+    last_exit: str
+
+
+def describe_exit(code: int) -> str:
+    """Describe how a process ended; negative codes are signals."""
+    if code == WRONG_CONFIGURATION:
+        return "wrong configuration"
+    if code >= 0:
+        return f"exit code {code}"
+    try:
+        return signal.Signals(-code).name
+    except ValueError:
+        return f"signal {-code}"
+
+
+def _why_not(error: OSError) -> str:
+    if isinstance(error, FileNotFoundError):
+        return (
+            f"there is no {error.filename}; if the lab's folder was moved, stop this lab and set "
+            "it up where it is now: make demo"
+        )
+    return str(error)
+
+
+Emit = Callable[[str, str], None]
+
+
+class Child:
+    """One process, kept by a thread of its own; its output goes line by line to `emit`."""
+
+    def __init__(
+        self, spec: ProcessSpec, policy: RestartPolicy, emit: Emit, changed: Callable[[], None]
+    ) -> None:
+        self.spec = spec
+        self._policy, self._emit, self._changed = policy, emit, changed
+        self._phase, self._since = Phase.STARTING, time.time()
+        self._restarts, self._last_exit = 0, ""
+        self._process: subprocess.Popen[bytes] | None = None
+        # Guards _process: while it is set, its process group exists and belongs to this child.
+        self._lock = threading.Lock()
+        self._stop = threading.Event()
+        # Set while there is no process: end the wait for the next start.
+        self._start_now = threading.Event()
+        self._thread = threading.Thread(target=self._keep, name=spec.name, daemon=True)
+
+    @property
+    def state(self) -> ProcessState:
+        process = self._process
+        return ProcessState(
+            self.spec.name,
+            self._phase.value,
+            process.pid if process else None,
+            self._restarts,
+            self._since,
+            self._last_exit,
+        )
+
+    def start(self) -> None:
+        self._thread.start()
+
+    def stop(self, number: signal.Signals) -> None:
+        """Send the whole process group a signal and do not start the process again."""
+        self._stop.set()
+        with self._lock:
+            self._start_now.set()
+            if self._process is not None:
+                _signal_group(self._process.pid, number)
+
+    def restart(self) -> None:
+        """End the process, which then starts again; start it at once where it does not run."""
+        with self._lock:
+            if self._process is None:
+                self._start_now.set()
+            else:
+                _signal_group(self._process.pid, signal.SIGINT)
+
+    def join(self, timeout: float) -> bool:
+        """Wait up to `timeout` (s) for the end; return whether it came."""
+        self._thread.join(max(timeout, 0.0))
+        return not self._thread.is_alive()
+
+    def _enter(self, phase: Phase) -> None:
+        self._phase, self._since = phase, time.time()
+        self._changed()
+
+    def _keep(self) -> None:
+        # The child inherits this thread's mask, so it starts with SIGINT blocked.
+        signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
+        while not self._stop.is_set():
+            code, self._last_exit = self._run_once()
+            if self._stop.is_set():
+                break
+            if code == WRONG_CONFIGURATION:
+                self._emit(
+                    SELF,
+                    f"{self.spec.name} ended ({self._last_exit}) and is not started again; "
+                    "correct what it named, then start the lab again",
+                )
+                self._enter(Phase.REFUSED)
+                self._start_now.wait()
+            else:
+                delay = self._policy.ended(time.monotonic())
+                self._emit(
+                    SELF, f"{self.spec.name} ended ({self._last_exit}); restarts in {delay:g} s"
+                )
+                self._enter(Phase.WAITING)
+                self._start_now.wait(delay)
+            if not self._stop.is_set():
+                self._restarts += 1
+        self._enter(Phase.STOPPED)
+
+    def _run_once(self) -> tuple[int | None, str]:
+        """Run the process to its end; return its exit code, and in words how it ended."""
+        command = guarded(self.spec.argv, unblock_sigint=not self.spec.unblocks_sigint)
+        # Before the start: a program that cannot be started has not run since the one before it.
+        self._policy.started(time.monotonic())
+        with self._lock:
+            if self._stop.is_set():
+                return None, "not started"
+            try:
+                process = subprocess.Popen(
+                    command,
+                    env={
+                        **os.environ,
+                        **self.spec.env,
+                        RESTARTS: str(self._restarts),
+                        LAST_EXIT: self._last_exit,
+                    },
+                    stdin=subprocess.DEVNULL,
+                    stdout=subprocess.PIPE,
+                    stderr=subprocess.STDOUT,
+                    start_new_session=True,
+                )
+            except OSError as error:
+                return None, f"could not be started: {_why_not(error)}"
+            self._process = process
+            self._start_now.clear()
+        self._enter(Phase.RUNNING)
+        assert process.stdout is not None
+        reader = threading.Thread(target=self._read, args=(process.stdout,), daemon=True)
+        reader.start()
+        # The ended process stays unreaped until its group is gone: its id cannot be reused.
+        os.waitid(os.P_PID, process.pid, os.WEXITED | os.WNOWAIT)
+        with self._lock:
+            _signal_group(process.pid, signal.SIGKILL)
+            self._process = None
+            code = process.wait()
+        # A process outside the group may still hold the pipe; its reader then runs on alone.
+        reader.join(READ_TIMEOUT_S)
+        return code, describe_exit(code)
+
+    def _read(self, stream: IO[bytes]) -> None:
+        repeated = RepeatedLines()
+        with stream:
+            for raw in stream:
+                line: str | None = raw.decode(errors="replace").rstrip()
+                # zenoh logs each refused handshake, however many a guest tries.
+                if line and ZENOH in line:
+                    line = repeated.passed(line, time.monotonic())
+                if line is not None:
+                    self._emit(self.spec.name, line)
+
+
+def _signal_group(leader: int, number: signal.Signals) -> None:
+    # A group whose members have all ended may refuse.
+    with contextlib.suppress(ProcessLookupError, PermissionError):
+        os.killpg(leader, number)
