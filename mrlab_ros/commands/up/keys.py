@@ -6,6 +6,7 @@ import socket
 import threading
 from collections.abc import Callable
 from pathlib import Path
+from typing import NamedTuple
 
 from mrlab_ros.core.errors import BadInput
 from mrlab_ros.processes.child import SELF
@@ -84,11 +85,18 @@ def tell_when_keys_expire(
         )
 
 
-def keys_changed_at(folder: Path) -> tuple[int, ...]:
-    """Return a fingerprint of the key files: when each was changed last, ns."""
+class KeyChanges(NamedTuple):
+    """When each file of a keys folder was changed last, ns: of the bridge, and of the pages."""
+
+    bridge: tuple[int, ...]
+    web: tuple[int, ...]
+
+
+def keys_changed_at(folder: Path) -> KeyChanges:
+    """Return when the keys of a lab were changed last."""
     from mrlab_ros.adapters.keys.folder import Keys
 
-    return Keys(folder).changed_at()
+    return KeyChanges(Keys(folder).changed_at(), web_keys_changed_at(folder))
 
 
 def web_keys_changed_at(folder: Path) -> tuple[int, ...]:
@@ -101,7 +109,7 @@ def web_keys_changed_at(folder: Path) -> tuple[int, ...]:
 
 def follow_keys(
     folder: Path,
-    seen: tuple[int, ...],
+    seen: KeyChanges,
     stop: threading.Event,
     say: Callable[[str, str], None],
     restart: Callable[[str], None],
@@ -110,25 +118,23 @@ def follow_keys(
 
     The pages start again where their own certificate or key has changed.
 
-    seen: the fingerprint of the keys that the bridge has.
+    seen: the changes before both were started.
     """
     from mrlab_ros.adapters.keys.folder import Keys, now
 
     reported = ""
-    web = web_keys_changed_at(folder)
     while not stop.wait(KEYS_PERIOD_S):
         try:
             with Keys.while_unchanged(folder) as keys:
                 # A command that changes the keys right now has not written all files yet.
-                if keys is None or (changed := keys.changed_at()) == seen:
+                if keys is None or (changed := keys.changed_at()) == seen.bridge:
                     continue
                 keys.check(now())
             say(SELF, "the keys have changed; the bridge starts again with them")
             restart("bridge")
-            if (now_web := web_keys_changed_at(folder)) != web:
-                web = now_web
+            if (web := web_keys_changed_at(folder)) != seen.web:
                 restart("web")
-            seen = changed
+            seen = KeyChanges(changed, web)
             reported = ""
         except BadInput as error:
             if str(error) != reported:

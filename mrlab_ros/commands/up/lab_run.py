@@ -47,8 +47,8 @@ class LabRun:
         configuration.
         """
         specs = [process.spec(self.options) for process in lab_processes(self.options)]
-        # Before the bridge reads them: no later change is missed.
-        seen = keys_changed_at(self._keys) if self._keys is not None else ()
+        # Before bridge and pages read them: no later change is missed.
+        seen = None if self._keys is None else keys_changed_at(self._keys)
         run_file.claim(**self._facts())
         self._begin = time.monotonic()
         refusals = Refusals(self.stop)
@@ -64,7 +64,7 @@ class LabRun:
                 missing = self._missing()
                 refusals.raise_any()
                 self._say_ready_or_wait(missing)
-                if self._keys is None or self.options.connect:
+                if self._keys is None or seen is None or self.options.connect:
                     self.stop.wait()
                 else:
                     follow_keys(self._keys, seen, self.stop, self.say, supervisor.restart)

@@ -497,6 +497,16 @@ def test_a_running_lab_follows_its_keys_and_never_into_a_broken_folder(tmp_path)
     assert restarts.count("bridge") == 2
 
 
+def test_keys_renewed_while_a_lab_starts_reach_bridge_and_pages(tmp_path):
+    keys = Keys.create(tmp_path / "keys", [], Login.CERTIFICATE, datetime.now(timezone.utc))
+    restarts = []
+    seen = up_keys.keys_changed_at(keys.folder)
+    keys.renew([], datetime.now(timezone.utc))
+    once = Turns(iter([False]))
+    up_keys.follow_keys(keys.folder, seen, once, lambda *_: None, restarts.append)
+    assert restarts == ["bridge", "web"]
+
+
 def test_keys_are_not_read_while_a_command_changes_them(tmp_path):
     keys = Keys.create(tmp_path / "keys", [], Login.CERTIFICATE, datetime.now(timezone.utc))
     server = keys.folder / "server.pem"
