@@ -229,8 +229,8 @@ KINDS: dict[str, Kind] = {
         ERROR,
         "A bag holds joint states, one message an instant: a recording, no trajectory.",
         "'{variable}' holds joint states, one message an instant: a recording, no trajectory.",
-        "Play it as it was recorded, with mrlab replay BAG --robot {robot}, or look at it with "
-        "mrlab show BAG --robot {robot}; BAG is the folder or the file.",
+        "Play it as it was recorded: mrlab replay BAG --robot {robot}. To look at it, make a "
+        "session of it: mrlab bag import BAG SESSION --robot {robot}, then mrlab show SESSION.",
         (("", "", "save('traj.mat', 'q')"),),
     ),
     "transforms": Kind(

@@ -310,7 +310,9 @@ def test_recorded_joint_states_are_said_to_be_replayed(named):
     states = Variable("/joint_states", "sensor_msgs/msg/JointState")
     result = convert(var("/tf", kind="tf2_msgs/msg/TFMessage"), states, variable=named)
     assert result.diagnostics[0].code == "recorded_states"
-    assert "mrlab replay BAG --robot fake" in result.diagnostics[0].remedy
+    remedy = result.diagnostics[0].remedy
+    assert "mrlab replay BAG --robot fake" in remedy
+    assert "mrlab bag import BAG SESSION --robot fake, then mrlab show SESSION" in remedy
 
 
 def test_unwrap_removes_full_turns():
