@@ -112,6 +112,10 @@ def test_a_rod_goes_from_hand_to_hand_and_the_class_starts_where_it_stopped(grap
         kind.CLOSING, kind.HOLDING, kind.EMPTY, kind.OPEN,
     ]  # fmt: skip
 
+    # Physics may have been late, and all of this in an instant: let the taker carry it a while.
+    taken = where(lab, "rod_1")
+    wait_for(lambda: np.abs(where(lab, "rod_1") - taken).max() > 0.05, "the rod on its way")
+
     # Scrubbing both robots takes the rod back: to the giver's hand, to the floor, and on again.
     done(graph.call(Trigger, "/cell/pause"))
     # Wherever a slow machine came to pause it: there the taker still has the rod.
