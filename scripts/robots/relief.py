@@ -85,7 +85,7 @@ def lined(seams: Sequence[dict[str, Any]], surface: Surface, around: Around) -> 
         if "at" in seam:
             continue
         outwards = unit(seam["from"])
-        path, ahead = _path(seam, outwards)
+        path, ahead = outline(seam, outwards)
         away, normals, owner = surface.seen(path, outwards)
         here = np.isfinite(away) & (normals @ outwards > EVEN)
         if not here.any():
@@ -116,7 +116,7 @@ def lined(seams: Sequence[dict[str, Any]], surface: Surface, around: Around) -> 
     return result
 
 
-def _path(seam: dict[str, Any], outwards: Array) -> tuple[Array, Array]:
+def outline(seam: dict[str, Any], outwards: Array) -> tuple[Array, Array]:
     """Return points along a closed seam, against the clock as seen, and its way there, (N, 3) m.
 
     A circle of `radius` about `centre`, or a rectangle of half its sides, `half`, with rounded

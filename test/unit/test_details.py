@@ -14,16 +14,17 @@ ROOT = Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "scripts" / "robots"))
 pytest.importorskip("embreex", reason="bakes light")
 
+import body  # noqa: E402
 import details  # noqa: E402
 import drawings  # noqa: E402
 import glb  # noqa: E402
 from atlas import RIM, Atlas, Drawing  # noqa: E402
-from body import BLACK, ORANGE, STEEL  # noqa: E402
+from body import BLACK, ORANGE, STEEL, Material  # noqa: E402
 from cutting import cut  # noqa: E402
 from markings import marked, markings, sense  # noqa: E402
 from mesher import Mesh  # noqa: E402
 from pieces import Piece  # noqa: E402
-from relief import grooved, lined, places, screwed  # noqa: E402
+from relief import grooved, lined, outline, places, screwed  # noqa: E402
 
 from mrlab_ros.adapters.robots.hulls import samples  # noqa: E402
 
@@ -156,6 +157,22 @@ def test_no_screw_stands_on_a_label(file: Path) -> None:
             assert across.min() > (label["height"] + screw["size"]) / 2, label
 
 
+@pytest.mark.parametrize("file", TABLES, ids=lambda file: file.stem)
+def test_no_seam_runs_under_a_label(file: Path) -> None:
+    table = details.table(file.stem)
+    for label in table["markings"]:
+        outwards = details.unit(label["from"])
+        long = label["height"] * {"plate": 1.6, "name": 3.0}.get(label["kind"], 1.0)
+        for seam in table.get("seams", []):
+            if "at" in seam or seam["link"] != label["link"]:
+                continue
+            if details.unit(seam["from"]) @ outwards < 0.9:
+                continue
+            off = outline(seam, outwards)[0] / details.MM - label["at"]
+            across = np.abs(np.delete(off, np.abs(outwards).argmax(), axis=1)).max(axis=1)
+            assert across.min() > long / 2 + 1, label
+
+
 @pytest.mark.parametrize("folder", FOLDERS, ids=lambda folder: folder.name)
 def test_no_hose_ends_in_mid_air(folder: Path) -> None:
     figures = yaml.safe_load((folder / "robot.yaml").read_text())
@@ -176,6 +193,15 @@ def test_no_hose_ends_in_mid_air(folder: Path) -> None:
             )  # fmt: skip
             away = np.linalg.norm(samples(surface, 0.005) - at, axis=1).min()
             assert away < 1.34 * hose["radius"], end
+
+
+@pytest.mark.parametrize("folder", FOLDERS, ids=lambda folder: folder.name)
+def test_meshes_have_the_materials_of_bodies(folder: Path) -> None:
+    stated = {each.name: each for each in vars(body).values() if isinstance(each, Material)}
+    for path in (folder / "meshes").glob("*.glb"):
+        for material, _ in glb.read(path):
+            assert material.colour == pytest.approx(stated[material.name].colour, abs=1e-3)
+            assert material.roughness == stated[material.name].roughness
 
 
 def test_markings_lie_on_their_links() -> None:
