@@ -130,6 +130,11 @@ def open_file(path: Path) -> BagFile:
         with open(path, "rb") as file:
             beginning = file.read(len(MCAP0_MAGIC))
             if len(beginning) < len(MCAP0_MAGIC) and MCAP0_MAGIC.startswith(beginning):
+                if path.suffix != ".mcap":
+                    raise BadInput(
+                        f"{path} is empty or was cut off in its first bytes: there is nothing to "
+                        "read or mend in it; bring back a copy"
+                    )
                 trouble = f"{path.name} ends before its first record: its writer was killed"
                 return BagFile(path, indexed=False, trouble=trouble)
             if is_compressed(beginning):

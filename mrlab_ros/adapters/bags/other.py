@@ -180,10 +180,32 @@ def readable(path: Path) -> Iterator[None]:
                 f"{path} is damaged ({error}); bring back a copy, or read on with what is left: "
                 + _rescue(path)
             ) from None
+        if lacking := _lacking(path):
+            raise BadInput(lacking) from None
         raise BadInput(
             f"{path} cannot be read as a ROS 2 bag ({error}); expected its folder with "
             "metadata.yaml, an MCAP file, or a .db3 file"
         ) from None
+
+
+def _lacking(path: Path) -> str:
+    """Return what to do about files of a bag that were renamed or removed, empty: none were."""
+    try:
+        facts = yaml.load((path / METADATA).read_text(), Loader=Loader)[ROOT]
+        listed = [Path(name).name for name in facts["relative_file_paths"]]
+    except (OSError, yaml.YAMLError, UnicodeDecodeError, TypeError, KeyError, AttributeError):
+        return ""
+    missing = [name for name in listed if not (path / name).is_file()]
+    if not missing:
+        return ""
+    others = [f for f in sorted(path.glob("*.db3"), key=number_of) if f.name not in listed]
+    said = (
+        f"{path} lacks {', '.join(missing)}, which its metadata.yaml lists; bring the file back, "
+        "or give it that name again"
+    )
+    if not others:
+        return said
+    return f"{said}; alone it opens with: mrlab bag info {shlex.quote(str(others[0]))}"
 
 
 def _rescue(path: Path) -> str:

@@ -6,6 +6,7 @@ import errno
 import fcntl
 import os
 import re
+import shlex
 import shutil
 import subprocess
 from pathlib import Path
@@ -265,6 +266,35 @@ def test_a_kill_at_the_beginning_of_a_next_file_costs_nothing(tmp_path):
     assert repair(folder).messages == 20
     assert Bag(folder).troubles == []
     assert read(folder) == read_by_rosbags(folder) == messages
+
+
+@pytest.mark.parametrize("content", [b"", MAGIC[:3]])
+def test_an_empty_file_of_another_kind_is_refused_and_stays(tmp_path, content):
+    file = tmp_path / "class.db3"
+    file.write_bytes(content)
+    for use in (repair, Bag):
+        with pytest.raises(BadInput, match="there is nothing to read or mend in it"):
+            use(file)
+    assert [(each.name, each.read_bytes()) for each in tmp_path.iterdir()] == [
+        ("class.db3", content)
+    ]
+
+
+def test_a_renamed_database_is_opened_by_the_command_that_its_message_names(tmp_path):
+    writer = begin(tmp_path / "class")
+    messages = fill(writer, 20)
+    writer.close()
+    folder = as_sqlite(Bag(tmp_path / "class"), tmp_path / "last week")
+    (database,) = folder.glob("*.db3")
+    renamed = database.rename(folder / "monday.db3")
+    with pytest.raises(BadInput, match=f"lacks {database.name}, which") as refused:
+        open_bag(folder, lambda _: DEFINITION)
+    command = shlex.split(str(refused.value).partition("opens with: ")[2])
+    assert command == ["mrlab", "bag", "info", str(renamed)]
+    assert open_bag(Path(command[3]), lambda _: DEFINITION).message_count == len(messages)
+    renamed.unlink()
+    with pytest.raises(BadInput, match="or give it that name again$"):
+        open_bag(folder, lambda _: DEFINITION)
 
 
 def test_a_file_alone_is_mended_and_nothing_beside_it(tmp_path):
