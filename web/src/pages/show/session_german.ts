@@ -81,6 +81,26 @@ const TROUBLES: readonly Rule[] = [
     /^(\S+) has no index: its writer was killed or lost its disk$/,
     '$1 hat keinen Index: die Aufnahme brach ab',
   ],
+  [
+    /^(\S+) ends before its first record: its writer was killed$/,
+    '$1 endet vor dem ersten Eintrag: die Aufnahme brach ab',
+  ],
+  [/^(\S+) is damaged at byte (\d+)/, '$1 ist bei Byte $2 beschädigt'],
+  [
+    /^1 message of (\S+) cannot be read and is left out$/,
+    '1 Nachricht von $1 ist nicht lesbar und fehlt hier',
+  ],
+  [
+    /^(\d+) messages of (\S+) cannot be read and are left out$/,
+    '$1 Nachrichten von $2 sind nicht lesbar und fehlen hier',
+  ],
+  [/^nothing was recorded in it$/, 'es wurde nichts darin aufgenommen'],
+  [/^no robot of a lab is in it, but (.+)$/, 'kein Roboter eines Labors ist darin, sondern $1'],
+  [/^(kein Roboter eines Labors .+) and (\d+) more(;|$)/, '$1 und $2 weitere$3'],
+  [
+    /; mrlab bag import makes a session of it by the joints' names$/,
+    '; mrlab bag import macht nach den Namen der Gelenke eine Aufnahme des Labors daraus',
+  ],
 ]
 const FIGURES: readonly Rule[] = [
   [

@@ -101,6 +101,31 @@ test.each([
     'bei 3.46 s wurde die Uhr um 3600.0 s zurückgestellt; die Zeiten dieses Berichts laufen ' +
       'gleichmäßig weiter',
   ],
+  [
+    'class_1.mcap ends before its first record: its writer was killed',
+    'class_1.mcap endet vor dem ersten Eintrag: die Aufnahme brach ab',
+  ],
+  ['class_1.mcap is damaged at byte 97 (zstd)', 'class_1.mcap ist bei Byte 97 beschädigt (zstd)'],
+  [
+    '1 message of /a/state cannot be read and is left out',
+    '1 Nachricht von /a/state ist nicht lesbar und fehlt hier',
+  ],
+  [
+    '20 messages of /a/state cannot be read and are left out',
+    '20 Nachrichten von /a/state sind nicht lesbar und fehlen hier',
+  ],
+  ['nothing was recorded in it', 'es wurde nichts darin aufgenommen'],
+  [
+    'no robot of a lab is in it, but /tf (tf2_msgs/msg/TFMessage)',
+    'kein Roboter eines Labors ist darin, sondern /tf (tf2_msgs/msg/TFMessage)',
+  ],
+  [
+    'no robot of a lab is in it, but /a (b/msg/C), /joint_states (sensor_msgs/msg/JointState) and ' +
+      "3 more; mrlab bag import makes a session of it by the joints' names",
+    'kein Roboter eines Labors ist darin, sondern /a (b/msg/C), /joint_states ' +
+      '(sensor_msgs/msg/JointState) und 3 weitere; mrlab bag import macht nach den Namen der ' +
+      'Gelenke eine Aufnahme des Labors daraus',
+  ],
   ['ur5e_1 was busy', 'ur5e_1 was busy'],
 ])('what a session says becomes German: %s', (english, german) => {
   expect(germanSentence(english)).toBe(german)
