@@ -63,7 +63,8 @@ def order(variable: Variable, robot: RobotModel) -> tuple[list[int], list[Diagno
     if indices == list(range(len(names))):
         return indices, []
     left_out = [name for name in names if name not in wanted]
-    also = f" {_listed(left_out)} were left out." if left_out else ""
+    were = "were" if len(left_out) > 1 else "was"
+    also = f" {_listed(left_out)} {were} left out." if left_out else ""
     numbers = ", ".join(str(i + 1) for i in indices)
     words = {"order": numbers, "left_out": also, "robot": robot.id}
     return indices, [finding("joints_matched", variable=variable.path, **words)]

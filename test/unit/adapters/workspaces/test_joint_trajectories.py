@@ -295,6 +295,19 @@ def test_headings_that_are_joint_names_order_the_columns(headings):
         assert "'power'" in said
 
 
+@pytest.mark.parametrize(
+    ("others", "said"),
+    [
+        (["power"], "in this order. 'power' was left out."),
+        (["power", "heat"], "in this order. 'power', 'heat' were left out."),
+    ],
+)
+def test_the_columns_that_are_no_joints_are_named(others, said):
+    result = converted(table([*others, "t", *NAMES]), "run.csv")
+    (message,) = [d.message for d in result.diagnostics if d.code == "joints_matched"]
+    assert message.endswith(said)
+
+
 def test_headings_that_lack_a_joint_are_refused_and_numbers_overrule_them():
     data = table(["t", "joint_1", "joint_2", "joint_4"])
     assert codes(converted(data, "run.csv")) == ["joint_names"]
