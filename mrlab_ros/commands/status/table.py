@@ -59,7 +59,9 @@ def _head(facts: Mapping[str, Any], nodes: Mapping[str, bool]) -> Iterator[Text]
         yield Text(f"Pages at {web['address']}{how}; open them with: mrlab open")
     for name, text in trouble.items():
         yield Text(f"{name}: {text}", ERROR)
-    if recorder := recorder_line(facts["recorder"]):
+    recorder = recorder_line(facts["recorder"])
+    # Why a recording ended by itself is a trouble of the recorder's process, too.
+    if recorder and not any(recorder in text for text in trouble.values()):
         yield Text(recorder)
     for robot in facts["robots"]:
         if robot["state"] == "COLLISION_HALT":

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import time
+from typing import Any
 
 import pytest
 from rich.console import Console
@@ -13,6 +14,9 @@ from mrlab_ros.core.watch import Freeze, Sign
 RESTARTED = Sign("playback", 1, "SIGKILL").sentence(3.0)
 FROZEN = Sign("playback", freeze=Freeze(17.0, 5.0)).sentence(900.0)
 SILENT = "no sign of life for 4 s: it died or hangs"
+
+
+FULL_DISK = "the recording class ended: no space left on the disk"
 
 
 def shown(trouble: str, phase: str) -> str:
@@ -36,6 +40,10 @@ def shown(trouble: str, phase: str) -> str:
         "recorder": None,
         "trouble": {"playback": trouble} if trouble else {},
     }
+    return printed(facts)
+
+
+def printed(facts: dict[str, Any]) -> str:
     console = Console(width=120)
     with console.capture() as captured:
         console.print(overview(facts, {}, 120))
@@ -62,3 +70,23 @@ def test_what_else_is_amiss_with_a_process_that_died_before_is_said_too(trouble)
     text = shown(trouble, "running")
     assert "playback died (SIGKILL); running for 3 s" in text
     assert trouble in text
+
+
+@pytest.mark.parametrize(
+    ("trouble", "says"),
+    [
+        ({"recorder": FULL_DISK}, f"recorder: {FULL_DISK}"),
+        ({}, FULL_DISK),
+        ({"playback": SILENT}, FULL_DISK),
+    ],
+)
+def test_why_a_recording_ended_is_said_once(trouble: dict[str, str], says: str) -> None:
+    facts = {
+        **dict.fromkeys(("robots", "trajectories", "systems", "latency"), ()),
+        **dict.fromkeys(("supervisor", "web")),
+        "domain": 3,
+        "trouble": trouble,
+        "recorder": {"state": "STOPPED", "message": FULL_DISK},
+    }
+    lines = [line.strip() for line in printed(facts).splitlines() if FULL_DISK in line]
+    assert lines == [says]
