@@ -51,6 +51,8 @@ SHOWN = {"output": "screen", "emulate_tty": True}
 # The processes end with this one, which would leave them behind at a SIGTERM.
 WITH_IT = {"additional_env": {LAUNCHER: str(os.getpid())}}
 FLAGS = ["true", "false"]
+# The services that these arguments call when the lab is ready, unless another lab has them too.
+CALLED = {"scene": "/lab/load_scene", "record": "/recorder/start"}
 
 # By name: default and description; those whose default is true or false take nothing else.
 ARGUMENTS = {
@@ -178,8 +180,13 @@ def processes(context):
         if not isinstance(process, LabProcess)
     ]
     names = [node for process in found for node in process.nodes]
+    later = afterwards(value)
     ready = ExecuteProcess(
-        cmd=[sys.executable, "-m", "mrlab_ros.processes.ready", str(len(options.robots)), *names],
+        cmd=[
+            *(sys.executable, "-m", "mrlab_ros.processes.ready"),
+            *(options.lab_id, str(len(options.robots)), ",".join(names)),
+            *(CALLED[name] for name in later),
+        ],
         name="ready",
         **SHOWN,
     )
@@ -191,7 +198,7 @@ def processes(context):
         RegisterEventHandler(
             OnProcessExit(
                 target_action=ready,
-                on_exit=lambda event, _: [] if event.returncode else after(value),
+                on_exit=lambda event, _: [] if event.returncode else list(later.values()),
             )
         ),
         ready,
@@ -216,17 +223,16 @@ def refused(event, _context):
     return [EmitEvent(event=ShutdownProcess(process_matcher=matches_action(event.action)))]
 
 
-def after(value):
-    """Return what is started when the lab is ready."""
-    commands = {}
-    if value("scene"):
-        commands["scene"] = ("scene", "load", value("scene"))
-    if value("record"):
-        commands["record"] = ("record", value("record"))
-    return [
-        ExecuteProcess(cmd=[sys.executable, "-m", "mrlab_ros.cli", *words], name=name, **SHOWN)
+def afterwards(value):
+    """Return what is started when the lab is ready, by the argument that asks for it."""
+    commands = {"scene": ("scene", "load"), "record": ("record",)}
+    return {
+        name: ExecuteProcess(
+            cmd=[sys.executable, "-m", "mrlab_ros.cli", *words, value(name)], name=name, **SHOWN
+        )
         for name, words in commands.items()
-    ]
+        if value(name)
+    }
 
 
 def rviz():

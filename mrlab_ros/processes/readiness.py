@@ -7,6 +7,7 @@ import time
 from collections.abc import Callable, Sequence
 from typing import TYPE_CHECKING, Any
 
+from mrlab_ros.core.identity import Identity, Neighbours
 from mrlab_ros.processes.lab import NodeEntry
 
 if TYPE_CHECKING:
@@ -18,67 +19,91 @@ READY_TIMEOUT_S = 20.0
 POLL_PERIOD_S = 0.05
 
 
-def wait_until_complete(
-    stop: threading.Event,
-    nodes: Sequence[NodeEntry],
-    robots: int,
-    web: Callable[[], bool] | None = None,
-) -> str:
-    """Wait until `nodes` and `robots` robots are in the graph; return what is missing at the end.
+class Readiness:
+    """Follows the parts of one lab in the graph; what another lab there publishes does not count.
 
-    web: whether the gateway answers; None where there is none.
+    A node is complete once its latched topic has a message, or, without such a topic, once a node
+    of its name is in the graph; a robot once its playback has published a state.
 
-    That is nothing where the lab is complete or `stop` is set, and what is missing after
-    READY_TIMEOUT_S.
+    robots: how many there are at least. identity: the lab's; it names other labs as they are met.
     """
-    from mrlab_ros.ros.graph_node import Graph
 
-    with Graph() as graph:
-        missing = missing_parts(graph, nodes, robots)
+    def __init__(
+        self, graph: Graph, nodes: Sequence[NodeEntry], robots: int, identity: Identity
+    ) -> None:
+        from mrlab_msgs import msg
+
+        self._graph = graph
+        self._nodes = nodes
+        self._robots = robots
+        self._identity = identity
+        self._neighbours = Neighbours(identity.lab)
+        # By topic: the newest message of this lab.
+        self._newest: dict[str, Any] = {}
+        self._followed: set[str] = set()
+        self._follow(msg.Robots, "/robots")
+        for node in nodes:
+            if node.state is not None:
+                self._follow(getattr(msg, node.state[1]), node.state[0])
+
+    def _follow(self, kind: Any, topic: str) -> None:
+        from mrlab_ros.messages import qos
+
+        if topic in self._followed:
+            return
+        self._followed.add(topic)
+
+        def take(message: Any) -> None:
+            # A catalogue of trajectories does not name its lab.
+            lab = getattr(message, "lab", "")
+            self._neighbours.notice(lab, time.monotonic())
+            own = self._identity.obeys if topic == "/robots" else self._identity.accepts
+            if own(lab):
+                self._newest[topic] = message
+
+        # Of a queue of one message, the other lab's would take the place of this one's.
+        self._graph.subscribe(kind, topic, take, qos.LATCHED_EVENTS)
+
+    def missing(self) -> str:
+        """Name what is not complete yet; empty: everything is."""
+        from mrlab_msgs import msg
+
+        present = self._graph.node_names()
+        absent = [
+            node.graph_name
+            for node in self._nodes
+            if node.graph_name not in present
+            or (node.state is not None and node.state[0] not in self._newest)
+        ]
+        if absent:
+            return ", ".join(absent)
+        scene = self._newest.get("/robots")
+        spawned = scene.robots if scene else ()
+        for robot in spawned:
+            topic = f"/{robot.name}/playback_state"
+            self._follow(msg.PlaybackState, topic)
+            if topic not in self._newest:
+                return f"the playback of {robot.name}"
+        return "" if len(spawned) >= self._robots else "a robot"
+
+    def wait(self, stop: threading.Event, web: Callable[[], bool] | None = None) -> str:
+        """Wait until the lab is complete; return what is missing at the end.
+
+        web: whether the gateway answers; None where there is none.
+
+        That is nothing where the lab is complete or `stop` is set, and what is missing after
+        READY_TIMEOUT_S.
+        """
         deadline = time.monotonic() + READY_TIMEOUT_S
         while not stop.wait(POLL_PERIOD_S):
-            what = missing()
+            what = self.missing()
             if not what and web is not None:
                 what, web = ("", None) if web() else ("the pages", web)
             if not what or time.monotonic() > deadline:
                 return what
-    return ""
+        return ""
 
-
-def missing_parts(graph: Graph, nodes: Sequence[NodeEntry], robots: int) -> Callable[[], str]:
-    """Return a function that names what of a lab is not complete yet; empty: everything is.
-
-    A node is complete once its latched topic has a message, or, without such a topic, once it is
-    in the graph; a robot once its playback has published a state.
-    """
-    from mrlab_msgs import msg
-
-    watches = {
-        node.graph_name: graph.watch(getattr(msg, node.state[1]), node.state[0])
-        for node in nodes
-        if node.state is not None
-    }
-    scene = graph.watch(msg.Robots, "/robots")
-    playbacks: dict[str, Any] = {}
-
-    def missing() -> str:
-        present = set(graph.node.get_node_names())
-        absent = [
-            node.graph_name
-            for node in nodes
-            if node.graph_name not in present
-            or (node.state is not None and watches[node.graph_name].value is None)
-        ]
-        if absent:
-            return ", ".join(absent)
-        spawned = scene.value.robots if scene.value else ()
-        for robot in spawned:
-            if robot.name not in playbacks:
-                playbacks[robot.name] = graph.watch(
-                    msg.PlaybackState, f"/{robot.name}/playback_state"
-                )
-            if playbacks[robot.name].value is None:
-                return f"the playback of {robot.name}"
-        return "" if len(spawned) >= robots else "a robot"
-
-    return missing
+    def why_not(self, service: str) -> str:
+        """Return why a call of `service` would reach another lab, too; empty: it would not."""
+        servers = self._graph.node.count_services(service)
+        return self._neighbours.why_not(service, servers, time.monotonic())

@@ -15,8 +15,9 @@ from typing import TYPE_CHECKING, Any
 from mrlab_ros.commands.demo.arrivals import Arrivals, frames_in_order
 from mrlab_ros.commands.demo.report import Display, RobotSummary
 from mrlab_ros.core.errors import LabError
+from mrlab_ros.core.identity import Identity
 from mrlab_ros.processes.lab import lab_nodes
-from mrlab_ros.processes.readiness import missing_parts
+from mrlab_ros.processes.readiness import Readiness
 from mrlab_ros.processes.web import gateway_answers
 
 if TYPE_CHECKING:
@@ -109,8 +110,10 @@ class Run:
         return f"its last complaint: {trouble[-1]}" if trouble else "nothing complained"
 
     def _wait_for_lab(self, graph: Graph) -> None:
-        missing = missing_parts(graph, lab_nodes(self._stage.options), robots=0)
-        self._until(lambda: not missing(), START_TIMEOUT_S, "all parts of the lab")
+        options = self._stage.options
+        identity = Identity(options.lab_id, lambda text: self._say("start", text))
+        lab = Readiness(graph, lab_nodes(options), 0, identity)
+        self._until(lambda: not lab.missing(), START_TIMEOUT_S, "all parts of the lab")
         gateway = gateway_answers(self._stage.web)
         self._until(gateway, START_TIMEOUT_S, "the pages")
         self._say("start", f"the lab is ready after {time.monotonic() - self._stage.begin:.1f} s")

@@ -11,11 +11,12 @@ from mrlab_ros.commands.up.keys import follow_keys, keys_changed_at, tell_when_k
 from mrlab_ros.commands.up.refusals import Refusals
 from mrlab_ros.commands.up.speaker import Speaker
 from mrlab_ros.commands.up.web import run_facts, say_where
+from mrlab_ros.core.identity import Identity
 from mrlab_ros.processes.child import SELF, ProcessState
 from mrlab_ros.processes.lab import lab_nodes, lab_processes
 from mrlab_ros.processes.options import LabOptions
 from mrlab_ros.processes.parameter_file import parameter
-from mrlab_ros.processes.readiness import READY_TIMEOUT_S, wait_until_complete
+from mrlab_ros.processes.readiness import READY_TIMEOUT_S, Readiness
 from mrlab_ros.processes.run_file import RunFile
 from mrlab_ros.processes.supervisor import Supervisor
 from mrlab_ros.processes.web import gateway_answers
@@ -39,6 +40,7 @@ class LabRun:
         self._keys = self.options.keys if self.options.bridge else None
         self._web = {} if self.options.web is None else run_facts(self.options)
         self._begin = 0.0
+        self._identity = Identity(self.options.lab_id, lambda text: self.say(SELF, text))
 
     def keep(self, run_file: RunFile, domain: int) -> None:
         """Keep the lab running until it is stopped.
@@ -105,9 +107,12 @@ class LabRun:
 
     def _missing(self) -> str:
         """Wait until the lab is complete; return what is missing after READY_TIMEOUT_S."""
+        from mrlab_ros.ros.graph_node import Graph
+
         answers = gateway_answers(self._web["here"]) if self._web else None
-        nodes = lab_nodes(self.options)
-        return wait_until_complete(self.stop, nodes, len(self.options.robots), answers)
+        nodes, robots = lab_nodes(self.options), len(self.options.robots)
+        with Graph() as graph:
+            return Readiness(graph, nodes, robots, self._identity).wait(self.stop, answers)
 
     def _say_ready_or_wait(self, missing: str) -> None:
         """Say that the lab is ready, and where; say so later where something is missing."""

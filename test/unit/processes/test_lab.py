@@ -367,7 +367,10 @@ def test_the_launch_file_says_when_the_lab_is_ready_and_then_goes_on(launched: L
     ready = named(found, "ready")
     nodes = [node for process in lab_processes(options()) for node in process.nodes]
     expected = [n for n in nodes if n != "physics" or not physics_support.missing()]
-    assert ready.kwargs["cmd"][2:] == ["mrlab_ros.processes.ready", "2", *expected]
+    module, lab, *rest = ready.kwargs["cmd"][2:]
+    assert module == "mrlab_ros.processes.ready"
+    assert all(f'lab_id:="{lab}"' in host.kwargs["arguments"] for host in hosts(found))
+    assert rest == ["2", ",".join(expected), "/lab/load_scene", "/recorder/start"]
     (handler,) = (h for h in handlers(found) if h.kwargs.get("target_action") is ready)
     then = handler.kwargs["on_exit"]
     commands = then(types.SimpleNamespace(returncode=0), None)
