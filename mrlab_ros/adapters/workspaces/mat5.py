@@ -473,8 +473,9 @@ def read_mat4(data: memoryview, sink: Sink) -> None:
             )
 
 
+ARCHIVE = b"PK\x03\x04"
 SIGNATURES: tuple[tuple[bytes, str], ...] = (
-    (b"PK\x03\x04", "a ZIP archive (or an Office, .mlx or .slx file)"),
+    (ARCHIVE, "a ZIP archive (or an Office, .mlx or .slx file)"),
     (b"\x93NUMPY", "a NumPy array (save it so: np.savez('traj.npz', q=q, fs=100))"),
     (b"\x89PNG", "a PNG picture"),
     (b"\xff\xd8\xff", "a JPEG picture"),
@@ -492,6 +493,10 @@ SIGNATURES: tuple[tuple[bytes, str], ...] = (
     (b"\x89MCAP", "mcap"),
     (b"\x28\xb5\x2f\xfd", "zstd"),
 )
+SPREADSHEET = "a spreadsheet (save the sheet as CSV UTF-8 and convert that file)"
+# A workbook's archive has one of these at its beginning or in the directory at its end.
+SPREADSHEET_ENTRIES = (b"xl/workbook.", b"application/vnd.oasis.opendocument.spreadsheet")
+ARCHIVE_END = 1 << 16
 HDF5_SIGNATURE = b"\x89HDF\r\n\x1a\n"
 
 
@@ -521,10 +526,18 @@ def recognise(data: memoryview) -> str:
         return "mat5"
     if mat4_order(head):
         return "mat4"
+    if head.startswith(ARCHIVE) and _is_spreadsheet(data):
+        return SPREADSHEET
     for signature, words in SIGNATURES:
         if head.startswith(signature):
             return words
     return _text(head)
+
+
+def _is_spreadsheet(archive: memoryview) -> bool:
+    """Return whether an archive is a workbook of Excel or LibreOffice."""
+    ends = bytes(archive[:4096]), bytes(archive[-ARCHIVE_END:])
+    return any(entry in end for entry in SPREADSHEET_ENTRIES for end in ends)
 
 
 def _text(head: bytes) -> str:

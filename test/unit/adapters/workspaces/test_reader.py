@@ -6,6 +6,7 @@ import io
 import os
 import signal
 import struct
+import zipfile
 import zlib
 from concurrent.futures import ThreadPoolExecutor
 
@@ -270,6 +271,35 @@ def test_numbers_that_save_ascii_wrote_are_a_table_whatever_its_name(reader):
     values = reader.read_bytes(rows.encode(), "q.mat").find("q").values
     np.testing.assert_array_equal(values, [[0.1, 0.2], [0.3, 0.4]])
     assert refusal(reader.read_bytes, b"q = [1 2 3];\n", "q.mat").code == "unsupported_format"
+
+
+def archive(entries):
+    buffer = io.BytesIO()
+    with zipfile.ZipFile(buffer, "w", zipfile.ZIP_DEFLATED) as file:
+        for name, content in entries.items():
+            file.writestr(name, content, None if name != "mimetype" else zipfile.ZIP_STORED)
+    return buffer.getvalue()
+
+
+@pytest.mark.parametrize(
+    ("entries", "said"),
+    [
+        ({"[Content_Types].xml": "", "xl/workbook.xml": ""}, "save the sheet as CSV"),
+        (
+            {"xl/worksheets/sheet1.xml": os.urandom(100_000).hex(), "xl/workbook.bin": ""},
+            "save the sheet as CSV",
+        ),
+        (
+            {"mimetype": "application/vnd.oasis.opendocument.spreadsheet", "content.xml": ""},
+            "save the sheet as CSV",
+        ),
+        ({"word/document.xml": ""}, "a ZIP archive"),
+    ],
+)
+def test_a_spreadsheet_is_refused_with_what_to_do(reader, entries, said):
+    finding = refusal(reader.read_bytes, archive(entries), "q.xlsx")
+    assert finding.code == "unsupported_format"
+    assert said in finding.message
 
 
 def test_a_table_of_windows_1252_and_one_with_a_row_of_units_are_read(reader):
