@@ -115,6 +115,7 @@ def processes(context):
     def path(name):
         return Path(value(name)).expanduser().absolute() if value(name) else None
 
+    check_namespace(context.launch_configurations.get("ros_namespace", ""))
     shown = [rviz()] if given("rviz") else []
     keys = path("keys")
     listen = with_free_port(value("listen"))
@@ -204,6 +205,16 @@ def processes(context):
         ready,
         *shown,
     ]
+
+
+def check_namespace(namespace):
+    """Raise BadInput for a lab in a namespace: its parts would not find each other."""
+    if namespace.strip("/"):
+        raise BadInput(
+            f"the lab is launched in the namespace '{namespace}'; expected none, as /robots, "
+            "/systems and the names of its robots are the same for all its parts. Include "
+            "lab.launch.py outside push_ros_namespace; a second lab has a ROS_DOMAIN_ID of its own"
+        )
 
 
 def unknown(given):

@@ -362,6 +362,12 @@ def test_the_launch_file_refuses_to_listen_where_the_bridge_would(launched, list
         launched(web="false", listen=listen)
 
 
+def test_the_launch_file_refuses_a_namespace_in_which_no_robot_would_appear(launched) -> None:
+    with pytest.raises(BadInput, match="in the namespace '/cell'; expected none"):
+        launched(web="false", ros_namespace="/cell")
+    assert hosts(launched(web="false", ros_namespace="/"))
+
+
 def test_the_launch_file_says_when_the_lab_is_ready_and_then_goes_on(launched: Launched) -> None:
     found = launched(robots="ur5e,ur5e", web="false", scene="handover", record="/class.bag")
     ready = named(found, "ready")
