@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 import pytest
 import yaml
+from scipy.spatial.transform import Rotation
 
 ROOT = Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "scripts" / "robots"))
@@ -27,6 +28,7 @@ from pieces import Piece  # noqa: E402
 from relief import grooved, lined, outline, places, screwed  # noqa: E402
 
 from mrlab_ros.adapters.robots.hulls import samples  # noqa: E402
+from mrlab_ros.core.geometry import transform_from_xyz_rpy  # noqa: E402
 
 TABLES = sorted((ROOT / "scripts/robots/details").glob("*.yaml"))
 FOLDERS = sorted(path.parent for path in (ROOT / "robots").glob("*/robot.yaml"))
@@ -202,6 +204,46 @@ def test_meshes_have_the_materials_of_bodies(folder: Path) -> None:
         for material, _ in glb.read(path):
             assert material.colour == pytest.approx(stated[material.name].colour, abs=1e-3)
             assert material.roughness == stated[material.name].roughness
+
+
+def bend(start: Any, end: Any, leaves: Any, arrives: Any, length: float) -> float:
+    """Return the tightest radius, m, of the curve that web/src/scene/hose.ts draws."""
+    t = np.linspace(0, 1, 81)[:, None]
+    low, high = np.linalg.norm(end - start) * 0.1, length
+    share = (1 - t) ** 2 * (1 + 2 * t)
+    ahead = 3 * (1 - t) * t * ((1 - t) * leaves + t * arrives)
+    for _ in range(12):
+        bulge = (low + high) / 2
+        points = share * start + (1 - share) * end + bulge * ahead
+        if np.linalg.norm(np.diff(points, axis=0), axis=1).sum() > length:
+            high = bulge
+        else:
+            low = bulge
+    a, b, c = points[:-2], points[1:-1], points[2:]
+    sides = [np.linalg.norm(one - other, axis=1) for one, other in ((a, b), (b, c), (c, a))]
+    twice_area = np.linalg.norm(np.cross(b - a, c - a), axis=1)
+    return float((np.prod(sides, axis=0) / np.maximum(2 * twice_area, 1e-12)).min())
+
+
+@pytest.mark.parametrize("folder", FOLDERS, ids=lambda folder: folder.name)
+def test_no_hose_creases_where_its_joint_turns(folder: Path) -> None:
+    figures = yaml.safe_load((folder / "robot.yaml").read_text())
+    for hose in figures.get("hoses", []):
+        links = [end["link"] for end in hose["ends"]]
+        for joint in figures["joints"]:
+            if [joint["parent"], joint["child"]] != links:
+                continue
+            fixed = transform_from_xyz_rpy(joint["xyz"], joint["rpy"])
+            for angle in np.linspace(joint["lower"], joint["upper"], 15):
+                turn = Rotation.from_rotvec(angle * np.array(joint["axis"])).as_matrix()
+                points, ways = (
+                    [np.array(end[key], float) for end in hose["ends"]]
+                    for key in ("xyz", "direction")
+                )
+                ways = [details.unit(way) for way in ways]
+                points[1] = fixed[:3, :3] @ turn @ points[1] + fixed[:3, 3]
+                ways[1] = fixed[:3, :3] @ turn @ ways[1]
+                assert bend(*points, *ways, hose["length"]) > 0.017, (links, angle)
 
 
 def test_markings_lie_on_their_links() -> None:
