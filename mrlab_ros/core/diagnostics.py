@@ -229,8 +229,8 @@ KINDS: dict[str, Kind] = {
         ERROR,
         "A bag holds joint states, one message an instant: a recording, no trajectory.",
         "'{variable}' holds joint states, one message an instant: a recording, no trajectory.",
-        "Play it as it was recorded: mrlab replay BAG --robot {robot}. To look at it, make a "
-        "session of it: mrlab bag import BAG SESSION --robot {robot}, then mrlab show SESSION.",
+        "Play it as it was recorded: mrlab replay BAG. To look at it, make a session of it: mrlab "
+        "bag import BAG SESSION, then mrlab show SESSION.",
         (("", "", "save('traj.mat', 'q')"),),
     ),
     "transforms": Kind(

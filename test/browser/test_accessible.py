@@ -78,7 +78,9 @@ def test_a_robot_is_played_and_paused_by_keyboard(page: Page, lab: ServedLab) ->
             break
     assert reached[-1] == "Play", reached
     page.keyboard.press("Enter")
-    expect(card).to_contain_text("playing")
+    # Beside it stands a sentence about what comes before playing.
+    chip = card.locator(".chip")
+    expect(chip).to_have_text("playing")
     page.keyboard.press("Space")
-    expect(card).to_contain_text("paused")
+    expect(chip).to_have_text("paused")
     card.get_by_label("Speed").select_option("1")

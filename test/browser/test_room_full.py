@@ -180,8 +180,8 @@ def test_a_person_works_with_a_robot_on_a_table(headset: Headset, lab: ServedLab
     headset.press(ROBOT, "play")
     headset.reaches("PAUSED")
 
-    # a hand takes it from the gripper
-    headset.reach_for(page.evaluate(OBJECT))
+    # a hand takes it from the gripper: from nearby, as a panel may stand before where it is now
+    headset.reach_for(page.evaluate(OBJECT), away=0.05)
     headset.trigger(True)
     headset.wait_for(f"{holding} === ''")
     headset.trigger(False)

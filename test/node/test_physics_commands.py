@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
-from graph import Graph
+from graph import Graph, wait_for
 from typer.testing import CliRunner
 
 from mrlab_ros import cli
@@ -62,7 +62,7 @@ def test_objects_and_scenes_are_listed_changed_and_refused_in_words(
     assert "table_1 is at -0.5, 0.25, 0.37 m" in placed
     assert "mug is at" in mrlab("objects", "spawn", "cup", "--on", "--at", "-0.5,0.25,1",
                                 "--name", "mug")  # fmt: skip
-    mug = objects()["mug"]
+    mug = wait_for(lambda: objects().get("mug"), "it in the list")
     assert mug["position"] == pytest.approx([-0.5, 0.25, 0.78], abs=0.005)
     assert "cube_1 is at" in mrlab("objects", "spawn", "cube")
     for arguments, says in (
@@ -78,6 +78,6 @@ def test_objects_and_scenes_are_listed_changed_and_refused_in_words(
     assert "2 objects are removed" in mrlab("objects", "clear")
     assert "handover" in mrlab("scene", "list").split()
     assert "loaded lesson_1: 0 robots, 2 objects" in mrlab("scene", "load", "lesson_1")
-    assert objects().keys() == {"table_1", "mug"}
+    wait_for(lambda: objects().keys() == {"table_1", "mug"}, "both in the list")
     with pytest.raises(LabError, match="there is no scene 'lesson_2'"):
         mrlab("scene", "load", "lesson_2")

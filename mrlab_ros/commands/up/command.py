@@ -8,7 +8,7 @@ from typing import Annotated
 import typer
 
 from mrlab_ros.adapters.store.objects import open_store
-from mrlab_ros.commands.up.keys import checked_listen, checked_router
+from mrlab_ros.commands.up.keys import checked_listen, checked_router, free_endpoint
 from mrlab_ros.commands.up.lab_run import LabRun
 from mrlab_ros.commands.up.surroundings import (
     folder_for_state,
@@ -138,6 +138,8 @@ def up(
         listen = checked_router(zenoh_connect, zenoh_listen, keys, insecure)
     elif bridge:
         listen = checked_listen(zenoh_listen, keys, insecure)
+        if zenoh_listen or config is None:
+            listen = free_endpoint(listen)
     pages = None
     if web and bridge:
         pages = checked_web(

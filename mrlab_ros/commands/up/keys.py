@@ -25,31 +25,34 @@ def checked_listen(chosen: str, keys: Path | None, insecure: bool) -> str:
 
     if insecure and keys is not None:
         raise BadInput("--keys and --insecure exclude each other; leave one of them out")
-    listen = with_free_port(chosen) or (LISTEN if keys is None else EVERYWHERE[0])
+    listen = chosen or (LISTEN if keys is None else EVERYWHERE[0])
     check_endpoints((listen,), insecure, keys is not None)
     if keys is not None:
         Keys(keys).check(now())
     return listen
 
 
-def with_free_port(endpoint: str) -> str:
+def free_endpoint(endpoint: str) -> str:
     """Return a zenoh endpoint with a free port in place of 0, so that others can be told of it.
 
-    Raises BadInput where nobody can listen at its address.
+    Raises BadInput where nobody can listen there.
     """
     host, _, port = endpoint.partition("/")[2].rpartition(":")
-    if port != "0":
+    if not port.isdigit():
         return endpoint
     host = host.strip("[]")
     with socket.socket(socket.AF_INET6 if ":" in host else socket.AF_INET) as probe:
+        # As a server does: what a closed connection left behind is no hindrance.
+        probe.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
         try:
-            probe.bind((host, 0))
+            probe.bind((host, int(port)))
         except OSError as error:
             raise BadInput(
-                f"the bridge cannot listen on {endpoint}: {error.strerror or error}; expected an "
-                "address of this machine, such as tcp/127.0.0.1:0"
+                f"the bridge cannot listen on {endpoint}: {error.strerror or error}; another "
+                "lab may have that port, so choose another one with --zenoh-listen "
+                "tcp/127.0.0.1:0 (0: any that is free), or leave the bridge out with --no-bridge"
             ) from error
-        return f"{endpoint.removesuffix(':0')}:{probe.getsockname()[1]}"
+        return f"{endpoint.removesuffix(f':{port}')}:{probe.getsockname()[1]}"
 
 
 def checked_router(router: str, listen: str, keys: Path | None, insecure: bool) -> str:

@@ -128,7 +128,7 @@ def refusal(survey: Survey, file: str) -> Diagnostic:
 
 
 def _recorded(variable: Variable, survey: Survey) -> Diagnostic:
-    return finding("recorded_states", variable=variable.path, robot=survey.robot.id)
+    return finding("recorded_states", variable=variable.path)
 
 
 def _states(survey: Survey) -> Diagnostic | None:

@@ -21,8 +21,8 @@ class ShownRobot:
     """A robot whose frames are published.
 
     base: T_world_base. description: its published URDF, empty until it arrived. positions: rad or
-    m by joint. stamp_ns: of the newest joint state; sent_ns: of the one that was published last.
-    subscriptions: what is destroyed with it.
+    m by joint. placed: whether a joint state of its arm has come. stamp_ns: of the newest joint
+    state; sent_ns: of the one that was published last. subscriptions: what is destroyed with it.
     """
 
     name: str
@@ -31,6 +31,7 @@ class ShownRobot:
     description: str = ""
     frames: LinkFrames | None = None
     positions: dict[str, float] = field(default_factory=dict)
+    placed: bool = False
     stamp_ns: int = 0
     sent_ns: int = 0
     subscriptions: list[Any] = field(default_factory=list)
@@ -44,7 +45,7 @@ class ShownRobot:
     def take_arm(self, data: bytes) -> None:
         """Take a joint state of the arm, CDR; raise BadInput where it is none."""
         stamp_ns, positions, _ = joint_states.read(data, self.joint_names)
-        self.stamp_ns = stamp_ns
+        self.stamp_ns, self.placed = stamp_ns, True
         self.positions.update(zip(self.joint_names, positions, strict=True))
 
     def take_fingers(self, stamp_ns: int, positions: Mapping[str, float]) -> None:
@@ -83,7 +84,7 @@ class Batch:
         values: list[Array] = []
         for robot in robots.values():
             frames = robot.frames
-            if frames is None or not robot.moved or not frames.moving:
+            if frames is None or not (robot.placed and robot.moved and frames.moving):
                 continue
             robot.sent_ns = robot.stamp_ns
             pairs.extend(frames.moving)

@@ -28,7 +28,7 @@ from mrlab_ros.adapters.keys.folder import (
 from mrlab_ros.adapters.keys.people import GATEWAY, NOBODY, read_passwords
 from mrlab_ros.cli import make_app
 from mrlab_ros.commands.up import keys as up_keys
-from mrlab_ros.commands.up.keys import checked_listen, checked_router
+from mrlab_ros.commands.up.keys import checked_listen, checked_router, free_endpoint
 from mrlab_ros.commands.up.web import prepare_keys
 from mrlab_ros.core.bridge import rules
 from mrlab_ros.core.bridge.access import Login
@@ -310,11 +310,6 @@ def test_up_listens_everywhere_only_with_keys_or_when_told(tmp_path):
     assert checked_listen("", None, False) == "tcp/127.0.0.1:7447"
     assert checked_listen("", folder, False) == "tls/0.0.0.0:7447"
     assert checked_listen("tcp/0.0.0.0:1", None, True) == "tcp/0.0.0.0:1"
-    kept, _, port = checked_listen("tcp/127.0.0.1:0", None, False).rpartition(":")
-    assert kept == "tcp/127.0.0.1"
-    assert int(port) > 0, "who is told of the address can connect to it"
-    with pytest.raises(BadInput, match="cannot listen on tcp/256.0.0.1:0"):
-        checked_listen("tcp/256.0.0.1:0", None, True)
     with pytest.raises(BadInput, match="--insecure"):
         checked_listen("tcp/0.0.0.0:1", None, False)
     with pytest.raises(BadInput, match="listen on tls/127.0.0.1:1, or leave the keys out"):
@@ -325,6 +320,21 @@ def test_up_listens_everywhere_only_with_keys_or_when_told(tmp_path):
         checked_listen("tls/0.0.0.0:1", None, False)
     with pytest.raises(BadInput, match="mrlab keys init --dir"):
         checked_listen("", tmp_path / "none", False)
+
+
+def test_up_refuses_an_address_where_nobody_can_listen():
+    kept, _, port = free_endpoint("tcp/127.0.0.1:0").rpartition(":")
+    assert kept == "tcp/127.0.0.1"
+    assert int(port) > 0, "who is told of the address can connect to it"
+    with pytest.raises(BadInput, match="cannot listen on tcp/256.0.0.1:0"):
+        free_endpoint("tcp/256.0.0.1:0")
+    with socket.create_server(("127.0.0.1", 0)) as other:
+        taken = f"tcp/127.0.0.1:{other.getsockname()[1]}"
+        done = CliRunner().invoke(make_app(["up"]), ["up", "--no-web", "--zenoh-listen", taken])
+        assert isinstance(done.exception, BadInput)
+        assert f"cannot listen on {taken}: Address already in use" in str(done.exception)
+        assert "--zenoh-listen tcp/127.0.0.1:0" in str(done.exception)
+    assert free_endpoint(taken) == taken
 
 
 def test_up_connects_to_a_router_with_keys_alone(tmp_path):
