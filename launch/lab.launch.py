@@ -27,7 +27,7 @@ from launch_ros.actions import Node
 
 from mrlab_ros.adapters.bullet.support import missing
 from mrlab_ros.adapters.launcher import LAUNCHER
-from mrlab_ros.commands.up.keys import with_free_port
+from mrlab_ros.commands.up.keys import free_endpoint
 from mrlab_ros.commands.up.web import checked_web, prepare_keys
 from mrlab_ros.core.bridge.links import check_endpoints
 from mrlab_ros.core.errors import BadInput
@@ -118,9 +118,10 @@ def processes(context):
     check_namespace(context.launch_configurations.get("ros_namespace", ""))
     shown = [rviz()] if given("rviz") else []
     keys = path("keys")
-    listen = with_free_port(value("listen"))
+    listen = value("listen")
     if listen and given("bridge"):
         check_endpoints((listen,), given("insecure"), keys is not None)
+        listen = free_endpoint(listen, "listen:=")
     web = None
     if given("bridge") and given("web"):
         web = checked_web(

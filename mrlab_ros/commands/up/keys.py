@@ -32,10 +32,10 @@ def checked_listen(chosen: str, keys: Path | None, insecure: bool) -> str:
     return listen
 
 
-def free_endpoint(endpoint: str) -> str:
+def free_endpoint(endpoint: str, option: str = "--zenoh-listen ") -> str:
     """Return a zenoh endpoint with a free port in place of 0, so that others can be told of it.
 
-    Raises BadInput where nobody can listen there.
+    Raises BadInput where nobody can listen there. option: what chooses another one.
     """
     host, _, port = endpoint.partition("/")[2].rpartition(":")
     if not port.isdigit():
@@ -49,8 +49,8 @@ def free_endpoint(endpoint: str) -> str:
         except OSError as error:
             raise BadInput(
                 f"the bridge cannot listen on {endpoint}: {error.strerror or error}; another "
-                "lab may have that port, so choose another one with --zenoh-listen "
-                "tcp/127.0.0.1:0 (0: any that is free), or leave the bridge out with --no-bridge"
+                f"lab may have that port, so choose another one, such as {option}tcp/127.0.0.1:0 "
+                "(0: any that is free)"
             ) from error
         return f"{endpoint.removesuffix(f':{port}')}:{probe.getsockname()[1]}"
 
