@@ -418,6 +418,7 @@ TEST_TOOLS = (
     ("octave-cli", "octave", "runs the MATLAB examples"),
     ("check_urdf", "liburdfdom-tools", "checks the robot descriptions"),
     ("chromium", "chromium", "shows the pages"),
+    ("sqlite3", "sqlite3", "reads what is left of a damaged bag"),
 )
 
 

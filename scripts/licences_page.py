@@ -181,5 +181,5 @@ npm packages that build and test the pages:
 {table(npm_packages(root, False))}
 
 Programs that tests run where they are installed: GNU Octave (GPL-3.0), `check_urdf` (BSD),
-Chromium (BSD). They are no part of the lab, and nothing links to them.
+Chromium (BSD), sqlite3 (public domain). They are no part of the lab, and nothing links to them.
 """
