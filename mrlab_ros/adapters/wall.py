@@ -24,7 +24,7 @@ from collections.abc import Iterable, Iterator, Sequence
 from functools import cache
 from pathlib import Path
 
-PR_SET_NO_NEW_PRIVS, PR_SET_SECCOMP, SECCOMP_MODE_FILTER = 38, 22, 2
+PR_SET_NO_NEW_PRIVS, PR_GET_SECCOMP, PR_SET_SECCOMP, SECCOMP_MODE_FILTER = 38, 21, 22, 2
 
 # Landlock: numbers of its calls, equal on all machines, and linux/landlock.h
 CREATE_RULESET, ADD_RULE, RESTRICT_SELF = 444, 445, 446
@@ -129,6 +129,8 @@ def shut(*, read: Iterable[Path] = (), write: Iterable[Path] = (), opens: bool =
     rules = [(path, TO_READ) for path in read] + [(path, TO_WRITE) for path in write]
     if rules and not opens:
         raise ValueError("files are named that nobody may open")
+    if opens:
+        rules.append((Path(os.devnull), TO_WRITE))
     _prctl(PR_SET_NO_NEW_PRIVS, 1, 0)
     if landlock_version():
         _restrict_files(rules)
@@ -149,8 +151,8 @@ def libraries() -> tuple[Path, ...]:
     named = {*sysconfig.get_paths().values(), sys.prefix, sys.base_prefix, *sys.path}
     named |= set(filter(None, os.environ.get("LD_LIBRARY_PATH", "").split(":")))
     system = ("/usr/lib", "/usr/lib64", "/lib", "/lib64", "/etc/ld.so.cache", "/etc/localtime")
-    system += ("/usr/share/zoneinfo", "/dev/null", "/dev/urandom")
-    found = {Path(name).resolve() for name in (*named, *system) if name}
+    devices = ("/usr/share/zoneinfo", "/dev/urandom")
+    found = {Path(name).resolve() for name in (*named, *system, *devices) if name}
     return tuple(sorted(path for path in found if path.exists() and path != Path("/")))
 
 
@@ -163,9 +165,8 @@ def landlock_version() -> int:
 @cache
 def has_seccomp() -> bool:
     """Return whether the kernel takes filters of system calls, on a machine whose are known."""
-    with open("/proc/self/status") as status:
-        found = any(line.startswith("Seccomp:") for line in status)
-    return found and platform.machine() in ARCHITECTURES
+    known = platform.machine() in ARCHITECTURES
+    return known and _libc().prctl(PR_GET_SECCOMP, 0, 0, 0, 0) >= 0
 
 
 def _restrict_files(rules: Sequence[tuple[Path, int]]) -> None:

@@ -23,6 +23,7 @@ import numpy as np
 from fuzz import fuzz_matfile
 from fuzz.differential import Matrices
 
+from mrlab_ros.adapters import wall
 from mrlab_ros.adapters.workspaces import worker
 
 SECONDS = 10  # of processor time, for one small file
@@ -65,7 +66,7 @@ def outcome(data: bytes, expected: Matrices | None) -> str:
         try:
             resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
             resource.setrlimit(resource.RLIMIT_CPU, (SECONDS, SECONDS))
-            memory = worker.address_space() + MEMORY
+            memory = wall.address_space() + MEMORY
             resource.setrlimit(resource.RLIMIT_AS, (memory, memory))
             code = _read(data, expected)
         finally:

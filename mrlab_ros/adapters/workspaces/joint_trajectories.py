@@ -1,6 +1,6 @@
 """Reads and writes trajectory_msgs/JointTrajectory: in rosbag2 bags, and alone as CDR.
 
-rosbags is imported where a message is at hand: no other file pays for it.
+rosbags is imported for a file that needs it: no other one pays for it.
 """
 
 from __future__ import annotations
@@ -15,6 +15,7 @@ from typing import Any
 
 import numpy as np
 
+from mrlab_ros.adapters.inflate import ZSTD, inflate_zstd
 from mrlab_ros.adapters.workspaces.mat5 import (
     Damaged,
     NotAWorkspace,
@@ -94,8 +95,6 @@ def read_bag(data: memoryview, form: str, sink: Sink, limit: int) -> None:
 
 def _plain(message: bytes, limit: int) -> bytes:
     """Return a message whose bag may have compressed it by itself."""
-    from mrlab_ros.adapters.inflate import ZSTD, inflate_zstd
-
     if not message.startswith(ZSTD):
         return message
     inflated = inflate_zstd(message, limit)

@@ -1,7 +1,9 @@
 """Reads MATLAB's v7.3 workspaces, which are HDF5 files, with h5py.
 
 HDF5 stores MATLAB's axes reversed, so a dataset's own order of bytes is MATLAB's column by
-column. Only what lies in the file itself is followed: no external links, no virtual datasets.
+column. Only what lies in the file itself is followed: no external links, no virtual datasets; the
+kernel sees to it that the libraries open nothing else (`adapters/wall.py`). Every read of a
+dataset or an attribute goes through `values_of` or `attribute`, which bound it.
 """
 
 from __future__ import annotations
@@ -25,6 +27,9 @@ from mrlab_ros.adapters.workspaces.mat5 import (
 )
 from mrlab_ros.adapters.workspaces.sink import Found, Sink
 
+MOST_ATTRIBUTE = 4096  # bytes of an attribute that is read: MATLAB writes names and flags there
+MOST_AXES = 64  # of an array, as NumPy has it
+
 
 def read_hdf5(file: Any, sink: Sink, limit: int) -> None:
     """Hand every variable to the sink; `limit` bounds one variable's bytes."""
@@ -47,22 +52,27 @@ def read_contents_of_objects(file: Any, sink: Sink, limit: int) -> None:
             reader.cell(part, "#", 0)
 
 
-def check_self_contained(file: Any) -> None:
-    """Raise Damaged where an HDF5 file has a link or a dataset that leads out of it."""
+def values_of(item: Any, path: str, limit: int) -> Any:
+    """Return the values of a dataset that lie in this very file and have `limit` bytes at most.
 
-    def leads_out(name: str, link: Any) -> str | None:
-        if isinstance(link, h5py.ExternalLink):
-            return f"'{name}' lies in another file; that is not followed"
-        item = root.get(name)
-        if isinstance(item, h5py.Dataset) and (item.is_virtual or item.external):
-            return f"'{name}' takes its values from another file; that is not followed"
+    Raises Damaged or TooLarge before anything of it is read.
+    """
+    if not isinstance(item, h5py.Dataset) or item.is_virtual or item.external:
+        raise Damaged(f"'{path}' takes its values from elsewhere; that is not followed")
+    if item.nbytes > limit:
+        raise TooLarge(
+            f"'{path}' holds {item.nbytes / 2**20:.0f} MiB, the limit is {limit / 2**20:.0f} MiB"
+        )
+    return item[()]
+
+
+def attribute(item: Any, name: str) -> Any:
+    """Return a small attribute, None where there is none; raise Damaged for a large one."""
+    if name not in item.attrs:
         return None
-
-    with _opened(file) as root:
-        # h5py loses an exception that is raised while it visits
-        problem = root.visititems_links(leads_out)
-        if problem:
-            raise Damaged(problem)
+    if item.attrs.get_id(name).get_storage_size() > MOST_ATTRIBUTE:
+        raise Damaged(f"the attribute {name} of '{item.name}' is too large")
+    return item.attrs[name]
 
 
 @contextmanager
@@ -80,6 +90,10 @@ def _opened(file: Any) -> Iterator[Any]:
 
 def _word(value: Any) -> str:
     return value.decode("utf-8", "replace") if isinstance(value, bytes) else str(value)
+
+
+def _holds_references(item: Any) -> bool:
+    return isinstance(item, h5py.Dataset) and h5py.check_ref_dtype(item.dtype) is h5py.Reference
 
 
 class _Reader:
@@ -101,11 +115,11 @@ class _Reader:
     def item(self, item: Any, path: str, depth: int) -> None:
         if depth > DEEPEST:
             raise Damaged(f"'{path}' is nested deeper than {DEEPEST} levels")
-        kind = _word(item.attrs.get("MATLAB_class", ""))
+        kind = _word(attribute(item, "MATLAB_class") or "")
         if "MATLAB_object_decode" in item.attrs:
             self.sink.add(Found(path, kind or "object", is_object=True, shape=()))
         elif "MATLAB_sparse" in item.attrs:
-            self.sink.add(Found(path, "sparse", (int(item.attrs["MATLAB_sparse"]), 0)))
+            self.sink.add(Found(path, "sparse", (int(attribute(item, "MATLAB_sparse")), 0)))
         elif isinstance(item, h5py.Group):
             self._struct(item, path, depth)
         elif kind == "cell":
@@ -113,9 +127,10 @@ class _Reader:
         else:
             self._numbers(item, path, kind)
 
-    def _shape(self, item: Any) -> tuple[int, ...]:
+    def _shape(self, item: Any, path: str) -> tuple[int, ...]:
         if "MATLAB_empty" in item.attrs:
-            return tuple(int(n) for n in item[()].reshape(-1)[:8])
+            lengths = values_of(item, path, 8 * MOST_AXES).reshape(-1)
+            return tuple(int(n) for n in lengths[:8])
         shape = tuple(int(n) for n in reversed(item.shape))
         return shape + (1,) * (2 - len(shape))
 
@@ -127,9 +142,9 @@ class _Reader:
             for name in names:
                 self.item(group[name], f"{path}.{name}", depth + 1)
             return
-        shape = self._shape(group[arrays[0]])
+        shape = self._shape(group[arrays[0]], path)
         self.sink.add(Found(path, "struct", shape))
-        columns = {name: group[name][()].reshape(-1) for name in arrays}
+        columns = {name: self._references(group[name], path) for name in arrays}
         for number in range(min(len(c) for c in columns.values())):
             for name, column in columns.items():
                 part = f"{path}({index(shape, number)}).{name}"
@@ -137,19 +152,19 @@ class _Reader:
 
     def _is_references(self, item: Any) -> bool:
         """Say whether `item` is one field of a struct array: references and no class."""
-        return (
-            isinstance(item, h5py.Dataset)
-            and h5py.check_ref_dtype(item.dtype) is h5py.Reference
-            and "MATLAB_class" not in item.attrs
-        )
+        return _holds_references(item) and "MATLAB_class" not in item.attrs
+
+    def _references(self, item: Any, path: str) -> Any:
+        if not _holds_references(item):
+            raise Damaged(f"'{path}' holds no references to its elements")
+        return values_of(item, path, self.limit).reshape(-1)
 
     def cell(self, item: Any, path: str, depth: int) -> None:
-        shape = self._shape(item)
+        shape = self._shape(item, path)
         self.sink.add(Found(path, "cell", shape))
         if "MATLAB_empty" in item.attrs:
             return
-        self._bounded(item, path)
-        for number, reference in enumerate(item[()].reshape(-1)):
+        for number, reference in enumerate(self._references(item, path)):
             self._follow(reference, f"{path}{{{index(shape, number)}}}", depth)
 
     def _follow(self, reference: Any, path: str, depth: int) -> None:
@@ -157,38 +172,31 @@ class _Reader:
             raise Damaged(f"'{path}' points nowhere")
         self.item(self.root[reference], path, depth + 1)
 
-    def _bounded(self, item: Any, path: str) -> None:
-        if item.is_virtual or item.external:
-            raise Damaged(f"'{path}' takes its values from another file; that is not followed")
-        if item.nbytes > self.limit:
-            raise TooLarge(
-                f"'{path}' holds {item.nbytes / 2**20:.0f} MiB, the limit is "
-                f"{self.limit / 2**20:.0f} MiB"
-            )
-
-    def _text(self, item: Any, shape: tuple[int, ...]) -> str:
+    def _text(self, item: Any, path: str, shape: tuple[int, ...]) -> str:
         """Return a short line of text, else an empty one."""
         if shape[0] != 1 or item.size > LONGEST_TEXT or item.dtype.kind != "u":
             return ""
-        return bytes(item[()].astype("<u2")).decode("utf-16-le", "replace")
+        return bytes(values_of(item, path, 8 * LONGEST_TEXT).astype("<u2")).decode(
+            "utf-16-le", "replace"
+        )
 
     def _numbers(self, item: Any, path: str, kind: str) -> None:
-        shape = self._shape(item)
+        shape = self._shape(item, path)
         if item.dtype.names:
             self.sink.add(Found(path, kind or "double", shape, note="complex"))
             if self.inside_objects and "MATLAB_empty" not in item.attrs:
-                self._bounded(item, path)
+                both = values_of(item, path, self.limit)
                 for name in item.dtype.names:
-                    values = item[()][name].copy()
+                    values = both[name].copy()
                     data = memoryview(values).cast("B")
                     self.sink.add(Found(path, "double", shape, data, values.dtype.str))
             return
         kind = kind or {"f": "double", "i": "int64", "u": "uint64"}.get(item.dtype.kind, "unknown")
         if kind == "char" and "MATLAB_empty" not in item.attrs:
-            self.sink.add(Found(path, kind, shape, text=self._text(item, shape)))
+            self.sink.add(Found(path, kind, shape, text=self._text(item, path, shape)))
             return
         if kind == "logical" and item.size == 1 and not self.inside_objects:
-            truth = bool(np.any(item[()])) and "MATLAB_empty" not in item.attrs
+            truth = "MATLAB_empty" not in item.attrs and bool(np.any(values_of(item, path, 64)))
             self.sink.add(Found(path, kind, shape, text="true" if truth else "false"))
             return
         wanted = kind in ("double", "single") or (self.inside_objects and kind != "char")
@@ -199,6 +207,5 @@ class _Reader:
         if "MATLAB_empty" in item.attrs:
             self.sink.add(Found(path, kind, shape))
             return
-        self._bounded(item, path)
-        values = item[()]
+        values = values_of(item, path, self.limit)
         self.sink.add(Found(path, kind, shape, memoryview(values).cast("B"), values.dtype.str))

@@ -18,11 +18,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mrlab_ros.adapters.workspaces.mat5 import recognise
+from mrlab_ros.adapters.workspaces.mat73 import values_of
 from mrlab_ros.adapters.workspaces.view import View
 from mrlab_ros.core.diagnostics import Refused, finding
 
 STEP = re.compile(r"\.(?P<field>[^.({]+)|\((?P<element>[\d,]+)\)|\{(?P<cell>[\d,]+)\}")
 H5_FILE = "#file"  # no variable has this name
+MOST_REFERENCES = 1 << 26  # bytes of those of one cell or field
 BLOCK = 1 << 16  # elements that are compared at once
 ROOT = re.compile(r"[^.({]+")
 
@@ -61,7 +63,9 @@ def disagreement(
     second = "h5py" if form == "hdf5" else "scipy"
     try:
         found = (
-            _with_h5py(data, path, loaded) if form == "hdf5" else _with_scipy(data, path, loaded)
+            _with_h5py(data, path, 8 * values.size, loaded)
+            if form == "hdf5"
+            else _with_scipy(data, path, loaded)
         )
     except _Opaque:
         return ""
@@ -174,7 +178,10 @@ def _with_scipy(data: memoryview, path: str, loaded: dict[str, Any] | None = Non
     return value
 
 
-def _with_h5py(data: memoryview, path: str, loaded: dict[str, Any] | None = None) -> NDArray[Any]:
+def _with_h5py(
+    data: memoryview, path: str, most: int, loaded: dict[str, Any] | None = None
+) -> NDArray[Any]:
+    """Return the matrix at `path`, which has `most` bytes or fewer."""
     # many pieces of one file are read through one opening of it
     known = {} if loaded is None else loaded
     if H5_FILE not in known:
@@ -199,7 +206,7 @@ def _with_h5py(data: memoryview, path: str, loaded: dict[str, Any] | None = None
                     item, number = file[_references(item, known)[number]], None
             else:
                 item = file[_references(item, known)[_number(item.shape, where)]]
-        values = np.asarray(item[...]).T
+        values = np.asarray(values_of(item, path, most)).T
         return values.reshape(values.shape + (1,) * (2 - values.ndim))
     finally:
         if loaded is None:
@@ -210,7 +217,7 @@ def _references(item: Any, known: dict[str, Any]) -> NDArray[Any]:
     """Return the references of a cell or a field; those of one item are read once."""
     key = f"#{item.name}"
     if key not in known:
-        known[key] = item[()].reshape(-1)
+        known[key] = values_of(item, str(item.name), MOST_REFERENCES).reshape(-1)
     found: NDArray[Any] = known[key]
     return found
 

@@ -1,10 +1,12 @@
 """The walled-off process that converts files from outside; started by `reader`.
 
 It waits with everything imported and forks once for each file. Only the fork touches the file's
-bytes. It works on a private copy, which nobody can shorten meanwhile, under limits that the
-kernel keeps (memory, processor time, wall time, output, no core dump): it hashes, reads, checks
-and derives, and writes the trajectory into the file that it was given. Whatever a file does to
-it, the waiting process and the lab see no more than an exit status.
+bytes. It works on a private copy, which nobody can shorten meanwhile, behind the wall of
+`adapters/wall.py` and under limits that the kernel keeps (memory, processor time, wall time,
+output, no core dump): it hashes, reads, checks and derives, and writes the trajectory into the
+file that it was given. It opens nothing else: where a file needs a reader that is not imported,
+the fork ends with a status that names it, and the waiting process imports it and forks again.
+Whatever a file does to the fork, the waiting process and the lab see no more than that status.
 
 A request is a JSON message with descriptors. Two of them: the file and a memory file, which gets
 the numbers of the variables, then their JSON index, then that index' length (8 bytes,
@@ -16,9 +18,11 @@ with what a second reader finds in the file. Four: the file, a memory file for t
 
 from __future__ import annotations
 
+import codecs
 import contextlib
 import gc
 import gzip
+import importlib
 import io
 import json
 import math
@@ -38,6 +42,8 @@ from typing import Any
 
 import numpy as np
 
+from mrlab_ros.adapters import wall
+from mrlab_ros.adapters.inflate import inflate_zstd
 from mrlab_ros.adapters.workspaces import (
     content,
     joint_trajectories,
@@ -67,6 +73,12 @@ FACTS = ("note", "columns", "units", "time", "is_object", "label", "text")
 COMPRESSED = {"gzip": 1100, "zstd": 33_000}
 # what a table may look like before its rows are read
 TEXTS = ("a text file", "a file of an unknown kind")
+# modules that readers of seldom files need, and the exit status that asks for the first of them
+SELDOM = ("matio", "rosbags.rosbag2", "rosbags.typesys.stores.ros2_jazzy")
+ASKED = 64
+# those of texts in any file: Python imports each on its first use
+ENCODINGS = ("ascii", "latin-1", "cp1252", "utf-8", "utf-8-sig", "utf-16", "utf-32")
+ENCODINGS += tuple(f"utf-{bits}-{order}" for bits in (16, 32) for order in ("le", "be"))
 TABLES = (".csv", ".txt", ".tsv", ".lvm")
 NUMBER_BEGINS = tuple(b"%c" % c for c in b"+-.0123456789")
 
@@ -75,7 +87,9 @@ class OutputFile:
     """The sink that appends numbers to a file and keeps their index."""
 
     def __init__(self, fd: int, limit: int) -> None:
+        os.ftruncate(fd, 0)
         self.file = os.fdopen(fd, "wb", buffering=1 << 16)
+        self.file.seek(0)
         self.limit = limit
         self.at = 0
         self.index: list[Any] = []
@@ -119,8 +133,6 @@ def inflate(data: memoryview, form: str, limit: int) -> memoryview:
     inflated: bytes | bytearray | None
     try:
         if form == "zstd":
-            from mrlab_ros.adapters.inflate import inflate_zstd
-
             inflated = inflate_zstd(data, limit)
         else:
             with gzip.open(View(data)) as file:
@@ -132,8 +144,17 @@ def inflate(data: memoryview, form: str, limit: int) -> memoryview:
     return memoryview(inflated)
 
 
-def read(data: memoryview, name: str, sink: Sink, limit: int) -> str:
-    """Hand the variables of a file of any known format to the sink; return the format's name."""
+def read(
+    data: memoryview,
+    name: str,
+    sink: Sink,
+    limit: int,
+    needs: Callable[[str], object] = importlib.import_module,
+) -> str:
+    """Hand the variables of a file of any known format to the sink; return the format's name.
+
+    needs: is told the modules that this file needs beside those of all files.
+    """
     form = mat5.recognise(data)
     if form in COMPRESSED:
         data = inflate(data, form, limit)
@@ -146,11 +167,14 @@ def read(data: memoryview, name: str, sink: Sink, limit: int) -> str:
             mat5.Mat5Reader(found, limit).read(data)
         else:
             read_hdf5(io.BufferedReader(View(data)), found, limit)
-        objects.open_objects(data, found, limit)
+        objects.open_objects(data, found, limit, needs)
         return "MATLAB v5 to v7" if form == "mat5" else "MATLAB v7.3"
     if form == "mat4":
         mat5.read_mat4(data, sink)
         return "MATLAB v4"
+    if form in joint_trajectories.SUFFIXES or name.lower().endswith(".cdr"):
+        for module in SELDOM[1:]:
+            needs(module)
     if form in joint_trajectories.SUFFIXES:
         joint_trajectories.read_bag(data, form, sink, limit)
         return "rosbag2"
@@ -171,20 +195,18 @@ def read(data: memoryview, name: str, sink: Sink, limit: int) -> str:
     raise mat5.NotAWorkspace(form)
 
 
-def read_again(data: memoryview, numbers: int, places: list[list[Any]]) -> tuple[str, str]:
+def read_again(data: memoryview, numbers: mmap.mmap, places: list[list[Any]]) -> tuple[str, str]:
     """Compare matrices that were read before with what the second reader finds in their file.
 
-    numbers: the memory file that `read` filled. places: path, shape, offset and numpy type of
+    numbers: what `read` filled. places: path, shape, offset and numpy type of
     each matrix. Returns the path of the first that differs and what differs, or nothing twice.
     """
     form = mat5.recognise(data)
     if form in COMPRESSED:
         data = inflate(data, form, len(data) * COMPRESSED[form] + (1 << 20))
-    size = os.fstat(numbers).st_size
-    with_numbers = mmap.mmap(numbers, size, prot=mmap.PROT_READ)
     loaded: dict[str, Any] = {}
     for path, shape, offset, dtype in places:
-        flat = np.frombuffer(with_numbers, np.dtype(dtype), math.prod(shape), offset)
+        flat = np.frombuffer(numbers, np.dtype(dtype), math.prod(shape), offset)
         values = flat.reshape(tuple(shape), order="F")
         problem = second_reader.disagreement(data, path, values, loaded)
         if problem:
@@ -192,18 +214,10 @@ def read_again(data: memoryview, numbers: int, places: list[list[Any]]) -> tuple
     return "", ""
 
 
-def confine(request: dict[str, Any]) -> None:
-    """Put the kernel's limits on this process."""
-    memory, seconds, output = request["memory"], request["time"], request["output"]
-    resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
-    # the stored trajectory has three matrices for each one of the file
-    size = 4 * output + (1 << 26)
-    resource.setrlimit(resource.RLIMIT_FSIZE, (size, size))
-    used = address_space()
-    # a second reader in a process of its own may raise the limit by as much again
-    resource.setrlimit(resource.RLIMIT_AS, (used + memory, used + 2 * memory))
-    whole = int(seconds) + 2
-    resource.setrlimit(resource.RLIMIT_CPU, (whole, whole))
+def imported(module: str) -> None:
+    """End this process with the status that asks for a module, unless it is imported already."""
+    if module not in sys.modules:
+        os._exit(ASKED + SELDOM.index(module))
 
 
 def serve(source: int, target: int, numbers: int | None, request: dict[str, Any]) -> None:
@@ -219,10 +233,14 @@ def serve(source: int, target: int, numbers: int | None, request: dict[str, Any]
         size = os.fstat(source).st_size
         data = memoryview(mmap.mmap(source, size, prot=mmap.PROT_READ) if size else b"")
         if numbers is None:
-            form = read(data, request["name"], sink, limit)
+            with wall.nothing_opens():
+                form = read(data, request["name"], sink, limit, imported)
             sink.finish(format=form, sha256=content.sha256(source))
         else:
-            path, problem = read_again(data, numbers, request["again"])
+            length = os.fstat(numbers).st_size
+            found = mmap.mmap(numbers, length, prot=mmap.PROT_READ)
+            with wall.nothing_opens():
+                path, problem = read_again(data, found, request["again"])
             sink.finish(problem=problem, variable=path)
     except mat5.NotAWorkspace as error:
         sink.finish(code="unsupported_format", problem=str(error))
@@ -249,24 +267,36 @@ def work(descriptors: list[int], request: dict[str, Any]) -> None:
         copy = content.copied(source, request["file_size"])
     except ValueError as error:
         problem = str(error)
-    confine(request)
-    if len(descriptors) < 4:
+    asked = _task(descriptors[2]) if len(descriptors) == 4 else None
+    # the stored trajectory has three matrices for each one of the file
+    wall.confine(
+        memory=request["memory"],
+        seconds=request["time"],
+        file_size=4 * request["output"] + (1 << 26),
+    )
+    wall.shut()
+    if asked is None:
         if problem:
             OutputFile(target, 0).finish(code="unreadable", problem=problem)
         else:
             serve(copy, target, next(iter(descriptors[2:]), None), request)
         return
-    task, stored = descriptors[2:]
 
     def found() -> Workspace:
         if problem:
             raise Refused(finding("unreadable", file=request["name"], problem=problem))
         return workspace(copy, request)
 
-    with os.fdopen(task, "rb") as file:
-        asked: results.Task = pickle.load(file)  # from the lab, not from the file
-    with os.fdopen(target, "wb") as reply, os.fdopen(stored, "wb") as trajectory:
+    with os.fdopen(target, "wb") as reply, os.fdopen(descriptors[3], "wb") as trajectory:
         reply.write(results.run(asked, found, request["memory"], trajectory, request["rows"]))
+
+
+def _task(descriptor: int) -> results.Task:
+    """Return what is asked: a pickle from the lab, not from the file."""
+    os.lseek(descriptor, 0, os.SEEK_SET)
+    with os.fdopen(descriptor, "rb") as file:
+        task: results.Task = pickle.load(file)
+    return task
 
 
 def workspace(copy: int, request: dict[str, Any]) -> Workspace:
@@ -307,12 +337,6 @@ def forked(do: Callable[[], None]) -> int:
     return os.waitstatus_to_exitcode(os.waitpid(child, 0)[1])
 
 
-def address_space() -> int:
-    """Return the size, bytes, of this process' address space."""
-    with open("/proc/self/statm") as file:
-        return int(file.read().split()[0]) * mmap.PAGESIZE
-
-
 def warm_up() -> None:
     """Convert a small workspace of our own, so that no fork pays for what is done but once.
 
@@ -320,6 +344,8 @@ def warm_up() -> None:
     """
     import scipy.io
 
+    for encoding in ENCODINGS:
+        codecs.lookup(encoding)
     joints = 6
     rows = np.linspace(0, 0.5, 60)[:, np.newaxis] ** 2 * np.linspace(0.2, 1, joints)
     saved = io.BytesIO()
@@ -364,6 +390,7 @@ def main() -> None:
     for number in (signal.SIGINT, signal.SIGTERM):
         signal.signal(number, signal.SIG_IGN if number == signal.SIGINT else signal.SIG_DFL)
     warm_up()
+    wall.layers(), wall.filter_program(opens=False)  # made once for all forks
     # objects that the collector does not visit stay shared with the forks
     gc.collect()
     gc.freeze()
@@ -380,20 +407,28 @@ def answer(connection: socket.socket) -> None:
         message, descriptors, _, _ = socket.recv_fds(connection, MESSAGE_SIZE, 4)
         if not message:
             return
-        child = os.fork()
-        if child == 0:
-            connection.close()
-            try:
-                work(descriptors, json.loads(message))
-                os._exit(0)
-            except BaseException:
-                traceback.print_exc()
-            finally:
-                os._exit(1)
+        status = done(connection, descriptors, json.loads(message))
+        while 0 <= status - ASKED < len(SELDOM) and SELDOM[status - ASKED] not in sys.modules:
+            importlib.import_module(SELDOM[status - ASKED])
+            status = done(connection, descriptors, json.loads(message))
         for descriptor in descriptors:
             os.close(descriptor)
-        _, status = os.waitpid(child, 0)
-        connection.send(json.dumps({"status": os.waitstatus_to_exitcode(status)}).encode())
+        connection.send(json.dumps({"status": status}).encode())
+
+
+def done(connection: socket.socket, descriptors: list[int], request: dict[str, Any]) -> int:
+    """Do what one request asks in a fork, and return its exit status."""
+    child = os.fork()
+    if child == 0:
+        connection.close()
+        try:
+            work(descriptors, request)
+            os._exit(0)
+        except BaseException:
+            traceback.print_exc()
+        finally:
+            os._exit(1)
+    return os.waitstatus_to_exitcode(os.waitpid(child, 0)[1])
 
 
 if __name__ == "__main__":

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import contextlib
+import importlib
 from pathlib import Path
 
 from mrlab_ros.adapters.robots.library import RobotLibrary
@@ -26,6 +28,9 @@ class Inside:
 
     def __init__(self, limits: Limits) -> None:
         self.limits = limits
+        for module in worker.SELDOM:
+            with contextlib.suppress(ImportError):  # mat-io is not there for every Python
+                importlib.import_module(module)
         path = share.directory() / "config" / "torque_proxy.yaml"
         self._coefficients = load_coefficients(path)
 

@@ -1,9 +1,10 @@
 """The walled-off process that checks submissions; started by `grader`.
 
 It imports everything, reads the library, checks the reference solution, and then forks once for
-each submission. Only the fork touches a student's bytes, under limits that the kernel keeps:
-memory, processor time, wall time, size of files, no core dump. What it finds it leaves as files
-in a folder of its own; whatever a submission does to it, others see no more than an exit status.
+each submission. Only the fork touches a student's bytes, behind the wall of `adapters/wall.py` and
+under limits that the kernel keeps: memory, processor time, wall time, size of files, no core dump.
+It reads the submission's folder and the lab's own files. What it finds it leaves as files in a
+folder of its own; whatever a submission does to it, others see no more than an exit status.
 """
 
 from __future__ import annotations
@@ -13,11 +14,11 @@ import gc
 import json
 import os
 import pickle
-import resource
 import shutil
 import signal
 import socket
 import sys
+import tempfile
 import traceback
 from pathlib import Path
 from typing import Any
@@ -25,9 +26,9 @@ from typing import Any
 import numpy as np
 import orjson
 
+from mrlab_ros.adapters import wall
 from mrlab_ros.adapters.trajectories import json_file
 from mrlab_ros.adapters.workspaces.reader import Limits
-from mrlab_ros.adapters.workspaces.worker import address_space
 from mrlab_ros.commands.check.one import CELLS, CheckedFile, Setting
 from mrlab_ros.commands.classroom.inside import Inside
 from mrlab_ros.commands.classroom.setup import Bounds, Setup
@@ -60,6 +61,7 @@ class Warm:
     def __init__(self, setup: Setup, scratch: Path) -> None:
         self.setup = setup
         self.share = share.directory()
+        self.readable = (*wall.libraries(), self.share)
         convert = Inside(Limits(memory=setup.bounds.memory, time=setup.bounds.wall))
         base = setup.setting(self.share)
         values = {**vars(base), "convert": convert, "drawn": True}
@@ -116,7 +118,8 @@ class Warm:
         trajectory, figures = checked.trajectory, checked.figures
         has_page = self.setup.pages and found.played is not None
         if trajectory is not None:
-            json_file.write(trajectory, out / TRAJECTORY)
+            with (out / TRAJECTORY).open("wb") as written:
+                written.writelines(json_file.chunks(trajectory))
         if has_page:
             self._pages(found, marks, f"{shown}: {file}", out)
         path: Any = ()
@@ -159,18 +162,15 @@ class Warm:
 def confine(bounds: Bounds) -> None:
     """Put the kernel's limits on this process."""
     signal.setitimer(signal.ITIMER_REAL, bounds.wall)
-    resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
-    resource.setrlimit(resource.RLIMIT_FSIZE, (MOST_WRITTEN, MOST_WRITTEN))
-    used = address_space()
-    resource.setrlimit(resource.RLIMIT_AS, (used + bounds.memory, used + 2 * bounds.memory))
-    seconds = int(bounds.time) + 1
-    resource.setrlimit(resource.RLIMIT_CPU, (seconds, seconds))
+    wall.confine(memory=bounds.memory, seconds=bounds.time, file_size=MOST_WRITTEN)
 
 
 def work(warm: Warm, request: dict[str, Any]) -> None:
     """Check one submission, in the forked process."""
     confine(warm.setup.bounds)
     folder, out = Path(request["folder"]), Path(request["out"])
+    tempfile.tempdir = str(out)
+    wall.shut(read=[folder, *warm.readable], write=[out], opens=True)
     try:
         warm.check(request["shown"], request["files"], folder, out)
     except MemoryError:

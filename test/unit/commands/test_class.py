@@ -136,7 +136,7 @@ def test_what_cannot_be_marked_ends_with_2_and_a_sentence(words, sentence):
 
 
 RUDE = """
-    import os, signal
+    import ctypes
     from dataclasses import dataclass
     from mrlab_ros.core.rubrics.rubric import Outcome
 
@@ -145,7 +145,9 @@ RUDE = """
         def assess(self, checked, reference):
             file = checked.trajectory.source.file
             if file == "crashes.mat":
-                os.kill(os.getpid(), signal.SIGSEGV)
+                ctypes.string_at(0)
+            if file == "reaches.mat":
+                open(__file__ + ".key").read()
             if file == "hungers.mat":
                 bytearray(1 << 40)
             while file == "hangs.mat":
@@ -155,9 +157,13 @@ RUDE = """
 
 
 def test_what_a_submission_does_to_its_check_harms_no_other(tmp_path, monkeypatch):
-    (tmp_path / "rude.py").write_text(textwrap.dedent(RUDE))
-    monkeypatch.syspath_prepend(tmp_path)
-    monkeypatch.setenv("PYTHONPATH", str(tmp_path))
+    package = tmp_path / "package"
+    package.mkdir()
+    (package / "rude.py").write_text(textwrap.dedent(RUDE))
+    (package / "rude.py.key").symlink_to(tmp_path / "key")
+    (tmp_path / "key").write_text("a key")
+    monkeypatch.syspath_prepend(package)
+    monkeypatch.setenv("PYTHONPATH", str(package))
     import rude
 
     tests = (Test("fine", "fine", rude.Rude(), 1.0),)
@@ -166,13 +172,14 @@ def test_what_a_submission_does_to_its_check_harms_no_other(tmp_path, monkeypatc
     grader = Grader(Setup(rubric, SceneDocument(), bounds=bounds, pages=False))
     said = {}
     try:
-        for name in ("crashes", "hungers", "hangs", "behaves"):
+        for name in ("crashes", "reaches", "hungers", "hangs", "behaves"):
             files = ((f"{name}.mat", PICK.read_bytes()),)
             said[name] = orjson.loads(grader.check(Task(name, name, files))[worker.RESULT])
     finally:
         grader.close()
-    assert [said[n]["outcome"] for n in said] == ["failed"] * 3 + ["marked"]
+    assert [said[n]["outcome"] for n in said] == ["failed"] * 4 + ["marked"]
     assert "Segmentation fault" in said["crashes"]["words"]
+    assert "PermissionError" in said["reaches"]["words"]
     assert "of memory" in said["hungers"]["words"]
     assert "of a processor" in said["hangs"]["words"]
     assert said["behaves"]["marks"]["points"] == 1.0
