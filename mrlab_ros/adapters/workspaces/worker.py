@@ -77,8 +77,10 @@ TEXTS = ("a text file", "a file of an unknown kind")
 SELDOM = ("matio", "rosbags.rosbag2", "rosbags.typesys.stores.ros2_jazzy")
 ASKED = 64
 # those of texts in any file: Python imports each on its first use
-ENCODINGS = ("ascii", "latin-1", "cp1252", "utf-8", "utf-8-sig", "utf-16", "utf-32")
-ENCODINGS += tuple(f"utf-{bits}-{order}" for bits in (16, 32) for order in ("le", "be"))
+ENCODINGS = (
+    *("ascii", "latin-1", "cp1252", "utf-8", "utf-8-sig", "utf-16", "utf-32"),
+    *(f"utf-{bits}-{order}" for bits in (16, 32) for order in ("le", "be")),
+)
 TABLES = (".csv", ".txt", ".tsv", ".lvm")
 NUMBER_BEGINS = tuple(b"%c" % c for c in b"+-.0123456789")
 
