@@ -13,7 +13,6 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from mrlab_ros.commands.output import AsJson, say
-from mrlab_ros.core.errors import BadInput
 
 if TYPE_CHECKING:
     from mrlab_ros.adapters.bags.reader import Bag
@@ -115,20 +114,20 @@ def import_(
 @app.command()
 def extract(
     bag: BagArgument,
-    out: Annotated[Path, typer.Option(help="Folder to write to.")] = Path("."),
+    out: Annotated[
+        Path | None,
+        typer.Option(help="New or empty folder; none: BAG-attachments, here.", show_default=False),
+    ] = None,
     as_json: AsJson = False,
 ) -> None:
     """Write a bag's attachments to files: URDFs, meshes, trajectories, scene, parameters."""
+    from mrlab_ros.adapters.bags.extract import extract as write
+
     found = opened(bag)
-    root = out.resolve()
-    names = found.attachments()
-    for name in names:
-        target = (root / name).resolve()
-        if not target.is_relative_to(root):
-            raise BadInput(f"the attachment '{name}' would be written outside of {root}")
-        target.parent.mkdir(parents=True, exist_ok=True)
-        target.write_bytes(found.attachment(name).data)
-    say(f"wrote {len(names)} files to {root}", as_json=as_json, files=list(names))
+    root = out or Path(f"{found.path.stem}-attachments")
+    names = write(found, root)
+    listed = "".join(f"\n  {name}" for name in names)
+    say(f"wrote {len(names)} files to {root}{listed}", as_json=as_json, files=names)
 
 
 @app.command()

@@ -314,17 +314,9 @@ def test_info_says_what_is_in_the_bag(bag):
 
 
 def test_extract_writes_the_attachments(bag, tmp_path):
-    assert "wrote 1 files" in run("bag", "extract", bag, "--out", tmp_path / "out")
+    said = json.loads(run("bag", "extract", bag, "--out", tmp_path / "out", "--json"))
+    assert said["files"] == ["trajectories/wave.json"]
     assert json.loads((tmp_path / "out/trajectories/wave.json").read_text()) == TRAJECTORY
-
-
-def test_an_attachment_that_would_leave_the_folder_is_refused(tmp_path):
-    writer = BagWriter(tmp_path / "class", definition)
-    writer.attach("../evil", "text/plain", b"", 0)
-    writer.close()
-    with pytest.raises(BadInput, match="outside of"):
-        run("bag", "extract", tmp_path / "class", "--out", tmp_path / "out")
-    assert not (tmp_path / "evil").exists()
 
 
 def test_repair_says_what_it_did(bag):

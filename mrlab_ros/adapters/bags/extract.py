@@ -1,0 +1,50 @@
+"""Writes a bag's attachments into a new folder, whatever the bag calls them."""
+
+from __future__ import annotations
+
+from pathlib import Path, PurePosixPath
+
+from mrlab_ros.adapters.bags.reader import Bag
+from mrlab_ros.core.errors import BadInput
+
+LONGEST_PART = 255  # bytes of a name in a folder
+
+
+def extract(bag: Bag, folder: Path) -> list[str]:
+    """Write every attachment below `folder`, which is new or empty; return their names.
+
+    Raises BadInput, with nothing written, where the folder holds something, or an attachment's
+    name is absolute, hidden, leads out of the folder, cannot be printed, or is twice in the way.
+    """
+    names = sorted(bag.attachments())
+    for name in names:
+        problem = _problem(name, names)
+        if problem:
+            raise BadInput(
+                f"the attachment {name!r} {problem}; nothing was written. The bag is made by "
+                "hand: a lab names its attachments such as robots/ur5e_1.urdf"
+            )
+    if folder.is_symlink() or (folder.exists() and not folder.is_dir()):
+        raise BadInput(f"{folder} is no folder; name a new one with --out")
+    if folder.exists() and any(folder.iterdir()):
+        raise BadInput(f"{folder} is not empty; name a new folder with --out")
+    for name in names:
+        target = folder / name
+        target.parent.mkdir(parents=True, exist_ok=True)
+        with target.open("xb") as file:
+            file.write(bag.attachment(name).data)
+    return names
+
+
+def _problem(name: str, names: list[str]) -> str:
+    """Say why no file may be called so; empty: it may."""
+    parts = name.split("/")
+    if not name.isprintable() or any(len(part.encode()) > LONGEST_PART for part in parts):
+        return "cannot be the name of a file"
+    if name.startswith("/") or ".." in parts:
+        return "would be written outside of the folder"
+    if any(not part or part.startswith(".") for part in parts):
+        return "would be a hidden file"
+    if any(str(above) in names for above in PurePosixPath(name).parents):
+        return "would lie in another attachment, not in a folder"
+    return ""
