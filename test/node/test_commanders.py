@@ -7,6 +7,7 @@ from collections.abc import Callable
 from types import SimpleNamespace
 from typing import Any
 
+import numpy as np
 import pytest
 import small_lab
 from action_msgs.msg import GoalStatus
@@ -239,6 +240,30 @@ def test_a_stream_of_set_points_moves_the_robot(stage, reliability) -> None:
 
     wait_for(refused, "the refusal in the robot's state")
     wait_for(lambda: states.last().label == "PAUSED", "the end of the stream")
+
+
+def test_a_fast_stream_is_followed_and_the_robot_stands_when_it_ends(stage) -> None:
+    graph, robot, model = stage
+    states = listen_state(graph, robot)
+    joints = graph.listen(JointState, f"/{robot}/joint_states", qos.STREAM)
+    publisher = graph.client.create_publisher(
+        JointState, f"/{robot}/joint_command", QoSProfile(depth=1)
+    )
+    wait_for(publisher.get_subscription_count, "the playback")
+    speed, began = 0.2, time.time()
+    while (passed := time.time() - began) < 2.0:
+        publisher.publish(JointState(position=(model.home + speed * passed).tolist()))
+        time.sleep(0.002)
+    ended = time.time()
+    wait_for(lambda: states.last().label == "PAUSED", "the end of the stream")
+    sent = [(j.header.stamp.sec + j.header.stamp.nanosec * 1e-9, j.position[0]) for j in joints]
+    assert sent[-1][1] == pytest.approx(model.home[0] + speed * passed, abs=0.02)
+    late = [t - began - (q - model.home[0]) / speed for t, q in sent if began + 1 < t < ended]
+    assert np.median(late) < 0.03, "s; 0.3 rad were 1.5 s"
+    steps = [
+        abs(b[1] - a[1]) for a, b in zip(sent, sent[1:], strict=False) if a[0] > ended + 0.1
+    ]
+    assert max(steps, default=0.0) < 1e-6, "it stands"
 
 
 def test_what_is_refused_again_and_again_is_logged_once_a_second(stage, monkeypatch) -> None:

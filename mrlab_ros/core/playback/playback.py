@@ -15,7 +15,7 @@ from mrlab_ros.core.errors import LabError, Misuse
 from mrlab_ros.core.geometry import Array
 from mrlab_ros.core.playback import goal as goals
 from mrlab_ros.core.playback import live
-from mrlab_ros.core.playback.planner import Motion, MotionPlanner
+from mrlab_ros.core.playback.planner import MotionPlanner
 from mrlab_ros.core.playback.states import MOVING, TABLE, Event, State
 from mrlab_ros.core.playback.stream import Sample, Stream
 from mrlab_ros.core.robots.model import RobotModel
@@ -228,8 +228,7 @@ class Playback:
         if self.is_live:
             # The stream goes on, if it still comes; else it ends again.
             self._commanded_ns = now_ns
-            self._set_points.rest()
-            self._go_live(now_ns, live.Straight(self.arm, self.arm, live.SHORTEST))
+            self._go_live(now_ns)
             return
         position = self.clock.position
         if until is not None:
@@ -307,7 +306,7 @@ class Playback:
         self._require_owner("")
         target = self._set_points.checked(names, positions, velocities)
         if self.is_live and self.state is State.PLAYING:
-            self._stream.track(now_ns, self._set_points.motion(now_ns, self.arm, target))
+            self._set_points.go_to(now_ns, target)
             return False
         self._machine.check(Event.LOAD)
         if self.is_live and not silent:
@@ -316,8 +315,8 @@ class Playback:
                 f"and so does a stream that begins again after {live.SILENCE:g} s"
             )
         self._replace(now_ns, self._set_points.place(self.arm))
-        self._set_points.rest()
-        self._go_live(now_ns, self._set_points.motion(now_ns, self.arm, target))
+        self._go_live(now_ns)
+        self._set_points.go_to(now_ns, target)
         return True
 
     @property
@@ -339,10 +338,10 @@ class Playback:
         self._stream.trajectory = trajectory
         self._stream.stand(now_ns, 0.0)
 
-    def _go_live(self, now_ns: int, motion: Motion) -> None:
+    def _go_live(self, now_ns: int) -> None:
         self._machine.fire(Event.PLAY)
         self._stream.stand(now_ns, 0.0)
-        self._stream.track(now_ns, motion)
+        self._set_points.rest(now_ns)
         self._announce(LIVE_MESSAGE)
 
     def stage(self, now_ns: int, position: float, by: str = "") -> float:
@@ -488,7 +487,7 @@ class Playback:
         stream, state = self._stream, self._machine.state
         if stream.next_ns is None or now_ns < stream.next_ns:
             return None
-        if state is State.PLAYING and stream.tracks:
+        if state is State.PLAYING and self.is_live:
             return self._live_sample(now_ns)
         if state is State.PLAYING:
             sample = stream.trajectory_sample(now_ns)
@@ -505,10 +504,10 @@ class Playback:
         return stream.standing_sample(now_ns)
 
     def _live_sample(self, now_ns: int) -> Sample:
-        sample = self._stream.approach_sample(now_ns)
+        sample = self._stream.live_sample(now_ns, self._set_points.step)
         came_ns = self._commanded_ns
         silent = came_ns is None or now_ns - came_ns > live.SILENCE * SECOND
-        if silent and self._stream.arrived:
+        if silent:
             self._halt(now_ns, Event.HELD, "no joint command comes any more")
         return sample
 

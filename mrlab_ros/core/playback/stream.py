@@ -7,6 +7,7 @@ states: `Playback` decides what the arm does and calls the matching method.
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from dataclasses import replace
 from typing import NamedTuple
 
@@ -123,20 +124,6 @@ class Stream:
         self.stand(now_ns, position)
         self._motion, self._motion_start_ns = motion, now_ns
 
-    def track(self, now_ns: int, motion: Motion) -> None:
-        """Follow `motion`, which begins where the arm is; the one before it is given up."""
-        if self._motion is None:
-            self.next_ns = now_ns
-        self._motion, self._motion_start_ns = motion, now_ns
-        # It arrives with its own end: what leaves first is no older than its beginning.
-        if self.next_ns is not None:
-            self.next_ns = max(self.next_ns, now_ns)
-
-    @property
-    def tracks(self) -> bool:
-        """Whether the arm follows a motion instead of the trajectory."""
-        return self._motion is not None
-
     def follow(self, start_ns: int, position: float) -> None:
         """Follow the trajectory from `position` (s) on, which the clock shows at `start_ns`.
 
@@ -233,8 +220,9 @@ class Stream:
 
     def standing_sample(self, now_ns: int) -> Sample:
         """Return the standing pose, and schedule its repetition."""
+        sample = self._off_trajectory(now_ns, np.zeros_like(self.arm))
         self.next_ns = self._repetition(now_ns)
-        return self._sample_off_trajectory(now_ns, np.zeros_like(self.arm))
+        return sample
 
     def approach_sample(self, now_ns: int) -> Sample:
         """Return the next joint state of the approach, and schedule the one after it."""
@@ -244,9 +232,19 @@ class Stream:
         elapsed = (due_ns - self._motion_start_ns) / SECOND
         self.arm, velocities = self._motion.at(elapsed)
         self.arrived = elapsed >= self._motion.duration
-        # An approach that is late goes on from the present: its joint states are not counted.
-        self.next_ns = max(due_ns, now_ns - self.period_ns) + self.period_ns
-        return self._sample_off_trajectory(due_ns, velocities)
+        return self._sample_off_trajectory(due_ns, velocities, now_ns)
+
+    def live_sample(
+        self, now_ns: int, step: Callable[[int, Array], tuple[Array, Array]]
+    ) -> Sample:
+        """Return the next joint state of a stream of set-points, and schedule the one after it.
+
+        step: takes its deadline, ns, and the arm, (J,) rad, and returns positions and velocities.
+        """
+        assert self.next_ns is not None
+        due_ns = self.next_ns
+        self.arm, velocities = step(due_ns, self.arm)
+        return self._sample_off_trajectory(due_ns, velocities, now_ns)
 
     def trajectory_sample(self, now_ns: int) -> Sample:
         """Return the next joint state of the trajectory, and schedule the one after it."""
@@ -284,7 +282,12 @@ class Stream:
     def _repetition(self, now_ns: int) -> int | None:
         return None if self._standing_ns is None else now_ns + self._standing_ns
 
-    def _sample_off_trajectory(self, due_ns: int, velocities: Array) -> Sample:
+    def _sample_off_trajectory(self, due_ns: int, velocities: Array, now_ns: int) -> Sample:
+        # What is late goes on from the present: joint states off the trajectory are not counted.
+        self.next_ns = max(due_ns, now_ns - self.period_ns) + self.period_ns
+        return self._off_trajectory(due_ns, velocities)
+
+    def _off_trajectory(self, due_ns: int, velocities: Array) -> Sample:
         self._last = Sample(due_ns, self.arm, velocities, self.clock.position, self.frame, False)
         return self._last
 
