@@ -5,7 +5,6 @@ the parameter file are those of `mrlab up`.
 """
 
 import os
-import sys
 import tempfile
 from pathlib import Path
 
@@ -25,6 +24,7 @@ from launch.events.process import ShutdownProcess
 from launch.substitutions import LaunchConfiguration
 from launch_ros.actions import Node
 
+from mrlab_ros.adapters import python_process
 from mrlab_ros.adapters.bullet.support import missing
 from mrlab_ros.adapters.launcher import LAUNCHER
 from mrlab_ros.commands.up.keys import free_endpoint
@@ -185,7 +185,7 @@ def processes(context):
     later = afterwards(value)
     ready = ExecuteProcess(
         cmd=[
-            *(sys.executable, "-m", "mrlab_ros.processes.ready"),
+            *python_process.command("mrlab_ros.processes.ready"),
             *(options.lab_id, str(len(options.robots)), ",".join(names)),
             *(CALLED[name] for name in later),
         ],
@@ -240,7 +240,9 @@ def afterwards(value):
     commands = {"scene": ("scene", "load"), "record": ("record",)}
     return {
         name: ExecuteProcess(
-            cmd=[sys.executable, "-m", "mrlab_ros.cli", *words, value(name)], name=name, **SHOWN
+            cmd=[*python_process.command("mrlab_ros.cli", *words, value(name))],
+            name=name,
+            **SHOWN,
         )
         for name, words in commands.items()
         if value(name)

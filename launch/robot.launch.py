@@ -3,11 +3,11 @@
 It is what `mrlab spawn` does, so that a launch file of your own can include it once a robot.
 """
 
-import sys
-
 from launch import LaunchDescription
 from launch.actions import DeclareLaunchArgument, ExecuteProcess, OpaqueFunction
 from launch.substitutions import LaunchConfiguration
+
+from mrlab_ros.adapters import python_process
 
 # By name: default (None: has to be given) and description.
 ARGUMENTS = {
@@ -42,5 +42,5 @@ def spawn(context):
     for argument, option in (("name", "--name"), ("end_effector", "--tool")):
         if values[argument]:
             options += [option, values[argument]]
-    command = [sys.executable, "-m", "mrlab_ros.cli", "spawn", values["model"], *options]
-    return [ExecuteProcess(cmd=command, name="spawn", output="screen")]
+    command = python_process.command("mrlab_ros.cli", "spawn", values["model"], *options)
+    return [ExecuteProcess(cmd=[*command], name="spawn", output="screen")]

@@ -20,6 +20,7 @@ if __name__ == "__main__":
 import typer
 
 import mrlab_ros
+from mrlab_ros.adapters.python_process import keep_to_installed_modules
 from mrlab_ros.commands import completion
 from mrlab_ros.core.errors import LabError
 
@@ -178,6 +179,7 @@ def main() -> None:
     for stream in (sys.stdout, sys.stderr):
         if isinstance(stream, io.TextIOWrapper) and stream.errors == "strict":
             stream.reconfigure(errors="replace")
+    keep_to_installed_modules()
     # As pip installs a wheel: its files are in the index of packages below the prefix.
     os.environ.setdefault("AMENT_PREFIX_PATH", sys.prefix)
     if sys.argv[1:] == ["--version"]:  # at once: no command needs to be known for it

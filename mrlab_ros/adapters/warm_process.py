@@ -8,12 +8,12 @@ import os
 import signal
 import socket
 import subprocess
-import sys
 from collections.abc import Sequence
 from pathlib import Path
 from typing import IO
 
 import mrlab_ros
+from mrlab_ros.adapters import python_process
 
 # Of one message over the socket, bytes.
 MESSAGE_SIZE = 65_536
@@ -63,9 +63,10 @@ class WarmProcess:
         ours, theirs = socket.socketpair(socket.AF_UNIX, socket.SOCK_SEQPACKET)
         package = str(Path(mrlab_ros.__file__).parent.parent)
         environment = os.environ | ONE_THREAD
-        environment["PYTHONPATH"] = os.pathsep.join([package, os.environ.get("PYTHONPATH", "")])
+        others = filter(None, os.environ.get("PYTHONPATH", "").split(os.pathsep))
+        environment["PYTHONPATH"] = os.pathsep.join([package, *others])
         self._process = subprocess.Popen(
-            [sys.executable, "-m", self._module, str(theirs.fileno()), *self._arguments],
+            python_process.command(self._module, str(theirs.fileno()), *self._arguments),
             pass_fds=[theirs.fileno()], stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL,
             stderr=self._errors, env=environment, cwd=self._folder, start_new_session=True,
         )  # fmt: skip

@@ -15,6 +15,7 @@ from pathlib import Path
 from typing import Any
 
 from mrlab_ros.adapters.launcher import end_with_launcher
+from mrlab_ros.adapters.python_process import keep_to_installed_modules
 from mrlab_ros.core.errors import BadInput, LabError, Unavailable
 from mrlab_ros.gateway.settings import PORT, Settings, parsed_address
 
@@ -34,6 +35,7 @@ def main() -> None:
     signal.signal(signal.SIGINT, signal.SIG_DFL)
     signal.pthread_sigmask(signal.SIG_UNBLOCK, {signal.SIGINT})
     end_with_launcher()
+    keep_to_installed_modules()
     # As ROS's nodes log, for a lab's common output.
     logging.addLevelName(logging.WARNING, "WARN")
     logging.basicConfig(

@@ -12,6 +12,7 @@ import sys
 from pathlib import Path
 
 from mrlab_ros.adapters.launcher import end_with_launcher
+from mrlab_ros.adapters.python_process import keep_to_installed_modules
 
 
 def main(names: list[str] | None = None) -> None:
@@ -24,6 +25,7 @@ def main(names: list[str] | None = None) -> None:
     signal.signal(signal.SIGINT, signal.SIG_DFL)
     signal.pthread_sigmask(signal.SIG_UNBLOCK, {signal.SIGINT})
     end_with_launcher()
+    keep_to_installed_modules()
     from mrlab_ros.processes.lab import NODES
 
     arguments = sys.argv[1:]

@@ -8,11 +8,11 @@ from __future__ import annotations
 
 import json
 import os
-import sys
 from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
 
+from mrlab_ros.adapters import python_process
 from mrlab_ros.core.errors import BadInput
 from mrlab_ros.processes.child import ProcessSpec
 from mrlab_ros.processes.options import LabOptions
@@ -123,7 +123,7 @@ class LabProcess:
 
     def command(self, options: LabOptions) -> tuple[str, ...]:
         """Return the program and its arguments."""
-        return (sys.executable, "-m", HOST_MODULE, *self.arguments(options))
+        return python_process.command(HOST_MODULE, *self.arguments(options))
 
     def spec(self, options: LabOptions) -> ProcessSpec:
         """Return the process as the supervisor starts it."""

@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 import socket
-import sys
 from collections.abc import Callable
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 from urllib.parse import urlsplit
 
+from mrlab_ros.adapters import python_process
 from mrlab_ros.core.bridge.links import from_here
 from mrlab_ros.processes.child import ProcessSpec
 from mrlab_ros.processes.options import LabOptions
@@ -71,7 +71,7 @@ class GatewayProcess:
 
     def command(self, options: LabOptions) -> tuple[str, ...]:
         """Return the program and its arguments."""
-        return (sys.executable, "-m", GATEWAY_MODULE, *self.arguments(options))
+        return python_process.command(GATEWAY_MODULE, *self.arguments(options))
 
     def spec(self, options: LabOptions) -> ProcessSpec:
         """Return the process as the supervisor starts it."""

@@ -7,11 +7,11 @@ import contextlib
 import json
 import logging
 import pickle
-import sys
 from asyncio.subprocess import PIPE
 from collections.abc import Mapping
 from typing import Any
 
+from mrlab_ros.adapters import python_process
 from mrlab_ros.adapters.checking.in_lab import Task
 from mrlab_ros.core.errors import BadInput, Unavailable
 
@@ -25,7 +25,7 @@ class CheckProcess:
     """Checks by `mrlab_ros.adapters.checking.in_lab`."""
 
     async def check(self, task: Task) -> Mapping[str, Any]:
-        command = (sys.executable, "-m", "mrlab_ros.adapters.checking.in_lab")
+        command = python_process.command("mrlab_ros.adapters.checking.in_lab")
         process = await asyncio.create_subprocess_exec(
             *command, stdin=PIPE, stdout=PIPE, stderr=PIPE, start_new_session=True
         )
