@@ -9,10 +9,15 @@ from __future__ import annotations
 
 import os
 import sys
+from pathlib import Path
+
+import mrlab_ros
 
 SAFE_PATH = "PYTHONSAFEPATH"  # Python 3.11 and later leave the current folder out
 # What `python -m` does, without the first entry of the path.
 RUN = "import sys; del sys.path[0]; import runpy; runpy._run_module_as_main(sys.argv.pop(1))"
+# Forking is safe with one thread only, and the libraries draw nothing from more.
+ONE_THREAD = {"OPENBLAS_NUM_THREADS": "1", "OMP_NUM_THREADS": "1", "MKL_NUM_THREADS": "1"}
 
 
 def command(module: str, *arguments: str) -> tuple[str, ...]:
@@ -29,6 +34,12 @@ def keep_to_installed_modules() -> None:
     if "PYTHONPATH" in os.environ:
         parts = _absolute(os.environ["PYTHONPATH"].split(os.pathsep))
         os.environ["PYTHONPATH"] = os.pathsep.join(parts)
+
+
+def search_path() -> str:
+    """Return the PYTHONPATH by which a process from any folder finds this package and others."""
+    others = _absolute(os.environ.get("PYTHONPATH", "").split(os.pathsep))
+    return os.pathsep.join([str(Path(mrlab_ros.__file__).parent.parent), *others])
 
 
 def _absolute(path: list[str]) -> list[str]:

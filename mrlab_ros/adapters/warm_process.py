@@ -12,13 +12,10 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import IO
 
-import mrlab_ros
 from mrlab_ros.adapters import python_process
 
 # Of one message over the socket, bytes.
 MESSAGE_SIZE = 65_536
-# Forking is safe with one thread only, and the libraries draw nothing from more.
-ONE_THREAD = {"OPENBLAS_NUM_THREADS": "1", "OMP_NUM_THREADS": "1", "MKL_NUM_THREADS": "1"}
 
 
 class WarmProcess:
@@ -61,10 +58,8 @@ class WarmProcess:
             return b""
         self.stop()
         ours, theirs = socket.socketpair(socket.AF_UNIX, socket.SOCK_SEQPACKET)
-        package = str(Path(mrlab_ros.__file__).parent.parent)
-        environment = os.environ | ONE_THREAD
-        others = filter(None, os.environ.get("PYTHONPATH", "").split(os.pathsep))
-        environment["PYTHONPATH"] = os.pathsep.join([package, *others])
+        environment = os.environ | python_process.ONE_THREAD
+        environment["PYTHONPATH"] = python_process.search_path()
         self._process = subprocess.Popen(
             python_process.command(self._module, str(theirs.fileno()), *self._arguments),
             pass_fds=[theirs.fileno()], stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL,

@@ -28,7 +28,7 @@ LAYERS = {
     "gateway": ("core", "adapters"),
     "client": ("core", "adapters", "messages", "ros", "processes"),
     "commands": ("core", "adapters", "messages", "ros", "processes", "gateway", "client"),
-    "cli": ("core", "commands"),
+    "cli": ("core", "adapters", "commands"),
 }
 # Parts of rclpy that may change with any release.
 INSIDES = re.compile(r"rclpy\.impl|rclpy\.experimental|\.handle\b")

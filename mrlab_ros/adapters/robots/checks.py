@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 import xml.etree.ElementTree as ET
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from pathlib import Path
 
 import numpy as np
 
 from mrlab_ros.adapters.robots import mesh_files, urdf
+from mrlab_ros.adapters.robots.mesh_files import Look
 from mrlab_ros.core.diagnostics import Diagnostic, Severity, finding
 from mrlab_ros.core.errors import BadInput
 
@@ -18,7 +19,6 @@ MOST_LINKS = 300
 LARGEST_ARM = 20.0
 # No link is heavier than this, kg.
 HEAVIEST_LINK = 1e5
-MESH_FORMATS = (".stl", ".dae", ".obj", ".glb", ".gltf")
 Resolve = Callable[[str], Path]
 
 
@@ -30,13 +30,17 @@ def check(
     hand: joints that the trajectory does not prescribe. Raises BadInput where the text is not a
     URDF, or a number or an attribute is not as expected.
     """
-    return check_root(urdf.parse(text, origin), origin, resolve, hand)
+    root = urdf.parse(text, origin)
+    found = check_root(root, origin, hand)
+    files, missing = find_meshes(root, resolve)
+    looks = {uri: mesh_files.look(path) for uri, path in files.items()}
+    return (*found, *missing, *check_sizes(root, looks))
 
 
 def check_root(
-    root: ET.Element, origin: str, resolve: Resolve, hand: frozenset[str] = frozenset()
+    root: ET.Element, origin: str, hand: frozenset[str] = frozenset()
 ) -> tuple[Diagnostic, ...]:
-    """Return the findings on a URDF that was parsed; see check()."""
+    """Return the findings on a URDF that was parsed, without its meshes; see check()."""
     joints = urdf.joints(root, origin)
     _check_numbers(root, origin)
     arm = tuple(joint for joint in joints if joint.name not in hand)
@@ -45,7 +49,6 @@ def check_root(
         *_check_count(arm),
         *_check_joints(arm),
         *_check_inertias(root),
-        *check_meshes(root, resolve),
     )
 
 
@@ -218,9 +221,11 @@ def meshes(root: ET.Element) -> list[ET.Element]:
     return list(root.iterfind("link/*/geometry/mesh"))
 
 
-def check_meshes(root: ET.Element, resolve: Resolve) -> list[Diagnostic]:
-    """Return the findings on the mesh files of the links below `root`."""
-    found = []
+def find_meshes(
+    root: ET.Element, resolve: Resolve
+) -> tuple[dict[str, Path], tuple[Diagnostic, ...]]:
+    """Return the mesh files of the links below `root` by URI, and findings on the others."""
+    files, found = {}, []
     for uri in sorted({str(mesh.get("filename")) for mesh in meshes(root)}):
         try:
             path = resolve(uri)
@@ -229,44 +234,31 @@ def check_meshes(root: ET.Element, resolve: Resolve) -> list[Diagnostic]:
             continue
         if not path.is_file():
             found.append(finding("robot_no_mesh", where=uri, uri=uri, why=""))
-        elif path.suffix.lower() not in MESH_FORMATS:
-            formats = ", ".join(MESH_FORMATS)
+        elif path.suffix.lower() not in mesh_files.FORMATS:
+            formats = ", ".join(mesh_files.FORMATS)
             found.append(finding("robot_mesh_format", where=uri, uri=uri, formats=formats))
         else:
-            found += [
-                finding("robot_no_texture", where=uri, uri=uri, file=file.name)
-                for file in mesh_files.companions(path).values()
-                if not file.is_file()
-            ]
-    unusable = {one.where for one in found if one.severity is Severity.ERROR}
+            files[uri] = path
+    return files, tuple(found)
+
+
+def check_sizes(root: ET.Element, looks: Mapping[str, Look]) -> tuple[Diagnostic, ...]:
+    """Return the findings on meshes that were looked at, by URI."""
+    found = []
     scales = {
         str(mesh.get("filename")): urdf.numbers(mesh.get("scale", "1 1 1"), 3, "mesh scale")
         for mesh in meshes(root)
     }
-    for uri, scale in scales.items():
-        if uri in unusable:
-            continue
-        try:
-            size = _mesh_size(resolve(uri)) * max(map(abs, scale))
-        except Exception as error:  # every mesh reader has errors of its own
-            why = str(error) or type(error).__name__
+    for uri, look in looks.items():
+        if look.problem:
+            why = look.problem
             found.append(finding("robot_mesh_unreadable", where=uri, uri=uri, why=why))
             continue
+        found += [
+            finding("robot_no_texture", where=uri, uri=uri, file=file) for file in look.missing
+        ]
+        size = look.size * max(map(abs, scales[uri]))
         if size > LARGEST_ARM:
             what = f"The size of mesh {uri}"
             found.append(finding("robot_millimetres", where=uri, what=what, size=size))
-    return found
-
-
-def _mesh_size(path: Path) -> float:
-    """Return the longest side of a mesh in its file's unit; raise ValueError where it is empty."""
-    import trimesh
-
-    # Unprocessed: trimesh would leave such a vertex out, and Bullet ends the process on it.
-    scene = trimesh.load_scene(path, process=False)
-    bounds = scene.bounds
-    if bounds is None:
-        raise ValueError("it holds no triangles")
-    if not all(np.isfinite(mesh.vertices).all() for mesh in scene.geometry.values()):
-        raise ValueError("a vertex is not finite")
-    return float(np.ptp(bounds, axis=0).max())
+    return tuple(found)

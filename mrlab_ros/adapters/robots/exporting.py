@@ -57,7 +57,8 @@ def _solid(path: Path, folder: Path, names: dict[str, str]) -> str:
             names[str(path)] = f"{prefix}_{path.name}"
             shutil.copyfile(path, folder / names[str(path)])
         else:
-            names[str(path)] = mesh_files.as_stl(path, folder, prefix)
+            names[str(path)] = f"{prefix}_{path.stem}.stl"
+            mesh_files.as_stl(trimesh.load_scene(path).to_mesh(), folder / names[str(path)])
     return names[str(path)]
 
 

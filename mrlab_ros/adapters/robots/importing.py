@@ -15,14 +15,13 @@ from typing import Any
 import numpy as np
 import trimesh
 import yaml
-from ament_index_python.packages import PackageNotFoundError, get_package_share_directory
 
 from mrlab_ros.adapters.robots import checks, mesh_files, urdf
 from mrlab_ros.adapters.robots.arm_and_hand import Groups, Split, split
 from mrlab_ros.adapters.robots.assembly import Assembly
 from mrlab_ros.adapters.robots.hand import Finger, fingers
 from mrlab_ros.adapters.robots.library import MESH_PREFIX, RobotLibrary
-from mrlab_ros.adapters.robots.source import description_text, packages_around
+from mrlab_ros.adapters.robots.source import MeshFinder, description_text, packages_around
 from mrlab_ros.core.diagnostics import Diagnostic, Severity, finding
 from mrlab_ros.core.errors import BadInput
 from mrlab_ros.core.geometry import Array
@@ -34,26 +33,6 @@ ASSUMED_SPEED = np.pi
 # Share of a joint's range by which its home is away from the ends at least.
 HOME_MARGIN = 0.05
 ID = re.compile(r"[a-z][a-z0-9_]{0,47}")
-
-
-class MeshFinder:
-    """Resolves mesh URIs: in the given package folders first, then in installed packages."""
-
-    def __init__(self, base: Path, packages: Mapping[str, Path]) -> None:
-        self.base = base
-        self.packages = packages
-
-    def __call__(self, uri: str) -> Path:
-        """Return the path that the URI names; raise BadInput where its package is unknown."""
-        if uri.startswith("package://"):
-            package, _, rest = uri.removeprefix("package://").partition("/")
-            if package in self.packages:
-                return self.packages[package] / rest
-            try:
-                return Path(get_package_share_directory(package)) / rest
-            except PackageNotFoundError:
-                raise BadInput(f"package '{package}' of mesh {uri} is not installed") from None
-        return self.base / uri.removeprefix("file://")
 
 
 @dataclass(frozen=True)
@@ -108,13 +87,21 @@ def import_robot(
     parts = split(root, source.name, tip, _groups(source, srdf, root))
     assumed = _keep_still(root, parts) + _state_speeds(root, parts, speed)
     hand = frozenset(joint.name for joint in parts.hand)
-    found = (*assumed, *checks.check_root(root, source.name, find, hand))
-    if checks.errors(found):
-        return Imported(found)
-    closing = fingers(parts.below, _centres(root, hand, find), source.name) if hand else ()
-    _turn_fingers(root, closing)
     with _new_folder(library.imported / robot_id) as folder:
-        _copy_meshes(root, robot_id, folder, find)
+        files, missing = checks.find_meshes(root, find)
+        taken = mesh_files.take(root, files, find.folders, folder / "meshes")
+        found = (
+            *assumed,
+            *checks.check_root(root, source.name, hand),
+            *missing,
+            *checks.check_sizes(root, taken),
+        )
+        if checks.errors(found):
+            return Imported(found)
+        mesh_files.name_copies(root, taken, f"{MESH_PREFIX}{robot_id}/meshes")
+        centres = _centres(root, hand, lambda uri: folder / "meshes" / Path(uri).name)
+        closing = fingers(parts.below, centres, source.name) if hand else ()
+        _turn_fingers(root, closing)
         ET.indent(root)
         body = ET.tostring(root, encoding="unicode")
         (folder / "robot.urdf").write_text(f'<?xml version="1.0"?>\n{body}\n', encoding="utf-8")
@@ -128,13 +115,14 @@ def import_robot(
 
 @contextmanager
 def _new_folder(folder: Path) -> Iterator[Path]:
-    """Yield a folder that takes its name only where its content is complete."""
+    """Yield a folder that takes its name where its last file, robot.yaml, was written."""
     aside = folder.with_name(f".{folder.name}.new")
     shutil.rmtree(aside, ignore_errors=True)
     (aside / "meshes").mkdir(parents=True)
     try:
         yield aside
-        aside.rename(folder)
+        if (aside / "robot.yaml").is_file():
+            aside.rename(folder)
     finally:
         shutil.rmtree(aside, ignore_errors=True)
 
@@ -199,7 +187,7 @@ def _state_speeds(root: ET.Element, parts: Split, speed: float) -> tuple[Diagnos
     return tuple(found)
 
 
-def _centres(root: ET.Element, hand: frozenset[str], find: MeshFinder) -> dict[str, Array]:
+def _centres(root: ET.Element, hand: frozenset[str], find: checks.Resolve) -> dict[str, Array]:
     """Return the middle of the shapes of the links at the hand's joints, m, in the link's frame.
 
     With all joints at 0 a link's frame is where the tree puts it.
@@ -243,22 +231,6 @@ def _turn_fingers(root: ET.Element, closing: Sequence[Finger]) -> None:
             mimic.set("joint", finger.mimics)
             mimic.set("multiplier", repr(finger.multiplier))
             mimic.set("offset", repr(finger.offset))
-
-
-def _copy_meshes(root: ET.Element, robot_id: str, folder: Path, find: MeshFinder) -> None:
-    """Copy every mesh once; what collides becomes an STL where physics reads no such format."""
-    names: dict[tuple[str, bool], str] = {}
-    for link in root.iterfind("link"):
-        for shape in link:
-            for mesh in shape.iterfind("geometry/mesh"):
-                uri = str(mesh.get("filename"))
-                path = find(uri)
-                solid = shape.tag == "collision" and not mesh_files.readable_by_physics(path)
-                if (uri, solid) not in names:
-                    prefix = f"{len(names):02d}"
-                    copy = mesh_files.as_stl if solid else mesh_files.copy
-                    names[uri, solid] = copy(path, folder / "meshes", prefix)
-                mesh.set("filename", f"{MESH_PREFIX}{robot_id}/meshes/{names[uri, solid]}")
 
 
 def _home(joint: Joint) -> float:

@@ -1,70 +1,159 @@
-"""Finds and copies the files that a mesh file names: material libraries, textures, buffers."""
+"""Takes the meshes of a description from outside: each is read once and written anew.
+
+A mesh file may name others: material libraries, pictures, buffers. They are read in a process
+behind the wall, which reaches the description's folders only, and what it read becomes a file of
+ours: a GLB with its pictures inside, an STL, or an OBJ of vertices and faces. No file is copied.
+"""
 
 from __future__ import annotations
 
+import contextlib
 import re
-import shutil
-from collections.abc import Callable, Iterator
+import xml.etree.ElementTree as ET
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import asdict, dataclass
 from pathlib import Path
+from typing import Any
 from urllib.parse import unquote
 
 import numpy as np
+import trimesh
 
+from mrlab_ros.adapters import walled
 from mrlab_ros.core.geometry import Array
 
+COLLISION = "collision"
+FORMATS = (".stl", ".dae", ".obj", ".glb", ".gltf")
 # Of a mesh that collides: Bullet takes a minute for a million triangles, and halts wait for it.
 MOST_TRIANGLES, MOST_BYTES = 20_000, 1_000_000
 CORNERS = 500  # of the hull of a larger one, at most
+# what a mesh may name: pictures, which are decoded, material libraries and buffers of numbers
 IMAGES = (".png", ".jpg", ".jpeg", ".bmp", ".tga", ".tif", ".tiff", ".gif", ".webp", ".dds")
 TAKEN = (*IMAGES, ".mtl", ".bin")
-
-# Patterns of references in each text format; group 2 is the name of the file. In an .mtl,
-# options such as `-s 1 1 1` stand before the name.
-_OPTION = r"(?:-(?:[ost](?:\s+[-+.\deE]+){1,3}|mm(?:\s+[-+.\deE]+){2}|\w+\s+\S+)\s+)*"
-REFERENCES = {
-    ".obj": re.compile(r"(?m)^(\s*mtllib\s+)(.+?)(\s*)$"),
-    ".mtl": re.compile(
-        rf"(?mi)^(\s*(?:map_\w+|bump|norm|disp|decal|refl)\s+{_OPTION})(.+?)(\s*)$"
-    ),
-    ".dae": re.compile(r"(<init_from>\s*(?:<ref>\s*)?)([^<>]+?)(\s*<)"),
-    ".gltf": re.compile(r'("uri"\s*:\s*")(?!data:)([^"]+)(")'),
-}
+MOST_TIME = 600.0  # s, for all meshes of a robot
+# In an .mtl, options such as `-s 1 1 1` stand before the name of a picture.
+OPTIONS = re.compile(r"(?:-(?:[ost](?:\s+[-+.\deE]+){1,3}|mm(?:\s+[-+.\deE]+){2}|\w+\s+\S+)\s+)*")
+# The lines of an OBJ that physics needs: vertices, faces, and which of them are a body.
+SOLID = re.compile(rb"^(?:v(?:\s+[-+.\deE]+){3,}|f(?:\s+-?\d+(?:/-?\d*){0,2}){3,}|[og]\b.*)\s*$")
 
 
-def companions(path: Path) -> dict[str, Path]:
-    """Return the files that a mesh file names, and those that these name, by the names written.
+@dataclass(frozen=True)
+class Look:
+    """What was found in a mesh file.
 
-    A file may be missing. Only materials, images and buffers count; GLB and STL hold all they
-    need.
+    size: its longest side in the file's unit. problem: why it cannot be read. missing: files that
+    it names and that were not found, or not taken. visual, solid: names of its copies.
     """
-    found: dict[str, Path] = {}
-    for written, file in _named(path):
-        found[written] = file
-        if file.suffix.lower() in REFERENCES and file.is_file():
-            found |= companions(file)
-    return found
+
+    size: float = 0.0
+    problem: str = ""
+    missing: Sequence[str] = ()
+    visual: str = ""
+    solid: str = ""
 
 
-def copy(path: Path, folder: Path, prefix: str) -> str:
-    """Copy a mesh file and all that it names into `folder`; return the copy's name.
+def take(
+    root: ET.Element,
+    files: Mapping[str, Path],
+    folders: Iterable[Path],
+    target: Path,
+    prefix: str = "",
+) -> dict[str, Look]:
+    """Write copies of the mesh files, by URI, of what is seen and what collides below `root`.
 
-    The names of the copies begin with `prefix`, and what names them is rewritten: two meshes with
-    textures of one name keep their own, and no name leads out of the folder.
+    folders: those in which a mesh, and what it names, may lie. target: a folder of ours.
     """
-    name = f"{prefix}_{path.name}"
-    pattern = REFERENCES.get(path.suffix.lower())
-    if pattern is None:
-        shutil.copyfile(path, folder / name)
-        return name
-    names = {
-        written: copy(file, folder, f"{prefix}_{number}")
-        for number, (written, file) in enumerate(_named(path))
-        if file.is_file()
+    uses = {
+        (shape.tag == COLLISION, str(mesh.get("filename")))
+        for shape in root.iterfind("link/*")
+        for mesh in shape.iterfind("geometry/mesh")
     }
-    # latin-1 carries any bytes through unchanged.
-    text = path.read_text(encoding="latin-1")
-    (folder / name).write_text(pattern.sub(_renamed(names), text), encoding="latin-1")
-    return name
+    wanted = {
+        uri: (str(path), f"{prefix}{number:02d}", (False, uri) in uses, (True, uri) in uses)
+        for number, (uri, path) in enumerate(files.items())
+    }
+    if not wanted:
+        return {}
+    inside = [folder.resolve() for folder in folders]
+    found = walled.call(
+        copies, wanted, [str(folder) for folder in inside], str(target), name="the meshes",
+        read=inside, write=[target], seconds=MOST_TIME, memory=4096 * walled.MiB,
+    )  # fmt: skip
+    return {uri: Look(**look) for uri, look in found.items()}
+
+
+def copies(
+    wanted: Mapping[str, tuple[str, str, bool, bool]], folders: Sequence[str], target: str
+) -> dict[str, Any]:
+    """Write the copies that `take` wants, behind the wall; return a Look for each, as JSON."""
+    return {
+        uri: asdict(_copied(Path(path), prefix, uses, [Path(f) for f in folders], Path(target)))
+        for uri, (path, prefix, *uses) in wanted.items()
+    }
+
+
+def look(path: Path) -> Look:
+    """Return what a mesh file of the lab's own holds."""
+    return _copied(path, "", (False, False), [path.parent], path.parent)
+
+
+def _copied(
+    path: Path, prefix: str, uses: Sequence[bool], folders: Sequence[Path], target: Path
+) -> Look:
+    """Look at a mesh file, and write its copies: of what is seen, of what collides."""
+    beside = Beside(path, folders)
+    suffix, seen, solid = path.suffix.lower(), "", ""
+    try:
+        size = _size(load(path, beside, process=False))
+        name = f"{prefix}_{re.sub('[^A-Za-z0-9_]+', '_', path.stem)[:40]}"
+        scene = load(path, beside) if any(uses) else None
+        if scene is not None and uses[0]:
+            seen = f"{name}.stl" if suffix == ".stl" else f"{name}.glb"
+            (scene.to_mesh() if suffix == ".stl" else scene).export(target / seen)
+        if scene is not None and uses[1]:
+            solid = f"{name}_solid.obj" if suffix == ".obj" else f"{name}_solid.stl"
+            if suffix == ".obj" and readable_by_physics(path):
+                (target / solid).write_bytes(_bodies(path.read_bytes()))
+            else:
+                solid = f"{name}_solid.stl"
+                as_stl(scene.to_mesh(), target / solid)
+    except MemoryError:
+        raise
+    except Exception as error:  # every mesh reader has errors of its own
+        return Look(problem=str(error) or type(error).__name__)
+    return Look(size, "", beside.missing, seen, solid)
+
+
+def _size(scene: trimesh.Scene) -> float:
+    """Return the longest side of a mesh in its file's unit; raise ValueError where it is none.
+
+    Unprocessed: trimesh leaves a vertex that is nowhere out, and Bullet ends the process on it.
+    """
+    if scene.bounds is None:
+        raise ValueError("it holds no triangles")
+    if not all(np.isfinite(mesh.vertices).all() for mesh in scene.geometry.values()):
+        raise ValueError("a vertex is not finite")
+    return float(np.ptp(scene.bounds, axis=0).max())
+
+
+def _bodies(text: bytes) -> bytes:
+    """Return an OBJ's vertices and faces, and the bodies that they make: Bullet takes hulls."""
+    kept = [line for line in text.splitlines() if SOLID.match(line)]
+    for number, line in enumerate(kept):
+        if line[:1] in b"og":
+            kept[number] = b"%c body_%d" % (line[0], number)
+        elif line[:1] == b"f":
+            kept[number] = re.sub(rb"/[-\d/]*", b"", line)
+    return b"\n".join(kept) + b"\n"
+
+
+def name_copies(root: ET.Element, looks: Mapping[str, Look], place: str) -> None:
+    """Let the shapes of the links below `root` name the copies, which lie at `place`."""
+    for shape in root.iterfind("link/*"):
+        for mesh in shape.iterfind("geometry/mesh"):
+            found = looks[str(mesh.get("filename"))]
+            name = found.solid if shape.tag == COLLISION else found.visual
+            mesh.set("filename", f"{place}/{name}")
 
 
 def readable_by_physics(path: Path) -> bool:
@@ -80,19 +169,14 @@ def readable_by_physics(path: Path) -> bool:
     return len(head) == 84 and path.stat().st_size >= 84 + 50 * int.from_bytes(head[80:], "little")
 
 
-def as_stl(path: Path, folder: Path, prefix: str) -> str:
-    """Write a mesh file's triangles as a binary STL into `folder`; return its name.
+def as_stl(mesh: trimesh.Trimesh, file: Path) -> None:
+    """Write triangles as a binary STL.
 
     Of more than MOST_TRIANGLES their convex hull, which is what physics takes of each mesh.
     """
-    import trimesh
-
-    name = f"{prefix}_{path.stem}.stl"
-    mesh = trimesh.load_scene(path).to_mesh()
     if len(mesh.faces) > MOST_TRIANGLES:
         mesh = trimesh.Trimesh(_extreme(np.asarray(mesh.vertices))).convex_hull
-    mesh.export(folder / name)
-    return name
+    mesh.export(file)
 
 
 def _extreme(vertices: Array) -> Array:
@@ -108,23 +192,44 @@ def _extreme(vertices: Array) -> Array:
     return kept
 
 
-def _renamed(names: dict[str, str]) -> Callable[[re.Match[str]], str]:
-    def replace(match: re.Match[str]) -> str:
-        before, written, after = match.groups()
-        return f"{before}{names.get(written, written)}{after}"
+class Beside(trimesh.resolvers.Resolver):
+    """Reads what a mesh file names, for trimesh: of TAKEN kinds, below some folders, else nothing.
 
-    return replace
+    A name is of a file beside the mesh, or beside the material library that was read last.
+    """
+
+    def __init__(self, path: Path, folders: Sequence[Path]) -> None:
+        self._places, self._folders = [path.parent], folders
+        self.missing: list[str] = []
+
+    def get(self, name: str) -> bytes:
+        """Return a file's bytes; raise FileNotFoundError where it is none to be taken."""
+        options = OPTIONS.match(name)
+        written = name[options.end() :] if options else name
+        written = unquote(written.removeprefix("file://")).replace("\\", "/")
+        for place in self._places:
+            with contextlib.suppress(OSError, ValueError, RuntimeError):
+                file = (place / written).resolve()
+                if file.suffix.lower() in TAKEN and any(map(file.is_relative_to, self._folders)):
+                    found = file.read_bytes()
+                    self._places.append(file.parent)
+                    return found
+        if written not in self.missing:
+            self.missing.append(written)
+        raise FileNotFoundError(f"{written} is not beside the mesh")
+
+    def keys(self) -> list[str]:
+        return []
+
+    def namespaced(self, namespace: str) -> Beside:
+        return self
+
+    def write(self, name: str, data: Any) -> None:
+        raise OSError("a mesh is read only")
 
 
-def _named(path: Path) -> Iterator[tuple[str, Path]]:
-    pattern = REFERENCES.get(path.suffix.lower())
-    if pattern is None:
-        return
-    seen = set()
-    for match in pattern.finditer(path.read_text(encoding="latin-1")):
-        written = match.group(2)
-        place = unquote(written.removeprefix("file://")).replace("\\", "/")
-        file = path.parent / place
-        if written not in seen and file.suffix.lower() in TAKEN:
-            seen.add(written)
-            yield written, file
+def load(path: Path, beside: Beside, *, process: bool = True) -> trimesh.Scene:
+    """Return a mesh file's scene; raises what trimesh's readers raise."""
+    with path.open("rb") as file:
+        suffix = path.suffix.lower().removeprefix(".")
+        return trimesh.load_scene(file, file_type=suffix, resolver=beside, process=process)

@@ -1,4 +1,4 @@
-"""Finds a robot description and the packages it names, and expands xacro."""
+"""Finds a robot description, the packages and the files that it names, and expands xacro."""
 
 from __future__ import annotations
 
@@ -9,8 +9,14 @@ from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from pathlib import Path
 
-from ament_index_python.packages import PackageNotFoundError, get_package_share_directory
+from ament_index_python.packages import (
+    PackageNotFoundError,
+    get_package_share_directory,
+    get_packages_with_prefixes,
+)
 
+from mrlab_ros.adapters import wall, walled
+from mrlab_ros.adapters.robots.expansion import expand
 from mrlab_ros.core.errors import BadInput
 
 SUFFIXES = (".urdf", ".xacro")
@@ -59,6 +65,8 @@ def packages_around(path: Path) -> dict[str, Path]:
         return {}
     found: dict[str, Path] = {}
     for manifest in (*own.parent.glob("*/package.xml"), own / "package.xml"):
+        if not manifest.resolve().is_relative_to(own.parent):
+            continue  # a link: what came with the description may not name any folder a package
         name = _package_name(manifest)
         if name:
             found[name] = manifest.parent
@@ -92,23 +100,72 @@ def description_text(
         except UnicodeDecodeError:
             raise BadInput(f"{path} is not UTF-8 text; save it as UTF-8") from None
     given = dict(_argument(text) for text in arguments)
-    import xacro
-
+    if not all(wall.layers().values()):
+        raise BadInput(
+            f"{path.name} is a xacro, which is a program, and the kernel here cannot wall it off "
+            "(expected Landlock and seccomp); where you trust it, expand it yourself and "
+            f"import what comes out: xacro {path.name} > {path.stem.removesuffix('.urdf')}.urdf"
+        )
     with _prefix(packages) as prefix:
-        try:
-            text = str(xacro.process_file(str(path), mappings=given).toprettyxml(indent="  "))
-        except Exception as error:  # xacro evaluates Python: anything can come out of it
-            asks = " as NAME:=VALUE" if "rgument" in str(error) else ""
-            hint = (
-                "; give the folder of a package with --package NAME=FOLDER"
-                if isinstance(error, PackageNotFoundError) or "not found" in str(error)
-                else f"; give what it asks for{asks}, or correct the file"
-            )
-            raise BadInput(f"{path.name}: xacro says: {error}{hint}") from None
+        prefixes = [prefix, *filter(None, os.environ.get("AMENT_PREFIX_PATH", "").split(":"))]
+        indices = [i for p in prefixes if (i := Path(p, "share", "ament_index")).is_dir()]
+        folders = {folder.resolve() for folder in packages.values()} | set(_installed())
+        text: str = walled.call(
+            expand, str(path.resolve()), given, name=path.name,
+            read=[Path(prefix), *indices, *folders, *_beside(path)],
+            environment={"AMENT_PREFIX_PATH": ":".join(prefixes)},
+        )  # fmt: skip
     # file:// URIs name the folder that is gone now.
     for name, folder in packages.items():
         text = text.replace(f"{prefix}/share/{name}/", f"{folder.resolve()}/")
     return text
+
+
+class MeshFinder:
+    """Finds the files of mesh URIs: in the given folders of packages, then in installed ones.
+
+    base: the folder of the description. What it finds lies, links followed, below one of them: a
+    description brings no other file of the machine along.
+    """
+
+    def __init__(self, base: Path, packages: Mapping[str, Path]) -> None:
+        self.base = base
+        self.packages = packages
+        named = {folder.resolve() for folder in (base, *packages.values())}
+        self.folders = (*sorted(named), *_installed())
+
+    def __call__(self, uri: str) -> Path:
+        """Return the path of a URI; raise BadInput where its package or its place is none."""
+        try:
+            path = self._place(uri).resolve()
+        except (OSError, ValueError, RuntimeError) as error:  # a loop of links, a NUL
+            raise BadInput(f"{uri} names no file: {error}") from None
+        if not any(path.is_relative_to(folder) for folder in self.folders):
+            raise BadInput(
+                f"{uri} is {path}, which is neither beside the description nor in a package"
+            )
+        return path
+
+    def _place(self, uri: str) -> Path:
+        if uri.startswith("package://"):
+            package, _, rest = uri.removeprefix("package://").partition("/")
+            if package in self.packages:
+                return self.packages[package] / rest
+            try:
+                return Path(get_package_share_directory(package)) / rest
+            except (PackageNotFoundError, ValueError):
+                raise BadInput(f"package '{package}' of mesh {uri} is not installed") from None
+        return self.base / uri.removeprefix("file://")
+
+
+def _beside(path: Path) -> list[Path]:
+    """Return what lies beside a file; nothing hidden, such as a home folder's keys."""
+    folder = path.resolve().parent
+    return [
+        child
+        for child in folder.iterdir()
+        if not child.name.startswith(".") and child.resolve().is_relative_to(folder)
+    ]
 
 
 def _argument(text: str) -> tuple[str, str]:
@@ -120,17 +177,21 @@ def _argument(text: str) -> tuple[str, str]:
 
 @contextmanager
 def _prefix(packages: Mapping[str, Path]) -> Iterator[str]:
-    """Let ament's index find the packages in these folders, before installed ones; yield the
-    prefix that says so."""
-    before = os.environ.get("AMENT_PREFIX_PATH", "")
+    """Yield a folder in which ament's index finds the packages of these folders."""
     with tempfile.TemporaryDirectory(prefix="mrlab-") as made:
         index = Path(made, "share", "ament_index", "resource_index", "packages")
         index.mkdir(parents=True)
         for name, folder in packages.items():
             (index / name).touch()
             Path(made, "share", name).symlink_to(folder.resolve())
-        os.environ["AMENT_PREFIX_PATH"] = f"{made}:{before}" if before else made
-        try:
-            yield made
-        finally:
-            os.environ["AMENT_PREFIX_PATH"] = before
+        yield made
+
+
+def _installed() -> list[Path]:
+    """Return the folders of the installed packages, and their sources where these are linked to.
+
+    colcon's --symlink-install links each file to the one in the source tree.
+    """
+    shares = [Path(prefix, "share", n) for n, prefix in get_packages_with_prefixes().items()]
+    places = {share.resolve() for share in shares}
+    return sorted(places | {(share / "package.xml").resolve().parent for share in shares})

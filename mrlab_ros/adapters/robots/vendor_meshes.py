@@ -11,9 +11,8 @@ import numpy as np
 
 from mrlab_ros.adapters.robots import checks, mesh_files, urdf
 from mrlab_ros.adapters.robots.assembly import Assembly
-from mrlab_ros.adapters.robots.importing import MeshFinder
 from mrlab_ros.adapters.robots.library import MESH_PREFIX, RobotLibrary
-from mrlab_ros.adapters.robots.source import description_text, packages_around
+from mrlab_ros.adapters.robots.source import MeshFinder, description_text, packages_around
 from mrlab_ros.core.diagnostics import Diagnostic, finding
 from mrlab_ros.core.errors import BadInput
 from mrlab_ros.core.geometry import Array
@@ -52,22 +51,21 @@ def use_meshes(
         for shape in [*link]:
             if shape.tag not in taken:
                 link.remove(shape)
-    found = (
-        *_frames(ours, theirs, shared, robot_id, source.name),
-        *checks.check_meshes(meshed, find),
-    )
-    if checks.errors(found):
-        return found
     folder = library.imported / robot_id
     aside = folder.with_name(f".{robot_id}.new")
     shutil.rmtree(aside, ignore_errors=True)
     (aside / "meshes").mkdir(parents=True)
-    names: dict[str, str] = {}
-    for mesh in checks.meshes(meshed):
-        uri = str(mesh.get("filename"))
-        if uri not in names:
-            names[uri] = mesh_files.copy(find(uri), aside / "meshes", f"vendor_{len(names):02d}")
-        mesh.set("filename", f"{MESH_PREFIX}{robot_id}/meshes/{names[uri]}")
+    files, missing = checks.find_meshes(meshed, find)
+    looks = mesh_files.take(meshed, files, find.folders, aside / "meshes", "vendor_")
+    found = (
+        *_frames(ours, theirs, shared, robot_id, source.name),
+        *missing,
+        *checks.check_sizes(meshed, looks),
+    )
+    if checks.errors(found):
+        shutil.rmtree(aside)
+        return found
+    mesh_files.name_copies(meshed, looks, f"{MESH_PREFIX}{robot_id}/meshes")
     for link in ours.iterfind("link"):
         other = shared.get(str(link.get("name")))
         for tag in taken:

@@ -9,10 +9,10 @@ import numpy as np
 import pytest
 import trimesh
 
-from mrlab_ros.adapters.robots import checks, mesh_files, urdf
-from mrlab_ros.adapters.robots.importing import MeshFinder, import_robot
+from mrlab_ros.adapters.robots import checks, urdf
+from mrlab_ros.adapters.robots.importing import import_robot
 from mrlab_ros.adapters.robots.library import RobotLibrary
-from mrlab_ros.adapters.robots.source import find_description
+from mrlab_ros.adapters.robots.source import MeshFinder, find_description
 from mrlab_ros.adapters.robots.vendor_meshes import remove, use_meshes
 from mrlab_ros.core.errors import BadInput
 
@@ -191,46 +191,6 @@ def test_sources_that_are_no_urdf_are_refused(tmp_path: Path) -> None:
         find_description("no_such_package")
     with pytest.raises(BadInput, match="is not XML"):
         checks.check("solid box", "box.stl", MeshFinder(tmp_path, {}))
-
-
-def test_materials_and_textures_come_along(tmp_path: Path, library: RobotLibrary) -> None:
-    package = tmp_path / "package"
-    for name, colour in (("one", b"red"), ("two", b"blue")):
-        folder = package / name
-        folder.mkdir(parents=True)
-        trimesh.creation.box((0.1, 0.1, 0.1)).export(folder / "box.obj")
-        text = (folder / "box.obj").read_text()
-        (folder / "box.obj").write_text(f"mtllib paint.mtl\n{text}")
-        (folder / "paint.mtl").write_text("newmtl a\nmap_Kd -s 1 1 1 ../tex/" + name + " it.png\n")
-        (package / "tex").mkdir(exist_ok=True)
-        (package / "tex" / f"{name} it.png").write_bytes(colour)
-    trimesh.creation.box((0.1, 0.1, 0.1)).export(package / "arm.dae")
-    image = '<image id="a"><init_from>tex/one it.png</init_from></image>'
-    text = (package / "arm.dae").read_text()
-    assert "<library_geometries>" in text
-    (package / "arm.dae").write_text(
-        text.replace(
-            "<library_geometries>",
-            f"<library_images>{image}</library_images><library_geometries>",
-        )
-    )
-    visual = '<visual><geometry><mesh filename="package://arm/{}"/></geometry></visual>'
-    shapes = "".join(visual.format(name) for name in ("one/box.obj", "two/box.obj", "arm.dae"))
-    source = tmp_path / "arm.urdf"
-    source.write_text(ARM.replace(visual.format("box.stl"), shapes))
-    found = import_robot(source, "painted", library, {"arm": package}).findings
-    assert [one for one in found if one.severity > 0] == []
-    folder = library.imported / "painted" / "meshes"
-    for number, colour in (("00", b"red"), ("01", b"blue")):
-        files = mesh_files.companions(folder / f"{number}_box.obj")
-        assert all(file.parent == folder for file in files.values())
-        assert [file.read_bytes() for file in files.values() if file.suffix == ".png"] == [colour]
-    (texture,) = mesh_files.companions(folder / "02_arm.dae").values()
-    assert texture.read_bytes() == b"red"
-    (package / "tex" / "two it.png").unlink()
-    assert "robot_no_texture" in {
-        one.code for one in import_robot(source, "b", library, {"arm": package}).findings
-    }
 
 
 @pytest.fixture

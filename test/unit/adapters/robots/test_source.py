@@ -1,0 +1,138 @@
+"""Descriptions from outside: xacros expand, and what they run reaches nothing."""
+
+from __future__ import annotations
+
+import http.server
+import os
+import threading
+from pathlib import Path
+
+import pytest
+
+from mrlab_ros.adapters import wall
+from mrlab_ros.adapters.robots.source import description_text
+from mrlab_ros.core.errors import BadInput
+
+XACRO = '<robot xmlns:xacro="http://www.ros.org/wiki/xacro" name="r">{}</robot>'
+LINK = '<link name="{}"/>'
+# xacro refuses names such as __class__ in an expression, but not in a function within it.
+MODULES = "[c for c in ().__class__.__base__.__subclasses__() if c.__name__ == '_wrap_close'][0]"
+GLOBALS = f"{MODULES}.__init__.__globals__"
+IMPORT = f"{GLOBALS}['__builtins__']['__import__']"
+
+
+@pytest.fixture
+def folder(tmp_path: Path) -> Path:
+    (tmp_path / "robot").mkdir()
+    (tmp_path / "secret.yaml").write_text("word: secret_word\n")
+    return tmp_path / "robot"
+
+
+def expanded(folder: Path, content: str, **packages: Path) -> str:
+    path = folder / "r.urdf.xacro"
+    path.write_text(XACRO.format(content))
+    return description_text(path, packages, ["word:=given"])
+
+
+def test_a_xacro_takes_files_beside_it_and_of_its_packages(folder: Path) -> None:
+    (folder / "parts").mkdir()
+    (folder / "parts" / "a.xacro").write_text(XACRO.format(LINK.format("included")))
+    (folder / "values.yaml").write_text("word: read\n")
+    other = folder.parent / "other"
+    other.mkdir()
+    (other / "b.xacro").write_text(XACRO.format(LINK.format("of_package")))
+    text = expanded(
+        folder,
+        '<xacro:arg name="word" default=""/>'
+        '<xacro:include filename="parts/a.xacro"/>'
+        '<xacro:include filename="$(find other)/b.xacro"/>'
+        '<xacro:property name="v" value="${load_yaml(\'values.yaml\')}"/>'
+        '<link name="$(arg word)"/><link name="${v[\'word\']}"/>'
+        '<link name="l"><visual><geometry><mesh filename="file://$(find other)/m.stl"/>'
+        "</geometry></visual></link>",
+        other=other,
+    )
+    for name in ("included", "of_package", "given", "read"):
+        assert f'name="{name}"' in text
+    assert f'filename="file://{other}/m.stl"' in text
+
+
+def test_a_xacro_finds_installed_packages(folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    prefix, source = folder.parent / "install", folder.parent / "source"
+    index = prefix / "share" / "ament_index" / "resource_index" / "packages"
+    for made in (index, prefix / "share" / "linked", source):
+        made.mkdir(parents=True)
+    (index / "linked").touch()
+    # as colcon's --symlink-install leaves it
+    for name in ("package.xml", "a.xacro"):
+        (source / name).write_text(XACRO.format(LINK.format("installed")))
+        (prefix / "share" / "linked" / name).symlink_to(source / name)
+    monkeypatch.setenv("AMENT_PREFIX_PATH", f"{prefix}:{os.environ['AMENT_PREFIX_PATH']}")
+    text = expanded(folder, '<xacro:include filename="$(find linked)/a.xacro"/>')
+    assert 'name="installed"' in text
+
+
+@pytest.mark.parametrize(
+    "name", ["{outside}/secret.yaml", "../secret.yaml", "link.yaml", ".keys/secret.yaml"]
+)
+def test_a_xacro_reads_no_file_elsewhere(folder: Path, name: str) -> None:
+    (folder / "link.yaml").symlink_to(folder.parent / "secret.yaml")
+    (folder / ".keys").mkdir()
+    (folder / ".keys" / "secret.yaml").write_text("word: secret_word\n")
+    path = name.format(outside=folder.parent)
+    with pytest.raises(BadInput, match="--package NAME=FOLDER") as caught:
+        expanded(folder, f"<link name=\"${{load_yaml('{path}')['word']}}\"/>")
+    assert "secret_word" not in str(caught.value)
+
+
+@pytest.mark.parametrize(
+    "does",
+    [
+        "{globals}['system']('touch {marker}')",
+        "{globals}['__builtins__']['open']('{marker}', 'w')",
+        "{globals}['__builtins__']['open']('{folder}/made', 'w')",
+        "{globals}['__builtins__']['open']('{secret}').read()",
+        "{globals}['mkdir']('{marker}')",
+        "{globals}['symlink']('{secret}', '{folder}/link')",
+        "{globals}['kill']({pid}, 15)",
+        "{globals}['execv']('/bin/touch', ['touch', '{marker}'])",
+        "{import}('subprocess').run(['touch', '{marker}'])",
+        "{import}('urllib.request').request.urlopen('http://127.0.0.1:{port}').read()",
+        "{import}('ctypes').CDLL(None).open(b'{marker}', 65, 511)",
+        "{import}('posix').listdir('{outside}')",
+        "{import}('os').fork() or {globals}['system']('touch {marker}')",
+    ],
+)
+def test_what_a_xacro_runs_reaches_nothing(folder: Path, does: str) -> None:
+    asked: list[str] = []
+
+    class Heard(http.server.BaseHTTPRequestHandler):
+        def do_GET(self) -> None:
+            asked.append(self.path)
+
+    with http.server.HTTPServer(("127.0.0.1", 0), Heard) as server:
+        threading.Thread(target=server.serve_forever, daemon=True).start()
+        before = sorted(folder.parent.rglob("*"))
+        words = {
+            "globals": GLOBALS, "import": IMPORT, "marker": folder.parent / "marker",
+            "folder": folder, "outside": folder.parent, "secret": folder.parent / "secret.yaml",
+            "pid": os.getpid(), "port": server.server_port,
+        }  # fmt: skip
+        code = does.format(**words)
+        try:
+            text = expanded(folder, f'<link name="${{(lambda: {code})()}}"/>')
+        except BadInput as refused:
+            text = str(refused)
+        server.shutdown()
+    assert "secret_word" not in text
+    assert not asked
+    made = set(folder.parent.rglob("*")) - set(before)
+    assert made == {folder / "r.urdf.xacro"}
+
+
+def test_without_a_wall_no_xacro_is_expanded(
+    folder: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(wall, "layers", lambda: {"landlock": False, "seccomp": True})
+    with pytest.raises(BadInput, match=r"xacro r\.urdf\.xacro > r\.urdf"):
+        expanded(folder, LINK.format("a"))
