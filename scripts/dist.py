@@ -1,5 +1,8 @@
 #!/usr/bin/env python3
-"""Build the source archive and, from it, the wheel into dist/; check that both are complete."""
+"""Build the source archive and, from it, the wheel; check that both are complete.
+
+The argument is the folder they come to, which is emptied first; without one, dist/.
+"""
 
 from __future__ import annotations
 
@@ -12,7 +15,6 @@ import zipfile
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parent.parent
-DIST = ROOT / "dist"
 SHARE = "/data/share/mrlab_ros/"
 # One file of each thing that the installed lab reads.
 NEEDED = (
@@ -46,22 +48,23 @@ def missing(names: list[str]) -> list[str]:
     return [end for end in NEEDED if not any(name.endswith(end) for name in names)]
 
 
-def main() -> int:
-    shutil.rmtree(DIST, ignore_errors=True)
-    with tempfile.TemporaryDirectory() as folder:
-        egg_info = ("egg_info", "--egg-base", folder)
-        run(sys.executable, "setup.py", "-q", *egg_info, "sdist", "-d", str(DIST), cwd=ROOT)
-    (archive,) = DIST.glob("*.tar.gz")
+def main(folder: str = "dist") -> int:
+    target = ROOT / folder
+    shutil.rmtree(target, ignore_errors=True)
+    with tempfile.TemporaryDirectory() as aside:
+        egg_info = ("egg_info", "--egg-base", aside)
+        run(sys.executable, "setup.py", "-q", *egg_info, "sdist", "-d", str(target), cwd=ROOT)
+    (archive,) = target.glob("*.tar.gz")
     # From the archive: what it lacks, the wheel lacks.
     pip = (sys.executable, "-m", "pip", "wheel", "-q", "--no-deps", "--no-build-isolation")
-    run(*pip, "-w", str(DIST), str(archive), cwd=DIST)
-    (wheel,) = DIST.glob("*.whl")
+    run(*pip, "-w", str(target), str(archive), cwd=target)
+    (wheel,) = target.glob("*.whl")
     if lacks := missing(zipfile.ZipFile(wheel).namelist()):
         raise SystemExit(f"{wheel.name} lacks {', '.join(lacks)}; see MANIFEST.in and setup.py")
     for file in (archive, wheel):
-        print(f"{file.relative_to(ROOT)} ({file.stat().st_size / 1e6:.1f} MB)")
+        print(f"{folder}/{file.name} ({file.stat().st_size / 1e6:.1f} MB)")
     return 0
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    sys.exit(main(*sys.argv[1:]))
