@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import errno
 import importlib
-import io
 import os
 import signal
 import sys
@@ -20,8 +19,10 @@ if __name__ == "__main__":
 import typer
 
 import mrlab_ros
+from mrlab_ros.adapters.guarded_streams import guard
 from mrlab_ros.adapters.python_process import keep_to_installed_modules
 from mrlab_ros.commands import completion
+from mrlab_ros.commands.output import say_error
 from mrlab_ros.core.errors import LabError
 
 EPILOG = """
@@ -175,10 +176,7 @@ def main() -> None:
     for number in (signal.SIGINT, signal.SIGTERM):
         signal.signal(number, signal.default_int_handler)
     signal.signal(signal.SIGHUP, hang_up)
-    # A terminal of another encoding shows ? for what it has no character for.
-    for stream in (sys.stdout, sys.stderr):
-        if isinstance(stream, io.TextIOWrapper) and stream.errors == "strict":
-            stream.reconfigure(errors="replace")
+    guard()
     keep_to_installed_modules()
     # As pip installs a wheel: its files are in the index of packages below the prefix.
     os.environ.setdefault("AMENT_PREFIX_PATH", sys.prefix)
@@ -235,7 +233,7 @@ def fail(sentence: str, code: int = 1) -> None:
     """Print one sentence, with the traceback under --debug, and end with `code`."""
     if Settings.debug:
         traceback.print_exc()
-    print(f"mrlab: {sentence}", file=sys.stderr)
+    say_error(sentence)
     sys.exit(code)
 
 

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import json
-import shlex
 import sys
 from dataclasses import asdict
 from datetime import datetime
@@ -12,7 +11,9 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
+from mrlab_ros.commands import output
 from mrlab_ros.commands.output import AsJson, say
+from mrlab_ros.core.foreign_text import for_shell
 
 if TYPE_CHECKING:
     from mrlab_ros.adapters.bags.reader import Bag
@@ -226,10 +227,9 @@ def _facts(bag: Bag) -> dict[str, Any]:
 
 def _print(bag: Bag) -> None:
     from rich import box
-    from rich.console import Console
     from rich.table import Table
 
-    console = Console(highlight=False)
+    console = output.console()
     began = f"{bag.duration:.1f} s from {_began(bag)}, " if bag.message_count else ""
     console.print(
         f"{bag.path}: {began}{bag.message_count} messages, "
@@ -242,7 +242,7 @@ def _print(bag: Bag) -> None:
         console.print(trouble, soft_wrap=True)
     if bag.troubles:
         console.print(
-            f"mend it with: mrlab bag repair {shlex.quote(str(bag.path))}", soft_wrap=True
+            f"mend it with: mrlab bag repair {for_shell([str(bag.path)])}", soft_wrap=True
         )
     for gap in bag.gaps():
         console.print(gap.describe(bag.start_ns), soft_wrap=True)

@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
+from mrlab_ros.commands import output
 from mrlab_ros.core.bridge.access import Login
 from mrlab_ros.core.bridge.rules import Role
 from mrlab_ros.core.errors import BadInput
@@ -164,13 +165,12 @@ def list_people(folder: Folder = Path("keys"), as_json: AsJson = False) -> None:
             }
         )
         return
-    from rich.console import Console
     from rich.table import Table
 
     table = Table("name", "role", "until")
     for entry in keys.entries:
         table.add_row(entry.person.name, entry.person.role.value, until(entry))
-    console = Console()
+    console = output.console()
     console.print(table)
     late = expires < now()
     console.print(

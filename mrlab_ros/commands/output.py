@@ -1,15 +1,54 @@
-"""How a command prints what the lab answered."""
+"""The one door to a terminal: what commands print comes through here.
+
+Names and texts of files pass it, too: a `console` takes nothing for markup, and shows what acts on
+a terminal. So does `print`, whose streams `cli.main` guards (`adapters/guarded_streams.py`).
+"""
 
 from __future__ import annotations
 
 import json
-from typing import Annotated
+import sys
+from collections.abc import Iterable
+from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
+from mrlab_ros.core.foreign_text import visible_lines
+
+if TYPE_CHECKING:
+    from rich.console import Console
+
+REPORT_WIDTH = 120  # of reports, where nothing says how wide the output is
 AsJson = Annotated[bool, typer.Option("--json", help="Print one JSON object.")]
 
 
 def say(message: str, *, as_json: bool, **facts: object) -> None:
     """Print the lab's sentence, or a JSON object with it and `facts`."""
     print(json.dumps({**facts, "message": message}) if as_json else message, flush=True)
+
+
+def say_error(sentence: str) -> None:
+    """Print an error; a line end may come from a file's name: no other line begins like ours."""
+    print("mrlab: " + sentence.replace("\n", "\n  "), file=sys.stderr)
+
+
+def console(*, stderr: bool = False, width: int | None = None) -> Console:
+    """Return a console for tables and colours, which takes nothing for markup.
+
+    width: characters, where it is no terminal.
+    """
+    # rich takes a while to import, and not every command needs it
+    from rich.console import Console
+    from rich.segment import Segment
+
+    class Guarded(Console):
+        """Renders text of any origin: as text."""
+
+        def render(self, *args: Any, **options: Any) -> Iterable[Segment]:
+            for text, style, control in super().render(*args, **options):
+                yield Segment(text if control else visible_lines(text), style, control)
+
+    made = Guarded(stderr=stderr, markup=False, emoji=False, highlight=False)
+    if width is not None and not made.is_terminal:
+        made.width = width
+    return made

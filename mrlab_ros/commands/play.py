@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from mrlab_ros.commands import completion
+from mrlab_ros.commands import completion, output
 from mrlab_ros.commands.convert.options import FIELDS, with_options, words_of
 from mrlab_ros.commands.output import say
 from mrlab_ros.core.conversion.options import Options
@@ -64,11 +64,10 @@ def play(
     following, not the motion. Ends with 0 when the last frame was played, 2 when the file needs a
     choice, 1 when something kept it from that.
     """
-    from rich.console import Console
 
     from mrlab_ros.client.lab import Lab
 
-    console = Console(highlight=False, stderr=as_json)
+    console = output.console(stderr=as_json)
     with Lab() as lab:
         found = lab.robot(robot)
         if trajectory:
@@ -153,7 +152,11 @@ def follow(console: Console, run: Run, *, as_json: bool = False) -> None:
 
     follower = run.follower
     label = ""
-    columns = (TextColumn("{task.description}"), BarColumn(), TextColumn("{task.fields[words]}"))
+    columns = (
+        TextColumn("{task.description}", markup=False),
+        BarColumn(),
+        TextColumn("{task.fields[words]}", markup=False),
+    )
     plain = as_json or not console.is_terminal
     with Progress(*columns, console=console, disable=plain) as bar:
         task = bar.add_task(follower.robot, words="")

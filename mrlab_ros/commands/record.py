@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import json
-import shlex
 import sys
 import time
 from collections.abc import Callable
@@ -13,7 +12,9 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
+from mrlab_ros.commands import output
 from mrlab_ros.core.errors import LabError, Misuse
+from mrlab_ros.core.foreign_text import for_shell
 from mrlab_ros.core.recording.states import RecorderState
 
 if TYPE_CHECKING:
@@ -90,10 +91,9 @@ def _show(graph: GraphClient, bag: str, *, as_json: bool) -> None:
         return
     print(f"records into {bag}; Ctrl-C ends it, or mrlab record --stop", flush=True)
 
-    from rich.console import Console
     from rich.live import Live
 
-    console = Console(highlight=False)
+    console = output.console()
     watch = graph.watch(msg.RecorderState, "/recorder/state")
     with Live(console=console, auto_refresh=False, transient=True) as live:
         _follow(
@@ -166,7 +166,7 @@ def _follow(
     last, received_at, began = None, time.monotonic(), False
     waiting, said = False, ""
     grown_at, known = received_at, 0
-    look = f"mrlab bag info {shlex.quote(bag)}"
+    look = f"mrlab bag info {for_shell([bag])}"
     while True:
         state = watch.value
         if state is not last:

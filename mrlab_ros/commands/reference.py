@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import shlex
 from pathlib import Path
 
 from mrlab_ros.adapters.bags.courses import Reference
@@ -10,6 +9,7 @@ from mrlab_ros.adapters.robots.library import RobotLibrary
 from mrlab_ros.commands.convert.batch import convert_file
 from mrlab_ros.core.conversion.options import Options
 from mrlab_ros.core.errors import BadInput
+from mrlab_ros.core.foreign_text import for_shell
 from mrlab_ros.core.recording.report import ReferenceTrajectory
 from mrlab_ros.ros import share
 
@@ -22,7 +22,7 @@ def reference_of(file: Path, model: str) -> Reference:
         raise BadInput(
             f"the reference {file.name} is refused for {model}: {result.message.rstrip('.')}. "
             "Mend it, and name what this writes: "
-            f"mrlab convert {shlex.quote(str(file))} --robot {model} --out ."
+            f"mrlab convert {for_shell([str(file)])} --robot {model} --out ."
         )
     found = result.trajectory
     return Reference(file.name, model, ReferenceTrajectory(found.frame_rate, found.positions))

@@ -17,6 +17,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
+from mrlab_ros.commands import output
 from mrlab_ros.commands.output import say
 from mrlab_ros.commands.record import SILENCE
 from mrlab_ros.core.errors import LabError, Misuse
@@ -82,12 +83,11 @@ def replay(
 
 def _replay(bag: str, rate: float, start: float, loop: bool, *, as_json: bool) -> None:
     from mrlab_msgs import msg, srv
-    from rich.console import Console
     from rich.live import Live
 
     from mrlab_ros.client.connect import open_graph
 
-    console = Console(highlight=False)
+    console = output.console()
     request = srv.Replay.Request(bag=bag, rate=rate, start=start, loop=loop)
     with open_graph() as graph:
         watch = graph.watch(msg.RecorderState, "/recorder/state")

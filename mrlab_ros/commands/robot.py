@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from mrlab_ros.commands import completion
+from mrlab_ros.commands import completion, output
 from mrlab_ros.commands.convert.options import with_options
 from mrlab_ros.commands.output import AsJson, say
 from mrlab_ros.core.conversion.options import Options
@@ -105,12 +105,11 @@ def load(
     """Load a trajectory into a robot; mrlab resume then plays it."""
 
     def load_it(lab: Lab, found: LabRobot) -> str:
-        from rich.console import Console
 
         from mrlab_ros.commands.play import in_catalogue
 
         given = ["mrlab", "load", robot, trajectory]
-        console = Console(stderr=as_json)
+        console = output.console(stderr=as_json)
         return found.load(in_catalogue(lab, found, trajectory, options, given, console))
 
     _do(robot, load_it, as_json=as_json)

@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
+from mrlab_ros.commands import output
 from mrlab_ros.commands.output import AsJson, say
 from mrlab_ros.core.diagnostics import Diagnostic, Severity
 from mrlab_ros.core.errors import BadInput
@@ -72,7 +73,6 @@ def list_robots(
     if as_json:
         sys.stdout.write(json.dumps({"robots": rows, "end_effectors": tools}, indent=2) + "\n")
         return
-    from rich.console import Console
     from rich.table import Table
 
     table = Table()
@@ -87,7 +87,7 @@ def list_robots(
             reach_mm,
             str(row["joints"]),
         )
-    console = Console()
+    console = output.console()
     console.print(table)
     console.print(f"end effectors: {', '.join(tools)}")
 
@@ -168,7 +168,6 @@ def _sheet_facts(library: RobotLibrary, robot: str) -> dict[str, Any]:
 
 def _print_sheet(library: RobotLibrary, robot: str) -> None:
     """Print what the library knows of a robot; limits in degrees, or in metres for a slide."""
-    from rich.console import Console
     from rich.table import Table
 
     from mrlab_ros.adapters.robots import urdf
@@ -190,7 +189,7 @@ def _print_sheet(library: RobotLibrary, robot: str) -> None:
         if joint.name in endless:
             shown[:2] = ["endless", ""]
         table.add_row(joint.name, *shown, "m" if sliding else "deg")
-    Console().print(table)
+    output.console().print(table)
 
 
 def _positions(library: RobotLibrary, robot: str, text: str) -> dict[str, float]:

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
+from mrlab_ros.commands import output
 from mrlab_ros.commands.output import AsJson, say
 from mrlab_ros.core.errors import BadInput, Misuse
 
@@ -223,10 +224,9 @@ def _document(thing: Any) -> dict[str, Any]:
 
 
 def _show(headings: tuple[str, ...], rows: Sequence[tuple[str, ...]], empty: str) -> None:
-    from rich.console import Console
     from rich.table import Table
 
     table = Table(*headings)
     for row in rows:
         table.add_row(*row)
-    Console().print(table if rows else empty)
+    output.console().print(table if rows else empty)

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from mrlab_ros.commands import completion
+from mrlab_ros.commands import completion, output
 from mrlab_ros.commands.output import AsJson, say
 from mrlab_ros.core.errors import BadInput, Misuse
 from mrlab_ros.core.naming import checked_name, did_you_mean
@@ -40,7 +40,6 @@ def list_systems(
     ] = False,
 ) -> None:
     """List the systems, their members and each one's share of the timeline."""
-    from rich.console import Console
     from rich.table import Table
 
     from mrlab_ros.client.connect import open_graph
@@ -69,7 +68,8 @@ def list_systems(
                 f"{member.start + member.duration:.2f} s",
                 member.waiting_for,
             )
-    Console().print(table if systems else "no systems; mrlab system create cell.yaml makes one")
+    none = "no systems; mrlab system create cell.yaml makes one"
+    output.console().print(table if systems else none)
 
 
 @app.command()
@@ -131,7 +131,6 @@ def _check_entry(graph: GraphClient, system: SystemEntry) -> None:
 
 def _trajectory(graph: GraphClient, cell: Path, member: MemberEntry) -> str:
     """Return the id of the member's trajectory; convert it where `cell` names a workspace."""
-    from rich.console import Console
 
     from mrlab_ros.client.lab import Lab
     from mrlab_ros.commands.play import in_catalogue, is_file
@@ -143,7 +142,7 @@ def _trajectory(graph: GraphClient, cell: Path, member: MemberEntry) -> str:
     lab = Lab(graph)
     file = str(cell.parent / name)
     given = ["mrlab", "load", member.robot, file]
-    console = Console(stderr=True, highlight=False)
+    console = output.console(stderr=True)
     try:
         return in_catalogue(lab, lab.robot(member.robot), file, Options(), given, console)
     except typer.Exit:

@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
+from mrlab_ros.commands import output
 from mrlab_ros.commands.output import say
 from mrlab_ros.commands.up.web import qr_lines
 from mrlab_ros.core.bridge.rules import Role
@@ -79,14 +80,13 @@ def list_users(folder: Folder = None, as_json: AsJson = False) -> None:
     if as_json:
         show([{"name": a.name, "role": a.role.value, "signs_in": a.signs_in} for a in found])
         return
-    from rich.console import Console
     from rich.table import Table
 
     ways = {"": "has not used the link yet", "password": "password", "oidc": "OpenID Connect"}
     table = Table("name", "role", "signs in by")
     for account in found:
         table.add_row(account.name, account.role.value, ways[account.signs_in])
-    Console().print(table)
+    output.console().print(table)
 
 
 @app.command()

@@ -5,11 +5,17 @@
 
 from __future__ import annotations
 
+import re
 from dataclasses import dataclass, fields
 from enum import IntEnum
 from typing import Any
 
 from mrlab_ros.core.errors import BadInput
+from mrlab_ros.core.foreign_text import for_shell, visible
+
+# What MATLAB takes for a variable, or a part of one, and for nothing else; what is pasted there
+# may hold no other name of a file, such as `q; system('...')`.
+MATLAB_PATH = re.compile(r"[A-Za-z]\w*(\.[A-Za-z]\w*|\([\d:, ]+\)|\{[\d:, ]+\})*", re.ASCII)
 
 
 class Severity(IntEnum):
@@ -170,14 +176,14 @@ KINDS: dict[str, Kind] = {
         "A matrix has the right size, but its numbers are something else than joint positions.",
         "'{variable}' ({size}) was not taken as joint positions: {why}.",
         "Save the joint positions, one row a sample: save('traj.mat', 'q'). If it is what you "
-        "want all the same, name it: --variable {variable}.",
+        "want all the same, name it: --variable {variable:shell}.",
     ),
     "never_filled": Kind(
         ERROR,
         "Every number of the matrix is 0.",
         "'{variable}' ({size}) holds nothing but zeros; joint positions are expected.",
         "Run the program that fills it before you save it.",
-        (("", "", "any({variable}(:))"),),
+        (("", "", "any({name}(:))"),),
     ),
     "rows_not_filled": Kind(
         ERROR,
@@ -275,7 +281,7 @@ KINDS: dict[str, Kind] = {
         ERROR,
         "The matrix holds NaN or Inf.",
         "'{variable}' holds {count} that are NaN or Inf, the first at {where}.",
-        "Remove those samples or find what made them: any(~isfinite({variable}), 2).",
+        "Remove those samples or find what made them: any(~isfinite({name}), 2).",
         (("", "", "q = q(all(isfinite(q), 2), :);"),),
     ),
     "transposed": Kind(
@@ -321,7 +327,7 @@ KINDS: dict[str, Kind] = {
         "The columns that were asked for do not exist or cannot be read.",
         "The columns '{columns}' cannot be taken from '{variable}', which is {size}: {problem}.",
         "Write columns as in MATLAB: 2:7, or 1,3,5, or 2:end.",
-        (("columns", "", "size({variable}, 2)"),),
+        (("columns", "", "size({name}, 2)"),),
     ),
     "bad_part": Kind(
         ERROR,
@@ -356,21 +362,21 @@ KINDS: dict[str, Kind] = {
         "A matrix whose name does not say what it holds was taken, as nothing speaks against it.",
         "'{variable}' was taken as joint positions, though {why} ({seen}).",
         "If it is something else, save the joint positions as q. To confirm it: --variable "
-        "{variable}.",
+        "{variable:shell}.",
     ),
     "doubtful_name": Kind(
         WARNING,
         "The name of the matrix speaks against joint positions.",
         "'{variable}' was taken as joint positions, but {why}.",
         "Check that it is what you meant; joint positions are usually named q.",
-        (("", "", "q = {variable}; save('traj.mat', 'q')"),),
+        (("", "", "q = {name}; save('traj.mat', 'q')"),),
     ),
     "doubtful_values": Kind(
         WARNING,
         "Something in the numbers speaks against joint positions.",
         "'{variable}' was taken as joint positions, but {why}.",
         "Look at the motion before you trust it, and save the joint positions as q.",
-        (("", "", "plot({variable})"),),
+        (("", "", "plot({name})"),),
     ),
     "tool_path_differs": Kind(
         WARNING,
@@ -378,7 +384,7 @@ KINDS: dict[str, Kind] = {
         "'{other}' is not the path of the tool at '{variable}' on this robot: they differ by "
         "{value:.3g} m, and the path extends over {limit:.3g} m.",
         "Choose the robot that the file was made for, or check that both belong to one motion.",
-        (("", "", "plot({other})"),),
+        (("", "", "plot({other:matlab})"),),
     ),
     "other_candidates": Kind(
         INFO,
@@ -615,7 +621,8 @@ KINDS: dict[str, Kind] = {
         WARNING,
         "A vector that is named as a gripper lies beside the trajectory and was not taken.",
         "'{variable}' ({size}) may be the states of the gripper; it was not taken.",
-        "Take it with the option gripper (--gripper {variable}), or save it as the last column.",
+        "Take it with the option gripper (--gripper {variable:shell}), or save it as the last "
+        "column.",
     ),
     "kinematics_agree": Kind(
         INFO,
@@ -787,13 +794,23 @@ def finding(code: str, /, **values: Any) -> Diagnostic:
     """
     kind = KINDS[code]
     words = {"variable": "", "where": "", **values}
-    words.setdefault("name", words["variable"])
+    words["name"] = format(_Said(words.get("name", words["variable"])), "matlab")
+    words = {k: _Said(v) if isinstance(v, str) else v for k, v in words.items()}
     data = {name: values[name] for name in DATA if name in values}
     data.setdefault(
         "fixes", tuple(Fix(*(text.format(**words) for text in fix)) for fix in kind.fixes)
     )
     message, remedy = kind.message.format(**words), kind.remedy.format(**words)
     return Diagnostic(code, kind.severity, message, remedy, **data)
+
+
+class _Said(str):
+    """A text of a file in a sentence: as it is seen, in a line of MATLAB or of a shell."""
+
+    def __format__(self, spec: str) -> str:
+        if spec == "matlab":
+            return self if MATLAB_PATH.fullmatch(self) else "q"
+        return for_shell([self]) if spec == "shell" else visible(self)
 
 
 def document() -> str:
@@ -817,4 +834,4 @@ def document() -> str:
                 f"`{matlab}`" if matlab else "",
             ]
             lines += ["", f"Fix: {', or '.join(filter(None, ways))}"]
-    return "\n".join(lines) + "\n"
+    return re.sub(":(shell|matlab)}", "}", "\n".join(lines) + "\n")

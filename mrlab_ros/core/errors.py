@@ -2,9 +2,17 @@
 
 from __future__ import annotations
 
+from mrlab_ros.core.foreign_text import visible_lines
+
 
 class LabError(Exception):
-    """Base of every error that the lab raises on purpose; its text is for a person."""
+    """Base of every error that the lab raises on purpose; its text is for a person.
+
+    What it names may come from a file: nothing in it acts on a terminal.
+    """
+
+    def __init__(self, text: str = "") -> None:
+        super().__init__(visible_lines(text))
 
 
 class BadInput(LabError):

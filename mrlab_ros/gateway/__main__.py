@@ -14,6 +14,7 @@ from dataclasses import fields
 from pathlib import Path
 from typing import Any
 
+from mrlab_ros.adapters.guarded_streams import guard
 from mrlab_ros.adapters.launcher import end_with_launcher
 from mrlab_ros.adapters.python_process import keep_to_installed_modules
 from mrlab_ros.core.errors import BadInput, LabError, Unavailable
@@ -36,6 +37,7 @@ def main() -> None:
     signal.pthread_sigmask(signal.SIG_UNBLOCK, {signal.SIGINT})
     end_with_launcher()
     keep_to_installed_modules()
+    guard()
     # As ROS's nodes log, for a lab's common output.
     logging.addLevelName(logging.WARNING, "WARN")
     logging.basicConfig(

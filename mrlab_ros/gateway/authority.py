@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-import html
 from pathlib import Path
 
 from cryptography.hazmat.primitives.serialization import Encoding
 from fastapi import APIRouter, Request, Response
 
 from mrlab_ros.adapters.keys import certificates
+from mrlab_ros.core.foreign_text import for_html
 from mrlab_ros.gateway.errors import NotFound
 from mrlab_ros.gateway.settings import Settings
 
@@ -84,7 +84,7 @@ def page(request: Request) -> Response:
     text = PAGE.format(
         fingerprint=shown,
         name=shown[:5].replace(":", "").lower(),
-        subject=html.escape(certificates.common_name(found)),
+        subject=for_html(certificates.common_name(found)),
         end=f"{certificates.validity(found)[1]:%d %B %Y}",
     )
     return Response(text, media_type="text/html; charset=utf-8")

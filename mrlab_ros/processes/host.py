@@ -11,6 +11,7 @@ import signal
 import sys
 from pathlib import Path
 
+from mrlab_ros.adapters.guarded_streams import guard
 from mrlab_ros.adapters.launcher import end_with_launcher
 from mrlab_ros.adapters.python_process import keep_to_installed_modules
 
@@ -26,6 +27,7 @@ def main(names: list[str] | None = None) -> None:
     signal.pthread_sigmask(signal.SIG_UNBLOCK, {signal.SIGINT})
     end_with_launcher()
     keep_to_installed_modules()
+    guard()
     from mrlab_ros.processes.lab import NODES
 
     arguments = sys.argv[1:]

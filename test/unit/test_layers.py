@@ -302,3 +302,11 @@ def test_no_timer_goes_by_a_clock_that_may_be_set() -> None:
     """mrlab_ros.ros.timers.every makes one that does not."""
     timers = [path for path in SOURCES if path.name != "timers.py"]
     assert found_in(timers, lambda path: re.findall("create_timer\\(", path.read_text())) == {}
+
+
+def test_one_door_makes_consoles() -> None:
+    """What rich paints is guarded there: names of files are no markup and move no cursor."""
+    door = PACKAGE / "commands" / "output.py"
+    calls = re.compile(r"(?<!output\.)\b(Console|from_markup|render_markup)\(")
+    others = [path for path in SOURCES if path != door]
+    assert [str(path) for path in others if calls.search(path.read_text())] == []

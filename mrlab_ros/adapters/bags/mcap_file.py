@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import io
-import shlex
 import struct
 import zlib
 from collections.abc import Collection, Iterator
@@ -22,6 +21,7 @@ from zstandard import ZstdError
 
 from mrlab_ros.adapters.inflate import is_compressed
 from mrlab_ros.core.errors import BadInput
+from mrlab_ros.core.foreign_text import for_shell
 
 RECORD = struct.Struct("<BQ")
 MESSAGE = struct.Struct("<HIQQ")
@@ -140,7 +140,7 @@ def open_file(path: Path) -> BagFile:
             if is_compressed(beginning):
                 raise BadInput(
                     f"{path} is compressed as a whole; a plain bag of it is made with: mrlab bag "
-                    f"import {shlex.quote(str(path))} NEW_FOLDER"
+                    f"import {for_shell([str(path)])} NEW_FOLDER"
                 )
             if beginning != MCAP0_MAGIC:
                 raise BadInput(

@@ -7,7 +7,6 @@ installed definition, or else that of ROS 2 Jazzy.
 from __future__ import annotations
 
 import heapq
-import shlex
 import tempfile
 from collections.abc import Callable, Collection, Iterator
 from contextlib import ExitStack, contextmanager
@@ -26,6 +25,7 @@ from mrlab_ros.adapters.inflate import ZSTD, Incomplete, inflate_file, inflate_z
 from mrlab_ros.adapters.yaml_files import Loader
 from mrlab_ros.core.clock import SECOND
 from mrlab_ros.core.errors import BadInput
+from mrlab_ros.core.foreign_text import for_shell
 from mrlab_ros.core.recording.metadata import (
     ROOT,
     BagFacts,
@@ -205,7 +205,7 @@ def _lacking(path: Path) -> str:
     )
     if not others:
         return said
-    return f"{said}; alone it opens with: mrlab bag info {shlex.quote(str(others[0]))}"
+    return f"{said}; alone it opens with: mrlab bag info {for_shell([str(others[0])])}"
 
 
 def _rescue(path: Path) -> str:
@@ -215,7 +215,7 @@ def _rescue(path: Path) -> str:
     where it met damage, so that ROLLBACK becomes COMMIT.
     """
     files = [path] if path.is_file() else sorted(path.glob("*.db3"), key=number_of)
-    name = shlex.quote(str(files[0])) if len(files) == 1 else "FILE.db3"
+    name = for_shell([str(files[0])]) if len(files) == 1 else "FILE.db3"
     return f"sqlite3 {name} .dump | sed 's/^ROLLBACK.*/COMMIT;/' | sqlite3 NEW.db3"
 
 

@@ -5,12 +5,14 @@ from __future__ import annotations
 from pathlib import Path
 from typing import Any
 
+import matplotlib
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 
 from mrlab_ros.core.design import COLOURS, JOINTS, STATES
+from mrlab_ros.core.foreign_text import visible
 from mrlab_ros.core.recording.report import HOLDING, RobotReport, Series, SessionReport, Span
 
 HELD = JOINTS[6]
@@ -19,6 +21,8 @@ WIDTH, ROW_HEIGHT, PANEL_HEIGHT, MARGIN = 11.0, 0.42, 1.7, 1.3
 VISIBLE = 1 / 800
 # Width of a letter in a bar, as a share of the session.
 LETTER = 1 / 120
+# A $ in a name is no formula.
+matplotlib.rcParams["text.parse_math"] = False
 # More lines than this have no legend of their own.
 NAMED = 8
 
@@ -42,7 +46,7 @@ def draw(report: SessionReport, title: str, path: Path) -> None:
     axes = figure.subplots(
         len(heights), 1, sharex=True, squeeze=False, gridspec_kw={"height_ratios": heights}
     )[:, 0]
-    figure.suptitle(title, x=0.01, ha="left", fontsize=11, fontweight="bold")
+    figure.suptitle(visible(title), x=0.01, ha="left", fontsize=11, fontweight="bold")
     _draw_states(axes[0], report, robots)
     for axis, (name, unit, least, lines) in zip(axes[1:], panels, strict=True):
         _draw_lines(axis, f"{name}\n{unit}", least, lines)

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import fcntl
 import os
-import shlex
 from collections.abc import Iterator
 from contextlib import contextmanager, suppress
 from dataclasses import dataclass
@@ -17,6 +16,7 @@ from mrlab_ros.adapters.bags.mcap_file import DAMAGE, BagFile, open_file
 from mrlab_ros.adapters.bags.reader import METADATA, Bag, mcap_files_in
 from mrlab_ros.adapters.bags.writer import CHUNK_SIZE, RESERVE, is_being_written, metadata_text
 from mrlab_ros.core.errors import BadInput, Misuse
+from mrlab_ros.core.foreign_text import for_shell
 from mrlab_ros.core.recording.metadata import ROOT
 
 KEPT = ".original"
@@ -74,7 +74,7 @@ def _repair(path: Path) -> Repaired:
     if not paths:
         raise BadInput(
             f"{path} holds no MCAP file, which alone is mended; a bag of another kind becomes one "
-            f"with: mrlab bag import {shlex.quote(str(path))} NEW_FOLDER"
+            f"with: mrlab bag import {for_shell([str(path)])} NEW_FOLDER"
         )
     if any(map(is_being_written, paths)):
         raise Misuse(

@@ -22,6 +22,7 @@ from typing import Any
 import numpy as np
 
 from mrlab_ros.adapters.checking.stage import Stage, first_link
+from mrlab_ros.adapters.guarded_streams import guard
 from mrlab_ros.adapters.robots.library import RobotLibrary
 from mrlab_ros.adapters.trajectories import npz_file
 from mrlab_ros.core.checking import motion
@@ -108,6 +109,7 @@ def confine() -> None:
 
 def main() -> None:
     """Check what the standard input says; write {"report": ...} or {"problem": "a sentence"}."""
+    guard()
     confine()
     # pybullet prints its build time
     answer = os.fdopen(os.dup(1), "w")

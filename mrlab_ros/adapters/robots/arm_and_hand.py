@@ -9,6 +9,7 @@ from dataclasses import dataclass, replace
 
 from mrlab_ros.adapters.robots import urdf
 from mrlab_ros.core.errors import BadInput
+from mrlab_ros.core.foreign_text import for_shell
 
 # Names of joints and links that belong to a hand.
 HAND_NAME = re.compile(r"finger|grip|jaw|knuckle|claw|thumb", re.IGNORECASE)
@@ -128,7 +129,7 @@ class _Tree:
                     raise BadInput(
                         f"{self.origin}: at link '{link}' chains of {first} and {second} joints "
                         "begin; the lab moves one arm: name the last link of it with --tip, such "
-                        f"as --tip {self._end(ways[0])}"
+                        f"as --tip {for_shell([self._end(ways[0])])}"
                     )
                 break
             joint = ways[0]

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import base64
-import html
 import io
 import textwrap
 from dataclasses import dataclass
@@ -14,6 +13,7 @@ from typing import Any
 from mrlab_ros.adapters.robots import drawing, urdf
 from mrlab_ros.adapters.robots.library import TIP, RobotLibrary
 from mrlab_ros.core.errors import BadInput
+from mrlab_ros.core.foreign_text import for_html, visible
 from mrlab_ros.core.geometry import Array
 from mrlab_ros.core.robots.kinematics import KinematicChain
 from mrlab_ros.core.robots.reach import reach
@@ -150,8 +150,10 @@ def _robot(library: RobotLibrary, robot_id: str, size: tuple[float, float]) -> A
 
 
 def _figure(library: RobotLibrary, robot_id: str, sheet: Sheet) -> Any:
+    import matplotlib
     from matplotlib.figure import Figure
 
+    matplotlib.rcParams["text.parse_math"] = False  # a $ in a name is no formula
     notes = [line for note in sheet.notes for line in textwrap.wrap(note, WIDTH)]
     lines = 5 + len(sheet.facts) + len(sheet.joints) + len(sheet.fingers) + len(notes)
     height = max(7.0, 0.28 * lines + 1)
@@ -165,7 +167,7 @@ def _figure(library: RobotLibrary, robot_id: str, sheet: Sheet) -> Any:
         nonlocal y
         drawn: dict[str, Any] = {"color": INK, "fontsize": 10} | look
         for cell, x in zip(cells, places, strict=True):
-            figure.text(x, y, cell, va="center", **drawn)
+            figure.text(x, y, visible(cell), va="center", **drawn)
         y -= step
 
     line((sheet.title,), (0.46,), fontsize=17, weight="bold")
@@ -209,12 +211,12 @@ li { color: #4A5766 } b { color: white; border-radius: 10px; padding: 0 7px; fon
 
 def _page(sheet: Sheet, picture: bytes) -> str:
     def table(heads: tuple[str, ...], rows: list[list[str]]) -> str:
-        head = "".join(f"<th>{html.escape(name)}</th>" for name in heads)
+        head = "".join(f"<th>{for_html(name)}</th>" for name in heads)
         body = "".join("<tr>" + "".join(f"<td>{c}</td>" for c in row) + "</tr>" for row in rows)
         return f"<table><tr>{head}</tr>{body}</table>" if heads else f"<table>{body}</table>"
 
     def cells(row: tuple[str, ...]) -> list[str]:
-        return [html.escape(cell) for cell in row]
+        return [for_html(cell) for cell in row]
 
     joints = []
     for k, row in enumerate(sheet.joints):
@@ -223,9 +225,9 @@ def _page(sheet: Sheet, picture: bytes) -> str:
     parts = [table((), [cells(fact) for fact in sheet.facts]), table(JOINTS, joints)]
     if sheet.fingers:
         parts.append(table(FINGERS, [cells(row) for row in sheet.fingers]))
-    notes = "".join(f"<li>{html.escape(note)}</li>" for note in sheet.notes)
+    notes = "".join(f"<li>{for_html(note)}</li>" for note in sheet.notes)
     source = base64.b64encode(picture).decode()
-    title = html.escape(sheet.title)
+    title = for_html(sheet.title)
     return (
         f'<!doctype html><html lang="en"><meta charset="utf-8"><title>{title}</title>'
         '<meta name="viewport" content="width=device-width">'

@@ -16,6 +16,7 @@ from mrlab_ros.core.conversion.preview import Preview
 from mrlab_ros.core.design import JOINTS, SEVERITIES
 from mrlab_ros.core.diagnostics import Diagnostic, Severity
 from mrlab_ros.core.errors import BadInput
+from mrlab_ros.core.foreign_text import visible
 from mrlab_ros.core.naming import did_you_mean
 from mrlab_ros.core.robots.model import RobotModel
 from mrlab_ros.core.trajectory.trajectory import Array, Trajectory
@@ -155,7 +156,8 @@ def plot(trajectory: Trajectory, robot: RobotModel, path: Path) -> None:
         axis.set_ylabel(label)
     axes[-1].set_xlabel("time, s")
     axes[0].legend(loc="upper right", fontsize="small", ncols=3)
-    figure.suptitle(f"{trajectory.source.variable} of {trajectory.source.file} on {robot.id}")
+    named = f"{trajectory.source.variable} of {trajectory.source.file} on {robot.id}"
+    figure.suptitle(visible(named))
     _save(figure, path)
 
 
@@ -186,7 +188,8 @@ def plot_refused(
     axis.set_xlabel("row")
     axis.set_ylabel("value as stored")
     axis.legend(loc="upper right", fontsize="small", ncols=3)
-    axis.set_title(f"{shown.variable} of {file}: not taken for {robot.id}", fontsize="medium")
+    named = f"{shown.variable} of {file}: not taken for {robot.id}"
+    axis.set_title(visible(named), fontsize="medium")
     _save(figure, path)
 
 
@@ -218,10 +221,12 @@ def _figure(height: float, rows: int) -> tuple[Any, tuple[Any, ...]]:
     Making axes and ticks takes longer than drawing the lines, and computing a layout longer still:
     the figure is kept, and its margins are fixed.
     """
+    import matplotlib
     from matplotlib.backends.backend_agg import FigureCanvasAgg
     from matplotlib.figure import Figure
     from matplotlib.ticker import MaxNLocator
 
+    matplotlib.rcParams["text.parse_math"] = False  # a $ in a name is no formula
     figure = Figure(figsize=(10, height))
     FigureCanvasAgg(figure)
     figure.subplots_adjust(0.08, 0.07 * 9 / height, 0.98, 1 - 0.06 * 9 / height, hspace=0.08)

@@ -43,6 +43,7 @@ from typing import Any
 import numpy as np
 
 from mrlab_ros.adapters import wall
+from mrlab_ros.adapters.guarded_streams import guard
 from mrlab_ros.adapters.inflate import inflate_zstd
 from mrlab_ros.adapters.workspaces import (
     content,
@@ -389,6 +390,7 @@ def warm_up() -> None:
 
 def main() -> None:
     """Serve requests from the socket whose descriptor is the first argument, until it closes."""
+    guard()
     for number in (signal.SIGINT, signal.SIGTERM):
         signal.signal(number, signal.SIG_IGN if number == signal.SIGINT else signal.SIG_DFL)
     warm_up()

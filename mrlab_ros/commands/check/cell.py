@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import shlex
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from pathlib import Path
@@ -24,6 +23,7 @@ from mrlab_ros.core.checking.report import CheckReport, RobotReport
 from mrlab_ros.core.conversion.convert import ConversionResult
 from mrlab_ros.core.conversion.options import Options
 from mrlab_ros.core.errors import BadInput, Misuse
+from mrlab_ros.core.foreign_text import for_shell
 from mrlab_ros.core.scene import document as scene_document
 from mrlab_ros.core.scene.document import SceneDocument
 from mrlab_ros.core.systems.cell_file import MemberEntry, SystemEntry
@@ -93,7 +93,7 @@ def read(file: Path, scene: SceneDocument, named: str) -> tuple[SystemEntry, Sce
         if not named:
             raise Misuse(
                 f"{file.name} names robots, and not where they stand; add the scene with them: "
-                f"mrlab check {shlex.quote(str(file))} --scene handover, or "
+                f"mrlab check {for_shell([str(file)])} --scene handover, or "
                 "put robots into the file"
             )
     if len(systems) != 1:

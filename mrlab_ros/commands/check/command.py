@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import re
-import sys
 from pathlib import Path
 from typing import Annotated
 
@@ -11,6 +10,7 @@ import typer
 
 from mrlab_ros.commands import completion
 from mrlab_ros.commands.convert.options import with_options
+from mrlab_ros.commands.output import say_error
 from mrlab_ros.core.conversion.options import Options
 from mrlab_ros.core.errors import LabError, Misuse
 
@@ -82,7 +82,7 @@ def check(
         )  # fmt: skip
         code = run.run(request)
     except LabError as error:
-        print(f"mrlab: {error}", file=sys.stderr)
+        say_error(str(error))
         raise typer.Exit(COULD_NOT) from None
     raise typer.Exit(code)
 

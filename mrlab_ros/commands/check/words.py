@@ -7,7 +7,9 @@ from typing import Any
 
 from rich.console import Console
 from rich.table import Table
+from rich.text import Text
 
+from mrlab_ros.commands import output
 from mrlab_ros.core.checking.evidence import thing
 from mrlab_ros.core.checking.findings import Finding
 from mrlab_ros.core.checking.hardware import CLAIM, State
@@ -20,27 +22,24 @@ STYLES = {
     State.NOT: OUTCOME_STYLES["rejected"],
     State.UNKNOWN: OUTCOME_STYLES["ambiguous"],
 }
-WIDTH = 120  # where nothing says how wide the output is
 MOST_FINDINGS, MOST_CLEARANCES, MOST_PAIRS = 40, 8, 10
 
 
 def show(report: CheckReport, document: Mapping[str, Any]) -> None:
     """Print the report."""
-    console = Console(highlight=False)
-    if not console.is_terminal:
-        console = Console(highlight=False, width=WIDTH)
+    console = output.console(width=output.REPORT_WIDTH)
     style = OUTCOME_STYLES["rejected" if report.refusing else "accepted"]
     verdict, _, rest = report.words.partition(":")
-    console.print(f"[{style}]{verdict}[/]", end="")
-    console.print(f":{rest}", markup=False, soft_wrap=True)
+    console.print(verdict, style=style, end="")
+    console.print(f":{rest}", soft_wrap=True)
     if report.findings:
         console.print()
         _findings(console, report)
     for robot in report.robots:
         _robot(console, robot, several=len(report.robots) > 1)
     _distances(console, report)
-    console.print(f"\n{CLAIM}", markup=False)
-    console.print(f"report {document['hash']}", markup=False, soft_wrap=True)
+    console.print(f"\n{CLAIM}")
+    console.print(f"report {document['hash']}", soft_wrap=True)
 
 
 def _findings(console: Console, report: CheckReport) -> None:
@@ -54,11 +53,11 @@ def _findings(console: Console, report: CheckReport) -> None:
     for found in report.findings[:MOST_FINDINGS]:
         severity = found.severity.name.lower()
         table.add_row(
-            f"[{SEVERITY_STYLES[severity]}]{severity}[/]",
+            Text(severity, SEVERITY_STYLES[severity]),
             _time(found),
             *([found.robot] if several else []),
             found.link,
-            f"{_plain(found.message)}\n[dim]{_plain(found.remedy)}[/]",
+            Text.assemble(found.message, "\n", (found.remedy, "dim")),
             _number(found.value, found.unit),
             _number(found.limit, found.unit),
         )
@@ -70,11 +69,11 @@ def _findings(console: Console, report: CheckReport) -> None:
 
 def _robot(console: Console, robot: RobotReport, *, several: bool) -> None:
     name = f"{robot.name}: " if several else ""
-    console.print(f"\n[bold]{name}ready for hardware[/]")
+    console.print(f"\n{name}ready for hardware", style="bold")
     table = Table(box=None, show_header=False)
     for condition in robot.hardware:
-        mark = f"[{STYLES[condition.state]}]{MARKS[condition.state]}[/]"
-        table.add_row(mark, condition.name, f"[dim]{_plain(condition.words)}[/]")
+        mark = Text(MARKS[condition.state], STYLES[condition.state])
+        table.add_row(mark, condition.name, Text(condition.words, "dim"))
     console.print(table)
     f = robot.figures
     if f:
@@ -86,13 +85,13 @@ def _robot(console: Console, robot: RobotReport, *, several: bool) -> None:
         ]
         if smooth is not None:
             words.append(f"smoothness (SPARC) {smooth:.2f}")
-        console.print("  " + "; ".join(words), markup=False)
+        console.print("  " + "; ".join(words))
 
 
 def _distances(console: Console, report: CheckReport) -> None:
     near = [c for c in report.clearances if not c.far][:MOST_CLEARANCES]
     if near:
-        console.print("\n[bold]least distances[/]")
+        console.print("\nleast distances", style="bold")
         table = Table(box=None, show_header=False)
         for one in near:
             who = one.held or one.link
@@ -109,14 +108,14 @@ def _distances(console: Console, report: CheckReport) -> None:
         held[grasp.robot] = grasp.object
         mass = f", {grasp.load.mass:.3g} kg" if grasp.load else ""
         said = f"holds {grasp.object}{mass}" if grasp.object else f"lets go of {before}"
-        console.print(f"  {grasp.time:.2f} s {grasp.robot} {said}", markup=False)
+        console.print(f"  {grasp.time:.2f} s {grasp.robot} {said}")
 
 
 def _pairs(console: Console, pairs: Sequence[Mapping[str, Any]]) -> None:
     """Print each pair of robots of a cell: the nearest, and when they first conflict."""
     if not pairs:
         return
-    console.print("\n[bold]pairs of robots[/]")
+    console.print("\npairs of robots", style="bold")
     table = Table(box=None, show_header=False)
     for pair in pairs[:MOST_PAIRS]:
         if pair["distance"] is None:
@@ -148,7 +147,3 @@ def _number(value: float | None, unit: str) -> str:
     if unit == "m" and abs(value) < 0.1:
         return f"{1e3 * value:.3g} mm"
     return f"{value:.3g} {unit}".strip()
-
-
-def _plain(text: str) -> str:
-    return text.replace("[", r"\[")

@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-import sys
 from pathlib import Path
 from typing import Annotated
 
 import typer
 
 from mrlab_ros.commands.convert.options import with_options
+from mrlab_ros.commands.output import say_error
 from mrlab_ros.core.conversion.options import Options
 from mrlab_ros.core.errors import LabError, Misuse
 
@@ -86,6 +86,6 @@ def grade(
         )  # fmt: skip
         code = run.run(request)
     except LabError as error:
-        print(f"mrlab: {error}", file=sys.stderr)
+        say_error(str(error))
         raise typer.Exit(COULD_NOT) from None
     raise typer.Exit(code)

@@ -14,7 +14,6 @@ from pathlib import Path, PurePosixPath
 from typing import Any
 
 import orjson
-from rich.console import Console
 from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeRemainingColumn
 
 from mrlab_ros.adapters.classroom import parallel
@@ -29,6 +28,7 @@ from mrlab_ros.adapters.classroom.results_folder import (
     TRAJECTORIES,
     ResultsFolder,
 )
+from mrlab_ros.commands import output
 from mrlab_ros.commands.check.one import CELLS
 from mrlab_ros.commands.classroom import grader, words, worker
 from mrlab_ros.commands.classroom.setup import Bounds, Setup, Task
@@ -156,7 +156,7 @@ def _results(
     total = len(missing)
     bar = Progress(
         TextColumn("{task.description}"), BarColumn(), MofNCompleteColumn(),
-        TimeRemainingColumn(), console=Console(stderr=True), transient=True,
+        TimeRemainingColumn(), console=output.console(stderr=True), transient=True,
         disable=request.as_json or not sys.stderr.isatty(),
     )  # fmt: skip
     with bar:

@@ -4,26 +4,24 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from rich.console import Console
 from rich.table import Table
+from rich.text import Text
 
+from mrlab_ros.commands import output
 from mrlab_ros.core.classroom.gradebook import number
 from mrlab_ros.core.classroom.graded import GradedClass
 from mrlab_ros.core.classroom.result import FAILED, MARKED
 from mrlab_ros.core.design import OUTCOME_STYLES
 
-WIDTH = 120
 MOST_ROWS, MOST_LEFT_OUT, MOST_MISTAKES = 20, 10, 5
 
 
 def show(graded: GradedClass, out: Path, key_table: Path | None, problems: list[str]) -> None:
     """Print the class in short."""
-    console = Console(highlight=False)
-    if not console.is_terminal:
-        console = Console(highlight=False, width=WIDTH)
+    console = output.console(width=output.REPORT_WIDTH)
 
     def say(text: str) -> None:
-        console.print(text, markup=False, soft_wrap=True)
+        console.print(text, soft_wrap=True)
 
     students, figures = graded.students, graded.statistics()
     named = "a folder or file for each student" if graded.form == "folder" else graded.form
@@ -34,20 +32,18 @@ def show(graded: GradedClass, out: Path, key_table: Path | None, problems: list[
     )
     unmarked = [s for s in students if s.result.outcome != MARKED]
     if unmarked:
-        console.print("\n[bold]not checked[/]")
+        console.print("\nnot checked", style="bold")
         table = Table(box=None, show_header=False)
         for student in unmarked[:MOST_ROWS]:
             failed = student.result.outcome == FAILED
             style = OUTCOME_STYLES["rejected" if failed else "ambiguous"]
             word = "failed" if failed else "no file"
-            name = student.submission.name.replace("[", r"\[")
-            said = student.result.words.replace("[", r"\[")
-            table.add_row(f"[{style}]{word}[/]", name, said)
+            table.add_row(Text(word, style), student.submission.name, student.result.words)
         console.print(table)
         if len(unmarked) > MOST_ROWS:
             say(f"  and {len(unmarked) - MOST_ROWS} more; {out}/index.html has all")
     if figures.tests:
-        console.print("\n[bold]where points were lost[/]")
+        console.print("\nwhere points were lost", style="bold")
         for test in figures.tests[:MOST_MISTAKES]:
             say(f"  {test.students:4d}  {test.name}")
     groups = graded.similar().groups
@@ -55,7 +51,7 @@ def show(graded: GradedClass, out: Path, key_table: Path | None, problems: list[
         count = sum(len(g.keys) for g in groups)
         say(f"\n{count} motions are nearly the same as another one; the page shows them")
     if graded.left_out:
-        console.print("\n[bold]left out[/]")
+        console.print("\nleft out", style="bold")
         for path, why in graded.left_out[:MOST_LEFT_OUT]:
             say(f"  {path}: {why}")
         if len(graded.left_out) > MOST_LEFT_OUT:

@@ -27,6 +27,7 @@ import numpy as np
 import orjson
 
 from mrlab_ros.adapters import wall
+from mrlab_ros.adapters.guarded_streams import guard
 from mrlab_ros.adapters.trajectories import json_file
 from mrlab_ros.adapters.workspaces.reader import Limits
 from mrlab_ros.commands.check.one import CELLS, CheckedFile, Setting
@@ -212,6 +213,7 @@ def main() -> None:
 
     The second argument is a folder with the file `setup`, which the class' own process wrote.
     """
+    guard()
     signal.signal(signal.SIGINT, signal.SIG_IGN)
     scratch = Path(sys.argv[2])
     connection = socket.socket(fileno=int(sys.argv[1]))

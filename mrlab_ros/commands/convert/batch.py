@@ -17,7 +17,6 @@ from functools import partial
 from pathlib import Path
 
 import orjson
-from rich.console import Console
 from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn
 
 from mrlab_ros.adapters.nearby import like_file
@@ -34,6 +33,7 @@ from mrlab_ros.adapters.workspaces.reader import (
     opened,
 )
 from mrlab_ros.adapters.workspaces.results import Task, refused, unexpected
+from mrlab_ros.commands import output
 from mrlab_ros.commands.convert import report
 from mrlab_ros.commands.convert.options import convert_words
 from mrlab_ros.commands.convert.outcomes import EXIT_CODES
@@ -294,7 +294,7 @@ def _with_progress(
         TextColumn("{task.description}"),
         BarColumn(),
         MofNCompleteColumn(),
-        console=Console(stderr=True),
+        console=output.console(stderr=True),
         transient=True,
         disable=count < 2 or request.as_json or not sys.stderr.isatty(),
     )

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import functools
 import inspect
-import shlex
 from collections.abc import Callable
 from pathlib import Path
 from typing import Annotated, Any
@@ -12,6 +11,7 @@ from typing import Annotated, Any
 import typer
 
 from mrlab_ros.core.conversion.options import Options
+from mrlab_ros.core.foreign_text import for_shell
 
 # Options of the command line whose field of Options is called otherwise.
 FIELDS = {"rate": "frame_rate"}
@@ -85,7 +85,7 @@ def command_with(words: list[str], options: Options, field: str, value: str) -> 
     """Return the command that repeats `words` with the options given and one more."""
     kept = [each for each in vars(options) if each != field]
     rest = Options(**{each: getattr(options, each) for each in kept})
-    return shlex.join([*words, *words_of(rest), *option_words(field, value)])
+    return for_shell([*words, *words_of(rest), *option_words(field, value)])
 
 
 def convert_words(file: Path | str, robot: str, end_effector: str = "") -> list[str]:

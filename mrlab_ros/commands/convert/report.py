@@ -12,12 +12,14 @@ from rich.console import Console
 from rich.table import Table
 
 from mrlab_ros.adapters.nearby import like_file
+from mrlab_ros.commands import output
 from mrlab_ros.commands.convert.options import command_with
 from mrlab_ros.core.conversion.candidates import SPARK_WIDTH
 from mrlab_ros.core.conversion.convert import ConversionResult
 from mrlab_ros.core.conversion.options import Options
 from mrlab_ros.core.design import OUTCOME_STYLES, SEVERITY_STYLES
 from mrlab_ros.core.diagnostics import Diagnostic
+from mrlab_ros.core.foreign_text import visible
 
 
 def record(given: str, result: ConversionResult, written: Path | None) -> dict[str, Any]:
@@ -63,12 +65,10 @@ def show(
     words: of the command that was given, without its `options`; findings name it with one more.
     console: None: standard output.
     """
-    console = console or Console()
+    console = console or output.console()
     outcome = result.outcome.name.lower()
     console.print(outcome, style=OUTCOME_STYLES[outcome], end="  ")
-    console.print(
-        result.message if result.trajectory else result.file, markup=False, highlight=False
-    )
+    console.print(visible(result.message if result.trajectory else result.file))
     next_words = words if result.trajectory is None else []
     show_findings(result.diagnostics, console, next_words, options)
     if result.candidates:
@@ -77,7 +77,7 @@ def show(
             likeliest = result.candidates[0].path
             _say_next(console, command_with(words, options, "variable", likeliest))
     if written:
-        console.print(f"  written to {written}", markup=False, highlight=False)
+        console.print(f"  written to {visible(str(written))}")
 
 
 def show_findings(
@@ -90,13 +90,13 @@ def show_findings(
     for d, following in zip_longest(findings, findings[1:]):
         severity = d.severity.name.lower()
         label, style = f"  {severity} {d.code}: ", SEVERITY_STYLES[severity]
-        console.print(label + d.message, style=style, markup=False, highlight=False)
+        console.print(label + d.message, style=style)
         if following and _advice(following) == _advice(d):
             continue  # said once, below the last of them
         if d.remedy:
             like = _like(d, words or [])
             remedy = d.remedy.removesuffix(".") + like if like else d.remedy
-            console.print(f"      {remedy}", markup=False, highlight=False)
+            console.print(f"      {visible(remedy)}")
         for fix in d.fixes if words else ():
             if fix.option:
                 command = command_with(words or [], options or Options(), fix.option, fix.value)
@@ -114,7 +114,7 @@ def _advice(d: Diagnostic) -> tuple[str, str, list[tuple[str, str]]]:
 
 
 def _say_next(console: Console, command: str) -> None:
-    console.print(f"      try: {command}", markup=False, highlight=False, soft_wrap=True)
+    console.print(f"      try: {command}", soft_wrap=True)
 
 
 def _choices(result: ConversionResult) -> Table:
@@ -137,7 +137,7 @@ def _choices(result: ConversionResult) -> Table:
 
 def summarise(results: list[ConversionResult]) -> None:
     """Print a table with a line a file."""
-    console = Console()
+    console = output.console()
     table = Table("file", "outcome", "variable", "frames", "Hz", "finding", box=None)
     for r in results:
         t = r.trajectory

@@ -11,6 +11,7 @@ from typing import Annotated
 
 import typer
 
+from mrlab_ros.commands import output
 from mrlab_ros.commands.up.surroundings import stop_signals
 from mrlab_ros.core.errors import BadInput
 
@@ -39,7 +40,6 @@ def demo(
 
     Ends with 0 when every frame arrived, 1 when anything failed, 130 when interrupted before.
     """
-    from rich.console import Console
 
     from mrlab_ros.commands.demo.lab import running_lab
     from mrlab_ros.commands.demo.report import (
@@ -62,7 +62,7 @@ def demo(
     for part in parts:
         if not part.file.is_file():
             raise BadInput(f"there is no file {part.file}; name a workspace file with --file")
-    console = Console(stderr=as_json, highlight=False)
+    console = output.console(stderr=as_json)
     with ExitStack() as stack:
         stop = stack.enter_context(stop_signals())
         try:
@@ -79,7 +79,8 @@ def demo(
             print_summary(console, summaries)
         judge(summaries)
         took = time.monotonic() - stage.begin
-        console.print(f"[bold green]Every frame arrived.[/] The demo took {took:.0f} s.")
+        console.print("Every frame arrived.", style="bold green", end="")
+        console.print(f" The demo took {took:.0f} s.")
         if not once:
             print_next_steps(console, stage, summaries)
             stage.log.speak = True

@@ -54,9 +54,9 @@ class Display:
         self._rows = list(zip(followers, arrivals, strict=True))
         self._next = 0.0
         self._live = Progress(
-            TextColumn("{task.description}"),
+            TextColumn("{task.description}", markup=False),
             BarColumn(),
-            TextColumn("{task.fields[words]}"),
+            TextColumn("{task.fields[words]}", markup=False),
             console=console,
             disable=not console.is_terminal,
         )
@@ -89,7 +89,7 @@ class Display:
         if not self._console.is_terminal and time.monotonic() >= self._next:
             self._next = time.monotonic() + PROGRESS_PERIOD_S
             for line in lines:
-                self._console.print(f"{system.lower():<8} {line}", markup=False, soft_wrap=True)
+                self._console.print(f"{system.lower():<8} {line}", soft_wrap=True)
 
     def finish(self) -> None:
         """Show every robot at its last frame: READY, which follows, counts from the first."""
@@ -151,7 +151,7 @@ def print_summary(console: Console, summaries: list[RobotSummary]) -> None:
     console.print()
     for s in summaries:
         for warning in s.warnings:
-            console.print(f"{s.robot}: {warning}", style=COLOURS[SELF], markup=False)
+            console.print(f"{s.robot}: {warning}", style=COLOURS[SELF])
 
 
 def print_next_steps(console: Console, stage: Stage, summaries: list[RobotSummary]) -> None:
@@ -181,4 +181,4 @@ def print_next_steps(console: Console, stage: Stage, summaries: list[RobotSummar
         "",
     ]
     for line in lines:
-        console.print(line, markup=False, soft_wrap=True)
+        console.print(line, soft_wrap=True)

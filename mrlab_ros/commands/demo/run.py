@@ -91,8 +91,8 @@ class Run:
             ]
 
     def _say(self, step: str, text: str) -> None:
-        self._console.print(f"[bold]{step:<8}[/] ", end="")
-        self._console.print(text, markup=False, soft_wrap=True)
+        self._console.print(f"{step:<8} ", style="bold", end="")
+        self._console.print(text, soft_wrap=True)
 
     def _pause(self, seconds: float) -> None:
         if self._stop.wait(seconds):

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import sys
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
@@ -11,6 +10,7 @@ from typing import Annotated
 import typer
 
 from mrlab_ros.commands.convert.options import with_options
+from mrlab_ros.commands.output import say_error
 from mrlab_ros.core.conversion.options import Options
 from mrlab_ros.core.errors import LabError, Misuse
 
@@ -26,7 +26,7 @@ def _said() -> Iterator[None]:
     try:
         yield
     except LabError as error:
-        print(f"mrlab: {error}", file=sys.stderr)
+        say_error(str(error))
         raise typer.Exit(COULD_NOT) from None
 
 

@@ -5,10 +5,10 @@ from __future__ import annotations
 from collections.abc import Sequence
 from pathlib import Path
 
-from rich.console import Console
-from rich.markup import escape
 from rich.table import Table
+from rich.text import Text
 
+from mrlab_ros.commands import output
 from mrlab_ros.core.checking.report import counted
 from mrlab_ros.core.design import OUTCOME_STYLES, SEVERITY_STYLES
 from mrlab_ros.core.diagnostics import Severity
@@ -19,26 +19,18 @@ from mrlab_ros.core.rubrics.lint import Flaw
 from mrlab_ros.core.rubrics.marking import Mark, Marks
 from mrlab_ros.core.rubrics.rubric import Rubric
 
-WIDTH = 120  # where nothing says how wide the output is
 OK, NOT = OUTCOME_STYLES["accepted"], OUTCOME_STYLES["rejected"]
 PARTLY = OUTCOME_STYLES["ambiguous"]
 
 
-def _console() -> Console:
-    console = Console(highlight=False)
-    return console if console.is_terminal else Console(highlight=False, width=WIDTH)
-
-
 def marks(file: Path, rubric: Rubric, found: Marks, checked: Checked) -> None:
     """Print what a file gets."""
-    console = _console()
+    console = output.console(width=output.REPORT_WIDTH)
     style = OK if not found.lost else PARTLY if found.points else NOT
-    console.print(
-        f"[{style}]{found.points:g} of {found.of:g} points[/]: "
-        f"{escape(file.name)}, {escape(rubric.name)}\n"
-    )
+    console.print(f"{found.points:g} of {found.of:g} points", style=style, end="")
+    console.print(f": {file.name}, {rubric.name}\n")
     if found.note:
-        console.print(f"{found.note}\n", markup=False)
+        console.print(f"{found.note}\n")
     table = Table("", "points", box=None)
     table.columns[1].justify = "right"
     table.add_column("test", overflow="fold", max_width=34)
@@ -47,18 +39,18 @@ def marks(file: Path, rubric: Rubric, found: Marks, checked: Checked) -> None:
     for mark in found.tests:
         word, style = _verdict(mark)
         table.add_row(
-            f"[{style}]{word}[/]",
+            Text(word, style),
             f"{mark.points:g}/{mark.of:g}",
-            escape(f"{mark.name}{' (hidden)' if mark.hidden else ''}"),
+            f"{mark.name}{' (hidden)' if mark.hidden else ''}",
             "" if mark.time is None else f"{mark.time:.2f} s",
-            escape(mark.words),
+            mark.words,
         )
         if not mark.passed and mark.hint and not found.note:
-            table.add_row("", "", "", "", f"[dim]{escape(mark.hint)}[/]")
+            table.add_row("", "", "", "", Text(mark.hint, "dim"))
     console.print(table)
     for hint in found.hints:
-        console.print(f"hint: {hint}", markup=False)
-    console.print(f"\ncheck {checked.document['hash']}", markup=False, soft_wrap=True)
+        console.print(f"hint: {hint}")
+    console.print(f"\ncheck {checked.document['hash']}", soft_wrap=True)
 
 
 def _verdict(mark: Mark) -> tuple[str, str]:
@@ -69,31 +61,32 @@ def _verdict(mark: Mark) -> tuple[str, str]:
 
 def flaws(rubric: Rubric, found: Sequence[Flaw], reference: Marks | None) -> None:
     """Print the flaws of a rubric, as editors read them: file, line, what."""
-    console = _console()
+    console = output.console(width=output.REPORT_WIDTH)
     for flaw in found:
         severity = flaw.severity.name.lower()
         where = at(rubric.origin, flaw.line)
         test = f"test '{flaw.test}': " if flaw.test else ""
-        console.print(f"{escape(where)}: [{SEVERITY_STYLES[severity]}]{severity}[/]: ", end="",
-                      soft_wrap=True)  # fmt: skip
-        console.print(f"{test}{flaw.message}", markup=False, soft_wrap=True)
+        console.print(f"{where}: ", end="", soft_wrap=True)
+        console.print(severity, style=SEVERITY_STYLES[severity], end="")
+        console.print(f": {test}{flaw.message}", soft_wrap=True)
     errors = sum(flaw.severity is Severity.ERROR for flaw in found)
     tests = f"{counted(len(rubric.tests), 'test')}, {rubric.points:g} points"
     style = NOT if errors else OK
     verdict = "does not work" if errors else "works"
     got = f"; the reference gets {reference.points:g}" if reference is not None else ""
-    console.print(f"[{style}]{verdict}[/]: {escape(rubric.name)}, {tests}{got}", soft_wrap=True)
+    console.print(verdict, style=style, end="")
+    console.print(f": {rubric.name}, {tests}{got}", soft_wrap=True)
 
 
 def measures() -> None:
     """Print all forms of `expect`, by families."""
-    console = _console()
+    console = output.console(width=output.REPORT_WIDTH)
     for family, forms in FAMILIES.items():
-        console.print(f"[bold]{family}[/]")
+        console.print(family, style="bold")
         table = Table(box=None, show_header=False, padding=(0, 2))
         table.add_column(min_width=38, overflow="fold")
         table.add_column()
         for form in forms:
             rule = f" Partial: {', '.join(form.rules)}." if form.rules else ""
-            table.add_row(escape(form.text), escape(f"{form.about}{rule}"))
+            table.add_row(form.text, f"{form.about}{rule}")
         console.print(table)

@@ -9,6 +9,8 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
+from mrlab_ros.commands import output
+
 if TYPE_CHECKING:
     from rich.console import Console
 
@@ -28,12 +30,10 @@ def status(
     On a terminal the arrows, space and page keys scroll, q ends. Ends with 0 where a lab answers,
     1 where none does.
     """
-    from rich.console import Console
-
     from mrlab_ros.client.connect import open_graph
     from mrlab_ros.commands.status.view import Presence, View
 
-    console = Console()
+    console = output.console()
     with open_graph() as graph:
         presence = Presence(graph.node_names)
         graph.robots()

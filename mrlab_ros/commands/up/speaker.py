@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from mrlab_ros.commands import output
 from mrlab_ros.processes.child import SELF
 from mrlab_ros.processes.lab import PROCESSES
 
@@ -20,9 +21,8 @@ class Speaker:
     """Prints lines with the coloured name of the process that said them."""
 
     def __init__(self, console: Console | None = None) -> None:
-        from rich.console import Console
 
-        self._console = console or Console()
+        self._console = console or output.console()
 
     def __call__(self, name: str, line: str) -> None:
         from rich.text import Text

@@ -11,11 +11,10 @@ from typing import Any
 from mrlab_ros.core.classroom.graded import Student
 from mrlab_ros.core.classroom.result import Result
 from mrlab_ros.core.errors import BadInput
+from mrlab_ros.core.foreign_text import for_table
 from mrlab_ros.core.rubrics.rubric import Rubric
 
 BOM = "\ufeff"  # by which Excel takes a table for UTF-8
-# What a table program would compute; a ' before it makes it a text.
-FORMULA = ("=", "+", "-", "@", "\t", "\r")
 NUMBER = re.compile(r"\d+")
 # Columns of Moodle's worksheet, in English and German.
 IDENTIFIERS = ("identifier", "id", "kennung")
@@ -26,9 +25,7 @@ COMMENTS = ("feedback comments", "feedback als kommentar")
 
 def cell(value: Any) -> Any:
     """Return a value that no table program computes."""
-    if isinstance(value, str) and value.lstrip().startswith(FORMULA):
-        return f"'{value}"
-    return value
+    return for_table(value) if isinstance(value, str) else value
 
 
 def table(rubric: Rubric, students: Sequence[Student]) -> str:

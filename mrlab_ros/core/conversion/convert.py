@@ -35,7 +35,7 @@ from mrlab_ros.core.conversion.preview import Preview, preview
 from mrlab_ros.core.conversion.stated import with_headings, with_statements
 from mrlab_ros.core.conversion.survey import Survey, survey
 from mrlab_ros.core.conversion.workspace import Variable, Workspace
-from mrlab_ros.core.diagnostics import Diagnostic, Fix, Refused, Severity, finding
+from mrlab_ros.core.diagnostics import MATLAB_PATH, Diagnostic, Fix, Refused, Severity, finding
 from mrlab_ros.core.robots.model import RobotModel
 from mrlab_ros.core.trajectory import channels
 from mrlab_ros.core.trajectory.channels import ProxyCoefficients
@@ -147,17 +147,34 @@ def convert(
     except Refused as refused:
         found.notes.append(refused.finding)
         notes = dimensions.with_lines(found.notes, found.squeezed)
-        return _rejected(file, notes, found.variable)
+        return _rejected(file, found.said(notes), found.variable)
     return ConversionResult(file, Outcome.ACCEPTED, trajectory, (), _worst_first(found.notes))
 
 
 @dataclass(eq=False)
 class _Found:
-    """What a conversion has found until it ends: what to say, and the matrix it is about."""
+    """What a conversion has found until it ends: what to say, and the matrix it is about.
+
+    unspeakable: paths of variables that MATLAB would take for more than a name.
+    """
 
     notes: list[Diagnostic] = field(default_factory=list)
     variable: Variable | None = None
     squeezed: dict[str, dimensions.Squeezed] = field(default_factory=dict)
+    unspeakable: tuple[str, ...] = ()
+
+    def said(self, notes: list[Diagnostic]) -> list[Diagnostic]:
+        """Return the notes without the lines of MATLAB that hold such a path.
+
+        Their reader pastes them: a variable of a file may be called `q; system('...')`.
+        """
+        if not self.unspeakable:
+            return notes
+        return [replace(note, fixes=tuple(map(self._without, note.fixes))) for note in notes]
+
+    def _without(self, fix: Fix) -> Fix:
+        acts = any(path in fix.matlab for path in self.unspeakable)
+        return replace(fix, matlab="") if acts else fix
 
 
 @dataclass(frozen=True, eq=False)
@@ -181,7 +198,10 @@ def _checked(
 ) -> _Checked | ConversionResult:
     """Find the matrix and check it; return it, or the result where there is none to play."""
     notes = found.notes
-    stored, squeezed = dimensions.flattened(read(), robot)
+    held = read()
+    paths = [v.path for v in held.variables]
+    found.unspeakable = tuple(p for p in paths if not MATLAB_PATH.fullmatch(p))
+    stored, squeezed = dimensions.flattened(held, robot)
     found.squeezed = squeezed
     workspace, wanted = _prepared(stored, options, robot, file)
     pieces = joining.expanded(options.join) if options.join else []
@@ -190,7 +210,7 @@ def _checked(
         notes.append(finding("doubtful_values", variable=options.join, why=why))
     chosen, survey, offered = _find(workspace, wanted, options, robot, file, notes)
     if chosen is None:
-        said = dimensions.with_lines(notes, squeezed)
+        said = found.said(dimensions.with_lines(notes, squeezed))
         if not offered:
             return _rejected(file, said, survey.workspace.find(notes[-1].variable))
         candidates = tuple(a.candidate() for a in offered)
@@ -214,7 +234,7 @@ def _checked(
     layout, rate = _at_a_rate(survey, chosen, layout, options, default_frame_rate, file, notes)
     notes += limits.against_robot(layout.arm, rate, robot.joints, variable.path, robot.id)
     notes += kinematics_match.findings(workspace, robot)
-    found.notes = notes = dimensions.with_lines(notes, squeezed)
+    found.notes = notes = found.said(dimensions.with_lines(notes, squeezed))
     if any(n.severity is Severity.ERROR for n in notes):
         return _rejected(file, notes, variable)
     return _Checked(layout, rate, Source(file, variable.path, workspace.sha256))

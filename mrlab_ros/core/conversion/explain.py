@@ -21,7 +21,7 @@ from mrlab_ros.core.conversion.scoring import FEW_ROWS
 from mrlab_ros.core.conversion.survey import Survey
 from mrlab_ros.core.conversion.variable_names import Hint
 from mrlab_ros.core.conversion.workspace import JOINT_STATE, Variable, Workspace
-from mrlab_ros.core.diagnostics import Diagnostic, Fix, finding
+from mrlab_ros.core.diagnostics import MATLAB_PATH, Diagnostic, Fix, finding
 from mrlab_ros.core.robots.model import RobotModel
 
 OBJECT_CODE = {
@@ -44,13 +44,12 @@ MOST_SHOWN = 5
 
 def matlab_name(path: str) -> str:
     """Return what a line of MATLAB calls the variable at `path`: a joined one, or a part, is q."""
-    return "q" if ".." in path or "," in path or not path[:1].isalpha() else path
+    return path if MATLAB_PATH.fullmatch(path) else "q"
 
 
 def saving(path: str) -> str:
     """Return the line of MATLAB that saves the matrix at `path` as q."""
-    is_expression = ".." not in path and path[:1].isalpha() and "," not in path.split("{")[0]
-    taken = "" if path == "q" or not is_expression else f"q = {path}; "
+    taken = "" if matlab_name(path) == "q" else f"q = {path}; "
     return f"{taken}save('traj.mat', 'q')"
 
 
@@ -71,7 +70,9 @@ def object_finding(code: str, objects: list[Variable], file: str) -> Diagnostic:
     if len(ordered) > 6:
         listed += f" and {len(ordered) - 6} more"
     first = ordered[0]
-    line = OBJECT_CODE.get(first.kind, "q = ...; save('traj.mat', 'q')").format(name=first.path)
+    line = OBJECT_CODE.get(first.kind, "q = ...; save('traj.mat', 'q')").format(
+        name=matlab_name(first.path)
+    )
     why = first.note or WHY_CLOSED.get(first.kind, "only MATLAB knows this class")
     return finding(code, variable=first.path, file=file, found=listed, code=line, why=why)
 

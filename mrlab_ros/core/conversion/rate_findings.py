@@ -176,6 +176,8 @@ def unused_times(
         if not name or v.path in (path, *said) or not v.shape:
             continue
         words_of = parts(name)
+        if not words_of:
+            continue
         whole = re.sub(r"[^a-z]", "", "".join(words_of))
         if v.kind in CONTAINERS:
             continue

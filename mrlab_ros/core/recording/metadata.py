@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-import shlex
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any
 
 from mrlab_ros.core.clock import SECOND
 from mrlab_ros.core.errors import BadInput
+from mrlab_ros.core.foreign_text import for_shell
 
 VERSION = 9
 ROOT = "rosbag2_bagfile_information"
@@ -226,7 +226,7 @@ def paths_in(document: object, name: str) -> list[str]:
         raise BadInput(
             f"{name} names storage {storage} with compression "
             f"'{facts.get('compression_format') or 'none'}'; expected plain mcap, which is made "
-            f"with: mrlab bag import {shlex.quote(name.rpartition('/')[0] or '.')} NEW_FOLDER"
+            f"with: mrlab bag import {for_shell([name.rpartition('/')[0] or '.'])} NEW_FOLDER"
         )
     paths = facts.get("relative_file_paths")
     if not isinstance(paths, Sequence) or not all(isinstance(path, str) for path in paths):

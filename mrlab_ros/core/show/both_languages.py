@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from html import escape
+from mrlab_ros.core.foreign_text import for_html as escape
 
 
 def said(english: str, german: str) -> str:

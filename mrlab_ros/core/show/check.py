@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from html import escape
 from typing import Any
 
 import numpy as np
@@ -15,6 +14,7 @@ from mrlab_ros.core.checking.hardware import CLAIM, Condition, State
 from mrlab_ros.core.checking.motion import MotionFigures
 from mrlab_ros.core.checking.recording import Course, Distances, Rehearsed
 from mrlab_ros.core.checking.report import CheckReport, RobotReport
+from mrlab_ros.core.foreign_text import for_html as escape
 from mrlab_ros.core.physics.catalogue import ObjectType
 from mrlab_ros.core.physics.engine import Kind, Shape
 from mrlab_ros.core.physics.surfaces import Surface

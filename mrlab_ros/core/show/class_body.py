@@ -2,11 +2,10 @@
 
 from __future__ import annotations
 
-from html import escape
-
 from mrlab_ros.core.classroom.gradebook import number
 from mrlab_ros.core.classroom.graded import BINS, GradedClass, Statistics
 from mrlab_ros.core.classroom.result import MARKED
+from mrlab_ros.core.foreign_text import for_html as escape
 from mrlab_ros.core.show.both_languages import german, said
 from mrlab_ros.core.show.class_similar import similar_card
 from mrlab_ros.core.show.class_table import class_table, icon

@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from html import escape
 from urllib.parse import quote
 
 from mrlab_ros.core.classroom.graded import GradedClass, Student
 from mrlab_ros.core.classroom.similarity import Similar
+from mrlab_ros.core.foreign_text import for_html as escape
 from mrlab_ros.core.show.both_languages import german, said
 from mrlab_ros.core.show.path_thumbnail import Thumbnails
 

@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from html import escape
 from typing import Any
 from urllib.parse import quote
 
 from mrlab_ros.core.classroom.gradebook import number
 from mrlab_ros.core.classroom.graded import REFERENCE, GradedClass, Student
 from mrlab_ros.core.classroom.result import MARKED, Result
+from mrlab_ros.core.foreign_text import for_html as escape
 from mrlab_ros.core.show.both_languages import said
 from mrlab_ros.core.show.motion_body import ICONS
 from mrlab_ros.core.show.path_thumbnail import Thumbnails

@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from html import escape
-
+from mrlab_ros.core.foreign_text import for_html as escape
 from mrlab_ros.core.rubrics.marking import Mark, Marks
 from mrlab_ros.core.show.motion_body import ICONS
 

@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from html import escape
 from typing import Any
 
 import numpy as np
 
+from mrlab_ros.core.foreign_text import for_html as escape
 from mrlab_ros.core.show.packed import unpacked
 from mrlab_ros.core.show.svg import HATCH, Array, Mark, Strip, strip_svg, time_axis_svg
 

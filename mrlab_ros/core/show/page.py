@@ -13,8 +13,9 @@ import zlib
 from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import lru_cache
-from html import escape
 from typing import Any
+
+from mrlab_ros.core.foreign_text import for_html as escape
 
 LEVEL = 9  # of compression
 # Unpacks code and data, and starts the code: the only script that the page trusts by itself.

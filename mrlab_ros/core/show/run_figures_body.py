@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import math
-from html import escape
 
+from mrlab_ros.core.foreign_text import for_html as escape
 from mrlab_ros.core.recording.report_text import FOLLOWED, lasting
 from mrlab_ros.core.recording.run_figures import figures_of
 from mrlab_ros.core.recording.runs import Course, Deviation, Run

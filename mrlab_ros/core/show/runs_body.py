@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from html import escape
 
 import numpy as np
 
+from mrlab_ros.core.foreign_text import for_html as escape
 from mrlab_ros.core.recording.report import SessionReport
 from mrlab_ros.core.recording.report_text import deviation_text, lasting
 from mrlab_ros.core.recording.runs import Action, Course, Result, Run, RunJoint, severity

@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from html import escape
 from typing import Any
 
+from mrlab_ros.core.foreign_text import for_html as escape
 from mrlab_ros.core.recording.report import SessionReport
 from mrlab_ros.core.recording.report_text import lasting, summary
 from mrlab_ros.core.show.runs_body import run_plots, runs_table

@@ -4,11 +4,12 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from html import escape
 from itertools import pairwise
 
 import numpy as np
 from numpy.typing import NDArray
+
+from mrlab_ros.core.foreign_text import for_html as escape
 
 Array = NDArray[np.floating]
 

@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from html import escape
 
 import numpy as np
 
+from mrlab_ros.core.foreign_text import for_html as escape
 from mrlab_ros.core.recording.report import Series, SessionReport
 from mrlab_ros.core.recording.report_text import shown
 from mrlab_ros.core.show.svg import Strip, strip_svg, time_axis_svg

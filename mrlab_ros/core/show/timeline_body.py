@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from html import escape
 
+from mrlab_ros.core.foreign_text import for_html as escape
 from mrlab_ros.core.recording.report import HOLDING, RobotReport, SessionReport, Span
 from mrlab_ros.core.recording.runs import Run
 from mrlab_ros.core.show.svg import time_axis_svg

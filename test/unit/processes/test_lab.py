@@ -15,6 +15,7 @@ from typing import Any
 import mrlab_msgs.msg
 import pytest
 
+from mrlab_ros.adapters import python_process
 from mrlab_ros.adapters.keys.folder import Keys, now
 from mrlab_ros.commands.demo.lab import free_port
 from mrlab_ros.commands.up.speaker import COLOURS
@@ -37,6 +38,9 @@ from mrlab_ros.processes.web import web_address, zenoh_endpoint
 
 ROOT = Path(__file__).parents[3]
 CONFIG = ROOT / "config" / "lab.yaml"
+
+# words before the arguments of a module
+BEFORE = len(python_process.command("module"))
 
 
 WEB = WebOptions("127.0.0.1", 8123)
@@ -188,9 +192,9 @@ def test_the_supervisor_starts_the_host_with_the_arguments() -> None:
     chosen = options(robots=("ur5e",))
     spec = PROCESSES[0].spec(chosen)
     assert spec.name == "lab"
-    assert spec.argv[1:3] == ("-m", "mrlab_ros.processes.host")
-    assert spec.argv[3:] == PROCESSES[0].arguments(chosen)
-    assert spec.argv[3:7] == ("converter", "lab", "coordinator", "--ros-args")
+    arguments = PROCESSES[0].arguments(chosen)
+    assert spec.argv == python_process.command("mrlab_ros.processes.host", *arguments)
+    assert arguments[:4] == ("converter", "lab", "coordinator", "--ros-args")
 
 
 def test_robots_and_parameter_files_that_do_not_exist_are_refused() -> None:
@@ -321,7 +325,9 @@ def test_the_launch_file_starts_the_same_processes_as_up(
     web, nodes = named(found, "web"), hosts(found)
     assert (web.kwargs["name"], tuple(web.kwargs["cmd"])) == (gateway.name, gateway.argv)
     assert [node.kwargs["exec_name"] for node in nodes] == [spec.name for spec in specs]
-    assert [tuple(node.kwargs["arguments"]) for node in nodes] == [spec.argv[3:] for spec in specs]
+    assert [tuple(node.kwargs["arguments"]) for node in nodes] == [
+        spec.argv[BEFORE:] for spec in specs
+    ]
     for process in (web, *nodes):
         assert process.kwargs["additional_env"] == {"MRLAB_LAUNCHER": str(os.getpid())}
     for node in nodes:
@@ -373,14 +379,14 @@ def test_the_launch_file_says_when_the_lab_is_ready_and_then_goes_on(launched: L
     ready = named(found, "ready")
     nodes = [node for process in lab_processes(options()) for node in process.nodes]
     expected = [n for n in nodes if n != "physics" or not physics_support.missing()]
-    module, lab, *rest = ready.kwargs["cmd"][2:]
+    module, lab, *rest = ready.kwargs["cmd"][BEFORE - 1 :]
     assert module == "mrlab_ros.processes.ready"
     assert all(f'lab_id:="{lab}"' in host.kwargs["arguments"] for host in hosts(found))
     assert rest == ["2", ",".join(expected), "/lab/load_scene", "/recorder/start"]
     (handler,) = (h for h in handlers(found) if h.kwargs.get("target_action") is ready)
     then = handler.kwargs["on_exit"]
     commands = then(types.SimpleNamespace(returncode=0), None)
-    assert [c.kwargs["cmd"][3:] for c in commands] == [
+    assert [c.kwargs["cmd"][BEFORE:] for c in commands] == [
         ["scene", "load", "handover"],
         ["record", "/class.bag"],
     ]
@@ -425,12 +431,12 @@ def test_the_launch_file_leaves_out_and_refuses_what_it_is_told_to(
 def test_a_robot_is_launched_into_a_running_lab(launcher: Callable[[str], Launched]) -> None:
     run = launcher("robot.launch.py")
     (command,) = run(model="ur5e", x="1.5", yaw="90", end_effector="vacuum_cup", name="left")
-    assert command.kwargs["cmd"][3:] == [
+    assert command.kwargs["cmd"][BEFORE:] == [
         *("spawn", "ur5e", "--yaw", "90", "--at", "1.5,0"),
         *("--name", "left", "--tool", "vacuum_cup"),
     ]
     (command,) = run(model="ur5e")
-    assert command.kwargs["cmd"][3:] == ["spawn", "ur5e", "--yaw", "0"]
+    assert command.kwargs["cmd"][BEFORE:] == ["spawn", "ur5e", "--yaw", "0"]
     with pytest.raises(AssertionError, match="without a default"):
         run()
 

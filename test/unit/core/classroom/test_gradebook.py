@@ -70,7 +70,8 @@ def test_a_name_that_turns_the_direction_of_writing_turns_nothing_else():
     some = graded()
     turned = replace(some.students[0].submission, name="\u202etxet")
     page = class_body(replace(some, students=(Student(turned, some.students[0].result),)))
-    assert "<bdi>\u202etxet</bdi>" in page
+    assert "<bdi>\\u202etxet</bdi>" in page
+    assert "\u202e" not in page
 
 
 def test_a_row_without_a_motion_says_why():
