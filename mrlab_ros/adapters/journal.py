@@ -12,6 +12,7 @@ from mrlab_ros.adapters.set_aside import set_aside
 from mrlab_ros.core import journal
 
 SUFFIX = ".journal"
+OPENED = os.O_RDWR | os.O_CREAT | os.O_TRUNC | os.O_CLOEXEC | os.O_NOFOLLOW
 
 
 class Journal:
@@ -94,10 +95,10 @@ class Journal:
 
     def _begin(self, path: Path, slot: bytes) -> None:
         """Replace the file by one with room for `slot`, which it holds already."""
-        path.parent.mkdir(parents=True, exist_ok=True)
+        path.parent.mkdir(mode=0o700, parents=True, exist_ok=True)
         size = journal.slot_size(len(slot))
         new = path.with_name(f"{path.name}.new")
-        file = os.open(new, os.O_RDWR | os.O_CREAT | os.O_TRUNC | os.O_CLOEXEC, 0o644)
+        file = os.open(new, OPENED, 0o600)
         try:
             # Space that is taken now cannot be missing later.
             os.posix_fallocate(file, 0, 2 * size)

@@ -38,6 +38,7 @@ def main() -> None:
     end_with_launcher()
     keep_to_installed_modules()
     guard()
+    os.umask(0o077)
     # As ROS's nodes log, for a lab's common output.
     logging.addLevelName(logging.WARNING, "WARN")
     logging.basicConfig(

@@ -17,6 +17,7 @@ from rclpy.callback_groups import ReentrantCallbackGroup
 from rclpy.context import Context
 from rclpy.parameter import Parameter
 
+from mrlab_ros.adapters import private_folder
 from mrlab_ros.adapters.robots.library import RobotLibrary
 from mrlab_ros.adapters.store import keys
 from mrlab_ros.adapters.store.objects import open_store
@@ -73,8 +74,7 @@ class ConverterNode(ParameterNode[ConverterParameters]):
         self._library = RobotLibrary(share.directory() / "robots")
         self._store = open_store(self.parameters.store or str(folder / "store"))
         # Where converted files lie until the store has them.
-        self._work = folder / "work"
-        self._work.mkdir(parents=True, exist_ok=True)
+        self._work = private_folder.make(private_folder.make(folder) / "work")
         self._writer = CatalogueWriter(self._store, self.get_logger().error)
         self._set_bounds()
         self.trajectories = TrajectoryServices(

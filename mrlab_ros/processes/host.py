@@ -54,6 +54,8 @@ def main(names: list[str] | None = None) -> None:
         )
     from mrlab_ros.processes.node_runner import run
 
+    if "recorder" not in names:
+        os.umask(0o077)  # what the lab keeps is its user's alone; bags are made for others, too
     # Everything is closed. A thread of Fast DDS or zenoh that comes back to Python while the
     # interpreter ends would abort the process.
     os._exit(run(names))

@@ -12,7 +12,9 @@ from dataclasses import asdict
 from pathlib import Path
 from typing import IO, Any
 
-from mrlab_ros.core.errors import Misuse
+from mrlab_ros.adapters import private_folder
+from mrlab_ros.adapters.whole_file import replaced
+from mrlab_ros.core.errors import Misuse, Unavailable
 from mrlab_ros.processes.child import ProcessState
 
 # `mrlab status` holds the lock for a moment; a claim retries for this long, s.
@@ -21,20 +23,42 @@ CLAIM_TIMEOUT_S = 0.2
 SOCKET_PATH = 108
 
 
-def _folder() -> Path:
-    base = os.environ.get("XDG_RUNTIME_DIR") or tempfile.gettempdir()
-    return Path(base) / f"mrlab-{os.getuid()}"
+def folder() -> tuple[Path, str]:
+    """Return the folder of this user's run files, and why it is not the usual one, or empty.
+
+    Others may make folders beside the usual one: where theirs has its name, every command of this
+    user takes the next that nobody else could make or write into.
+    """
+    name = f"mrlab-{os.getuid()}"
+    state = os.environ.get("XDG_STATE_HOME") or Path.home() / ".local" / "state"
+    bases = (os.environ.get("XDG_RUNTIME_DIR"), tempfile.gettempdir(), state)
+    reasons = []
+    for path in (Path(base) / name for base in bases if base):
+        try:
+            path.parent.mkdir(mode=0o700, parents=True, exist_ok=True)
+        except OSError as error:
+            reasons.append(f"{path.parent}: {error.strerror}")
+            continue
+        why = private_folder.why_not(path)
+        if not why:
+            return path, "; ".join(reasons)
+        reasons.append(why)
+    raise Unavailable(
+        f"no folder is this user's alone ({'; '.join(reasons)}); set XDG_RUNTIME_DIR to one"
+    )
 
 
 class RunFile:
     """The state of a supervisor's processes: one file for each user and ROS domain.
 
     A lock beside the file proves that its writer lives; the kernel releases it with the process.
+    not_usual: why the file is not in the usual folder; empty where it is.
     """
 
     def __init__(self, domain: int) -> None:
         self._domain = domain
-        self._path = _folder() / f"domain-{domain}.json"
+        self.folder, self.not_usual = folder()
+        self._path = self.folder / f"domain-{domain}.json"
         self._lock: IO[bytes] | None = None
         self._facts: dict[str, object] = {}
 
@@ -46,8 +70,8 @@ class RunFile:
 
     def claim(self, **facts: object) -> None:
         """Take the domain for this process; raise Misuse where another supervisor has it."""
-        self._path.parent.mkdir(mode=0o700, parents=True, exist_ok=True)
-        lock = open(self._path.with_suffix(".lock"), "ab")  # noqa: SIM115
+        private_folder.make(self.folder)
+        lock = self._opened(".lock", os.O_RDWR | os.O_CREAT)
         deadline = time.monotonic() + CLAIM_TIMEOUT_S
         while not _locked(lock, fcntl.LOCK_EX):
             if time.monotonic() > deadline:
@@ -67,9 +91,9 @@ class RunFile:
         """Write the state of all processes; a reader sees the whole new file or the old one."""
         if self._lock is None:
             return
-        new = self._path.with_suffix(".new")
-        new.write_text(json.dumps({**self._facts, "processes": [asdict(s) for s in states]}))
-        new.replace(self._path)
+        with replaced(self._path, 0o600) as file:
+            facts = {**self._facts, "processes": [asdict(s) for s in states]}
+            file.write(json.dumps(facts).encode())
 
     def release(self) -> None:
         """Release the domain."""
@@ -82,18 +106,24 @@ class RunFile:
     def read(self) -> dict[str, Any] | None:
         """Return the file of the running supervisor of the domain; None where there is none."""
         try:
-            with open(self._path.with_suffix(".lock"), "rb") as lock:
+            with self._opened(".lock", os.O_RDONLY) as lock:
                 if _locked(lock, fcntl.LOCK_SH):
                     return None
-            found: dict[str, Any] = json.loads(self._path.read_text())
+            with self._opened(".json", os.O_RDONLY) as file:
+                found: dict[str, Any] = json.load(file)
         except FileNotFoundError:
             return None
         return found
 
+    def _opened(self, suffix: str, flags: int) -> IO[bytes]:
+        """Open a file of the folder that is no link."""
+        path = self._path.with_suffix(suffix)
+        return os.fdopen(os.open(path, flags | os.O_NOFOLLOW | os.O_CLOEXEC, 0o600), "rb")
+
 
 def domains() -> list[int]:
     """Return the ROS domains on which a supervisor of this user runs now."""
-    found = (path.stem.removeprefix("domain-") for path in _folder().glob("domain-*.json"))
+    found = (path.stem.removeprefix("domain-") for path in folder()[0].glob("domain-*.json"))
     return sorted(
         domain for domain in map(int, filter(str.isdecimal, found)) if RunFile(domain).read()
     )

@@ -121,6 +121,10 @@ def test_a_headset_sees_a_new_version_and_whoever_is_killed_loses_nothing(lab):
         assert set(pool.map(one, range(50))) == {200}
     assert len(browser.ids()) == 51
     wait_for(lambda: len(seen[-1]) == 51, "the class", LONG)
+    # nobody else on the machine reads what they sent
+    kept = [state, *state.rglob("*")]
+    assert len(kept) > 51
+    assert {p for p in kept if p.exists() and p.stat().st_mode & 0o077} == set()
 
     # the gateway is killed in the middle of an upload
     uploads = state / "store" / "users" / "=lab" / "uploads"

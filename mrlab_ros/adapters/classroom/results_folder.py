@@ -3,15 +3,14 @@
 from __future__ import annotations
 
 import json
-import os
 import shutil
-import tempfile
 from collections.abc import Iterable
 from pathlib import Path
 from typing import Any
 
 import orjson
 
+from mrlab_ros.adapters.whole_file import replaced
 from mrlab_ros.core.errors import BadInput, Misuse
 
 CLASS, INDEX, TABLE = "class.json", "index.html", "grades.csv"
@@ -45,17 +44,11 @@ class ResultsFolder:
     def write(self, name: str, content: bytes) -> None:
         """Write a file by its path within the folder, replacing it as a whole."""
         path = self.path / name
-        written = ""
         try:
             path.parent.mkdir(parents=True, exist_ok=True)
-            descriptor, written = tempfile.mkstemp(dir=path.parent, prefix=".writing-")
-            with os.fdopen(descriptor, "wb") as file:
+            with replaced(path) as file:
                 file.write(content)
-            os.chmod(written, 0o644)
-            os.replace(written, path)
         except OSError as error:
-            if written:
-                Path(written).unlink(missing_ok=True)
             raise BadInput(f"{path} cannot be written: {error.strerror}") from None
 
     def kept(self, digest: str) -> dict[str, Any] | None:

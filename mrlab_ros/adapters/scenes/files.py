@@ -7,12 +7,12 @@ from __future__ import annotations
 
 import json
 import os
-import tempfile
 from pathlib import Path
 
 import yaml
 
 from mrlab_ros.adapters.nearby import like_file
+from mrlab_ros.adapters.whole_file import replaced
 from mrlab_ros.adapters.yaml_files import Loader
 from mrlab_ros.core.errors import BadInput
 from mrlab_ros.core.naming import NAME, did_you_mean
@@ -94,15 +94,8 @@ def write(path: Path, scene: SceneDocument) -> None:
     else:
         text = yaml.dump(plain, Dumper=dumper, sort_keys=False, default_flow_style=None)
     path.parent.mkdir(parents=True, exist_ok=True)
-    descriptor, new = tempfile.mkstemp(dir=path.parent, prefix=".writing-")
-    try:
-        with os.fdopen(descriptor, "w") as file:
-            file.write(text)
-        os.chmod(new, 0o644)
-        os.replace(new, path)
-    except BaseException:
-        os.unlink(new)
-        raise
+    with replaced(path) as file:
+        file.write(text.encode())
 
 
 def _check(name: str) -> None:

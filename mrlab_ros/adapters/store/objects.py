@@ -18,6 +18,7 @@ import obstore
 from obstore.exceptions import BaseError
 from obstore.store import LocalStore, from_url
 
+from mrlab_ros.adapters import private_folder
 from mrlab_ros.adapters.store.port import Entry, Missing, ObjectStore, StoreFailure
 from mrlab_ros.core.errors import BadInput
 
@@ -77,8 +78,7 @@ def _client(scheme: str) -> Any:
 
 def _folder(path: Path) -> Any:
     try:
-        path.mkdir(parents=True, exist_ok=True)
-        return LocalStore(path.resolve())
+        return LocalStore(private_folder.make(path))
     except (OSError, BaseError) as error:
         why = getattr(error, "strerror", None) or _reason(error)
         raise BadInput(

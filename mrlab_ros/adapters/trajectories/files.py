@@ -5,7 +5,6 @@ from __future__ import annotations
 import contextlib
 import hashlib
 import os
-import tempfile
 import threading
 import time
 from collections.abc import Callable
@@ -16,6 +15,7 @@ from typing import TypeVar
 from mrlab_ros.adapters.store.port import Missing, ObjectStore, StoreFailure
 from mrlab_ros.adapters.trajectories import npz_file
 from mrlab_ros.adapters.trajectories.npz_file import Damaged
+from mrlab_ros.adapters.whole_file import TEMPORARY, replaced
 from mrlab_ros.core.errors import BadInput
 from mrlab_ros.core.trajectory.document import Frames
 from mrlab_ros.core.trajectory.record import Record, Version, head_of
@@ -23,7 +23,6 @@ from mrlab_ros.core.trajectory.trajectory import Trajectory
 
 Value = TypeVar("Value")
 MOST_BYTES = 4 << 30
-TEMPORARY = ".fetching-"
 STALE_AFTER_S = 3600.0  # a temporary file this old belongs to a process that was killed
 MOST_VERIFIED = 10_000  # files that are known to be whole
 
@@ -114,15 +113,9 @@ class TrajectoryFiles:
 
     def _fetch(self, version: Version, path: Path) -> None:
         try:
-            self._folder.mkdir(parents=True, exist_ok=True)
-            descriptor, name = tempfile.mkstemp(dir=self._folder, prefix=TEMPORARY)
-            try:
-                with os.fdopen(descriptor, "wb") as file:
-                    self._store.get_file(version.key, file)
-                os.replace(name, path)
-            finally:
-                with contextlib.suppress(FileNotFoundError):
-                    os.unlink(name)
+            self._folder.mkdir(mode=0o700, parents=True, exist_ok=True)
+            with replaced(path, 0o600) as file:
+                self._store.get_file(version.key, file)
         except Missing:
             raise BadInput(
                 f"the file of version {version.number} is gone from {self._store.place}; convert "

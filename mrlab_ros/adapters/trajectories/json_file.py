@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import os
-import tempfile
 from collections.abc import Iterator
 from functools import cache
 from pathlib import Path
@@ -13,6 +11,7 @@ import jsonschema
 import orjson
 from ament_index_python.packages import PackageNotFoundError, get_package_share_directory
 
+from mrlab_ros.adapters.whole_file import replaced
 from mrlab_ros.core.errors import BadInput
 from mrlab_ros.core.trajectory import document as trajectory_document
 from mrlab_ros.core.trajectory.trajectory import Trajectory
@@ -86,13 +85,5 @@ def parse(data: bytes, name: str) -> Trajectory:
 
 def write(trajectory: Trajectory, path: Path) -> None:
     """Write the trajectory file `path`, replacing it as a whole; an error leaves the old one."""
-    descriptor, name = tempfile.mkstemp(dir=path.parent, prefix=".writing-")
-    try:
-        with os.fdopen(descriptor, "wb", buffering=1 << 20) as file:
-            for chunk in chunks(trajectory):
-                file.write(chunk)
-        os.chmod(name, 0o644)
-        os.replace(name, path)
-    except BaseException:
-        os.unlink(name)
-        raise
+    with replaced(path) as file:
+        file.writelines(chunks(trajectory))

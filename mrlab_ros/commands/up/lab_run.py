@@ -52,6 +52,8 @@ class LabRun:
         # Before bridge and pages read them: no later change is missed.
         seen = None if self._keys is None else keys_changed_at(self._keys)
         run_file.claim(**self._facts())
+        if run_file.not_usual:
+            self.say(SELF, f"{run_file.not_usual}; {run_file.folder} is used instead")
         self._begin = time.monotonic()
         refusals = Refusals(self.stop)
 

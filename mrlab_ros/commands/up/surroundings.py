@@ -10,7 +10,7 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
 
-from mrlab_ros.core.errors import BadInput
+from mrlab_ros.adapters import private_folder
 
 # Any of these says that the user has chosen whom the graph can see.
 DISCOVERY = (
@@ -31,14 +31,7 @@ def stay_on_this_machine() -> None:
 def folder_for_state(chosen: Path | None) -> Iterator[Path]:
     """Make the folder for scene and trajectories; a temporary one goes with the lab."""
     if chosen is not None:
-        try:
-            chosen.mkdir(parents=True, exist_ok=True)
-        except OSError as error:
-            raise BadInput(
-                f"--state-dir {chosen} cannot be used: {error.strerror}; expected a folder, or a "
-                "path where one can be made"
-            ) from None
-        yield chosen.resolve()
+        yield private_folder.make(chosen)
         return
     with tempfile.TemporaryDirectory(prefix="mrlab-", ignore_cleanup_errors=True) as made:
         yield Path(made)

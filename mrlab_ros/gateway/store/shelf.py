@@ -12,6 +12,7 @@ from typing import Any
 import orjson
 from fastapi.requests import HTTPConnection
 
+from mrlab_ros.adapters import private_folder
 from mrlab_ros.adapters.store.port import ObjectStore
 from mrlab_ros.adapters.trajectories.catalogue import Catalogue
 from mrlab_ros.adapters.trajectories.files import TrajectoryFiles
@@ -44,8 +45,7 @@ class Shelf:
         self.files = TrajectoryFiles(store, state_dir / "fetched")
         self.robots = robots
         # Where uploads and downloads lie for a moment.
-        self.work = state_dir / "work"
-        self.work.mkdir(parents=True, exist_ok=True)
+        self.work = private_folder.make(private_folder.make(state_dir) / "work")
         for path in self.work.glob(f"{downloads.FOLDER}*"):
             if path.stat().st_mtime < time.time() - STALE_AFTER_S:
                 shutil.rmtree(path, ignore_errors=True)

@@ -52,6 +52,8 @@ def test_an_error_of_the_program_is_no_verdict(
         raise error
 
     monkeypatch.setattr(cli, "make_app", broken)
+    for name in ("guard", "keep_to_installed_modules"):
+        monkeypatch.setattr(cli, name, lambda: None)
     monkeypatch.setattr(cli.signal, "signal", lambda *_: None)
     monkeypatch.setattr(sys, "argv", ["mrlab", "check"])
     with pytest.raises(SystemExit) as ended:

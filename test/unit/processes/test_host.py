@@ -50,6 +50,13 @@ def test_the_imports_of_the_test_above_are_those_of_main() -> None:
     assert (done.returncode, done.stdout) == (3, b"imports mrlab_ros.processes.lab\n")
 
 
+@pytest.fixture(autouse=True)
+def no_process_of_its_own(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Keep what main() does to its whole process out of that of the tests."""
+    for name in ("guard", "keep_to_installed_modules"):
+        monkeypatch.setattr(host, name, lambda: None)
+
+
 def said_by(monkeypatch: pytest.MonkeyPatch, *words: str, names: list[str] | None = None) -> str:
     """Return what the host exits with; it must not come to its nodes."""
     monkeypatch.setattr(sys, "argv", ["host", *words])
