@@ -28,6 +28,7 @@ from mrlab_ros.adapters import python_process
 from mrlab_ros.adapters.bullet.support import missing
 from mrlab_ros.adapters.launcher import LAUNCHER
 from mrlab_ros.commands.up.keys import free_endpoint
+from mrlab_ros.commands.up.surroundings import graph_range
 from mrlab_ros.commands.up.web import checked_web, prepare_keys
 from mrlab_ros.core.bridge.links import check_endpoints
 from mrlab_ros.core.errors import BadInput
@@ -48,13 +49,12 @@ from mrlab_ros.ros import share
 # refuses its configuration is not, see refused().
 RESPAWN = {"respawn": True, "respawn_delay": 1.0, "respawn_max_retries": 10}
 SHOWN = {"output": "screen", "emulate_tty": True}
-# The processes end with this one, which would leave them behind at a SIGTERM.
-WITH_IT = {"additional_env": {LAUNCHER: str(os.getpid())}}
-FLAGS = ["true", "false"]
+CHOICES = {"true": ["true", "false"], "false": ["true", "false"]}
+CHOICES["localhost"] = ["localhost", "subnet"]
 # The services that these arguments call when the lab is ready, unless another lab has them too.
 CALLED = {"scene": "/lab/load_scene", "record": "/recorder/start"}
 
-# By name: default and description; those whose default is true or false take nothing else.
+# By name: default and description; those whose default is in CHOICES take nothing else.
 ARGUMENTS = {
     "config": ("", "ROS parameter file; empty: the shipped config/lab.yaml"),
     "robots": ("", "robots to begin with, such as ur5e,kuka_kr3_r540"),
@@ -85,6 +85,10 @@ ARGUMENTS = {
     "class": ("", "folder that mrlab class made, for instructors to step through"),
     "state_dir": ("", "folder for scene and trajectories; empty: a temporary one"),
     "store": ("", "uploads and trajectories: a folder or URL; empty: in state_dir"),
+    "discovery": (
+        "localhost",
+        "who finds the ROS graph, which asks for no key; subnet: everybody on this network",
+    ),
     "use_sim_time": ("false", "the topic /clock gives the time"),
 }
 
@@ -96,7 +100,7 @@ def generate_launch_description():
             name,
             default_value=default,
             description=description,
-            **({"choices": FLAGS} if default in FLAGS else {}),
+            **({"choices": CHOICES[default]} if default in CHOICES else {}),
         )
         for name, (default, description) in ARGUMENTS.items()
     ]
@@ -116,7 +120,7 @@ def processes(context):
         return Path(value(name)).expanduser().absolute() if value(name) else None
 
     check_namespace(context.launch_configurations.get("ros_namespace", ""))
-    shown = [rviz()] if given("rviz") else []
+    shown = [rviz(graph_range(value("discovery")))] if given("rviz") else []
     keys = path("keys")
     listen = value("listen")
     if listen and given("bridge"):
@@ -155,6 +159,9 @@ def processes(context):
         sim_time=given("use_sim_time"),
     )
     found = lab_processes(options)
+    reach = graph_range(value("discovery"))
+    # The processes end with this one, which would leave them behind at a SIGTERM.
+    with_it = {"additional_env": {LAUNCHER: str(os.getpid()), **reach}}
     nodes = [
         Node(
             package="mrlab_ros",
@@ -164,7 +171,7 @@ def processes(context):
             remappings=remappings(value("remap")),
             **SHOWN,
             **RESPAWN,
-            **WITH_IT,
+            **with_it,
         )
         for process in found
         if isinstance(process, LabProcess)
@@ -176,13 +183,13 @@ def processes(context):
             name=process.name,
             **SHOWN,
             **RESPAWN,
-            **WITH_IT,
+            **with_it,
         )
         for process in found
         if not isinstance(process, LabProcess)
     ]
     names = [node for process in found for node in process.nodes]
-    later = afterwards(value)
+    later = afterwards(value, reach)
     ready = ExecuteProcess(
         cmd=[
             *python_process.command("mrlab_ros.processes.ready"),
@@ -191,6 +198,7 @@ def processes(context):
         ],
         name="ready",
         **SHOWN,
+        additional_env=reach,
     )
     return [
         *unknown(context.launch_configurations),
@@ -235,7 +243,7 @@ def refused(event, _context):
     return [EmitEvent(event=ShutdownProcess(process_matcher=matches_action(event.action)))]
 
 
-def afterwards(value):
+def afterwards(value, reach):
     """Return what is started when the lab is ready, by the argument that asks for it."""
     commands = {"scene": ("scene", "load"), "record": ("record",)}
     return {
@@ -243,13 +251,14 @@ def afterwards(value):
             cmd=[*python_process.command("mrlab_ros.cli", *words, value(name))],
             name=name,
             **SHOWN,
+            additional_env=reach,
         )
         for name, words in commands.items()
         if value(name)
     }
 
 
-def rviz():
+def rviz(reach):
     """Return RViz with all displays of the lab; raise BadInput where it is not installed."""
     try:
         get_package_prefix("rviz2")
@@ -259,7 +268,13 @@ def rviz():
             "rviz:=true out"
         ) from None
     config = share.directory() / "config" / "mrlab.rviz"
-    return Node(package="rviz2", executable="rviz2", arguments=["-d", str(config)], **SHOWN)
+    return Node(
+        package="rviz2",
+        executable="rviz2",
+        arguments=["-d", str(config)],
+        additional_env=reach,
+        **SHOWN,
+    )
 
 
 def remappings(text):

@@ -8,6 +8,7 @@ from launch.actions import DeclareLaunchArgument, ExecuteProcess, OpaqueFunction
 from launch.substitutions import LaunchConfiguration
 
 from mrlab_ros.adapters import python_process
+from mrlab_ros.commands.up.surroundings import graph_range
 
 # By name: default (None: has to be given) and description.
 ARGUMENTS = {
@@ -17,6 +18,7 @@ ARGUMENTS = {
     "y": ("", "where its base goes, m"),
     "yaw": ("0", "turn about the vertical, degrees"),
     "end_effector": ("", "an end effector, such as parallel_gripper; empty: none"),
+    "discovery": ("localhost", "who finds the ROS graph, as of lab.launch.py: localhost, subnet"),
 }
 
 
@@ -43,4 +45,5 @@ def spawn(context):
         if values[argument]:
             options += [option, values[argument]]
     command = python_process.command("mrlab_ros.cli", "spawn", values["model"], *options)
-    return [ExecuteProcess(cmd=[*command], name="spawn", output="screen")]
+    reach = graph_range(values["discovery"])
+    return [ExecuteProcess(cmd=[*command], name="spawn", output="screen", additional_env=reach)]

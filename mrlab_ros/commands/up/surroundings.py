@@ -21,10 +21,19 @@ DISCOVERY = (
 )
 
 
+def graph_range(asked: str = "localhost") -> dict[str, str]:
+    """Return the variables that say who finds the graph; none where the user has set one.
+
+    asked: localhost, or subnet: everybody on this network, without a key.
+    """
+    if asked == "localhost" and any(os.environ.get(name) for name in DISCOVERY):
+        return {}
+    return {"ROS_AUTOMATIC_DISCOVERY_RANGE": asked.upper()}
+
+
 def stay_on_this_machine() -> None:
     """Keep the graph off the network unless the user has chosen otherwise."""
-    if not any(os.environ.get(name) for name in DISCOVERY):
-        os.environ["ROS_AUTOMATIC_DISCOVERY_RANGE"] = "LOCALHOST"
+    os.environ.update(graph_range())
 
 
 @contextmanager

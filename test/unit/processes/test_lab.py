@@ -19,7 +19,7 @@ from mrlab_ros.adapters import python_process
 from mrlab_ros.adapters.keys.folder import Keys, now
 from mrlab_ros.commands.demo.lab import free_port
 from mrlab_ros.commands.up.speaker import COLOURS
-from mrlab_ros.commands.up.surroundings import folder_for_state
+from mrlab_ros.commands.up.surroundings import DISCOVERY, folder_for_state
 from mrlab_ros.core.bridge.access import Login
 from mrlab_ros.core.errors import BadInput
 from mrlab_ros.gateway.__main__ import settings_of
@@ -329,7 +329,7 @@ def test_the_launch_file_starts_the_same_processes_as_up(
         spec.argv[BEFORE:] for spec in specs
     ]
     for process in (web, *nodes):
-        assert process.kwargs["additional_env"] == {"MRLAB_LAUNCHER": str(os.getpid())}
+        assert process.kwargs["additional_env"]["MRLAB_LAUNCHER"] == str(os.getpid())
     for node in nodes:
         assert node.kwargs["executable"] == "host"
         # A name here would rename every node of the process.
@@ -372,6 +372,31 @@ def test_the_launch_file_refuses_a_namespace_in_which_no_robot_would_appear(laun
     with pytest.raises(BadInput, match="in the namespace '/cell'; expected none"):
         launched(web="false", ros_namespace="/cell")
     assert hosts(launched(web="false", ros_namespace="/"))
+
+
+def test_the_graph_stays_on_the_machine_unless_subnet_is_asked_for(
+    launcher: Callable[[str], Launched], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def ranges(file: str, **values: str) -> set[str | None]:
+        """Return what the started processes have for the range of their graph."""
+        started = [
+            p for p in launcher(file)(**values) if "name" in p.kwargs or "package" in p.kwargs
+        ]
+        assert started
+        return {p.kwargs["additional_env"].get("ROS_AUTOMATIC_DISCOVERY_RANGE") for p in started}
+
+    files: dict[str, dict[str, str]] = {
+        "lab.launch.py": {"web": "false", "scene": "handover", "record": "/class.bag"},
+        "robot.launch.py": {"model": "ur5e"},
+    }
+    for name in DISCOVERY:
+        monkeypatch.delenv(name, raising=False)
+    for file, values in files.items():
+        assert ranges(file, **values) == {"LOCALHOST"}
+        assert ranges(file, **values, discovery="subnet") == {"SUBNET"}
+    # a range that the user set for all of ROS holds for the lab, too
+    monkeypatch.setenv("ROS_AUTOMATIC_DISCOVERY_RANGE", "SYSTEM_DEFAULT")
+    assert ranges("lab.launch.py", **files["lab.launch.py"]) == {None}
 
 
 def test_the_launch_file_says_when_the_lab_is_ready_and_then_goes_on(launched: Launched) -> None:
