@@ -74,6 +74,9 @@ def is_vector(shape: tuple[int, ...]) -> bool:
     return len(shape) == 2 and 1 in shape and 0 not in shape
 
 
+MOST_AXES = 32  # of an array, as HDF5 has it; NumPy has 64
+
+
 def index(shape: tuple[int, ...], number: int) -> str:
     """Return the subscripts of the `number`th element (from 0), such as '3' or '2,1'."""
     if len([n for n in shape if n != 1]) <= 1:
@@ -86,7 +89,9 @@ def index(shape: tuple[int, ...], number: int) -> str:
 
 
 def product(shape: tuple[int, ...]) -> int:
-    """Return the number of elements of an array of this shape; raise Damaged if negative."""
+    """Return the number of elements of an array of this shape; raise Damaged where it is none."""
+    if len(shape) > MOST_AXES:
+        raise Damaged(f"an array has {len(shape)} dimensions; at most {MOST_AXES} are read")
     if any(n < 0 for n in shape):
         raise Damaged(f"an array has the dimensions {shape}")
     return math.prod(shape)

@@ -28,7 +28,7 @@ from mrlab_ros.adapters.workspaces.mat5 import (
 from mrlab_ros.adapters.workspaces.sink import Found, Sink
 
 MOST_ATTRIBUTE = 4096  # bytes of an attribute that is read: MATLAB writes names and flags there
-MOST_AXES = 64  # of an array, as NumPy has it
+MOST_LENGTHS = 64  # of an array in an attribute
 
 
 def read_hdf5(file: Any, sink: Sink, limit: int) -> None:
@@ -129,7 +129,7 @@ class _Reader:
 
     def _shape(self, item: Any, path: str) -> tuple[int, ...]:
         if "MATLAB_empty" in item.attrs:
-            lengths = values_of(item, path, 8 * MOST_AXES).reshape(-1)
+            lengths = values_of(item, path, 8 * MOST_LENGTHS).reshape(-1)
             return tuple(int(n) for n in lengths[:8])
         shape = tuple(int(n) for n in reversed(item.shape))
         return shape + (1,) * (2 - len(shape))
@@ -188,7 +188,7 @@ class _Reader:
                 both = values_of(item, path, self.limit)
                 for name in item.dtype.names:
                     values = both[name].copy()
-                    data = memoryview(values).cast("B")
+                    data = _bytes_of(values)
                     self.sink.add(Found(path, "double", shape, data, values.dtype.str))
             return
         kind = kind or {"f": "double", "i": "int64", "u": "uint64"}.get(item.dtype.kind, "unknown")
@@ -208,4 +208,8 @@ class _Reader:
             self.sink.add(Found(path, kind, shape))
             return
         values = values_of(item, path, self.limit)
-        self.sink.add(Found(path, kind, shape, memoryview(values).cast("B"), values.dtype.str))
+        self.sink.add(Found(path, kind, shape, _bytes_of(values), values.dtype.str))
+
+
+def _bytes_of(values: Any) -> memoryview:
+    return memoryview(values).cast("B") if values.size else memoryview(b"")

@@ -20,6 +20,7 @@ from __future__ import annotations
 
 import codecs
 import contextlib
+import encodings
 import gc
 import gzip
 import importlib
@@ -29,6 +30,7 @@ import math
 import mmap
 import os
 import pickle
+import pkgutil
 import resource
 import signal
 import socket
@@ -77,11 +79,6 @@ TEXTS = ("a text file", "a file of an unknown kind")
 # modules that readers of seldom files need, and the exit status that asks for the first of them
 SELDOM = ("matio", "rosbags.rosbag2", "rosbags.typesys.stores.ros2_jazzy")
 ASKED = 64
-# those of texts in any file: Python imports each on its first use
-ENCODINGS = (
-    *("ascii", "latin-1", "cp1252", "utf-8", "utf-8-sig", "utf-16", "utf-32"),
-    *(f"utf-{bits}-{order}" for bits in (16, 32) for order in ("le", "be")),
-)
 TABLES = (".csv", ".txt", ".tsv", ".lvm")
 NUMBER_BEGINS = tuple(b"%c" % c for c in b"+-.0123456789")
 
@@ -340,6 +337,13 @@ def forked(do: Callable[[], None]) -> int:
     return os.waitstatus_to_exitcode(os.waitpid(child, 0)[1])
 
 
+def load_encodings() -> None:
+    """Import the encodings of texts in any file, each of which Python imports on its first use."""
+    for module in pkgutil.iter_modules(encodings.__path__):
+        with contextlib.suppress(LookupError, ImportError):  # those of another system
+            codecs.lookup(module.name)
+
+
 def warm_up() -> None:
     """Convert a small workspace of our own, so that no fork pays for what is done but once.
 
@@ -347,8 +351,7 @@ def warm_up() -> None:
     """
     import scipy.io
 
-    for encoding in ENCODINGS:
-        codecs.lookup(encoding)
+    load_encodings()
     joints = 6
     rows = np.linspace(0, 0.5, 60)[:, np.newaxis] ** 2 * np.linspace(0.2, 1, joints)
     saved = io.BytesIO()

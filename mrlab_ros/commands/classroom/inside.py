@@ -28,6 +28,7 @@ class Inside:
 
     def __init__(self, limits: Limits) -> None:
         self.limits = limits
+        worker.load_encodings()
         for module in worker.SELDOM:
             with contextlib.suppress(ImportError):  # mat-io is not there for every Python
                 importlib.import_module(module)

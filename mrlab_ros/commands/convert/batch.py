@@ -45,7 +45,7 @@ from mrlab_ros.core.conversion.convert import (
 )
 from mrlab_ros.core.conversion.options import DEFAULT_FRAME_RATE, Options
 from mrlab_ros.core.diagnostics import Refused
-from mrlab_ros.core.errors import BadInput, Misuse
+from mrlab_ros.core.errors import BadInput, LabError, Misuse
 from mrlab_ros.core.robots.model import RobotModel
 from mrlab_ros.ros import share
 
@@ -137,23 +137,35 @@ def run(request: Request) -> int:
     with _plotter(len(inputs) if request.plot else 0, targets) as plot:
         converted = _converted(inputs, tasks, limits)
         for source, task, result in _with_progress(converted, len(inputs), request):
-            results.append(result)
             written = None
-            if request.out is not None and result.trajectory is not None:
-                with targets.writing():
-                    written = writer(result.trajectory, request.out)
-            if request.plot is not None:
-                plot(result, model, _plot_path(request.plot, task.trajectory_id))
-            if request.as_json:
-                line = orjson.dumps(report.record(source.given, result, written))
-                print(line.decode(), flush=True)
-            else:
-                words = convert_words(source.given, request.robot, request.end_effector)
-                report.show(result, written, words, request.options)
+            try:
+                if request.out is not None and result.trajectory is not None:
+                    with targets.writing():
+                        written = writer(result.trajectory, request.out)
+                if request.plot is not None:
+                    plot(result, model, _plot_path(request.plot, task.trajectory_id))
+                _say(source, result, written, request)
+            except LabError:
+                raise
+            except Exception as error:
+                # one file does not end a batch
+                result = refused(task.file, unexpected(task.file, error))
+                _say(source, result, None, request)
+            results.append(result)
     if len(results) > 1 and not request.as_json:
         report.summarise(results)
     worst = max((EXIT_CODES[r.outcome] for r in results), key=BADNESS.index)
     return EXIT_CODES[Outcome.REJECTED] if targets.report() else worst
+
+
+def _say(source: Input, result: ConversionResult, written: Path | None, request: Request) -> None:
+    """Print what became of a file."""
+    if request.as_json:
+        line = orjson.dumps(report.record(source.given, result, written))
+        print(line.decode(), flush=True)
+        return
+    words = convert_words(source.given, request.robot, request.end_effector)
+    report.show(result, written, words, request.options)
 
 
 def _check(request: Request) -> None:

@@ -39,6 +39,7 @@ class Candidate:
         if not np.isfinite([self.minimum, self.maximum]).all():
             return ""
         sample = values[np.linspace(0, len(values) - 1, SPARK_WIDTH).astype(int)].astype(float)
+        sample = np.nan_to_num(sample) / 4  # a span of the largest numbers is one, too
         spans = np.ptp(sample, axis=0)
         column = sample[:, int(spans.argmax())]
         span = float(spans.max()) or 1.0

@@ -166,7 +166,7 @@ def _steps(
             limit=joint.max_velocity,
             unit="rad/s",
             rate=frame_rate,
-            slower=_slower(frame_rate * joint.max_velocity / (largest * frame_rate)),
+            slower=_slower(joint.max_velocity / largest),
             robot=robot,
             count=counted(too_fast, "step"),
             **place,
@@ -176,6 +176,8 @@ def _steps(
 
 def _slower(rate: float) -> float:
     """Return a rate, Hz, with two digits that is not above `rate`."""
+    if rate <= LEAST_RATE:
+        return LEAST_RATE
     digit = 10.0 ** (math.floor(math.log10(rate)) - 1)
     return max(float(f"{math.floor(rate / digit + 1e-9) * digit:.2g}"), LEAST_RATE)
 

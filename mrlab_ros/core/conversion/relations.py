@@ -85,17 +85,17 @@ def derivative_rate(
     across = float((way * summed).sum())
     if moved <= 1e-12 or across <= 0:
         return None
-    factor = across / float((summed * summed).sum())
-    if not LEAST_RATE <= 1 / factor <= MOST_RATE:
+    rate = float((summed * summed).sum()) / across
+    if not LEAST_RATE <= rate <= MOST_RATE:
         return None
-    left = ((way - factor * summed) ** 2).sum(axis=0)
+    left = ((way - summed / rate) ** 2).sum(axis=0)
     if float(left.sum()) > (1 - EXPLAINED) * moved:
         return None
     of_joint = (way * way).sum(axis=0)
     moves = of_joint > 1e-4 * moved
     if (left[moves] > (1 - EXPLAINED_OF_JOINT) * of_joint[moves]).any():
         return None
-    return 1 / factor
+    return rate
 
 
 @dataclass(frozen=True)
