@@ -75,6 +75,7 @@ OPENING = {
     "truncate": (76, 45), "getdents": (78, None), "getcwd": (79, 17), "rename": (82, None),
     "mkdir": (83, None), "rmdir": (84, None), "unlink": (87, None), "readlink": (89, None),
     "umask": (95, 166), "statfs": (137, 43), "fstatfs": (138, 44), "getdents64": (217, 61),
+    "link": (86, None), "linkat": (265, 37),
     "openat": (257, 56), "mkdirat": (258, 34), "newfstatat": (262, 79), "unlinkat": (263, 35),
     "renameat": (264, 38), "readlinkat": (267, 78), "faccessat": (269, 48), "ppoll": (271, 73),
     "dup3": (292, 24), "pipe2": (293, 59), "renameat2": (316, 276),
@@ -149,6 +150,9 @@ def layers() -> dict[str, bool]:
 def libraries() -> tuple[Path, ...]:
     """Return what a process that imports and computes reads of the system and of Python."""
     named = {*sysconfig.get_paths().values(), sys.prefix, sys.base_prefix, *sys.path}
+    # packages whose files are links to those in a source tree
+    loaded = [m for m in list(sys.modules.values()) if getattr(m, "__path__", None)]
+    named |= {str(Path(m.__file__).resolve().parent) for m in loaded if m.__file__}
     named |= set(filter(None, os.environ.get("LD_LIBRARY_PATH", "").split(":")))
     system = ("/usr/lib", "/usr/lib64", "/lib", "/lib64", "/etc/ld.so.cache", "/etc/localtime")
     devices = ("/usr/share/zoneinfo", "/dev/urandom")

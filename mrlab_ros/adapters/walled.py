@@ -23,7 +23,7 @@ from mrlab_ros.adapters import python_process, wall
 from mrlab_ros.core.errors import BadInput, LabError
 
 MiB = 1 << 20
-MOST_ANSWERED = 64 * MiB  # bytes, also of each file that is written
+MOST_ANSWERED = 64 * MiB  # bytes
 START = 30.0  # s in which it starts on a busy machine
 # of the environment, what finds Python's and ROS's packages; nothing that may be secret
 KEPT = (
@@ -40,13 +40,16 @@ def call(
     write: Iterable[Path] = (),
     memory: int = 2048 * MiB,
     seconds: float = 120.0,
+    file_size: int = MOST_ANSWERED,
     environment: Mapping[str, str] | None = None,
+    folder: Path = Path("/"),
 ) -> Any:
     """Return what a function of a module answers to arguments, all of them JSON.
 
     name: the file's, for errors. read, write: folders and files that it reaches besides Python and
-    its packages. memory: bytes; seconds: of a processor, and of time. environment: what it gets
-    besides KEPT. Raises BadInput where the function does, and where it needs more than it may.
+    its packages. memory: bytes; seconds: of a processor, and of time; file_size: bytes of a file
+    that it writes. environment: what it gets besides KEPT. folder: in which it works. Raises
+    BadInput where the function does, and where it needs more than it may.
     """
     words = {
         "module": function.__module__,
@@ -56,6 +59,7 @@ def call(
         "write": [str(path) for path in write],
         "memory": memory,
         "seconds": seconds,
+        "file_size": file_size,
     }
     kept = {key: os.environ[key] for key in KEPT if key in os.environ} | dict(environment or {})
     kept["PYTHONPATH"] = python_process.search_path()
@@ -64,7 +68,7 @@ def call(
         process = subprocess.Popen(
             python_process.command(__name__, str(answer.fileno())),
             pass_fds=[answer.fileno()], stdin=subprocess.PIPE, stdout=subprocess.DEVNULL,
-            stderr=errors, env=kept, cwd="/", start_new_session=True,
+            stderr=errors, env=kept, cwd=folder, start_new_session=True,
         )  # fmt: skip
         try:
             with contextlib.suppress(subprocess.TimeoutExpired):
@@ -75,7 +79,7 @@ def call(
                 os.killpg(process.pid, signal.SIGKILL)
             status = process.wait()
         answer.seek(0)
-        text = answer.read()
+        text = answer.read(MOST_ANSWERED)
         errors.seek(0)
         last = errors.read()[-500:].decode(errors="replace").strip().rpartition("\n")[2]
     try:
@@ -100,7 +104,9 @@ def main() -> None:
             function = getattr(function, part)
         read, write = ([Path(path) for path in words[key]] for key in ("read", "write"))
         signal.setitimer(signal.ITIMER_REAL, words["seconds"])
-        wall.confine(memory=words["memory"], seconds=words["seconds"], file_size=MOST_ANSWERED)
+        wall.confine(
+            memory=words["memory"], seconds=words["seconds"], file_size=words["file_size"]
+        )
         wall.shut(read=[*wall.libraries(), *read], write=write, opens=True)
         try:
             found = {"value": function(*words["arguments"])}

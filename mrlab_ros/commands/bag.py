@@ -3,7 +3,10 @@
 from __future__ import annotations
 
 import json
+import shutil
 import sys
+import tempfile
+from collections.abc import Callable, Iterable
 from dataclasses import asdict
 from datetime import datetime
 from pathlib import Path
@@ -16,8 +19,8 @@ from mrlab_ros.commands.output import AsJson, say
 from mrlab_ros.core.foreign_text import for_shell
 
 if TYPE_CHECKING:
+    from mrlab_ros.adapters.bags.courses import Reference
     from mrlab_ros.adapters.bags.reader import Bag
-    from mrlab_ros.core.recording.report import SessionReport
 
 app = typer.Typer(help="Inspect, report and repair bags.", no_args_is_help=True)
 BagArgument = Annotated[
@@ -48,16 +51,33 @@ def opened(bag: str) -> Bag:
 @app.command()
 def info(bag: BagArgument, as_json: AsJson = False) -> None:
     """Show topics, counts, length and attachments of a bag."""
+    path = path_of(bag)
+    _walled(info_of, path, as_json, write=[path] if path.is_dir() else ())
+
+
+def info_of(bag: str, as_json: bool) -> None:
+    """Print what is in a bag."""
     from mrlab_ros.adapters.bags.repair import refresh_metadata
 
     found = opened(bag)
     anew = refresh_metadata(found.path)
     if as_json:
-        sys.stdout.write(json.dumps(_facts(found), indent=2) + "\n")
+        print(json.dumps(_facts(found), indent=2))
         return
     _print(found)
     if anew:
         print("metadata.yaml was behind the files, and is written anew")
+
+
+def _walled(
+    function: Callable[..., Any], path: Path, *arguments: Any, write: Iterable[Path] = ()
+) -> Any:
+    """Do something with a bag behind the wall; it prints here."""
+    from mrlab_ros.commands import behind_wall
+
+    return behind_wall.run(
+        function, str(path), *arguments, name=path.name, read=[path], write=write
+    )
 
 
 @app.command()
@@ -66,10 +86,16 @@ def repair(bag: BagArgument, as_json: AsJson = False) -> None:
 
     Of an MCAP file alone only that file is rewritten.
     """
+    path = path_of(bag)
+    _walled(repaired, path, as_json, write=[path if path.is_dir() else path.parent])
+
+
+def repaired(path: str, as_json: bool) -> None:
+    """Mend a bag, and print what was done."""
     from mrlab_ros.adapters.bags.repair import KEPT
     from mrlab_ros.adapters.bags.repair import repair as mend
 
-    done = mend(path_of(bag))
+    done = mend(Path(path))
     if as_json:
         print(json.dumps(asdict(done)))
         return
@@ -122,13 +148,22 @@ def extract(
     as_json: AsJson = False,
 ) -> None:
     """Write a bag's attachments to files: URDFs, meshes, trajectories, scene, parameters."""
-    from mrlab_ros.adapters.bags.extract import extract as write
+    from mrlab_ros.adapters.bags.extract import free
 
-    found = opened(bag)
-    root = out or Path(f"{found.path.stem}-attachments")
-    names = write(found, root)
+    path = path_of(bag)
+    root = free(out or Path(f"{path.stem}-attachments"))
+    with tempfile.TemporaryDirectory(prefix="mrlab-") as folder:
+        names = _walled(extracted, path, folder, write=[Path(folder)])
+        shutil.copytree(folder, root, dirs_exist_ok=True)
     listed = "".join(f"\n  {name}" for name in names)
     say(f"wrote {len(names)} files to {root}{listed}", as_json=as_json, files=names)
+
+
+def extracted(bag: str, folder: str) -> list[str]:
+    """Write a bag's attachments into a folder; return their names."""
+    from mrlab_ros.adapters.bags.extract import extract as write
+
+    return write(opened(bag), Path(folder))
 
 
 @app.command()
@@ -151,44 +186,78 @@ def report(
     as_json: AsJson = False,
 ) -> None:
     """Report who did what, when, with what result: one row a run, technical figures last."""
-    from mrlab_ros.adapters.bags.session import model_that_played, read_session
-    from mrlab_ros.core.recording.report_text import report_lines
-
-    found = opened(bag)
+    path = path_of(bag)
     compared = None
     if reference is not None:
         from mrlab_ros.commands.reference import reference_of
 
-        compared = reference_of(reference, model_that_played(found))
-    session = read_session(found, compared)
+        known = reference_of(reference, _walled(model_of, path))
+        course = known.course
+        compared = (known.name, known.model, course.frame_rate, course.positions.tolist())
+    form = "" if out is None else "page" if out.suffix.lower() in (".html", ".htm") else "all"
+    with tempfile.TemporaryDirectory(prefix="mrlab-") as folder:
+        _walled(reported, path, as_json, compared, folder, form, write=[Path(folder)])
+        if out is None:
+            return
+        if form == "page":
+            out.parent.mkdir(parents=True, exist_ok=True)
+            shutil.copyfile(Path(folder, "report.html"), out)
+            print(f"wrote {out}", file=sys.stderr)
+            return
+        shutil.copytree(folder, out, dirs_exist_ok=True)
+        print(f"wrote report.txt, .json, .png and .html to {out}", file=sys.stderr)
+
+
+def model_of(bag: str) -> str:
+    """Return the model of the first robot of a bag."""
+    from mrlab_ros.adapters.bags.session import model_that_played
+
+    return model_that_played(opened(bag))
+
+
+def reported(
+    bag: str,
+    as_json: bool,
+    compared: tuple[str, str, float, list[list[float]]] | None,
+    folder: str,
+    form: str,
+) -> None:
+    """Print the report of a bag; form: also into the folder, its `page` alone, or `all` forms.
+
+    compared: a trajectory by its name, model, rate, Hz, and positions, rad.
+    """
+    from mrlab_ros.adapters.bags.session import read_session
+    from mrlab_ros.core.recording.report_text import report_lines
+
+    found = opened(bag)
+    session = read_session(found, None if compared is None else _reference(*compared))
     lines = [_title(found), *report_lines(session)]
     text = "\n".join(lines) + "\n"
     said = {"bag": str(found.path.resolve()), **session.facts()}
     facts = json.dumps(said, indent=2) + "\n"
-    if out is not None:
-        _write_report(found, session, out, text, facts)
-    sys.stdout.write(facts if as_json else text)
+    print(facts if as_json else text, end="")
+    out = Path(folder)
+    if form:
+        from mrlab_ros.adapters.pages.session import session_page
+        from mrlab_ros.ros import share
+
+        page = session_page(found, share.directory(), session)
+        (out / "report.html").write_text(page, encoding="utf-8")
+    if form == "all":
+        from mrlab_ros.adapters.bags.plot import draw
+
+        (out / "report.txt").write_text(text)
+        (out / "report.json").write_text(facts)
+        draw(session, _title(found), out / "report.png")
 
 
-def _write_report(bag: Bag, session: SessionReport, out: Path, text: str, facts: str) -> None:
-    """Write the page, or the folder with all forms of the report."""
-    from mrlab_ros.adapters.pages.session import session_page
-    from mrlab_ros.ros import share
+def _reference(name: str, model: str, rate: float, positions: list[list[float]]) -> Reference:
+    import numpy as np
 
-    page = session_page(bag, share.directory(), session)
-    if out.suffix.lower() in (".html", ".htm"):
-        out.parent.mkdir(parents=True, exist_ok=True)
-        out.write_text(page, encoding="utf-8")
-        print(f"wrote {out}", file=sys.stderr)
-        return
-    from mrlab_ros.adapters.bags.plot import draw
+    from mrlab_ros.adapters.bags.courses import Reference
+    from mrlab_ros.core.recording.report import ReferenceTrajectory
 
-    out.mkdir(parents=True, exist_ok=True)
-    (out / "report.txt").write_text(text)
-    (out / "report.json").write_text(facts)
-    draw(session, _title(bag), out / "report.png")
-    (out / "report.html").write_text(page, encoding="utf-8")
-    print(f"wrote report.txt, .json, .png and .html to {out}", file=sys.stderr)
+    return Reference(name, model, ReferenceTrajectory(rate, np.array(positions)))
 
 
 def _title(bag: Bag) -> str:

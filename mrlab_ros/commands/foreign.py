@@ -6,11 +6,13 @@ import tempfile
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from pathlib import Path
+from typing import Any
 
 from mrlab_ros.adapters.bags.foreign import Imported, import_bag
 from mrlab_ros.adapters.bags.other import OtherBag, open_bag
 from mrlab_ros.adapters.nearby import like_file
 from mrlab_ros.adapters.robots.library import RobotLibrary
+from mrlab_ros.commands import behind_wall
 from mrlab_ros.core.errors import BadInput
 from mrlab_ros.messages.definitions import definition
 from mrlab_ros.ros import share
@@ -23,19 +25,42 @@ def imported(source: Path, folder: Path, models: Sequence[str]) -> Imported:
             f"there is no bag {source}; name the folder of a bag, or a .db3 file"
             f"{like_file(source)}"
         )
+    if folder.exists():
+        raise BadInput(f"{folder} exists already; name a new folder")
+    folder.parent.mkdir(parents=True, exist_ok=True)
+    with tempfile.TemporaryDirectory(prefix=".importing-", dir=folder.parent) as work:
+        made = Path(work, folder.name)
+        done = behind_wall.run(
+            import_of, str(source), str(made), list(models),
+            name=source.name, read=[source], write=[Path(work)],
+        )  # fmt: skip
+        made.rename(folder)
+    return Imported(**{**done, "folder": folder})
+
+
+def import_of(source: str, folder: str, models: list[str]) -> dict[str, Any]:
+    """Import a bag; return the fields of what became of it."""
     library = RobotLibrary(share.directory() / "robots")
-    return import_bag(source, folder, models, library, definition)
+    done = import_bag(Path(source), Path(folder), models, library, definition)
+    return {**vars(done), "folder": folder}
 
 
 def is_foreign(path: Path) -> bool:
     """Return whether a bag has no robots of a lab, or is compressed: a seek would inflate it."""
+    if not path.exists():
+        return False
+    return bool(behind_wall.run(foreign_of, str(path), name=path.name, read=[path]))
+
+
+def foreign_of(bag: str) -> bool:
+    """See is_foreign()."""
     try:
-        bag = open_bag(path, definition)
+        found = open_bag(Path(bag), definition)
     except BadInput:
-        return path.exists()
-    if isinstance(bag, OtherBag) and bag.compressed:
         return True
-    kinds = {topic.type for topic in bag.topics.values()}
+    if isinstance(found, OtherBag) and found.compressed:
+        return True
+    kinds = {topic.type for topic in found.topics.values()}
     return "mrlab_msgs/msg/Robots" not in kinds and "sensor_msgs/msg/JointState" in kinds
 
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 import os
 import sys
+import tempfile
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
@@ -17,7 +18,6 @@ from mrlab_ros.core.conversion.options import Options
 from mrlab_ros.core.errors import BadInput, Misuse
 
 if TYPE_CHECKING:
-    from mrlab_ros.adapters.bags.reader import Bag
     from mrlab_ros.core.conversion.convert import ConversionResult
 
 
@@ -92,9 +92,7 @@ def _page(
     folder = share.directory()
     recorded = _recorded(file)
     if recorded is not None:
-        from mrlab_ros.adapters.pages.session import session_page
-
-        return session_page(recorded, folder), None
+        return recorded, None
     library = RobotLibrary(folder / "robots")
     result = converted(file, robot, end_effector, options, library)
     if result.trajectory is not None:
@@ -103,17 +101,34 @@ def _page(
     return motion_page(result, robot, end_effector or None, library, folder), result
 
 
-def _recorded(file: Path) -> Bag | None:
-    """Return the bag of a session, or None: it is another file, or a bag of a mere trajectory."""
-    from mrlab_ros.commands.bag import opened, path_of
+def _recorded(file: Path) -> str | None:
+    """Return the page of a session, or None: it is another file, or a bag of a mere trajectory."""
+    from mrlab_ros.commands import behind_wall
+    from mrlab_ros.commands.bag import path_of
 
     path = _bag_of_report(file) or path_of(str(file))
     if not path.is_dir() and path.suffix not in (".mcap", ".db3"):
         return None
-    bag = opened(str(path))
-    if path.is_dir() or any(t.type == "mrlab_msgs/msg/Robots" for t in bag.topics.values()):
-        return bag
-    return None
+    with tempfile.TemporaryDirectory(prefix="mrlab-") as folder:
+        page = Path(folder, "page.html")
+        shown = behind_wall.run(
+            session_of, str(path), str(page), name=path.name, read=[path], write=[Path(folder)]
+        )
+        return page.read_text(encoding="utf-8") if shown else None
+
+
+def session_of(bag: str, page: str) -> bool:
+    """Write the page of a session; return whether the bag holds one, not a mere trajectory."""
+    from mrlab_ros.adapters.pages.session import session_page
+    from mrlab_ros.commands.bag import opened
+    from mrlab_ros.ros import share
+
+    found = opened(bag)
+    lab = any(topic.type == "mrlab_msgs/msg/Robots" for topic in found.topics.values())
+    if not lab and not Path(bag).is_dir():
+        return False
+    Path(page).write_text(session_page(found, share.directory()), encoding="utf-8")
+    return True
 
 
 def _bag_of_report(file: Path) -> Path | None:

@@ -20,9 +20,11 @@ from sensor_msgs.msg import JointState
 from sqlite_bag import as_sqlite
 from typer.testing import CliRunner
 
+from mrlab_ros.adapters.bags.foreign import Imported
 from mrlab_ros.adapters.bags.reader import Bag
 from mrlab_ros.adapters.bags.writer import BagWriter
 from mrlab_ros.cli import make_app
+from mrlab_ros.commands.foreign import import_of
 from mrlab_ros.commands.replay import Keyboard, next_rate
 from mrlab_ros.commands.status.facts import recorder_facts
 from mrlab_ros.commands.status.table import recorder_line
@@ -295,7 +297,8 @@ def test_joints_of_no_robot_are_named(tmp_path: Path) -> None:
     source = foreign(tmp_path / "foreign", StoragePlugin.MCAP)
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr("mrlab_ros.adapters.bags.foreign.chosen_models", lambda *_: {})
-        said = run("bag", "import", source, tmp_path / "mine")
+        done = Imported(**import_of(str(source), str(tmp_path / "mine"), []))
+    said = done.describe("mine")
     assert "/joint_states moves no robot" in said
     assert "wrist_3_joint, " in said
 

@@ -24,16 +24,22 @@ def extract(bag: Bag, folder: Path) -> list[str]:
                 f"the attachment {name!r} {problem}; nothing was written. The bag is made by "
                 "hand: a lab names its attachments such as robots/ur5e_1.urdf"
             )
-    if folder.is_symlink() or (folder.exists() and not folder.is_dir()):
-        raise BadInput(f"{folder} is no folder; name a new one with --out")
-    if folder.exists() and any(folder.iterdir()):
-        raise BadInput(f"{folder} is not empty; name a new folder with --out")
+    free(folder)
     for name in names:
         target = folder / name
         target.parent.mkdir(parents=True, exist_ok=True)
         with target.open("xb") as file:
             file.write(bag.attachment(name).data)
     return names
+
+
+def free(folder: Path) -> Path:
+    """Return a folder that is new or empty; raise BadInput for another."""
+    if folder.is_symlink() or (folder.exists() and not folder.is_dir()):
+        raise BadInput(f"{folder} is no folder; name a new one with --out")
+    if folder.exists() and any(folder.iterdir()):
+        raise BadInput(f"{folder} is not empty; name a new folder with --out")
+    return folder
 
 
 def _problem(name: str, names: list[str]) -> str:

@@ -9,13 +9,9 @@ from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from pathlib import Path
 
-from ament_index_python.packages import (
-    PackageNotFoundError,
-    get_package_share_directory,
-    get_packages_with_prefixes,
-)
+from ament_index_python.packages import PackageNotFoundError, get_package_share_directory
 
-from mrlab_ros.adapters import wall, walled
+from mrlab_ros.adapters import installed, wall, walled
 from mrlab_ros.adapters.robots.expansion import expand
 from mrlab_ros.core.errors import BadInput
 
@@ -108,11 +104,10 @@ def description_text(
         )
     with _prefix(packages) as prefix:
         prefixes = [prefix, *filter(None, os.environ.get("AMENT_PREFIX_PATH", "").split(":"))]
-        indices = [i for p in prefixes if (i := Path(p, "share", "ament_index")).is_dir()]
-        folders = {folder.resolve() for folder in packages.values()} | set(_installed())
+        folders = {folder.resolve() for folder in packages.values()} | set(installed.packages())
         text: str = walled.call(
             expand, str(path.resolve()), given, name=path.name,
-            read=[Path(prefix), *indices, *folders, *_beside(path)],
+            read=[Path(prefix), *installed.indices(), *folders, *_beside(path)],
             environment={"AMENT_PREFIX_PATH": ":".join(prefixes)},
         )  # fmt: skip
     # file:// URIs name the folder that is gone now.
@@ -132,7 +127,7 @@ class MeshFinder:
         self.base = base
         self.packages = packages
         named = {folder.resolve() for folder in (base, *packages.values())}
-        self.folders = (*sorted(named), *_installed())
+        self.folders = (*sorted(named), *installed.packages())
 
     def __call__(self, uri: str) -> Path:
         """Return the path of a URI; raise BadInput where its package or its place is none."""
@@ -185,13 +180,3 @@ def _prefix(packages: Mapping[str, Path]) -> Iterator[str]:
             (index / name).touch()
             Path(made, "share", name).symlink_to(folder.resolve())
         yield made
-
-
-def _installed() -> list[Path]:
-    """Return the folders of the installed packages, and their sources where these are linked to.
-
-    colcon's --symlink-install links each file to the one in the source tree.
-    """
-    shares = [Path(prefix, "share", n) for n, prefix in get_packages_with_prefixes().items()]
-    places = {share.resolve() for share in shares}
-    return sorted(places | {(share / "package.xml").resolve().parent for share in shares})

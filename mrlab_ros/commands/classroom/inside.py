@@ -11,7 +11,7 @@ from mrlab_ros.adapters.trajectories.coefficients import load_coefficients
 from mrlab_ros.adapters.workspaces import content, worker
 from mrlab_ros.adapters.workspaces.reader import Limits, opened
 from mrlab_ros.adapters.workspaces.results import Task, converted, refused
-from mrlab_ros.commands.convert.one_file import of_trajectory_file
+from mrlab_ros.commands.convert.one_file import of_trajectory_file_here
 from mrlab_ros.core.conversion.convert import ConversionResult, id_from
 from mrlab_ros.core.conversion.options import DEFAULT_FRAME_RATE, Options
 from mrlab_ros.core.conversion.workspace import Workspace
@@ -39,7 +39,7 @@ class Inside:
         self, file: Path, robot: str, end_effector: str, options: Options, library: RobotLibrary
     ) -> ConversionResult:
         """Return what became of a file; a refusal is a result. Raises LabError."""
-        found = of_trajectory_file(file)
+        found = of_trajectory_file_here(file)
         if found is not None:
             return found
         if not robot:

@@ -2,12 +2,17 @@
 
 from __future__ import annotations
 
+import tempfile
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from mrlab_ros.adapters.robots.library import RobotLibrary
 from mrlab_ros.core.conversion.convert import ConversionResult, Outcome
 from mrlab_ros.core.conversion.options import Options
 from mrlab_ros.core.errors import BadInput, Misuse
+
+if TYPE_CHECKING:
+    from mrlab_ros.core.trajectory.trajectory import Trajectory
 
 
 def converted(
@@ -35,12 +40,38 @@ def of_trajectory_file(file: Path) -> ConversionResult | None:
     """Return the trajectory in a file that the lab wrote as JSON, or None: it is another file."""
     if file.suffix.lower() != ".json":
         return None
+    from mrlab_ros.adapters.trajectories import npz_file
+    from mrlab_ros.commands import behind_wall
+
+    with tempfile.TemporaryDirectory(prefix="mrlab-") as folder:
+        stored = Path(folder, "trajectory.npz")
+        behind_wall.run(
+            store, str(file), str(stored), name=file.name, read=[file], write=[Path(folder)]
+        )
+        return _accepted(file, npz_file.read(stored))
+
+
+def store(file: str, stored: str) -> None:
+    """Write the trajectory in a JSON file as numbers, which whoever trusts neither reads."""
+    from mrlab_ros.adapters.trajectories import npz_file
+
+    with Path(stored).open("wb") as target:
+        npz_file.write(_parsed(Path(file)), target)
+
+
+def of_trajectory_file_here(file: Path) -> ConversionResult | None:
+    """Do what of_trajectory_file() does, in a process that is behind the wall already."""
+    return _accepted(file, _parsed(file)) if file.suffix.lower() == ".json" else None
+
+
+def _parsed(file: Path) -> Trajectory:
     from mrlab_ros.adapters.trajectories import json_file
 
     try:
-        trajectory = json_file.parse(file.read_bytes(), file.name)
+        return json_file.parse(file.read_bytes(), file.name)
     except OSError as error:
         raise BadInput(f"{file} cannot be read: {error.strerror}") from None
-    return ConversionResult(
-        file.name, Outcome.ACCEPTED, trajectory, (), tuple(trajectory.warnings)
-    )
+
+
+def _accepted(file: Path, found: Trajectory) -> ConversionResult:
+    return ConversionResult(file.name, Outcome.ACCEPTED, found, (), tuple(found.warnings))
