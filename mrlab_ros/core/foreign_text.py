@@ -34,6 +34,14 @@ def visible_lines(text: str) -> str:
     return BUT_LINES.sub(_written, text)
 
 
+def file_name(path: object) -> str:
+    """Return a path or a name as text; each byte that is no UTF-8 becomes a replacement sign.
+
+    JSON, pages and tables take text only.
+    """
+    return str(path).encode("utf-8", "surrogateescape").decode("utf-8", "replace")
+
+
 def for_html(text: str) -> str:
     """Return a text as the content of an element or a quoted attribute."""
     return html.escape(visible_lines(text))
@@ -53,8 +61,14 @@ def _word(word: str) -> str:
     shown = visible(word)
     if shown == word:
         return shlex.quote(word)
-    quoted = visible(word.replace("\\", "\\\\").replace("'", "\\'"))
+    quoted = ANY.sub(_of_bash, word.replace("\\", "\\\\").replace("'", "\\'"))
     return f"$'{quoted}'"
+
+
+def _of_bash(found: re.Match[str]) -> str:
+    code = ord(found[0])
+    # a byte of a file's name that is no UTF-8
+    return f"\\x{code - 0xDC00:02x}" if 0xDC80 <= code <= 0xDCFF else f"\\U{code:08x}"
 
 
 def _written(found: re.Match[str]) -> str:

@@ -19,6 +19,7 @@ import yaml
 
 from mrlab_ros.core.classroom.exports import ARCHIVE, METADATA, Entry
 from mrlab_ros.core.errors import BadInput
+from mrlab_ros.core.foreign_text import file_name
 
 MiB = 1 << 20
 MOST_FILES = 200_000
@@ -37,6 +38,7 @@ class Export:
         self._archive: zipfile.ZipFile | None = None
         self._members: dict[str, zipfile.ZipInfo] = {}
         self._inner: dict[str, tuple[str, str]] = {}
+        self._places: dict[str, Path] = {}
         if path.is_dir():
             found = list(self._folder())
         elif path.is_file():
@@ -87,7 +89,7 @@ class Export:
         if self._archive is not None:
             return _inflated(self._archive, self._members[path], path)
         try:
-            source = os.open(self.path / path, os.O_RDONLY | os.O_NONBLOCK | os.O_NOFOLLOW)
+            source = os.open(self._places[path], os.O_RDONLY | os.O_NONBLOCK | os.O_NOFOLLOW)
             with os.fdopen(source, "rb") as file:
                 content = file.read(MOST_BYTES + 1)
         except OSError as error:
@@ -100,9 +102,11 @@ class Export:
             folders.sort()
             within = Path(folder).relative_to(self.path)
             for name in [n for n in folders if (Path(folder) / n).is_symlink()]:
-                self.problems.append(((within / name).as_posix(), "a link; it is not followed"))
+                path = file_name((within / name).as_posix())
+                self.problems.append((path, "a link; it is not followed"))
             for name in sorted(files):
-                path = (within / name).as_posix()
+                path = file_name((within / name).as_posix())
+                self._places[path] = Path(folder) / name
                 try:
                     about = os.lstat(Path(folder) / name)
                 except OSError as error:

@@ -79,7 +79,7 @@ def _client(scheme: str) -> Any:
 def _folder(path: Path) -> Any:
     try:
         return LocalStore(private_folder.make(path))
-    except (OSError, BaseError) as error:
+    except (OSError, BaseError, BadInput) as error:
         why = getattr(error, "strerror", None) or _reason(error)
         raise BadInput(
             f"the folder {path} cannot be the store: {why}; choose another with the parameter "

@@ -76,9 +76,10 @@ FACTS = ("note", "columns", "units", "time", "is_object", "label", "text")
 COMPRESSED = {"gzip": 1100, "zstd": 33_000}
 # what a table may look like before its rows are read
 TEXTS = ("a text file", "a file of an unknown kind")
-# modules that readers of seldom files need, and the exit status that asks for the first of them
-SELDOM = ("matio", "rosbags.rosbag2", "rosbags.typesys.stores.ros2_jazzy")
+# packages that readers of seldom files need, and the exit status that asks for the first of them
+SELDOM = ("matio", "rosbags")
 ASKED = 64
+whole: set[str] = set()  # those of SELDOM that this process has imported
 TABLES = (".csv", ".txt", ".tsv", ".lvm")
 NUMBER_BEGINS = tuple(b"%c" % c for c in b"+-.0123456789")
 
@@ -173,8 +174,7 @@ def read(
         mat5.read_mat4(data, sink)
         return "MATLAB v4"
     if form in joint_trajectories.SUFFIXES or name.lower().endswith(".cdr"):
-        for module in SELDOM[1:]:
-            needs(module)
+        needs("rosbags")
     if form in joint_trajectories.SUFFIXES:
         joint_trajectories.read_bag(data, form, sink, limit)
         return "rosbag2"
@@ -215,8 +215,8 @@ def read_again(data: memoryview, numbers: mmap.mmap, places: list[list[Any]]) ->
 
 
 def imported(module: str) -> None:
-    """End this process with the status that asks for a module, unless it is imported already."""
-    if module not in sys.modules:
+    """End this process with the status that asks for a package, unless it is imported already."""
+    if module not in whole:
         os._exit(ASKED + SELDOM.index(module))
 
 
@@ -337,6 +337,15 @@ def forked(do: Callable[[], None]) -> int:
     return os.waitstatus_to_exitcode(os.waitpid(child, 0)[1])
 
 
+def import_whole(package: str) -> None:
+    """Import a package with all its modules: behind the wall none could be opened."""
+    found = importlib.import_module(package)
+    for module in pkgutil.walk_packages(found.__path__, f"{package}."):
+        with contextlib.suppress(ImportError):  # it needs what is not installed
+            importlib.import_module(module.name)
+    whole.add(package)
+
+
 def load_encodings() -> None:
     """Import the encodings of texts in any file, each of which Python imports on its first use."""
     for module in pkgutil.iter_modules(encodings.__path__):
@@ -415,8 +424,8 @@ def answer(connection: socket.socket) -> None:
         if not message:
             return
         status = done(connection, descriptors, json.loads(message))
-        while 0 <= status - ASKED < len(SELDOM) and SELDOM[status - ASKED] not in sys.modules:
-            importlib.import_module(SELDOM[status - ASKED])
+        while 0 <= status - ASKED < len(SELDOM) and SELDOM[status - ASKED] not in whole:
+            import_whole(SELDOM[status - ASKED])
             status = done(connection, descriptors, json.loads(message))
         for descriptor in descriptors:
             os.close(descriptor)

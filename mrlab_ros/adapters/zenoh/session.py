@@ -7,7 +7,7 @@ from collections import deque
 from collections.abc import Callable, Mapping
 from concurrent.futures import ThreadPoolExecutor
 from functools import partial
-from threading import Semaphore
+from threading import Lock, Semaphore
 from typing import Any
 
 import zenoh
@@ -149,6 +149,8 @@ class _Publisher:
             priority=PRIORITY[rule.priority - 1],
             express=rule.express,
         )
+        # zenoh's object is borrowed by each call, and cannot be undeclared meanwhile.
+        self._use = Lock()
         self._listener: Declared | None = None
         if on_match is not None:
 
@@ -160,12 +162,14 @@ class _Publisher:
             )
 
     def put(self, payload: bytes, attachment: bytes) -> None:
-        self._publisher.put(payload, attachment=attachment)
+        with self._use:
+            self._publisher.put(payload, attachment=attachment)
 
     def has_subscriber(self) -> bool:
         try:
-            # Its annotation says bool, but it is an object that is always true.
-            status: Any = self._publisher.matching_status
+            with self._use:
+                # Its annotation says bool, but it is an object that is always true.
+                status: Any = self._publisher.matching_status
         except zenoh.ZError:  # undeclared meanwhile
             return False
         return bool(status.matching)
@@ -173,7 +177,8 @@ class _Publisher:
     def undeclare(self) -> None:
         if self._listener is not None:
             self._listener.undeclare()
-        self._publisher.undeclare()
+        with self._use:
+            self._publisher.undeclare()
 
 
 class _LatchedPublisher:
@@ -189,6 +194,7 @@ class _LatchedPublisher:
         self._key = key
         self._kept: deque[tuple[bytes, bytes, zenoh.Timestamp]] = deque(maxlen=cache)
         self._now = session.new_timestamp
+        self._use = Lock()
         # An advanced publisher does not report whether it has subscribers; this plain one does.
         self._probe = _Publisher(session, key, rule)
         self._publisher = ext.declare_advanced_publisher(
@@ -209,7 +215,8 @@ class _LatchedPublisher:
     def put(self, payload: bytes, attachment: bytes) -> None:
         stamp = self._now()
         self._kept.append((payload, attachment, stamp))
-        self._publisher.put(payload, attachment=attachment, timestamp=stamp)
+        with self._use:
+            self._publisher.put(payload, attachment=attachment, timestamp=stamp)
 
     def has_subscriber(self) -> bool:
         return self._probe.has_subscriber()
@@ -223,7 +230,8 @@ class _LatchedPublisher:
 
     def undeclare(self) -> None:
         self._queryable.undeclare()
-        self._publisher.undeclare()
+        with self._use:
+            self._publisher.undeclare()
         self._probe.undeclare()
 
 

@@ -23,6 +23,7 @@ from mrlab_ros.core.conversion.convert import ConversionResult, Outcome
 from mrlab_ros.core.conversion.options import Options
 from mrlab_ros.core.diagnostics import Diagnostic, Severity
 from mrlab_ros.core.errors import BadInput, Misuse
+from mrlab_ros.core.foreign_text import file_name
 from mrlab_ros.core.geometry import Pose, Vector
 from mrlab_ros.core.rubrics.checked import Checked, Motion
 from mrlab_ros.core.scene.document import RobotEntry, SceneDocument
@@ -91,7 +92,7 @@ def check_file(file: Path, setting: Setting) -> CheckedFile:
     if t is not None:
         entry = entry_of(setting, t.robot_model, t.end_effector or "")
         if t.robot_model != entry.model:
-            result, t = _of_another_robot(t, file.name, entry.model), None
+            result, t = _of_another_robot(t, file_name(file.name), entry.model), None
     robots = tuple(
         stage.robot(e.name, e.model, e.end_effector, e.pose)
         for e in (entry, *(r for r in scene.robots if r.name != entry.name))
@@ -137,7 +138,9 @@ def _converted(file: Path, entry: RobotEntry, setting: Setting) -> ConversionRes
     except BadInput as error:
         if file.suffix.lower() != ".json" or not file.is_file():
             raise
-        return _refused(file.name, Diagnostic("unreadable", Severity.ERROR, f"{error}."))
+        return _refused(
+            file_name(file.name), Diagnostic("unreadable", Severity.ERROR, f"{error}.")
+        )
 
 
 def _of_another_robot(t: Trajectory, file: str, model: str) -> ConversionResult:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import contextlib
-import importlib
 from pathlib import Path
 
 from mrlab_ros.adapters.robots.library import RobotLibrary
@@ -31,7 +30,7 @@ class Inside:
         worker.load_encodings()
         for module in worker.SELDOM:
             with contextlib.suppress(ImportError):  # mat-io is not there for every Python
-                importlib.import_module(module)
+                worker.import_whole(module)
         path = share.directory() / "config" / "torque_proxy.yaml"
         self._coefficients = load_coefficients(path)
 

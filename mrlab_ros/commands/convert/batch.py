@@ -46,6 +46,7 @@ from mrlab_ros.core.conversion.convert import (
 from mrlab_ros.core.conversion.options import DEFAULT_FRAME_RATE, Options
 from mrlab_ros.core.diagnostics import Refused
 from mrlab_ros.core.errors import BadInput, LabError, Misuse
+from mrlab_ros.core.foreign_text import file_name
 from mrlab_ros.core.robots.model import RobotModel
 from mrlab_ros.ros import share
 
@@ -161,7 +162,7 @@ def run(request: Request) -> int:
 def _say(source: Input, result: ConversionResult, written: Path | None, request: Request) -> None:
     """Print what became of a file."""
     if request.as_json:
-        line = orjson.dumps(report.record(source.given, result, written))
+        line = orjson.dumps(report.record(file_name(source.given), result, written))
         print(line.decode(), flush=True)
         return
     words = convert_words(source.given, request.robot, request.end_effector)
@@ -209,18 +210,19 @@ def convert_files(wanted: Sequence[Wanted]) -> list[ConversionResult]:
             raise BadInput(
                 f"there is no file {path}; check the folder and the name{like_file(path)}"
             )
-        inputs.append(Input(str(path), path.name, path.name, partial(opened, path)))
+        name = file_name(path.name)
+        inputs.append(_input(path))
         tasks.append(
             Task(
-                file=path.name,
+                file=name,
                 options=each.options,
                 robot=each.robot,
                 coefficients=coefficients,
                 end_effector=each.end_effector,
-                trajectory_id=id_from(path.name),
+                trajectory_id=id_from(name),
                 created_ns=time.time_ns(),
                 default_frame_rate=DEFAULT_FRAME_RATE,
-                read_as=path.name,
+                read_as=name,
             )
         )
     return [result for _, _, result in _converted(inputs, tasks, Limits())]
@@ -319,15 +321,17 @@ def _inputs(request: Request) -> list[Input]:
     if bool(request.files) is bool(request.topic):
         raise Misuse("expected files or --topic, one of them: mrlab convert run.mat --robot ur5e")
     if not request.topic:
-        return [
-            Input(str(path), path.name, path.name, partial(opened, path))
-            for path in _files(request.files)
-        ]
+        return [_input(path) for path in _files(request.files)]
     from mrlab_ros.commands.convert.topic import receive  # rclpy, which files do not need
 
     message = receive(request.topic, request.timeout)
     read_as = f"{request.topic}.cdr"
     return [Input(request.topic, request.topic, read_as, partial(in_memory, message))]
+
+
+def _input(path: Path) -> Input:
+    name = file_name(path.name)
+    return Input(str(path), name, name, partial(opened, path))
 
 
 def _files(given: Iterable[Path]) -> list[Path]:

@@ -10,6 +10,7 @@ from mrlab_ros.adapters.robots.library import RobotLibrary
 from mrlab_ros.core.conversion.convert import ConversionResult, Outcome
 from mrlab_ros.core.conversion.options import Options
 from mrlab_ros.core.errors import BadInput, Misuse
+from mrlab_ros.core.foreign_text import file_name
 
 if TYPE_CHECKING:
     from mrlab_ros.core.trajectory.trajectory import Trajectory
@@ -68,10 +69,12 @@ def _parsed(file: Path) -> Trajectory:
     from mrlab_ros.adapters.trajectories import json_file
 
     try:
-        return json_file.parse(file.read_bytes(), file.name)
+        return json_file.parse(file.read_bytes(), file_name(file.name))
     except OSError as error:
         raise BadInput(f"{file} cannot be read: {error.strerror}") from None
 
 
 def _accepted(file: Path, found: Trajectory) -> ConversionResult:
-    return ConversionResult(file.name, Outcome.ACCEPTED, found, (), tuple(found.warnings))
+    return ConversionResult(
+        file_name(file.name), Outcome.ACCEPTED, found, (), tuple(found.warnings)
+    )

@@ -111,6 +111,20 @@ def test_every_file_of_a_batch_is_reported(folder: Path) -> None:
     assert not ACTS.search(out + err)
 
 
+def test_a_name_that_is_no_text_is_converted_and_reported(folder: Path, tmp_path: Path) -> None:
+    content = (folder / "mats" / "one.mat").read_bytes()
+    (tmp_path / os.fsdecode(b"\xff\xfe.mat")).write_bytes(content)
+    out, _, code = mrlab(tmp_path, "convert", ".", "--robot", "ur5e", "--json", colours=False)
+    assert code == 0
+    assert json.loads(out)["file"] == "\N{REPLACEMENT CHARACTER}" * 2 + ".mat"
+    submissions = tmp_path / "class"
+    (submissions / os.fsdecode(b"\xff")).mkdir(parents=True)
+    (submissions / os.fsdecode(b"\xff") / os.fsdecode(b"\xfe.mat")).write_bytes(content)
+    words = ["class", "class", "--rubric", str(RUBRIC), "--out", "marks", "--jobs", "1"]
+    assert mrlab(tmp_path, *words, colours=False)[2] == 0
+    assert "\N{REPLACEMENT CHARACTER}" in (tmp_path / "marks" / "grades.csv").read_text()
+
+
 def test_the_page_shows_names_as_text(folder: Path) -> None:
     words = ["show", "mats/table.csv", "--robot", "ur5e", "--out", "table.html", "--no-open"]
     mrlab(folder, *words, colours=False)

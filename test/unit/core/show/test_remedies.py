@@ -7,7 +7,7 @@ from string import Formatter
 
 import pytest
 
-from mrlab_ros.core.diagnostics import KINDS
+from mrlab_ros.core.diagnostics import KINDS, _Said
 from mrlab_ros.core.show.remedies import for_page
 
 # What is filled into the remedies, with a part of a matrix as the hardest.
@@ -18,7 +18,7 @@ class Filled(Formatter):
     """Fills in a word for whatever a text names."""
 
     def get_value(self, key, args, kwargs):
-        return WORDS.get(key, 6)
+        return _Said(WORDS[key]) if key in WORDS else 6
 
 
 # What the table says of robots is read at a terminal.
