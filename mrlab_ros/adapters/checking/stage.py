@@ -26,7 +26,6 @@ from mrlab_ros.core.geometry import Pose, compose
 from mrlab_ros.core.physics import catalogue
 from mrlab_ros.core.physics.catalogue import Catalogue, ObjectType
 from mrlab_ros.core.physics.engine import Engine
-from mrlab_ros.core.physics.grasp import Gripper
 from mrlab_ros.core.physics.settings import Settings
 from mrlab_ros.core.physics.world import World
 from mrlab_ros.core.scene import document as scene_document
@@ -176,17 +175,10 @@ class Stage:
             self.library.description(model, tool or None),
             robot.model.joint_names,
             robot.pose,
-            self._gripper(tool),
+            self.library.gripper(tool),
             self.library.never_touch(model),
             self.library.hand_facts(model, tool),
         )
-
-    def _gripper(self, end_effector: str) -> Gripper:
-        """Return how a robot holds; without an end effector, by the fingers of its own, if any."""
-        if not end_effector:
-            return Gripper.FINGERS
-        kind = str(self.library.end_effector_facts(end_effector).get("class", ""))
-        return Gripper.VACUUM if "vacuum" in kind else Gripper.FINGERS
 
 
 def first_link(robot: CheckedRobot) -> str:

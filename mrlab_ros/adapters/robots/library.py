@@ -15,6 +15,7 @@ from mrlab_ros.adapters.robots.places import imported_folder
 from mrlab_ros.adapters.yaml_files import read_yaml
 from mrlab_ros.core.errors import BadInput
 from mrlab_ros.core.naming import did_you_mean
+from mrlab_ros.core.physics.grasp import Gripper
 from mrlab_ros.core.physics.grasp_load import Tool
 from mrlab_ros.core.robots.model import RobotModel
 
@@ -101,6 +102,22 @@ class RobotLibrary:
     def end_effector_facts(self, end_effector: str) -> dict[str, Any]:
         """Return the content of end_effector.yaml."""
         return read_yaml(self._end_effector_folder(end_effector) / "end_effector.yaml")
+
+    def gripper(self, end_effector: str) -> Gripper:
+        """Return how an end effector holds; empty: the fingers of the robot's own, if any.
+
+        Raises BadInput for an unknown id, and where its file does not say a way that there is.
+        """
+        if not end_effector:
+            return Gripper.FINGERS
+        said = self.end_effector_facts(end_effector).get("gripper")
+        ways = [way.value for way in Gripper]
+        if said not in ways:
+            raise BadInput(
+                f"{END_EFFECTORS}/{end_effector}/end_effector.yaml: gripper is {said!r}; expected "
+                f"one of {', '.join(ways)}"
+            )
+        return Gripper(said)
 
     def hand_facts(self, robot_id: str, end_effector: str) -> Tool:
         """Return what is stated of a robot's hand; raise BadInput for an unknown id."""

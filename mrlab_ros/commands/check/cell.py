@@ -24,6 +24,7 @@ from mrlab_ros.core.conversion.convert import ConversionResult
 from mrlab_ros.core.conversion.options import Options
 from mrlab_ros.core.errors import BadInput, Misuse
 from mrlab_ros.core.foreign_text import for_shell
+from mrlab_ros.core.physics.engine import Kind
 from mrlab_ros.core.scene import document as scene_document
 from mrlab_ros.core.scene.document import SceneDocument
 from mrlab_ros.core.systems.cell_file import MemberEntry, SystemEntry
@@ -281,12 +282,9 @@ def _later(found: Finding, start: float) -> Finding:
 
 def _is_first(found: Finding, pairs: list[Pair]) -> bool:
     """Return whether a finding is of the first conflict of two robots."""
-    if not pairs or pairs[0].conflict is None or found.code not in ("collision", "close"):
+    if not pairs or pairs[0].conflict is None or found.kind != Kind.ROBOT.name.lower():
         return False
-    first = pairs[0]
-    return (found.robot == first.robot and first.other in found.message) or (
-        found.robot == first.other and first.robot in found.message
-    )
+    return {found.robot, found.other} == {pairs[0].robot, pairs[0].other}
 
 
 def wait_words(delay: Delay | None, pairs: list[Pair]) -> str:

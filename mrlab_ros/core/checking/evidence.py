@@ -75,6 +75,7 @@ def of_collisions(recorded: Rehearsed) -> list[Finding]:
                 f"{who} touches {what} at {place} m.",
                 _remedy(one.kind, one.time, one.other),
                 one.robot, one.link, one.time, one.end, depth, 0.0, "m",
+                one.kind.name.lower(), one.other,
             )
         )  # fmt: skip
     for robot, surfaces in recorded.begins_inside.items():
@@ -156,6 +157,7 @@ def of_distances(recorded: Rehearsed, closest: float = CLOSE) -> list[Finding]:
                 f"{thing(one.kind, one.other, one.other_link)}.",
                 "Keep more distance: a real cell is measured less exactly than this one.",
                 one.robot, one.link, one.time, None, one.distance, closest, "m",
+                one.kind.name.lower(), one.other,
             )
         )  # fmt: skip
     return found

@@ -13,8 +13,9 @@ from mrlab_ros.core.diagnostics import Diagnostic, Severity
 class Finding:
     """One finding. time, end: s from the first frame, None where it has no instant.
 
-    link: the robot's link or joint, empty where none is meant. value and limit in `unit`. An ERROR
-    refuses the motion, a WARNING does not.
+    link: the robot's link or joint, empty where none is meant. value and limit in `unit`. kind,
+    other: what the robot meets, by engine.Kind's name, such as robot or object, and its name;
+    empty where it meets nothing. An ERROR refuses the motion, a WARNING does not.
     """
 
     code: str
@@ -28,6 +29,8 @@ class Finding:
     value: float | None = None
     limit: float | None = None
     unit: str = ""
+    kind: str = ""
+    other: str = ""
 
     @property
     def refuses(self) -> bool:

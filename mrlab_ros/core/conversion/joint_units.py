@@ -27,6 +27,7 @@ def in_radians(
     """Apply the options that change values; raise Refused where a unit has to be named first."""
     path, name = assessment.path, matlab_name(assessment.path)
     unit, factor = options.factor()
+    doubted = any(n.code == "doubtful_values" and n.variable == path for n in notes)
     if unit == "mm":
         arm = _in_metres(arm, robot, options)
         notes.append(finding("option_applied", variable=path, what=f"'{path}' was taken as mm"))
@@ -42,7 +43,7 @@ def in_radians(
                 notes.append(finding("doubtful_values", variable=path, why=why))
         if assessment.poses.strong and unit != "rad":
             why = f"it looks like poses of the tool: {assessment.poses.strong}"
-            if not any(why in n.message for n in notes):
+            if not doubted:
                 notes.append(finding("doubtful_values", variable=path, why=why))
         if factor != 1.0:
             arm *= factor

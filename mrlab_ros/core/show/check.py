@@ -281,13 +281,13 @@ def _distances(
         at = series.least()
         values = np.array(series.values) * 1e3
         values[[not link for link in series.links]] = np.nan
-        touching = [f for f in findings if f.code in ("collision", "close") and other in f.message]
+        met = (robot, kind.name.lower(), other)
         who = series.held[at] or series.links[at]
         name = f"{who} to {thing(kind, other, series.other_links[at])}"
         marks = tuple(
             Mark(n, f.severity.name.lower(), f.time, f.end if f.end is not None else f.time)
             for n, f in enumerate(findings, 1)
-            if f in touching and f.robot == robot and f.time is not None
+            if (f.robot, f.kind, f.other) == met and f.time is not None
         )
         title = f"{robot}: {name}" if several else name
         strip = Strip(title, "mm", values, (0.0, None), marks=marks)

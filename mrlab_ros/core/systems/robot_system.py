@@ -144,19 +144,20 @@ class RobotSystem:
         """Bring every member to its place, then play; return how long the staging takes, s."""
         return self._stage(now_ns, SystemEvent.STAGE)
 
-    def pause(self, now_ns: int) -> None:
-        """Let all members stand where they are; play goes on from there.
+    def pause(self, now_ns: int) -> str:
+        """Pause all members; play continues from there.
 
-        One that does not answer is lost until it does; the message names it.
+        Returns which one does not answer, a sentence, or an empty text. It is lost until it does.
         """
         self._machine.check(SystemEvent.PAUSE)
         lost = ""
         try:
             self._freeze(now_ns)
         except Unreached:
-            lost = f"; {self.message}"
+            lost = self.message
         self._machine.fire(SystemEvent.PAUSE)
-        self.message = f"paused{lost}"
+        self.message = f"paused; {lost}" if lost else "paused"
+        return lost
 
     def stop(self, now_ns: int) -> None:
         """End the run; the next play begins at the start of the timeline.

@@ -196,9 +196,9 @@ class CoordinatorNode(ParameterNode[CoordinatorParameters]):
         return f"stages for {staging:.1f} s, then plays" if staging else "plays"
 
     def _pause(self, system: RobotSystem, request: Any) -> str:
-        system.pause(self._now_ns())
-        lost = system.message.removeprefix("paused")
-        return f"paused at {system.clock.position:.3f} s{lost}"
+        lost = system.pause(self._now_ns())
+        said = f"paused at {system.clock.position:.3f} s"
+        return f"{said}; {lost}" if lost else said
 
     def _stop(self, system: RobotSystem, request: Any) -> str:
         system.stop(self._now_ns())

@@ -15,8 +15,6 @@ from rclpy.subscription import Subscription
 from sensor_msgs.msg import JointState
 from std_msgs.msg import String
 
-from mrlab_ros.adapters.robots.library import END_EFFECTORS
-from mrlab_ros.adapters.yaml_files import read_yaml
 from mrlab_ros.core.clock import SECOND
 from mrlab_ros.core.errors import LabError
 from mrlab_ros.core.identity import Identity
@@ -30,7 +28,6 @@ from mrlab_ros.messages import joint_states, qos
 from mrlab_ros.messages import physics as messages
 from mrlab_ros.messages.poses import pose_from_message
 from mrlab_ros.nodes.physics.publishers import WorldPublishers
-from mrlab_ros.ros import share
 from mrlab_ros.ros.raw_streams import WaitSetThread
 
 
@@ -68,6 +65,7 @@ class GraphListener:
         lock: threading.Lock,
         turn: Callable[[], int],
         never_touch: Callable[[str], LinkPairs],
+        gripper: Callable[[str], Gripper],
         tool: Callable[[str, str], Tool],
         lab: str,
         follow_clock: Callable[[], int],
@@ -75,7 +73,7 @@ class GraphListener:
         self._world = world
         self._follow_clock = follow_clock
         self._never_touch = never_touch
-        self._tool = tool
+        self._gripper, self._tool = gripper, tool
         self._publishers = publishers
         self._lock = lock
         self._log = node.get_logger()
@@ -199,7 +197,7 @@ class GraphListener:
                     known.description,
                     tuple(known.robot.joint_names),
                     pose_from_message(known.robot.pose),
-                    _gripper(known.robot.end_effector),
+                    self._gripper(known.robot.end_effector),
                     self._never_touch(known.robot.model),
                     self._tool(known.robot.model, known.robot.end_effector),
                     reason if now_ns - since_ns < SECOND else "",
@@ -239,12 +237,3 @@ class GraphListener:
 
 def _unused(message: Any) -> None:
     """Required by rclpy; the messages are taken by the thread instead."""
-
-
-def _gripper(end_effector: str) -> Gripper:
-    """Return how a robot holds; without an end effector, by the fingers of its own, if any."""
-    if not end_effector:
-        return Gripper.FINGERS
-    path = share.directory() / "robots" / END_EFFECTORS / end_effector / "end_effector.yaml"
-    kind = str(read_yaml(path).get("class", ""))
-    return Gripper.VACUUM if "vacuum" in kind else Gripper.FINGERS

@@ -103,6 +103,7 @@ class PhysicsNode(ParameterNode[PhysicsParameters]):
             self._lock,
             self._turn,
             library.never_touch,
+            library.gripper,
             library.hand_facts,
             self.parameters.lab_id,
             self._follow_clock,

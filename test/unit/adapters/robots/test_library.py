@@ -85,3 +85,18 @@ def test_unknown_ids_are_answered_with_the_known_ones() -> None:
         LIBRARY.description("ur5e", "hook")
     with pytest.raises(BadInput, match=r"bare flange; did you mean 'vacuum_cup'\?"):
         LIBRARY.description("ur5e", "vacuum-cups")
+
+
+def test_how_an_end_effector_holds_is_stated_in_its_file(tmp_path: Path) -> None:
+    held = {tool: LIBRARY.gripper(tool).value for tool in LIBRARY.end_effectors()}
+    assert held == {
+        "centric_gripper": "fingers",
+        "parallel_gripper": "fingers",
+        "vacuum_cup": "vacuum",
+    }
+    folder = tmp_path / "end_effectors" / "magnet"
+    folder.mkdir(parents=True)
+    for said in ("", "gripper: magnet\n"):
+        (folder / "end_effector.yaml").write_text(f"id: magnet\nclass: vacuum magnet\n{said}")
+        with pytest.raises(BadInput, match="expected one of none, fingers, vacuum"):
+            RobotLibrary(tmp_path, tmp_path).gripper("magnet")
