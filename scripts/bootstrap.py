@@ -153,9 +153,10 @@ class Setup:
         self.venv_python = VENV / "bin" / "python"
         self.site = VENV / "lib" / ("python" + self.python["version"]) / "site-packages"
 
-    def step(self, name, mark, action, says):
+    def step(self, name, mark, action, says, made=ROOT):
+        """Do a step unless its stamp has this mark and `made`, what it makes, is there."""
         stamp = STAMPS / name
-        if stamp.exists() and stamp.read_text() == mark:
+        if stamp.exists() and stamp.read_text() == mark and made.exists():
             return
         say(says)
         begin = time.monotonic()
@@ -201,6 +202,7 @@ class Setup:
             fingerprint(locks[0], web / "package-lock.json", *python),
             self.web_packages,
             "installing what builds the pages (200 MB)",
+            web / "node_modules",
         )
         sources = [web / "index.html", *sorted(web.glob("*.*s*")), *sorted(web.glob("src/**/*.*"))]
         self.step(
@@ -208,6 +210,7 @@ class Setup:
             fingerprint(web / "package-lock.json", *filter(Path.is_file, sources), *python),
             self.pages,
             "building the pages",
+            web / "dist" / "index.html",
         )
         self.step(
             "package",
