@@ -13,8 +13,10 @@ import os
 import signal
 import subprocess
 import sys
+import tempfile
 import time
 from collections.abc import Callable, Iterator
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -25,8 +27,9 @@ from rclpy.node import Node
 from std_srvs.srv import Trigger
 
 from mrlab_ros.adapters.robots.library import RobotLibrary
+from mrlab_ros.adapters.trajectories import npz_file
 from mrlab_ros.core.trajectory.trajectory import Channels, Source, Trajectory
-from mrlab_ros.messages import qos, trajectories
+from mrlab_ros.messages import qos
 from mrlab_ros.nodes.playback.host import PlaybackHostNode
 from mrlab_ros.ros import share
 from mrlab_ros.ros.spinning import SpunNode
@@ -48,21 +51,15 @@ def motion() -> Trajectory:
 
 
 class Bench(Node):
-    """Answers for the converter, spawns robots, commands the system, notes who sent when."""
+    """Spawns robots, commands the system, notes who sent when."""
 
     def __init__(self) -> None:
-        super().__init__("converter")
-        self._motion = trajectories.trajectory_to_message(motion())
-        self.create_service(srv.GetTrajectory, "~/get", self._get)
+        super().__init__("bench")
         self.systems: list[Any] = []
         self._asked: dict[str, Any] = {}
         self.create_subscription(
             msg.RobotSystems, "/systems", self.systems.append, qos.LATCHED_EVENTS
         )
-
-    def _get(self, request: Any, response: Any) -> Any:
-        response.success, response.trajectory = True, self._motion
-        return response
 
     def ask(self, kind: Any, service: str, /, **fields: Any) -> Any:
         client = self._asked.get(service)
@@ -92,19 +89,25 @@ def wait(condition: Callable[[], Any], what: str, timeout: float = 60.0) -> None
 
 @contextlib.contextmanager
 def lab() -> Iterator[None]:
-    """Run the lab and the coordinator in a process of their own."""
-    process = subprocess.Popen(
-        [sys.executable, "-m", "mrlab_ros.processes.host", "lab", "coordinator"],
-        stdout=subprocess.DEVNULL,
-        stderr=subprocess.DEVNULL,
-    )
-    try:
-        yield
-    finally:
-        process.send_signal(signal.SIGINT)
-        with contextlib.suppress(subprocess.TimeoutExpired):
-            process.wait(5)
-        process.kill()
+    """Run converter, lab and coordinator in a process of their own, with the motion in them."""
+    with tempfile.TemporaryDirectory() as folder:
+        kept = Path(folder, "trajectories")
+        kept.mkdir()
+        with (kept / "sine.npz").open("wb") as file:
+            npz_file.write(motion(), file)
+        nodes = ("converter", "lab", "coordinator", "--ros-args", "-p", f"state_dir:={folder}")
+        process = subprocess.Popen(
+            [sys.executable, "-m", "mrlab_ros.processes.host", *nodes],
+            stdout=subprocess.DEVNULL,
+            stderr=subprocess.DEVNULL,
+        )
+        try:
+            yield
+        finally:
+            process.send_signal(signal.SIGINT)
+            with contextlib.suppress(subprocess.TimeoutExpired):
+                process.wait(5)
+            process.kill()
 
 
 def measure(members: int, rounds: int) -> dict[str, Any]:

@@ -25,6 +25,9 @@ import report
 
 DOMAIN = "144"
 BASELINES = ("executor, rosbags", "executor, mcap")
+OF_THE_LAB = ("/rosout", "/recorder/state", "/diagnostics")  # what the recorder says itself
+SETTLED_S = 30.0  # a bag that grows for longer than that after the last message is broken
+OWN_BYTES = 20_000  # that the recorder writes of itself meanwhile
 URDF = "<robot>" + "<link/>" * 1000 + "</robot>"
 
 
@@ -220,10 +223,12 @@ def measure(writer: str, robots: int, seconds: float, folder: Path) -> dict[str,
 
 
 def settled(bag: Path) -> None:
-    """Wait until the bag grows no more."""
-    last = -1
-    while (size := sum(f.stat().st_size for f in bag.glob("*.mcap"))) != last:
+    """Wait until the bag grows no more; the recorder's own state is a message a second."""
+    last, end = -1, time.monotonic() + SETTLED_S
+    while (size := sum(f.stat().st_size for f in bag.glob("*.mcap"))) - last > OWN_BYTES:
         last = size
+        if time.monotonic() > end:
+            raise SystemExit(f"{bag} still grows after {SETTLED_S:g} s: {size} bytes")
         time.sleep(1.5)
 
 
@@ -232,7 +237,7 @@ def counted(bag: Path) -> tuple[int, int]:
     from mrlab_ros.adapters.bags.reader import Bag
 
     found = Bag(bag)
-    mine = [t.messages for n, t in found.topics.items() if n not in ("/rosout", "/recorder/state")]
+    mine = [t.messages for n, t in found.topics.items() if n not in OF_THE_LAB]
     return sum(mine), found.size
 
 

@@ -20,8 +20,10 @@ import zenoh
 from mrlab_msgs import msg, srv
 from safety import Bench, motion
 from std_srvs.srv import SetBool, Trigger
+from tf2_msgs.msg import TFMessage
 
 from mrlab_ros.adapters.trajectories.npz_file import write
+from mrlab_ros.messages import qos
 from mrlab_ros.processes.lab import lab_processes, parameter_file
 from mrlab_ros.processes.options import LabOptions, new_lab_id
 from mrlab_ros.processes.supervisor import Supervisor
@@ -43,6 +45,11 @@ class Commands:
     def __init__(self, bench: Bench, endpoint: str) -> None:
         self._bench, self._endpoint = bench, endpoint
         self.said = ""
+        self._transforms = 0
+        bench.node.create_subscription(TFMessage, "/tf", self._on_transforms, qos.STREAM)
+
+    def _on_transforms(self, _: TFMessage) -> None:
+        self._transforms += 1
 
     def _ask(self, kind: Any, service: str, **fields: Any) -> Any:
         try:
@@ -79,6 +86,11 @@ class Commands:
 
     def physics(self) -> bool:
         return self._works(srv.SpawnObject, "/physics/spawn_object", type="cube", automatic=True)
+
+    def frames(self) -> bool:
+        before = self._transforms
+        time.sleep(0.1)
+        return self._transforms > before
 
     def bridge(self) -> bool:
         config = zenoh.Config()
