@@ -36,6 +36,7 @@ from mrlab_ros.adapters.workspaces.reader import (
 from mrlab_ros.adapters.workspaces.results import Converted, Task, refused
 from mrlab_ros.core.diagnostics import Refused, finding
 from mrlab_ros.core.errors import BadInput, LabError
+from mrlab_ros.core.foreign_text import visible
 from mrlab_ros.core.naming import did_you_mean
 from mrlab_ros.core.trajectory.names import checked_id
 from mrlab_ros.core.trajectory.record import head_of
@@ -276,10 +277,10 @@ class ConverterNode(ParameterNode[ConverterParameters]):
             response.preview = trajectories.preview_to_message(result.preview)
         response.diagnostics = [trajectories.diagnostic_to_message(d) for d in result.diagnostics]
         if head is None:
-            self.get_logger().info(f"refused: {converted.message}")
+            self.get_logger().info(f"refused: {visible(converted.message)}")
             return
         response.trajectory = info_from_head(head)
-        self.get_logger().info(converted.message)
+        self.get_logger().info(visible(converted.message))
 
 
 def _size(path: str) -> int:

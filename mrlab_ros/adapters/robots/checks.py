@@ -12,6 +12,7 @@ from mrlab_ros.adapters.robots import mesh_files, urdf
 from mrlab_ros.adapters.robots.mesh_files import Look
 from mrlab_ros.core.diagnostics import Diagnostic, Severity, finding
 from mrlab_ros.core.errors import BadInput
+from mrlab_ros.core.foreign_text import for_table, visible
 
 MOST_JOINTS = 16
 MOST_LINKS = 300
@@ -118,6 +119,12 @@ def check_tree(root: ET.Element, origin: str) -> tuple[Diagnostic, ...]:
     """
     joints = urdf.joints(root, origin)
     links = [str(element.get("name")) for element in root.iterfind("link")]
+    for name in (*links, *(joint.name for joint in joints)):
+        if not name.isprintable() or for_table(name) != name:
+            raise BadInput(
+                f"{origin}: a link or a joint is named '{visible(name)}'; expected printable "
+                "characters, and none of = + - @ at the beginning"
+            )
     if len(links) > MOST_LINKS:
         raise BadInput(f"{origin} has {len(links)} links; expected {MOST_LINKS} at most")
     _once([joint.name for joint in joints], f"{origin}: two joints are named")

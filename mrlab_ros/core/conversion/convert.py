@@ -36,6 +36,7 @@ from mrlab_ros.core.conversion.stated import with_headings, with_statements
 from mrlab_ros.core.conversion.survey import Survey, survey
 from mrlab_ros.core.conversion.workspace import Variable, Workspace
 from mrlab_ros.core.diagnostics import MATLAB_PATH, Diagnostic, Fix, Refused, Severity, finding
+from mrlab_ros.core.foreign_text import visible
 from mrlab_ros.core.robots.model import RobotModel
 from mrlab_ros.core.trajectory import channels
 from mrlab_ros.core.trajectory.channels import ProxyCoefficients
@@ -76,8 +77,9 @@ class ConversionResult:
         """Return one sentence for a person."""
         if self.trajectory is not None:
             t, warned = self.trajectory, len(self.trajectory.warnings)
+            variable, file = visible(t.source.variable), visible(self.file)
             return (
-                f"'{t.source.variable}' of '{self.file}' was taken: {t.frame_count} frames at "
+                f"'{variable}' of '{file}' was taken: {t.frame_count} frames at "
                 f"{t.frame_rate:g} Hz, {t.duration:.2f} s"
                 + (f", with {limits.counted(warned, 'warning')}" if warned else "")
             )

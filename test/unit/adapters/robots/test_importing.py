@@ -117,6 +117,8 @@ def test_what_is_wrong_is_found(arm: Path, old: str, new: str, code: str) -> Non
         ('<mesh filename="package://arm/box.stl"/>', "<mesh/>", "a <mesh> has no filename"),
         ('<link name="upper"/>', "<link/>", "a <link> has no name"),
         ("<link", "<!DOCTYPE robot><link", "declares a document type"),
+        ('link name="upper"', 'link name="=1+1"', "is named '=1.1'; expected printable"),
+        ('joint name="one"', 'joint name="a&#10;b"', "is named"),
     ],
 )
 def test_numbers_and_shapes_are_checked(arm: Path, old: str, new: str, says: str) -> None:
