@@ -38,21 +38,28 @@ def inflate_zstd(data: bytes | memoryview, limit: int) -> bytearray | None:
     return inflated
 
 
-def inflate_file(source: Path, target: BinaryIO) -> None:
-    """Write what a gzip or Zstandard file holds into `target`; raise Incomplete or OSError."""
+def inflate_file(source: Path, target: BinaryIO, limit: int) -> None:
+    """Write what a gzip or Zstandard file holds into `target`.
+
+    Raises Incomplete, also where it is more than `limit` bytes, and OSError.
+    """
     with open(source, "rb") as file:
         compressed = file.read(len(ZSTD))
         file.seek(0)
-        if compressed == ZSTD:
-            for block in _frames(iter(lambda: file.read(PIECE), b"")):
-                target.write(block)
-            return
-        try:
-            with gzip.open(file) as plain:
-                while block := plain.read(BLOCK):
-                    target.write(block)
-        except (EOFError, zlib.error, gzip.BadGzipFile) as error:
-            raise Incomplete(str(error)) from None
+        blocks = _frames(iter(lambda: file.read(PIECE), b""))
+        for block in blocks if compressed == ZSTD else _of_gzip(file):
+            if target.tell() + len(block) > limit:
+                raise Incomplete(f"it inflates to more than {limit / 2**30:.3g} GiB")
+            target.write(block)
+
+
+def _of_gzip(file: BinaryIO) -> Iterator[bytes]:
+    try:
+        with gzip.open(file) as plain:
+            while block := plain.read(BLOCK):
+                yield block
+    except (EOFError, zlib.error, gzip.BadGzipFile) as error:
+        raise Incomplete(str(error)) from None
 
 
 def _frames(pieces: Iterator[bytes | memoryview]) -> Iterator[bytes]:

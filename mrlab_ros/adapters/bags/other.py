@@ -37,6 +37,8 @@ from mrlab_ros.core.recording.metadata import (
 SQLITE = b"SQLi"
 ENDINGS = {b"\x89MCA": ".mcap", SQLITE: ".db3"}
 # Of one message that is compressed by itself.
+# A file that is compressed as a whole may hold so many bytes, and so many for each of its own.
+INFLATED, RATIO = 1 << 30, 100
 MOST_BYTES = 1 << 30
 # Messages of one batch.
 BATCH = 500
@@ -228,7 +230,7 @@ def plain_file(source: Path) -> Iterator[Path]:
     with tempfile.TemporaryDirectory(prefix="mrlab-bag-") as folder:
         plain = Path(folder) / "bag"
         with open(plain, "wb") as target:
-            inflate_file(source, target)
+            inflate_file(source, target, INFLATED + RATIO * source.stat().st_size)
         # rosbags knows a file by its ending
         yield plain.rename(plain.with_suffix(ENDINGS.get(_beginning(plain), "")))
 

@@ -37,6 +37,7 @@ import socket
 import sys
 import tempfile
 import traceback
+import warnings
 import weakref
 import zlib
 from collections.abc import Callable
@@ -403,6 +404,7 @@ def warm_up() -> None:
 def main() -> None:
     """Serve requests from the socket whose descriptor is the first argument, until it closes."""
     guard()
+    warnings.simplefilter("ignore", RuntimeWarning)  # of numbers too large, which are findings
     for number in (signal.SIGINT, signal.SIGTERM):
         signal.signal(number, signal.SIG_IGN if number == signal.SIGINT else signal.SIG_DFL)
     warm_up()
