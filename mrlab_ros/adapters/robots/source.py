@@ -16,6 +16,7 @@ from mrlab_ros.adapters.robots.expansion import expand
 from mrlab_ros.core.errors import BadInput
 
 SUFFIXES = (".urdf", ".xacro")
+MOST_BYTES = 64 << 20  # of a URDF
 
 
 def find_description(source: str) -> Path:
@@ -90,6 +91,8 @@ def description_text(
                 f"{path.name} is no xacro and takes no arguments; leave out {' '.join(arguments)}"
             )
         try:
+            if path.stat().st_size > MOST_BYTES:
+                raise BadInput(f"{path} is larger than {MOST_BYTES >> 20} MiB; expected a URDF")
             return path.read_text(encoding="utf-8")
         except OSError as error:
             raise BadInput(f"{path} cannot be read: {error}; expected a URDF") from None
@@ -104,10 +107,11 @@ def description_text(
         )
     with _prefix(packages) as prefix:
         prefixes = [prefix, *filter(None, os.environ.get("AMENT_PREFIX_PATH", "").split(":"))]
-        folders = {folder.resolve() for folder in packages.values()} | set(installed.packages())
+        folders = [path.parent, *packages.values(), *installed.packages()]
+        shown = [child for folder in folders for child in _shown(folder.resolve())]
         text: str = walled.call(
             expand, str(path.resolve()), given, name=path.name,
-            read=[Path(prefix), *installed.indices(), *folders, *_beside(path)],
+            read=[Path(prefix), *installed.indices(), *shown],
             environment={"AMENT_PREFIX_PATH": ":".join(prefixes)},
         )  # fmt: skip
     # file:// URIs name the folder that is gone now.
@@ -153,9 +157,8 @@ class MeshFinder:
         return self.base / uri.removeprefix("file://")
 
 
-def _beside(path: Path) -> list[Path]:
-    """Return what lies beside a file; nothing hidden, such as a home folder's keys."""
-    folder = path.resolve().parent
+def _shown(folder: Path) -> list[Path]:
+    """Return what lies in a folder; nothing hidden, such as keys or .git with its addresses."""
     return [
         child
         for child in folder.iterdir()

@@ -85,6 +85,19 @@ def test_a_xacro_reads_no_file_elsewhere(folder: Path, name: str) -> None:
     assert "secret_word" not in str(caught.value)
 
 
+def test_a_xacro_reads_nothing_hidden_in_a_package(folder: Path) -> None:
+    git = folder.parent / "other" / ".git"
+    git.mkdir(parents=True)
+    (git / "config.yaml").write_text("word: secret_word\n")
+    with pytest.raises(BadInput, match="--package NAME=FOLDER") as caught:
+        expanded(
+            folder,
+            "<link name=\"${load_yaml('$(find other)/.git/config.yaml')['word']}\"/>",
+            other=folder.parent / "other",
+        )
+    assert "secret_word" not in str(caught.value)
+
+
 @pytest.mark.parametrize(
     "does",
     [
