@@ -14,7 +14,6 @@ FORGOTTEN_AFTER_S = 60.0
 RESTART_SHOWN_S = 60.0
 FREEZE_SHOWN_S = 60.0
 # Is in what a process says of its restart.
-RESTARTED = "was restarted"
 
 
 @dataclass(frozen=True)
@@ -41,15 +40,19 @@ class Sign:
     failed: tuple[str, ...] = ()
     freeze: Freeze | None = None
 
+    def restarted(self, age: float) -> bool:
+        """Return whether a process that runs for `age` s was started again lately."""
+        return self.restarts > 0 and age < RESTART_SHOWN_S
+
     def sentence(self, age: float) -> str:
         """Return what to show of a process that runs for `age` s; empty: nothing is amiss."""
         lost = "; ".join(self.lost or ())
-        if self.restarts and age < RESTART_SHOWN_S:
+        if self.restarted(age):
             ended = f" ({self.last_exit})" if self.last_exit else ""
             said = f"lost: {lost}" if lost else "nothing was lost"
             if self.lost is None:
                 said = "what was lost is being determined"
-            lost = f"it died{ended} and {RESTARTED} {age:.0f} s ago; {said}"
+            lost = f"it died{ended} and was restarted {age:.0f} s ago; {said}"
         frozen = ""
         if self.freeze is not None:
             duration, ago = self.freeze.duration, self.freeze.ago

@@ -13,6 +13,8 @@ from mrlab_ros.messages.time import make_header
 PREFIX = "mrlab: "
 # What a process says of itself alone, and never of another.
 RESTARTS = "restarts"
+# That its own text says how it ended, and what was lost: for a minute after its restart.
+RESTARTED = "restarted"
 
 
 def signs_to_message(
@@ -27,6 +29,7 @@ def signs_to_message(
     values = {
         RESTARTS: str(own.restarts),
         "last_exit": own.last_exit,
+        **({RESTARTED: "true"} if own.restarted(age) else {}),
         **{f"failed {number}": text for number, text in enumerate(own.failed, 1)},
         **{f"lost {number}": text for number, text in enumerate(own.lost or (), 1)},
     }
@@ -58,6 +61,15 @@ def living_in(message: DiagnosticArray) -> list[str]:
         for status in message.status
         if status.name.startswith(PREFIX) and any(v.key == RESTARTS for v in status.values)
     ]
+
+
+def restarted_in(message: DiagnosticArray) -> set[str]:
+    """Return the processes that say themselves that they were restarted lately."""
+    return {
+        status.name.removeprefix(PREFIX)
+        for status in message.status
+        if status.name.startswith(PREFIX) and any(v.key == RESTARTED for v in status.values)
+    }
 
 
 def troubles_in(message: DiagnosticArray) -> dict[str, str]:

@@ -15,7 +15,6 @@ from rich.text import Text
 
 from mrlab_ros.client.follow import milliseconds
 from mrlab_ros.core.design import OUTCOME_STYLES, SEVERITY_STYLES, STATE_STYLES
-from mrlab_ros.core.watch import RESTARTED
 
 if TYPE_CHECKING:
     from rich.console import RenderableType
@@ -52,7 +51,7 @@ def _head(facts: Mapping[str, Any], nodes: Mapping[str, bool]) -> Iterator[Text]
             name = process["name"]
             if process["phase"] != "running":
                 trouble.pop(name, None)
-            if RESTARTED not in trouble.get(name, ""):
+            if name not in trouble or name not in facts["restarted"]:
                 yield Text(line, WARNING)
     if web := facts["web"]:
         how = "" if web["answers"] else ", which do not answer"

@@ -101,6 +101,7 @@ class View:
         self._answers, self._asked = False, -math.inf
         # By process when it was heard last, and what is amiss with it; empty: nothing.
         self._troubles: dict[str, tuple[float, str]] = {}
+        self._restarted: set[str] = set()
         graph.subscribe(msg.Latency, "/latency", self._on_latency, qos.LATCHED)
         if graph.prompt:
             return
@@ -152,10 +153,12 @@ class View:
             self._on_client(report)
 
     def _on_diagnostics(self, message: Any, age: float = 0.0) -> None:
-        from mrlab_ros.messages.diagnostics import troubles_in
+        from mrlab_ros.messages.diagnostics import restarted_in, troubles_in
 
         now = time.monotonic() - age
-        self._troubles |= {name: (now, text) for name, text in troubles_in(message).items()}
+        found = troubles_in(message)
+        self._troubles |= {name: (now, text) for name, text in found.items()}
+        self._restarted = (self._restarted - found.keys()) | restarted_in(message)
 
     def troubles(self) -> dict[str, str]:
         """Return what is amiss with processes, by process."""
@@ -232,6 +235,7 @@ class View:
             "latency": [latency_facts(name, report) for name, report in self.latencies()],
             "recorder": recorder_facts(self._recorder.value),
             "trouble": self.troubles(),
+            "restarted": sorted(self._restarted & self.troubles().keys()),
         }
 
     def _web(self, supervisor: Mapping[str, Any] | None) -> dict[str, Any] | None:

@@ -20,7 +20,7 @@ FULL_DISK = "the recording class ended: no space left on the disk"
 
 
 def shown(trouble: str, phase: str) -> str:
-    """Return the overview of a lab whose playback was restarted 3 s ago."""
+    """Return the overview of a lab whose playback was restarted 3 s ago, and says it or not."""
     process = {
         "name": "playback",
         "pid": 1,
@@ -39,6 +39,7 @@ def shown(trouble: str, phase: str) -> str:
         "latency": [],
         "recorder": None,
         "trouble": {"playback": trouble} if trouble else {},
+        "restarted": ["playback"] if RESTARTED in trouble else [],
     }
     return printed(facts)
 
