@@ -30,6 +30,8 @@ def command(module: str, *arguments: str) -> tuple[str, ...]:
 def keep_to_installed_modules() -> None:
     """Take the current folder off the path of this process and of all Python that it starts."""
     sys.path[:] = _absolute(sys.path)
+    # Fast DDS would take its settings from the current folder, too.
+    os.environ.setdefault("SKIP_DEFAULT_XML_FILE", "1")
     os.environ[SAFE_PATH] = "1"
     if "PYTHONPATH" in os.environ:
         parts = _absolute(os.environ["PYTHONPATH"].split(os.pathsep))

@@ -39,6 +39,12 @@ def folder(tmp_path: Path, site: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     for name in {*ASKED_FOR, *sys.stdlib_module_names, *packages_distributions()}:
         (folder / f"{name}.py").write_text(trace)
     (folder / "evil.pth").write_text("import sitecustomize\n")
+    (folder / "matplotlibrc").write_text("text.usetex: True\nbackend: module://sitecustomize\n")
+    programs = tmp_path / "programs"
+    programs.mkdir()
+    (programs / "latex").write_text(f"#!/bin/sh\necho latex >> {tmp_path / 'ran'}\n")
+    (programs / "latex").chmod(0o755)
+    monkeypatch.setenv("PATH", f"{programs}:{os.environ['PATH']}")
     (folder / "one").mkdir()
     shutil.copy(EXAMPLES / "quintic_ur5e.mat", folder / "one" / "quintic_ur5e.mat")
     monkeypatch.chdir(folder)
@@ -62,7 +68,7 @@ def test_commands_import_nothing_from_their_folder(
 ) -> None:
     mrlab = site / "bin" / "mrlab"
     ran(mrlab, "--help")
-    ran(mrlab, "convert", "one", "--robot", "ur5e", "--out", "made")
+    ran(mrlab, "convert", "one", "--robot", "ur5e", "--out", "made", "--plot", "made")
     ran(mrlab, "check", "one/quintic_ur5e.mat", "--robot", "ur5e")
     ran(mrlab, "show", "one/quintic_ur5e.mat", "--robot", "ur5e", "--out", "page.html")
     ran(mrlab, "robots", "show", "ur5e")

@@ -5,12 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 from typing import Any
 
-import matplotlib
-from matplotlib.backends.backend_agg import FigureCanvasAgg
-from matplotlib.figure import Figure
-from matplotlib.lines import Line2D
-from matplotlib.patches import Patch
-
+from mrlab_ros.adapters.plotting import Figure, FigureCanvasAgg, Line2D, Patch
 from mrlab_ros.core.design import COLOURS, JOINTS, STATES
 from mrlab_ros.core.foreign_text import visible
 from mrlab_ros.core.recording.report import HOLDING, RobotReport, Series, SessionReport, Span
@@ -21,8 +16,6 @@ WIDTH, ROW_HEIGHT, PANEL_HEIGHT, MARGIN = 11.0, 0.42, 1.7, 1.3
 VISIBLE = 1 / 800
 # Width of a letter in a bar, as a share of the session.
 LETTER = 1 / 120
-# A $ in a name is no formula.
-matplotlib.rcParams["text.parse_math"] = False
 # More lines than this have no legend of their own.
 NAMED = 8
 

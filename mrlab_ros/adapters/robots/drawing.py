@@ -82,7 +82,7 @@ def colour(mesh: trimesh.Trimesh) -> Array:
 
 
 def _picture(parts: list[trimesh.Trimesh], path: Path) -> None:
-    from matplotlib.figure import Figure
+    from mrlab_ros.adapters.plotting import Figure
 
     figure = Figure(figsize=(9, 9))
     axes: Any = figure.add_axes(

@@ -140,7 +140,7 @@ def _draw(axes: Any, library: RobotLibrary, robot_id: str) -> None:
 
 
 def _robot(library: RobotLibrary, robot_id: str, size: tuple[float, float]) -> Any:
-    from matplotlib.figure import Figure
+    from mrlab_ros.adapters.plotting import Figure
 
     figure = Figure(figsize=size)
     axes = figure.add_axes((-0.05, -0.02, 1.05, 1.04), projection="3d", proj_type="persp",
@@ -150,10 +150,8 @@ def _robot(library: RobotLibrary, robot_id: str, size: tuple[float, float]) -> A
 
 
 def _figure(library: RobotLibrary, robot_id: str, sheet: Sheet) -> Any:
-    import matplotlib
-    from matplotlib.figure import Figure
+    from mrlab_ros.adapters.plotting import Figure
 
-    matplotlib.rcParams["text.parse_math"] = False  # a $ in a name is no formula
     notes = [line for note in sheet.notes for line in textwrap.wrap(note, WIDTH)]
     lines = 5 + len(sheet.facts) + len(sheet.joints) + len(sheet.fingers) + len(notes)
     height = max(7.0, 0.28 * lines + 1)

@@ -221,12 +221,8 @@ def _figure(height: float, rows: int) -> tuple[Any, tuple[Any, ...]]:
     Making axes and ticks takes longer than drawing the lines, and computing a layout longer still:
     the figure is kept, and its margins are fixed.
     """
-    import matplotlib
-    from matplotlib.backends.backend_agg import FigureCanvasAgg
-    from matplotlib.figure import Figure
-    from matplotlib.ticker import MaxNLocator
+    from mrlab_ros.adapters.plotting import Figure, FigureCanvasAgg, MaxNLocator
 
-    matplotlib.rcParams["text.parse_math"] = False  # a $ in a name is no formula
     figure = Figure(figsize=(10, height))
     FigureCanvasAgg(figure)
     figure.subplots_adjust(0.08, 0.07 * 9 / height, 0.98, 1 - 0.06 * 9 / height, hspace=0.08)
