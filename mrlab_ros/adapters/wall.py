@@ -72,8 +72,9 @@ CALLS = {
 OPENING = {
     "open": (2, None), "stat": (4, None), "lstat": (6, None), "poll": (7, None),
     "access": (21, None), "dup2": (33, None), "uname": (63, 160), "flock": (73, 32),
-    "truncate": (76, 45), "getdents": (78, None), "getcwd": (79, 17), "rename": (82, None),
-    "mkdir": (83, None), "rmdir": (84, None), "unlink": (87, None), "readlink": (89, None),
+    "truncate": (76, 45), "getdents": (78, None), "getcwd": (79, 17), "chdir": (80, 49),
+    "fchdir": (81, 50), "rename": (82, None), "mkdir": (83, None), "rmdir": (84, None),
+    "unlink": (87, None), "readlink": (89, None),
     "umask": (95, 166), "statfs": (137, 43), "fstatfs": (138, 44), "getdents64": (217, 61),
     "link": (86, None), "linkat": (265, 37),
     "openat": (257, 56), "mkdirat": (258, 34), "newfstatat": (262, 79), "unlinkat": (263, 35),
