@@ -246,6 +246,8 @@ class Setup:
         (VENV / "COLCON_IGNORE").touch()
 
     def install(self, lock):
+        # A lock file is complete. Resolved again, `coverage[toml]` of pytest-cov meets the newest
+        # release instead of the locked one, which pip refuses as it has no hash.
         # empy is published as source only.
         # The cache lets an interrupted download resume; afterwards it is only weight.
         cache = VENV / ".cache"
@@ -256,6 +258,7 @@ class Setup:
                 "-m",
                 "pip",
                 "install",
+                "--no-deps",
                 "--require-hashes",
                 "--only-binary=:all:",
                 "--no-binary=empy",
