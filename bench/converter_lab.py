@@ -27,8 +27,8 @@ import numpy as np
 import report
 import scipy.io
 from mrlab_msgs import srv
+from mrlab_msgs.srv import SetLoop, Trigger
 from sensor_msgs.msg import JointState
-from std_srvs.srv import SetBool, Trigger
 
 from mrlab_ros.adapters.robots.library import RobotLibrary
 from mrlab_ros.adapters.trajectories.coefficients import load_coefficients
@@ -111,7 +111,7 @@ def while_uploading(folder: Path) -> list[dict[str, Any]]:
             graph.subscribe(
                 JointState, topic, lambda _: states.append(time.monotonic()), qos.STREAM
             )
-            graph.order(SetBool, f"/{robot}/set_loop", SetBool.Request(data=True), 30.0)
+            graph.order(SetLoop, f"/{robot}/set_loop", SetLoop.Request(loop=True), 30.0)
             timed(graph, Trigger, f"/{robot}/play")
             end = time.monotonic() + 5.0
             idle = measured(graph, robot, states, lambda: time.monotonic() < end)

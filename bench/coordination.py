@@ -23,8 +23,8 @@ import numpy as np
 import rclpy
 import report
 from mrlab_msgs import msg, srv
+from mrlab_msgs.srv import Trigger
 from rclpy.node import Node
-from std_srvs.srv import Trigger
 
 from mrlab_ros.adapters.robots.library import RobotLibrary
 from mrlab_ros.adapters.trajectories import npz_file

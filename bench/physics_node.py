@@ -19,9 +19,9 @@ import rclpy
 from geometry_msgs.msg import Point
 from geometry_msgs.msg import Pose as PoseMessage
 from mrlab_msgs import msg, srv
+from mrlab_msgs.srv import Trigger
 from rclpy.node import Node
 from sensor_msgs.msg import JointState
-from std_srvs.srv import Trigger
 
 from mrlab_ros.adapters.robots.library import RobotLibrary
 from mrlab_ros.core.robots.model import RobotModel

@@ -19,10 +19,10 @@ from typing import Any
 import psutil
 import report
 from mrlab_msgs import msg, srv
+from mrlab_msgs.srv import SetLoop, Trigger
 from playback import in_process
 from safety import Bench, motion
 from sensor_msgs.msg import JointState
-from std_srvs.srv import SetBool, Trigger
 
 from mrlab_ros.adapters.trajectories.npz_file import write
 from mrlab_ros.messages import qos
@@ -103,7 +103,7 @@ def run(folder: Path, seconds: float) -> list[dict[str, Any]]:
             )
         members = [msg.SystemMember(robot=robot) for robot in names]
         bench.ask(srv.CreateSystem, "/coordinator/create_system", name="cell", members=members)
-        bench.ask(SetBool, "/cell/set_loop", data=True)
+        bench.ask(SetLoop, "/cell/set_loop", loop=True)
         bench.ask(srv.StartRecording, "/recorder/start", bag=str(folder / "bag"))
         bench.ask(Trigger, "/cell/play")
         time.sleep(SETTLE_S)

@@ -244,7 +244,7 @@ def counted(bag: Path) -> tuple[int, int]:
 def order(what: str, bag: Path) -> None:
     """Start or stop the recorder."""
     from mrlab_msgs import srv
-    from std_srvs.srv import Trigger
+    from mrlab_msgs.srv import Trigger
 
     from mrlab_ros.ros.graph_node import Graph
 

@@ -18,8 +18,8 @@ from typing import Any
 import report
 import zenoh
 from mrlab_msgs import msg, srv
+from mrlab_msgs.srv import SetLoop, Trigger
 from safety import Bench, motion
-from std_srvs.srv import SetBool, Trigger
 from tf2_msgs.msg import TFMessage
 
 from mrlab_ros.adapters.trajectories.npz_file import write
@@ -133,7 +133,7 @@ def run(folder: Path, rounds: float) -> list[dict[str, Any]]:
             bench.ask(srv.LoadTrajectory, f"/{robot}/load", id="short")
         members = [msg.SystemMember(robot=robot) for robot in robots[:2]]
         bench.ask(srv.CreateSystem, "/coordinator/create_system", name="cell", members=members)
-        bench.ask(SetBool, "/cell/set_loop", data=True)
+        bench.ask(SetLoop, "/cell/set_loop", loop=True)
         commands = Commands(bench, endpoint)
         names = [process.name for process in processes]
         for blow in ("kill -9", "freeze 3 s"):

@@ -20,9 +20,9 @@ from typing import Any
 import numpy as np
 import report
 from mrlab_msgs import msg, srv
+from mrlab_msgs.srv import SetLoop, Trigger
 from rclpy.client import Client
 from rclpy.node import Node
-from std_srvs.srv import SetBool, Trigger
 
 from mrlab_ros.adapters.robots.library import RobotLibrary
 from mrlab_ros.adapters.trajectories.npz_file import write
@@ -196,13 +196,13 @@ def run(folder: Path, seconds: float) -> list[dict[str, Any]]:
             bench.follow(robot)
         for robot in robots:
             bench.ask(srv.LoadTrajectory, f"/{robot}/load", id="short")
-            bench.ask(SetBool, f"/{robot}/set_loop", data=True)
+            bench.ask(SetLoop, f"/{robot}/set_loop", loop=True)
         loader, players = robots[0], robots[1:]
         for robot in players:
             bench.ask(Trigger, f"/{robot}/play")
         for robot in players:
             bench.await_label(robot, "PLAYING")
-        bench.ask(SetBool, f"/{loader}/set_loop", data=False)
+        bench.ask(SetLoop, f"/{loader}/set_loop", loop=False)
         measured = Measured(bench, players[0])
         rows += measure(measured, "quiet", seconds)
         with loading(bench, loader) as answers:

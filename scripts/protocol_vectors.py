@@ -11,7 +11,7 @@ from typing import Any
 import typescript_protocol
 from rosbags.interfaces import Nodetype
 
-from mrlab_ros.gateway.lab.definitions import EMPTY, STD_SRVS, Definitions, texts_of
+from mrlab_ros.gateway.lab.definitions import EMPTY, Definitions, texts_of
 
 FILE = "web/test/protocol/vectors.json"
 WORDS = ("", "a", "shoulder_pan_joint", "grün 🤖", "a text that is longer than a name would be")
@@ -20,7 +20,7 @@ WIDTHS = {"8": 1 << 7, "16": 1 << 15, "32": 1 << 31, "64": 1 << 63}
 
 def current(root: Path) -> str:
     """Return the file: type -> [{"values", "cdr"}, ...]; 64-bit integers are texts."""
-    definitions = Definitions(STD_SRVS | texts_of(root / "msg_schemas"))
+    definitions = Definitions(texts_of(root / "msg_schemas"))
     lines = []
     for name, types in sorted(typescript_protocol.types(root).items()):
         chance = random.Random(name)

@@ -11,7 +11,7 @@ from typing import Any
 import yaml
 from rosbags.interfaces import Nodetype
 
-from mrlab_ros.gateway.lab.definitions import EMPTY, STD_SRVS, Definitions, texts_of
+from mrlab_ros.gateway.lab.definitions import EMPTY, Definitions, texts_of
 
 NOTE = "// Generated from the message definitions by scripts/generate_docs.py.\n"
 CONFIG = "config/bridge.yaml"
@@ -95,7 +95,7 @@ def files(root: Path) -> dict[str, str]:
 
 def types(root: Path) -> dict[str, Type]:
     """Return every type of the lab, what the bridge carries, and what they hold, by name."""
-    texts = STD_SRVS | texts_of(root / "msg_schemas")
+    texts = texts_of(root / "msg_schemas")
     store = Definitions(texts).store
     config = yaml.safe_load((root / CONFIG).read_text())
     wanted = [rule["type"] for rule in config["topics"]]

@@ -9,8 +9,8 @@ from typing import Any
 import rclpy
 from graph import wait_for
 from mrlab_msgs import msg, srv
+from mrlab_msgs.srv import Trigger
 from rclpy.node import Node
-from std_srvs.srv import Trigger
 
 from mrlab_ros.messages import qos
 from mrlab_ros.ros.calls import NoAnswer, call

@@ -11,7 +11,7 @@ from types import TracebackType
 from typing import TYPE_CHECKING, Any
 
 from mrlab_msgs import srv
-from std_srvs.srv import Trigger
+from mrlab_msgs.srv import Trigger
 
 from mrlab_ros.client.connect import open_graph
 from mrlab_ros.client.motion import Motion, motion_of

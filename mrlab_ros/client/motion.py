@@ -6,7 +6,7 @@ from dataclasses import dataclass, field
 
 from mrlab_msgs import msg
 
-from mrlab_ros.core.diagnostics import Diagnostic
+from mrlab_ros.core.base.diagnostic import Diagnostic
 
 
 @dataclass(frozen=True)

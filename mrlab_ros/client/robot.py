@@ -10,7 +10,7 @@ from dataclasses import dataclass
 from typing import Any, TypeVar
 
 from mrlab_msgs import msg, srv
-from std_srvs.srv import SetBool, Trigger
+from mrlab_msgs.srv import SetLoop, Trigger
 
 from mrlab_ros.client.course import Course, halted
 from mrlab_ros.client.follow import Follower
@@ -142,7 +142,7 @@ class LabRobot:
 
     def set_loop(self, on: bool) -> str:
         """Have it start over after the last frame, or not."""
-        return self._say(SetBool, "set_loop", SetBool.Request(data=on))
+        return self._say(SetLoop, "set_loop", SetLoop.Request(loop=on))
 
     def place(self, x: float, y: float, yaw: float = 0.0, z: float = 0.0) -> str:
         """Move its base; x, y, z in m, yaw in rad about the vertical."""

@@ -236,7 +236,7 @@ def _stop(graph: GraphClient, size: Callable[[], int]) -> str:
     """
     from diagnostic_msgs.msg import DiagnosticArray
     from mrlab_msgs import msg
-    from std_srvs.srv import Trigger
+    from mrlab_msgs.srv import Trigger
 
     from mrlab_ros.messages import qos
     from mrlab_ros.messages.diagnostics import living_in
@@ -276,7 +276,7 @@ def _stop(graph: GraphClient, size: Callable[[], int]) -> str:
 
 def _stop_elsewhere() -> str:
     """End the recording of a recorder that works, through a client that is opened anew."""
-    from std_srvs.srv import Trigger
+    from mrlab_msgs.srv import Trigger
 
     from mrlab_ros.client.connect import open_graph
 

@@ -220,7 +220,7 @@ class Keyboard:
                 _end(self._graph)
 
     def _trigger(self, service: str) -> None:
-        from std_srvs.srv import Trigger
+        from mrlab_msgs.srv import Trigger
 
         self._graph.order(Trigger, f"/recorder/{service}", Trigger.Request())
 
@@ -233,7 +233,7 @@ def next_rate(rate: float, faster: bool) -> float:
 
 
 def _end(graph: GraphClient, timeout: float = STOP_TIMEOUT_S) -> None:
-    from std_srvs.srv import Trigger
+    from mrlab_msgs.srv import Trigger
 
     graph.call(Trigger, "/recorder/stop", Trigger.Request(), timeout)
 

@@ -14,7 +14,7 @@ import typer
 
 from mrlab_ros.commands import output
 from mrlab_ros.commands.output import AsJson, say
-from mrlab_ros.core.diagnostics import Diagnostic, Severity
+from mrlab_ros.core.base.diagnostic import Diagnostic, Severity
 from mrlab_ros.core.errors import BadInput
 from mrlab_ros.ros import share
 

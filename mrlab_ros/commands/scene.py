@@ -160,7 +160,7 @@ def remove(
 @objects.command()
 def clear(as_json: AsJson = False) -> None:
     """Take all objects out of the scene."""
-    from std_srvs.srv import Trigger
+    from mrlab_msgs.srv import Trigger
 
     with _graph() as graph:
         answer = graph.order(Trigger, "/physics/clear_objects", Trigger.Request())

@@ -163,7 +163,7 @@ def play(
 ) -> None:
     """Stage all members, then play; play on where the system is paused."""
     from mrlab_msgs import msg
-    from std_srvs.srv import Trigger
+    from mrlab_msgs.srv import Trigger
 
     from mrlab_ros.client.connect import open_graph
     from mrlab_ros.messages import qos
@@ -208,7 +208,7 @@ def play(
 def _simple(verb: str, words: str) -> None:
     @app.command(verb, help=words)
     def command(name: Name, as_json: AsJson = False) -> None:
-        from std_srvs.srv import Trigger
+        from mrlab_msgs.srv import Trigger
 
         from mrlab_ros.client.connect import open_graph
 
@@ -289,9 +289,9 @@ def loop(
     as_json: AsJson = False,
 ) -> None:
     """Have the system start over after its end, or not."""
-    from std_srvs.srv import SetBool
+    from mrlab_msgs.srv import SetLoop
 
-    _order(name, "set_loop", SetBool, SetBool.Request(data=on), as_json=as_json)
+    _order(name, "set_loop", SetLoop, SetLoop.Request(loop=on), as_json=as_json)
 
 
 @app.command()

@@ -6,70 +6,23 @@
 from __future__ import annotations
 
 import re
-from dataclasses import dataclass, fields
-from enum import IntEnum
+from dataclasses import dataclass
 from typing import Any
 
+from mrlab_ros.core.base.diagnostic import MATLAB_PATH, Diagnostic, Fix, Severity
 from mrlab_ros.core.errors import BadInput
 from mrlab_ros.core.foreign_text import for_shell, visible
-
-# What MATLAB takes for a variable, or a part of one, and for nothing else; what is pasted there
-# may hold no other name of a file, such as `q; system('...')`.
-MATLAB_PATH = re.compile(r"[A-Za-z]\w*(\.[A-Za-z]\w*|\([\d:, ]+\)|\{[\d:, ]+\})*", re.ASCII)
-
-
-class Severity(IntEnum):
-    """How much a finding matters; the values are those of mrlab_msgs/Diagnostic."""
-
-    INFO = 0
-    WARNING = 1
-    ERROR = 2
-
-
-@dataclass(frozen=True)
-class Fix:
-    """One way to mend what was found.
-
-    option: the field of ConvertTrajectory that mends it, empty where only MATLAB does. value:
-    what to set it to, as text. matlab: statements that do the same in MATLAB, may be empty.
-    """
-
-    option: str = ""
-    value: str = ""
-    matlab: str = ""
-
-
-@dataclass(frozen=True)
-class Diagnostic:
-    """One finding.
-
-    `where` is a place inside `variable`, such as 'row 12, column 3'. first_row, last_row: the
-    rows it applies to, from 1, 0 where no row is named. joint: the robot's joint, or empty. value
-    and limit: what was found and what it was compared with, in `unit`, None where there is no
-    number. fixes: ways to mend it, the likeliest first.
-    """
-
-    code: str
-    severity: Severity
-    message: str
-    remedy: str = ""
-    variable: str = ""
-    where: str = ""
-    first_row: int = 0
-    last_row: int = 0
-    joint: str = ""
-    value: float | None = None
-    limit: float | None = None
-    unit: str = ""
-    fixes: tuple[Fix, ...] = ()
 
 
 class Refused(BadInput):
     """A file that cannot be taken, with the finding that says why."""
 
     def __init__(self, finding: Diagnostic) -> None:
-        super().__init__(f"{finding.message} {finding.remedy}".strip())
-        self.finding = finding
+        super().__init__(finding)
+
+    @property
+    def finding(self) -> Diagnostic:
+        return self.diagnostic
 
 
 @dataclass(frozen=True)
@@ -783,10 +736,6 @@ KINDS: dict[str, Kind] = {
 del INFO, WARNING, ERROR
 
 
-# the fields of a finding that hold data, beside its texts
-DATA = frozenset(field.name for field in fields(Diagnostic)[4:])
-
-
 def finding(code: str, /, **values: Any) -> Diagnostic:
     """Return the finding `code`.
 
@@ -796,12 +745,12 @@ def finding(code: str, /, **values: Any) -> Diagnostic:
     words = {"variable": "", "where": "", **values}
     words["name"] = format(_Said(words.get("name", words["variable"])), "matlab")
     words = {k: _Said(v) if isinstance(v, str) else v for k, v in words.items()}
-    data = {name: values[name] for name in DATA if name in values}
-    data.setdefault(
-        "fixes", tuple(Fix(*(text.format(**words) for text in fix)) for fix in kind.fixes)
-    )
+    fixes = values.pop("fixes", None)
+    if fixes is None:
+        fixes = tuple(Fix(*(text.format(**words) for text in fix)) for fix in kind.fixes)
     message, remedy = kind.message.format(**words), kind.remedy.format(**words)
-    return Diagnostic(code, kind.severity, message, remedy, **data)
+    given = {name: value for name, value in values.items() if value is not None}
+    return Diagnostic(code, kind.severity, message, remedy, given, fixes)
 
 
 class _Said(str):

@@ -2,17 +2,20 @@
 
 from __future__ import annotations
 
+from mrlab_ros.core.base.diagnostic import Diagnostic, of_text
 from mrlab_ros.core.foreign_text import visible_lines
 
 
 class LabError(Exception):
-    """Base of every error that the lab raises on purpose; its text is for a person.
+    """Base of every error that the lab raises on purpose.
 
-    What it names may come from a file: nothing in it acts on a terminal.
+    diagnostic: its code and values; its text, for a person, is that of the error. What it names
+    may come from a file: nothing in it acts on a terminal.
     """
 
-    def __init__(self, text: str = "") -> None:
-        super().__init__(visible_lines(text))
+    def __init__(self, what: Diagnostic | str = "") -> None:
+        self.diagnostic = what if isinstance(what, Diagnostic) else of_text(visible_lines(what))
+        super().__init__(visible_lines(str(what)))
 
 
 class BadInput(LabError):

@@ -12,14 +12,15 @@ import numpy as np
 from mrlab_msgs import msg
 from numpy.typing import NDArray
 
+from mrlab_ros.core.base.diagnostic import Diagnostic, of_record
 from mrlab_ros.core.conversion.candidates import Candidate
 from mrlab_ros.core.conversion.convert import ConversionResult, Outcome
 from mrlab_ros.core.conversion.options import Options
 from mrlab_ros.core.conversion.preview import Preview
-from mrlab_ros.core.diagnostics import Diagnostic, Fix, Severity
 from mrlab_ros.core.geometry import Array
 from mrlab_ros.core.trajectory.document import Frames, warnings_of
 from mrlab_ros.core.trajectory.trajectory import Channels, Source, Trajectory
+from mrlab_ros.messages.texts import values_to_message
 from mrlab_ros.messages.time import time_from_message, time_to_message
 
 
@@ -37,7 +38,8 @@ def diagnostic_to_message(diagnostic: Diagnostic) -> msg.Diagnostic:
         value=_number(diagnostic.value),
         limit=_number(diagnostic.limit),
         unit=diagnostic.unit,
-        fixes=[msg.Fix(option=f.option, value=f.value, matlab=f.matlab) for f in diagnostic.fixes],
+        values=values_to_message(diagnostic.values),
+        fixes=[msg.Fix(**vars(fix)) for fix in diagnostic.fixes],
     )
 
 
@@ -46,21 +48,7 @@ def _number(value: float | None) -> float:
 
 
 def diagnostic_from_message(message: msg.Diagnostic) -> Diagnostic:
-    return Diagnostic(
-        message.code,
-        Severity(message.severity),
-        message.message,
-        message.remedy,
-        message.variable,
-        message.where,
-        message.first_row,
-        message.last_row,
-        message.joint,
-        None if math.isnan(message.value) else message.value,
-        None if math.isnan(message.limit) else message.limit,
-        message.unit,
-        tuple(Fix(f.option, f.value, f.matlab) for f in message.fixes),
-    )
+    return of_record(message)
 
 
 def info_to_message(trajectory: Trajectory) -> msg.TrajectoryInfo:

@@ -12,45 +12,43 @@ from rclpy.impl.implementation_singleton import rclpy_implementation
 from rclpy.node import Node
 from rclpy.service import Service
 
+from mrlab_ros.core.base.diagnostic import Diagnostic
 from mrlab_ros.core.errors import LabError
 from mrlab_ros.core.freezes import harmless
 from mrlab_ros.messages import qos
+from mrlab_ros.messages.texts import tell
 from mrlab_ros.ros import freezes
+from mrlab_ros.ros.diagnostics import FAULT
 
 Response = TypeVar("Response")
 
 
-def answered(callback: Callable[..., str | None]) -> Callable[..., Any]:
-    """Wrap `callback(self, request, response) -> message` as a rclpy service callback.
+def answered(callback: Callable[..., Diagnostic | str | None]) -> Callable[..., Any]:
+    """Wrap `callback(self, request, response) -> what to say` as a rclpy service callback.
 
-    The response says success with the message returned, or failure with the LabError's text.
+    The response says success with what is returned, or failure with what the LabError says.
     """
 
     @functools.wraps(callback)
     def wrapped(self: Any, request: Any, response: Response) -> Response:
-        answer: Any = response
         try:
-            answer.message = callback(self, request, response) or ""
-            answer.success = True
+            tell(response, True, callback(self, request, response))
         except LabError as error:
-            answer.success, answer.message = False, str(error)
+            tell(response, False, error.diagnostic)
         except Exception as error:
             self.get_logger().error(f"{callback.__name__}: {error!r}")
-            answer.success = False
-            answer.message = (
-                f"the lab failed at {callback.__name__} ({error!r}); its log has the details"
-            )
+            tell(response, False, FAULT(service=callback.__name__, error=repr(error)))
         return response
 
     return wrapped
 
 
-def refusal(kind: Any, why: str) -> Any:
+def refusal(kind: Any, why: Diagnostic | str) -> Any:
     """Return a response of a service of type `kind` that says failure; None: it cannot say so."""
     response = kind.Response()
     if not hasattr(response, "success"):
         return None
-    response.success, response.message = False, why
+    tell(response, False, why)
     return response
 
 

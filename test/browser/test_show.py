@@ -13,10 +13,10 @@ from playwright.sync_api import Browser, expect
 from mrlab_ros.adapters.pages import ingredients
 from mrlab_ros.adapters.pages.motion import motion_page
 from mrlab_ros.adapters.robots.library import RobotLibrary
+from mrlab_ros.core.base.diagnostic import Diagnostic, Severity
 from mrlab_ros.core.clock import PlaybackClock
 from mrlab_ros.core.conversion.convert import ConversionResult, Outcome
 from mrlab_ros.core.conversion.preview import Preview
-from mrlab_ros.core.diagnostics import Diagnostic, Severity
 from mrlab_ros.core.recording.report import Contact, ReportedState, SessionReport
 from mrlab_ros.core.recording.run_finding import runs_of
 from mrlab_ros.core.recording.runs import Course, RunJoint
@@ -49,8 +49,9 @@ def refused() -> ConversionResult:
     q = positions()
     q[200:240, 2] = 5.0
     found = Diagnostic(
-        "joint_limit", Severity.ERROR, "elbow_joint goes to 5 rad.", "Keep it below pi.", "q",
-        first_row=201, last_row=240, joint="elbow_joint", value=5.0, limit=3.14, unit="rad",
+        "joint_limit", Severity.ERROR, "elbow_joint goes to 5 rad.", "Keep it below pi.",
+        {"variable": "q", "first_row": 201, "last_row": 240, "joint": "elbow_joint",
+         "value": 5.0, "limit": 3.14, "unit": "rad"},
     )  # fmt: skip
     rows = np.arange(1, 402, 2, dtype=np.uint32)
     shown = Preview("q", rows, q[rows - 1].astype(np.float32))

@@ -12,10 +12,10 @@ import pytest
 from child_process import HOST, start_child
 from graph import wait_for
 from mrlab_msgs.msg import Robot, Robots, RobotSystems
+from mrlab_msgs.srv import SetLoop, Trigger
 from rclpy.serialization import deserialize_message, serialize_message
 from sensor_msgs.msg import JointState
 from std_msgs.msg import String
-from std_srvs.srv import SetBool, Trigger
 from zenoh import ext
 from zenoh_side import (
     JOINTS,
@@ -120,12 +120,12 @@ def test_a_stock_client_reads_a_state(graph, bridge, session, endpoint, given):
 
 def test_a_stock_client_calls_a_service(graph, bridge, session, endpoint):
     def answer(request, response):
-        response.success, response.message = request.data, "said " + "yes" * request.data
+        response.success, response.message = request.loop, "said " + "yes" * request.loop
         return response
 
-    graph.client.create_service(SetBool, "ur5e_1/set_loop", answer)
+    graph.client.create_service(SetLoop, "ur5e_1/set_loop", answer)
     wait_for(lambda: any("set_loop" in t for t in tokens(session)), "the service on zenoh")
-    caller = client(endpoint, "call", "ur5e_1/set_loop", "std_srvs/srv/SetBool", "data=true")
+    caller = client(endpoint, "call", "ur5e_1/set_loop", "mrlab_msgs/srv/SetLoop", "loop=true")
     out, err = caller.communicate(timeout=60)
     assert caller.returncode == 0, err
     assert "said yes" in out
@@ -151,12 +151,12 @@ def test_a_wrong_request_is_refused_in_words_and_changes_nothing(graph, bridge, 
         asked.append(request)
         return response
 
-    graph.client.create_service(SetBool, "ur5e_1/set_loop", answer)
+    graph.client.create_service(SetLoop, "ur5e_1/set_loop", answer)
     wait_for(lambda: any("set_loop" in t for t in tokens(session)), "the service")
     _, reason = ask(session, "ur5e_1/set_loop")
     assert "without a request" in reason
     _, reason = ask(session, "ur5e_1/set_loop", b"not CDR at all")
-    assert "not a request of std_srvs/srv/SetBool" in reason
+    assert "not a request of mrlab_msgs/srv/SetLoop" in reason
     assert asked == []
 
 

@@ -256,8 +256,8 @@ def test_the_schema_has_every_type_that_crosses(bridge, session):
         "shape_msgs/msg/SolidPrimitive",
     }
     assert standard <= set(messages)
-    assert {"mrlab_msgs/srv/Seek", "std_srvs/srv/Trigger"} <= set(services)
-    assert bundle["hashes"].keys() >= {*messages, *services, "std_srvs/srv/Trigger_Request"}
+    assert {"mrlab_msgs/srv/Seek", "mrlab_msgs/srv/Trigger"} <= set(services)
+    assert bundle["hashes"].keys() >= {*messages, *services, "mrlab_msgs/srv/Trigger_Request"}
     assert all(value.startswith("RIHS01_") for value in bundle["hashes"].values())
 
 

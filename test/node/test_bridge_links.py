@@ -10,11 +10,11 @@ import pytest
 import zenoh
 from graph import Graph, wait_for
 from mrlab_msgs.msg import Robot, Robots
+from mrlab_msgs.srv import SetLoop, Trigger
 from own_domain import own_domain
 from own_port import free_endpoint
 from rclpy.serialization import deserialize_message
 from sensor_msgs.msg import JointState
-from std_srvs.srv import SetBool, Trigger
 from wire import Wire
 from zenoh import ext
 from zenoh_side import (
@@ -125,16 +125,16 @@ def test_calls_wait_for_those_before_them_and_too_many_are_refused(graph, listed
 
     def answer(request, response):
         released.wait(30)
-        asked.append(request.data)
+        asked.append(request.loop)
         response.success, response.message = True, f"call {len(asked)}"
         return response
 
-    graph.client.create_service(SetBool, "slow", answer)
+    graph.client.create_service(SetLoop, "slow", answer)
     answers, refused = [], []
 
     def sort(reply):
         if reply.ok is not None:
-            answers.append(deserialize_message(reply.ok.payload.to_bytes(), SetBool.Response))
+            answers.append(deserialize_message(reply.ok.payload.to_bytes(), SetLoop.Response))
         else:
             refused.append(reply.err.payload.to_string())
 

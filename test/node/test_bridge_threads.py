@@ -6,11 +6,11 @@ import threading
 
 import pytest
 from graph import wait_for
+from mrlab_msgs.srv import Trigger
 from rclpy.exceptions import InvalidHandle
 from rclpy.serialization import serialize_message
 from rclpy.task import Future
 from std_msgs.msg import String
-from std_srvs.srv import Trigger
 
 from mrlab_ros.adapters.zenoh.configuration import configuration
 from mrlab_ros.adapters.zenoh.session import ZenohSession
@@ -113,7 +113,7 @@ def offer():
         zenoh = Zenoh()
         routes = Services(BridgeContext(zenoh, Graph(client), "", lambda _: None))
         made.append(routes)
-        routes.keep({PLAY: (ServiceRule(PLAY, **fields), "std_srvs/srv/Trigger")})
+        routes.keep({PLAY: (ServiceRule(PLAY, **fields), "mrlab_msgs/srv/Trigger")})
         return routes, zenoh.asked[PLAY[1:]]
 
     yield make

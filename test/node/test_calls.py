@@ -6,10 +6,10 @@ import threading
 
 import pytest
 from graph import wait_for
+from mrlab_msgs.srv import Trigger
 from rclpy.node import Node
 from rclpy.qos import QoSProfile, ReliabilityPolicy
 from std_msgs.msg import String
-from std_srvs.srv import Trigger
 
 from mrlab_ros.messages import qos
 from mrlab_ros.ros.calls import NoAnswer, call, call_each

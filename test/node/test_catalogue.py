@@ -12,9 +12,9 @@ import scipy.io
 from graph import Graph, wait_for
 from kept import Kept
 from mrlab_msgs import msg, srv
+from mrlab_msgs.srv import Trigger
 from sensor_msgs.msg import JointState
 from small_lab import labels, listen_state, load, make, spawn
-from std_srvs.srv import Trigger
 
 from mrlab_ros.adapters.trajectories import npz_file
 from mrlab_ros.core.trajectory.trajectory import Channels

@@ -16,6 +16,7 @@ from control_msgs.action import FollowJointTrajectory
 from control_msgs.msg import JointTolerance
 from graph import Graph, wait_for
 from mrlab_msgs import msg
+from mrlab_msgs.srv import Trigger
 from rcl_interfaces.msg import Log
 from rclpy.action import ActionClient
 from rclpy.action.client import ClientGoalHandle
@@ -23,7 +24,6 @@ from rclpy.qos import QoSProfile
 from rclpy.task import Future
 from sensor_msgs.msg import JointState
 from small_lab import LIBRARY, labels, listen_state, spawn
-from std_srvs.srv import Trigger
 from trajectory_msgs.msg import JointTrajectory, JointTrajectoryPoint
 
 from mrlab_ros.core.freezes import Freezes

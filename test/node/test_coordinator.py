@@ -9,6 +9,7 @@ import pytest
 import small_lab
 from graph import Graph, wait_for
 from mrlab_msgs import msg, srv
+from mrlab_msgs.srv import SetLoop, Trigger
 from small_lab import (
     labels,
     listen_state,
@@ -18,7 +19,6 @@ from small_lab import (
     spawn,
     state_of,
 )
-from std_srvs.srv import SetBool, Trigger
 
 from mrlab_ros.messages import qos
 from mrlab_ros.nodes.playback.host import PlaybackHostNode
@@ -215,7 +215,7 @@ def test_settings_of_a_system_are_checked(graph, lab):
     assert (answer.success, "expected 0.1 to 4" in answer.message) == (False, True)
     answer = graph.call(srv.Seek, "/cell/seek", position=99.0)
     assert (answer.success, "expected 0 to 0.59 s" in answer.message) == (False, True)
-    assert graph.call(SetBool, "/cell/set_loop", data=True).success
+    assert graph.call(SetLoop, "/cell/set_loop", loop=True).success
 
 
 def test_a_collision_of_one_member_halts_the_system_until_it_is_clear(graph, lab):

@@ -25,6 +25,9 @@ from mrlab_ros.gateway.lab.connection import NoAnswer, Phase, Refused, Sample
 from mrlab_ros.gateway.lab.definitions import Definitions, installed_definitions
 from mrlab_ros.gateway.lab.zenoh_lab import ZenohLab
 
+TRIGGER = "mrlab_msgs/srv/Trigger"
+TRIGGER_TEXT = "---\nbool success\nstring message\n"
+
 LATCHED = TopicQos(reliable=True, latched=True, depth=1)
 
 
@@ -48,7 +51,8 @@ class Bridge:
         return self.session.publisher(key, TopicRule(name=f"/{key}"), history)
 
     def schema(self, messages: dict[str, str]) -> None:
-        document = json.dumps({"messages": messages, "services": {}}).encode()
+        services = {TRIGGER: TRIGGER_TEXT}
+        document = json.dumps({"messages": messages, "services": services}).encode()
         key = f"{self.prefix}/schema"
         self.held.append(self.session.queryable(key, lambda query: query.reply(document)))
 
@@ -78,24 +82,24 @@ def test_topics_services_and_presence() -> None:
         await lab.open()
         assert lab.phase is Phase.CONNECTING
         with pytest.raises(NoAnswer, match="no connection to the lab"):
-            await lab.call("a/play", "std_srvs/srv/Trigger")
+            await lab.call("a/play", TRIGGER)
 
         bridge = Bridge(endpoint, prefix)
         try:
             bridge.schema({"mrlab_msgs/msg/Fix": "string option\nstring value\n"})
             robots = bridge.topic("robots", "mrlab_msgs/msg/Robots")
-            done = definitions.encode("std_srvs/srv/Trigger_Response", {"success": True})
-            bridge.service("a/play", "std_srvs/srv/Trigger", lambda query: query.reply(done))
-            bridge.service("b/play", "std_srvs/srv/Trigger", lambda query: query.refuse("not now"))
+            done = definitions.encode(f"{TRIGGER}_Response", {"success": True})
+            bridge.service("a/play", TRIGGER, lambda query: query.reply(done))
+            bridge.service("b/play", TRIGGER, lambda query: query.refuse("not now"))
             await until(lambda: lab.phase is Phase.OPEN and "b/play" in lab.keys.services)
             await until(lambda: lab.keys.latched == {"robots"})
             await until(lambda: "mrlab_msgs/msg/Fix" in lab.definitions.store.fielddefs)
 
-            assert (await lab.call("a/play", "std_srvs/srv/Trigger")).success
+            assert (await lab.call("a/play", TRIGGER)).success
             with pytest.raises(Refused, match="not now"):
-                await lab.call("b/play", "std_srvs/srv/Trigger")
+                await lab.call("b/play", TRIGGER)
             with pytest.raises(NoAnswer, match="nobody answers c/play"):
-                await lab.call("c/play", "std_srvs/srv/Trigger", timeout_s=2.0)
+                await lab.call("c/play", TRIGGER, timeout_s=2.0)
 
             robots.put(definitions.encode("mrlab_msgs/msg/Robots", {}), attachment(7, 8, 9))
             await until(lambda: got)

@@ -11,11 +11,11 @@ import pytest
 import small_lab
 from graph import wait_for
 from mrlab_msgs import msg, srv
+from mrlab_msgs.srv import Trigger
 from rcl_interfaces.msg import ParameterType
 from rcl_interfaces.srv import DescribeParameters, GetParameters, SetParameters
 from rclpy.parameter import Parameter
 from sensor_msgs.msg import JointState
-from std_srvs.srv import Trigger
 
 from mrlab_ros.messages import qos
 from mrlab_ros.nodes.bridge.node import BridgeNode

@@ -9,9 +9,9 @@ import pytest
 from geometry_msgs.msg import Point, Pose, Quaternion, Twist, Vector3
 from graph import Graph, wait_for
 from mrlab_msgs import msg, srv
+from mrlab_msgs.srv import Trigger
 from rclpy.node import Node
 from sensor_msgs.msg import JointState
-from std_srvs.srv import Trigger
 
 from mrlab_ros.adapters.robots.library import RobotLibrary
 from mrlab_ros.adapters.scenes.files import read

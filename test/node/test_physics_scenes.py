@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 from graph import Graph, wait_for
 from mrlab_msgs import msg, srv
-from std_srvs.srv import Trigger
+from mrlab_msgs.srv import Trigger
 
 from mrlab_ros.messages import qos
 from mrlab_ros.nodes.converter import ConverterNode

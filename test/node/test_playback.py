@@ -12,10 +12,10 @@ import small_lab
 from geometry_msgs.msg import Point, Pose
 from graph import Graph, wait_for
 from mrlab_msgs import msg, srv
+from mrlab_msgs.srv import SetLoop, Trigger
 from rclpy.serialization import deserialize_message
 from sensor_msgs.msg import JointState
 from small_lab import LIBRARY, TRAJECTORIES, labels, listen_state, load, spawn
-from std_srvs.srv import SetBool, Trigger
 
 from mrlab_ros.core.errors import LabError
 from mrlab_ros.core.freezes import Freezes
@@ -93,7 +93,7 @@ def test_pause_seek_rate_loop_and_stop_answer_and_take_effect(graph, lab):
     assert answer.success
     wait_for(lambda: states.last().frame == 500, "the place")
     assert graph.call(srv.SetRate, f"/{robot}/set_rate", rate=4.0).success
-    assert graph.call(SetBool, f"/{robot}/set_loop", data=True).success
+    assert graph.call(SetLoop, f"/{robot}/set_loop", loop=True).success
     wait_for(lambda: states.last().loop and states.last().rate == 4.0, "rate and loop")
     assert graph.call(Trigger, f"/{robot}/stop").success
     wait_for(lambda: states.last().label == "READY", "the stop")

@@ -20,13 +20,13 @@ from child_process import HOST, start_child
 from graph import Graph, Inbox, wait_for
 from mcap.reader import NonSeekingReader
 from mrlab_msgs import msg, srv
+from mrlab_msgs.srv import SetLoop, Trigger
 from rclpy.serialization import serialize_message
 from rosbags.highlevel import AnyReader
 from rosbags.typesys import Stores, get_types_from_msg, get_typestore
 from sensor_msgs.msg import JointState
 from sqlite_bag import as_sqlite
 from std_msgs.msg import String
-from std_srvs.srv import SetBool, Trigger
 
 from mrlab_ros.adapters.bags.reader import Bag
 from mrlab_ros.adapters.bags.repair import repair
@@ -519,7 +519,7 @@ def test_pause_seek_rate_and_loop_do_what_they_say(graph, recorder, session, sta
     assert "expected 0 to" in answer.message
     order(graph, "resume")
     wait_for(lambda: ears.of("/ur5e_1/telemetry").count("event 50") >= 2, "two rounds more")
-    order(graph, "set_loop", SetBool, data=False)
+    order(graph, "set_loop", SetLoop, loop=False)
     wait_until_over(states)
     events = [int(word.split()[1]) for word in ears.of("/ur5e_1/telemetry")]
     jumps = [pair for pair in itertools.pairwise(events) if pair[1] != pair[0] + 1]
@@ -551,7 +551,7 @@ def test_the_bag_s_trajectories_can_be_fetched_while_it_is_replayed(graph, recor
 
 
 def test_a_replay_ends_when_asked_and_refuses_to_run_beside_another(graph, recorder, session):
-    assert order(graph, "list_bags").splitlines() == ["class"]
+    assert graph.call(srv.ListBags, "/recorder/list_bags").bags == ["class"]
     replay(graph, rate=0.1)
     answer = graph.call(srv.Replay, "/recorder/replay", bag="class", rate=1.0)
     assert "is being replayed; stop that first" in answer.message

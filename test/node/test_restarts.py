@@ -8,6 +8,7 @@ import small_lab
 from builtin_interfaces.msg import Duration
 from graph import Graph, wait_for
 from mrlab_msgs import msg, srv
+from mrlab_msgs.srv import SetLoop, Trigger
 from sensor_msgs.msg import JointState
 from small_lab import (
     Catalogue,
@@ -19,7 +20,6 @@ from small_lab import (
     spawn,
     state_of,
 )
-from std_srvs.srv import SetBool, Trigger
 from trajectory_msgs.msg import JointTrajectory, JointTrajectoryPoint
 
 from mrlab_ros.messages import qos
@@ -58,7 +58,7 @@ def test_a_restarted_host_stands_paused_in_place_and_plays_on(graph, lab, folder
     states = listen_state(graph, robot)
     load(graph, robot, "long")
     assert graph.call(srv.SetRate, f"/{robot}/set_rate", rate=0.5).success
-    assert graph.call(SetBool, f"/{robot}/set_loop", data=True).success
+    assert graph.call(SetLoop, f"/{robot}/set_loop", loop=True).success
     play(graph, robot, states)
     joints = graph.listen(JointState, f"/{robot}/joint_states", qos.STREAM)
     wait_for(lambda: len(joints) > 5, "joint states")

@@ -10,8 +10,8 @@ import pytest
 import small_lab
 from graph import Graph, wait_for
 from mrlab_msgs import msg, srv
+from mrlab_msgs.srv import SetLoop, Trigger
 from small_lab import Catalogue, listen_state, load, spawn
-from std_srvs.srv import SetBool, Trigger
 
 from mrlab_ros.messages import qos
 from mrlab_ros.nodes.coordinator.node import CoordinatorNode
@@ -78,7 +78,7 @@ def furnish(graph: Graph, lab) -> SimpleNamespace:
     alone, first, second = spawn(graph), spawn(graph), spawn(graph, KUKA)
     load(graph, alone, "long")
     done(graph.call(srv.SetRate, f"/{alone}/set_rate", rate=2.0))
-    done(graph.call(SetBool, f"/{alone}/set_loop", data=True))
+    done(graph.call(SetLoop, f"/{alone}/set_loop", loop=True))
     seek(graph, alone, 3.25)
     make_system(graph, (first, "wave"), (second, "kuka"))
     done(graph.call(srv.SetRate, "/cell/set_rate", rate=0.5))

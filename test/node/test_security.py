@@ -17,12 +17,11 @@ import zenoh
 from child_process import HOST, start_child
 from graph import wait_for
 from mrlab_msgs.msg import Latency, Robot, Robots
-from mrlab_msgs.srv import ListTrajectories, Remove, Step
+from mrlab_msgs.srv import ListTrajectories, Remove, Step, Trigger
 from own_port import free_endpoint
 from rclpy.parameter import Parameter
 from rclpy.serialization import serialize_message
 from sensor_msgs.msg import JointState
-from std_srvs.srv import Trigger
 from zenoh import ext
 
 from mrlab_ros.adapters.keys.folder import Keys, now

@@ -9,12 +9,11 @@ import yaml
 import zenoh
 from graph import wait_for
 from mrlab_msgs.msg import Latency, Robots
-from mrlab_msgs.srv import Remove
+from mrlab_msgs.srv import Remove, Trigger
 from own_port import free_endpoint
 from rclpy.parameter import Parameter
 from rclpy.serialization import serialize_message
 from sensor_msgs.msg import JointState
-from std_srvs.srv import Trigger
 from zenoh import ext
 from zenoh_side import JOINTS, tokens
 

@@ -8,10 +8,10 @@ import pytest
 import small_lab
 from graph import Graph, wait_for
 from mrlab_msgs import msg
+from mrlab_msgs.srv import Trigger
 from rosgraph_msgs.msg import Clock
 from sensor_msgs.msg import JointState
 from small_lab import listen_state, make_system, spawn
-from std_srvs.srv import Trigger
 
 from mrlab_ros.core.clock import SECOND
 from mrlab_ros.messages import qos

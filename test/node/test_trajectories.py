@@ -12,9 +12,9 @@ from child_process import HOST, start_child
 from graph import Graph, wait_for
 from kept import Kept
 from mrlab_msgs import msg, srv
+from mrlab_msgs.srv import Trigger
 from s3_server import BUCKET, s3_server
 from small_lab import labels, listen_state, load, make, spawn
-from std_srvs.srv import Trigger
 
 from mrlab_ros.adapters.store import keys
 from mrlab_ros.adapters.store.objects import open_store

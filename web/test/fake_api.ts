@@ -19,7 +19,7 @@ import type {
   Upload,
   Version,
 } from '../src/api/types'
-import type { MotionDocument, MotionFinding } from '../src/playback/motion'
+import type { MotionDocument } from '../src/playback/motion'
 import { fakeMotion } from './fake_motion'
 
 const GALLERY = '/docs/gallery'
@@ -98,6 +98,7 @@ export function finding(of: Partial<Diagnostic>): Diagnostic {
     value: null,
     limit: null,
     unit: '',
+    values: {},
     fixes: [],
     ...of,
   }
@@ -306,7 +307,7 @@ export class FakeApi implements Api {
       return fakeMotion({
         verdict: 'refused',
         message: 'one joint leaves its range',
-        findings: [JOINT_LIMIT, RATE] as readonly MotionFinding[],
+        findings: [JOINT_LIMIT, RATE] as readonly Diagnostic[],
         bump: 2.15,
       })
     return fakeMotion({

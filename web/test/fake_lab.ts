@@ -6,10 +6,10 @@ import {
   robotSystemsType,
   robotsType,
   sceneObjectsType,
+  triggerType,
 } from '../src/protocol/mrlab_msgs'
 import { jointStateType } from '../src/protocol/sensor_msgs'
 import { stringType } from '../src/protocol/std_msgs'
-import { triggerType } from '../src/protocol/std_srvs'
 
 const ROBOTS = [
   { name: 'ur5e_1', model: 'ur5e', x: 0, home: [0, -1.57, 1.57, -1.57, -1.57, 0] },

@@ -1,4 +1,5 @@
-import type { MotionDocument, MotionFinding, PackedArray } from '../src/playback/motion'
+import type { MotionDocument, PackedArray } from '../src/playback/motion'
+import type { Diagnostic } from '../src/words/diagnostic'
 
 function packed(values: Float32Array, shape: readonly number[]): PackedArray {
   let text = ''
@@ -13,7 +14,7 @@ const TO = [1.2, -1.0, 1.1, -2.2, -1.2, 0.9]
 export interface FakeMotion {
   readonly verdict: MotionDocument['verdict']
   readonly message: string
-  readonly findings?: readonly MotionFinding[]
+  readonly findings?: readonly Diagnostic[]
   /** Added to the elbow in the middle, rad. */
   readonly bump?: number
   readonly frames?: number

@@ -4,7 +4,7 @@
     pip install eclipse-zenoh rosbags
     python mrlab_client.py watch ur5e_1/joint_states sensor_msgs/msg/JointState
     python mrlab_client.py watch robots mrlab_msgs/msg/Robots --latched
-    python mrlab_client.py call ur5e_1/play std_srvs/srv/Trigger
+    python mrlab_client.py call ur5e_1/play mrlab_msgs/srv/Trigger
     python mrlab_client.py call ur5e_1/seek mrlab_msgs/srv/Seek position=1.5
 
 A key is the topic's or service's name without its leading slash; a payload is CDR.
@@ -39,11 +39,6 @@ HEALING = {
     },
 }
 SCHEMA = "schema"
-STD_SRVS = {
-    "std_srvs/srv/Empty": "---\n",
-    "std_srvs/srv/SetBool": "bool data\n---\nbool success\nstring message\n",
-    "std_srvs/srv/Trigger": "---\nbool success\nstring message\n",
-}
 
 
 def schema(session: zenoh.Session, prefix: str = "") -> tuple[dict[str, str], dict[str, str]]:
@@ -66,7 +61,7 @@ def folder(
         {f"{package}/{kind}/{f.stem}": f.read_text() for f in definitions.glob(f"{kind}/*.{kind}")}
         for kind in ("msg", "srv")
     )
-    return messages, {**STD_SRVS, **services}
+    return messages, services
 
 
 def typestore(messages: dict[str, str], services: dict[str, str]) -> Typestore:

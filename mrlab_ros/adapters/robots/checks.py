@@ -10,7 +10,8 @@ import numpy as np
 
 from mrlab_ros.adapters.robots import mesh_files, urdf
 from mrlab_ros.adapters.robots.mesh_files import Look
-from mrlab_ros.core.diagnostics import Diagnostic, Severity, finding
+from mrlab_ros.core.base.diagnostic import Diagnostic, Severity
+from mrlab_ros.core.diagnostics import finding
 from mrlab_ros.core.errors import BadInput
 from mrlab_ros.core.foreign_text import for_table, visible
 

@@ -12,7 +12,8 @@ from scipy.spatial import ConvexHull, cKDTree
 
 from mrlab_ros.adapters.robots import urdf
 from mrlab_ros.adapters.robots.assembly import Assembly, Resolve
-from mrlab_ros.core.diagnostics import Diagnostic, finding
+from mrlab_ros.core.base.diagnostic import Diagnostic
+from mrlab_ros.core.diagnostics import finding
 from mrlab_ros.core.geometry import Array
 
 # Tolerances, m: how far the body may stick out of the hulls, and the hulls out of the body.

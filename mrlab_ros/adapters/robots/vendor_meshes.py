@@ -13,7 +13,8 @@ from mrlab_ros.adapters.robots import checks, mesh_files, urdf
 from mrlab_ros.adapters.robots.assembly import Assembly
 from mrlab_ros.adapters.robots.library import MESH_PREFIX, RobotLibrary
 from mrlab_ros.adapters.robots.source import MeshFinder, description_text, packages_around
-from mrlab_ros.core.diagnostics import Diagnostic, finding
+from mrlab_ros.core.base.diagnostic import Diagnostic
+from mrlab_ros.core.diagnostics import finding
 from mrlab_ros.core.errors import BadInput
 from mrlab_ros.core.geometry import Array
 

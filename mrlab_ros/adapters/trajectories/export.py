@@ -12,9 +12,9 @@ import scipy.io
 
 from mrlab_ros.adapters.trajectories import json_file
 from mrlab_ros.adapters.workspaces import joint_trajectories
+from mrlab_ros.core.base.diagnostic import Diagnostic, Severity
 from mrlab_ros.core.conversion.preview import Preview
 from mrlab_ros.core.design import JOINTS, SEVERITIES
-from mrlab_ros.core.diagnostics import Diagnostic, Severity
 from mrlab_ros.core.errors import BadInput
 from mrlab_ros.core.foreign_text import visible
 from mrlab_ros.core.naming import did_you_mean

@@ -16,12 +16,13 @@ from typing import Any, BinaryIO
 import numpy as np
 
 from mrlab_ros.adapters.trajectories import npz_file
+from mrlab_ros.core.base.diagnostic import Diagnostic, from_plain, plain
 from mrlab_ros.core.conversion.candidates import Candidate
 from mrlab_ros.core.conversion.convert import ConversionResult, Outcome, convert
 from mrlab_ros.core.conversion.options import MOST_ROWS, Options
 from mrlab_ros.core.conversion.preview import Preview
 from mrlab_ros.core.conversion.workspace import Workspace
-from mrlab_ros.core.diagnostics import Diagnostic, Fix, Severity, finding
+from mrlab_ros.core.diagnostics import finding
 from mrlab_ros.core.errors import BadInput
 from mrlab_ros.core.robots.model import RobotModel
 from mrlab_ros.core.trajectory.channels import ProxyCoefficients
@@ -29,9 +30,8 @@ from mrlab_ros.core.trajectory.document import metadata
 
 # What a document may hold beside plain values.
 RECORDS: dict[str, type[Any]] = {
-    kind.__name__: kind for kind in (ConversionResult, Candidate, Preview, Diagnostic, Fix)
+    kind.__name__: kind for kind in (ConversionResult, Candidate, Preview)
 }
-ENUMS: dict[str, type[Enum]] = {kind.__name__: kind for kind in (Outcome, Severity)}
 MEMORY = "converting it needs more than {:.0f} MiB"
 
 
@@ -148,11 +148,13 @@ def refused(file: str, why: Diagnostic) -> ConversionResult:
 
 
 def _plain(value: Any) -> Any:
+    if isinstance(value, Diagnostic):
+        return {"diagnostic": plain(value)}
     if is_dataclass(value) and not isinstance(value, type):
         content = {field.name: _plain(getattr(value, field.name)) for field in fields(value)}
         return {"record": type(value).__name__, **content}
     if isinstance(value, Enum):
-        return {"enum": type(value).__name__, "value": value.value}
+        return {"enum": value.value}
     if isinstance(value, np.ndarray):
         data = base64.b64encode(np.ascontiguousarray(value).tobytes()).decode()
         return {"array": data, "dtype": value.dtype.str, "shape": list(value.shape)}
@@ -168,8 +170,10 @@ def _record(value: Any) -> Any:
         return tuple(_record(item) for item in value)
     if not isinstance(value, dict):
         return value
+    if "diagnostic" in value:
+        return from_plain(value["diagnostic"])
     if "enum" in value:
-        return ENUMS[value["enum"]](value["value"])
+        return Outcome(value["enum"])
     if "array" in value:
         flat = np.frombuffer(base64.b64decode(value["array"]), np.dtype(value["dtype"]))
         return flat.reshape(value["shape"])

@@ -13,6 +13,7 @@ from mrlab_ros.adapters.scenes import files as scene_files
 from mrlab_ros.adapters.scenes.files import SceneFiles
 from mrlab_ros.commands.check import cell
 from mrlab_ros.commands.convert.one_file import converted
+from mrlab_ros.core.base.diagnostic import Diagnostic, Severity
 from mrlab_ros.core.checking import motion
 from mrlab_ros.core.checking.evidence import CLOSE
 from mrlab_ros.core.checking.hardware import JUMPS
@@ -21,7 +22,6 @@ from mrlab_ros.core.checking.rehearsal import Actor
 from mrlab_ros.core.checking.report import digest
 from mrlab_ros.core.conversion.convert import ConversionResult, Outcome
 from mrlab_ros.core.conversion.options import Options
-from mrlab_ros.core.diagnostics import Diagnostic, Severity
 from mrlab_ros.core.errors import BadInput, Misuse
 from mrlab_ros.core.foreign_text import file_name
 from mrlab_ros.core.geometry import Pose, Vector

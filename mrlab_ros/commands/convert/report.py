@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import asdict
 from itertools import zip_longest
 from pathlib import Path
 from typing import Any
@@ -14,11 +13,11 @@ from rich.table import Table
 from mrlab_ros.adapters.nearby import like_file
 from mrlab_ros.commands import output
 from mrlab_ros.commands.convert.options import command_with
+from mrlab_ros.core.base.diagnostic import Diagnostic, plain
 from mrlab_ros.core.conversion.candidates import SPARK_WIDTH
 from mrlab_ros.core.conversion.convert import ConversionResult
 from mrlab_ros.core.conversion.options import Options
 from mrlab_ros.core.design import OUTCOME_STYLES, SEVERITY_STYLES
-from mrlab_ros.core.diagnostics import Diagnostic
 from mrlab_ros.core.foreign_text import visible
 
 
@@ -45,9 +44,7 @@ def record(given: str, result: ConversionResult, written: Path | None) -> dict[s
             }
             for c in result.candidates
         ],
-        "diagnostics": [
-            {**asdict(d), "severity": d.severity.name.lower()} for d in result.diagnostics
-        ],
+        "diagnostics": plain(result.diagnostics),
         "message": result.message,
         "trajectory": str(written) if written else None,
     }

@@ -182,7 +182,7 @@ class Run:
         arrivals: list[Arrivals],
     ) -> None:
         from mrlab_msgs import msg, srv
-        from std_srvs.srv import Trigger
+        from mrlab_msgs.srv import Trigger
 
         from mrlab_ros.messages.systems import member_to_message
 

@@ -17,8 +17,8 @@ from mrlab_ros.commands.rubric.marked import (
     reference_of,
     setting_of,
 )
+from mrlab_ros.core.base.diagnostic import Severity
 from mrlab_ros.core.conversion.options import Options
-from mrlab_ros.core.diagnostics import Severity
 from mrlab_ros.core.errors import BadInput
 from mrlab_ros.core.rubrics import document
 from mrlab_ros.core.rubrics.forms import FAMILIES

@@ -9,9 +9,9 @@ from rich.table import Table
 from rich.text import Text
 
 from mrlab_ros.commands import output
+from mrlab_ros.core.base.diagnostic import Severity
 from mrlab_ros.core.checking.report import counted
 from mrlab_ros.core.design import OUTCOME_STYLES, SEVERITY_STYLES
-from mrlab_ros.core.diagnostics import Severity
 from mrlab_ros.core.rubrics.checked import Checked
 from mrlab_ros.core.rubrics.document import at
 from mrlab_ros.core.rubrics.forms import FAMILIES

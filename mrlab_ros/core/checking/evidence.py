@@ -5,10 +5,10 @@ from __future__ import annotations
 from collections.abc import Iterable
 from dataclasses import dataclass, replace
 
+from mrlab_ros.core.base.diagnostic import Severity
 from mrlab_ros.core.checking.findings import Finding
 from mrlab_ros.core.checking.recording import Collision, GraspChange, Rehearsed
 from mrlab_ros.core.checking.rehearsal import FARTHEST
-from mrlab_ros.core.diagnostics import Severity
 from mrlab_ros.core.physics.engine import Kind
 from mrlab_ros.core.physics.grasp import Grasp
 

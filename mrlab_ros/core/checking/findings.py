@@ -6,7 +6,7 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 from typing import Any
 
-from mrlab_ros.core.diagnostics import Diagnostic, Severity
+from mrlab_ros.core.base.diagnostic import Diagnostic, Severity
 
 
 @dataclass(frozen=True)

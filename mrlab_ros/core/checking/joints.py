@@ -11,9 +11,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from mrlab_ros.core.base.diagnostic import Severity
 from mrlab_ros.core.checking.findings import Finding
 from mrlab_ros.core.conversion.limits import LIMIT_TOLERANCE
-from mrlab_ros.core.diagnostics import Severity
 from mrlab_ros.core.geometry import Array
 from mrlab_ros.core.robots.model import Joint
 

@@ -7,8 +7,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from mrlab_ros.core.base.diagnostic import Severity
 from mrlab_ros.core.checking.findings import Finding
-from mrlab_ros.core.diagnostics import Severity
 from mrlab_ros.core.errors import BadInput
 from mrlab_ros.core.geometry import Array, Vector
 

@@ -11,6 +11,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from mrlab_ros.core.base.diagnostic import MATLAB_PATH, Diagnostic, Fix, Severity
 from mrlab_ros.core.conversion import (
     datevec,
     dimensions,
@@ -35,7 +36,7 @@ from mrlab_ros.core.conversion.preview import Preview, preview
 from mrlab_ros.core.conversion.stated import with_headings, with_statements
 from mrlab_ros.core.conversion.survey import Survey, survey
 from mrlab_ros.core.conversion.workspace import Variable, Workspace
-from mrlab_ros.core.diagnostics import MATLAB_PATH, Diagnostic, Fix, Refused, Severity, finding
+from mrlab_ros.core.diagnostics import Refused, finding
 from mrlab_ros.core.foreign_text import visible
 from mrlab_ros.core.robots.model import RobotModel
 from mrlab_ros.core.trajectory import channels

@@ -9,8 +9,9 @@ from typing import Any
 
 from numpy.typing import NDArray
 
+from mrlab_ros.core.base.diagnostic import Diagnostic
 from mrlab_ros.core.conversion.workspace import Variable, Workspace
-from mrlab_ros.core.diagnostics import Diagnostic, finding
+from mrlab_ros.core.diagnostics import finding
 from mrlab_ros.core.robots.model import RobotModel
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from mrlab_ros.core.base.diagnostic import Diagnostic, Fix
 from mrlab_ros.core.conversion import joining
 from mrlab_ros.core.conversion.assessment import Assessment
 from mrlab_ros.core.conversion.explain import (
@@ -15,7 +16,7 @@ from mrlab_ros.core.conversion.scoring import FEW_ROWS
 from mrlab_ros.core.conversion.survey import Survey
 from mrlab_ros.core.conversion.variable_names import Hint
 from mrlab_ros.core.conversion.workspace import Variable, Workspace
-from mrlab_ros.core.diagnostics import Diagnostic, Fix, Refused, finding
+from mrlab_ros.core.diagnostics import Refused, finding
 
 # A score from which a matrix is taken or offered, and below which it is not even offered.
 PLAUSIBLE, CONCEIVABLE = 0.55, 0.25

@@ -7,6 +7,7 @@ from typing import Any
 
 import numpy as np
 
+from mrlab_ros.core.base.diagnostic import MATLAB_PATH, Diagnostic, Fix
 from mrlab_ros.core.conversion import relations
 from mrlab_ros.core.conversion.assessment import Assessment, blocking_clocks
 from mrlab_ros.core.conversion.cartesian import is_transforms
@@ -21,7 +22,7 @@ from mrlab_ros.core.conversion.scoring import FEW_ROWS
 from mrlab_ros.core.conversion.survey import Survey
 from mrlab_ros.core.conversion.variable_names import Hint
 from mrlab_ros.core.conversion.workspace import JOINT_STATE, Variable, Workspace
-from mrlab_ros.core.diagnostics import MATLAB_PATH, Diagnostic, Fix, finding
+from mrlab_ros.core.diagnostics import finding
 from mrlab_ros.core.robots.model import RobotModel
 
 OBJECT_CODE = {

@@ -13,6 +13,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from mrlab_ros.core.base.diagnostic import Diagnostic
 from mrlab_ros.core.conversion import rate_findings, rate_scalars
 from mrlab_ros.core.conversion.assessment import Assessment
 from mrlab_ros.core.conversion.joining import first_path
@@ -30,7 +31,7 @@ from mrlab_ros.core.conversion.time_vectors import (
 )
 from mrlab_ros.core.conversion.variable_names import Hint, hint, leaf, parts, words
 from mrlab_ros.core.conversion.workspace import Variable, Workspace
-from mrlab_ros.core.diagnostics import Diagnostic, finding
+from mrlab_ros.core.diagnostics import finding
 
 # structures that hold what belongs to the matrix beside them
 RELATED = words(

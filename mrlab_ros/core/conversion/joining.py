@@ -10,10 +10,11 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from mrlab_ros.core.base.diagnostic import Diagnostic, Fix
 from mrlab_ros.core.conversion.options import indices
 from mrlab_ros.core.conversion.variable_names import Hint, hint
 from mrlab_ros.core.conversion.workspace import Variable, Workspace
-from mrlab_ros.core.diagnostics import Diagnostic, Fix, Refused, finding
+from mrlab_ros.core.diagnostics import Refused, finding
 
 NUMBER = re.compile(r"\d+(?=\D*$)")
 MOST_PIECES = 50_000

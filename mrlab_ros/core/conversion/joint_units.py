@@ -7,12 +7,13 @@ from typing import Any
 
 import numpy as np
 
+from mrlab_ros.core.base.diagnostic import Diagnostic, Fix
 from mrlab_ros.core.conversion import units
 from mrlab_ros.core.conversion.assessment import Assessment
 from mrlab_ros.core.conversion.explain import matlab_name
 from mrlab_ros.core.conversion.options import Options, columns_text
 from mrlab_ros.core.conversion.unit_names import said_by_units
-from mrlab_ros.core.diagnostics import Diagnostic, Fix, Refused, finding
+from mrlab_ros.core.diagnostics import Refused, finding
 from mrlab_ros.core.robots.model import RobotModel
 from mrlab_ros.core.trajectory.trajectory import Array
 

@@ -14,8 +14,9 @@ from itertools import combinations
 
 import numpy as np
 
+from mrlab_ros.core.base.diagnostic import Diagnostic
 from mrlab_ros.core.conversion.workspace import Variable, Workspace
-from mrlab_ros.core.diagnostics import Diagnostic, finding
+from mrlab_ros.core.diagnostics import finding
 from mrlab_ros.core.geometry import Array, inverse_transform
 from mrlab_ros.core.robots.kinematics import KinematicChain, Segment
 from mrlab_ros.core.robots.model import RobotModel

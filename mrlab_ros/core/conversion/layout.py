@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from mrlab_ros.core.base.diagnostic import Diagnostic, Fix
 from mrlab_ros.core.conversion import gripper as grippers
 from mrlab_ros.core.conversion import limits as conversion_limits
 from mrlab_ros.core.conversion.assessment import Assessment, blocking_clocks
@@ -26,7 +27,7 @@ from mrlab_ros.core.conversion.picking import Chosen
 from mrlab_ros.core.conversion.survey import Survey
 from mrlab_ros.core.conversion.variable_names import parts, words
 from mrlab_ros.core.conversion.workspace import Variable, Workspace
-from mrlab_ros.core.diagnostics import Diagnostic, Fix, Refused, finding
+from mrlab_ros.core.diagnostics import Refused, finding
 from mrlab_ros.core.robots.model import RobotModel
 from mrlab_ros.core.trajectory.trajectory import Array
 

@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
+from mrlab_ros.core.base.diagnostic import Diagnostic
 from mrlab_ros.core.conversion import cartesian, relations
 from mrlab_ros.core.conversion.picking import Chosen
-from mrlab_ros.core.diagnostics import Diagnostic, finding
+from mrlab_ros.core.diagnostics import finding
 from mrlab_ros.core.robots.model import RobotModel
 
 MOST_COLUMNS = 64

@@ -11,9 +11,10 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from mrlab_ros.core.base.diagnostic import Diagnostic, Fix
 from mrlab_ros.core.conversion.joining import rows_of
 from mrlab_ros.core.conversion.options import LEAST_RATE
-from mrlab_ros.core.diagnostics import Diagnostic, Fix, finding
+from mrlab_ros.core.diagnostics import finding
 from mrlab_ros.core.robots.model import Joint
 
 Array = NDArray[np.float64]

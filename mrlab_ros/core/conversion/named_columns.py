@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+from mrlab_ros.core.base.diagnostic import Diagnostic, Fix
 from mrlab_ros.core.conversion.workspace import Variable
-from mrlab_ros.core.diagnostics import Diagnostic, Fix, Refused, finding
+from mrlab_ros.core.diagnostics import Refused, finding
 from mrlab_ros.core.robots.model import RobotModel
 
 GRIPPER = "gripper"

@@ -6,6 +6,7 @@ import re
 
 import numpy as np
 
+from mrlab_ros.core.base.diagnostic import Diagnostic, Fix
 from mrlab_ros.core.conversion.rate_scalars import RATE_NAMES, STEP_NAMES, scalar_name
 from mrlab_ros.core.conversion.time_vectors import (
     NAMED_SECONDS,
@@ -16,7 +17,7 @@ from mrlab_ros.core.conversion.time_vectors import (
 )
 from mrlab_ros.core.conversion.variable_names import leaf, parts
 from mrlab_ros.core.conversion.workspace import Variable, Workspace
-from mrlab_ros.core.diagnostics import Diagnostic, Fix, finding
+from mrlab_ros.core.diagnostics import finding
 
 COARSE_SINGLE = 1e5  # above it, single precision is no clock of a robot
 CONTAINERS = ("table", "timetable", "timeseries", "containers.Map", "dictionary")

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from mrlab_ros.core.diagnostics import Severity
+from mrlab_ros.core.base.diagnostic import Severity
 from mrlab_ros.core.rubrics.ground import Ground
 from mrlab_ros.core.rubrics.marking import Marks
 from mrlab_ros.core.rubrics.rubric import Rubric

@@ -13,10 +13,10 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from mrlab_ros.core.base.diagnostic import Diagnostic, plain
 from mrlab_ros.core.conversion.convert import ConversionResult, Outcome
 from mrlab_ros.core.conversion.options import DEFAULT_FRAME_RATE
 from mrlab_ros.core.conversion.preview import Preview
-from mrlab_ros.core.diagnostics import Diagnostic
 from mrlab_ros.core.show.packed import packed
 from mrlab_ros.core.show.remedies import for_page
 from mrlab_ros.core.trajectory.trajectory import Source, Trajectory
@@ -147,23 +147,7 @@ def of_result(
 
 def findings(diagnostics: Sequence[Diagnostic]) -> list[dict[str, Any]]:
     """Return the findings, numbered by their place in the list; NaN and Inf become null."""
-    return [
-        {
-            "severity": d.severity.name.lower(),
-            "code": d.code,
-            "message": d.message,
-            "remedy": for_page(d.remedy),
-            "variable": d.variable,
-            "first_row": d.first_row,
-            "last_row": d.last_row,
-            "joint": d.joint,
-            "value": _finite(d.value),
-            "limit": _finite(d.limit),
-            "unit": d.unit,
-            "fixes": [asdict(fix) for fix in d.fixes],
-        }
-        for d in diagnostics
-    ]
+    return [{**plain(d), "remedy": for_page(d.remedy)} for d in diagnostics]
 
 
 def _head(

@@ -13,7 +13,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from mrlab_ros.core.diagnostics import Diagnostic, Fix, Severity
+from mrlab_ros.core.base.diagnostic import Diagnostic, from_plain, plain
 from mrlab_ros.core.errors import BadInput
 from mrlab_ros.core.trajectory.trajectory import Array, Channels, Source, Trajectory
 
@@ -34,9 +34,7 @@ def metadata(trajectory: Trajectory) -> dict[str, Any]:
         "frame_count": trajectory.frame_count,
         "has_gripper": trajectory.gripper is not None,
         "units": UNITS,
-        "warnings": [
-            {**asdict(d), "severity": d.severity.name.lower()} for d in trajectory.warnings
-        ],
+        "warnings": [plain(warning) for warning in trajectory.warnings],
         "joint_names": list(trajectory.joint_names),
     }
 
@@ -68,24 +66,7 @@ def document(trajectory: Trajectory) -> dict[str, Any]:
 
 def warnings_of(head: Mapping[str, Any]) -> tuple[Diagnostic, ...]:
     """Return the warnings in a document's metadata."""
-    return tuple(
-        Diagnostic(
-            w["code"],
-            Severity[w["severity"].upper()],
-            w["message"],
-            w["remedy"],
-            w["variable"],
-            w["where"],
-            w.get("first_row", 0),
-            w.get("last_row", 0),
-            w.get("joint", ""),
-            w.get("value"),
-            w.get("limit"),
-            w.get("unit", ""),
-            tuple(Fix(**fix) for fix in w.get("fixes", ())),
-        )
-        for w in head["warnings"]
-    )
+    return tuple(from_plain(warning) for warning in head["warnings"])
 
 
 def _matrix(columns: Mapping[str, Any], name: str, shape: tuple[int, ...]) -> Array:

@@ -10,7 +10,7 @@ from typing import Any
 import orjson
 
 from mrlab_ros.adapters.trajectories import json_file
-from mrlab_ros.core.diagnostics import Diagnostic, Severity
+from mrlab_ros.core.base.diagnostic import Diagnostic, Severity
 from mrlab_ros.core.errors import BadInput, Unavailable
 from mrlab_ros.core.trajectory.trajectory import Trajectory
 from mrlab_ros.gateway.errors import NotFound
@@ -124,12 +124,14 @@ def _diagnostic(found: Mapping[str, Any], trajectory: Trajectory) -> Diagnostic:
         Severity[str(found["severity"]).upper()],
         str(found["message"]),
         str(found.get("remedy", "")),
-        first_row=first,
-        last_row=max(last, first),
-        joint=str(found.get("link", "")),
-        value=found.get("value", found.get("measured")),
-        limit=found.get("limit"),
-        unit=str(found.get("unit", "")),
+        {
+            "first_row": first,
+            "last_row": max(last, first),
+            "joint": found.get("link"),
+            "value": found.get("value", found.get("measured")),
+            "limit": found.get("limit"),
+            "unit": found.get("unit"),
+        },
     )
 
 

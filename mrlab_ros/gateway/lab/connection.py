@@ -100,7 +100,7 @@ class LabConnection(Protocol):
     ) -> Any:
         """Call a service and return its response, with its fields as attributes.
 
-        type_name: such as std_srvs/srv/Trigger. Raises NoAnswer, Refused, or BadInput for a
+        type_name: such as mrlab_msgs/srv/Trigger. Raises NoAnswer, Refused, or BadInput for a
         request that does not fit the type. `success` of the response is for the caller to check.
         """
         ...

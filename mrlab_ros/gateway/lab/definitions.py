@@ -17,11 +17,6 @@ from rosbags.typesys import Stores, get_types_from_msg, get_typestore
 from mrlab_ros.core.errors import BadInput, Unavailable
 
 PACKAGE = "mrlab_msgs"
-STD_SRVS = {
-    "std_srvs/srv/Empty": "---\n",
-    "std_srvs/srv/SetBool": "bool data\n---\nbool success\nstring message\n",
-    "std_srvs/srv/Trigger": "---\nbool success\nstring message\n",
-}
 # What ROS puts into a message without fields.
 EMPTY = "structure_needs_at_least_one_member"
 
@@ -36,7 +31,7 @@ class Definitions:
 
     def __init__(self, texts: Mapping[str, str]) -> None:
         self.store = get_typestore(Stores.ROS2_JAZZY)
-        self.learn(STD_SRVS | dict(texts))
+        self.learn(dict(texts))
 
     def learn(self, texts: Mapping[str, str]) -> list[str]:
         """Add the types that are not known yet; return those that are known otherwise."""

@@ -106,9 +106,18 @@ class ZenohLab:
         request: Mapping[str, Any] | None = None,
         timeout_s: float = CALL_TIMEOUT_S,
     ) -> Any:
+        self._connection()
         payload = self.definitions.encode(f"{type_name}_Request", request or {})
         answer = await self.query(service, payload, timeout_s)
         return self.definitions.decode(f"{type_name}_Response", answer)
+
+    def _connection(self) -> tuple[zenoh.Session, asyncio.AbstractEventLoop]:
+        if self._session is None or self._loop is None:
+            raise NoAnswer(
+                "the gateway has no connection to the lab; check that the lab runs, and the "
+                "gateway's endpoint"
+            )
+        return self._session, self._loop
 
     async def query(
         self, key: str, payload: bytes | None = None, timeout_s: float = CALL_TIMEOUT_S
@@ -228,11 +237,7 @@ class ZenohLab:
         consolidation: zenoh.ConsolidationMode = zenoh.ConsolidationMode.AUTO,
     ) -> list[Sample]:
         """Return the answers of a query; raise Refused where all are errors."""
-        if self._session is None or self._loop is None:
-            raise NoAnswer(
-                "the gateway has no connection to the lab; check that the lab runs, and the "
-                "gateway's endpoint"
-            )
+        session, loop = self._connection()
         done = asyncio.Event()
         answers: list[Sample] = []
         refusals: list[str] = []
@@ -251,7 +256,7 @@ class ZenohLab:
                 loop.call_soon_threadsafe(done.set)
 
         handler = zenoh.handlers.Callback(on_reply, on_end, indirect=False)
-        self._session.get(
+        session.get(
             f"{self._root}{key}",
             handler,
             payload=payload,

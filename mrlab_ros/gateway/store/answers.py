@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Annotated, Literal
+from typing import Annotated, Any, Literal
 
 from pydantic import BaseModel, ConfigDict, Field
 
@@ -16,6 +16,7 @@ class Fix(BaseModel):
     option: str
     value: str
     matlab: str
+    command: str
 
 
 class Finding(BaseModel):
@@ -33,6 +34,7 @@ class Finding(BaseModel):
     value: float | None
     limit: float | None
     unit: str
+    values: dict[str, Any]
     fixes: list[Fix]
 
 

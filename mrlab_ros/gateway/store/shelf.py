@@ -16,8 +16,8 @@ from mrlab_ros.adapters import private_folder
 from mrlab_ros.adapters.store.port import ObjectStore
 from mrlab_ros.adapters.trajectories.catalogue import Catalogue
 from mrlab_ros.adapters.trajectories.files import TrajectoryFiles
+from mrlab_ros.core.base.diagnostic import Diagnostic
 from mrlab_ros.core.bridge.policy import Policy, Verb
-from mrlab_ros.core.diagnostics import Diagnostic
 from mrlab_ros.core.show.document import findings
 from mrlab_ros.core.trajectory.document import warnings_of
 from mrlab_ros.core.trajectory.record import Record, Version
@@ -139,7 +139,4 @@ def duration(head: Mapping[str, Any]) -> float:
 
 def finding_fields(diagnostics: tuple[Diagnostic, ...]) -> list[dict[str, Any]]:
     """Return the fields of answers.Finding for each one."""
-    return [
-        {**fields, "where": diagnostic.where}
-        for fields, diagnostic in zip(findings(diagnostics), diagnostics, strict=True)
-    ]
+    return findings(diagnostics)

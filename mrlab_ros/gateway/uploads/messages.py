@@ -7,32 +7,15 @@ from typing import Any
 
 import numpy as np
 
+from mrlab_ros.core.base.diagnostic import Diagnostic, of_record
 from mrlab_ros.core.conversion.preview import Preview
-from mrlab_ros.core.diagnostics import Diagnostic, Fix, Severity
 
 OUTCOMES = ("rejected", "accepted", "ambiguous")
 
 
 def diagnostics_of(answer: Any) -> tuple[Diagnostic, ...]:
     """Return the findings of a response of ConvertTrajectory."""
-    return tuple(
-        Diagnostic(
-            each.code,
-            Severity(int(each.severity)),
-            each.message,
-            each.remedy,
-            each.variable,
-            each.where,
-            int(each.first_row),
-            int(each.last_row),
-            each.joint,
-            finite(each.value),
-            finite(each.limit),
-            each.unit,
-            tuple(Fix(fix.option, fix.value, fix.matlab) for fix in each.fixes),
-        )
-        for each in answer.diagnostics
-    )
+    return tuple(of_record(each) for each in answer.diagnostics)
 
 
 def preview_of(message: Any) -> Preview | None:

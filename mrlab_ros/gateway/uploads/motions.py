@@ -12,9 +12,9 @@ import orjson
 from mrlab_ros.adapters.store import keys
 from mrlab_ros.adapters.store.port import Missing
 from mrlab_ros.adapters.trajectories import npz_file
+from mrlab_ros.core.base.diagnostic import Diagnostic, from_plain
 from mrlab_ros.core.conversion.options import DEFAULT_FRAME_RATE
 from mrlab_ros.core.conversion.preview import Preview
-from mrlab_ros.core.diagnostics import Diagnostic, Fix, Severity
 from mrlab_ros.core.errors import BadInput
 from mrlab_ros.core.show import document
 from mrlab_ros.gateway.errors import NotFound
@@ -90,16 +90,5 @@ def _accepted(shelf: Shelf, draft: str, note: dict[str, Any]) -> bytes:
             file.flush()
             loaded = npz_file.read(Path(file.name))
     robot = shelf.robots.shown(loaded.robot_model, loaded.end_effector)
-    found = [_diagnostic(fields) for fields in note["diagnostics"]]
+    found = [from_plain(fields) for fields in note["diagnostics"]]
     return orjson.dumps(document.motion(loaded, robot, message=note["message"], diagnostics=found))
-
-
-def _diagnostic(fields: dict[str, Any]) -> Diagnostic:
-    """Return the finding that finding_fields() made into JSON."""
-    return Diagnostic(
-        **fields
-        | {
-            "severity": Severity[fields["severity"].upper()],
-            "fixes": tuple(Fix(**fix) for fix in fields["fixes"]),
-        }
-    )

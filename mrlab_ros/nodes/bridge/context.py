@@ -51,7 +51,7 @@ class BridgeContext:
         return self.counts.setdefault(key, Count(type_name, direction))
 
     def kind(self, name: str, type_name: str) -> Any:
-        """Return the class of a type such as std_srvs/srv/Trigger.
+        """Return the class of a type such as mrlab_msgs/srv/Trigger.
 
         Where its package is not installed, log that once and return None.
         """

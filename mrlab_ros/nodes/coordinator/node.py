@@ -9,11 +9,11 @@ from functools import partial
 from typing import Any
 
 from mrlab_msgs import msg, srv
+from mrlab_msgs.srv import SetLoop, Trigger
 from rclpy.context import Context
 from rclpy.duration import Duration
 from rclpy.parameter import Parameter
 from rclpy.service import Service
-from std_srvs.srv import SetBool, Trigger
 
 from mrlab_ros.adapters.journal import Journal
 from mrlab_ros.core.errors import BadInput, LabError
@@ -156,7 +156,7 @@ class CoordinatorNode(ParameterNode[CoordinatorParameters]):
                 (srv.Step, "step", self._step),
                 (srv.SetRate, "set_rate", self._set_rate),
                 (srv.SetMode, "set_mode", self._set_mode),
-                (SetBool, "set_loop", self._set_loop),
+                (SetLoop, "set_loop", self._set_loop),
             )
         ]
 
@@ -228,8 +228,8 @@ class CoordinatorNode(ParameterNode[CoordinatorParameters]):
         return f"{mode.name.lower()}, {system.duration:g} s"
 
     def _set_loop(self, system: RobotSystem, request: Any) -> str:
-        system.loop = request.data
-        return "loops" if request.data else "plays once"
+        system.loop = request.loop
+        return "loops" if request.loop else "plays once"
 
     # reports --------------------------------------------------------------------------------
 

@@ -9,9 +9,9 @@ from dataclasses import replace
 from typing import Any, Protocol
 
 from mrlab_msgs import msg, srv
+from mrlab_msgs.srv import SetLoop
 from rclpy.client import Client
 from rclpy.node import Node
-from std_srvs.srv import SetBool
 
 from mrlab_ros.core.errors import LabError, Misuse
 from mrlab_ros.core.physics.surfaces import Surface
@@ -134,7 +134,7 @@ class LabRestore:
         self.order(srv.LoadTrajectory, f"/{name}/load", load)
         self._set_rate(name, robot.rate)
         if robot.loop:
-            self.order(SetBool, f"/{name}/set_loop", SetBool.Request(data=True))
+            self.order(SetLoop, f"/{name}/set_loop", SetLoop.Request(loop=True))
         self._seek(name, robot.at)
 
     def _set_rate(self, name: str, rate: float) -> None:

@@ -10,9 +10,9 @@ from pathlib import Path
 from typing import Any
 
 from mrlab_msgs import srv
+from mrlab_msgs.srv import Trigger
 from rclpy.context import Context
 from rclpy.parameter import Parameter
-from std_srvs.srv import Trigger
 
 from mrlab_ros.adapters.bullet import support
 from mrlab_ros.adapters.robots.library import RobotLibrary

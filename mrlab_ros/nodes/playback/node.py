@@ -9,10 +9,10 @@ from contextlib import suppress
 from typing import Any
 
 from mrlab_msgs import msg, srv
+from mrlab_msgs.srv import SetLoop, Trigger
 from rclpy.context import Context
 from rclpy.node import Node
 from sensor_msgs.msg import JointState
-from std_srvs.srv import SetBool, Trigger
 
 from mrlab_ros.core.errors import LabError, Misuse
 from mrlab_ros.core.playback.planner import MotionPlanner
@@ -120,7 +120,7 @@ class PlaybackNode(Node):
             (Trigger, "stop", self._stop),
             (srv.Seek, "seek", self._seek),
             (srv.SetRate, "set_rate", self._set_rate),
-            (SetBool, "set_loop", self._set_loop),
+            (SetLoop, "set_loop", self._set_loop),
             (Trigger, "clear_halt", self._clear_halt),
         ):
             create_service(self, kind, name, callback)
@@ -323,8 +323,8 @@ class PlaybackNode(Node):
     @answered
     def _set_loop(self, request: Any, response: Any) -> str:
         with self._command():
-            self.playback.set_loop(request.data)
-        return "loops" if request.data else "plays once"
+            self.playback.set_loop(request.loop)
+        return "loops" if request.loop else "plays once"
 
     @answered
     def _clear_halt(self, request: Any, response: Any) -> str:

@@ -9,10 +9,10 @@ from pathlib import Path
 from typing import Any
 
 from mrlab_msgs import msg, srv
+from mrlab_msgs.srv import ListBags, SetLoop, Trigger
 from rclpy.context import Context
 from rclpy.node import Node
 from rclpy.parameter import Parameter
-from std_srvs.srv import SetBool, Trigger
 
 from mrlab_ros.adapters.bags.empty import remove_empty
 from mrlab_ros.adapters.bags.listing import bags_in
@@ -91,12 +91,12 @@ class RecorderNode(ParameterNode[RecorderParameters]):
             (Trigger, "stop", self._stop),
             (Trigger, "split", self._split),
             (srv.Replay, "replay", self._replay),
-            (Trigger, "list_bags", self._list_bags),
+            (ListBags, "list_bags", self._list_bags),
             (Trigger, "pause", self._pause),
             (Trigger, "resume", self._resume),
             (srv.Seek, "seek", self._seek),
             (srv.SetRate, "set_rate", self._set_rate),
-            (SetBool, "set_loop", self._set_loop),
+            (SetLoop, "set_loop", self._set_loop),
         ):
             create_service(self, kind, f"~/{name}", callback)
         every(self, 1.0, self._publish_while_working)
@@ -232,8 +232,8 @@ class RecorderNode(ParameterNode[RecorderParameters]):
     # replaying ------------------------------------------------------------------------------
 
     @answered
-    def _list_bags(self, _request: Any, _response: Any) -> str:
-        return "\n".join(bags_in(self._folder))
+    def _list_bags(self, _request: Any, response: Any) -> None:
+        response.bags = bags_in(self._folder)
 
     @answered
     def _replay(self, request: Any, response: Any) -> str:
@@ -313,8 +313,8 @@ class RecorderNode(ParameterNode[RecorderParameters]):
 
     @answered
     def _set_loop(self, request: Any, response: Any) -> str:
-        self._command(RecorderEvent.SET_LOOP, lambda replaying: replaying.set_loop(request.data))
-        return "loops" if request.data else "ends at the end"
+        self._command(RecorderEvent.SET_LOOP, lambda replaying: replaying.set_loop(request.loop))
+        return "loops" if request.loop else "ends at the end"
 
     def _command(self, event: RecorderEvent, act: Callable[[Replaying], None]) -> Replaying:
         """Do with the replay what `event` asks for; raise Misuse where there is none."""

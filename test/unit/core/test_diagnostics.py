@@ -5,7 +5,8 @@ from pathlib import Path
 
 import pytest
 
-from mrlab_ros.core.diagnostics import KINDS, Severity, finding
+from mrlab_ros.core.base.diagnostic import Severity
+from mrlab_ros.core.diagnostics import KINDS, finding
 
 ROOT = Path(__file__).parents[3]
 

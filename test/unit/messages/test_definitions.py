@@ -23,6 +23,7 @@ def test_every_type_within_follows_once() -> None:
     heads = [part.splitlines()[0] for part in inner]
     assert heads == [
         "MSG: std_msgs/Header",
+        "MSG: diagnostic_msgs/KeyValue",
         "MSG: mrlab_msgs/PlaybackClock",
         "MSG: builtin_interfaces/Time",
     ]

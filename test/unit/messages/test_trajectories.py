@@ -11,9 +11,9 @@ from mrlab_msgs.msg import Diagnostic as DiagnosticMessage
 from mrlab_msgs.msg import Trajectory as TrajectoryMessage
 from rclpy.serialization import deserialize_message, serialize_message
 
+from mrlab_ros.core.base.diagnostic import Diagnostic, Fix, Severity
 from mrlab_ros.core.conversion.preview import preview
 from mrlab_ros.core.conversion.workspace import Variable
-from mrlab_ros.core.diagnostics import Diagnostic, Fix, Severity
 from mrlab_ros.core.errors import BadInput
 from mrlab_ros.messages import trajectories
 from mrlab_ros.messages.poses import transform_to_pose_message
@@ -69,13 +69,15 @@ def test_a_finding_survives_the_wire(numbers):
         Severity.ERROR,
         "too far",
         "less",
-        "q",
-        "row 3, column 2",
-        first_row=3,
-        last_row=9,
-        joint="joint_2",
-        fixes=(Fix("columns", "1:6", "q = q(:, 1:6)"), Fix(matlab="q = unwrap(q)")),
-        **numbers,
+        {
+            "variable": "q",
+            "where": "row 3, column 2",
+            "first_row": 3,
+            "last_row": 9,
+            "joint": "joint_2",
+            **numbers,
+        },
+        (Fix("columns", "1:6", "q = q(:, 1:6)"), Fix(matlab="q = unwrap(q)")),
     )
     wire = serialize_message(trajectories.diagnostic_to_message(found))
     message = deserialize_message(wire, DiagnosticMessage)

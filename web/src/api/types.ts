@@ -1,3 +1,4 @@
+import type { Diagnostic, Fix } from '../words/diagnostic'
 /** The gateway's JSON. Field names are those of mrlab_msgs. */
 
 export type Role = 'student' | 'instructor' | 'operator' | 'display'
@@ -71,27 +72,7 @@ export interface ConversionRequest extends ConvertOptions {
   readonly end_effector: string
 }
 
-export interface Fix {
-  readonly option: string
-  readonly value: string
-  readonly matlab: string
-}
-
-export interface Diagnostic {
-  readonly severity: 'info' | 'warning' | 'error'
-  readonly code: string
-  readonly message: string
-  readonly remedy: string
-  readonly variable: string
-  readonly where: string
-  readonly first_row: number
-  readonly last_row: number
-  readonly joint: string
-  readonly value: number | null
-  readonly limit: number | null
-  readonly unit: string
-  readonly fixes: readonly Fix[]
-}
+export type { Diagnostic, Fix }
 
 export interface Preview {
   readonly variable: string

@@ -1,3 +1,4 @@
+import type { Diagnostic } from '../words/diagnostic'
 /** A motion to look at: an accepted trajectory, or the rows of a refused one.
  * The gateway serves it as JSON, `mrlab show` puts it into a page; `mrlab_ros/core/show/` writes it. */
 export interface MotionDocument {
@@ -21,7 +22,7 @@ export interface MotionDocument {
   readonly velocities: PackedArray | null
   /** (frames, joints) nominal, a proxy and no torque; null: not derived. */
   readonly effort_proxies: PackedArray | null
-  readonly findings: readonly MotionFinding[]
+  readonly findings: readonly Diagnostic[]
   readonly source: { readonly file: string; readonly variable: string; readonly sha256: string }
 }
 
@@ -44,27 +45,6 @@ export interface MotionJoint {
 }
 
 /** A finding of the converter, `mrlab_msgs/msg/Diagnostic`; its number is its place in the list, from 1. */
-export interface MotionFinding {
-  readonly severity: 'info' | 'warning' | 'error'
-  readonly code: string
-  readonly message: string
-  readonly remedy: string
-  readonly variable: string
-  /** Rows of the workspace's matrix, from 1; 0: none. */
-  readonly first_row: number
-  readonly last_row: number
-  /** Joint's name; empty: none. */
-  readonly joint: string
-  readonly value: number | null
-  readonly limit: number | null
-  readonly unit: string
-  readonly fixes: readonly {
-    readonly option: string
-    readonly value: string
-    readonly matlab: string
-  }[]
-}
-
 /** A numeric array as base64 of its little-endian bytes. */
 export interface PackedArray {
   readonly dtype: 'float32' | 'float64' | 'uint32' | 'uint8'

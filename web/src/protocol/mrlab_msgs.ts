@@ -3,6 +3,7 @@
 import type { MessageType, ServiceType } from '../link/link'
 import { type CdrReader, type CdrWriter, messageType } from './cdr'
 import { type Time, createTime, readTime, writeTime } from './builtin_interfaces'
+import { type KeyValue, createKeyValue, readKeyValue, writeKeyValue } from './diagnostic_msgs'
 import { type Point, type Pose, type Twist, type Vector3, createPoint, createPose, createTwist, createVector3, readPoint, readPose, readTwist, readVector3, writePoint, writePose, writeTwist, writeVector3 } from './geometry_msgs'
 import { type SolidPrimitive, createSolidPrimitive, readSolidPrimitive, writeSolidPrimitive } from './shape_msgs'
 import { type ColorRGBA, type Header, createColorRGBA, createHeader, readColorRGBA, readHeader, writeColorRGBA, writeHeader } from './std_msgs'
@@ -43,23 +44,33 @@ export interface AttachResponse {
   success: boolean
   /** why not, or what was done */
   message: string
+  /** what it is, for programs; docs/diagnostics.md lists the codes */
+  code: string
+  /** values of that text by name; a text as it is, all else as JSON */
+  values: KeyValue[]
 }
 
 export function createAttachResponse(): AttachResponse {
   return {
     success: false,
     message: '',
+    code: '',
+    values: [],
   }
 }
 
 export function readAttachResponse(from: CdrReader, into: AttachResponse): void {
   into.success = from.bool()
   into.message = from.string(into.message)
+  into.code = from.string(into.code)
+  into.values = from.messages(into.values, createKeyValue, readKeyValue)
 }
 
 export function writeAttachResponse(to: CdrWriter, message: AttachResponse): void {
   to.bool(message.success)
   to.string(message.message)
+  to.string(message.code)
+  to.messages(message.values, writeKeyValue)
 }
 
 export const attachResponseType: MessageType<AttachResponse> = /* @__PURE__ */ messageType(
@@ -209,6 +220,10 @@ export interface CommandMembersResponse {
   success: boolean
   /** why not */
   message: string
+  /** what it is, for programs; docs/diagnostics.md lists the codes */
+  code: string
+  /** values of that text by name; a text as it is, all else as JSON */
+  values: KeyValue[]
   /** when the orders were carried out */
   stamp: Time
   /** one for each order that was carried out */
@@ -219,6 +234,8 @@ export function createCommandMembersResponse(): CommandMembersResponse {
   return {
     success: false,
     message: '',
+    code: '',
+    values: [],
     stamp: createTime(),
     replies: [],
   }
@@ -227,6 +244,8 @@ export function createCommandMembersResponse(): CommandMembersResponse {
 export function readCommandMembersResponse(from: CdrReader, into: CommandMembersResponse): void {
   into.success = from.bool()
   into.message = from.string(into.message)
+  into.code = from.string(into.code)
+  into.values = from.messages(into.values, createKeyValue, readKeyValue)
   readTime(from, into.stamp)
   into.replies = from.messages(into.replies, createDriveReply, readDriveReply)
 }
@@ -234,6 +253,8 @@ export function readCommandMembersResponse(from: CdrReader, into: CommandMembers
 export function writeCommandMembersResponse(to: CdrWriter, message: CommandMembersResponse): void {
   to.bool(message.success)
   to.string(message.message)
+  to.string(message.code)
+  to.messages(message.values, writeKeyValue)
   writeTime(to, message.stamp)
   to.messages(message.replies, writeDriveReply)
 }
@@ -501,6 +522,10 @@ export interface ConvertTrajectoryResponse {
   success: boolean
   /** one sentence for a person */
   message: string
+  /** what it is, for programs; docs/diagnostics.md lists the codes */
+  code: string
+  /** values of that text by name; a text as it is, all else as JSON */
+  values: KeyValue[]
   /** one of the constants above */
   outcome: number
   /** meaningful only where ACCEPTED */
@@ -524,6 +549,8 @@ export function createConvertTrajectoryResponse(): ConvertTrajectoryResponse {
   return {
     success: false,
     message: '',
+    code: '',
+    values: [],
     outcome: 0,
     trajectory: createTrajectoryInfo(),
     candidates: [],
@@ -535,6 +562,8 @@ export function createConvertTrajectoryResponse(): ConvertTrajectoryResponse {
 export function readConvertTrajectoryResponse(from: CdrReader, into: ConvertTrajectoryResponse): void {
   into.success = from.bool()
   into.message = from.string(into.message)
+  into.code = from.string(into.code)
+  into.values = from.messages(into.values, createKeyValue, readKeyValue)
   into.outcome = from.uint8()
   readTrajectoryInfo(from, into.trajectory)
   into.candidates = from.messages(into.candidates, createCandidate, readCandidate)
@@ -545,6 +574,8 @@ export function readConvertTrajectoryResponse(from: CdrReader, into: ConvertTraj
 export function writeConvertTrajectoryResponse(to: CdrWriter, message: ConvertTrajectoryResponse): void {
   to.bool(message.success)
   to.string(message.message)
+  to.string(message.code)
+  to.messages(message.values, writeKeyValue)
   to.uint8(message.outcome)
   writeTrajectoryInfo(to, message.trajectory)
   to.messages(message.candidates, writeCandidate)
@@ -611,6 +642,10 @@ export interface CreateSystemResponse {
   success: boolean
   /** why not */
   message: string
+  /** what it is, for programs; docs/diagnostics.md lists the codes */
+  code: string
+  /** values of that text by name; a text as it is, all else as JSON */
+  values: KeyValue[]
   /** meaningful only on success */
   system: RobotSystem
 }
@@ -619,6 +654,8 @@ export function createCreateSystemResponse(): CreateSystemResponse {
   return {
     success: false,
     message: '',
+    code: '',
+    values: [],
     system: createRobotSystem(),
   }
 }
@@ -626,12 +663,16 @@ export function createCreateSystemResponse(): CreateSystemResponse {
 export function readCreateSystemResponse(from: CdrReader, into: CreateSystemResponse): void {
   into.success = from.bool()
   into.message = from.string(into.message)
+  into.code = from.string(into.code)
+  into.values = from.messages(into.values, createKeyValue, readKeyValue)
   readRobotSystem(from, into.system)
 }
 
 export function writeCreateSystemResponse(to: CdrWriter, message: CreateSystemResponse): void {
   to.bool(message.success)
   to.string(message.message)
+  to.string(message.code)
+  to.messages(message.values, writeKeyValue)
   writeRobotSystem(to, message.system)
 }
 
@@ -674,23 +715,33 @@ export interface DetachResponse {
   success: boolean
   /** why not, or what was done */
   message: string
+  /** what it is, for programs; docs/diagnostics.md lists the codes */
+  code: string
+  /** values of that text by name; a text as it is, all else as JSON */
+  values: KeyValue[]
 }
 
 export function createDetachResponse(): DetachResponse {
   return {
     success: false,
     message: '',
+    code: '',
+    values: [],
   }
 }
 
 export function readDetachResponse(from: CdrReader, into: DetachResponse): void {
   into.success = from.bool()
   into.message = from.string(into.message)
+  into.code = from.string(into.code)
+  into.values = from.messages(into.values, createKeyValue, readKeyValue)
 }
 
 export function writeDetachResponse(to: CdrWriter, message: DetachResponse): void {
   to.bool(message.success)
   to.string(message.message)
+  to.string(message.code)
+  to.messages(message.values, writeKeyValue)
 }
 
 export const detachResponseType: MessageType<DetachResponse> = /* @__PURE__ */ messageType(
@@ -726,6 +777,8 @@ export interface Diagnostic {
   limit: number
   /** of value and limit: rad, rad/s, s, Hz; empty: that of the variable, or none */
   unit: string
+  /** all values of its texts by name, in SI units and radians; a text as it is, all else as JSON */
+  values: KeyValue[]
   /** ways to mend it, the likeliest first; may be empty */
   fixes: Fix[]
 }
@@ -753,6 +806,7 @@ export function createDiagnostic(): Diagnostic {
     value: 0,
     limit: 0,
     unit: '',
+    values: [],
     fixes: [],
   }
 }
@@ -770,6 +824,7 @@ export function readDiagnostic(from: CdrReader, into: Diagnostic): void {
   into.value = from.float64()
   into.limit = from.float64()
   into.unit = from.string(into.unit)
+  into.values = from.messages(into.values, createKeyValue, readKeyValue)
   into.fixes = from.messages(into.fixes, createFix, readFix)
 }
 
@@ -786,6 +841,7 @@ export function writeDiagnostic(to: CdrWriter, message: Diagnostic): void {
   to.float64(message.value)
   to.float64(message.limit)
   to.string(message.unit)
+  to.messages(message.values, writeKeyValue)
   to.messages(message.fixes, writeFix)
 }
 
@@ -932,6 +988,8 @@ export interface Fix {
   value: string
   /** statements that do the same in MATLAB, such as q = unwrap(q); may be empty */
   matlab: string
+  /** words of an `mrlab` command line that mend it, such as "up --robots ur5e"; may be empty */
+  command: string
 }
 
 export function createFix(): Fix {
@@ -939,6 +997,7 @@ export function createFix(): Fix {
     option: '',
     value: '',
     matlab: '',
+    command: '',
   }
 }
 
@@ -946,12 +1005,14 @@ export function readFix(from: CdrReader, into: Fix): void {
   into.option = from.string(into.option)
   into.value = from.string(into.value)
   into.matlab = from.string(into.matlab)
+  into.command = from.string(into.command)
 }
 
 export function writeFix(to: CdrWriter, message: Fix): void {
   to.string(message.option)
   to.string(message.value)
   to.string(message.matlab)
+  to.string(message.command)
 }
 
 export const fixType: MessageType<Fix> = /* @__PURE__ */ messageType(
@@ -1060,6 +1121,10 @@ export interface GetTrajectoryResponse {
   success: boolean
   /** why not */
   message: string
+  /** what it is, for programs; docs/diagnostics.md lists the codes */
+  code: string
+  /** values of that text by name; a text as it is, all else as JSON */
+  values: KeyValue[]
   /** meaningful only on success; info describes the whole trajectory */
   trajectory: Trajectory
   /** path on the lab's machine, numpy's npz with the matrices; empty: none */
@@ -1070,6 +1135,8 @@ export function createGetTrajectoryResponse(): GetTrajectoryResponse {
   return {
     success: false,
     message: '',
+    code: '',
+    values: [],
     trajectory: createTrajectory(),
     file: '',
   }
@@ -1078,6 +1145,8 @@ export function createGetTrajectoryResponse(): GetTrajectoryResponse {
 export function readGetTrajectoryResponse(from: CdrReader, into: GetTrajectoryResponse): void {
   into.success = from.bool()
   into.message = from.string(into.message)
+  into.code = from.string(into.code)
+  into.values = from.messages(into.values, createKeyValue, readKeyValue)
   readTrajectory(from, into.trajectory)
   into.file = from.string(into.file)
 }
@@ -1085,6 +1154,8 @@ export function readGetTrajectoryResponse(from: CdrReader, into: GetTrajectoryRe
 export function writeGetTrajectoryResponse(to: CdrWriter, message: GetTrajectoryResponse): void {
   to.bool(message.success)
   to.string(message.message)
+  to.string(message.code)
+  to.messages(message.values, writeKeyValue)
   writeTrajectory(to, message.trajectory)
   to.string(message.file)
 }
@@ -1112,6 +1183,10 @@ export interface Grasp {
   finger_forces: Float64Array
   /** why nothing is held, why it slips or was lost; empty: nothing to say */
   reason: string
+  /** what the reason says, for programs; docs/diagnostics.md lists the codes */
+  code: string
+  /** values of that text by name; a text as it is, all else as JSON */
+  values: KeyValue[]
   /** kg of the held object */
   mass: number
   /** kg that the robot with this end effector may carry; 0: not stated */
@@ -1146,6 +1221,8 @@ export function createGrasp(): Grasp {
     finger_positions: new Float64Array(0),
     finger_forces: new Float64Array(0),
     reason: '',
+    code: '',
+    values: [],
     mass: 0,
     payload: 0,
     friction: 0,
@@ -1163,6 +1240,8 @@ export function readGrasp(from: CdrReader, into: Grasp): void {
   into.finger_positions = from.float64s(into.finger_positions)
   into.finger_forces = from.float64s(into.finger_forces)
   into.reason = from.string(into.reason)
+  into.code = from.string(into.code)
+  into.values = from.messages(into.values, createKeyValue, readKeyValue)
   into.mass = from.float64()
   into.payload = from.float64()
   into.friction = from.float64()
@@ -1179,6 +1258,8 @@ export function writeGrasp(to: CdrWriter, message: Grasp): void {
   to.float64s(message.finger_positions)
   to.float64s(message.finger_forces)
   to.string(message.reason)
+  to.string(message.code)
+  to.messages(message.values, writeKeyValue)
   to.float64(message.mass)
   to.float64(message.payload)
   to.float64(message.friction)
@@ -1377,6 +1458,74 @@ export const latencyHopType: MessageType<LatencyHop> = /* @__PURE__ */ messageTy
   createLatencyHop,
   readLatencyHop,
   writeLatencyHop,
+)
+
+/** mrlab_msgs/srv/ListBags_Request: List the bags that replay finds by name. */
+export type ListBagsRequest = Record<string, never>
+
+export function createListBagsRequest(): ListBagsRequest {
+  return {}
+}
+
+export function readListBagsRequest(from: CdrReader, _: ListBagsRequest): void {
+  from.uint8()
+}
+
+export function writeListBagsRequest(to: CdrWriter, _: ListBagsRequest): void {
+  to.uint8(0)
+}
+
+export const listBagsRequestType: MessageType<ListBagsRequest> = /* @__PURE__ */ messageType(
+  'mrlab_msgs/srv/ListBags_Request',
+  createListBagsRequest,
+  readListBagsRequest,
+  writeListBagsRequest,
+)
+
+/** mrlab_msgs/srv/ListBags_Response */
+export interface ListBagsResponse {
+  success: boolean
+  /** why not */
+  message: string
+  /** what it is, for programs; docs/diagnostics.md lists the codes */
+  code: string
+  /** values of that text by name; a text as it is, all else as JSON */
+  values: KeyValue[]
+  /** names, newest first */
+  bags: string[]
+}
+
+export function createListBagsResponse(): ListBagsResponse {
+  return {
+    success: false,
+    message: '',
+    code: '',
+    values: [],
+    bags: [],
+  }
+}
+
+export function readListBagsResponse(from: CdrReader, into: ListBagsResponse): void {
+  into.success = from.bool()
+  into.message = from.string(into.message)
+  into.code = from.string(into.code)
+  into.values = from.messages(into.values, createKeyValue, readKeyValue)
+  into.bags = from.strings(into.bags)
+}
+
+export function writeListBagsResponse(to: CdrWriter, message: ListBagsResponse): void {
+  to.bool(message.success)
+  to.string(message.message)
+  to.string(message.code)
+  to.messages(message.values, writeKeyValue)
+  to.strings(message.bags)
+}
+
+export const listBagsResponseType: MessageType<ListBagsResponse> = /* @__PURE__ */ messageType(
+  'mrlab_msgs/srv/ListBags_Response',
+  createListBagsResponse,
+  readListBagsResponse,
+  writeListBagsResponse,
 )
 
 /** mrlab_msgs/srv/ListCatalogue_Request: List the types of objects that spawn_object takes. */
@@ -1588,23 +1737,33 @@ export interface LoadTrajectoryResponse {
   success: boolean
   /** why not, or what was done */
   message: string
+  /** what it is, for programs; docs/diagnostics.md lists the codes */
+  code: string
+  /** values of that text by name; a text as it is, all else as JSON */
+  values: KeyValue[]
 }
 
 export function createLoadTrajectoryResponse(): LoadTrajectoryResponse {
   return {
     success: false,
     message: '',
+    code: '',
+    values: [],
   }
 }
 
 export function readLoadTrajectoryResponse(from: CdrReader, into: LoadTrajectoryResponse): void {
   into.success = from.bool()
   into.message = from.string(into.message)
+  into.code = from.string(into.code)
+  into.values = from.messages(into.values, createKeyValue, readKeyValue)
 }
 
 export function writeLoadTrajectoryResponse(to: CdrWriter, message: LoadTrajectoryResponse): void {
   to.bool(message.success)
   to.string(message.message)
+  to.string(message.code)
+  to.messages(message.values, writeKeyValue)
 }
 
 export const loadTrajectoryResponseType: MessageType<LoadTrajectoryResponse> = /* @__PURE__ */ messageType(
@@ -1661,23 +1820,33 @@ export interface MoveObjectResponse {
   success: boolean
   /** why not, or what was done */
   message: string
+  /** what it is, for programs; docs/diagnostics.md lists the codes */
+  code: string
+  /** values of that text by name; a text as it is, all else as JSON */
+  values: KeyValue[]
 }
 
 export function createMoveObjectResponse(): MoveObjectResponse {
   return {
     success: false,
     message: '',
+    code: '',
+    values: [],
   }
 }
 
 export function readMoveObjectResponse(from: CdrReader, into: MoveObjectResponse): void {
   into.success = from.bool()
   into.message = from.string(into.message)
+  into.code = from.string(into.code)
+  into.values = from.messages(into.values, createKeyValue, readKeyValue)
 }
 
 export function writeMoveObjectResponse(to: CdrWriter, message: MoveObjectResponse): void {
   to.bool(message.success)
   to.string(message.message)
+  to.string(message.code)
+  to.messages(message.values, writeKeyValue)
 }
 
 export const moveObjectResponseType: MessageType<MoveObjectResponse> = /* @__PURE__ */ messageType(
@@ -1873,23 +2042,33 @@ export interface PlaceRobotResponse {
   success: boolean
   /** why not, or what was done */
   message: string
+  /** what it is, for programs; docs/diagnostics.md lists the codes */
+  code: string
+  /** values of that text by name; a text as it is, all else as JSON */
+  values: KeyValue[]
 }
 
 export function createPlaceRobotResponse(): PlaceRobotResponse {
   return {
     success: false,
     message: '',
+    code: '',
+    values: [],
   }
 }
 
 export function readPlaceRobotResponse(from: CdrReader, into: PlaceRobotResponse): void {
   into.success = from.bool()
   into.message = from.string(into.message)
+  into.code = from.string(into.code)
+  into.values = from.messages(into.values, createKeyValue, readKeyValue)
 }
 
 export function writePlaceRobotResponse(to: CdrWriter, message: PlaceRobotResponse): void {
   to.bool(message.success)
   to.string(message.message)
+  to.string(message.code)
+  to.messages(message.values, writeKeyValue)
 }
 
 export const placeRobotResponseType: MessageType<PlaceRobotResponse> = /* @__PURE__ */ messageType(
@@ -1946,6 +2125,10 @@ export interface PlaybackState {
   label: string
   /** why it is in this state, for a person; may be empty */
   message: string
+  /** what the message says, for programs; docs/diagnostics.md lists the codes */
+  code: string
+  /** values of that text by name; a text as it is, all else as JSON */
+  values: KeyValue[]
   /** empty in IDLE */
   trajectory_id: string
   /** which one was loaded: converter/get ID@VERSION; 0 in IDLE */
@@ -1995,6 +2178,8 @@ export function createPlaybackState(): PlaybackState {
     state: 0,
     label: '',
     message: '',
+    code: '',
+    values: [],
     trajectory_id: '',
     trajectory_version: 0,
     clock: createPlaybackClock(),
@@ -2015,6 +2200,8 @@ export function readPlaybackState(from: CdrReader, into: PlaybackState): void {
   into.state = from.uint8()
   into.label = from.string(into.label)
   into.message = from.string(into.message)
+  into.code = from.string(into.code)
+  into.values = from.messages(into.values, createKeyValue, readKeyValue)
   into.trajectory_id = from.string(into.trajectory_id)
   into.trajectory_version = from.uint32()
   readPlaybackClock(from, into.clock)
@@ -2034,6 +2221,8 @@ export function writePlaybackState(to: CdrWriter, message: PlaybackState): void 
   to.uint8(message.state)
   to.string(message.label)
   to.string(message.message)
+  to.string(message.code)
+  to.messages(message.values, writeKeyValue)
   to.string(message.trajectory_id)
   to.uint32(message.trajectory_version)
   writePlaybackClock(to, message.clock)
@@ -2225,6 +2414,10 @@ export interface PublishTrajectoryResponse {
   success: boolean
   /** why not, or what was done */
   message: string
+  /** what it is, for programs; docs/diagnostics.md lists the codes */
+  code: string
+  /** values of that text by name; a text as it is, all else as JSON */
+  values: KeyValue[]
   /** meaningful only on success */
   trajectory: TrajectoryInfo
 }
@@ -2233,6 +2426,8 @@ export function createPublishTrajectoryResponse(): PublishTrajectoryResponse {
   return {
     success: false,
     message: '',
+    code: '',
+    values: [],
     trajectory: createTrajectoryInfo(),
   }
 }
@@ -2240,12 +2435,16 @@ export function createPublishTrajectoryResponse(): PublishTrajectoryResponse {
 export function readPublishTrajectoryResponse(from: CdrReader, into: PublishTrajectoryResponse): void {
   into.success = from.bool()
   into.message = from.string(into.message)
+  into.code = from.string(into.code)
+  into.values = from.messages(into.values, createKeyValue, readKeyValue)
   readTrajectoryInfo(from, into.trajectory)
 }
 
 export function writePublishTrajectoryResponse(to: CdrWriter, message: PublishTrajectoryResponse): void {
   to.bool(message.success)
   to.string(message.message)
+  to.string(message.code)
+  to.messages(message.values, writeKeyValue)
   writeTrajectoryInfo(to, message.trajectory)
 }
 
@@ -2275,6 +2474,10 @@ export interface RecorderState {
   bytes: bigint
   /** trouble, for a person; may be empty */
   message: string
+  /** what the message says, for programs; docs/diagnostics.md lists the codes */
+  code: string
+  /** values of that text by name; a text as it is, all else as JSON */
+  values: KeyValue[]
 }
 
 export const RecorderState = {
@@ -2296,6 +2499,8 @@ export function createRecorderState(): RecorderState {
     messages: 0n,
     bytes: 0n,
     message: '',
+    code: '',
+    values: [],
   }
 }
 
@@ -2309,6 +2514,8 @@ export function readRecorderState(from: CdrReader, into: RecorderState): void {
   into.messages = from.uint64()
   into.bytes = from.uint64()
   into.message = from.string(into.message)
+  into.code = from.string(into.code)
+  into.values = from.messages(into.values, createKeyValue, readKeyValue)
 }
 
 export function writeRecorderState(to: CdrWriter, message: RecorderState): void {
@@ -2321,6 +2528,8 @@ export function writeRecorderState(to: CdrWriter, message: RecorderState): void 
   to.uint64(message.messages)
   to.uint64(message.bytes)
   to.string(message.message)
+  to.string(message.code)
+  to.messages(message.values, writeKeyValue)
 }
 
 export const recorderStateType: MessageType<RecorderState> = /* @__PURE__ */ messageType(
@@ -2362,23 +2571,33 @@ export interface RemoveResponse {
   success: boolean
   /** why not, or what was done */
   message: string
+  /** what it is, for programs; docs/diagnostics.md lists the codes */
+  code: string
+  /** values of that text by name; a text as it is, all else as JSON */
+  values: KeyValue[]
 }
 
 export function createRemoveResponse(): RemoveResponse {
   return {
     success: false,
     message: '',
+    code: '',
+    values: [],
   }
 }
 
 export function readRemoveResponse(from: CdrReader, into: RemoveResponse): void {
   into.success = from.bool()
   into.message = from.string(into.message)
+  into.code = from.string(into.code)
+  into.values = from.messages(into.values, createKeyValue, readKeyValue)
 }
 
 export function writeRemoveResponse(to: CdrWriter, message: RemoveResponse): void {
   to.bool(message.success)
   to.string(message.message)
+  to.string(message.code)
+  to.messages(message.values, writeKeyValue)
 }
 
 export const removeResponseType: MessageType<RemoveResponse> = /* @__PURE__ */ messageType(
@@ -2435,23 +2654,33 @@ export interface ReplayResponse {
   success: boolean
   /** why not, or what was done */
   message: string
+  /** what it is, for programs; docs/diagnostics.md lists the codes */
+  code: string
+  /** values of that text by name; a text as it is, all else as JSON */
+  values: KeyValue[]
 }
 
 export function createReplayResponse(): ReplayResponse {
   return {
     success: false,
     message: '',
+    code: '',
+    values: [],
   }
 }
 
 export function readReplayResponse(from: CdrReader, into: ReplayResponse): void {
   into.success = from.bool()
   into.message = from.string(into.message)
+  into.code = from.string(into.code)
+  into.values = from.messages(into.values, createKeyValue, readKeyValue)
 }
 
 export function writeReplayResponse(to: CdrWriter, message: ReplayResponse): void {
   to.bool(message.success)
   to.string(message.message)
+  to.string(message.code)
+  to.messages(message.values, writeKeyValue)
 }
 
 export const replayResponseType: MessageType<ReplayResponse> = /* @__PURE__ */ messageType(
@@ -2499,6 +2728,10 @@ export interface RestoreTrajectoryResponse {
   success: boolean
   /** why not, or what was done */
   message: string
+  /** what it is, for programs; docs/diagnostics.md lists the codes */
+  code: string
+  /** values of that text by name; a text as it is, all else as JSON */
+  values: KeyValue[]
   /** meaningful only on success */
   trajectory: TrajectoryInfo
 }
@@ -2507,6 +2740,8 @@ export function createRestoreTrajectoryResponse(): RestoreTrajectoryResponse {
   return {
     success: false,
     message: '',
+    code: '',
+    values: [],
     trajectory: createTrajectoryInfo(),
   }
 }
@@ -2514,12 +2749,16 @@ export function createRestoreTrajectoryResponse(): RestoreTrajectoryResponse {
 export function readRestoreTrajectoryResponse(from: CdrReader, into: RestoreTrajectoryResponse): void {
   into.success = from.bool()
   into.message = from.string(into.message)
+  into.code = from.string(into.code)
+  into.values = from.messages(into.values, createKeyValue, readKeyValue)
   readTrajectoryInfo(from, into.trajectory)
 }
 
 export function writeRestoreTrajectoryResponse(to: CdrWriter, message: RestoreTrajectoryResponse): void {
   to.bool(message.success)
   to.string(message.message)
+  to.string(message.code)
+  to.messages(message.values, writeKeyValue)
   writeTrajectoryInfo(to, message.trajectory)
 }
 
@@ -2593,6 +2832,10 @@ export interface RobotSystem {
   label: string
   /** why it is in this state, for a person; may be empty */
   message: string
+  /** what the message says, for programs; docs/diagnostics.md lists the codes */
+  code: string
+  /** values of that text by name; a text as it is, all else as JSON */
+  values: KeyValue[]
   /** of the timeline */
   clock: PlaybackClock
   /** s of the timeline */
@@ -2632,6 +2875,8 @@ export function createRobotSystem(): RobotSystem {
     state: 0,
     label: '',
     message: '',
+    code: '',
+    values: [],
     clock: createPlaybackClock(),
     duration: 0,
     rate: 0,
@@ -2647,6 +2892,8 @@ export function readRobotSystem(from: CdrReader, into: RobotSystem): void {
   into.state = from.uint8()
   into.label = from.string(into.label)
   into.message = from.string(into.message)
+  into.code = from.string(into.code)
+  into.values = from.messages(into.values, createKeyValue, readKeyValue)
   readPlaybackClock(from, into.clock)
   into.duration = from.float64()
   into.rate = from.float64()
@@ -2661,6 +2908,8 @@ export function writeRobotSystem(to: CdrWriter, message: RobotSystem): void {
   to.uint8(message.state)
   to.string(message.label)
   to.string(message.message)
+  to.string(message.code)
+  to.messages(message.values, writeKeyValue)
   writePlaybackClock(to, message.clock)
   to.float64(message.duration)
   to.float64(message.rate)
@@ -2783,23 +3032,33 @@ export interface SceneFileResponse {
   success: boolean
   /** what was done and what is left out, or why not */
   message: string
+  /** what it is, for programs; docs/diagnostics.md lists the codes */
+  code: string
+  /** values of that text by name; a text as it is, all else as JSON */
+  values: KeyValue[]
 }
 
 export function createSceneFileResponse(): SceneFileResponse {
   return {
     success: false,
     message: '',
+    code: '',
+    values: [],
   }
 }
 
 export function readSceneFileResponse(from: CdrReader, into: SceneFileResponse): void {
   into.success = from.bool()
   into.message = from.string(into.message)
+  into.code = from.string(into.code)
+  into.values = from.messages(into.values, createKeyValue, readKeyValue)
 }
 
 export function writeSceneFileResponse(to: CdrWriter, message: SceneFileResponse): void {
   to.bool(message.success)
   to.string(message.message)
+  to.string(message.code)
+  to.messages(message.values, writeKeyValue)
 }
 
 export const sceneFileResponseType: MessageType<SceneFileResponse> = /* @__PURE__ */ messageType(
@@ -2949,23 +3208,33 @@ export interface SeekResponse {
   success: boolean
   /** why not, or what was done */
   message: string
+  /** what it is, for programs; docs/diagnostics.md lists the codes */
+  code: string
+  /** values of that text by name; a text as it is, all else as JSON */
+  values: KeyValue[]
 }
 
 export function createSeekResponse(): SeekResponse {
   return {
     success: false,
     message: '',
+    code: '',
+    values: [],
   }
 }
 
 export function readSeekResponse(from: CdrReader, into: SeekResponse): void {
   into.success = from.bool()
   into.message = from.string(into.message)
+  into.code = from.string(into.code)
+  into.values = from.messages(into.values, createKeyValue, readKeyValue)
 }
 
 export function writeSeekResponse(to: CdrWriter, message: SeekResponse): void {
   to.bool(message.success)
   to.string(message.message)
+  to.string(message.code)
+  to.messages(message.values, writeKeyValue)
 }
 
 export const seekResponseType: MessageType<SeekResponse> = /* @__PURE__ */ messageType(
@@ -3012,23 +3281,33 @@ export interface SetEndEffectorResponse {
   success: boolean
   /** why not, or what was done */
   message: string
+  /** what it is, for programs; docs/diagnostics.md lists the codes */
+  code: string
+  /** values of that text by name; a text as it is, all else as JSON */
+  values: KeyValue[]
 }
 
 export function createSetEndEffectorResponse(): SetEndEffectorResponse {
   return {
     success: false,
     message: '',
+    code: '',
+    values: [],
   }
 }
 
 export function readSetEndEffectorResponse(from: CdrReader, into: SetEndEffectorResponse): void {
   into.success = from.bool()
   into.message = from.string(into.message)
+  into.code = from.string(into.code)
+  into.values = from.messages(into.values, createKeyValue, readKeyValue)
 }
 
 export function writeSetEndEffectorResponse(to: CdrWriter, message: SetEndEffectorResponse): void {
   to.bool(message.success)
   to.string(message.message)
+  to.string(message.code)
+  to.messages(message.values, writeKeyValue)
 }
 
 export const setEndEffectorResponseType: MessageType<SetEndEffectorResponse> = /* @__PURE__ */ messageType(
@@ -3036,6 +3315,75 @@ export const setEndEffectorResponseType: MessageType<SetEndEffectorResponse> = /
   createSetEndEffectorResponse,
   readSetEndEffectorResponse,
   writeSetEndEffectorResponse,
+)
+
+/** mrlab_msgs/srv/SetLoop_Request: Play or replay again and again, or once. */
+export interface SetLoopRequest {
+  /** true: starts over after the last frame */
+  loop: boolean
+}
+
+export function createSetLoopRequest(): SetLoopRequest {
+  return {
+    loop: false,
+  }
+}
+
+export function readSetLoopRequest(from: CdrReader, into: SetLoopRequest): void {
+  into.loop = from.bool()
+}
+
+export function writeSetLoopRequest(to: CdrWriter, message: SetLoopRequest): void {
+  to.bool(message.loop)
+}
+
+export const setLoopRequestType: MessageType<SetLoopRequest> = /* @__PURE__ */ messageType(
+  'mrlab_msgs/srv/SetLoop_Request',
+  createSetLoopRequest,
+  readSetLoopRequest,
+  writeSetLoopRequest,
+)
+
+/** mrlab_msgs/srv/SetLoop_Response */
+export interface SetLoopResponse {
+  /** false: nothing was changed */
+  success: boolean
+  /** why not, or what was done */
+  message: string
+  /** what it is, for programs; docs/diagnostics.md lists the codes */
+  code: string
+  /** values of that text by name; a text as it is, all else as JSON */
+  values: KeyValue[]
+}
+
+export function createSetLoopResponse(): SetLoopResponse {
+  return {
+    success: false,
+    message: '',
+    code: '',
+    values: [],
+  }
+}
+
+export function readSetLoopResponse(from: CdrReader, into: SetLoopResponse): void {
+  into.success = from.bool()
+  into.message = from.string(into.message)
+  into.code = from.string(into.code)
+  into.values = from.messages(into.values, createKeyValue, readKeyValue)
+}
+
+export function writeSetLoopResponse(to: CdrWriter, message: SetLoopResponse): void {
+  to.bool(message.success)
+  to.string(message.message)
+  to.string(message.code)
+  to.messages(message.values, writeKeyValue)
+}
+
+export const setLoopResponseType: MessageType<SetLoopResponse> = /* @__PURE__ */ messageType(
+  'mrlab_msgs/srv/SetLoop_Response',
+  createSetLoopResponse,
+  readSetLoopResponse,
+  writeSetLoopResponse,
 )
 
 /** mrlab_msgs/srv/SetMode_Request: Set how a robot system plays. */
@@ -3071,23 +3419,33 @@ export interface SetModeResponse {
   success: boolean
   /** why not, or what was done */
   message: string
+  /** what it is, for programs; docs/diagnostics.md lists the codes */
+  code: string
+  /** values of that text by name; a text as it is, all else as JSON */
+  values: KeyValue[]
 }
 
 export function createSetModeResponse(): SetModeResponse {
   return {
     success: false,
     message: '',
+    code: '',
+    values: [],
   }
 }
 
 export function readSetModeResponse(from: CdrReader, into: SetModeResponse): void {
   into.success = from.bool()
   into.message = from.string(into.message)
+  into.code = from.string(into.code)
+  into.values = from.messages(into.values, createKeyValue, readKeyValue)
 }
 
 export function writeSetModeResponse(to: CdrWriter, message: SetModeResponse): void {
   to.bool(message.success)
   to.string(message.message)
+  to.string(message.code)
+  to.messages(message.values, writeKeyValue)
 }
 
 export const setModeResponseType: MessageType<SetModeResponse> = /* @__PURE__ */ messageType(
@@ -3140,6 +3498,10 @@ export interface SetObjectsResponse {
   success: boolean
   /** why not, or what was done */
   message: string
+  /** what it is, for programs; docs/diagnostics.md lists the codes */
+  code: string
+  /** values of that text by name; a text as it is, all else as JSON */
+  values: KeyValue[]
   /** meaningful only on success: as in the request, where they are put */
   objects: ObjectPlacement[]
 }
@@ -3148,6 +3510,8 @@ export function createSetObjectsResponse(): SetObjectsResponse {
   return {
     success: false,
     message: '',
+    code: '',
+    values: [],
     objects: [],
   }
 }
@@ -3155,12 +3519,16 @@ export function createSetObjectsResponse(): SetObjectsResponse {
 export function readSetObjectsResponse(from: CdrReader, into: SetObjectsResponse): void {
   into.success = from.bool()
   into.message = from.string(into.message)
+  into.code = from.string(into.code)
+  into.values = from.messages(into.values, createKeyValue, readKeyValue)
   into.objects = from.messages(into.objects, createObjectPlacement, readObjectPlacement)
 }
 
 export function writeSetObjectsResponse(to: CdrWriter, message: SetObjectsResponse): void {
   to.bool(message.success)
   to.string(message.message)
+  to.string(message.code)
+  to.messages(message.values, writeKeyValue)
   to.messages(message.objects, writeObjectPlacement)
 }
 
@@ -3204,23 +3572,33 @@ export interface SetRateResponse {
   success: boolean
   /** why not, or what was done */
   message: string
+  /** what it is, for programs; docs/diagnostics.md lists the codes */
+  code: string
+  /** values of that text by name; a text as it is, all else as JSON */
+  values: KeyValue[]
 }
 
 export function createSetRateResponse(): SetRateResponse {
   return {
     success: false,
     message: '',
+    code: '',
+    values: [],
   }
 }
 
 export function readSetRateResponse(from: CdrReader, into: SetRateResponse): void {
   into.success = from.bool()
   into.message = from.string(into.message)
+  into.code = from.string(into.code)
+  into.values = from.messages(into.values, createKeyValue, readKeyValue)
 }
 
 export function writeSetRateResponse(to: CdrWriter, message: SetRateResponse): void {
   to.bool(message.success)
   to.string(message.message)
+  to.string(message.code)
+  to.messages(message.values, writeKeyValue)
 }
 
 export const setRateResponseType: MessageType<SetRateResponse> = /* @__PURE__ */ messageType(
@@ -3267,23 +3645,33 @@ export interface SetSurfacesResponse {
   success: boolean
   /** why not, or what was done */
   message: string
+  /** what it is, for programs; docs/diagnostics.md lists the codes */
+  code: string
+  /** values of that text by name; a text as it is, all else as JSON */
+  values: KeyValue[]
 }
 
 export function createSetSurfacesResponse(): SetSurfacesResponse {
   return {
     success: false,
     message: '',
+    code: '',
+    values: [],
   }
 }
 
 export function readSetSurfacesResponse(from: CdrReader, into: SetSurfacesResponse): void {
   into.success = from.bool()
   into.message = from.string(into.message)
+  into.code = from.string(into.code)
+  into.values = from.messages(into.values, createKeyValue, readKeyValue)
 }
 
 export function writeSetSurfacesResponse(to: CdrWriter, message: SetSurfacesResponse): void {
   to.bool(message.success)
   to.string(message.message)
+  to.string(message.code)
+  to.messages(message.values, writeKeyValue)
 }
 
 export const setSurfacesResponseType: MessageType<SetSurfacesResponse> = /* @__PURE__ */ messageType(
@@ -3330,23 +3718,33 @@ export interface ShareTrajectoryResponse {
   success: boolean
   /** why not, or what was done */
   message: string
+  /** what it is, for programs; docs/diagnostics.md lists the codes */
+  code: string
+  /** values of that text by name; a text as it is, all else as JSON */
+  values: KeyValue[]
 }
 
 export function createShareTrajectoryResponse(): ShareTrajectoryResponse {
   return {
     success: false,
     message: '',
+    code: '',
+    values: [],
   }
 }
 
 export function readShareTrajectoryResponse(from: CdrReader, into: ShareTrajectoryResponse): void {
   into.success = from.bool()
   into.message = from.string(into.message)
+  into.code = from.string(into.code)
+  into.values = from.messages(into.values, createKeyValue, readKeyValue)
 }
 
 export function writeShareTrajectoryResponse(to: CdrWriter, message: ShareTrajectoryResponse): void {
   to.bool(message.success)
   to.string(message.message)
+  to.string(message.code)
+  to.messages(message.values, writeKeyValue)
 }
 
 export const shareTrajectoryResponseType: MessageType<ShareTrajectoryResponse> = /* @__PURE__ */ messageType(
@@ -3404,6 +3802,10 @@ export interface SpawnObjectResponse {
   success: boolean
   /** why not */
   message: string
+  /** what it is, for programs; docs/diagnostics.md lists the codes */
+  code: string
+  /** values of that text by name; a text as it is, all else as JSON */
+  values: KeyValue[]
   /** meaningful only on success */
   object: SceneObject
 }
@@ -3412,6 +3814,8 @@ export function createSpawnObjectResponse(): SpawnObjectResponse {
   return {
     success: false,
     message: '',
+    code: '',
+    values: [],
     object: createSceneObject(),
   }
 }
@@ -3419,12 +3823,16 @@ export function createSpawnObjectResponse(): SpawnObjectResponse {
 export function readSpawnObjectResponse(from: CdrReader, into: SpawnObjectResponse): void {
   into.success = from.bool()
   into.message = from.string(into.message)
+  into.code = from.string(into.code)
+  into.values = from.messages(into.values, createKeyValue, readKeyValue)
   readSceneObject(from, into.object)
 }
 
 export function writeSpawnObjectResponse(to: CdrWriter, message: SpawnObjectResponse): void {
   to.bool(message.success)
   to.string(message.message)
+  to.string(message.code)
+  to.messages(message.values, writeKeyValue)
   writeSceneObject(to, message.object)
 }
 
@@ -3503,6 +3911,10 @@ export interface SpawnRobotResponse {
   success: boolean
   /** why not */
   message: string
+  /** what it is, for programs; docs/diagnostics.md lists the codes */
+  code: string
+  /** values of that text by name; a text as it is, all else as JSON */
+  values: KeyValue[]
   /** meaningful only on success */
   robot: Robot
 }
@@ -3511,6 +3923,8 @@ export function createSpawnRobotResponse(): SpawnRobotResponse {
   return {
     success: false,
     message: '',
+    code: '',
+    values: [],
     robot: createRobot(),
   }
 }
@@ -3518,12 +3932,16 @@ export function createSpawnRobotResponse(): SpawnRobotResponse {
 export function readSpawnRobotResponse(from: CdrReader, into: SpawnRobotResponse): void {
   into.success = from.bool()
   into.message = from.string(into.message)
+  into.code = from.string(into.code)
+  into.values = from.messages(into.values, createKeyValue, readKeyValue)
   readRobot(from, into.robot)
 }
 
 export function writeSpawnRobotResponse(to: CdrWriter, message: SpawnRobotResponse): void {
   to.bool(message.success)
   to.string(message.message)
+  to.string(message.code)
+  to.messages(message.values, writeKeyValue)
   writeRobot(to, message.robot)
 }
 
@@ -3576,6 +3994,10 @@ export interface StartRecordingResponse {
   success: boolean
   /** why not */
   message: string
+  /** what it is, for programs; docs/diagnostics.md lists the codes */
+  code: string
+  /** values of that text by name; a text as it is, all else as JSON */
+  values: KeyValue[]
   /** the folder */
   bag: string
 }
@@ -3584,6 +4006,8 @@ export function createStartRecordingResponse(): StartRecordingResponse {
   return {
     success: false,
     message: '',
+    code: '',
+    values: [],
     bag: '',
   }
 }
@@ -3591,12 +4015,16 @@ export function createStartRecordingResponse(): StartRecordingResponse {
 export function readStartRecordingResponse(from: CdrReader, into: StartRecordingResponse): void {
   into.success = from.bool()
   into.message = from.string(into.message)
+  into.code = from.string(into.code)
+  into.values = from.messages(into.values, createKeyValue, readKeyValue)
   into.bag = from.string(into.bag)
 }
 
 export function writeStartRecordingResponse(to: CdrWriter, message: StartRecordingResponse): void {
   to.bool(message.success)
   to.string(message.message)
+  to.string(message.code)
+  to.messages(message.values, writeKeyValue)
   to.string(message.bag)
 }
 
@@ -3640,23 +4068,33 @@ export interface StepResponse {
   success: boolean
   /** why not, or what was done */
   message: string
+  /** what it is, for programs; docs/diagnostics.md lists the codes */
+  code: string
+  /** values of that text by name; a text as it is, all else as JSON */
+  values: KeyValue[]
 }
 
 export function createStepResponse(): StepResponse {
   return {
     success: false,
     message: '',
+    code: '',
+    values: [],
   }
 }
 
 export function readStepResponse(from: CdrReader, into: StepResponse): void {
   into.success = from.bool()
   into.message = from.string(into.message)
+  into.code = from.string(into.code)
+  into.values = from.messages(into.values, createKeyValue, readKeyValue)
 }
 
 export function writeStepResponse(to: CdrWriter, message: StepResponse): void {
   to.bool(message.success)
   to.string(message.message)
+  to.string(message.code)
+  to.messages(message.values, writeKeyValue)
 }
 
 export const stepResponseType: MessageType<StepResponse> = /* @__PURE__ */ messageType(
@@ -4106,6 +4544,70 @@ export const trajectoryInfoType: MessageType<TrajectoryInfo> = /* @__PURE__ */ m
   writeTrajectoryInfo,
 )
 
+/** mrlab_msgs/srv/Trigger_Request: Do what the service's name says. As std_srvs/Trigger, with the code and the values of the text. */
+export type TriggerRequest = Record<string, never>
+
+export function createTriggerRequest(): TriggerRequest {
+  return {}
+}
+
+export function readTriggerRequest(from: CdrReader, _: TriggerRequest): void {
+  from.uint8()
+}
+
+export function writeTriggerRequest(to: CdrWriter, _: TriggerRequest): void {
+  to.uint8(0)
+}
+
+export const triggerRequestType: MessageType<TriggerRequest> = /* @__PURE__ */ messageType(
+  'mrlab_msgs/srv/Trigger_Request',
+  createTriggerRequest,
+  readTriggerRequest,
+  writeTriggerRequest,
+)
+
+/** mrlab_msgs/srv/Trigger_Response */
+export interface TriggerResponse {
+  /** false: nothing was changed */
+  success: boolean
+  /** why not, or what was done */
+  message: string
+  /** what it is, for programs; docs/diagnostics.md lists the codes */
+  code: string
+  /** values of that text by name; a text as it is, all else as JSON */
+  values: KeyValue[]
+}
+
+export function createTriggerResponse(): TriggerResponse {
+  return {
+    success: false,
+    message: '',
+    code: '',
+    values: [],
+  }
+}
+
+export function readTriggerResponse(from: CdrReader, into: TriggerResponse): void {
+  into.success = from.bool()
+  into.message = from.string(into.message)
+  into.code = from.string(into.code)
+  into.values = from.messages(into.values, createKeyValue, readKeyValue)
+}
+
+export function writeTriggerResponse(to: CdrWriter, message: TriggerResponse): void {
+  to.bool(message.success)
+  to.string(message.message)
+  to.string(message.code)
+  to.messages(message.values, writeKeyValue)
+}
+
+export const triggerResponseType: MessageType<TriggerResponse> = /* @__PURE__ */ messageType(
+  'mrlab_msgs/srv/Trigger_Response',
+  createTriggerResponse,
+  readTriggerResponse,
+  writeTriggerResponse,
+)
+
 export const attachType: ServiceType<AttachRequest, AttachResponse> = {
   name: 'mrlab_msgs/srv/Attach',
   request: attachRequestType,
@@ -4146,6 +4648,12 @@ export const getTrajectoryType: ServiceType<GetTrajectoryRequest, GetTrajectoryR
   name: 'mrlab_msgs/srv/GetTrajectory',
   request: getTrajectoryRequestType,
   response: getTrajectoryResponseType,
+}
+
+export const listBagsType: ServiceType<ListBagsRequest, ListBagsResponse> = {
+  name: 'mrlab_msgs/srv/ListBags',
+  request: listBagsRequestType,
+  response: listBagsResponseType,
 }
 
 export const listCatalogueType: ServiceType<ListCatalogueRequest, ListCatalogueResponse> = {
@@ -4226,6 +4734,12 @@ export const setEndEffectorType: ServiceType<SetEndEffectorRequest, SetEndEffect
   response: setEndEffectorResponseType,
 }
 
+export const setLoopType: ServiceType<SetLoopRequest, SetLoopResponse> = {
+  name: 'mrlab_msgs/srv/SetLoop',
+  request: setLoopRequestType,
+  response: setLoopResponseType,
+}
+
 export const setModeType: ServiceType<SetModeRequest, SetModeResponse> = {
   name: 'mrlab_msgs/srv/SetMode',
   request: setModeRequestType,
@@ -4278,4 +4792,10 @@ export const stepType: ServiceType<StepRequest, StepResponse> = {
   name: 'mrlab_msgs/srv/Step',
   request: stepRequestType,
   response: stepResponseType,
+}
+
+export const triggerType: ServiceType<TriggerRequest, TriggerResponse> = {
+  name: 'mrlab_msgs/srv/Trigger',
+  request: triggerRequestType,
+  response: triggerResponseType,
 }

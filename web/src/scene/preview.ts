@@ -1,6 +1,7 @@
 import { courseOf } from '../playback/course'
-import type { MotionDocument, MotionFinding } from '../playback/motion'
+import type { MotionDocument } from '../playback/motion'
 import { MotionPlayer } from '../playback/player'
+import type { Diagnostic } from '../words/diagnostic'
 import { Controls } from './controls'
 import { MeshLibrary, type MeshSource } from './meshes'
 import { PreviewScene } from './preview_scene'
@@ -34,7 +35,7 @@ export interface MotionPreview {
   seek(time: number): void
   setRate(rate: number): void
   /** Choose a finding of the document, or its number from 1, and go to its row; null: none. */
-  select(finding: MotionFinding | number | null): void
+  select(finding: Diagnostic | number | null): void
   readonly time: number
   readonly duration: number
   readonly playing: boolean

@@ -1,6 +1,7 @@
 import { Vector3 } from 'three'
 import type { Course } from '../playback/course'
-import type { MotionDocument, MotionFinding } from '../playback/motion'
+import type { MotionDocument } from '../playback/motion'
+import type { Diagnostic } from '../words/diagnostic'
 import { pushCorners } from './corners'
 import { ContactPatch } from './floor'
 import { Label } from './labels'
@@ -21,7 +22,7 @@ const POSES = 7 // of the robot that the camera shows whole
 
 interface Marker {
   readonly label: Label
-  readonly finding: MotionFinding
+  readonly finding: Diagnostic
 }
 
 /** A motion on the stage: the robot, its first and last pose, the tool's path, the findings. In place of

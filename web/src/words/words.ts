@@ -35,9 +35,13 @@ const locale = computed(
   () => navigator.languages.find((tag) => tag.startsWith(language.value)) ?? language.value,
 )
 
-/** Return a number in the language's own way, with at most `digits` behind the comma. */
-export function number(value: number, digits = 2): string {
-  return value.toLocaleString(locale.value, { maximumFractionDigits: digits })
+/** Return a number in the language's own way, with `least` to `digits` digits behind the comma. */
+export function number(value: number, digits = 2, least = 0): string {
+  const rounded = Number(value.toFixed(Math.min(digits, 12)))
+  return (rounded === 0 ? 0 : value).toLocaleString(locale.value, {
+    minimumFractionDigits: least,
+    maximumFractionDigits: digits,
+  })
 }
 
 /** Return a date and time, s since the epoch, in the language's own way. */

@@ -7,9 +7,9 @@ import {
   type Robots,
   robotsType,
   seekType,
+  triggerType,
 } from '../../src/protocol/mrlab_msgs'
 import { type JointState, jointStateType } from '../../src/protocol/sensor_msgs'
-import { triggerType } from '../../src/protocol/std_srvs'
 import { GatewaySide, TOKEN } from './gateway_side'
 
 const utf8 = new TextEncoder()

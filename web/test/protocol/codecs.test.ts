@@ -7,7 +7,6 @@ import * as mrlabMsgs from '../../src/protocol/mrlab_msgs'
 import * as sensorMsgs from '../../src/protocol/sensor_msgs'
 import * as shapeMsgs from '../../src/protocol/shape_msgs'
 import * as stdMsgs from '../../src/protocol/std_msgs'
-import * as stdSrvs from '../../src/protocol/std_srvs'
 import * as tf2Msgs from '../../src/protocol/tf2_msgs'
 import vectors from './vectors.json'
 
@@ -24,7 +23,6 @@ const packages = [
   sensorMsgs,
   shapeMsgs,
   stdMsgs,
-  stdSrvs,
   tf2Msgs,
 ]
 const types = new Map<string, MessageType<object>>()

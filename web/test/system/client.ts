@@ -9,14 +9,15 @@ import {
   loadTrajectoryType,
   playbackStateType,
   robotsType,
+  setLoopType,
+  triggerType,
 } from '../../src/protocol/mrlab_msgs'
 import { jointStateType } from '../../src/protocol/sensor_msgs'
-import { setBoolType, triggerType } from '../../src/protocol/std_srvs'
 
 const [url = '', cookie = ''] = process.argv.slice(2)
 const origin = url.replace(/^ws/, 'http').replace(/\/link$/, '')
 const services = new Map(
-  [convertTrajectoryType, loadTrajectoryType, setBoolType, triggerType].map((type) => [
+  [convertTrajectoryType, loadTrajectoryType, setLoopType, triggerType].map((type) => [
     type.name as string,
     type as unknown as ServiceType<object, object>,
   ]),

@@ -13,7 +13,7 @@ from PIL import Image
 
 from mrlab_ros.adapters.robots.importing import import_robot
 from mrlab_ros.adapters.robots.library import RobotLibrary
-from mrlab_ros.core.diagnostics import Severity
+from mrlab_ros.core.base.diagnostic import Severity
 
 ROBOTS = Path(__file__).resolve().parents[4] / "robots"
 MARKER = b"BEGIN PRIVATE KEY 7f3a"

@@ -13,7 +13,7 @@ from hypothesis.extra import numpy as hnp
 
 from mrlab_ros.adapters.trajectories import npz_file
 from mrlab_ros.adapters.trajectories.npz_file import Damaged
-from mrlab_ros.core.diagnostics import Diagnostic, Severity
+from mrlab_ros.core.base.diagnostic import Diagnostic, Severity
 from mrlab_ros.core.errors import BadInput
 from mrlab_ros.core.trajectory import document
 from mrlab_ros.core.trajectory.trajectory import Channels
@@ -30,7 +30,7 @@ def make(positions=None, name="pick", gripper=False):
         gripper=[i % 3 == 1 for i in range(len(positions))] if gripper else None,
         trajectory_id=name,
     )
-    warning = Diagnostic("gripper_range", Severity.WARNING, "says", "fix", "q", "x")
+    warning = Diagnostic("gripper_range", Severity.WARNING, "says", "fix", {"variable": "q"})
     channels = Channels(positions / 2, positions[::-1].copy())
     return replace(made, channels=channels, created_ns=1_700_000_000_123_456_789,
                    warnings=(warning,))  # fmt: skip

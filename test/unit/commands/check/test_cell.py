@@ -5,9 +5,9 @@ from __future__ import annotations
 import pytest
 
 from mrlab_ros.commands.check.cell import _is_first
+from mrlab_ros.core.base.diagnostic import Severity
 from mrlab_ros.core.checking.findings import Finding
 from mrlab_ros.core.checking.pairs import Pair
-from mrlab_ros.core.diagnostics import Severity
 
 CONFLICT = Pair("ur5e_1", "ur5e_2", 0.0, 1.0, "a", "b", 1.0, 0.2, touches=True)
 

@@ -82,7 +82,7 @@ def test_another_lab_under_another_prefix_is_out_of_reach():
 
 
 SERVICE = {"name": "/*/stop", "role": "operator"}
-STRICT = {"name": "/recorder/stop", "type": "std_srvs/srv/Trigger"}
+STRICT = {"name": "/recorder/stop", "type": "mrlab_msgs/srv/Trigger"}
 
 
 @pytest.mark.parametrize(

@@ -54,7 +54,7 @@ def test_the_first_rule_of_the_right_type_decides():
 
 def test_nothing_is_carried_that_is_not_named():
     assert br.Rules().topic("/robots", JOINTS) is None
-    assert br.parse({}).service("/lab/spawn_robot", "std_srvs/srv/Trigger") is None
+    assert br.parse({}).service("/lab/spawn_robot", "mrlab_msgs/srv/Trigger") is None
 
 
 @pytest.mark.parametrize(
@@ -75,7 +75,7 @@ def test_nothing_is_carried_that_is_not_named():
         ({"topics": [{"name": "/a", "express": 1}]}, "express is 1; expected true or false"),
         ({"topics": [{"name": "/a", "max_rate": float("nan")}]}, "max_rate is nan"),
         ({"topics": [{"name": "/a", "direction": "both"}]}, "expected out or in"),
-        ({"topics": [{"name": "/a", "type": "std_srvs/srv/Trigger"}]}, "package/msg/Name"),
+        ({"topics": [{"name": "/a", "type": "mrlab_msgs/srv/Trigger"}]}, "package/msg/Name"),
         ({"topics": {"name": "/a"}}, "expected a list"),
         ({"topics": [5], "services": [{"name": "b"}]}, "allow-list has 2 mistakes"),
         ({"services": [{"name": "/a", "timeout": 0}]}, "timeout is 0"),
@@ -95,7 +95,7 @@ def test_the_shipped_list_carries_the_lab_and_keeps_the_rest_inside():
     assert (motion.priority, motion.congestion) == (2, br.Congestion.DROP)
     assert rules.topic("/robots", "mrlab_msgs/msg/Robots").congestion is br.Congestion.BLOCK
     assert rules.topic("/rosout", "rcl_interfaces/msg/Log") is None
-    assert rules.service("/ur5e_1/play", "std_srvs/srv/Trigger") is not None
+    assert rules.service("/ur5e_1/play", "mrlab_msgs/srv/Trigger") is not None
     assert rules.service("/ur5e_1/command_members", COMMAND_MEMBERS) is None
     assert rules.service("/lab/set_parameters", "rcl_interfaces/srv/SetParameters") is None
 
@@ -129,8 +129,8 @@ def test_liveliness_tokens_are_those_of_the_stock_bridge():
     latched = br.TopicQos(reliable=False, latched=True, depth=1)
     token = br.topic_token("ab", br.Direction.IN, "robots", "mrlab_msgs/msg/Robots", latched)
     assert token == "@/ab/@ros2_lv/MS/robots/mrlab_msgs§msg§Robots/:0:1:0,1"
-    assert br.service_token("ab", "ur5e_1/play", "std_srvs/srv/Trigger") == (
-        "@/ab/@ros2_lv/SS/ur5e_1§play/std_srvs§srv§Trigger"
+    assert br.service_token("ab", "ur5e_1/play", "mrlab_msgs/srv/Trigger") == (
+        "@/ab/@ros2_lv/SS/ur5e_1§play/mrlab_msgs§srv§Trigger"
     )
 
 

@@ -8,12 +8,13 @@ import pytest
 from fakes import make_model
 
 from mrlab_ros.adapters.trajectories.coefficients import load_coefficients
+from mrlab_ros.core.base.diagnostic import Severity
 from mrlab_ros.core.conversion import convert as conversion_convert
 from mrlab_ros.core.conversion import joining
 from mrlab_ros.core.conversion.convert import ConversionResult, Outcome, id_from
 from mrlab_ros.core.conversion.options import Options, parse_columns
 from mrlab_ros.core.conversion.workspace import Variable, Workspace
-from mrlab_ros.core.diagnostics import Refused, Severity, finding
+from mrlab_ros.core.diagnostics import Refused, finding
 from mrlab_ros.core.errors import BadInput
 
 COEFFICIENTS = load_coefficients(Path(__file__).parents[4] / "config" / "torque_proxy.yaml")

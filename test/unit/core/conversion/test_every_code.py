@@ -11,11 +11,12 @@ import pytest
 import scipy.io
 
 from mrlab_ros.adapters.trajectories.coefficients import load_coefficients
+from mrlab_ros.core.base.diagnostic import Severity
 from mrlab_ros.core.conversion import convert as conversion_convert
 from mrlab_ros.core.conversion.convert import Outcome
 from mrlab_ros.core.conversion.options import Options
 from mrlab_ros.core.conversion.workspace import JOINT_TRAJECTORY, Variable, Workspace
-from mrlab_ros.core.diagnostics import KINDS, Refused, Severity, finding
+from mrlab_ros.core.diagnostics import KINDS, Refused, finding
 
 COEFFICIENTS = load_coefficients(corpus.ROOT / "config" / "torque_proxy.yaml")
 ROBOT = corpus.model("ur5e")

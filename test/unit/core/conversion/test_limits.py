@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 from fakes import make_model
 
+from mrlab_ros.core.base.diagnostic import Severity
 from mrlab_ros.core.conversion import limits
-from mrlab_ros.core.diagnostics import Severity
 
 ROBOT = make_model(2)  # both joints -3 to 3 rad, 2 rad/s
 

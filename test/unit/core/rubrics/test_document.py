@@ -6,7 +6,7 @@ import pytest
 from made_motions import ROBOT, thing
 
 from mrlab_ros.adapters.rubrics import files
-from mrlab_ros.core.diagnostics import Severity
+from mrlab_ros.core.base.diagnostic import Severity
 from mrlab_ros.core.errors import BadInput
 from mrlab_ros.core.geometry import Pose
 from mrlab_ros.core.rubrics.document import parse

@@ -9,9 +9,9 @@ from hypothesis import given
 from hypothesis import strategies as st
 from made_motions import checked
 
+from mrlab_ros.core.base.diagnostic import Severity
 from mrlab_ros.core.checking.findings import Finding
 from mrlab_ros.core.checking.report import CheckReport
-from mrlab_ros.core.diagnostics import Severity
 from mrlab_ros.core.rubrics.checked import Checked
 from mrlab_ros.core.rubrics.marking import mark, points_of
 from mrlab_ros.core.rubrics.quantities import LENGTH

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
+from mrlab_ros.core.base.diagnostic import Severity
 from mrlab_ros.core.checking.findings import Finding
 from mrlab_ros.core.checking.recording import Distances, Rehearsed
-from mrlab_ros.core.diagnostics import Severity
 from mrlab_ros.core.physics.engine import Kind, Near
 from mrlab_ros.core.show.check import _distances
 

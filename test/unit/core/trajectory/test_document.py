@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 from hypothesis.extra import numpy as hnp
 
 from mrlab_ros.adapters.trajectories import json_file
-from mrlab_ros.core.diagnostics import Diagnostic, Fix, Severity
+from mrlab_ros.core.base.diagnostic import Diagnostic, Fix, Severity
 from mrlab_ros.core.errors import BadInput
 from mrlab_ros.core.trajectory.channels import ProxyCoefficients, derive
 from mrlab_ros.core.trajectory.trajectory import Source, Trajectory
@@ -23,15 +23,17 @@ def make(positions, rate=100.0, gripper=None, name="pick"):
         Severity.WARNING,
         'says ,"frames":{ ',
         "fix",
-        "q",
-        "x",
-        first_row=2,
-        last_row=9,
-        joint="j1",
-        value=0.5,
-        limit=1.0,
-        unit="rad",
-        fixes=(Fix("gripper", "7", "q(:, 7) = 1 - q(:, 7)"),),
+        {
+            "variable": "q",
+            "where": "x",
+            "first_row": 2,
+            "last_row": 9,
+            "joint": "j1",
+            "value": 0.5,
+            "limit": 1.0,
+            "unit": "rad",
+        },
+        (Fix("gripper", "7", "q(:, 7) = 1 - q(:, 7)"),),
     )
     return Trajectory(
         id=name,

@@ -35,11 +35,13 @@ def test_ros_reads_what_it_writes(definitions: Definitions) -> None:
 
 
 def test_a_service_has_two_halves_and_an_empty_one_is_a_byte(definitions: Definitions) -> None:
-    assert definitions.encode("std_srvs/srv/Trigger_Request", {}) == b"\0\1\0\0\0"
-    answer = definitions.encode("std_srvs/srv/Trigger_Response", {"success": True, "message": "x"})
-    assert plain(definitions.decode("std_srvs/srv/Trigger_Response", answer)) == {
+    assert definitions.encode("mrlab_msgs/srv/Trigger_Request", {}) == b"\0\1\0\0\0"
+    answer = definitions.encode("mrlab_msgs/srv/Seek_Response", {"success": True, "message": "x"})
+    assert plain(definitions.decode("mrlab_msgs/srv/Seek_Response", answer)) == {
         "success": True,
         "message": "x",
+        "code": "",
+        "values": [],
     }
 
 

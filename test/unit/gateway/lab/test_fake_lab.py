@@ -37,29 +37,29 @@ def test_the_newest_of_a_latched_topic_is_kept() -> None:
 
 def test_services_answer_refuse_or_are_missing() -> None:
     lab = FakeLab()
-    lab.serve("a/play", "std_srvs/srv/Trigger", lambda request: {"success": True})
+    lab.serve("a/play", "mrlab_msgs/srv/Trigger", lambda request: {"success": True})
 
     def refuse(request: object) -> dict[str, object]:
         raise Refused("not now")
 
-    lab.serve("b/play", "std_srvs/srv/Trigger", refuse)
-    assert asyncio.run(lab.call("a/play", "std_srvs/srv/Trigger")).success
+    lab.serve("b/play", "mrlab_msgs/srv/Trigger", refuse)
+    assert asyncio.run(lab.call("a/play", "mrlab_msgs/srv/Trigger")).success
     with pytest.raises(Refused, match="not now"):
-        asyncio.run(lab.call("b/play", "std_srvs/srv/Trigger"))
+        asyncio.run(lab.call("b/play", "mrlab_msgs/srv/Trigger"))
     with pytest.raises(NoAnswer, match="nobody answers c/play"):
-        asyncio.run(lab.call("c/play", "std_srvs/srv/Trigger"))
+        asyncio.run(lab.call("c/play", "mrlab_msgs/srv/Trigger"))
     assert [service for service, _ in lab.calls] == ["a/play", "b/play"]
 
 
 def test_a_held_service_times_out() -> None:
     async def scenario() -> None:
         lab = FakeLab()
-        lab.serve("a/play", "std_srvs/srv/Trigger", lambda request: {"success": True})
+        lab.serve("a/play", "mrlab_msgs/srv/Trigger", lambda request: {"success": True})
         release = lab.hold("a/play")
         with pytest.raises(NoAnswer, match="within 0"):
-            await lab.call("a/play", "std_srvs/srv/Trigger", timeout_s=0.0)
+            await lab.call("a/play", "mrlab_msgs/srv/Trigger", timeout_s=0.0)
         release()
-        assert (await lab.call("a/play", "std_srvs/srv/Trigger")).success
+        assert (await lab.call("a/play", "mrlab_msgs/srv/Trigger")).success
 
     asyncio.run(scenario())
 

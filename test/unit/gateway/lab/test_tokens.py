@@ -26,14 +26,14 @@ def test_tokens_say_what_the_lab_offers() -> None:
     )
     table.add(stream)
     table.add(topic_token("a1", Direction.IN, "latency/clients", "mrlab_msgs/msg/Latency", STREAM))
-    table.add(service_token("a1", "ur5e_1/play", "std_srvs/srv/Trigger"))
+    table.add(service_token("a1", "ur5e_1/play", "mrlab_msgs/srv/Trigger"))
     keys = table.keys()
     assert table.has_bridge
     assert dict(keys.topics) == {
         "robots": "mrlab_msgs/msg/Robots",
         "ur5e_1/joint_states": "sensor_msgs/msg/JointState",
     }
-    assert dict(keys.services) == {"ur5e_1/play": "std_srvs/srv/Trigger"}
+    assert dict(keys.services) == {"ur5e_1/play": "mrlab_msgs/srv/Trigger"}
     assert keys.latched == {"robots"}
     table.remove(stream)
     assert "ur5e_1/joint_states" not in table.keys().topics
@@ -42,9 +42,9 @@ def test_tokens_say_what_the_lab_offers() -> None:
 def test_only_keys_below_the_prefix_count() -> None:
     table = TokenTable("campus/lab_1")
     table.add(bridge_token("b2"))
-    table.add(service_token("b2", "campus/lab_2/robots", "std_srvs/srv/Trigger"))
+    table.add(service_token("b2", "campus/lab_2/robots", "mrlab_msgs/srv/Trigger"))
     assert not table.has_bridge
-    table.add(service_token("b1", "campus/lab_1/converter/list", "std_srvs/srv/Trigger"))
+    table.add(service_token("b1", "campus/lab_1/converter/list", "mrlab_msgs/srv/Trigger"))
     assert table.has_bridge
     assert list(table.keys().services) == ["converter/list"]
 

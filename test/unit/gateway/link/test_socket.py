@@ -18,7 +18,7 @@ from mrlab_ros.gateway.link.frames import RecordKind
 from mrlab_ros.gateway.link.limits import LinkLimits
 
 pytestmark = pytest.mark.fast
-TRIGGER = "std_srvs/srv/Trigger"
+TRIGGER = "mrlab_msgs/srv/Trigger"
 JOINTS = "sensor_msgs/msg/JointState"
 
 

@@ -1,11 +1,7 @@
 import { unpack } from '../../playback/arrays'
 import type { Course } from '../../playback/course'
-import type {
-  MotionDocument,
-  MotionFinding,
-  MotionJoint,
-  PackedArray,
-} from '../../playback/motion'
+import type { MotionDocument, MotionJoint, PackedArray } from '../../playback/motion'
+import type { Diagnostic } from '../../words/diagnostic'
 import type { Mark, Strip } from './strip'
 
 export type Channel = 'angles' | 'velocities' | 'proxies'
@@ -76,7 +72,7 @@ export function stripsOf(
 
 /** Return the findings that name rows, with their numbers, places in time and joints. */
 export function marksOf(
-  findings: readonly MotionFinding[],
+  findings: readonly Diagnostic[],
   joints: readonly MotionJoint[],
   course: Course,
 ): Mark[] {

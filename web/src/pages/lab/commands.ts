@@ -1,8 +1,13 @@
 import { showToast } from '../../design/toast'
 import { type Link, LinkError, type ServiceType } from '../../link/link'
 import type { Commands } from '../../playback/player'
-import { seekType, setRateType } from '../../protocol/mrlab_msgs'
-import { type TriggerResponse, triggerType } from '../../protocol/std_srvs'
+import {
+  listBagsType,
+  seekType,
+  setRateType,
+  type TriggerResponse,
+  triggerType,
+} from '../../protocol/mrlab_msgs'
 
 interface Answer {
   readonly success: boolean
@@ -42,9 +47,9 @@ export function trigger(link: Link, service: string): Promise<boolean> {
 
 /** Return the names of the bags that the lab can replay, newest first. Rejects with why it says none. */
 export async function listBagsOf(link: Link): Promise<readonly string[]> {
-  const { success, message } = await link.call('recorder/list_bags', triggerType, {})
+  const { success, message, bags } = await link.call('recorder/list_bags', listBagsType, {})
   if (!success) throw new LinkError('refused', message)
-  return message === '' ? [] : message.split('\n')
+  return bags
 }
 
 /** Return what a robot, a robot system or the recorder's replay is told. */

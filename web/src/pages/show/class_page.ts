@@ -52,7 +52,7 @@ export function order(values: readonly (string | number)[], descending: boolean)
 export function putIntoGerman(page: HTMLElement): void {
   document.documentElement.lang = 'de'
   for (const place of page.querySelectorAll<HTMLElement>('[data-de]')) {
-    place.textContent = place.dataset['de'] ?? place.textContent
+    place.textContent = place.dataset.de ?? place.textContent
   }
 }
 
@@ -98,16 +98,16 @@ function factsOf(row: HTMLTableRowElement, alike: ReadonlySet<string>): RowFacts
   return {
     name: (row.cells[0]?.textContent ?? '').toLowerCase(),
     lost: row.querySelector('.mark:not(.passed)') !== null,
-    checked: row.dataset['outcome'] === 'marked',
+    checked: row.dataset.outcome === 'marked',
     late: 'late' in row.dataset,
-    alike: alike.has(row.dataset['key'] ?? ''),
+    alike: alike.has(row.dataset.key ?? ''),
   }
 }
 
 /** Sort by a column: names from A, points from the most; once more turns it round. */
 function sortBy(button: HTMLButtonElement, body: HTMLElement, rows: HTMLTableRowElement[]): void {
   const head = button.closest('th')
-  const column = button.dataset['sort'] ?? 'name'
+  const column = button.dataset.sort ?? 'name'
   if (head === null) return
   const before = head.getAttribute('aria-sort')
   const first = column === 'name' ? 'ascending' : 'descending'
@@ -125,8 +125,8 @@ function sortBy(button: HTMLButtonElement, body: HTMLElement, rows: HTMLTableRow
 }
 
 function sortedBy(row: HTMLTableRowElement, column: string): string | number {
-  if (column === 'name') return row.dataset['name'] ?? ''
-  if (column === 'points') return Number(row.dataset['points'])
+  if (column === 'name') return row.dataset.name ?? ''
+  if (column === 'points') return Number(row.dataset.points)
   const cell = row.querySelector(`[data-${column}]`)
   return Number(cell?.getAttribute(`data-${column}`) ?? 0)
 }

@@ -1,6 +1,5 @@
 import type { Pose } from '../../protocol/geometry_msgs'
-import { type ObjectType, spawnObjectType } from '../../protocol/mrlab_msgs'
-import { triggerType } from '../../protocol/std_srvs'
+import { type ObjectType, spawnObjectType, triggerType } from '../../protocol/mrlab_msgs'
 import { type Entry, order, type RoomContext } from '../context'
 import { BOTTOM, drawCards, EDGE, type Tab, TOP } from './board'
 import { GAP, HIT, TEXT } from './pen'

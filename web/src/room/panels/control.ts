@@ -7,8 +7,8 @@ import {
   loadTrajectoryType,
   removeType,
   setEndEffectorType,
+  triggerType,
 } from '../../protocol/mrlab_msgs'
-import { triggerType } from '../../protocol/std_srvs'
 import { order, type RoomContext } from '../context'
 import { CHECK_WIDTH } from './check_view'
 import { type ControlActions, drawButtons, drawStatus } from './control_view'

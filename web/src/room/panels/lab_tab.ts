@@ -6,8 +6,8 @@ import {
   replayType,
   sceneFileType,
   startRecordingType,
+  triggerType,
 } from '../../protocol/mrlab_msgs'
-import { triggerType } from '../../protocol/std_srvs'
 import { order, type RoomContext } from '../context'
 import type { Stats } from '../latency/stats'
 import { BOARD_WIDTH, BOTTOM, EDGE, type Tab, TOP } from './board'

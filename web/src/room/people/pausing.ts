@@ -1,8 +1,7 @@
 import type { Link } from '../../link/link'
 import { LinkError } from '../../link/link'
 import type { LabFollower } from '../../pages/lab/follow'
-import { RobotSystem } from '../../protocol/mrlab_msgs'
-import { triggerType } from '../../protocol/std_srvs'
+import { RobotSystem, triggerType } from '../../protocol/mrlab_msgs'
 
 /** s: what several pauses do one after the other is one deed. */
 const TOGETHER = 1.5

@@ -16,10 +16,10 @@ import {
   robotSystemType,
   robotsType,
   robotType,
+  triggerType,
 } from '../../../src/protocol/mrlab_msgs'
 import { jointStateType } from '../../../src/protocol/sensor_msgs'
 import { stringType } from '../../../src/protocol/std_msgs'
-import { triggerType } from '../../../src/protocol/std_srvs'
 import type { LabScene } from '../../../src/scene/lab_scene'
 
 function lab() {

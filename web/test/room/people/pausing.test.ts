@@ -3,8 +3,7 @@ import { describe, expect, it, vi } from 'vitest'
 import { FakeLink } from '../../../src/link/fake'
 import type { LabFollower, SystemView } from '../../../src/pages/lab/follow'
 import type { RobotView } from '../../../src/pages/lab/followed_robot'
-import { RobotSystem } from '../../../src/protocol/mrlab_msgs'
-import { triggerType } from '../../../src/protocol/std_srvs'
+import { RobotSystem, triggerType } from '../../../src/protocol/mrlab_msgs'
 import { movingNow, pauseAll, pauseNews } from '../../../src/room/people/pausing'
 
 function lab(): Pick<LabFollower, 'robots' | 'systems'> {

@@ -1,0 +1,1 @@
+"""What every room of the core uses; it imports no other room."""

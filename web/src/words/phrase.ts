@@ -1,0 +1,211 @@
+/** Templates with typed values: `mrlab_ros/core/base/phrase.py` describes them. */
+import { number } from './words'
+
+export type Values = Readonly<Record<string, unknown>>
+
+/** What a language says around values: the words of quantities that hold some. */
+export interface Joining {
+  readonly and: string
+  readonly or: string
+  readonly row: string
+  readonly rows: (first: string, last: string) => string
+}
+
+interface Placeholder {
+  readonly name: string
+  readonly quantity: string
+  readonly words: readonly string[]
+}
+type Part = string | Placeholder | Phrase
+/** A parsed template: texts, placeholders, and parts that may be left out. */
+export type Phrase = readonly Part[]
+
+const TOKEN = /\{\{|\}\}|\[\[|\]\]|\{([a-z_]+)(?::([^{}]+))?\}|[[\]]/g
+const DEGREES = 180 / Math.PI
+const UNITS: Readonly<Record<string, string>> = {
+  '': 'number',
+  '1': 'number',
+  rad: 'angle',
+  'rad/s': 'turn_rate',
+  'rad/s^2': 'turn_acceleration',
+  'rad/s^3': 'turn_jerk',
+  m: 'length',
+  'm/s': 'speed',
+  s: 'time',
+  Hz: 'rate',
+  kg: 'mass',
+  N: 'force',
+  'N*m': 'moment',
+}
+
+/** Return the parsed template; throws where it is none. */
+export function parse(template: string): Phrase {
+  const stack: Part[][] = [[]]
+  let end = 0
+  const top = (): Part[] => stack[stack.length - 1] as Part[]
+  for (const found of template.matchAll(TOKEN)) {
+    if (found.index > end) top().push(template.slice(end, found.index))
+    end = found.index + found[0].length
+    const [sign, name, spec = 'text'] = found
+    if (name !== undefined) {
+      const [quantity = 'text', ...rest] = spec.split(' ')
+      const words = rest.join(' ')
+      top().push({ name, quantity, words: words === '' ? [] : words.split('|') })
+    } else if (sign === '[') stack.push([])
+    else if (sign === ']') {
+      const inner = stack.pop()
+      if (inner === undefined || stack.length === 0) throw new Error(`${template}: ] without [`)
+      top().push(inner)
+    } else top().push(sign.charAt(0))
+  }
+  if (stack.length > 1) throw new Error(`${template}: [ without ]`)
+  if (end < template.length) top().push(template.slice(end))
+  return top()
+}
+
+/** Return the placeholders of a phrase; optional: also those of parts that may be left out. */
+export function placeholders(phrase: Phrase, optional = true): readonly Placeholder[] {
+  return phrase.flatMap((part) => {
+    if (typeof part === 'string') return []
+    if ('quantity' in part) return [part]
+    return optional ? placeholders(part) : []
+  })
+}
+
+function isMissing(value: unknown): boolean {
+  return (
+    value === undefined ||
+    value === null ||
+    value === '' ||
+    (Array.isArray(value) && value.length === 0)
+  )
+}
+
+/** Return the text of a phrase with these values. problem: words another diagnostic. */
+export function fill(
+  phrase: Phrase,
+  values: Values,
+  joining: Joining,
+  problem: (value: unknown) => string,
+): string {
+  return phrase
+    .map((part) => {
+      if (typeof part === 'string') return part
+      if ('quantity' in part) return shown(part, values, joining, problem)
+      const missing = placeholders(part, false).some(({ name }) => isMissing(values[name]))
+      return missing ? '' : fill(part, values, joining, problem)
+    })
+    .join('')
+}
+
+/** A value that came as text over the wire is JSON where its quantity is no text. */
+function typed(value: unknown): unknown {
+  if (typeof value !== 'string') return value
+  try {
+    return JSON.parse(value)
+  } catch {
+    return value
+  }
+}
+
+function digits(value: number, count: number, unit: string): string {
+  return `${number(value, count, count)}${unit}`
+}
+
+function length(value: number): string {
+  if (Math.abs(value) >= 1) return digits(value, 2, ' m')
+  return digits(value * 1e3, Math.abs(value) >= 0.01 ? 0 : 1, ' mm')
+}
+
+function bytes(value: number): string {
+  for (const [scale, unit] of [
+    [1e9, ' GB'],
+    [1e6, ' MB'],
+    [1e3, ' kB'],
+  ] as const) {
+    if (Math.abs(value) >= scale) return significant(value / scale, 3, unit)
+  }
+  return digits(value, 0, ' B')
+}
+
+function significant(value: number, count: number, unit: string): string {
+  return `${number(Number(value.toPrecision(count)), 12)}${unit}`
+}
+
+function joined(names: unknown, last: string): string {
+  const texts = (Array.isArray(names) ? names : [names]).map(String)
+  return texts.length < 2
+    ? texts.join('')
+    : `${texts.slice(0, -1).join(', ')} ${last} ${texts[texts.length - 1]}`
+}
+
+function shown(
+  { name, quantity, words }: Placeholder,
+  values: Values,
+  joining: Joining,
+  problem: (value: unknown) => string,
+): string {
+  if (quantity === 'text') return String(values[name] ?? '')
+  const value = typed(values[name])
+  const of = quantity === 'measure' ? (UNITS[String(values['unit'] ?? '')] ?? 'number') : quantity
+  const figure = Number(value)
+  switch (of) {
+    case 'integer':
+      return digits(figure, 0, '')
+    case 'number':
+      return significant(figure, 4, '')
+    case 'angle':
+      return digits(figure * DEGREES, 1, '°')
+    case 'turn_rate':
+      return digits(figure * DEGREES, 1, '°/s')
+    case 'turn_acceleration':
+      return digits(figure * DEGREES, 0, '°/s²')
+    case 'turn_jerk':
+      return digits(figure * DEGREES, 0, '°/s³')
+    case 'length':
+      return length(figure)
+    case 'speed':
+      return digits(figure, 2, ' m/s')
+    case 'time':
+      return digits(figure, 2, ' s')
+    case 'rate':
+      return significant(figure, 4, ' Hz')
+    case 'share':
+      return digits(figure * 100, 0, '%')
+    case 'mass':
+      return significant(figure, 3, ' kg')
+    case 'force':
+      return significant(figure, 3, ' N')
+    case 'moment':
+      return significant(figure, 3, ' N*m')
+    case 'bytes':
+      return bytes(figure)
+    case 'position': {
+      const axes = (value as readonly number[]).map((v, i) => `${'xyz'[i]} ${digits(v, 3, '')}`)
+      return `${axes.join(' ')} m`
+    }
+    case 'count': {
+      const word = words[figure === 1 ? 0 : 1]
+      return word === undefined ? digits(figure, 0, '') : `${digits(figure, 0, '')} ${word}`
+    }
+    case 'rows': {
+      const [first = 0, last = 0] = value as readonly number[]
+      return last <= first ? `${joining.row} ${first}` : joining.rows(`${first}`, `${last}`)
+    }
+    case 'list':
+      return joined(value, joining.and)
+    case 'either':
+      return joined(value, joining.or)
+    case 'choice': {
+      const word = words.find((each) => each.startsWith(`${value}=`) || each === value)
+      if (word === undefined) return String(value)
+      return word.slice(word.indexOf('=') + 1)
+    }
+    case 'problem':
+      return problem(value).replace(/\.$/, '')
+    case 'problems':
+      return (value as readonly unknown[]).map((each) => `\n  ${problem(each)}`).join('')
+    default:
+      throw new Error(`there is no quantity ${quantity}`)
+  }
+}
