@@ -249,8 +249,6 @@ class ZenohLab:
             elif reply.err is not None:
                 refusals.append(reply.err.payload.to_string())
 
-        loop = self._loop
-
         def on_end() -> None:
             with suppress(RuntimeError):  # the loop is closed
                 loop.call_soon_threadsafe(done.set)
