@@ -11,6 +11,7 @@ from functools import partial
 from pathlib import Path
 
 import design_tokens
+import diagnostics_page
 import licences_page
 import parameters_page
 import playback_vectors
@@ -48,6 +49,7 @@ BLOCKS: dict[tuple[str, str], Callable[[], str]] = {
 }
 FILES: dict[str, Callable[[], str]] = {
     "docs/diagnostics.md": diagnostics.document,
+    diagnostics_page.SAMPLES_FILE: lambda: diagnostics_page.samples(ROOT),
     licences_page.PAGE: lambda: licences_page.current(ROOT),
     "docs/parameters.md": parameters_page.current,
     "docs/protocol.md": lambda: protocol_page.current(ROOT),
