@@ -48,7 +48,7 @@ BLOCKS: dict[tuple[str, str], Callable[[], str]] = {
     ("docs/rubrics.md", "measures"): rubrics_page.measures,
 }
 FILES: dict[str, Callable[[], str]] = {
-    "docs/diagnostics.md": diagnostics.document,
+    "docs/diagnostics.md": lambda: diagnostics_page.current(ROOT) + diagnostics.document(),
     diagnostics_page.SAMPLES_FILE: lambda: diagnostics_page.samples(ROOT),
     licences_page.PAGE: lambda: licences_page.current(ROOT),
     "docs/parameters.md": parameters_page.current,

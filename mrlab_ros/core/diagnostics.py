@@ -590,132 +590,6 @@ KINDS: dict[str, Kind] = {
         "Choose the robot that the file was made for; or compare the zero positions and the "
         "directions of the joints with those of {robot}.",
     ),
-    # a robot's URDF
-    "robot_no_link": Kind(
-        ERROR,
-        "A joint of a robot names a link that is not there.",
-        "Joint '{joint}' names link '{link}', which is not there.",
-        "Add the link, or mend the name.",
-    ),
-    "robot_roots": Kind(
-        ERROR,
-        "The links of a robot are not one tree.",
-        "The root links are {found}; expected exactly one.",
-        "Connect the links by fixed joints.",
-    ),
-    "robot_joints": Kind(
-        ERROR,
-        "A robot has no moving joint, or too many.",
-        "{count} joints move; expected 1 to {most}.",
-        "Fix the joints that the arm does not need.",
-    ),
-    "robot_millimetres": Kind(
-        ERROR,
-        "A robot's size is no arm's: the file seems to be in millimetres.",
-        "{what} is {size:.6g} m; that is no arm's size.",
-        'Export in metres, or add scale="0.001 0.001 0.001" to the mesh.',
-    ),
-    "robot_mimic": Kind(
-        INFO,
-        "A joint follows another one.",
-        "'{joint}' follows '{other}'; the lab moves it along with it.",
-    ),
-    "robot_no_limits": Kind(
-        ERROR,
-        "A moving joint of a robot has no limits.",
-        "'{joint}' has no limits.",
-        "Add <limit lower= upper= velocity= effort=> from the data sheet.",
-    ),
-    "robot_limits": Kind(
-        ERROR,
-        "A joint's lower limit is not below the upper one.",
-        "The limits of '{joint}' are {lower:g} to {upper:g}.",
-        "The lower limit must be below the upper one.",
-    ),
-    "robot_degrees": Kind(
-        ERROR,
-        "A joint's limits seem to be degrees.",
-        "The limits of '{joint}' are {lower:g} to {upper:g} rad.",
-        "These seem to be degrees: write radians.",
-    ),
-    "robot_velocity": Kind(
-        ERROR,
-        "A joint's largest speed is not above 0.",
-        "The velocity limit of '{joint}' is {value:g}.",
-        "Write the largest speed, rad/s or m/s; or import it with --speed, such as --speed 3.14.",
-    ),
-    "robot_speed": Kind(
-        WARNING,
-        "A joint states no largest speed; one was assumed.",
-        "'{joint}' states no largest speed; motions are checked against {value}.",
-        "Write its <limit velocity=> into the URDF from the data sheet, and import it again.",
-    ),
-    "robot_still": Kind(
-        INFO,
-        "A joint moves neither the arm nor the hand.",
-        "'{joint}' moves neither the arm nor its hand; the lab keeps it at 0.",
-    ),
-    "robot_effort": Kind(
-        INFO,
-        "A joint's largest effort is not known.",
-        "The largest effort of '{joint}' is not known.",
-    ),
-    "robot_mass": Kind(
-        WARNING,
-        "An inertial has no mass or no inertia.",
-        "The inertial of '{link}' has no positive mass or no inertia.",
-        "Give both, or leave the inertial out.",
-    ),
-    "robot_no_mass": Kind(
-        ERROR,
-        "A mass is negative, or no link's.",
-        "The mass of '{link}' is {mass:g} kg.",
-        "Give the mass of the data sheet, in kg, or leave the inertial out.",
-    ),
-    "robot_inertia": Kind(
-        WARNING,
-        "An inertia is one that no body has.",
-        "The principal moments of '{link}' are {moments} kg*m^2.",
-        "No body has these: each is positive and none exceeds the sum of the others.",
-    ),
-    "robot_no_mesh": Kind(
-        ERROR,
-        "A mesh of a robot is missing.",
-        "Mesh {uri} is missing{why}.",
-        "Install the package that holds it, or give its folder with --package NAME=FOLDER.",
-    ),
-    "robot_mesh_format": Kind(
-        ERROR,
-        "A mesh has a format that the lab does not draw.",
-        "Mesh {uri} is of a format that the lab does not draw.",
-        "Convert it to one of {formats}.",
-    ),
-    "robot_mesh_unreadable": Kind(
-        ERROR,
-        "A mesh of a robot cannot be read.",
-        "Mesh {uri} cannot be read: {why}.",
-        "Export it again from the program that made it.",
-    ),
-    "robot_no_texture": Kind(
-        WARNING,
-        "A file that a mesh names, a texture or a material library, is missing.",
-        "Mesh {uri} names {file}, which is missing.",
-        "Put it beside the mesh, or live without its colours.",
-    ),
-    "robot_frame": Kind(
-        ERROR,
-        "A link's frame in another description is not where the lab's robot has it.",
-        "Link '{link}' of {origin} lies {distance:.2f} mm and {angle:.4f} rad from that of "
-        "{robot}.",
-        "Take the description of the same product and version.",
-    ),
-    "robot_hull": Kind(
-        WARNING,
-        "Collision geometry does not follow what is seen.",
-        "The body of '{link}' sticks out of its hulls by {smaller:.1f} mm, and they stand off it "
-        "by up to {larger:.1f} mm; 5 and 20 mm are allowed.",
-        "Make the hulls anew, in more pieces (CoACD and V-HACD do that).",
-    ),
     # what an option did
     "squeezed": Kind(
         INFO,
@@ -763,17 +637,10 @@ class _Said(str):
 
 
 def document() -> str:
-    """Return docs/diagnostics.md."""
-    lines = [
-        "# What the lab can find",
-        "",
-        "Every finding about a file, a trajectory or a robot has a stable code. An ERROR refuses",
-        "the file (`ambiguous` asks you to choose), a WARNING travels with the trajectory, an",
-        "INFO is good to know. This page is generated from the table in",
-        "`mrlab_ros/core/diagnostics.py`.",
-    ]
+    """Return the part of docs/diagnostics.md with these codes."""
+    lines = ["", "## core/conversion"]
     for code, kind in KINDS.items():
-        lines += ["", f"## {code}", "", f"{kind.severity.name}. {kind.meaning}", ""]
+        lines += ["", f"### {code}", "", f"{kind.severity.name}. {kind.meaning}", ""]
         lines += [f"> {kind.message}"]
         if kind.remedy:
             lines += [">", f"> *{kind.remedy}*"]

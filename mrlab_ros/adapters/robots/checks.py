@@ -8,10 +8,9 @@ from pathlib import Path
 
 import numpy as np
 
-from mrlab_ros.adapters.robots import mesh_files, urdf
+from mrlab_ros.adapters.robots import diagnostics, mesh_files, urdf
 from mrlab_ros.adapters.robots.mesh_files import Look
-from mrlab_ros.core.base.diagnostic import Diagnostic, Severity
-from mrlab_ros.core.diagnostics import finding
+from mrlab_ros.core.base.diagnostic import Code, Diagnostic, Severity
 from mrlab_ros.core.errors import BadInput
 from mrlab_ros.core.foreign_text import for_table, visible
 
@@ -134,14 +133,14 @@ def check_tree(root: ET.Element, origin: str) -> tuple[Diagnostic, ...]:
     for joint in joints:
         urdf.path_to(joint.child, joints)
     found = [
-        finding("robot_no_link", where=f"joint {joint.name}", joint=joint.name, link=end)
+        diagnostics.ROBOT_NO_LINK(where=f"joint {joint.name}", joint=joint.name, link=end)
         for joint in joints
         for end in (joint.parent, joint.child)
         if end not in links
     ]
     roots = sorted(set(links) - {joint.child for joint in joints})
     if len(roots) != 1:
-        found.append(finding("robot_roots", found=", ".join(roots) or "none"))
+        found.append(diagnostics.ROBOT_ROOTS(count=len(roots), roots=roots))
     return tuple(found)
 
 
@@ -154,7 +153,7 @@ def _once(names: list[str], what: str) -> None:
 def _check_count(joints: tuple[urdf.UrdfJoint, ...]) -> list[Diagnostic]:
     moving = [joint for joint in joints if joint.moves and joint.mimic is None]
     if not 1 <= len(moving) <= MOST_JOINTS:
-        return [finding("robot_joints", count=len(moving), most=MOST_JOINTS)]
+        return [diagnostics.ROBOT_JOINTS(count=len(moving), most=MOST_JOINTS)]
     return []
 
 
@@ -164,31 +163,30 @@ def _check_joints(joints: tuple[urdf.UrdfJoint, ...]) -> list[Diagnostic]:
         name, where = joint.name, f"joint {joint.name}"
         furthest = max(abs(value) for value in joint.xyz)
         if furthest > LARGEST_ARM:
-            what = f"The distance to the origin of '{name}'"
-            found.append(finding("robot_millimetres", where=where, what=what, size=furthest))
+            found.append(diagnostics.ROBOT_MILLIMETRES(where=where, joint=name, size=furthest))
         if not joint.moves:
             continue
         if joint.mimic is not None:
-            found.append(finding("robot_mimic", where=where, joint=name, other=joint.mimic.joint))
+            found.append(diagnostics.ROBOT_MIMIC(where=where, joint=name, other=joint.mimic.joint))
         limit = joint.limit
         if limit is None or "velocity" not in limit:
-            found.append(finding("robot_no_limits", where=where, joint=name))
+            found.append(diagnostics.ROBOT_NO_LIMITS(where=where, joint=name))
             continue
         lower, upper = limit.get("lower", 0.0), limit.get("upper", 0.0)
         if joint.kind != "continuous" and not lower < upper:
-            found.append(_range("robot_limits", name, lower, upper))
+            found.append(_range(diagnostics.ROBOT_LIMITS, name, lower, upper))
         if joint.kind == "revolute" and max(abs(lower), abs(upper)) > 8 * np.pi:
-            found.append(_range("robot_degrees", name, lower, upper))
+            found.append(_range(diagnostics.ROBOT_DEGREES, name, lower, upper))
         if not limit["velocity"] > 0:
             value = limit["velocity"]
-            found.append(finding("robot_velocity", where=where, joint=name, value=value))
+            found.append(diagnostics.ROBOT_VELOCITY(where=where, joint=name, value=value))
         if not limit.get("effort", 0.0) > 0:
-            found.append(finding("robot_effort", where=where, joint=name))
+            found.append(diagnostics.ROBOT_EFFORT(where=where, joint=name))
     return found
 
 
-def _range(code: str, joint: str, lower: float, upper: float) -> Diagnostic:
-    return finding(code, where=f"joint {joint}", joint=joint, lower=lower, upper=upper)
+def _range(code: Code, joint: str, lower: float, upper: float) -> Diagnostic:
+    return code(where=f"joint {joint}", joint=joint, lower=lower, upper=upper)
 
 
 def _check_inertias(root: ET.Element) -> list[Diagnostic]:
@@ -203,10 +201,10 @@ def _check_inertias(root: ET.Element) -> list[Diagnostic]:
         stated = float(mass.get("value", "0")) if mass is not None else 0.0
         if not 0 <= stated <= HEAVIEST_LINK:
             name = link.get("name")
-            found.append(finding("robot_no_mass", where=where, link=name, mass=stated))
+            found.append(diagnostics.ROBOT_NO_MASS(where=where, link=name, mass=stated))
             continue
         if tensor is None or not stated > 0:
-            found.append(finding("robot_mass", where=where, link=link.get("name")))
+            found.append(diagnostics.ROBOT_MASS(where=where, link=link.get("name")))
             continue
         value = {key: float(number) for key, number in tensor.items()}
         matrix = np.array(
@@ -218,9 +216,12 @@ def _check_inertias(root: ET.Element) -> list[Diagnostic]:
         )
         moments = np.linalg.eigvalsh(matrix)
         if not moments[0] > 0 or moments[2] > (moments[0] + moments[1]) * 1.001:
-            listed = ", ".join(f"{moment:.3g}" for moment in moments)
-            name = link.get("name")
-            found.append(finding("robot_inertia", where=where, link=name, moments=listed))
+            least, middle, most = map(float, moments)
+            found.append(
+                diagnostics.ROBOT_INERTIA(
+                    where=where, link=link.get("name"), least=least, middle=middle, most=most
+                )
+            )
     return found
 
 
@@ -238,13 +239,13 @@ def find_meshes(
         try:
             path = resolve(uri)
         except BadInput as error:
-            found.append(finding("robot_no_mesh", where=uri, uri=uri, why=f": {error}"))
+            found.append(diagnostics.ROBOT_NO_MESH(where=uri, uri=uri, why=error))
             continue
         if not path.is_file():
-            found.append(finding("robot_no_mesh", where=uri, uri=uri, why=""))
+            found.append(diagnostics.ROBOT_NO_MESH(where=uri, uri=uri))
         elif path.suffix.lower() not in mesh_files.FORMATS:
-            formats = ", ".join(mesh_files.FORMATS)
-            found.append(finding("robot_mesh_format", where=uri, uri=uri, formats=formats))
+            formats = list(mesh_files.FORMATS)
+            found.append(diagnostics.ROBOT_MESH_FORMAT(where=uri, uri=uri, formats=formats))
         else:
             files[uri] = path
     return files, tuple(found)
@@ -260,13 +261,12 @@ def check_sizes(root: ET.Element, looks: Mapping[str, Look]) -> tuple[Diagnostic
     for uri, look in looks.items():
         if look.problem:
             why = look.problem
-            found.append(finding("robot_mesh_unreadable", where=uri, uri=uri, why=why))
+            found.append(diagnostics.ROBOT_MESH_UNREADABLE(where=uri, uri=uri, why=why))
             continue
         found += [
-            finding("robot_no_texture", where=uri, uri=uri, file=file) for file in look.missing
+            diagnostics.ROBOT_NO_TEXTURE(where=uri, uri=uri, file=file) for file in look.missing
         ]
         size = look.size * max(map(abs, scales[uri]))
         if size > LARGEST_ARM:
-            what = f"The size of mesh {uri}"
-            found.append(finding("robot_millimetres", where=uri, what=what, size=size))
+            found.append(diagnostics.ROBOT_MILLIMETRES(where=uri, mesh=uri, size=size))
     return tuple(found)

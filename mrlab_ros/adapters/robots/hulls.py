@@ -12,8 +12,8 @@ from scipy.spatial import ConvexHull, cKDTree
 
 from mrlab_ros.adapters.robots import urdf
 from mrlab_ros.adapters.robots.assembly import Assembly, Resolve
+from mrlab_ros.adapters.robots.diagnostics import ROBOT_HULL
 from mrlab_ros.core.base.diagnostic import Diagnostic
-from mrlab_ros.core.diagnostics import finding
 from mrlab_ros.core.geometry import Array
 
 # Tolerances, m: how far the body may stick out of the hulls, and the hulls out of the body.
@@ -43,12 +43,11 @@ def check(text: str, origin: str, resolve: Resolve) -> tuple[Diagnostic, ...]:
     for fit in fits(text, origin, resolve):
         if fit.smaller > MOST_SMALLER or fit.larger > MOST_LARGER:
             found.append(
-                finding(
-                    "robot_hull",
+                ROBOT_HULL(
                     where=f"link {fit.link}",
                     link=fit.link,
-                    smaller=fit.smaller * 1e3,
-                    larger=fit.larger * 1e3,
+                    smaller=fit.smaller,
+                    larger=fit.larger,
                 )
             )
     return tuple(found)

@@ -19,11 +19,11 @@ import yaml
 from mrlab_ros.adapters.robots import checks, mesh_files, urdf
 from mrlab_ros.adapters.robots.arm_and_hand import Groups, Split, split
 from mrlab_ros.adapters.robots.assembly import Assembly
+from mrlab_ros.adapters.robots.diagnostics import ROBOT_SPEED, ROBOT_STILL
 from mrlab_ros.adapters.robots.hand import Finger, fingers
 from mrlab_ros.adapters.robots.library import MESH_PREFIX, RobotLibrary
 from mrlab_ros.adapters.robots.source import MeshFinder, description_text, packages_around
 from mrlab_ros.core.base.diagnostic import Diagnostic, Severity
-from mrlab_ros.core.diagnostics import finding
 from mrlab_ros.core.errors import BadInput
 from mrlab_ros.core.geometry import Array
 from mrlab_ros.core.robots.model import Joint, RobotModel
@@ -161,8 +161,7 @@ def _keep_still(root: ET.Element, parts: Split) -> tuple[Diagnostic, ...]:
             for child in element.findall(tag):
                 element.remove(child)
     return tuple(
-        finding("robot_still", where=f"joint {joint.name}", joint=joint.name)
-        for joint in parts.still
+        ROBOT_STILL(where=f"joint {joint.name}", joint=joint.name) for joint in parts.still
     )
 
 
@@ -181,10 +180,10 @@ def _state_speeds(root: ET.Element, parts: Split, speed: float) -> tuple[Diagnos
             element = ET.SubElement(elements[joint.name], "limit", effort="0")
         element.set("velocity", repr(speed or ASSUMED_SPEED))
         where = f"joint {joint.name}"
-        assumed = f"{speed:g} m/s"
+        assumed, unit = speed, "m/s"
         if joint.kind != "prismatic":
-            assumed = f"{degrees(speed or ASSUMED_SPEED):g} deg/s"
-        found.append(finding("robot_speed", where=where, joint=joint.name, value=assumed))
+            assumed, unit = speed or ASSUMED_SPEED, "rad/s"
+        found.append(ROBOT_SPEED(where=where, joint=joint.name, value=assumed, unit=unit))
     return tuple(found)
 
 

@@ -11,10 +11,10 @@ import numpy as np
 
 from mrlab_ros.adapters.robots import checks, mesh_files, urdf
 from mrlab_ros.adapters.robots.assembly import Assembly
+from mrlab_ros.adapters.robots.diagnostics import ROBOT_FRAME
 from mrlab_ros.adapters.robots.library import MESH_PREFIX, RobotLibrary
 from mrlab_ros.adapters.robots.source import MeshFinder, description_text, packages_around
 from mrlab_ros.core.base.diagnostic import Diagnostic
-from mrlab_ros.core.diagnostics import finding
 from mrlab_ros.core.errors import BadInput
 from mrlab_ros.core.geometry import Array
 
@@ -136,13 +136,12 @@ def _frames(
             skew = np.array([turn[2, 1] - turn[1, 2], turn[0, 2] - turn[2, 0]])
             angle_off = max(angle_off if angle_off > 0.01 else 0.0, float(np.abs(skew).max()) / 2)
             if distance > LARGEST_SHIFT or angle_off > LARGEST_TURN:
-                found[name] = finding(
-                    "robot_frame",
+                found[name] = ROBOT_FRAME(
                     where=f"link {name}",
                     link=name,
                     origin=origin,
                     robot=robot_id,
-                    distance=distance * 1e3,
+                    distance=distance,
                     angle=angle_off,
                 )
     return list(found.values())

@@ -252,7 +252,7 @@ def test_meshes_of_another_geometry_are_refused(vendor: Path, library: RobotLibr
         assert (checks.errors(found) == ()) is kept
         assert (library.imported / KR6).is_dir()
     assert [(one.code, one.where) for one in found] == [("robot_frame", "link link_6")]
-    assert "0.20 mm" in found[0].message
+    assert found[0].values["distance"] == pytest.approx(0.0002)
     with pytest.raises(BadInput, match="not one of the lab's own"):
         use_meshes(vendor, "mine", library, packages)
     vendor.write_text(ARM)

@@ -22,7 +22,7 @@ class Filled(Formatter):
 
 
 # What the table says of robots is read at a terminal.
-@pytest.mark.parametrize("code", [code for code in KINDS if not code.startswith("robot_")])
+@pytest.mark.parametrize("code", list(KINDS))
 def test_no_remedy_names_an_option_of_the_command_line(code):
     shown = for_page(Filled().format(KINDS[code].remedy))
     assert "--" not in shown
