@@ -62,3 +62,22 @@ def test_a_role_that_is_too_small_is_told_which_one_is_needed(class_lab: Gateway
     response = class_lab.browser("anna").get("/api/people")
     assert code_of(response) == (403, "not_allowed")
     assert "anna is student, and this needs instructor" in response.text
+
+
+def test_people_are_the_instructors_alone_and_what_a_person_has_is_a_students() -> None:
+    """By the path, so that a line that is wrong in the table differs from this."""
+    for (method, path), need in ROUTES.items():
+        if path.startswith(("/api/people", "/api/class")):
+            assert need is Role.INSTRUCTOR, (method, path)
+        if path.startswith("/api/devices") or path.endswith("/approve"):
+            assert need is Role.STUDENT, (method, path)
+        if path.startswith("/api/trajectories") and method != "GET":
+            assert need == Need(Verb.CALL, "converter/convert", own=True), (method, path)
+
+
+def test_only_instructors_reach_people_whatever_the_method(class_lab: Gateway) -> None:
+    student = class_lab.browser("anna")
+    for method, path in ROUTES:
+        if path.startswith("/api/people"):
+            answer = student.send(method, path.replace("{name}", "anna"), json={})
+            assert answer.status_code == 403, (method, path)

@@ -12,7 +12,7 @@ from mrlab_ros.core.geometry import Pose, compose, inverse, relative
 from mrlab_ros.core.physics import catalogue
 from mrlab_ros.core.physics import surfaces as rooms
 from mrlab_ros.core.physics.clearance import Clearance, Halt
-from mrlab_ros.core.physics.engine import BodyState, Kind
+from mrlab_ros.core.physics.engine import BodyState, Kind, Touch
 from mrlab_ros.core.physics.events import CollisionChanged, GraspChanged, ObjectRemoved
 from mrlab_ros.core.physics.grasp import Grasp, Gripper
 from mrlab_ros.core.physics.joint_stream import JointStream
@@ -733,3 +733,51 @@ def test_backwards_the_objects_go_back_along_the_run():
     assert lab.world.motion("other").pose.position == pytest.approx((5.0, 0.0, 0.47), abs=0.01)
     # Nothing was recorded on the way back, and the run is still known.
     assert len(lab.world.robot("a").snapshots) == kept
+
+
+def test_who_touched_itself_is_free_as_soon_as_it_does_not_touch():
+    """Links of one arm are always near each other: no margin is asked of them."""
+    lab = Lab()
+    own = Touch("tip", Kind.SELF, "a", "base", (0.0, 0.0, 0.5), (1.0, 0.0, 0.0), 0.001, 0.1)
+    lab.engine.touches = lambda name: [own]
+    lab.engine.distance = lambda arm, kind, *_: 0.0 if kind is Kind.SELF else 1.0
+    lab.go(0.01, 20 * MS)
+    lab.engine.touches = lambda name: []
+    lab.go(0.01, 500 * MS)
+    assert [event.colliding for event in lab.of(CollisionChanged)] == [True, False]
+
+
+def test_what_the_arm_was_put_away_from_is_no_partner_of_its_next_halt():
+    lab = Lab()
+    lab.world.spawn("post", "post", Pose((0.5, 0.0, 0.5)))
+    lab.world.spawn("post", "other", Pose((-0.5, 0.0, 0.5)))
+    lab.go(0.46, 460 * MS)
+    lab.go(0.3, 200 * MS)
+    lab.go(0.3, 500 * MS)
+    lab.go(-0.46, 760 * MS)
+    # The first post comes near without touching: it halted the arm before, not this time.
+    lab.world.move("post", Pose((-0.4, 0.055, 0.5)), (0, 0, 0), (0, 0, 0), held=True)
+    lab.go(-0.4, 60 * MS)
+    lab.go(-0.4, 500 * MS)
+    assert [event.colliding for event in lab.of(CollisionChanged)] == [True, False, True, False]
+
+
+def test_an_object_that_the_arm_passed_into_stops_it_again_once_it_was_left():
+    lab = Lab()
+    lab.engine.squeezed = lambda arm, name, normal: (0.0, 0.0, 0.1)
+    lab.world.spawn("ball", "ball", Pose((0.5, 0.0, 0.5)))
+    lab.go(0.46, 460 * MS)
+    assert lab.engine.calls.count("let_pass a ball True") == 1
+    assert "let_pass a ball False" not in lab.engine.calls
+    lab.go(0.0, 460 * MS)
+    assert lab.engine.calls.count("let_pass a ball False") == 1
+    assert lab.world.robot("a").passing == set()
+
+
+def test_a_surface_that_moved_stands_at_its_new_place():
+    lab = Lab()
+    lab.world.set_surfaces([wall(0.6)])
+    lab.world.set_surfaces([wall(0.3)])
+    lab.go(0.32, 320 * MS)
+    (halt,) = lab.of(CollisionChanged)
+    assert halt.contact.touch.other == "wall"

@@ -150,3 +150,22 @@ def test_a_bad_goal_is_refused_with_its_code_and_a_sentence(
     with pytest.raises(WrongGoal, match=words) as refused:
         trajectory(wrong, UR5E, ARM, NOW)
     assert refused.value.code is code
+
+
+def test_accelerations_are_those_of_segments_of_any_length() -> None:
+    """A polynomial of the fourth degree comes back as it is, whatever the times of its points."""
+
+    def x(t: float) -> tuple[float, float, float]:
+        whole, c = 3.25, 0.03
+        way = c * (whole * t**3 / 3 - t**4 / 4)
+        return way, c * t**2 * (whole - t), c * (2 * whole * t - 3 * t**2)
+
+    given = [
+        Point(t, (ARM + p).tolist(), [v] * 6, [a] * 6)
+        for t in (0.5, 2.0, 3.25)
+        for p, v, a in (x(t),)
+    ]
+    found = trajectory(replace(goal(), points=given), UR5E, ARM, NOW)
+    wanted = np.array([x(t) for t in np.arange(326) / FRAME_RATE])
+    assert found.positions == pytest.approx(ARM + wanted[:, :1], abs=1e-9)
+    assert found.channels.velocities[1:] == pytest.approx(np.tile(wanted[1:, 1:2], 6), abs=1e-6)

@@ -1060,3 +1060,21 @@ def test_a_direction_may_change_in_a_pause(turns):
         assert a == [*range(101), *range(100, -1, -1)]
     else:
         assert (a, b) == (list(range(101)), list(range(51)))
+
+
+@pytest.mark.parametrize("rate", [0.5, -2.0])
+def test_a_restarted_system_goes_on_at_the_rate_that_it_had(rate):
+    world = make(TWO)
+    world.system.play(world.now)
+    world.run_until(SystemState.PLAYING)
+    world.advance(0.6)
+    members = [
+        Member(m.robot, m.trajectory_id, duration=m.duration, frame_rate=m.frame_rate)
+        for m in world.system.members.values()
+    ]
+    world.system = RobotSystem("cell", members, world, announce=world.announce)
+    world.system.come_back(world.now, 0.5, rate)
+    assert world.system.rate == rate
+    world.system.play(world.now)
+    world.run_until(SystemState.PLAYING)
+    assert world.system.clock.rate == rate
