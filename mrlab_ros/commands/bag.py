@@ -16,6 +16,7 @@ import typer
 
 from mrlab_ros.commands import output
 from mrlab_ros.commands.output import AsJson, say
+from mrlab_ros.core.base.diagnostic import plain
 from mrlab_ros.core.foreign_text import for_shell
 
 if TYPE_CHECKING:
@@ -97,7 +98,7 @@ def repaired(path: str, as_json: bool) -> None:
 
     done = mend(Path(path))
     if as_json:
-        print(json.dumps(asdict(done)))
+        print(json.dumps(plain(asdict(done))))
         return
     for trouble in done.troubles:
         print(trouble)
@@ -277,7 +278,7 @@ def _facts(bag: Bag) -> dict[str, Any]:
         "bytes": bag.size,
         "files": [path.name for path in bag.paths],
         "live": bag.live,
-        "troubles": bag.troubles,
+        "troubles": plain(bag.troubles),
         "gaps": [asdict(gap) for gap in bag.gaps()],
         "versions": bag.versions(),
         "topics": [
@@ -308,13 +309,13 @@ def _print(bag: Bag) -> None:
     if bag.live:
         console.print("it is being recorded; mrlab record --stop ends that", soft_wrap=True)
     for trouble in bag.troubles:
-        console.print(trouble, soft_wrap=True)
+        console.print(str(trouble), soft_wrap=True)
     if bag.troubles:
         console.print(
             f"mend it with: mrlab bag repair {for_shell([str(bag.path)])}", soft_wrap=True
         )
     for gap in bag.gaps():
-        console.print(gap.describe(bag.start_ns), soft_wrap=True)
+        console.print(str(gap.said(bag.start_ns)), soft_wrap=True)
     table = Table("topic", "type", box=box.SIMPLE_HEAD)
     for column in table.columns:
         column.overflow = "fold"

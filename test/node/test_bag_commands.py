@@ -102,9 +102,14 @@ def test_the_report_tells_states_contacts_grasps_errors_and_latency(bag, tmp_pat
     assert robot["collisions"][0]["link"] == "wrist_3_link"
     assert robot["contacts"] == 1
     assert robot["grasps"][0]["detail"] == "cube_1"
-    assert facts["latency"]["published to bridged"]["p50"] == 0.001
+    (hop,) = facts["latency"]
+    assert (hop["ends"], hop["observer"], hop["p50"]) == ("published_to_bridged", "", 0.001)
+    (run_,) = facts["runs"]
+    hit, grasped = (each["said"] for each in run_["actions"])
+    assert (hit["code"], hit["link"], hit["values"]["row"]) == ("run_hit", "wrist_3_link", 3)
+    assert (grasped["code"], grasped["values"]["object"]) == ("run_grasped", "cube_1")
     text = (tmp_path / "out" / "report.txt").read_text()
-    assert "grasped cube_1" in text
+    assert grasped["message"] in text
     assert text == run("bag", "report", bag)
     with Image.open(tmp_path / "out" / "report.png") as picture:
         # The halt's mark and the colour of playing are there.
@@ -112,14 +117,13 @@ def test_the_report_tells_states_contacts_grasps_errors_and_latency(bag, tmp_pat
         assert tuple(bytes.fromhex(STATES["PLAYING"][1:])) in colours
         assert picture.width > 1000
     page = (tmp_path / "out" / "report.html").read_text()
-    assert "hit table with wrist_3_link at frame 2" in page
+    assert hit["message"] in page
     assert 'class="state playing"' in page
     shown = tmp_path / "shown.html"
     run("show", tmp_path / "out", "--out", shown)
-    assert "hit table with wrist_3_link at frame 2" in shown.read_text()
+    assert hit["message"] in shown.read_text()
     run("bag", "report", bag, "--out", tmp_path / "one" / "page.html")
-    assert "hit table with wrist_3_link" in (tmp_path / "one" / "page.html").read_text()
-    (run_,) = facts["runs"]
+    assert hit["message"] in (tmp_path / "one" / "page.html").read_text()
     assert (run_["robot"], run_["trajectory"], run_["result"]) == ("ur5e_1", "wave", "open")
     assert [each["deed"] for each in run_["actions"]] == ["hit", "grasped"]
     assert run_["deviation"]["most"] == pytest.approx(3.141592653589793 - 3.0)
@@ -140,13 +144,23 @@ def test_a_bag_without_a_session_says_what_it_has(tmp_path: Path) -> None:
     writer = BagWriter(tmp_path / "empty", definition)
     writer.close()
     page = tmp_path / "page.html"
-    said = run("bag", "report", tmp_path / "empty", "--out", page)
-    assert "nothing was recorded in it" in said
-    assert "nothing was recorded in it" in page.read_text()
-    assert "1970" not in said
-    said = run("bag", "report", foreign(tmp_path / "foreign", StoragePlugin.MCAP))
-    assert "no robot of a lab is in it, but /joint_states (sensor_msgs/msg/JointState)" in said
-    assert "mrlab bag import" in said
+    (trouble,) = troubles(tmp_path / "empty", "--out", page)
+    assert trouble["code"] == "nothing_recorded"
+    assert trouble["message"] in page.read_text()
+    assert "1970" not in page.read_text()
+    (trouble,) = troubles(foreign(tmp_path / "foreign", StoragePlugin.MCAP))
+    assert trouble["code"] == "bag_without_robots"
+    assert trouble["values"]["topics"] == ["/joint_states", "/secret"]
+    assert trouble["values"]["types"][0] == "sensor_msgs/msg/JointState"
+    assert trouble["fixes"][0]["command"].startswith("bag import ")
+
+
+def troubles(bag: Path, *options: object) -> list[dict[str, Any]]:
+    """Return what a report says is wrong with a bag; its text has the same."""
+    found = json.loads(run("bag", "report", bag, "--json", *options))["troubles"]
+    text = run("bag", "report", bag)
+    assert all(each["message"] in text for each in found)
+    return list(found)
 
 
 def test_a_report_goes_on_where_the_clock_was_set_and_an_attachment_is_broken(
@@ -161,10 +175,12 @@ def test_a_report_goes_on_where_the_clock_was_set_and_an_attachment_is_broken(
         state = msg.PlaybackState(header=make_header(at_ns), label=label, trajectory_id="wave")
         writer.write(topic.name, at_ns, serialize_message(state), START_NS)
     writer.close()
-    said = run("bag", "report", tmp_path / "class")
-    assert "trajectories/wave.json cannot be read" in said
-    assert said.count("the clock was set back by 62.0 s; what was recorded until it had") == 1
-    assert "2 runs" in said
+    unread, clock = troubles(tmp_path / "class")
+    assert unread["code"] == "trajectory_unreadable"
+    assert unread["values"]["attachment"] == "trajectories/wave.json"
+    assert clock["code"] == "clock_set_back"
+    assert (clock["values"]["by"], clock["values"]["then"]) == (62.0, "piled")
+    assert len(json.loads(run("bag", "report", tmp_path / "class", "--json"))["runs"]) == 2
 
 
 def test_a_report_counts_what_cannot_be_read_and_knows_a_bag_of_even_times(tmp_path: Path) -> None:
@@ -178,10 +194,11 @@ def test_a_report_counts_what_cannot_be_read_and_knows_a_bag_of_even_times(tmp_p
         writer.write(topic.name, START_NS + at * 10**9, serialize_message(state), START_NS)
     writer.write(topic.name, START_NS + 5 * 10**9, b"\0\1\0\0" + bytes(8) + b"\xff" * 8, START_NS)
     writer.close()
-    said = run("bag", "report", tmp_path / "class")
-    assert "at 2.00 s the clock was set back by 62.0 s; the times of this report go on" in said
-    assert "1 message of /a/playback_state cannot be read and is left out" in said
-    assert "1 run" in said
+    unread, clock = troubles(tmp_path / "class")
+    assert unread["code"] == "messages_unreadable"
+    assert unread["values"] == {"topic": "/a/playback_state", "messages": 1}
+    assert clock["values"] == {"time": 2.0, "by": 62.0, "then": "even"}
+    assert len(json.loads(run("bag", "report", tmp_path / "class", "--json"))["runs"]) == 1
 
 
 def foreign(
@@ -282,7 +299,9 @@ def test_a_sqlite3_bag_is_read_as_it_is(bag: Path, tmp_path: Path) -> None:
     (other / "metadata.yaml").unlink()
     assert json.loads(run("bag", "report", other, "--json"))["runs"] == second["runs"]
     run("show", other / "other.db3", "-o", tmp_path / "page.html", "--no-open")
-    assert "hit table with wrist_3_link" in (tmp_path / "page.html").read_text()
+    assert (
+        second["runs"][0]["actions"][0]["said"]["message"] in (tmp_path / "page.html").read_text()
+    )
     assert run("bag", "import", other, tmp_path / "mine").startswith(str(tmp_path / "mine"))
 
 
@@ -290,7 +309,7 @@ def test_a_sqlite3_bag_is_read_as_it_is(bag: Path, tmp_path: Path) -> None:
 def test_a_compressed_bag_is_read_as_it_is(tmp_path: Path, mode: CompressionMode) -> None:
     source = foreign(tmp_path / "foreign", StoragePlugin.SQLITE3, mode=mode)
     assert json.loads(run("bag", "info", source, "--json"))["messages"] == 4
-    assert "no robot of a lab is in it, but /joint_states" in run("bag", "report", source)
+    assert [each["code"] for each in troubles(source)] == ["bag_without_robots"]
 
 
 def test_joints_of_no_robot_are_named(tmp_path: Path) -> None:

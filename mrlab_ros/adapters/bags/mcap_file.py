@@ -19,7 +19,14 @@ from mcap.stream_reader import get_chunk_data_stream
 from mcap.writer import MCAP0_MAGIC
 from zstandard import ZstdError
 
+from mrlab_ros.adapters.bags.diagnostics import (
+    BAG_CUT_SHORT,
+    BAG_DAMAGED,
+    BAG_NO_INDEX,
+    BAG_NOT_BEGUN,
+)
 from mrlab_ros.adapters.inflate import is_compressed
+from mrlab_ros.core.base.diagnostic import Diagnostic
 from mrlab_ros.core.errors import BadInput
 from mrlab_ros.core.foreign_text import for_shell
 
@@ -64,7 +71,7 @@ class BagFile:
     indexed: bool = True
     # offset behind the last whole record of data, and what is wrong with the file after it
     data_end: int = 0
-    trouble: str = ""
+    trouble: Diagnostic | None = None
 
     @property
     def start_ns(self) -> int:
@@ -135,8 +142,7 @@ def open_file(path: Path) -> BagFile:
                         f"{path} is empty or was cut off in its first bytes: there is nothing to "
                         "read or mend in it; bring back a copy"
                     )
-                trouble = f"{path.name} ends before its first record: its writer was killed"
-                return BagFile(path, indexed=False, trouble=trouble)
+                return BagFile(path, indexed=False, trouble=BAG_NOT_BEGUN(file=path.name))
             if is_compressed(beginning):
                 raise BadInput(
                     f"{path} is compressed as a whole; a plain bag of it is made with: mrlab bag "
@@ -231,15 +237,13 @@ def _by_records(path: Path, file: Any) -> BagFile:
                     "lab with mrlab bag import"
                 )
         except DAMAGE as error:
-            found.trouble = f"{path.name} is damaged at byte {offset} ({error})"
+            found.trouble = BAG_DAMAGED(file=path.name, offset=offset, problem=str(error))
             break
         offset += RECORD.size + length
     found.data_end = offset
-    if not found.trouble:
+    if found.trouble is None:
         found.trouble = (
-            f"{path.name} has no index: its writer was killed or lost its disk"
-            if whole
-            else f"{path.name} ends within a record at byte {offset}; what is before it is read"
+            BAG_NO_INDEX(file=path.name) if whole else BAG_CUT_SHORT(file=path.name, offset=offset)
         )
     return found
 

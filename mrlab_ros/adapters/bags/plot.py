@@ -9,6 +9,7 @@ from mrlab_ros.adapters.plotting import Figure, FigureCanvasAgg, Line2D, Patch
 from mrlab_ros.core.design import COLOURS, JOINTS, STATES
 from mrlab_ros.core.foreign_text import visible
 from mrlab_ros.core.recording.report import HOLDING, RobotReport, Series, SessionReport, Span
+from mrlab_ros.core.recording.report_text import hop_text
 
 HELD = JOINTS[6]
 WIDTH, ROW_HEIGHT, PANEL_HEIGHT, MARGIN = 11.0, 0.42, 1.7, 1.3
@@ -141,9 +142,9 @@ def _lines(robots: list[RobotReport], field: str, scale: float) -> dict[str, tup
 
 def _latency(report: SessionReport, robots: list[RobotReport]) -> dict[str, tuple[Series, float]]:
     if report.latency:
-        return {hop: (series, 1e3) for hop, series in report.latency.items()}
+        return {hop_text(hop): (series, 1e3) for hop, series in report.latency.items()}
     return {
-        f"{robot.name} {hop}": (series, 1e3)
+        f"{robot.name} {hop_text(hop)}": (series, 1e3)
         for robot in robots
         for hop, series in robot.latency.items()
     }

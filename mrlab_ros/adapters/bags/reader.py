@@ -19,6 +19,7 @@ from mrlab_ros.adapters.bags.mcap_file import (
 from mrlab_ros.adapters.bags.writer import is_being_written
 from mrlab_ros.adapters.nearby import like_file
 from mrlab_ros.adapters.yaml_files import Loader
+from mrlab_ros.core.base.diagnostic import Diagnostic
 from mrlab_ros.core.errors import BadInput
 from mrlab_ros.core.recording.metadata import (
     GAP,
@@ -76,8 +77,8 @@ class Bag:
         return any(is_being_written(file.path) for file in self.files)
 
     @property
-    def troubles(self) -> list[str]:
-        """What is wrong with its files, for a person; while it is recorded, nothing is."""
+    def troubles(self) -> list[Diagnostic]:
+        """What is wrong with its files; while it is recorded, nothing is."""
         return [] if self.live else [file.trouble for file in self.files if file.trouble]
 
     def facts(self) -> BagFacts:

@@ -12,9 +12,11 @@ from pathlib import Path
 import yaml
 from mcap.writer import CompressionType, Writer
 
+from mrlab_ros.adapters.bags.diagnostics import BAG_DAMAGED
 from mrlab_ros.adapters.bags.mcap_file import DAMAGE, BagFile, open_file
 from mrlab_ros.adapters.bags.reader import METADATA, Bag, mcap_files_in
 from mrlab_ros.adapters.bags.writer import CHUNK_SIZE, RESERVE, is_being_written, metadata_text
+from mrlab_ros.core.base.diagnostic import Diagnostic
 from mrlab_ros.core.errors import BadInput, Misuse
 from mrlab_ros.core.foreign_text import for_shell
 from mrlab_ros.core.recording.metadata import ROOT
@@ -28,7 +30,7 @@ class Repaired:
     """What a repair did: the rewritten files, and what was wrong with them."""
 
     files: list[str]
-    troubles: list[str]
+    troubles: list[Diagnostic]
     messages: int
 
 
@@ -136,16 +138,16 @@ def refresh_metadata(folder: Path) -> bool:
     return True
 
 
-def _damage(file: BagFile) -> str:
-    """Return what is wrong with a file, an empty text where it is whole."""
-    if file.trouble:
+def _damage(file: BagFile) -> Diagnostic | None:
+    """Return what is wrong with a file, None where it is whole."""
+    if file.trouble is not None:
         return file.trouble
     for chunk in file.chunks:
         try:
             file.records(chunk)
         except BadInput:
-            return f"{file.path.name} is damaged at byte {chunk.offset}"
-    return ""
+            return BAG_DAMAGED(file=file.path.name, offset=chunk.offset)
+    return None
 
 
 def _agrees(metadata: Path, bag: Bag) -> bool:

@@ -14,10 +14,21 @@ from rosbags.serde import SerdeError
 from rosbags.typesys import Stores, get_types_from_msg, get_typestore
 
 from mrlab_ros.adapters.bags.courses import Reference, Samples, add_courses
+from mrlab_ros.adapters.bags.diagnostics import (
+    BAD_MESSAGE,
+    BAG_LIVE,
+    BAG_WITHOUT_ROBOTS,
+    CLOCK_SET_BACK,
+    MESSAGES_UNREADABLE,
+    NOTHING_RECORDED,
+    TRAJECTORY_UNREADABLE,
+)
 from mrlab_ros.adapters.bags.mcap_file import Message
 from mrlab_ros.adapters.bags.reader import Bag
+from mrlab_ros.core.base.diagnostic import INFO, WARNING, Diagnostic, Fix, Severity
 from mrlab_ros.core.clock import SECOND, PlaybackClock
 from mrlab_ros.core.errors import BadInput
+from mrlab_ros.core.foreign_text import for_shell
 from mrlab_ros.core.geometry import Pose
 from mrlab_ros.core.recording.moves import ObjectTrack, Placed, Target, Targets
 from mrlab_ros.core.recording.report import (
@@ -25,6 +36,7 @@ from mrlab_ros.core.recording.report import (
     HOLDING,
     Changes,
     Contact,
+    Hop,
     ReferenceTrajectory,
     ReportedState,
     RobotReport,
@@ -40,7 +52,7 @@ FINGERS = "/finger_states"
 # s; what physics sends sixty times a second is read thirty times.
 OBJECT_INTERVAL = 1 / 30
 # The values of LatencyHop.hop.
-HOPS = ("published to bridged", "bridged to received", "published to received")
+HOPS = ("published_to_bridged", "bridged_to_received", "published_to_received")
 # s: stamps that go back further are of a clock that was set.
 SET_BACK = 1.0
 # What reading a message raises whose bytes are damaged, or of another type.
@@ -75,9 +87,7 @@ class Decoder:
             read = known.deserialize_cdr_le if data[1] else known.deserialize_cdr_be
             return read(data[4:], 0, known.cls, self._store)[0]
         except BROKEN as error:
-            raise BadInput(
-                f"a message is no {kind} ({error}); bring back a copy of the bag"
-            ) from None
+            raise BadInput(BAD_MESSAGE(type=kind, problem=str(error))) from None
 
 
 def read_session(bag: Bag, reference: Reference | None = None) -> SessionReport:
@@ -118,7 +128,7 @@ class _Reader:
             try:
                 course = _course(bag.attachment(name).data)
             except (ValueError, TypeError, LookupError):
-                unread.append(f"{name} cannot be read, so runs of it are compared with nothing")
+                unread.append(TRAJECTORY_UNREADABLE(attachment=name))
             else:
                 self.courses[name.removeprefix("trajectories/").removesuffix(".json")] = course
         counts = [topic.messages for topic in bag.topics.values() if topic.type == JOINTS]
@@ -129,7 +139,7 @@ class _Reader:
             step=step,
             troubles=[
                 *_condition(bag),
-                *(gap.describe(bag.start_ns) for gap in bag.gaps()),
+                *(gap.said(bag.start_ns) for gap in bag.gaps()),
                 *unread,
             ],
         )
@@ -166,21 +176,16 @@ class _Reader:
             if topic.type in known or topic.name.endswith(DESCRIPTION)
         }
 
-    def troubles(self) -> list[str]:
-        """Return what was wrong with the messages, for a person."""
+    def troubles(self) -> list[Diagnostic]:
+        """Return what was wrong with the messages."""
         said = [
-            f"{count} message{'s' * (count > 1)} of {topic} cannot be read and "
-            f"{'are' if count > 1 else 'is'} left out"
+            MESSAGES_UNREADABLE(messages=count, topic=topic)
             for topic, count in self._broken.items()
         ]
         if self._set_back is not None:
             at, back, _ = self._set_back
-            then = (
-                "the times of this report go on evenly"
-                if self._even
-                else "what was recorded until it had caught up stands at that instant"
-            )
-            said.append(f"at {at:.2f} s the clock was set back by {back:.1f} s; {then}")
+            then = "even" if self._even else "piled"
+            said.append(CLOCK_SET_BACK(time=at, by=back, then=then))
         return said
 
     def take(self, message: Message) -> None:
@@ -257,16 +262,15 @@ class _Reader:
         if collision.colliding:
             contact = collision.contact
             other = f"{contact.other} {contact.other_link}".strip()
-            robot.collisions.append(Contact(time, contact.link, other, contact.frame))
+            robot.collisions.append(Contact(time, contact.link, other, contact.frame + 1))
 
     def _grasp(self, time: float, robot: RobotReport, grasp: Any) -> None:
         known = grasp.state < len(GRASP_STATES)
         label = GRASP_STATES[grasp.state] if known else str(grasp.state)
         robot.grasps.add(time, label, grasp.object)
-        # Bags of earlier versions do not have these fields.
-        reason = str(getattr(grasp, "reason", ""))
-        if reason:
-            robot.remarks.add(time, reason)
+        said = _said(grasp, "reason", WARNING)
+        if said is not None:
+            robot.remark(time, said)
         if label == HOLDING and getattr(grasp, "friction_needed", None):
             robot.bear(grasp.object, grasp)
 
@@ -296,7 +300,7 @@ class _Reader:
             changes = self.report.systems
             if system.name not in changes:
                 changes[system.name] = Changes()
-            changes[system.name].add(time, system.label, system.message)
+            changes[system.name].add(time, system.label, said=_said(system, "message", INFO))
 
     def _contacts(self, time: float, contacts: Any) -> None:
         for contact in contacts.contacts:
@@ -304,9 +308,8 @@ class _Reader:
 
     def _latency(self, time: float, latency: Any) -> None:
         for hop in latency.hops:
-            name = HOPS[hop.hop] if hop.hop < len(HOPS) else str(hop.hop)
-            if latency.observer != "bridge":
-                name += f" by {latency.observer}"
+            ends = HOPS[hop.hop] if hop.hop < len(HOPS) else str(hop.hop)
+            name = Hop(ends, "" if latency.observer == "bridge" else latency.observer)
             owner = hop.topic.strip("/").split("/")[0]
             if not hop.topic:
                 series = self.report.latency
@@ -318,25 +321,38 @@ class _Reader:
                 series.setdefault(name, Series()).add(time, hop.p50)
 
 
-def _missing(bag: Bag, report: SessionReport) -> list[str]:
+def _missing(bag: Bag, report: SessionReport) -> list[Diagnostic]:
     """Return what a bag has in place of a session of a lab; nothing where it has robots."""
     if not bag.message_count:
-        return ["nothing was recorded in it"]
+        return [NOTHING_RECORDED()]
     if report.robots:
         return []
     topics = sorted(bag.topics.values(), key=lambda topic: topic.name)
-    held = ", ".join(f"{topic.name} ({topic.type})" for topic in topics[:NAMED])
-    more = f" and {len(topics) - NAMED} more" if len(topics) > NAMED else ""
-    found = f"no robot of a lab is in it, but {held}{more}"
-    if any(topic.type == JOINTS for topic in topics):
-        found += "; mrlab bag import makes a session of it by the joints' names"
-    return [found]
+    fix = Fix(command=f"bag import {for_shell([str(bag.path)])} NEW_FOLDER")
+    return [
+        BAG_WITHOUT_ROBOTS(
+            topics=[topic.name for topic in topics[:NAMED]],
+            types=[topic.type for topic in topics[:NAMED]],
+            more=max(len(topics) - NAMED, 0) or None,
+            fixes=(fix,) if any(topic.type == JOINTS for topic in topics) else (),
+        )
+    ]
 
 
-def _condition(bag: Bag) -> list[str]:
-    if bag.live:
-        return ["it is being recorded; this is what it holds so far"]
-    return bag.troubles
+def _condition(bag: Bag) -> list[Diagnostic]:
+    return [BAG_LIVE()] if bag.live else bag.troubles
+
+
+def _said(message: Any, text: str, severity: Severity) -> Diagnostic | None:
+    """Return what a message of a bag says in its field `text`; None: nothing.
+
+    Bags of earlier versions do not have the fields of its code, or of the text.
+    """
+    said = str(getattr(message, text, ""))
+    if not said:
+        return None
+    values = {each.key: each.value for each in getattr(message, "values", ())}
+    return Diagnostic(getattr(message, "code", ""), severity, said, values=values)
 
 
 def _pose(pose: Any) -> Pose:

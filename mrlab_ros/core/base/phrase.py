@@ -5,8 +5,10 @@ unit the value is stored and how it is shown, the same in terminal, page, room a
 
     {name}                     text of a person or a file, as it is
     {value:angle}              rad, shown as 12.4°          {value:turn_rate}  rad/s, 180.0°/s
+    {value:fine_angle}         rad, shown as 0.03°
     {value:length}             m, shown as 135 mm, 1.25 m   {value:speed}      m/s
     {value:time}               s, shown as 2.00 s           {value:rate}       Hz
+    {value:duration}           s, from 100 s on shown as 2:05.3 min or 1:02:05 h
     {value:mass} {value:force} kg, N                        {value:moment}     N*m
     {value:share}              0 to 1, shown as 63%         {value:number}     four digits
     {value:bytes}              B, shown as kB, MB or GB     {value:integer}
@@ -141,6 +143,16 @@ def _length(value: float, words: Sequence[str]) -> str:
     return _digits(value * 1e3, 0 if abs(value) >= 0.01 else 1, " mm")
 
 
+def _duration(value: float, words: Sequence[str]) -> str:
+    if round(value, 2) < 100:
+        return _digits(value, 2, " s")
+    tenths = round(value * 10)
+    if tenths < 36_000:
+        return f"{tenths // 600}:{tenths % 600 / 10:04.1f} min"
+    whole = round(value)
+    return f"{whole // 3600}:{whole // 60 % 60:02d}:{whole % 60:02d} h"
+
+
 def _bytes(value: float, words: Sequence[str]) -> str:
     for scale, unit in ((1e9, "GB"), (1e6, "MB"), (1e3, "kB")):
         if abs(value) >= scale:
@@ -176,12 +188,14 @@ QUANTITIES: dict[str, Callable[[Any, Sequence[str]], str]] = {
     "integer": lambda v, w: f"{int(v)}",
     "number": lambda v, w: _significant(v, 4, ""),
     "angle": lambda v, w: _digits(degrees(v), 1, "°"),
+    "fine_angle": lambda v, w: _digits(degrees(v), 2, "°"),
     "turn_rate": lambda v, w: _digits(degrees(v), 1, "°/s"),
     "turn_acceleration": lambda v, w: _digits(degrees(v), 0, "°/s²"),
     "turn_jerk": lambda v, w: _digits(degrees(v), 0, "°/s³"),
     "length": _length,
     "speed": lambda v, w: _digits(v, 2, " m/s"),
     "time": lambda v, w: _digits(v, 2, " s"),
+    "duration": _duration,
     "rate": lambda v, w: _significant(v, 4, " Hz"),
     "share": lambda v, w: _digits(v * 100, 0, "%"),
     "mass": lambda v, w: _significant(v, 3, " kg"),

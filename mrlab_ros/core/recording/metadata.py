@@ -6,9 +6,11 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any
 
+from mrlab_ros.core.base.diagnostic import Diagnostic
 from mrlab_ros.core.clock import SECOND
 from mrlab_ros.core.errors import BadInput
 from mrlab_ros.core.foreign_text import for_shell
+from mrlab_ros.core.recording.diagnostics import RECORDING_GAP, RECORDING_GAP_UNKNOWN
 
 VERSION = 9
 ROOT = "rosbag2_bagfile_information"
@@ -85,14 +87,13 @@ class Gap:
         """How long it lasted, s."""
         return (self.until_ns - self.from_ns) / SECOND
 
-    def missing(self) -> str:
-        """Return what is missing: a clock that was set back meanwhile does not say how long."""
-        return f"{self.duration:.1f} s are missing" if self.duration else "some time is missing"
-
-    def describe(self, start_ns: int) -> str:
-        """Return a sentence about it. start_ns: of the bag."""
-        since = (self.from_ns - start_ns) / SECOND
-        return f"{self.missing()} from {since:.1f} s on: the recorder was restarted"
+    def said(self, start_ns: int) -> Diagnostic:
+        """Return what is said of it. start_ns: of the bag."""
+        time = (self.from_ns - start_ns) / SECOND
+        # A clock that was set back meanwhile does not say how long it lasted.
+        if not self.duration:
+            return RECORDING_GAP_UNKNOWN(time=time)
+        return RECORDING_GAP(time=time, missing=self.duration)
 
     def note(self) -> dict[str, str]:
         """Return the metadata record of it."""

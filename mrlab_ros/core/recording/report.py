@@ -7,14 +7,17 @@ from __future__ import annotations
 
 from bisect import bisect_right
 from dataclasses import dataclass, field
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
+from mrlab_ros.core.base.diagnostic import Diagnostic, plain
 from mrlab_ros.core.clock import SECOND, PlaybackClock
 from mrlab_ros.core.geometry import Pose
-from mrlab_ros.core.recording.runs import Run
+from mrlab_ros.core.recording.diagnostics import RUN_BEGAN, RUN_ENDED, SESSION_SUMMARY
+from mrlab_ros.core.recording.run_figures import figures_of
+from mrlab_ros.core.recording.runs import Deed, Result, Run
 
 Array = NDArray[np.float64]
 PLAYING = "PLAYING"
@@ -25,12 +28,13 @@ GRASP_STATES = ("OPEN", "CLOSING", HOLDING, "EMPTY")
 
 @dataclass(frozen=True)
 class Span:
-    """Something that lasted from `start` to `end`, s."""
+    """Something that lasted from `start` to `end`, s. said: why, for a person; None: nothing."""
 
     start: float
     end: float
     label: str
     detail: str = ""
+    said: Diagnostic | None = None
 
     def facts(self) -> dict[str, Any]:
         return {
@@ -38,6 +42,7 @@ class Span:
             "end": self.end,
             "label": self.label,
             "detail": self.detail,
+            "said": plain(self.said),
         }
 
 
@@ -45,18 +50,20 @@ class Span:
 class Changes:
     """A value's history; repeated equal values are ignored."""
 
-    values: list[tuple[float, str, str]] = field(default_factory=list)
+    values: list[tuple[float, str, str, Diagnostic | None]] = field(default_factory=list)
 
-    def add(self, time: float, label: str, detail: str = "") -> None:
-        if not self.values or self.values[-1][1:] != (label, detail):
-            self.values.append((time, label, detail))
+    def add(
+        self, time: float, label: str, detail: str = "", said: Diagnostic | None = None
+    ) -> None:
+        if not self.values or self.values[-1][1:] != (label, detail, said):
+            self.values.append((time, label, detail, said))
 
     def spans(self, end: float) -> list[Span]:
         """Return how long each value lasted; the last one until `end`."""
-        ends = [*(time for time, _, _ in self.values[1:]), end][: len(self.values)]
+        ends = [*(time for time, *_ in self.values[1:]), end][: len(self.values)]
         return [
-            Span(time, max(until, time), label, detail)
-            for (time, label, detail), until in zip(self.values, ends, strict=True)
+            Span(time, max(until, time), label, detail, said)
+            for (time, label, detail, said), until in zip(self.values, ends, strict=True)
         ]
 
 
@@ -131,14 +138,39 @@ class Series:
         }
 
 
+class Hop(NamedTuple):
+    """A way of a message on which its latency was measured. observer: empty: the bridge."""
+
+    ends: str
+    observer: str = ""
+
+
+def latency_facts(latency: dict[Hop, Series]) -> list[dict[str, Any]]:
+    """Return latencies, s, ready for JSON."""
+    return [{**hop._asdict(), **series.summary()} for hop, series in latency.items()]
+
+
+@dataclass(frozen=True)
+class Event:
+    """Something in the run `run` of a robot, s of the session."""
+
+    time: float
+    robot: str
+    run: int
+    said: Diagnostic
+
+    def facts(self) -> dict[str, Any]:
+        return {**vars(self), "said": plain(self.said)}
+
+
 @dataclass
 class Contact:
-    """A contact that halted an arm, or would have."""
+    """A contact that halted an arm, or would have. row: of the trajectory, from 1."""
 
     time: float
     link: str
     other: str
-    frame: int
+    row: int
 
 
 @dataclass
@@ -151,13 +183,6 @@ class Borne:
     friction_needed: float
     wrist_moment: float
 
-    @property
-    def label(self) -> str:
-        return (
-            f"{self.mass:.3g} kg, friction {self.friction:.2f}, "
-            f"needed {self.friction_needed:.2f}, {self.wrist_moment:.2f} N*m at the wrist"
-        )
-
 
 @dataclass
 class RobotReport:
@@ -167,8 +192,8 @@ class RobotReport:
     model: str = ""
     states: Changes = field(default_factory=Changes)
     grasps: Changes = field(default_factory=Changes)
-    # What was said of its grasps.
-    remarks: Changes = field(default_factory=Changes)
+    # What was said of its grasps, and when.
+    remarks: list[tuple[float, Diagnostic]] = field(default_factory=list)
     borne: dict[str, Borne] = field(default_factory=dict)
     collisions: list[Contact] = field(default_factory=list)
     # When the arm or the tool touched something, halting or not.
@@ -180,7 +205,7 @@ class RobotReport:
     frames_lost: int = 0
     tracking: Series = field(default_factory=Series)
     deadline: Series = field(default_factory=Series)
-    latency: dict[str, Series] = field(default_factory=dict)
+    latency: dict[Hop, Series] = field(default_factory=dict)
     _holds: list[int] = field(default_factory=list)
     # Where in _holds the present reckoning of time begins: the clock may be set back.
     _begin: int = 0
@@ -191,6 +216,14 @@ class RobotReport:
             self._begin = len(self._holds)
         self.reported.append(reported)
         self._holds.append(reported.holds_from_ns)
+
+    def remark(self, time: float, said: Diagnostic) -> None:
+        """Take note of what is said of a grasp, once until something else is said.
+
+        Figures that vary while it holds make no further remark.
+        """
+        if not self.remarks or _same_remark(self.remarks[-1][1]) != _same_remark(said):
+            self.remarks.append((time, said))
 
     def bear(self, name: str, grasp: Any) -> None:
         """Take note of what a grasp of object `name` bears; grasp: a mrlab_msgs/Grasp."""
@@ -244,7 +277,7 @@ class RobotReport:
             "model": self.model,
             "states": [span.facts() for span in self.states.spans(end)],
             "grasps": [span.facts() for span in self.grasps.spans(end)],
-            "remarks": [span.facts() for span in self.remarks.spans(end)],
+            "remarks": [{"time": time, "said": plain(said)} for time, said in self.remarks],
             "borne": {name: vars(borne) for name, borne in self.borne.items()},
             "collisions": [vars(contact) for contact in self.collisions],
             "contacts": len(self.contacts),
@@ -252,7 +285,7 @@ class RobotReport:
             "frames_lost": self.frames_lost,
             "tracking_error": self.tracking.summary(),
             "deadline_error": self.deadline.summary(),
-            "latency": {hop: series.summary() for hop, series in self.latency.items()},
+            "latency": latency_facts(self.latency),
         }
 
 
@@ -264,10 +297,10 @@ class SessionReport:
     start_ns: int
     robots: dict[str, RobotReport] = field(default_factory=dict)
     systems: dict[str, Changes] = field(default_factory=dict)
-    latency: dict[str, Series] = field(default_factory=dict)
+    latency: dict[Hop, Series] = field(default_factory=dict)
     # Every how many joint states one was compared.
     step: int = 1
-    troubles: list[str] = field(default_factory=list)
+    troubles: list[Diagnostic] = field(default_factory=list)
     runs: list[Run] = field(default_factory=list)
 
     def robot(self, name: str) -> RobotReport:
@@ -275,18 +308,55 @@ class SessionReport:
             self.robots[name] = RobotReport(name)
         return self.robots[name]
 
+    @property
+    def summary(self) -> Diagnostic:
+        """How long it was, how many played how often, and how that ended."""
+        hits = sum(a.deed is Deed.HIT for run in self.runs for a in run.actions)
+        done = sum(run.result is Result.COMPLETED for run in self.runs)
+        return SESSION_SUMMARY(
+            duration=self.duration,
+            robots=len(self.robots),
+            runs=len(self.runs),
+            completed=done if self.runs else None,
+            collisions=hits or None,
+        )
+
+    def events(self) -> list[Event]:
+        """Return in order when runs began and ended, and what was done in them."""
+        found = []
+        for run in self.runs:
+            began = RUN_BEGAN(trajectory=run.trajectory, robot=run.robot)
+            ended = RUN_ENDED(trajectory=run.trajectory, outcome=run.outcome, robot=run.robot)
+            told = [(run.start, began), *((a.time, a.said) for a in run.actions), (run.end, ended)]
+            found += [Event(time, run.robot, run.number, said) for time, said in told]
+        return sorted(found, key=lambda event: event.time)
+
     def facts(self) -> dict[str, Any]:
-        """Return everything, ready for JSON: SI units."""
+        """Return everything, ready for JSON: SI units; each `said` as diagnostic.plain()."""
         return {
             "duration": self.duration,
             "start_ns": self.start_ns,
-            "troubles": self.troubles,
-            "runs": [run.facts() for run in self.runs],
+            "summary": plain(self.summary),
+            "troubles": plain(self.troubles),
+            "runs": [
+                {**run.facts(), "figures": figures_of(run.course, run.joints).facts()}
+                if run.course is not None
+                else {**run.facts(), "figures": None}
+                for run in self.runs
+            ],
+            "events": [event.facts() for event in self.events()],
             "compared_every": self.step,
             "robots": [robot.facts(self.duration) for robot in self.robots.values()],
             "systems": {
                 name: [span.facts() for span in changes.spans(self.duration)]
                 for name, changes in self.systems.items()
             },
-            "latency": {hop: series.summary() for hop, series in self.latency.items()},
+            "latency": latency_facts(self.latency),
         }
+
+
+def _same_remark(said: Diagnostic) -> tuple[str, dict[str, Any]]:
+    """Return what two remarks have in common that say the same; a text without code is itself."""
+    if not said.code:
+        return said.message, {}
+    return said.code, {name: said.values.get(name) for name in ("object", "robot", "link")}

@@ -2,22 +2,20 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Sequence
 
-from mrlab_ros.core.recording.report import Series, SessionReport
-from mrlab_ros.core.recording.runs import Deed, Deviation, Run, RunJoint
+from mrlab_ros.core.base.phrase import QUANTITIES
+from mrlab_ros.core.recording.report import Hop, Series, SessionReport
+from mrlab_ros.core.recording.runs import Run
 
 HEADINGS = ("run", "robot", "trajectory", "began", "took", "result")
-# Beyond this a run did not follow its reference, rad or m: rounding is far below.
-FOLLOWED = 1e-4
 # Below this a figure is rounding, in any unit that is shown.
 NOTHING = 1e-9
 
 
 def report_lines(report: SessionReport) -> list[str]:
     """Return the report as lines of text."""
-    lines = [summary(report), *report.troubles, ""]
+    lines = [str(report.summary), *map(str, report.troubles), ""]
     lines += _table(report.runs)
     idle = without_runs(report)
     if idle:
@@ -32,33 +30,14 @@ def without_runs(report: SessionReport) -> list[str]:
     return [name for name in report.robots if name not in played]
 
 
-def lasting(seconds: float, digits: int = 2) -> str:
+def lasting(seconds: float) -> str:
     """Return a length of time for a person: 7.60 s, from 100 s on 2:05.3 min or 1:02:05 h."""
-    if round(seconds, digits) < 100:
-        return f"{seconds:.{digits}f} s"
-    tenths = round(seconds * 10)
-    if tenths < 36_000:
-        return f"{tenths // 600}:{tenths % 600 / 10:04.1f} min"
-    whole = round(seconds)
-    return f"{whole // 3600}:{whole // 60 % 60:02d}:{whole % 60:02d} h"
+    return QUANTITIES["duration"](seconds, ())
 
 
 def shown(value: float) -> str:
     """Return a figure in three digits; what differs from nothing by rounding alone is 0."""
     return f"{value:.3g}" if abs(value) >= NOTHING else "0"
-
-
-def summary(report: SessionReport) -> str:
-    """Return how long it was, how many played how often, and how that ended, in one line."""
-    robots, runs = len(report.robots), len(report.runs)
-    parts = [lasting(report.duration, 1), _count(robots, "robot"), _count(runs, "run")]
-    done = sum(run.result.name == "COMPLETED" for run in report.runs)
-    hits = sum(a.deed is Deed.HIT for run in report.runs for a in run.actions)
-    if runs:
-        parts.append(f"{done} completed")
-    if hits:
-        parts.append(_count(hits, "collision"))
-    return ", ".join(parts)
 
 
 def row_of(run: Run) -> tuple[str, ...]:
@@ -71,24 +50,7 @@ def row_of(run: Run) -> tuple[str, ...]:
         f"{run.trajectory}{speed}",
         lasting(run.start),
         lasting(run.duration),
-        run.outcome(),
-    )
-
-
-def deviation_text(deviation: Deviation, joints: Sequence[RunJoint]) -> str:
-    """Return how a run followed its reference, for a person."""
-    prismatic = any(joint.prismatic for joint in joints if joint.name == deviation.joint)
-    tool = "" if deviation.tool is None else f", the tool {deviation.tool * 1e3:.1f} mm"
-    if deviation.most < FOLLOWED:
-        return f"followed {deviation.reference} exactly"
-    most = (
-        f"{deviation.most * 1e3:.1f} mm"
-        if prismatic
-        else f"{math.degrees(deviation.most):.2f} deg"
-    )
-    return (
-        f"up to {most} from {deviation.reference} ({deviation.joint} at "
-        f"{lasting(deviation.time)}){tool}"
+        run.outcome.message,
     )
 
 
@@ -104,12 +66,17 @@ def technical_lines(report: SessionReport) -> list[str]:
         lines += _figures("tracking error", robot.tracking, "rad", 1.0)
         lines += _figures("deadline error", robot.deadline, "ms", 1e3)
         for hop, series in robot.latency.items():
-            lines += _figures(f"latency {hop}", series, "ms", 1e3)
+            lines += _figures(f"latency {hop_text(hop)}", series, "ms", 1e3)
     if report.latency:
         lines.append("  latency of all topics")
         for hop, series in report.latency.items():
-            lines += _figures(hop, series, "ms", 1e3)
+            lines += _figures(hop_text(hop), series, "ms", 1e3)
     return lines
+
+
+def hop_text(hop: Hop) -> str:
+    """Return the way of a message whose latency was measured, for a person."""
+    return hop.ends.replace("_", " ") + (f" by {hop.observer}" if hop.observer else "")
 
 
 def _table(runs: Sequence[Run]) -> list[str]:
@@ -130,13 +97,9 @@ def _table(runs: Sequence[Run]) -> list[str]:
     indent = " " * (widths[0] + 2)
     for run in runs:
         lines.append(line(row_of(run)))
-        lines += [
-            f"{indent}{lasting(action.time):>10}  {action.text}"
-            + (f", {action.detail}" if action.detail else "")
-            for action in run.actions
-        ]
+        lines += [f"{indent}{lasting(action.time):>10}  {action.said}" for action in run.actions]
         if run.deviation is not None:
-            lines.append(f"{indent}{'':10}  {deviation_text(run.deviation, run.joints)}")
+            lines.append(f"{indent}{'':10}  {run.deviation.said}")
     return lines
 
 

@@ -4,21 +4,30 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
-from dataclasses import replace
+from dataclasses import fields
 from itertools import zip_longest
 
 from mrlab_ros.core.clock import SECOND
-from mrlab_ros.core.geometry import Pose, compose
+from mrlab_ros.core.geometry import compose
+from mrlab_ros.core.recording.diagnostics import (
+    RUN_GRASPED,
+    RUN_HANDED_OVER,
+    RUN_HIT,
+    RUN_LOST,
+    RUN_MISSED,
+    RUN_RELEASED,
+)
 from mrlab_ros.core.recording.moves import ObjectTrack, Targets
 from mrlab_ros.core.recording.report import (
     HOLDING,
-    Contact,
+    Borne,
     ReportedState,
     RobotReport,
     SessionReport,
 )
 from mrlab_ros.core.recording.runs import Action, Deed, Result, Run
 
+BORNE = tuple(each.name for each in fields(Borne))
 BEGINS, ENDS = ("ADJUSTING", "PLAYING"), ("COMPLETE", "READY", "IDLE")
 # s: what a robot does so soon after its run, such as opening its gripper, belongs to the run.
 AFTER = 2.0
@@ -138,39 +147,33 @@ def _actions(
     targets: Targets | None,
 ) -> Iterator[Action]:
     for contact in robot.collisions:
-        yield _hit(contact)
-    for remark in robot.remarks.spans(end):
-        if remark.label:
-            yield Action(remark.start, Deed.REMARK, remark.label)
+        said = RUN_HIT(robot=robot.name, other=contact.other, link=contact.link, row=contact.row)
+        yield Action(contact.time, Deed.HIT, said)
+    for time, remark in robot.remarks:
+        yield Action(time, Deed.REMARK, remark)
     spans = robot.grasps.spans(end)
     before = ""
     for span, following in zip_longest(spans, spans[1:]):
         # Fingers are empty, too, once what they held is lost or handed over.
         if span.label == "EMPTY" and before != HOLDING:
-            yield Action(span.start, Deed.MISSED, "closed the gripper on nothing")
+            yield Action(span.start, Deed.MISSED, RUN_MISSED(robot=robot.name))
         before = span.label
         if span.label != HOLDING:
             continue
         track = objects.get(span.detail)
         place = None if track is None else track.at(span.start)
-        spot = None if place is None else place.position
         borne = robot.borne.get(span.detail)
-        yield Action(
-            span.start,
-            Deed.GRASPED,
-            f"grasped {span.detail}",
-            span.detail,
-            place=spot,
-            detail="" if borne is None else borne.label,
+        load = dict.fromkeys(BORNE) if borne is None else vars(borne)
+        said = RUN_GRASPED(
+            object=span.detail,
+            robot=robot.name,
+            place=None if place is None else place.position,
+            **load,
         )
+        yield Action(span.start, Deed.GRASPED, said)
         if following is not None:
-            deed = Deed.LOST if following.label == "EMPTY" else Deed.RELEASED
-            yield _let_go(robot, span.detail, span.start, span.end, track, targets, deed)
-
-
-def _hit(contact: Contact) -> Action:
-    text = f"hit {contact.other} with {contact.link} at frame {contact.frame}"
-    return Action(contact.time, Deed.HIT, text, contact.other, contact.link)
+            lost = following.label == "EMPTY"
+            yield _let_go(robot, span.detail, span.start, span.end, track, targets, lost=lost)
 
 
 def _let_go(
@@ -180,31 +183,27 @@ def _let_go(
     time: float,
     track: ObjectTrack | None,
     targets: Targets | None,
-    deed: Deed,
+    *,
+    lost: bool,
 ) -> Action:
     """Return how an object left the gripper: where it lies then, and where it was to lie.
 
-    deed: RELEASED, or LOST where the fingers did not open.
+    lost: the fingers did not open.
     """
-    place = None if track is None else track.at_rest(time, SETTLED)
-    if track is None or place is None:
-        return Action(time, deed, f"{deed.value} {name}", name)
-    taken = track.taken_by(time, robot.name)
+    taken = "" if track is None else track.taken_by(time, robot.name)
     if taken:
-        return Action(time, Deed.RELEASED, f"handed {name} to {taken}", name)
+        said = RUN_HANDED_OVER(object=name, to=taken, robot=robot.name)
+        return Action(time, Deed.HANDED_OVER, said)
+    found = None if track is None else track.at_rest(time, SETTLED)
+    place = None if found is None else found.position
+    if lost:
+        return Action(time, Deed.LOST, RUN_LOST(object=name, robot=robot.name, place=place))
     target = None
-    in_tool = track.in_tool(since)
-    if targets is not None and in_tool is not None and deed is Deed.RELEASED:
+    in_tool = None if track is None else track.in_tool(since)
+    if targets is not None and in_tool is not None:
         tool = targets.release(time, robot.position_at(time), NEAR)
         if tool is not None:
             target = compose(compose(robot.base_at(time), tool), in_tool).position
-    action = Action(time, deed, "", name, "", place.position, target)
-    where = f"at {_metres(place)}"
-    if action.off is not None:
-        off = f"{action.off * 1e3:.0f} mm from" if action.off >= 5e-4 else "at"
-        where = f"{off} its programmed place, {where}"
-    return replace(action, text=f"{deed.value} {name} {where}")
-
-
-def _metres(pose: Pose) -> str:
-    return ", ".join(f"{value + 0.0:.3f}" for value in pose.position) + " m"
+    off = None if place is None or target is None else math.dist(place, target)
+    said = RUN_RELEASED(object=name, robot=robot.name, place=place, target=target, distance=off)
+    return Action(time, Deed.RELEASED, said)

@@ -6,7 +6,6 @@ message; places are m in the frame world.
 
 from __future__ import annotations
 
-import math
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 from enum import Enum
@@ -15,16 +14,28 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from mrlab_ros.core.base.diagnostic import Diagnostic, plain
+from mrlab_ros.core.recording.diagnostics import (
+    RUN_COMPLETED,
+    RUN_DEVIATED,
+    RUN_FOLLOWED,
+    RUN_HALTED,
+    RUN_OPEN,
+    RUN_STOPPED,
+)
+
 Array = NDArray[np.float64]
+# Beyond this a run did not follow its reference, rad or m: rounding is far below.
+FOLLOWED = 1e-4
 
 
 class Result(Enum):
-    """How a run ended."""
+    """How a run ended. OPEN: it had not ended when the recording did."""
 
     COMPLETED = "completed"
     STOPPED = "stopped"
-    HALTED = "halted by a collision"
-    OPEN = "still going on"
+    HALTED = "halted"
+    OPEN = "open"
 
 
 class Deed(Enum):
@@ -32,6 +43,7 @@ class Deed(Enum):
 
     GRASPED = "grasped"
     RELEASED = "released"
+    HANDED_OVER = "handed_over"
     LOST = "lost"
     MISSED = "missed"
     REMARK = "remark"
@@ -40,53 +52,14 @@ class Deed(Enum):
 
 @dataclass(frozen=True)
 class Action:
-    """Something that a robot did. target: where the trajectory puts what was released.
-
-    detail: figures that belong to it, such as the mass of what was grasped.
-    """
+    """Something that a robot did, s of the session; said has its values, such as the object."""
 
     time: float
     deed: Deed
-    text: str
-    object: str = ""
-    link: str = ""
-    place: tuple[float, float, float] | None = None
-    target: tuple[float, float, float] | None = None
-    detail: str = ""
-
-    @property
-    def off(self) -> float | None:
-        """How far from its target the object lies, m."""
-        if self.place is None or self.target is None:
-            return None
-        return math.dist(self.place, self.target)
+    said: Diagnostic
 
     def facts(self) -> dict[str, Any]:
-        return {
-            "time": self.time,
-            "deed": self.deed.value,
-            "text": self.text,
-            "detail": self.detail,
-            "object": self.object,
-            "link": self.link,
-            "place": self.place,
-            "target": self.target,
-            "distance": self.off,
-        }
-
-
-# How grave a deed is; the others: info.
-SEVERITY = {
-    Deed.HIT: "error",
-    Deed.LOST: "warning",
-    Deed.MISSED: "warning",
-    Deed.REMARK: "warning",
-}
-
-
-def severity(action: Action) -> str:
-    """Return how grave an action is: error, warning or info."""
-    return SEVERITY.get(action.deed, "info")
+        return {"time": self.time, "deed": self.deed.value, "said": plain(self.said)}
 
 
 @dataclass(frozen=True)
@@ -109,6 +82,24 @@ class Deviation:
     joint: str
     time: float
     tool: float | None = None
+    prismatic: bool = False
+
+    @property
+    def said(self) -> Diagnostic:
+        """The deviation, for a person."""
+        if self.most < FOLLOWED:
+            return RUN_FOLLOWED(reference=self.reference)
+        return RUN_DEVIATED(
+            angle=None if self.prismatic else self.most,
+            distance=self.most if self.prismatic else None,
+            reference=self.reference,
+            joint=self.joint,
+            time=self.time,
+            tool=self.tool,
+        )
+
+    def facts(self) -> dict[str, Any]:
+        return {**vars(self), "said": plain(self.said)}
 
 
 @dataclass
@@ -137,7 +128,12 @@ class Course:
             tool = float(np.nanmax(np.linalg.norm(self.tool - self.expected_tool, axis=1)))
         mean = float(np.sqrt(np.nanmean(off**2)))
         most = float(off[row, joint])
-        return Deviation(reference, most, mean, joints[joint].name, float(self.times[row]), tool)
+        worst = joints[joint]
+        time = float(self.times[row])
+        return Deviation(reference, most, mean, worst.name, time, tool, worst.prismatic)
+
+
+OUTCOMES = {Result.STOPPED: RUN_STOPPED, Result.HALTED: RUN_HALTED, Result.OPEN: RUN_OPEN}
 
 
 @dataclass
@@ -171,19 +167,17 @@ class Run:
         return self.end - self.start
 
     @property
-    def hit(self) -> bool:
-        return any(action.deed is Deed.HIT for action in self.actions)
-
-    def outcome(self) -> str:
-        """Return the result, for a person."""
-        where = f" at {self.position:.2f} of {self.length:.2f} s" if self.length else ""
+    def outcome(self) -> Diagnostic:
+        """The result, for a person."""
         if self.result is Result.COMPLETED:
-            again = f", {self.loops + 1} times" if self.loops else ""
-            halted = " after a collision" if self.halts else ""
-            return f"completed{again}{halted}"
-        if self.result is Result.STOPPED:
-            return f"stopped{' after a collision' if self.halts else ''}{where}"
-        return f"{self.result.value}{where} when the recording ended"
+            rounds = self.loops + 1 if self.loops else None
+            return RUN_COMPLETED(robot=self.robot, rounds=rounds, halts=self.halts or None)
+        return OUTCOMES[self.result](
+            robot=self.robot,
+            position=self.position if self.length else None,
+            length=self.length or None,
+            halts=self.halts or None,
+        )
 
     def facts(self) -> dict[str, Any]:
         """Return everything, ready for JSON: SI units."""
@@ -196,13 +190,14 @@ class Run:
             "version": self.version,
             "start": self.start,
             "end": self.end,
-            "result": self.result.name.lower(),
-            "message": self.outcome(),
+            "result": self.result.value,
+            "outcome": plain(self.outcome),
             "position": self.position,
             "length": self.length,
             "loops": self.loops,
             "speeds": self.speeds,
             "halts": self.halts,
             "actions": [action.facts() for action in self.actions],
-            "deviation": None if self.deviation is None else vars(self.deviation),
+            "deviation": None if self.deviation is None else self.deviation.facts(),
+            "joints": [vars(joint) for joint in self.joints],
         }

@@ -5,9 +5,9 @@ from __future__ import annotations
 import math
 
 from mrlab_ros.core.foreign_text import for_html as escape
-from mrlab_ros.core.recording.report_text import FOLLOWED, lasting
+from mrlab_ros.core.recording.report_text import lasting
 from mrlab_ros.core.recording.run_figures import figures_of
-from mrlab_ros.core.recording.runs import Course, Deviation, Run
+from mrlab_ros.core.recording.runs import FOLLOWED, Course, Deviation, Run
 
 
 def run_figures(run: Run, course: Course) -> str:

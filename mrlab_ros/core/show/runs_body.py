@@ -9,8 +9,8 @@ import numpy as np
 
 from mrlab_ros.core.foreign_text import for_html as escape
 from mrlab_ros.core.recording.report import SessionReport
-from mrlab_ros.core.recording.report_text import deviation_text, lasting
-from mrlab_ros.core.recording.runs import Action, Course, Result, Run, RunJoint, severity
+from mrlab_ros.core.recording.report_text import lasting
+from mrlab_ros.core.recording.runs import Action, Course, Result, Run, RunJoint
 from mrlab_ros.core.show.run_figures_body import run_figures
 from mrlab_ros.core.show.svg import HATCH, Mark, Strip, strip_svg, time_axis_svg
 from mrlab_ros.core.show.tool_path import Spot, tool_path_svg
@@ -65,7 +65,7 @@ def _row(run: Run, began: str) -> str:
         f'<td class="figure">{lasting(run.start)}<small>{_of_day(began, run.start)}</small></td>'
         f'<td class="figure"><span class="head-word">Took</span> {lasting(run.duration)}</td>'
         f'<td class="result {CLASSES[run.result]}">{_icon(run)}'
-        f'<span class="said">{escape(run.outcome())}</span></td>'
+        f'<span class="said">{escape(str(run.outcome))}</span></td>'
         f"<td><ul>{done}</ul>{_followed(run)}</td></tr>"
     )
 
@@ -91,9 +91,12 @@ def _speed(run: Run) -> str:
 
 
 def _words(action: Action) -> str:
-    figures = escape(action.detail.replace("N*m", "N·m"))
-    detail = f'<small class="said">{figures}</small>' if figures else ""
-    return f'<span class="said">{escape(action.text)}</span>{detail}'
+    return f'<span class="said">{escape(str(action.said))}</span>'
+
+
+def severity(action: Action) -> str:
+    """Return how grave an action is: error, warning or info."""
+    return action.said.severity.name.lower()
 
 
 def _icon(run: Run) -> str:
@@ -103,7 +106,7 @@ def _icon(run: Run) -> str:
 def _followed(run: Run) -> str:
     if run.deviation is None:
         return ""
-    return f'<p class="followed said">{escape(deviation_text(run.deviation, run.joints))}</p>'
+    return f'<p class="followed said">{escape(str(run.deviation.said))}</p>'
 
 
 def run_plots(report: SessionReport) -> str:
@@ -138,7 +141,8 @@ def _plots(run: Run, course: Course, *, opened: bool) -> str:
     return (
         f"<details{' open' * opened}><summary><h2>Run {run.number}</h2> "
         f"<span>{escape(run.robot)} · {escape(run.trajectory)} · "
-        f'<span class="said">{escape(run.outcome())}</span></span></summary>{_motion(run, course)}'
+        f'<span class="said">{escape(str(run.outcome))}</span></span></summary>'
+        f"{_motion(run, course)}"
         f'<div class="strips">{strips}</div></details>'
     )
 

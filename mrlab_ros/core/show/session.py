@@ -13,7 +13,6 @@ from typing import Any
 import numpy as np
 
 from mrlab_ros.core.recording.report import SessionReport
-from mrlab_ros.core.recording.runs import severity
 from mrlab_ros.core.show.packed import packed
 
 SCHEMA = "mrlab.session.1"
@@ -158,13 +157,12 @@ def _collisions(report: SessionReport, name: str) -> list[list[Any]]:
 
 def events(report: SessionReport) -> list[dict[str, Any]]:
     """Return what happened, in order: when runs began and ended, and what was done in them."""
-    found: list[dict[str, Any]] = []
-    for run in report.runs:
-
-        def event(time: float, severity: str, text: str, robot: str = run.robot) -> dict[str, Any]:
-            return {"time": time, "robot": robot, "severity": severity, "text": text}
-
-        found.append(event(run.start, "info", f"begins {run.trajectory}"))
-        found += [event(a.time, severity(a), a.text) for a in run.actions]
-        found.append(event(run.end, "info", f"{run.trajectory}: {run.outcome()}"))
-    return sorted(found, key=lambda each: each["time"])
+    return [
+        {
+            "time": event.time,
+            "robot": event.robot,
+            "severity": event.said.severity.name.lower(),
+            "text": str(event.said),
+        }
+        for event in report.events()
+    ]

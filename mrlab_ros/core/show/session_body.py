@@ -7,7 +7,7 @@ from typing import Any
 
 from mrlab_ros.core.foreign_text import for_html as escape
 from mrlab_ros.core.recording.report import SessionReport
-from mrlab_ros.core.recording.report_text import lasting, summary
+from mrlab_ros.core.recording.report_text import lasting
 from mrlab_ros.core.show.runs_body import run_plots, runs_table
 from mrlab_ros.core.show.technical_body import technical
 from mrlab_ros.core.show.timeline_body import timeline
@@ -25,13 +25,13 @@ def session_body(
     events, drawn = document["events"], bool(document["robots"])
     when = f"<time>{began}</time> · " if began else ""
     troubles = "".join(
-        f'<p class="trouble said">{escape(trouble)}</p>' for trouble in report.troubles
+        f'<p class="trouble said">{escape(str(trouble))}</p>' for trouble in report.troubles
     )
     return "\n".join(
         (
             '<header class="head">',
             f'<h1>{escape(title)}</h1><p class="facts">{when}'
-            f'<span class="said">{escape(summary(report))}</span></p>{troubles}',
+            f'<span class="said">{escape(str(report.summary))}</span></p>{troubles}',
             "</header>",
             f'<main class="{"with" if events and drawn else "without"}-findings">',
             runs_table(report, began),

@@ -8,7 +8,7 @@ import numpy as np
 
 from mrlab_ros.core.foreign_text import for_html as escape
 from mrlab_ros.core.recording.report import Series, SessionReport
-from mrlab_ros.core.recording.report_text import shown
+from mrlab_ros.core.recording.report_text import hop_text, shown
 from mrlab_ros.core.show.svg import Strip, strip_svg, time_axis_svg
 
 MOST_DRAWN = 16
@@ -51,12 +51,15 @@ def _rows(report: SessionReport) -> Iterator[Row]:
             for row in (
                 (robot.name, "joint states late", "ms", robot.deadline, 1e3),
                 (robot.name, "tracking error", "mrad", robot.tracking, 1e3),
-                *((robot.name, hop, "ms", values, 1e3) for hop, values in robot.latency.items()),
+                *(
+                    (robot.name, hop_text(hop), "ms", values, 1e3)
+                    for hop, values in robot.latency.items()
+                ),
             )
             if row[3].values
         )
     for hop, values in report.latency.items():
-        yield ("all topics", hop, "ms", values, 1e3)
+        yield ("all topics", hop_text(hop), "ms", values, 1e3)
 
 
 def _figures(row: Row) -> str:

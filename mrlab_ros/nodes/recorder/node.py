@@ -177,7 +177,7 @@ class RecorderNode(ParameterNode[RecorderParameters]):
             writer.note(GAP, gap.note())
             split = Split(entry.split_duration, self.parameters.split_size * MEGABYTE)
             said = (
-                f"the recorder was restarted: {gap.missing()}"
+                f"the recorder was restarted: {gap.said(facts.start_ns)}"
                 if facts.messages
                 else "the recorder was restarted before it had received anything"
             )

@@ -117,6 +117,19 @@ function length(value: number): string {
   return digits(value * 1e3, Math.abs(value) >= 0.01 ? 0 : 1, ' mm')
 }
 
+/** From 100 s on as minutes or hours: 2:05.3 min, 1:02:05 h. */
+function duration(value: number): string {
+  if (Number(value.toFixed(2)) < 100) return digits(value, 2, ' s')
+  const tenths = Math.round(value * 10)
+  const two = (count: number): string => String(count).padStart(2, '0')
+  if (tenths < 36_000) {
+    const seconds = (tenths % 600) / 10
+    return `${Math.floor(tenths / 600)}:${seconds < 10 ? '0' : ''}${number(seconds, 1, 1)} min`
+  }
+  const whole = Math.round(value)
+  return `${Math.floor(whole / 3600)}:${two(Math.floor(whole / 60) % 60)}:${two(whole % 60)} h`
+}
+
 function bytes(value: number): string {
   for (const [scale, unit] of [
     [1e9, ' GB'],
@@ -156,6 +169,8 @@ function shown(
       return significant(figure, 4, '')
     case 'angle':
       return digits(figure * DEGREES, 1, '°')
+    case 'fine_angle':
+      return digits(figure * DEGREES, 2, '°')
     case 'turn_rate':
       return digits(figure * DEGREES, 1, '°/s')
     case 'turn_acceleration':
@@ -168,6 +183,8 @@ function shown(
       return digits(figure, 2, ' m/s')
     case 'time':
       return digits(figure, 2, ' s')
+    case 'duration':
+      return duration(figure)
     case 'rate':
       return significant(figure, 4, ' Hz')
     case 'share':

@@ -21,6 +21,7 @@ from mcap.writer import Writer
 from rosbags.highlevel import AnyReader
 from sqlite_bag import as_sqlite
 
+from mrlab_ros.adapters.bags.diagnostics import BAG_NO_INDEX, BAG_NOT_BEGUN
 from mrlab_ros.adapters.bags.empty import remove_empty
 from mrlab_ros.adapters.bags.listing import bags_in
 from mrlab_ros.adapters.bags.other import open_bag
@@ -223,7 +224,7 @@ def test_what_was_flushed_is_there_at_once_for_everybody(tmp_path):
     assert read(folder) == read_by_rosbags(folder) == messages
     assert read_by_mcap(folder / "class_0.mcap") == messages
     bag = Bag(folder)
-    assert "has no index" in bag.files[0].trouble
+    assert bag.files[0].trouble == BAG_NO_INDEX(file="class_0.mcap")
     assert bag.attachment("scene.json").data == b"[]"
     assert bag.message_count == 600
     (folder / "metadata.yaml").unlink()
@@ -262,7 +263,7 @@ def test_a_kill_at_the_beginning_of_a_next_file_costs_nothing(tmp_path):
     (folder / "class_1.mcap").write_bytes(MAGIC[:3])
     bag = Bag(folder)
     assert read(folder) == messages
-    assert "class_1.mcap ends before its first record" in bag.troubles[0]
+    assert bag.troubles == [BAG_NOT_BEGUN(file="class_1.mcap")]
     assert repair(folder).messages == 20
     assert Bag(folder).troubles == []
     assert read(folder) == read_by_rosbags(folder) == messages
@@ -395,7 +396,7 @@ def test_a_repair_leaves_out_a_damaged_chunk_and_keeps_what_follows(tmp_path):
         read(folder)
     done = repair(folder)
     assert done.files == ["class_0.mcap", "metadata.yaml"]
-    assert "is damaged at byte" in done.troubles[0]
+    assert [trouble.code for trouble in done.troubles] == ["bag_damaged"]
     assert read(folder) == read_by_rosbags(folder) == messages[:100] + messages[200:]
 
 

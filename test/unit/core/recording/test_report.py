@@ -2,15 +2,21 @@
 
 from __future__ import annotations
 
+import json
 from types import SimpleNamespace
 
 import numpy as np
 import pytest
 
+from mrlab_ros.adapters.bags.diagnostics import BAG_NO_INDEX
+from mrlab_ros.core.base.diagnostic import plain
 from mrlab_ros.core.clock import PlaybackClock
+from mrlab_ros.core.recording.diagnostics import RUN_MISSED
 from mrlab_ros.core.recording.report import (
+    Borne,
     Changes,
     Contact,
+    Hop,
     ReferenceTrajectory,
     ReportedState,
     RobotReport,
@@ -18,6 +24,7 @@ from mrlab_ros.core.recording.report import (
     SessionReport,
 )
 from mrlab_ros.core.recording.report_text import report_lines
+from mrlab_ros.core.recording.runs import Action, Deed, Result, Run
 
 SECOND = 1_000_000_000
 COURSE = ReferenceTrajectory(10.0, np.column_stack([np.arange(11.0), -np.arange(11.0)]))
@@ -84,7 +91,8 @@ def test_figures_of_a_series():
 
 
 def test_the_facts_tell_everything():
-    report = SessionReport(20.0, 0, troubles=["x_0.mcap has no index"])
+    trouble = BAG_NO_INDEX(file="x_0.mcap")
+    report = SessionReport(20.0, 0, troubles=[trouble])
     robot = report.robot("ur5e_1")
     assert report.robot("ur5e_1") is robot
     robot.model = "ur5e"
@@ -97,12 +105,33 @@ def test_the_facts_tell_everything():
         )
         robot.bear("cube_1", grasp)
     robot.tracking.add(1.0, 0.5)
-    assert robot.borne["cube_1"].label == (
-        "1.5 kg, friction 0.90, needed 0.50, 2.00 N*m at the wrist"
-    )
+    assert robot.borne["cube_1"] == Borne(1.5, 4.0, 0.9, 0.5, 2.0)
     lines = report_lines(report)
-    assert lines[:2] == ["20.0 s, 1 robot, 0 runs", "x_0.mcap has no index"]
+    assert lines[:2] == [report.summary.message, trouble.message]
     assert "    tracking error: p50 0.5 rad, p95 0.5 rad, max 0.5 rad (1)" in lines
-    facts = report.facts()["robots"][0]
-    assert facts["collisions"][0]["frame"] == 412
-    assert facts["grasps"][0] == {"start": 2.0, "end": 5.0, "label": "HOLDING", "detail": "cube_1"}
+    robot.latency[Hop("published_to_bridged")] = Series([1.0], [0.002])
+    facts = report.facts()
+    assert facts["troubles"] == [plain(trouble)]
+    assert facts["summary"]["values"] == {"duration": 20.0, "robots": 1, "runs": 0}
+    told = facts["robots"][0]
+    assert told["collisions"][0]["row"] == 412
+    assert told["grasps"][0] == {
+        "start": 2.0, "end": 5.0, "label": "HOLDING", "detail": "cube_1", "said": None,
+    }  # fmt: skip
+    assert told["latency"] == [
+        {"ends": "published_to_bridged", "observer": "", "count": 1, "p50": 0.002, "p95": 0.002,
+         "max": 0.002}
+    ]  # fmt: skip
+    json.dumps(facts, allow_nan=False)
+
+
+def test_the_events_of_a_session_are_those_of_its_runs_in_order():
+    report = SessionReport(20.0, 0)
+    run = Run("ur5e_1", "ur5e", "wave", 1, "", 1.0, 9.0, 8.0, number=1, result=Result.COMPLETED)
+    run.actions = [Action(11.0, Deed.MISSED, RUN_MISSED()), Action(3.0, Deed.MISSED, RUN_MISSED())]
+    report.runs = [run]
+    events = [(event.time, event.said.code) for event in report.events()]
+    assert events == [
+        (1.0, "run_began"), (3.0, "run_missed"), (9.0, "run_ended"), (11.0, "run_missed"),
+    ]  # fmt: skip
+    assert report.facts()["events"][2]["said"]["values"]["outcome"]["code"] == "run_completed"

@@ -7,11 +7,12 @@ import math
 import numpy as np
 import pytest
 
+from mrlab_ros.core.base.diagnostic import WARNING, Diagnostic
 from mrlab_ros.core.clock import PlaybackClock
 from mrlab_ros.core.geometry import Pose
 from mrlab_ros.core.recording.moves import ObjectTrack, Placed, Target, Targets
 from mrlab_ros.core.recording.report import Contact, ReportedState, SessionReport
-from mrlab_ros.core.recording.report_text import deviation_text, lasting, report_lines
+from mrlab_ros.core.recording.report_text import report_lines
 from mrlab_ros.core.recording.run_finding import runs_of
 from mrlab_ros.core.recording.runs import Course, Deed, Result, RunJoint
 
@@ -42,50 +43,49 @@ def found(report, objects=None, targets=None):
 
 
 @pytest.mark.parametrize(
-    ("states", "result", "outcome", "end"),
+    ("states", "code", "values", "end"),
     [
-        (((9, "COMPLETE", 8, 0), (9.1, "READY", 0, 0)), Result.COMPLETED, "completed", 9),
-        (((4, "READY", 0, 0),), Result.STOPPED, "stopped at 3.00 of 8.00 s", 4),
+        (((9, "COMPLETE", 8, 0), (9.1, "READY", 0, 0)), "run_completed", {}, 9),
+        (((4, "READY", 0, 0),), "run_stopped", {"position": 3, "length": 8}, 4),
         (
             ((3, "PAUSED", 2, 0), (5, "PLAYING", 2, 1), (11, "COMPLETE", 8, 0)),
-            Result.COMPLETED,
-            "completed",
+            "run_completed",
+            {},
             11,
         ),
         (
             ((3, "COLLISION_HALT", 2, 0), (5, "PAUSED", 2, 0), (6, "READY", 0, 0)),
-            Result.STOPPED,
-            "stopped after a collision at 2.00 of 8.00 s",
+            "run_stopped",
+            {"halts": 1, "position": 2, "length": 8},
             6,
         ),
         (
             # the arm was taken back to its first frame
             ((3, "COLLISION_HALT", 2, 0), (4, "COLLISION_HALT", 0, 0), (5, "PAUSED", 0, 0),
              (6, "READY", 0, 0)),
-            Result.STOPPED,
-            "stopped after a collision at 2.00 of 8.00 s",
+            "run_stopped",
+            {"halts": 1, "position": 2, "length": 8},
             6,
         ),
         (
             ((3, "COLLISION_HALT", 2, 0),),
-            Result.HALTED,
-            "halted by a collision at 2.00 of 8.00 s when the recording ended",
+            "run_halted",
+            {"halts": 1, "position": 2, "length": 8},
             60,
         ),
-        ((), Result.OPEN, "still going on at 8.00 of 8.00 s when the recording ended", 60),
-        (((9, "PLAYING", 0, 1), (10, "READY", 0, 0)), Result.STOPPED,
-         "stopped at 1.00 of 8.00 s", 10),
-        (((9, "PLAYING", 0, 1), (17, "COMPLETE", 8, 0)), Result.COMPLETED,
-         "completed, 2 times", 17),
-        (((4, "READY", 0, 0, "other"),), Result.STOPPED, "stopped at 3.00 of 8.00 s", 4),
+        ((), "run_open", {"position": 8, "length": 8}, 60),
+        (((9, "PLAYING", 0, 1), (10, "READY", 0, 0)), "run_stopped",
+         {"position": 1, "length": 8}, 10),
+        (((9, "PLAYING", 0, 1), (17, "COMPLETE", 8, 0)), "run_completed", {"rounds": 2}, 17),
+        (((4, "READY", 0, 0, "other"),), "run_stopped", {"position": 3, "length": 8}, 4),
     ],
 )  # fmt: skip
-def test_a_run_ends_as_its_states_say(states, result, outcome, end):
+def test_a_run_ends_as_its_states_say(states, code, values, end):
     report, _ = session((0, "READY", 0, 0), (1, "PLAYING", 0, 1), *states)
     (run,) = found(report)
     assert (run.start, run.end) == (1, end)
-    assert run.result is result
-    assert run.outcome() == outcome
+    assert run.outcome.code == code == f"run_{run.result.value}"
+    assert run.outcome.values == {"robot": "ur5e_1", **values}
 
 
 @pytest.mark.parametrize("hours", [2, -2])
@@ -99,7 +99,7 @@ def test_a_clock_that_is_set_is_no_loop_and_no_place_on_the_trajectory(hours):
         clock = PlaybackClock((1 + off) * SECOND, 0.0, rate)
         robot.add(ReportedState((time + off) * SECOND, label, "wave", clock, time, length=8.0))
     (run,) = found(report)
-    assert (run.loops, run.outcome()) == (0, "stopped at 3.00 of 8.00 s")
+    assert (run.loops, run.result, run.position) == (0, Result.STOPPED, 3)
 
 
 def test_runs_are_numbered_over_all_robots_in_order_of_time():
@@ -135,8 +135,8 @@ def test_a_release_says_how_far_from_its_programmed_place():
     robot.bases.append((0.0, pose(1.0)))
     robot.grasps.add(2.0, "HOLDING", "cube_1")
     robot.grasps.add(5.0, "OPEN")
-    robot.collisions.append(Contact(7.0, "forearm_link", "table", 600))
-    robot.collisions.append(Contact(30.0, "forearm_link", "table", 0))  # no run any more
+    robot.collisions.append(Contact(7.0, "forearm_link", "table", 601))
+    robot.collisions.append(Contact(30.0, "forearm_link", "table", 1))  # no run any more
     cube = ObjectTrack()
     tool = pose(0.0, 0.0, 0.1)
     for time, x, holder in ((0.0, 1.2, ""), (2.0, 1.2, "ur5e_1"), (4.9, 1.5, "ur5e_1"),
@@ -146,14 +146,15 @@ def test_a_release_says_how_far_from_its_programmed_place():
     targets.add(0.0, (Target(1.0, True, pose(0.2)), Target(4.0, False, pose(0.5, 0, -0.1))))
     (run,) = found(report, {"cube_1": cube}, {"ur5e_1": targets})
     grasped, released, hit = run.actions
-    assert (grasped.deed, grasped.time, grasped.place) == (Deed.GRASPED, 2.0, (1.2, 0.0, 0.0))
-    assert (
-        released.text
-        == "released cube_1 30 mm from its programmed place, at 1.530, 0.000, 0.000 m"
-    )
-    assert released.off == pytest.approx(0.03)
-    assert (hit.object, hit.link) == ("table", "forearm_link")
-    assert run.facts()["actions"][1]["distance"] == pytest.approx(0.03)
+    assert (grasped.deed, grasped.time) == (Deed.GRASPED, 2.0)
+    assert grasped.said.values["place"] == (1.2, 0.0, 0.0)
+    assert released.said.code == "run_released"
+    assert released.said.values["place"] == pytest.approx((1.53, 0.0, 0.0))
+    assert released.said.values["target"] == pytest.approx((1.5, 0.0, 0.0))
+    assert run.facts()["actions"][1]["said"]["values"]["distance"] == pytest.approx(0.03)
+    assert (hit.said.other, hit.said.link, hit.said.values["row"]) == (
+        "table", "forearm_link", 601,
+    )  # fmt: skip
 
 
 def test_what_is_handed_over_or_lost_is_not_measured_against_the_program():
@@ -166,10 +167,10 @@ def test_what_is_handed_over_or_lost_is_not_measured_against_the_program():
     targets = Targets()
     targets.add(0.0, (Target(2.0, False, pose(0.5)),))  # not at 5.5 s, where it fell
     (run,) = found(report, {"rod_1": rod}, {"ur5e_1": targets})
-    assert [a.text for a in run.actions if a.deed is Deed.RELEASED] == [
-        "handed rod_1 to kuka_1",
-        "released rod_1 at 6.500, 0.000, 0.000 m",
-    ]
+    _, handed, _, released = [a.said for a in run.actions]
+    assert (handed.code, handed.values["to"]) == ("run_handed_over", "kuka_1")
+    assert released.code == "run_released"
+    assert released.values == {"object": "rod_1", "robot": "ur5e_1", "place": (6.5, 0.0, 0.0)}
 
 
 def test_deviation_is_the_worst_joint_and_the_way_of_the_tool():
@@ -185,9 +186,12 @@ def test_deviation_is_the_worst_joint_and_the_way_of_the_tool():
     )
     deviation = course.deviation("ref.mat", joints)
     assert deviation is not None
-    assert deviation_text(deviation, joints) == (
-        "up to 2.00 deg from ref.mat (b at 3.00 s), the tool 5.0 mm"
-    )
+    said = deviation.said
+    assert (said.code, said.joint, said.time) == ("run_deviated", "b", 3.0)
+    assert said.values["reference"] == "ref.mat"
+    assert said.values["angle"] == pytest.approx(math.radians(2))
+    assert said.values["tool"] == pytest.approx(0.005)
+    assert "distance" not in said.values
     course.expected = expected * np.nan
     assert course.deviation("ref.mat", joints) is None
 
@@ -201,10 +205,14 @@ def test_the_text_has_one_row_a_run_and_no_state_changes():
     report.robot("kuka_1")
     report.runs = found(report)
     lines = report_lines(report)
-    assert lines[0] == "60.0 s, 2 robots, 1 run, 1 completed, 1 collision"
+    assert report.summary.values == {
+        "duration": 60.0, "robots": 2, "runs": 1, "completed": 1, "collisions": 1,
+    }  # fmt: skip
+    assert lines[0] == report.summary.message
     rows = [line.split() for line in lines]
     assert ["1", "ur5e_1", "wave", "at", "2x", "1.00", "s", "6.00", "s", "completed"] in rows
-    assert "2.50 s  hit table with wrist_3_link at frame 412" in "\n".join(lines)
+    (hit,) = report.runs[0].actions
+    assert any(line.endswith(f"2.50 s  {hit.said.message}") for line in lines)
     assert "without a run: kuka_1" in lines
     assert not any("PAUSED" in line for line in lines)
     assert lines.index("technical") > lines.index("without a run: kuka_1")
@@ -223,21 +231,26 @@ def test_fingers_that_are_empty_after_they_held_something_closed_on_it():
     for time, holder in ((4.0, "ur5e_1"), (5.0, "")):
         cube.add(time, placed(time, holder, pose(0.0) if holder else None))
     (run,) = found(report, {"rod_1": rod, "cube_1": cube})
-    assert [(a.deed, a.text) for a in run.actions] == [
-        (Deed.GRASPED, "grasped rod_1"),
-        (Deed.RELEASED, "handed rod_1 to kuka_1"),
-        (Deed.GRASPED, "grasped cube_1"),
-        (Deed.LOST, "lost cube_1 at 5.000, 0.000, 0.000 m"),
-        (Deed.MISSED, "closed the gripper on nothing"),
+    assert [(a.said.code, a.said.values.get("object")) for a in run.actions] == [
+        ("run_grasped", "rod_1"),
+        ("run_handed_over", "rod_1"),
+        ("run_grasped", "cube_1"),
+        ("run_lost", "cube_1"),
+        ("run_missed", None),
     ]
+    assert run.actions[3].said.values["place"] == (5.0, 0.0, 0.0)
 
 
-@pytest.mark.parametrize(
-    ("seconds", "words"),
-    [
-        (0.0, "0.00 s"), (99.994, "99.99 s"), (99.996, "1:40.0 min"), (125.34, "2:05.3 min"),
-        (3599.94, "59:59.9 min"), (3599.96, "1:00:00 h"), (3725.4, "1:02:05 h"),
-    ],
-)  # fmt: skip
-def test_a_length_of_time_for_a_person(seconds, words):
-    assert lasting(seconds) == words
+def test_a_remark_counts_once_however_its_figures_vary():
+    report, robot = session((0, "READY", 0, 0), (1, "PLAYING", 0, 1), (9, "COMPLETE", 8, 0))
+    for time, name, needed in (
+        (2.0, "rod_1", "1.1"),
+        (3.0, "rod_1", "1.2"),
+        (4.0, "rod_2", "1.2"),
+    ):
+        values = {"object": name, "friction_needed": needed}
+        robot.remark(time, Diagnostic("slips", WARNING, f"it slips: {needed}", values=values))
+    for time in (5.0, 6.0):
+        robot.remark(time, Diagnostic("", WARNING, "what an older bag says"))
+    (run,) = found(report)
+    assert [(a.time, a.said.code) for a in run.actions] == [(2, "slips"), (4, "slips"), (5, "")]
