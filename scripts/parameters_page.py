@@ -79,7 +79,7 @@ def _table(kind: type[Any], *, run_time: bool) -> str:
     rows = [head, ["---"] * len(head)]
     for field in records.fields_of(kind).values():
         change = [("yes" if field.changeable else "no")] if run_time else []
-        first = [f"`{field.name}`", _default(field.default), field.check.expected]
+        first = [f"`{field.name}`", _default(field.default), str(field.check.expected)]
         rows.append([*first, *change, field.about])
     return "\n".join(f"| {' | '.join(row)} |" for row in rows)
 

@@ -9,6 +9,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
+from mrlab_ros.core.base.diagnostics import BAD_POSITION, BAD_RATE
 from mrlab_ros.core.errors import BadInput
 
 SECOND = 1_000_000_000
@@ -20,20 +21,14 @@ def checked_rate(rate: float) -> float:
     """Return `rate` where its amount lies in RATE_RANGE; raise BadInput otherwise."""
     low, high = RATE_RANGE
     if not low <= abs(rate) <= high:
-        raise BadInput(
-            f"the rate is {rate}; expected {low} to {high}, or -{low} to -{high} to play "
-            "backwards; 1 is the declared speed"
-        )
+        raise BadInput(BAD_RATE(rate=rate, low=low, high=high))
     return rate
 
 
 def checked_position(position: float, duration: float) -> float:
     """Return `position` (s) where it lies on the timeline; raise BadInput otherwise."""
     if not (math.isfinite(position) and 0 <= position <= duration):
-        raise BadInput(
-            f"the position is {position} s; expected 0 to {duration:g} s, the length of the "
-            "timeline"
-        )
+        raise BadInput(BAD_POSITION(position=position, duration=duration))
     return position
 
 

@@ -13,6 +13,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from mrlab_ros.core.base.diagnostics import BAD_QUATERNION, BAD_VECTOR, POSE_NOT_FINITE
 from mrlab_ros.core.errors import BadInput
 
 Array = NDArray[np.float64]
@@ -35,13 +36,10 @@ class Pose:
 
     def __post_init__(self) -> None:
         if not all(map(math.isfinite, self.position + self.orientation)):
-            raise BadInput(f"the pose {self.position}, {self.orientation} is not finite")
+            raise BadInput(POSE_NOT_FINITE(found=[*self.position, *self.orientation]))
         norm = math.hypot(*self.orientation)
         if abs(norm - 1) > 0.01:
-            raise BadInput(
-                f"the orientation {self.orientation} has length {norm:.3g}; expected a unit "
-                "quaternion (x, y, z, w), such as 0, 0, 0, 1"
-            )
+            raise BadInput(BAD_QUATERNION(found=[*self.orientation], length=norm))
 
 
 def transform_from_xyz_rpy(xyz: Sequence[float], rpy: Sequence[float]) -> Array:
@@ -106,11 +104,12 @@ def pose_from_transform(transform: Array) -> Pose:
 
 
 def checked_vector(values: Sequence[float], what: str, limit: float = 1000.0) -> Vector:
-    """Return three finite numbers inside +-limit; raise BadInput otherwise."""
+    """Return three finite numbers inside +-limit; raise BadInput otherwise.
+
+    what: position, velocity or angular_velocity.
+    """
     if len(values) != 3 or not all(abs(v) <= limit for v in values):
-        raise BadInput(
-            f"{what} is {tuple(values)}; expected three finite numbers within +-{limit:g}"
-        )
+        raise BadInput(BAD_VECTOR(what=what, found=[*values], limit=limit))
     x, y, z = values
     return (float(x), float(y), float(z))
 

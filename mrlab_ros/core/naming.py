@@ -6,6 +6,7 @@ import difflib
 import re
 from collections.abc import Iterable
 
+from mrlab_ros.core.base.diagnostics import BAD_NAME, NAME_TAKEN, RESERVED_NAME
 from mrlab_ros.core.errors import BadInput
 
 NAME = re.compile(r"[a-z][a-z0-9_]{0,62}")
@@ -42,22 +43,21 @@ PARAMETERS_OF_RCLPY = ("use_sim_time", "start_type_description_service", "qos_ov
 
 
 def checked_name(name: str, taken: frozenset[str], what: str) -> str:
-    """Return `name` where it can be a namespace and is free; raise BadInput otherwise."""
+    """Return `name` where it can be a namespace and is free; raise BadInput otherwise.
+
+    what: robot, object or system.
+    """
     if not NAME.fullmatch(name) or name.endswith("_") or "__" in name:
-        article = "an" if what[:1] in "aeiou" else "a"
-        raise BadInput(
-            f"'{name}' cannot name {article} {what}; expected lower-case letters, digits and "
-            "single underscores, beginning with a letter, such as ur5e_1"
-        )
+        raise BadInput(BAD_NAME(name=name, what=what))
     if name in RESERVED:
-        raise BadInput(f"'{name}' is a name of the lab's own; choose another, such as {name}_1")
+        raise BadInput(RESERVED_NAME(name=name))
     if name in taken:
-        raise BadInput(f"the name '{name}' is taken; choose another or leave it empty")
+        raise BadInput(NAME_TAKEN(name=name))
     return name
 
 
-def did_you_mean(name: str, known: Iterable[str]) -> str:
-    """Return "; did you mean 'NAME'?" with the known name that is closest; empty: none is.
+def close_to(name: str, known: Iterable[str]) -> str | None:
+    """Return the known name that is closest; None where none is close.
 
     A name that contains `name`, as kuka_kr6_r900_sixx contains KR6, counts where none is similar.
     """
@@ -68,4 +68,10 @@ def did_you_mean(name: str, known: Iterable[str]) -> str:
     close = difflib.get_close_matches(wanted, names, n=1, cutoff=cutoff)
     if not close and len(wanted) > 1:
         close = [one for one in names if wanted in one]
-    return f"; did you mean '{close[0]}'?" if close else ""
+    return close[0] if close else None
+
+
+def did_you_mean(name: str, known: Iterable[str]) -> str:
+    """Return "; did you mean 'NAME'?" with the known name that is closest; empty: none is."""
+    close = close_to(name, known)
+    return f"; did you mean '{close}'?" if close else ""

@@ -1,6 +1,6 @@
 """Checked fields of a YAML or JSON mapping.
 
-Every mistake is one sentence: where it is, the value found, what was expected. Two ways to read:
+Every mistake is a diagnostic: where it is, the value found, what was expected. Two ways to read:
 
 - `Record` reads a mapping field by field, where fields depend on each other.
 - `read(Kind, mapping, place)` builds a dataclass whose fields are made with `field(...)`: one
@@ -18,9 +18,11 @@ import reprlib
 from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
 from dataclasses import MISSING, dataclass
 from enum import Enum
-from typing import TYPE_CHECKING, Any, Generic, Protocol, TypeVar
+from typing import TYPE_CHECKING, Any, Generic, Protocol, TypeAlias, TypeVar
 
 from mrlab_ros.core import naming
+from mrlab_ros.core.base import diagnostics as said
+from mrlab_ros.core.base.diagnostic import Diagnostic
 from mrlab_ros.core.errors import BadInput
 
 if TYPE_CHECKING:
@@ -30,7 +32,10 @@ T = TypeVar("T")
 T_co = TypeVar("T_co", covariant=True)
 S = TypeVar("S")
 EnumT = TypeVar("EnumT", bound=Enum)
+# A place in a file or what is expected there: with a code, or a name of its own such as a path.
+Words: TypeAlias = Diagnostic | str
 
+ANY_TEXT = said.A_TEXT()
 # A longer list of known fields is left out where one of them is close to what was written.
 LONGEST_LIST = 12
 # Long enough for a vector or a path; a whole mesh is cut.
@@ -53,20 +58,24 @@ class Range:
         below = value < self.high if self.high_open else value <= self.high
         return above and below
 
-    def __str__(self) -> str:
-        """Return words after a noun: 'from 60 to 2000', 'above 0', 'of at least 0 and below 1'."""
-        low, high = format(self.low, ".10g"), format(self.high, ".10g")
-        if math.isinf(self.low) and math.isinf(self.high):
-            return ""
-        below = f"below {high}" if self.high_open else f"at most {high}"
-        if math.isinf(self.low):
-            return below if self.high_open else f"of {below}"
-        above = f"above {low}" if self.low_open else f"of at least {low}"
-        if math.isinf(self.high):
-            return above
-        if self.low_open or self.high_open:
-            return f"{above} and {below}"
-        return f"from {low} to {high}"
+    @property
+    def words(self) -> Diagnostic | None:
+        """The words after a noun, such as 'from 60 to 2000' and 'above 0'; None: no limits."""
+        low, high = _plain(self.low), _plain(self.high)
+        below, most = (high, None) if self.high_open else (None, high)
+        if low is None:
+            if high is None:
+                return None
+            return said.LIMITS_BELOW(below=high) if self.high_open else said.LIMITS_TO(high=high)
+        if self.low_open:
+            return said.LIMITS_ABOVE(low=low, high=most, below=below)
+        if most is None:
+            return said.LIMITS_FROM(low=low, below=below)
+        return said.LIMITS_BETWEEN(low=low, high=most)
+
+
+def _plain(limit: float) -> float | None:
+    return None if math.isinf(limit) else limit
 
 
 ANY = Range()
@@ -91,18 +100,13 @@ class Check(Protocol[T_co]):
     """What a value must be.
 
     expected: the words after 'expected' in an error. read: returns the value in its type; raises
-    ValueError, with a remedy in its text where there is one, for a value that is not expected.
+    ValueError, with a remedy where there is one, for a value that is not expected.
     """
 
     @property
-    def expected(self) -> str: ...
+    def expected(self) -> Words: ...
 
     def read(self, value: object) -> T_co: ...
-
-
-def _phrase(noun: str, limits: Range, unit: str) -> str:
-    words = f"{noun} {limits}".strip()
-    return f"{words} ({unit})" if unit else words
 
 
 def _number(value: object, limits: Range, *, whole: bool = False) -> float:
@@ -114,7 +118,7 @@ def _number(value: object, limits: Range, *, whole: bool = False) -> float:
         if not math.isfinite(number) or (whole and not number.is_integer()):
             raise ValueError
         # YAML takes 1e3 for a text: its numbers need a point and a sign, as in 1.0e+3.
-        raise ValueError(f"write {int(number) if whole else number!r}, without quotes")
+        raise ValueError(said.WITHOUT_QUOTES(number=int(number) if whole else number))
     if type(value) not in (int, float):
         raise ValueError
     try:
@@ -122,7 +126,7 @@ def _number(value: object, limits: Range, *, whole: bool = False) -> float:
     except OverflowError:
         raise ValueError from None
     if not math.isfinite(number):
-        raise ValueError("every number must be finite")
+        raise ValueError(said.FINITE_NUMBERS())
     if number not in limits:
         raise ValueError
     return number
@@ -137,9 +141,9 @@ class Number:
     mirrored: bool = False
 
     @property
-    def expected(self) -> str:
-        phrase = _phrase("a number", self.limits, self.unit)
-        return f"{phrase}, or its negative" if self.mirrored else phrase
+    def expected(self) -> Words:
+        sign = "either" if self.mirrored else None
+        return said.A_NUMBER(limits=self.limits.words, unit=self.unit or None, sign=sign)
 
     def read(self, value: object) -> float:
         if not self.mirrored:
@@ -158,8 +162,8 @@ class Integer:
     unit: str = ""
 
     @property
-    def expected(self) -> str:
-        return _phrase("a whole number", self.limits, self.unit)
+    def expected(self) -> Words:
+        return said.AN_INTEGER(limits=self.limits.words, unit=self.unit or None)
 
     def read(self, value: object) -> int:
         number = _number(value, self.limits, whole=True)
@@ -173,8 +177,8 @@ class Flag:
     """True or false."""
 
     @property
-    def expected(self) -> str:
-        return "true or false"
+    def expected(self) -> Words:
+        return said.TRUE_OR_FALSE()
 
     def read(self, value: object) -> bool:
         if not isinstance(value, bool):
@@ -187,15 +191,15 @@ class Text:
     """A text that matches `pattern` as a whole, which `what` describes."""
 
     pattern: re.Pattern[str] | None = None
-    what: str = "a text"
+    what: Words = ANY_TEXT
 
     @property
-    def expected(self) -> str:
+    def expected(self) -> Words:
         return self.what
 
     def read(self, value: object) -> str:
         if not isinstance(value, str):
-            raise ValueError(f'write "{value}", in quotes' if _is_number(value) else "")
+            raise ValueError(*[said.IN_QUOTES(text=str(value))] * _is_number(value))
         if self.pattern is not None and not self.pattern.fullmatch(value):
             raise ValueError
         return value
@@ -208,8 +212,8 @@ class Choice(Generic[T]):
     values: Mapping[Any, T]
 
     @property
-    def expected(self) -> str:
-        return alternatives(str(key) for key in self.values)
+    def expected(self) -> Words:
+        return said.ONE_OF(choices=[str(key) for key in self.values])
 
     def read(self, value: object) -> T:
         key = value.lower() if isinstance(value, str) else value
@@ -233,11 +237,11 @@ class Numbers:
     unit: str = ""
 
     @property
-    def expected(self) -> str:
-        noun = "a list of numbers" if self.count is None else f"{self.count} numbers"
-        if self.count == 1:
-            noun = "a list of 1 number"
-        return _phrase(noun, self.limits, self.unit)
+    def expected(self) -> Words:
+        limits, unit = self.limits.words, self.unit or None
+        if self.count is None:
+            return said.SOME_NUMBERS(limits=limits, unit=unit)
+        return said.COUNTED_NUMBERS(count=self.count, limits=limits, unit=unit)
 
     def read(self, value: object) -> tuple[float, ...]:
         if not isinstance(value, list | tuple) or not value:
@@ -258,8 +262,9 @@ class Matrix:
     whole: bool = False
 
     @property
-    def expected(self) -> str:
-        return f"a list of rows of {self.columns} {'whole ' * self.whole}numbers each"
+    def expected(self) -> Words:
+        numbers = "whole" if self.whole else "any"
+        return said.ROWS_OF_NUMBERS(columns=self.columns, numbers=numbers)
 
     def read(self, value: object) -> NDArray[Any]:
         import numpy as np  # here: commands read records without matrices, and want to be quick
@@ -294,14 +299,14 @@ class Texts:
     skip_empty: bool = False
 
     @property
-    def expected(self) -> str:
-        noun = "a text or a list of texts" if self.single else "a list of texts"
-        return noun if self.item == Text() else f"{noun}, each {self.item.what}"
+    def expected(self) -> Words:
+        code = said.TEXT_OR_TEXTS if self.single else said.SOME_TEXTS
+        return code(item=None if self.item == Text() else self.item.what)
 
     def read(self, value: object) -> tuple[str, ...]:
         if isinstance(value, str):
             if not self.single:
-                raise ValueError(f"write [{value}]")
+                raise ValueError(said.IN_BRACKETS(text=value))
             value = [value]
         if not isinstance(value, list | tuple):
             raise ValueError
@@ -312,12 +317,8 @@ class Texts:
 FLAG = Flag()
 TEXT = Text()
 TEXTS = Texts()
-FILLED_TEXT = Text(re.compile(r".+", re.DOTALL), "a text that is not empty")
-NAME = Text(
-    naming.NAME,
-    "a name of lower-case letters, digits and underscores that begins with a letter, such as "
-    "cube_1",
-)
+FILLED_TEXT = Text(re.compile(r".+", re.DOTALL), said.A_FILLED_TEXT())
+NAME = Text(naming.NAME, said.A_NAME())
 
 
 def _is_number(value: object) -> bool:
@@ -337,37 +338,49 @@ def shown(value: object) -> str:
     return "empty" if value is None else _shorten.repr(value)
 
 
-def checked(what: str, value: object, check: Check[T]) -> T:
+def bad_value(what: Words, value: object, expected: Words, hint: Words | None = None) -> BadInput:
+    """Return the error for a value that is not what it must be."""
+    if value is None:
+        return BadInput(said.EMPTY_VALUE(what=what, expected=expected))
+    return BadInput(
+        said.BAD_VALUE(what=what, found=shown(value), expected=expected, hint=hint or None)
+    )
+
+
+def checked(what: Words, value: object, check: Check[T]) -> T:
     """Return `value` as `check` reads it; raise BadInput that names `what`."""
     try:
         return check.read(value)
     except ValueError as error:
-        remedy = f"; {error}" if str(error) else ""
-        raise BadInput(f"{what} is {shown(value)}; expected {check.expected}{remedy}") from None
+        raise bad_value(what, value, check.expected, *error.args[:1]) from None
 
 
-def unknown_field(place: str, key: object, known: Collection[str]) -> str:
-    """Return the sentence for a field that does not exist."""
-    close = naming.did_you_mean(str(key), known)
-    if close and len(known) > LONGEST_LIST:
-        return f"{place}: '{key}' is unknown{close}"
-    return f"{place}: '{key}' is unknown; expected {', '.join(known) or 'no fields'}{close}"
+def unknown_field(place: Words, key: object, known: Collection[str]) -> Diagnostic:
+    """Return the mistake of a field that does not exist."""
+    close = naming.close_to(str(key), known)
+    fields = [] if close and len(known) > LONGEST_LIST else list(known)
+    return said.UNKNOWN_FIELD(place=place, key=str(key), fields=fields, close=close)
+
+
+def entry_place(place: Words, one: str, number: int) -> Diagnostic:
+    """Return the place of an entry of a list, counted from 1; one: a word that ENTRY knows."""
+    return said.ENTRY(place=place, one=one, number=number)
 
 
 class Mistakes(BadInput):
-    """Several mistakes of one thing, each a sentence."""
+    """Several mistakes of one thing."""
 
-    def __init__(self, mistakes: Sequence[str], whole: str) -> None:
+    def __init__(self, mistakes: Sequence[Words], whole: Words) -> None:
         self.mistakes = tuple(mistakes)
-        super().__init__("\n  ".join((f"{whole} has {len(mistakes)} mistakes:", *mistakes)))
+        super().__init__(said.MISTAKES(what=whole, count=len(mistakes), all=list(mistakes)))
 
 
-def mistakes_of(error: BadInput) -> tuple[str, ...]:
-    """Return the sentences of an error."""
-    return error.mistakes if isinstance(error, Mistakes) else (str(error),)
+def mistakes_of(error: BadInput) -> tuple[Words, ...]:
+    """Return the mistakes that an error names."""
+    return error.mistakes if isinstance(error, Mistakes) else (error.diagnostic,)
 
 
-def raise_all(mistakes: Sequence[str], whole: str) -> None:
+def raise_all(mistakes: Sequence[Words], whole: Words) -> None:
     """Raise BadInput that names all mistakes of `whole`; do nothing where there are none."""
     if len(mistakes) == 1:
         raise BadInput(mistakes[0])
@@ -375,10 +388,10 @@ def raise_all(mistakes: Sequence[str], whole: str) -> None:
         raise Mistakes(mistakes, whole)
 
 
-def every(build: Callable[[S], T], sources: Iterable[S], whole: str) -> list[T]:
+def every(build: Callable[[S], T], sources: Iterable[S], whole: Words) -> list[T]:
     """Return what `build` makes of each source; raise BadInput that names all their mistakes."""
     built: list[T] = []
-    mistakes: list[str] = []
+    mistakes: list[Words] = []
     for source in sources:
         try:
             built.append(build(source))
@@ -391,17 +404,14 @@ def every(build: Callable[[S], T], sources: Iterable[S], whole: str) -> list[T]:
 class Record:
     """A mapping with known fields.
 
-    place: what the mapping is, such as "object 'can', part 2"; every error begins with it.
+    place: what the mapping is, such as "scene.yaml, robot 2"; every error begins with it.
     fields: the names that the mapping may hold. Raises BadInput where `value` is no mapping or
     holds another name.
     """
 
-    def __init__(self, value: object, place: str, fields: Collection[str]) -> None:
+    def __init__(self, value: object, place: Words, fields: Collection[str]) -> None:
         if not isinstance(value, Mapping):
-            raise BadInput(
-                f"{place} is {shown(value)}; expected a mapping with the fields "
-                f"{', '.join(fields)}"
-            )
+            raise bad_value(place, value, said.A_MAPPING(fields=list(fields)))
         raise_all([unknown_field(place, key, fields) for key in value if key not in fields], place)
         self.place = place
         self._values = value
@@ -409,14 +419,18 @@ class Record:
     def __contains__(self, key: str) -> bool:
         return self._values.get(key) is not None
 
-    def error(self, text: str) -> BadInput:
+    def at(self, key: str) -> Diagnostic:
+        """Return the place of a field."""
+        return said.FIELD(place=self.place, key=key)
+
+    def error(self, why: Words) -> BadInput:
         """Return an error about this mapping."""
-        return BadInput(f"{self.place}: {text}")
+        return BadInput(said.IN_PLACE(place=self.place, why=why))
 
     def optional(self, key: str, check: Check[T]) -> T | None:
         """Return the field, None where it is missing; raise BadInput where it is wrong."""
         value = self._values.get(key)
-        return None if value is None else checked(f"{self.place}: {key}", value, check)
+        return None if value is None else checked(self.at(key), value, check)
 
     def value(self, key: str, check: Check[T], default: T) -> T:
         """Return the field, `default` where it is missing; raise BadInput where it is wrong."""
@@ -427,25 +441,27 @@ class Record:
         """Return the field; raise BadInput where it is missing or wrong."""
         found = self.optional(key, check)
         if found is None:
-            raise self.error(f"{key} is missing; expected {check.expected}")
+            raise BadInput(said.MISSING_FIELD(what=self.at(key), expected=check.expected))
         return found
 
     def record(self, key: str, fields: Collection[str]) -> Record | None:
         """Return the mapping below `key`, None where it is missing."""
         value = self._values.get(key)
-        return None if value is None else Record(value, f"{self.place}, {key}", fields)
+        if value is None:
+            return None
+        return Record(value, said.FIELD_BELOW(place=self.place, key=key), fields)
 
     def mapping(self, key: str) -> Mapping[object, object]:
         """Return the mapping below `key` as it is; raise BadInput where there is none."""
         value = self._values.get(key)
         if not isinstance(value, Mapping):
-            raise self.error(f"{key} is {shown(value)}; expected a mapping of names to entries")
+            raise bad_value(self.at(key), value, said.NAMED_ENTRIES())
         return value
 
     def records(self, key: str, fields: Collection[str], one: str) -> list[Record]:
         """Return the list of mappings below `key`; `one` names an entry: 'part' -> 'part 2'."""
         return [
-            Record(entry, f"{self.place}, {one} {i}", fields)
+            Record(entry, entry_place(self.place, one, i), fields)
             for i, entry in enumerate(self.entries(key), 1)
         ]
 
@@ -455,7 +471,7 @@ class Record:
         if value is None:
             return ()
         if not isinstance(value, list | tuple):
-            raise self.error(f"{key} is {shown(value)}; expected a list")
+            raise bad_value(self.at(key), value, said.A_LIST())
         return value
 
 
@@ -501,36 +517,37 @@ def fields_of(kind: type[Any]) -> dict[str, Field]:
     }
 
 
-def read(kind: type[T], values: object, place: str) -> T:
+def read(kind: type[T], values: object, place: Words) -> T:
     """Build a dataclass from a mapping; raise BadInput that names all mistakes of `place`."""
     fields = fields_of(kind)
     names = [f.name for f in fields.values()]
     if not isinstance(values, Mapping):
-        raise BadInput(
-            f"{place} is {shown(values)}; expected a mapping with the fields {', '.join(names)}"
-        )
-    mistakes = [unknown_field(place, key, names) for key in values if key not in names]
+        raise bad_value(place, values, said.A_MAPPING(fields=names))
+    mistakes: list[Words] = [
+        unknown_field(place, key, names) for key in values if key not in names
+    ]
     found: dict[str, Any] = {}
     for attribute, f in fields.items():
         value = values.get(f.name)
         if value is None:
             if f.default is MISSING:
-                mistakes.append(f"{place}: {f.name} is missing; expected {f.check.expected}")
+                what = said.FIELD(place=place, key=f.name)
+                mistakes.append(said.MISSING_FIELD(what=what, expected=f.check.expected))
             continue
         try:
-            found[attribute] = checked(f"{place}: {f.name}", value, f.check)
+            found[attribute] = checked(said.FIELD(place=place, key=f.name), value, f.check)
         except BadInput as error:
-            mistakes.append(str(error))
+            mistakes.append(error.diagnostic)
     raise_all(mistakes, place)
     return kind(**found)
 
 
-def check_fields(instance: Any, place: str) -> None:
+def check_fields(instance: Any, place: Words) -> None:
     """Check the fields of a dataclass that was built by hand, as `read` does."""
-    mistakes = []
+    mistakes: list[Words] = []
     for attribute, f in fields_of(type(instance)).items():
         try:
-            checked(f"{place}: {f.name}", getattr(instance, attribute), f.check)
+            checked(said.FIELD(place=place, key=f.name), getattr(instance, attribute), f.check)
         except BadInput as error:
-            mistakes.append(str(error))
+            mistakes.append(error.diagnostic)
     raise_all(mistakes, place)

@@ -13,6 +13,8 @@ from enum import Enum
 from types import MappingProxyType
 from typing import Generic, TypeVar
 
+from mrlab_ros.core.base.diagnostic import Code, Diagnostic
+from mrlab_ros.core.base.diagnostics import ILLEGAL_EVENT
 from mrlab_ros.core.errors import IllegalEvent
 
 S = TypeVar("S", bound=Enum)
@@ -27,8 +29,7 @@ class Table(Generic[S, E]):
     ignored: for an event the states in which it is legal and nothing happens; these rows keep
         the state and are left out of the diagram.
     commands: the events that a person can ask for; a refusal lists those that are possible.
-    refusal: the text of IllegalEvent, with {event}, {state} and {possible}.
-    no_command: what stands for {possible} where no command is possible.
+    refusal: what IllegalEvent says, with the values of ILLEGAL_EVENT.
 
     An event's value says it in words, as the refusal needs it: "cannot <value> in <STATE>".
     """
@@ -37,8 +38,7 @@ class Table(Generic[S, E]):
     transitions: Mapping[tuple[S, E], S]
     commands: tuple[E, ...]
     ignored: Mapping[E, tuple[S, ...]] = field(default_factory=dict)
-    refusal: str = "cannot {event} in {state}; possible now: {possible}"
-    no_command: str = "nothing but waiting"
+    refusal: Code = ILLEGAL_EVENT
     # The transitions and the ignored events, which keep their state.
     rows: Mapping[tuple[S, E], S] = field(init=False, repr=False)
 
@@ -54,13 +54,14 @@ class Table(Generic[S, E]):
         """Return the commands that `state` allows, in the order of `commands`."""
         return tuple(event for event in self.commands if (state, event) in self.rows)
 
-    def refused(self, state: S, event: E, reason: str = "") -> IllegalEvent:
+    def refused(self, state: S, event: E, reason: Diagnostic | str = "") -> IllegalEvent:
         """Return the error that says why `event` is illegal in `state` and what is possible."""
         return IllegalEvent(
-            self.refusal.format(
+            self.refusal(
                 event=event.value,
-                state=f"{state.name}; {reason}" if reason else state.name,
-                possible=", ".join(e.value for e in self.possible(state)) or self.no_command,
+                state=state.name,
+                reason=reason or None,
+                possible=[e.value for e in self.possible(state)],
             )
         )
 
@@ -98,19 +99,21 @@ class Table(Generic[S, E]):
         return "—" if target is None else f"`{target.name}`"
 
 
-def _no_reason(state: Enum, event: Enum) -> str:
+def _no_reason(state: Enum, event: Enum) -> Diagnostic | str:
     return ""
 
 
 class Machine(Generic[S, E]):
     """A state of a table, which only fire() changes. It knows no lock: that is its owner's.
 
-    reason: says why an event is refused in a state, for the text of the error; may be empty.
+    reason: says why an event is refused in a state, for the error; may be empty.
     """
 
     __slots__ = ("_reason", "_state", "_table")
 
-    def __init__(self, table: Table[S, E], reason: Callable[[S, E], str] = _no_reason) -> None:
+    def __init__(
+        self, table: Table[S, E], reason: Callable[[S, E], Diagnostic | str] = _no_reason
+    ) -> None:
         """Stand in the table's initial state."""
         self._table = table
         self._reason = reason

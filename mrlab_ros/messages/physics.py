@@ -63,7 +63,7 @@ def program_from_message(message: msg.GraspTargets) -> GripperProgram:
 
 def velocity_from_message(message: Vector3) -> Vector:
     """Return a velocity; raise BadInput where it is not finite."""
-    return checked_vector((message.x, message.y, message.z), "the velocity")
+    return checked_vector((message.x, message.y, message.z), "velocity")
 
 
 def contact_to_message(contact: Contact) -> msg.Contact:

@@ -59,7 +59,7 @@ def _check_section(name: object, content: object) -> None:
             try:
                 records.checked(f"{name}: {key}", value, field.check)
             except BadInput as error:
-                mistakes.append(str(error))
+                mistakes.append(error.diagnostic)
                 break
     records.raise_all(mistakes, str(name))
 

@@ -88,7 +88,8 @@ class ParameterNode(Node, Generic[P]):
         """
         by_name = {f.name: (attribute, f) for attribute, f in self._records.items()}
         changes: dict[str, Any] = {}
-        mistakes, accepted = [], []
+        mistakes: list[records.Words] = []
+        accepted = []
         for parameter in parameter_list:
             name = parameter.name
             if name not in by_name:
@@ -106,12 +107,12 @@ class ParameterNode(Node, Generic[P]):
             try:
                 value = records.checked(name, plain(parameter.value), record.check)
             except BadInput as error:
-                mistakes.append(str(error))
+                mistakes.append(error.diagnostic)
                 continue
             changes[attribute] = value
             accepted.append(Parameter(name, value=to_ros(value)))
         if mistakes:
-            return SetParametersResult(successful=False, reason="; ".join(mistakes))
+            return SetParametersResult(successful=False, reason="; ".join(map(str, mistakes)))
         result = super().set_parameters_atomically(accepted)
         if result.successful and changes:
             self.parameters = dataclasses.replace(self.parameters, **changes)  # type: ignore[type-var]

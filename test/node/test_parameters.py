@@ -61,7 +61,7 @@ def test_a_start_with_bad_values_names_all_of_them_and_ends():
         "default_frame_rate is -3",
         "memory_limit is 0",
         "'robot' is unknown",
-        "did you mean 'robots'",
+        "Did you mean 'robots'",
     ):
         assert words in done.stderr
     assert "Traceback" not in done.stdout + done.stderr

@@ -83,9 +83,9 @@ def test_a_dry_run_and_a_refusal_change_nothing(graph, lab):
     crowd = [cube(f"c{i}", 0.1 * i) for i in range(33)]
     for objects, surfaces, says in (
         ([cube("a"), msg.ObjectPlacement(name="b", type="cow")], [], "no object 'cow'"),
-        ([cube("a"), cube("a")], [], "the name 'a' is taken"),
+        ([cube("a"), cube("a")], [], "name 'a' is taken"),
         ([cube("A")], [], "'A' cannot name an object"),
-        ([cube("a", 1e6)], [], "within +-100"),
+        ([cube("a", 1e6)], [], "within ±100"),
         ([cube("a", float("nan"))], [], "finite"),
         (crowd, [], "33 objects are too many; expected 32 at most"),
         ([cube("a")], [msg.Surface()], "no name"),

@@ -51,7 +51,7 @@ class StateFile:
             self._log(f"{error}. {set_aside(path)}; the lab starts without it")
             return None
         if mistakes:
-            self.keep_copy(f"left out of {path}: {'; '.join(mistakes)}")
+            self.keep_copy(f"left out of {path}: {'; '.join(map(str, mistakes))}")
         return scene
 
     def keep_copy(self, why: str) -> None:

@@ -12,6 +12,7 @@ unit the value is stored and how it is shown, the same in terminal, page, room a
     {value:mass} {value:force} kg, N                        {value:moment}     N*m
     {value:share}              0 to 1, shown as 63%         {value:number}     four digits
     {value:bytes}              B, shown as kB, MB or GB     {value:integer}
+    {value:exact}              a number with all its digits, such as a limit that was declared
     {value:measure}            in the unit that the value `unit` names, a key of UNITS
     {point:position}           (x, y, z) in m
     {count:count frame|frames} 1 frame, 3 frames
@@ -187,6 +188,7 @@ QUANTITIES: dict[str, Callable[[Any, Sequence[str]], str]] = {
     "text": lambda v, w: visible(str(v)),
     "integer": lambda v, w: f"{int(v)}",
     "number": lambda v, w: _significant(v, 4, ""),
+    "exact": lambda v, w: _significant(v, 10, ""),
     "angle": lambda v, w: _digits(degrees(v), 1, "°"),
     "fine_angle": lambda v, w: _digits(degrees(v), 2, "°"),
     "turn_rate": lambda v, w: _digits(degrees(v), 1, "°/s"),

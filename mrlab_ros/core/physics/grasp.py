@@ -68,7 +68,6 @@ TABLE: Table[Grasp, GraspEvent] = Table(
     # A vacuum cup that grasped nothing in time stays switched on.
     ignored={E.SHUT: (G.EMPTY,)},
     commands=tuple(GraspEvent),
-    refusal="the gripper cannot {event} while {state}; possible now: {possible}",
 )
 del G, E
 

@@ -47,7 +47,7 @@ class Inventory:
         """Add an object at `pose`, or with `automatic` on the nearest surface below it."""
         kind = self._catalogue.get(type_id)
         pose = Pose() if pose is None else pose
-        checked_vector(pose.position, "the position", WORLD_SIZE)
+        checked_vector(pose.position, "position", WORLD_SIZE)
         taken = frozenset(self._objects) | frozenset(self._world_state.robots)
         if not name:
             name = next(n for i in itertools.count(1) if (n := f"{type_id}_{i}") not in taken)
@@ -110,9 +110,9 @@ class Inventory:
     ) -> None:
         """Move an object: kinematic while `held`, else released there with the velocity given."""
         thing = self._world_state.object(name)
-        checked_vector(pose.position, "the position", WORLD_SIZE)
-        checked_vector(linear, "the velocity", MAX_THROW)
-        checked_vector(angular, "the angular velocity", MAX_SPIN)
+        checked_vector(pose.position, "position", WORLD_SIZE)
+        checked_vector(linear, "velocity", MAX_THROW)
+        checked_vector(angular, "angular_velocity", MAX_SPIN)
         self._grippers.take_away(thing)
         motion = BodyState(pose, linear, angular)
         self.fast = (*self.fast, name)

@@ -151,7 +151,7 @@ def _poses(entry: Record, form: Form, expect: str) -> tuple[Pose | Vector, ...]:
             f"poses has {len(values)} entries; expected 1 to {MOST_POSES}, such as "
             "[0.4, -0.3, 0.2], m in world"
         )
-    return tuple(_pose(entry.place, number, value) for number, value in enumerate(values, 1))
+    return tuple(_pose(str(entry.place), number, value) for number, value in enumerate(values, 1))
 
 
 def _pose(place: str, number: int, value: object) -> Pose | Vector:

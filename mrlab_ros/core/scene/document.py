@@ -13,6 +13,7 @@ from typing import Any, TypeVar
 
 import numpy as np
 
+from mrlab_ros.core.base.diagnostics import A_MAPPING
 from mrlab_ros.core.errors import BadInput
 from mrlab_ros.core.geometry import WORLD_SIZE, Pose
 from mrlab_ros.core.naming import checked_name
@@ -25,10 +26,22 @@ from mrlab_ros.core.records import (
     Matrix,
     Numbers,
     Record,
+    Words,
+    bad_value,
     between,
+    entry_place,
     raise_all,
-    shown,
     unknown_field,
+)
+from mrlab_ros.core.scene.diagnostics import (
+    CELL_NOT_SCENE,
+    HELD_IN_PART,
+    HOLDS_TWO,
+    MEMBER_TWICE,
+    NAMED_TWICE,
+    NO_SYSTEM_IN_CELL,
+    ROBOT_NOT_AMONG,
+    SCENE_NOT_CELL,
 )
 from mrlab_ros.core.systems.cell_file import (
     POSITION,
@@ -113,7 +126,7 @@ def parse(document: object, origin: str, *, whole: bool = True) -> SceneDocument
 
 def parse_intact(
     document: object, origin: str, *, whole: bool = True
-) -> tuple[SceneDocument, tuple[str, ...]]:
+) -> tuple[SceneDocument, tuple[Words, ...]]:
     """Read as parse() does, but leave out what is damaged; return the mistakes, too.
 
     Raises BadInput where the document as a whole is none.
@@ -127,12 +140,9 @@ def parse_cell(document: object, origin: str) -> tuple[SystemEntry, ...]:
     scene = parse(document, origin, whole=False)
     others = [part for part in PARTS[1:4] if getattr(scene, part)]
     if others:
-        raise BadInput(
-            f"{origin} holds {', '.join(others)}; a cell has systems alone. mrlab scene load "
-            "takes a whole scene"
-        )
+        raise BadInput(SCENE_NOT_CELL(place=origin, parts=others))
     if not scene.systems:
-        raise BadInput(f"{origin} holds no system; expected members, or a list of systems")
+        raise BadInput(NO_SYSTEM_IN_CELL(place=origin))
     return scene.systems
 
 
@@ -184,47 +194,44 @@ def _plain_pose(pose: Pose) -> dict[str, list[float]]:
 # reading ------------------------------------------------------------------------------------
 
 
-def _read(document: object, origin: str, whole: bool) -> tuple[SceneDocument, list[str]]:
-    """Return what is intact of a document, and a sentence for each mistake."""
+def _read(document: object, origin: str, whole: bool) -> tuple[SceneDocument, list[Words]]:
+    """Return what is intact of a document, and its mistakes."""
     if isinstance(document, list) and any(map(_names_model, document)):
         # The lab's state file, before it knew more than robots.
         document = {"robots": document}
     if document is None or document == []:
         fields = PARTS if whole else SYSTEM_FIELDS
-        raise BadInput(
-            f"{origin} is empty; expected a mapping with the fields {', '.join(fields)}"
-        )
+        raise bad_value(origin, None, A_MAPPING(fields=[*fields]))
     if not isinstance(document, Mapping) or (document and {*PARTS}.isdisjoint(document)):
         if not whole:
             return SceneDocument(systems=(read_system(document, origin),)), []
         if not isinstance(document, Mapping):
-            raise BadInput(
-                f"{origin} is {shown(document)}; expected a mapping with the fields "
-                f"{', '.join(PARTS)}"
-            )
+            raise bad_value(origin, document, A_MAPPING(fields=[*PARTS]))
         if "members" in document:
-            raise BadInput(f"{origin} is a cell, not a scene; mrlab system create takes it")
-    mistakes = [unknown_field(origin, key, PARTS) for key in document if key not in PARTS]
+            raise BadInput(CELL_NOT_SCENE(place=origin))
+    mistakes: list[Words] = [
+        unknown_field(origin, key, PARTS) for key in document if key not in PARTS
+    ]
     record = Record({k: v for k, v in document.items() if k in PARTS}, origin, PARTS)
 
-    def part(key: str, one: str, read: Callable[[object, str], T]) -> list[T]:
+    def part(key: str, one: str, read: Callable[[object, Words], T]) -> list[T]:
         found = []
         try:
             entries = record.entries(key)
         except BadInput as error:
-            mistakes.append(str(error))
+            mistakes.append(error.diagnostic)
             return []
         for i, entry in enumerate(entries, 1):
             try:
-                found.append(read(entry, f"{origin}, {one} {i}"))
+                found.append(read(entry, entry_place(origin, one, i)))
             except BadInput as error:
-                mistakes.append(str(error))
+                mistakes.append(error.diagnostic)
         return found
 
     try:
         about = record.value("about", TEXT, "")
     except BadInput as error:
-        mistakes.append(str(error))
+        mistakes.append(error.diagnostic)
         about = ""
     scene = SceneDocument(
         tuple(part("robots", "robot", _robot)),
@@ -241,7 +248,7 @@ def _names_model(entry: object) -> bool:
 
 
 def _consistent(
-    scene: SceneDocument, origin: str, whole: bool, mistakes: list[str]
+    scene: SceneDocument, origin: str, whole: bool, mistakes: list[Words]
 ) -> SceneDocument:
     """Leave out what clashes with an earlier entry or names a robot that is not there."""
 
@@ -251,7 +258,7 @@ def _consistent(
             try:
                 check(entry)
             except BadInput as error:
-                mistakes.append(str(error))
+                mistakes.append(error.diagnostic)
             else:
                 kept.append(entry)
         return tuple(kept)
@@ -259,9 +266,10 @@ def _consistent(
     def named(what: str, taken: set[str]) -> Callable[[Any], None]:
         def check(entry: Any) -> None:
             if entry.name in taken:
-                raise BadInput(f"{origin} names the {what} {entry.name} twice; rename one")
+                raise BadInput(NAMED_TWICE(place=origin, what=what, name=entry.name))
             if entry.name or whole:
-                checked_name(entry.name, frozenset(), f"{what} of {origin}")
+                if what != "surface":
+                    checked_name(entry.name, frozenset(), what)
                 taken.add(entry.name)
 
         return check
@@ -271,14 +279,12 @@ def _consistent(
     # Objects and systems may share a name with each other, but not with a robot.
     objects = intact(scene.objects, named("object", set(present)))
     systems = intact(scene.systems, named("system", set(present)))
-    surfaces = intact(scene.surfaces, _unique(origin))
+    surfaces = intact(scene.surfaces, named("surface", set()))
 
     def of_robot(name: str, robot: str) -> None:
         if whole and robot not in present:
-            known = ", ".join(sorted(present)) or "none"
-            raise BadInput(
-                f"{origin}: {name} names the robot '{robot}'; the robots of the scene: {known}"
-            )
+            known = sorted(present)
+            raise BadInput(ROBOT_NOT_AMONG(place=origin, name=name, robot=robot, known=known))
 
     holders: set[str] = set()
     members: set[str] = set()
@@ -287,7 +293,7 @@ def _consistent(
         if thing.held_by:
             of_robot(thing.name, thing.held_by)
             if thing.held_by in holders:
-                raise BadInput(f"{origin}: {thing.held_by} holds two objects; leave one out")
+                raise BadInput(HOLDS_TWO(place=origin, robot=thing.held_by))
             holders.add(thing.held_by)
 
     def manned(system: SystemEntry) -> None:
@@ -295,7 +301,7 @@ def _consistent(
         for robot in wanted:
             of_robot(system.name, robot)
             if robot in members or wanted.count(robot) > 1:
-                raise BadInput(f"{origin}: {robot} is a member twice; leave one out")
+                raise BadInput(MEMBER_TWICE(place=origin, robot=robot))
         members.update(wanted)
 
     return replace(
@@ -307,27 +313,16 @@ def _consistent(
     )
 
 
-def _unique(origin: str) -> Callable[[Surface], None]:
-    taken: set[str] = set()
-
-    def check(surface: Surface) -> None:
-        if surface.name in taken:
-            raise BadInput(f"{origin} has two surfaces called {surface.name}; rename one")
-        taken.add(surface.name)
-
-    return check
-
-
 def _pose(entry: Record, position: Numbers = VECTOR) -> Pose:
     x, y, z = entry.value("position", position, (0.0, 0.0, 0.0))
     a, b, c, d = entry.value("orientation", QUATERNION, (0.0, 0.0, 0.0, 1.0))
     try:
         return Pose((x, y, z), (a, b, c, d))
     except BadInput as error:
-        raise entry.error(str(error)) from None
+        raise entry.error(error.diagnostic) from None
 
 
-def _robot(value: object, place: str) -> RobotEntry:
+def _robot(value: object, place: Words) -> RobotEntry:
     entry = Record(value, place, ROBOT_FIELDS)
     return RobotEntry(
         entry.required("name", NAME),
@@ -341,11 +336,11 @@ def _robot(value: object, place: str) -> RobotEntry:
     )
 
 
-def _object(value: object, place: str) -> ObjectEntry:
+def _object(value: object, place: Words) -> ObjectEntry:
     entry = Record(value, place, OBJECT_FIELDS)
     holder, in_hand = entry.value("held_by", TEXT, ""), entry.record("in_hand", POSE_FIELDS)
     if bool(holder) != (in_hand is not None):
-        raise entry.error("held_by and in_hand belong together; leave out both or none")
+        raise entry.error(HELD_IN_PART())
     return ObjectEntry(
         entry.required("name", NAME),
         entry.required("type", NAME),
@@ -356,7 +351,7 @@ def _object(value: object, place: str) -> ObjectEntry:
     )
 
 
-def _surface(value: object, place: str) -> Surface:
+def _surface(value: object, place: Words) -> Surface:
     entry = Record(value, place, SURFACE_FIELDS)
     nothing = np.zeros((0, 3))
     return Surface(

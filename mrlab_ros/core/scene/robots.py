@@ -114,14 +114,14 @@ class Scene:
 
     def spawn(self, robot: PlacedRobot) -> PlacedRobot:
         """Add `robot`; raise BadInput where its name or its position cannot be used."""
-        checked_vector(robot.pose.position, "the position", WORLD_SIZE)
+        checked_vector(robot.pose.position, "position", WORLD_SIZE)
         checked_name(robot.name, frozenset(self._robots), "robot")
         self._robots[robot.name] = robot
         return robot
 
     def place(self, name: str, pose: Pose) -> PlacedRobot:
         """Set the pose of a robot; raise BadInput where it is outside the room."""
-        checked_vector(pose.position, "the position", WORLD_SIZE)
+        checked_vector(pose.position, "position", WORLD_SIZE)
         self._robots[name] = replace(self.robot(name), pose=pose)
         return self._robots[name]
 

@@ -39,6 +39,7 @@ from mrlab_ros.core.records import (
     Range,
     Record,
     Texts,
+    Words,
     alternatives,
     at_least,
     between,
@@ -98,7 +99,7 @@ class SystemEntry:
     at: float = 0.0
 
 
-def read_system(value: object, place: str) -> SystemEntry:
+def read_system(value: object, place: Words) -> SystemEntry:
     """Return the system that a mapping describes; raise BadInput that names `place`."""
     record = Record(value, place, SYSTEM_FIELDS)
     entries = record.entries("members")
@@ -132,7 +133,7 @@ def plain_system(system: SystemEntry) -> dict[str, Any]:
     }
 
 
-def _member(place: str, number: int, value: object) -> MemberEntry:
+def _member(place: Words, number: int, value: object) -> MemberEntry:
     entry = Record(value, f"{place}, member {number}", MEMBER_FIELDS)
     robot = entry.required("robot", FILLED_TEXT)
     entry.place = f"{place}, member {robot}"

@@ -109,7 +109,6 @@ TABLE: Table[SystemState, SystemEvent] = Table(
         E.REST: (S.READY, S.STAGING, S.PLAYING, S.PAUSED, S.COLLISION_HALT, S.COMPLETE),
     },
     commands=(E.STAGE, E.PAUSE, E.STOP, E.SEEK, E.STEP, E.SET_MODE),
-    no_command="only waiting",
 )
 # The states in which members move, or may, and time makes something due.
 ACTIVE = (S.STAGING, S.PLAYING, S.STOPPING)

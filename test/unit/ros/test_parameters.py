@@ -112,13 +112,13 @@ def test_all_mistakes_are_named_at_once(context: Context) -> None:
     first, *mistakes, last = str(caught.value).splitlines()
     assert first == "sample has 6 mistakes:"
     assert [line.strip() for line in mistakes] == [
-        "sample: 'rat' is unknown; expected rate, count, loud, folder, mode, names, staging.jerk; "
-        "did you mean 'rate'?",
-        "sample: rate is -5.0; expected a number above 0 and at most 100 (Hz)",
-        "sample: count is 2.5; expected a whole number from 1 to 7",
-        'sample: folder is 5; expected a text; write "5", in quotes',
-        "sample: mode is 'c'; expected a or b",
-        "sample: staging.jerk is nan; expected a number above 0; every number must be finite",
+        "sample: 'rat' is unknown; expected rate, count, loud, folder, mode, names and "
+        "staging.jerk. Did you mean 'rate'?",
+        "sample: rate is -5.0; expected a number above 0 and at most 100 (Hz).",
+        "sample: count is 2.5; expected a whole number from 1 to 7.",
+        'sample: folder is 5; expected a text. Write "5" in quotes.',
+        "sample: mode is 'c'; expected a or b.",
+        "sample: staging.jerk is nan; expected a number above 0. Every number must be finite.",
     ]
     assert "docs/parameters.md" in last
 
@@ -140,7 +140,7 @@ def test_a_refused_node_leaves_the_graph(context: Context, shared: SampleNode) -
         ("rate", None, "rate is empty"),
         ("count", 8, "count is 8; expected a whole number from 1 to 7"),
         ("loud", 1, "loud is 1; expected true or false"),
-        ("names", "x", "names is 'x'; expected a list of texts; write [x]"),
+        ("names", "x", "names is 'x'; expected a list of texts. Write [x]"),
         ("folder", "/tmp", "folder is read when sample starts and cannot change while it runs"),
         ("ratee", 1.0, "'ratee' is unknown"),
     ],

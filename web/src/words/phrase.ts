@@ -167,6 +167,8 @@ function shown(
       return digits(figure, 0, '')
     case 'number':
       return significant(figure, 4, '')
+    case 'exact':
+      return significant(figure, 10, '')
     case 'angle':
       return digits(figure * DEGREES, 1, '°')
     case 'fine_angle':

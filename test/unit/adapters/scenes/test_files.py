@@ -58,7 +58,7 @@ def test_a_saved_scene_hides_the_shipped_one_and_leaves_no_other_file(tmp_path):
     [
         ("robots: [{name: A}]", "robot 1: name is 'A'"),
         ("cows: 1", "'cows' is unknown; expected about, robots"),
-        ("objects: [{name: a, type: cube, position: [0, 0]}]", "expected 3 numbers"),
+        ("objects: [{name: a, type: cube, position: [0, 0]}]", "expected a list of 3 numbers"),
         ("objects: [{name: a, type: cube, position: [0, 0, .nan]}]", "position is"),
         ("objects: [{name: a, type: cube}, {name: a, type: cube}]", "names the object a twice"),
         ("surfaces: [{name: a, vertices: [1, 2]}]", "expected a list of rows of 3 numbers"),

@@ -60,8 +60,11 @@ def test_nothing_is_carried_that_is_not_named():
 @pytest.mark.parametrize(
     ("document", "words"),
     [
-        (None, "is empty; expected a mapping with the fields topics, services"),
-        ({"topic": []}, "'topic' is unknown; expected topics, services; did you mean 'topics'?"),
+        (None, "is empty; expected a mapping with the fields topics and services"),
+        (
+            {"topic": []},
+            "unknown; expected topics and services. Did you mean 'topics'?",
+        ),
         ({"topics": ["/robots"]}, "expected an entry with a name"),
         ({"topics": [{"priority": 1}]}, "expected an entry with a name"),
         ({"topics": [{"name": "robots"}]}, "expected a full name"),

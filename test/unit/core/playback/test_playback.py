@@ -9,7 +9,9 @@ import pytest
 from fakes import SECOND, StraightPlanner, make_model, make_trajectory
 from hypothesis import given
 from hypothesis import strategies as st
+from refusals import refused
 
+from mrlab_ros.core.base.diagnostics import BAD_POSITION, BAD_RATE, ILLEGAL_EVENT
 from mrlab_ros.core.errors import BadInput, IllegalEvent, LabError, Misuse
 from mrlab_ros.core.playback.playback import Playback
 from mrlab_ros.core.playback.states import TABLE, Event, State
@@ -369,7 +371,7 @@ def test_a_trajectory_for_another_model_is_refused_and_changes_nothing():
 @pytest.mark.parametrize("position", [-0.1, 0.2, float("nan"), float("inf")])
 def test_a_position_off_the_timeline_is_refused(position):
     playback = on_start()
-    with pytest.raises(BadInput, match="expected 0 to 0.1 s"):
+    with refused(BAD_POSITION, BadInput, position=position, duration=0.1):
         playback.seek(START, position)
     assert playback.state is State.READY
 
@@ -377,7 +379,7 @@ def test_a_position_off_the_timeline_is_refused(position):
 @pytest.mark.parametrize("rate", [0.0, 0.05, 5.0, -0.05, -5.0, float("nan")])
 def test_a_rate_out_of_range_is_refused(rate):
     playback = on_start()
-    with pytest.raises(BadInput, match="expected 0.1 to 4.0"):
+    with refused(BAD_RATE, BadInput, rate=rate, low=0.1, high=4.0):
         playback.set_rate(START, rate)
     assert playback.rate == 1.0
 
@@ -432,9 +434,8 @@ def test_every_event_in_every_state_does_what_the_table_says_or_changes_nothing(
     if state in TABLE.ignored.get(event, ()):
         CALLS[event](playback)
     else:
-        with pytest.raises(IllegalEvent) as raised:
+        with refused(ILLEGAL_EVENT, IllegalEvent, event=event.value, state=state.name):
             CALLS[event](playback)
-        assert f"cannot {event.value} in {state.name}; possible now: " in str(raised.value)
     assert (playback.status(), playback.due_ns(), playback.arm) == before
     assert playback.take_statuses() == []
 

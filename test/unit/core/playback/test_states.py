@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from mrlab_ros.core.base.diagnostics import ILLEGAL_EVENT
 from mrlab_ros.core.playback.states import TABLE, Event, State
 from mrlab_ros.core.state_machine import Machine
 
@@ -37,9 +38,7 @@ def test_a_loop_never_leaves_the_moving_states():
 
 
 def test_a_refusal_says_what_is_possible():
-    assert str(TABLE.refused(State.IDLE, Event.PLAY)) == (
-        "cannot play in IDLE; possible now: load"
-    )
-    assert str(TABLE.refused(State.COMPLETE, Event.PLAY)) == (
-        "cannot play in COMPLETE; possible now: nothing but waiting"
-    )
+    refusal = TABLE.refused(State.IDLE, Event.PLAY).diagnostic
+    assert refusal.code == ILLEGAL_EVENT.code
+    assert refusal.values == {"event": "play", "state": "IDLE", "possible": ["load"]}
+    assert TABLE.refused(State.COMPLETE, Event.PLAY).diagnostic.values["possible"] == []

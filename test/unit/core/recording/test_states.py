@@ -40,12 +40,12 @@ def test_a_replay_is_announced_before_it_begins():
             (RecorderEvent.START,),
             RecorderEvent.REPLAY,
             "cannot start a replay in RECORDING; a recording into class.bag runs; stop it first: "
-            "mrlab record --stop; possible now: split the recording, stop",
+            "mrlab record --stop; possible now: split the recording and stop",
         ),
         (
             (RecorderEvent.REPLAY,),
             RecorderEvent.START,
-            "class.bag is being replayed; stop that first; possible now: nothing but waiting",
+            "class.bag is being replayed; stop that first",
         ),
         (
             (RecorderEvent.REPLAY, RecorderEvent.BEGIN, RecorderEvent.PAUSE),

@@ -99,7 +99,7 @@ def test_the_least_is_a_list_of_robots():
         ("at: -1\nmembers: [{robot: a}]", "at is -1; expected a number from 0"),
         ("members: [ur5e_1]", "member 1 is 'ur5e_1'; expected a mapping with the fields robot"),
         ("members: [{trajectory: x}]", "member 1: robot is missing"),
-        ("members: [{robot: a, trajektory: x}]", "did you mean 'trajectory'"),
+        ("members: [{robot: a, trajektory: x}]", "Did you mean 'trajectory'"),
         ("mode: serial\nmembers: [{robot: a}]", "mode is 'serial'; expected parallel or sequent"),
         ("policy: stop\nmembers: [{robot: a}]", "expected halt_all or halt_member"),
         ("loop: often\nmembers: [{robot: a}]", "expected true or false"),
