@@ -1,7 +1,7 @@
 # make demo   set up and run the lab on a shipped MATLAB file   (ARGS=--once ends by itself)
 # make test   set up and run every test, in two processes   (ARGS passes options to pytest: ARGS='-m fast'
 #             runs those that need no graph; ARGS='-n 0' runs all in one process, as --pdb needs)
-# make bench  run every benchmark                               (ARGS=--quick for a minute each)
+# make bench  run every benchmark, past one that fails          (ARGS=--quick for a minute each)
 # make robots  generate the robots' bodies anew from their descriptions (tens of minutes)
 # make objects generate the meshes of config/objects anew       (seconds)
 # make gallery render every robot into docs/gallery (minutes)
@@ -37,7 +37,7 @@ lint:
 
 bench:
 	@python3 scripts/bootstrap.py --dev
-	@$(ENV) for b in $(filter-out bench/report.py bench/physics_node.py,$(wildcard bench/*.py)); do echo "== $$b"; python "$$b" $(ARGS) || exit 1; done
+	@$(ENV) python bench/run.py $(ARGS)
 
 robots:
 	@python3 scripts/bootstrap.py --dev

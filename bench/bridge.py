@@ -346,11 +346,15 @@ def main() -> None:
         rows = [soak(arguments.soak, arguments.robots, arguments.subscribers)]
         report.show("The bridge over time", rows, arguments.json)
         return
-    seconds = 4.0 if arguments.quick else 30.0
+    seconds = report.scaled(arguments, 0.5, 4.0, 30.0)
 
     def bridges(robots: int, rate: float) -> list[dict[str, Any]]:
         return [bridged(robots, rate, seconds, stock=each or "") for each in ("", *stock)]
 
+    if arguments.touch:
+        rows = [alone("DDS", 1, 100.0, seconds), alone("zenoh", 1, 100.0, seconds)]
+        report.show("Joint states, to see that it runs", [*rows, *bridges(1, 100.0)], None)
+        return
     rows = [
         alone("DDS", 13, 100.0, seconds),
         alone("zenoh", 13, 100.0, seconds),

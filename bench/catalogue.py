@@ -212,8 +212,8 @@ def listing(graph: Graph, folder: Path, entries: int) -> dict[str, Any]:
 def main() -> None:
     parser = report.options(__doc__)
     options = parser.parse_args()
-    repeats = 3 if options.quick else 9
-    entries = ENTRIES // 10 if options.quick else ENTRIES
+    repeats = report.scaled(options, 1, 3, 9)
+    entries = report.scaled(options, 20, ENTRIES // 10, ENTRIES)
     rows = []
     with tempfile.TemporaryDirectory() as name:
         folder = Path(name)
@@ -223,6 +223,7 @@ def main() -> None:
         files = TrajectoryFiles(kept.store, folder / "fetched")
         kept.save(motion(100, False))
         sizes = {"10,000 x 6": 10_000, "360,000 x 6": 360_000, "1,000,000 x 7": 1_000_000}
+        sizes = dict(report.some(options, list(sizes.items())))
         for label, frames in sizes.items():
             trajectory = motion(frames, label.endswith("7"))
             begin = time.perf_counter()

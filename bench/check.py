@@ -104,14 +104,14 @@ def main() -> None:
 
         examples = Path(__file__).parents[1] / "examples"
         rubric = files.read(examples / "rubrics" / "pick_and_place.yaml")
-        count = min(options.count, 8) if options.quick else options.count
+        count = report.scaled(options, 1, min(options.count, 8), options.count)
         found = class_check.rows(
             rubric, scene(), examples / "pick_and_place_ur5e.mat",
             count=count, jobs=options.jobs, dask=options.dask,
         )  # fmt: skip
         report.show("Class", found, options.json)
         return
-    report.show("Check", checks(3 if options.quick else 20), options.json)
+    report.show("Check", checks(report.scaled(options, 1, 3, 20)), options.json)
 
 
 if __name__ == "__main__":

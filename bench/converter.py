@@ -168,13 +168,13 @@ def processor_time() -> float:
     return total
 
 
-def submissions(folder: Path) -> dict[str, Any]:
-    """Convert CLASS files that arrive at once."""
+def submissions(folder: Path, count: int) -> dict[str, Any]:
+    """Convert `count` files that arrive at once."""
     robot = RobotLibrary(share.directory() / "robots").model("ur5e")
     coefficients = load_coefficients(share.directory() / "config" / "torque_proxy.yaml")
     store = opened_catalogue(folder / "class")
     paths = []
-    for i in range(CLASS):
+    for i in range(count):
         paths.append(folder / f"student{i}.mat")
         content = {"q": motion(600)[:, :6] + i * 1e-4, "fs": 100.0}
         scipy.io.savemat(paths[-1], content, do_compression=True)
@@ -193,7 +193,7 @@ def submissions(folder: Path) -> dict[str, Any]:
         for future in [submit(path) for path in paths]:
             future.result()
         wall, used = time.perf_counter() - begin, processor_time() - used
-    return {"files": CLASS, "processor s": used, "goal s": 5.0, "wall s": wall}
+    return {"files": count, "processor s": used, "goal s": 5.0, "wall s": wall}
 
 
 def dumps(numbers: Any) -> bytes:
@@ -202,16 +202,16 @@ def dumps(numbers: Any) -> bytes:
 
 def main() -> None:
     options = report.options(__doc__).parse_args()
-    repeats = 1 if options.quick else 3
+    repeats = report.scaled(options, 1, 1, 3)
     rows = []
     with WorkspaceReader() as reader, tempfile.TemporaryDirectory() as folder:
         reader.start()
         measure(100, reader, Path(folder), 1)
-        for frames in (1_000, 10_000, 100_000, 1_000_000):
+        for frames in report.some(options, (1_000, 10_000, 100_000, 1_000_000)):
             fewer = repeats if frames > 10_000 else 5
             rows.append(measure(frames, reader, Path(folder), fewer))
             os.sync()
-        students = submissions(Path(folder))
+        students = submissions(Path(folder), report.scaled(options, 2, CLASS, CLASS))
     report.show("Conversion of a v7 workspace, N x 7, to a trajectory file", rows, options.json)
     print(SAME_NUMBERS)
     report.show("A class that submits at once", [students], options.json)

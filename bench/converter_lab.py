@@ -158,7 +158,7 @@ def warm_and_cold(repeats: int) -> dict[str, Any]:
 
 def main() -> None:
     options = report.options(__doc__).parse_args()
-    row = warm_and_cold(5 if options.quick else 30)
+    row = warm_and_cold(report.scaled(options, 1, 5, 30))
     report.show("A small file, N = 600 x 6, in a cold and in a warm process", [row], options.json)
     with tempfile.TemporaryDirectory() as folder:
         rows = while_uploading(Path(folder))

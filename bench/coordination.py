@@ -185,17 +185,20 @@ def main() -> None:
     parser = report.options(__doc__)
     parser.add_argument("--members", type=int, help="measure one size, print it as JSON")
     options = parser.parse_args()
-    rounds = 5 if options.quick else 40
+    rounds = report.scaled(options, 1, 5, 40)
     if options.members:
         sys.stdout.write(json.dumps(measure(options.members, rounds)))
         sys.stdout.flush()
         os._exit(0)
     rows = []
-    for domain, members in enumerate((2, 13, 50)):
+    for domain, members in enumerate(report.some(options, (2, 13, 50))):
         command = [sys.executable, __file__, "--members", str(members)]
         env = dict(os.environ, ROS_DOMAIN_ID=str(90 + domain))
         done = subprocess.run(
-            command + ["--quick"] * options.quick, stdout=subprocess.PIPE, check=True, env=env
+            [*command, *report.scaled(options, ["--touch"], ["--quick"], [])],
+            stdout=subprocess.PIPE,
+            check=True,
+            env=env,
         )
         rows.append(json.loads(done.stdout))
     report.show("Coordination", rows, options.json)

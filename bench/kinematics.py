@@ -6,10 +6,10 @@ meshes. `--quick` takes 10 000 poses.
 
 from __future__ import annotations
 
-import sys
 import time
 
 import numpy as np
+import report
 import trimesh
 
 from mrlab_ros.adapters.robots import checks, urdf
@@ -42,7 +42,8 @@ def load(robot: str) -> None:
 
 def main() -> None:
     """Measure all robots and say whether loading keeps its bound."""
-    count = 10_000 if "--quick" in sys.argv else 100_000
+    given = report.options(__doc__.splitlines()[0]).parse_args()
+    count = report.scaled(given, 100, 10_000, 100_000)
     library = RobotLibrary(share.directory() / "robots")
     rng = np.random.default_rng(0)
     total, slowest = 0.0, 0.0

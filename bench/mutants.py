@@ -221,12 +221,15 @@ def main() -> None:
     parser.add_argument("--count", type=int, default=40, help="mutants a module; 0: all")
     given = parser.parse_args()
     os.chdir(ROOT)
-    count = 2 if given.quick else given.count
+    count = report.scaled(given, 1, 2, given.count)
     # What all mutants import is imported once, before the processes part.
     import numpy as np  # noqa: F401
     import pytest  # noqa: F401
 
-    rows = [measure(name, MODULES[name], count) for name in given.module or MODULES]
+    rows = [
+        measure(name, MODULES[name], count)
+        for name in given.module or report.some(given, list(MODULES))
+    ]
     report.show("Mutants that the unit tests kill", rows, given.json)
 
 

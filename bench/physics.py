@@ -303,7 +303,7 @@ def main() -> None:
         report.show("Physics soak", rows, options.json)
         report.show("Physics soak, drift", drift(rows), options.json)
         return
-    seconds = 3.0 if options.quick else 15.0
+    seconds = report.scaled(options, 0.2, 3.0, 15.0)
     cases = (
         ("one robot, headless", ["ur5e"], 10, 3 * seconds, False),
         ("the same, no object at rest", ["ur5e"], 10, 3 * seconds, True),
@@ -311,12 +311,13 @@ def main() -> None:
         ("thirteen models", thirteen, 32, seconds, False),
         ("the same, no object at rest", thirteen, 32, seconds, True),
     )
-    rows = [in_process("--case", json.dumps(case)) for case in cases]
+    rows = [in_process("--case", json.dumps(case)) for case in report.some(options, cases)]
     report.show("Physics steps", rows, options.json)
-    report.show("Physics beside MuJoCo", in_process("--oracle"), options.json)
-    rows = in_process("--load", str(5.0 if options.quick else 30.0))
+    if not options.touch:
+        report.show("Physics beside MuJoCo", in_process("--oracle"), options.json)
+    rows = in_process("--load", str(report.scaled(options, 0.5, 5.0, 30.0)))
     report.show("Physics node", rows, options.json)
-    latencies = report.percentiles(in_process("--halt", str(6 if options.quick else 50)))
+    latencies = report.percentiles(in_process("--halt", str(report.scaled(options, 1, 6, 50))))
     row = {"what": "contact to last moving joint state, 100 Hz"}
     report.show("Physics halt", [row | {f"{k} ms": v for k, v in latencies.items()}], options.json)
 

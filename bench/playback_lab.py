@@ -81,6 +81,7 @@ def run(folder: Path, seconds: float) -> list[dict[str, Any]]:
         parameter_file(None), folder, robots, listen=endpoint, lab_id=new_lab_id()
     )
     processes = lab_processes(options)
+    settle, seconds = (SETTLE_S, seconds) if seconds else (0.5, 0.5)
     with Supervisor([p.spec(options) for p in processes], lambda name, line: None) as supervisor:
         bench = Bench()
         late: list[float] = []
@@ -106,7 +107,7 @@ def run(folder: Path, seconds: float) -> list[dict[str, Any]]:
         bench.ask(SetLoop, "/cell/set_loop", loop=True)
         bench.ask(srv.StartRecording, "/recorder/start", bag=str(folder / "bag"))
         bench.ask(Trigger, "/cell/play")
-        time.sleep(SETTLE_S)
+        time.sleep(settle)
         states = zip(processes, supervisor.states, strict=True)
         pids = {process.name: state.pid for process, state in states}
         rows = []

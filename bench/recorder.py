@@ -317,15 +317,15 @@ def main() -> None:
     if arguments.write:
         write_by_executor(arguments.write[0], Path(arguments.write[1]))
         return
-    seconds = 8.0 if arguments.quick else 60.0
+    seconds = report.scaled(arguments, 1.0, 8.0, 60.0)
     cases = [("mrlab", 2), ("mrlab", 13), ("mrlab", 50), *((name, 50) for name in BASELINES)]
     rows = []
-    for writer, robots in cases:
+    for writer, robots in report.some(arguments, cases):
         with tempfile.TemporaryDirectory(prefix="mrlab-bench-") as folder:
             rows.append(measure(writer, robots, seconds, Path(folder)))
     report.show("Recording all topics of robots at 100 Hz", rows, arguments.json)
     with tempfile.TemporaryDirectory(prefix="mrlab-bench-") as folder:
-        alone = write_only(50_000 if arguments.quick else 500_000, Path(folder))
+        alone = write_only(report.scaled(arguments, 1_000, 50_000, 500_000), Path(folder))
     report.show("Writing alone, joint states in memory", alone, arguments.json)
 
 

@@ -136,10 +136,10 @@ def run(folder: Path, rounds: float) -> list[dict[str, Any]]:
         bench.ask(SetLoop, "/cell/set_loop", loop=True)
         commands = Commands(bench, endpoint)
         names = [process.name for process in processes]
-        for blow in ("kill -9", "freeze 3 s"):
-            for name in names:
+        for blow in ("kill -9", "freeze 3 s") if rounds else ("kill -9",):
+            for name in names if rounds else names[:1]:
                 took = []
-                for _ in range(round(rounds)):
+                for _ in range(round(rounds) or 1):
                     until(commands, "play")
                     # Until it plays; and a process that has just begun is restarted later.
                     time.sleep(SETTLE_S)

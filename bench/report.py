@@ -9,19 +9,35 @@ import platform
 import tempfile
 from collections.abc import Callable, Sequence
 from pathlib import Path
-from typing import Any
+from typing import Any, TypeVar
 
 import numpy as np
 from rich.console import Console
 from rich.table import Table
 
+Case = TypeVar("Case")
+
 
 def options(description: str) -> argparse.ArgumentParser:
     """Return the parser with the options that every benchmark has."""
     parser = argparse.ArgumentParser(description=description)
-    parser.add_argument("--quick", action="store_true", help="end within 60 s")
+    size = parser.add_mutually_exclusive_group()
+    size.add_argument("--quick", action="store_true", help="end within 60 s")
+    size.add_argument(
+        "--touch", action="store_true", help="see only that it runs: the least of all it measures"
+    )
     parser.add_argument("--json", type=Path, metavar="FILE", help="also write the figures here")
     return parser
+
+
+def scaled(given: argparse.Namespace, touch: Any, quick: Any, full: Any) -> Any:
+    """Return the amount that the options ask for."""
+    return touch if given.touch else quick if given.quick else full
+
+
+def some(given: argparse.Namespace, cases: Sequence[Case]) -> Sequence[Case]:
+    """Return the cases that the options ask for: all, or the first to see that it runs."""
+    return cases[:1] if given.touch else cases
 
 
 def whole_lab(
@@ -33,7 +49,7 @@ def whole_lab(
 ) -> None:
     """Run a benchmark of a lab in a folder of its own, and show its rows.
 
-    run: gets the folder, and `quick` or `full` as the options say.
+    run: gets the folder, and `quick` or `full` as the options say, 0 to see that it runs.
     """
     # Here: most benchmarks need no ROS.
     import rclpy
@@ -42,7 +58,7 @@ def whole_lab(
     os.environ.setdefault("ROS_AUTOMATIC_DISCOVERY_RANGE", "LOCALHOST")
     rclpy.init()
     with tempfile.TemporaryDirectory() as folder:
-        rows = run(Path(folder), quick if given.quick else full)
+        rows = run(Path(folder), scaled(given, 0, quick, full))
     show(title, rows, given.json)
     rclpy.shutdown()
 

@@ -18,6 +18,7 @@ import { fillScene, measureFrames, measureMemory, measureScrub } from './room_be
 const { values: options } = parseArgs({
   options: {
     minutes: { type: 'string', default: '0.5' },
+    touch: { type: 'boolean', default: false },
     json: { type: 'string' },
     profile: { type: 'string', default: '' },
     help: { type: 'boolean', short: 'h', default: false },
@@ -29,6 +30,7 @@ if (options.help) {
 Measures what the room costs with 4 robots that play, 20 objects and 4 panels, in Chromium with an
 emulated Quest 3; starts a lab of its own, which ends with it.
 
+  --touch        see only that it runs
   --minutes N    how long the memory is watched; 0.5 where it is not given
   --json FILE    keeps the figures
   --profile FILE keeps a profile for the browser's own tools, and prints its largest parts`)

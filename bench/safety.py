@@ -189,6 +189,7 @@ def run(folder: Path, seconds: float) -> list[dict[str, Any]]:
     specs = [process.spec(options) for process in PROCESSES]
     specs[1] = LabProcess("lab", ("lab",), lambda o: {"lab:robots": o.robots}).spec(options)
     rows: list[dict[str, Any]] = []
+    seconds = seconds or 0.5
     with Supervisor(specs, lambda name, line: None) as supervisor:
         bench = Bench()
         robots = [f"{MODEL}_{i + 1}" for i in range(ROBOTS)]

@@ -74,8 +74,9 @@ def run(folder: Path, rounds: float) -> list[dict[str, Any]]:
         ),
         opened() as lab,
     ):
-        for model in RobotLibrary(share.directory() / "robots").ids():
-            took = [once(lab, model) for _ in range(round(rounds))]
+        models = RobotLibrary(share.directory() / "robots").ids()
+        for model in models if rounds else models[:1]:
+            took = [once(lab, model) for _ in range(round(rounds) or 1)]
             rows.append(
                 {"model": model, "rounds": rounds}
                 | {

@@ -60,8 +60,9 @@ def measure(rows: int, repeats: int) -> dict[str, Any]:
 
 def main() -> None:
     options = report.options(__doc__).parse_args()
-    repeats = 1 if options.quick else 3
-    rows = [measure(count, repeats) for count in (1_000, 10_000, 100_000, 1_000_000)]
+    repeats = report.scaled(options, 1, 1, 3)
+    sizes = report.some(options, (1_000, 10_000, 100_000, 1_000_000))
+    rows = [measure(count, repeats) for count in sizes]
     report.show("Reading a v7 workspace, N x 7", rows, options.json)
 
 

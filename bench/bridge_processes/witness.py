@@ -77,6 +77,8 @@ def main() -> None:
         "connect/retry",
         json.dumps({"period_init_ms": 250, "period_max_ms": 500, "period_increase_factor": 1.5}),
     )
+    # The bridge may begin to listen after this.
+    config.insert_json5("connect/timeout_ms", "30000")
     witness = Witness()
     with zenoh.open(config) as session:
         session.declare_subscriber("*/joint_states", witness.move)

@@ -1,12 +1,10 @@
 import { writeFileSync } from 'node:fs'
 import { until } from './lab.mjs'
-import { quantile } from './scene.mjs'
+import { FRAMES, quantile } from './scene.mjs'
 
 /** µs between two samples. A longer gap is the time of another process, and counts as one sample. */
 const INTERVAL = 200
 const MS = 1000
-/** Frames of one profile. */
-const FRAMES = 600
 
 /** Measure where the time of the room's own scripts goes, ms of CPU a frame: the headset's emulation
  * and the blind WebGL left out, garbage collection with it. file: gets the profile; '': none. */
