@@ -38,10 +38,11 @@ class Inbox(list[Any]):
 class Graph:
     """Spins nodes in a private context; calls services and listens as a client would."""
 
-    def __init__(self) -> None:
+    def __init__(self, domain: int | None = None) -> None:
+        """domain: the ROS domain; None: that of this run."""
         remove_abandoned()  # of a lab that an earlier test killed
         self.context = rclpy.Context()
-        self.context.init()
+        self.context.init(domain_id=domain)
         self._spun: dict[Node, SpunNode] = {}
         self.client = Node("test_client", context=self.context)
         self._client_spun = SpunNode(self.client)
