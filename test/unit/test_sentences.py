@@ -1,5 +1,7 @@
-"""No code reads a sentence: what a person is told steers nothing, in Python; web/test/sentences.test.ts
-holds the pages to the same."""
+"""No code reads a sentence: what a person is told steers nothing.
+
+web/test/sentences.test.ts holds the pages to the same.
+"""
 
 from __future__ import annotations
 

@@ -172,3 +172,95 @@ def test_backwards_what_is_too_late_is_left_out_and_the_first_frame_is_still_sen
     assert stream.lost > 0
     sample = stream.trajectory_sample(START + 3600 * SECOND)
     assert (sample.frame, sample.position, stream.ended) == (0, 0.0, True)
+
+
+def test_a_new_stream_sends_its_pose_at_once_and_has_sent_nothing():
+    stream = Stream(np.ones(2), 10.0)
+    assert (stream.sent, stream.lost, stream.next_ns, stream.frame) == (0, 0, 0, 0)
+
+
+@pytest.mark.parametrize("by_ns", [5 * SECOND, -2 * SECOND])
+def test_a_clock_that_is_set_moves_all_that_is_scheduled(by_ns):
+    """Each joint state leaves as far from the last one as if the clock had not been set."""
+    stream, other = make(), make()
+    for each in (stream, other):
+        each.follow(START, 0.0)
+        take(each, 3)
+    stream.shift(by_ns)
+    assert stream.clock.at(START + by_ns + 50_000_000) == pytest.approx(0.05)
+    assert [s.due_ns - by_ns for s in take(stream, 3)] == [s.due_ns for s in take(other, 3)]
+    last, _, velocities = stream.motion(stream.next_ns)
+    assert last == stream.next_ns - PERIOD
+    assert velocities is not None
+    stream.shift(by_ns)
+    assert stream.motion(stream.next_ns)[0] == stream.next_ns - PERIOD
+
+
+def test_a_clock_that_is_set_while_an_arm_approaches_moves_its_motion_along():
+    stream = make()
+    stream.approach(START, StraightMotion(np.zeros(2), np.ones(2), 1.0), 0.0)
+    stream.shift(SECOND)
+    assert stream.next_ns == START + SECOND
+    stream.next_ns = START + SECOND + SECOND // 2
+    assert stream.approach_sample(stream.next_ns).positions == pytest.approx([0.5, 0.5])
+    assert not stream.arrived
+
+
+def test_a_clock_that_is_set_leaves_a_stream_that_waits_for_nothing_so():
+    stream = make()
+    stream.stand(START, 0.0, sent=True)
+    stream.shift(SECOND)
+    assert stream.next_ns is None
+
+
+def test_who_stands_has_sent_nothing_of_the_trajectory_and_ends_nowhere_before_its_end():
+    stream = make()
+    stream.follow(START, 0.0)
+    stream.end_at(0.03)
+    take(stream, 3)
+    stream.stand(START + SECOND, 0.02)
+    assert (stream.streamed, stream.until, stream.position) == (None, None, 0.02)
+    stream.follow(START + 2 * SECOND, 0.02)
+    assert [s.frame for s in take(stream, 9)] == list(range(2, 11))
+
+
+def test_where_an_arm_comes_back_it_stands_and_goes_on_behind_what_was_sent():
+    stream = make()
+    stream.come_back(START, 0.04, stream.trajectory.positions[4])
+    sample = stream.standing_sample(START)
+    assert sample.positions == pytest.approx(stream.trajectory.positions[4])
+    stream.follow(START, 0.04)
+    assert take(stream, 1)[0].frame == 5
+    away = make()
+    away.come_back(START, 0.04, np.full(2, 7.5))
+    assert away.arm == pytest.approx([7.5, 7.5])
+    away.follow(START, 0.04)
+    assert take(away, 1)[0].frame == 4
+
+
+def test_a_rate_set_before_anything_was_sent_sends_the_first_frame_too():
+    stream = make()
+    stream.follow(START, 0.0)
+    stream.set_rate(START, 2.0)
+    assert [s.frame for s in take(stream, 3)] == [0, 2, 4]
+
+
+def test_a_goal_taken_up_in_motion_counts_the_pose_that_left():
+    stream = make()
+    stream.arm = stream.trajectory.positions[0]
+    stream.go_on_from(START)
+    stream.follow(START, 0.0)
+    samples = take(stream, 10)
+    assert [s.frame for s in samples] == list(range(1, 11))
+    assert (stream.sent, stream.lost) == (11, 0)
+
+
+def test_an_end_set_on_the_way_holds_for_the_joint_state_that_is_next():
+    stream = make()
+    stream.follow(START, 0.0)
+    take(stream, 3)
+    stream.end_at(0.0225)
+    assert stream.next_ns == START + 22_500_000
+    (sample,) = take(stream, 1)
+    assert sample.position == 0.0225
+    assert stream.held
