@@ -9,6 +9,7 @@ from pathlib import Path
 from mrlab_ros.adapters.bullet.engine import BulletEngine
 from mrlab_ros.adapters.robots.library import RobotLibrary
 from mrlab_ros.adapters.yaml_files import read_yaml
+from mrlab_ros.core.base.diagnostic import Diagnostic
 from mrlab_ros.core.clock import SECOND, PlaybackClock
 from mrlab_ros.core.geometry import Pose, quaternion_from_rpy
 from mrlab_ros.core.physics import catalogue
@@ -205,11 +206,11 @@ class Cell:
     def grasps(self, name: str) -> list[Grasp]:
         return [e.state for e in self.events if isinstance(e, GraspChanged) and e.robot == name]
 
-    def reasons(self, name: str) -> str:
+    def reasons(self, name: str) -> dict[str, Diagnostic]:
+        """Return what was said of a robot's gripper, by code."""
         found = [e.grasp if isinstance(e, LoadChanged) else e for e in self.events]
-        return "; ".join(
-            e.reason for e in found if isinstance(e, GraspChanged) and e.robot == name
-        )
+        of_robot = [e.reason for e in found if isinstance(e, GraspChanged) and e.robot == name]
+        return {reason.code: reason for reason in of_robot if reason is not None}
 
     def place(self, name: str) -> tuple[float, float, float]:
         return self.world.motion(name).pose.position

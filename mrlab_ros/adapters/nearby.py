@@ -5,13 +5,34 @@ from __future__ import annotations
 import os
 from pathlib import Path
 
-from mrlab_ros.core.naming import did_you_mean
+from mrlab_ros.adapters.diagnostics import FILE_MISSING, NOT_A_FILE
+from mrlab_ros.core.errors import BadInput
+from mrlab_ros.core.naming import close_to
+
+
+def close_file(path: Path) -> str | None:
+    """Return the entry beside `path` whose name is closest; None where none is close."""
+    try:
+        beside = os.listdir(path.parent)
+    except OSError:
+        return None
+    return close_to(path.name, (name for name in beside if not name.startswith(".")))
 
 
 def like_file(path: Path) -> str:
     """Return "; did you mean 'NAME'?" with the entry beside `path` that is closest, or nothing."""
-    try:
-        beside = os.listdir(path.parent)
-    except OSError:
-        return ""
-    return did_you_mean(path.name, (name for name in beside if not name.startswith(".")))
+    close = close_file(path)
+    return f"; did you mean '{close}'?" if close else ""
+
+
+def check_file(path: Path, name: str = "") -> None:
+    """Raise BadInput where `path` is no file: reading a pipe would wait forever.
+
+    name: what the error calls it; empty: the path.
+    """
+    if path.is_file():
+        return
+    name = name or str(path)
+    if not path.exists():
+        raise BadInput(FILE_MISSING(file=name, close=close_file(path)))
+    raise BadInput(NOT_A_FILE(file=name, what="folder" if path.is_dir() else "special"))

@@ -8,8 +8,17 @@ from typing import Any
 
 import yaml
 
-from mrlab_ros.adapters.nearby import like_file
+from mrlab_ros.adapters.diagnostics import (
+    FILE_UNREADABLE,
+    KEY_TWICE,
+    NOT_OF_FORMAT,
+    NOT_UTF8,
+    YAML_ALIAS,
+    YAML_MAPPING,
+)
+from mrlab_ros.adapters.nearby import check_file
 from mrlab_ros.core.errors import BadInput
+from mrlab_ros.core.records import bad_value
 
 _Safe: Any = getattr(yaml, "CSafeLoader", yaml.SafeLoader)
 
@@ -32,21 +41,15 @@ class RosLoader(yaml.SafeLoader):
     def compose_node(self, parent: Any, index: Any) -> Any:
         if self.check_event(yaml.events.AliasEvent):
             event = self.peek_event()
-            raise yaml.composer.ComposerError(
-                None,
-                None,
-                f"*{event.anchor} is an alias, which ROS does not read; write the values out",
-                event.start_mark,
-            )
+            line = event.start_mark.line + 1
+            raise BadInput(YAML_ALIAS(line=line, alias=event.anchor))
         return super().compose_node(parent, index)
 
     def construct_mapping(self, node: Any, deep: bool = False) -> Any:
         seen = set()
         for key, _ in node.value:
             if isinstance(key, yaml.ScalarNode) and key.value in seen:
-                raise yaml.constructor.ConstructorError(
-                    None, None, f"'{key.value}' is there twice; write it once", key.start_mark
-                )
+                raise BadInput(KEY_TWICE(line=key.start_mark.line + 1, key=key.value))
             seen.add(key.value if isinstance(key, yaml.ScalarNode) else id(key))
         return super().construct_mapping(node, deep=deep)
 
@@ -68,12 +71,14 @@ def read_yaml(path: Path, *, empty: bool = False, loader: Any = Loader) -> dict[
     try:
         with path.open("rb") as file:
             content = yaml.load(file, Loader=loader)
+    except BadInput as error:
+        raise BadInput(FILE_UNREADABLE(file=str(path), why=error.diagnostic)) from None
     except (OSError, yaml.YAMLError) as error:
-        raise BadInput(f"{path} cannot be read: {error}; expected a YAML file") from None
+        raise BadInput(FILE_UNREADABLE(file=str(path), why=_reason(error))) from None
     if content is None and empty:
         return {}
     if not isinstance(content, dict):
-        raise BadInput(f"{path} holds {type(content).__name__}; expected a YAML mapping")
+        raise bad_value(str(path), content, YAML_MAPPING())
     return content
 
 
@@ -82,11 +87,7 @@ def read_with_lines(path: Path) -> tuple[object, dict[tuple[str | int, ...], int
 
     Raises BadInput where it is no YAML, or a key is there twice.
     """
-    if not path.is_file():
-        # Reading a pipe would wait for ever.
-        what = "a folder" if path.is_dir() else "no file" if path.exists() else "missing"
-        like = like_file(path) if what == "missing" else ""
-        raise BadInput(f"{path} cannot be read: it is {what}; expected a YAML file{like}")
+    check_file(path)
     lines: dict[tuple[str | int, ...], int] = {}
     seen: set[int] = set()
 
@@ -103,7 +104,7 @@ def read_with_lines(path: Path) -> tuple[object, dict[tuple[str | int, ...], int
             for key, each in node.value:
                 name, line = str(key.value), key.start_mark.line + 1
                 if (*keys, name) in lines:
-                    raise BadInput(f"{path}:{line}: '{name}' is there twice; write it once")
+                    raise BadInput(KEY_TWICE(file=str(path), line=line, key=name))
                 lines[(*keys, name)] = line
                 walk(each, (*keys, name))
 
@@ -113,12 +114,20 @@ def read_with_lines(path: Path) -> tuple[object, dict[tuple[str | int, ...], int
         walk(node, ())
         return yaml.load(text, Loader=Loader), lines
     except OSError as error:
-        raise BadInput(f"{path} cannot be read: {error.strerror}") from None
+        raise BadInput(FILE_UNREADABLE(file=str(path), why=_reason(error))) from None
     except UnicodeDecodeError:
-        raise BadInput(f"{path} is no text in UTF-8; expected a YAML file") from None
-    except yaml.MarkedYAMLError as error:
-        mark = error.problem_mark
-        where = f"{path}:{mark.line + 1}" if mark is not None else str(path)
-        raise BadInput(f"{where}: {error.problem}; expected YAML") from None
+        raise BadInput(NOT_UTF8(file=str(path))) from None
     except (yaml.YAMLError, ValueError, RecursionError) as error:
-        raise BadInput(f"{path} is no YAML: {error}") from None
+        raise not_yaml(str(path), error) from None
+
+
+def not_yaml(file: str, error: Exception) -> BadInput:
+    """Return the error for a file that YAML does not read, with the line where it is known."""
+    mark = getattr(error, "problem_mark", None)
+    why = getattr(error, "problem", None) or str(error)
+    line = mark.line + 1 if mark is not None else None
+    return BadInput(NOT_OF_FORMAT(file=file, line=line, format="YAML", why=why))
+
+
+def _reason(error: Exception) -> str:
+    return getattr(error, "strerror", None) or str(error)

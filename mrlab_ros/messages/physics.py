@@ -16,6 +16,7 @@ from mrlab_ros.core.clock import PlaybackClock
 from mrlab_ros.core.errors import BadInput
 from mrlab_ros.core.geometry import Pose, Vector, checked_vector
 from mrlab_ros.core.physics.catalogue import ObjectType
+from mrlab_ros.core.physics.diagnostics import SURFACE_HALF_TRIANGLE, SURFACE_WITHOUT_NAME
 from mrlab_ros.core.physics.engine import BodyState, Kind, Shape
 from mrlab_ros.core.physics.events import (
     CollisionChanged,
@@ -30,6 +31,7 @@ from mrlab_ros.core.physics.world_state import SceneObject
 from mrlab_ros.core.playback.states import State
 from mrlab_ros.core.scene.placement import Support, Thing, support_of
 from mrlab_ros.messages.poses import pose_from_message, pose_to_message
+from mrlab_ros.messages.texts import told
 from mrlab_ros.messages.time import make_header, time_from_message, time_to_message
 
 WORLD = "world"
@@ -118,7 +120,7 @@ def grasp_to_message(event: GraspChanged, fingers: list[str]) -> msg.Grasp:
         fingers=fingers,
         finger_positions=event.positions,
         finger_forces=event.forces,
-        reason=event.reason,
+        **told(event.reason, "reason"),
         **_load(event.load),
     )
 
@@ -148,7 +150,7 @@ def removed_to_message(event: ObjectRemoved) -> msg.ObjectRemoved:
         header=make_header(event.stamp_ns, WORLD),
         name=event.name,
         type=event.type,
-        reason=event.why,
+        reason=str(event.why),
     )
 
 
@@ -208,12 +210,9 @@ def surface_to_message(surface: Surface) -> msg.Surface:
 def surface_from_message(message: msg.Surface) -> Surface:
     """Return a surface; raise BadInput where it has no name or no whole triangles."""
     if len(message.triangles) % 3:
-        raise BadInput(
-            f"surface '{message.name}' has {len(message.triangles)} triangle indices; expected "
-            "three a triangle"
-        )
+        raise BadInput(SURFACE_HALF_TRIANGLE(surface=message.name, count=len(message.triangles)))
     if not message.name:
-        raise BadInput("a surface has no name; give each its own, such as table_1")
+        raise BadInput(SURFACE_WITHOUT_NAME())
     vertices = [(v.x, v.y, v.z) for v in message.vertices]
     return Surface(
         message.name,

@@ -14,7 +14,15 @@ from rclpy.node import Node
 from sensor_msgs.msg import JointState
 
 from mrlab_ros.adapters.robots.library import RobotLibrary
+from mrlab_ros.adapters.scenes.diagnostics import BAD_SCENE_NAME, NO_SCENE
 from mrlab_ros.adapters.scenes.files import read
+from mrlab_ros.core.base.diagnostics import NAME_TAKEN, NO_ROBOT_IN_SCENE, POSE_NOT_FINITE
+from mrlab_ros.core.physics.diagnostics import (
+    LET_GO,
+    NO_OBJECT_IN_SCENE,
+    NO_OBJECT_TYPE,
+    SURFACE_WITHOUT_NAME,
+)
 from mrlab_ros.core.trajectory.trajectory import Channels, Source, Trajectory
 from mrlab_ros.messages import qos, trajectories
 from mrlab_ros.nodes.coordinator.node import CoordinatorNode
@@ -229,21 +237,23 @@ def test_objects_come_and_go_by_service_and_bad_requests_are_refused_in_words(gr
     assert answer.success
     assert answer.object.mass == pytest.approx(0.1)
     wait_for(lambda: objects and [o.name for o in objects[-1].objects] == ["cube_1"], "a cube")
-    for kind, service, fields, says in (
-        (srv.SpawnObject, spawn_object, {"type": "cow"}, "no object 'cow'"),
-        (srv.SpawnObject, spawn_object, {"type": "cube", "pose": pose((np.nan, 0, 0))}, "finite"),
-        (srv.SpawnObject, spawn_object, {"type": "cube", "name": "cube_1"}, "taken"),
-        (srv.MoveObject, "/physics/move_object", {"name": "x", "pose": pose((0, 0, 0))}, "'x'"),
-        (srv.Remove, "/physics/remove_object", {"name": "x"}, "there are: cube_1"),
-        (srv.Attach, "/physics/attach", {"robot": "r", "object": "cube_1"}, "no robot 'r'"),
-        (srv.Detach, "/physics/detach", {"robot": "r"}, "no robot 'r'"),
-        (srv.SceneFile, "/lab/load_scene", {"name": "nothing"}, "there are: empty"),
-        (srv.SceneFile, "/lab/save_scene", {"name": "../x"}, "cannot name a scene"),
-        (srv.SetSurfaces, "/physics/set_surfaces", {"surfaces": [msg.Surface()]}, "no name"),
+    nowhere = {"type": "cube", "pose": pose((np.nan, 0, 0))}
+    unnamed = {"surfaces": [msg.Surface()]}
+    for kind, service, fields, code in (
+        (srv.SpawnObject, spawn_object, {"type": "cow"}, NO_OBJECT_TYPE),
+        (srv.SpawnObject, spawn_object, nowhere, POSE_NOT_FINITE),
+        (srv.SpawnObject, spawn_object, {"type": "cube", "name": "cube_1"}, NAME_TAKEN),
+        (srv.MoveObject, "/physics/move_object", {"name": "x"}, NO_OBJECT_IN_SCENE),
+        (srv.Remove, "/physics/remove_object", {"name": "x"}, NO_OBJECT_IN_SCENE),
+        (srv.Attach, "/physics/attach", {"robot": "r", "object": "cube_1"}, NO_ROBOT_IN_SCENE),
+        (srv.Detach, "/physics/detach", {"robot": "r"}, NO_ROBOT_IN_SCENE),
+        (srv.SceneFile, "/lab/load_scene", {"name": "nothing"}, NO_SCENE),
+        (srv.SceneFile, "/lab/save_scene", {"name": "../x"}, BAD_SCENE_NAME),
+        (srv.SetSurfaces, "/physics/set_surfaces", unnamed, SURFACE_WITHOUT_NAME),
     ):
         answer = graph.call(kind, service, **fields)
         assert not answer.success
-        assert says in answer.message
+        assert answer.code == code.code
     move(graph, "cube_1", (2, 2, 0.5), held=False, velocity=(0.0, 0.0, 1.0))
     wait_for(lambda: where(objects, "cube_1")[0] > 1.9, "the throw")
     assert graph.call(Trigger, "/physics/clear_objects").success
@@ -315,8 +325,11 @@ def test_a_robot_that_goes_while_it_holds_something_leaves_it_and_may_come_back(
     wait_for(lambda: [o.held_by for o in objects.last().objects] == [robot], "the holder")
     answer = graph.call(srv.SetEndEffector, "/lab/set_end_effector", robot=robot)
     assert answer.success, answer.message
-    said = f"{cube} was let go: {robot} was given another end effector"
-    wait_for(lambda: grasp.last().reason == said, "what was let go")
+    wait_for(lambda: grasp.last().code == LET_GO.code, "what was let go")
+    assert {value.key: value.value for value in grasp.last().values} == {
+        "object": cube,
+        "robot": robot,
+    }
     assert (grasp.last().state, grasp.last().object) == (msg.Grasp.OPEN, "")
     wait_for(lambda: [o.held_by for o in objects.last().objects] == [""], "the fall")
     other = place(graph, "cube", tool(0, 0.1), held=True)

@@ -11,8 +11,11 @@ from geometry_msgs.msg import Point, Pose, Quaternion
 from graph import Graph, wait_for
 from mrlab_msgs import msg, srv
 
+from mrlab_ros.core.base import diagnostics as base
+from mrlab_ros.core.physics import diagnostics as physics
 from mrlab_ros.messages import qos
 from mrlab_ros.nodes.lab.node import LabNode
+from mrlab_ros.nodes.physics import diagnostics as answers
 from mrlab_ros.nodes.physics.node import PhysicsNode
 from mrlab_ros.nodes.playback.host import PlaybackHostNode
 
@@ -62,7 +65,7 @@ def test_all_objects_and_surfaces_are_replaced_at_once(graph, lab):
     assert set_objects(graph, cube("old")).success
     answer = set_objects(graph, cube("a", 0.3), cube("b", 3.2, automatic=True), surfaces=[shelf()])
     assert answer.success, answer.message
-    assert answer.message == "2 objects and 1 surface are set"
+    assert answer.code == answers.CONTENTS_SET.code
     # Where the lab found a place for it: on the floor, beside nothing.
     assert answer.objects[1].pose.position.z == pytest.approx(0.0255, abs=0.001)
     assert not answer.objects[1].automatic
@@ -79,27 +82,27 @@ def test_a_dry_run_and_a_refusal_change_nothing(graph, lab):
     assert set_objects(graph, cube("old"), surfaces=[shelf()]).success
     before = get_objects(graph)
     answer = set_objects(graph, cube("a", 0.3), dry_run=True)
-    assert (answer.success, answer.message) == (True, "1 object and 0 surfaces can be set")
+    assert (answer.success, answer.code) == (True, answers.CONTENTS_FIT.code)
     crowd = [cube(f"c{i}", 0.1 * i) for i in range(33)]
-    for objects, surfaces, says in (
-        ([cube("a"), msg.ObjectPlacement(name="b", type="cow")], [], "no object 'cow'"),
-        ([cube("a"), cube("a")], [], "name 'a' is taken"),
-        ([cube("A")], [], "'A' cannot name an object"),
-        ([cube("a", 1e6)], [], "within ±100"),
-        ([cube("a", float("nan"))], [], "finite"),
-        (crowd, [], "33 objects are too many; expected 32 at most"),
-        ([cube("a")], [msg.Surface()], "no name"),
-        ([cube("a")], [shelf(), shelf()], "same name"),
+    for objects, surfaces, code in (
+        ([cube("a"), msg.ObjectPlacement(name="b", type="cow")], [], physics.NO_OBJECT_TYPE),
+        ([cube("a"), cube("a")], [], base.NAME_TAKEN),
+        ([cube("A")], [], base.BAD_NAME),
+        ([cube("a", 1e6)], [], base.BAD_VECTOR),
+        ([cube("a", float("nan"))], [], base.POSE_NOT_FINITE),
+        (crowd, [], answers.TOO_MANY_OBJECTS),
+        ([cube("a")], [msg.Surface()], physics.SURFACE_WITHOUT_NAME),
+        ([cube("a")], [shelf(), shelf()], physics.SURFACES_OF_ONE_NAME),
         (
             [msg.ObjectPlacement(name="a", type="table", held_by="r", in_hand=pose(0, 0, 0))],
             [],
-            "r cannot hold a: it is fixed to the room",
+            answers.CANNOT_HOLD_FIXED,
         ),
     ):
         for dry_run in (True, False):
             answer = set_objects(graph, *objects, surfaces=surfaces, dry_run=dry_run)
             assert not answer.success
-            assert says in answer.message, answer.message
+            assert answer.code == code.code, answer.message
     now = get_objects(graph)
     assert (names(now.objects), names(now.surfaces)) == (
         names(before.objects),

@@ -18,11 +18,17 @@ from typing import Any
 import pybullet
 
 from mrlab_ros.adapters.bullet.description import Description
+from mrlab_ros.adapters.bullet.diagnostics import NO_LINK, NOT_IN_WORLD
 from mrlab_ros.adapters.bullet.fingers import Fingers
 from mrlab_ros.adapters.bullet.loaded_arm import LoadedArm
 from mrlab_ros.adapters.bullet.shapes import NEUTRAL, STATIC_GROUP
 from mrlab_ros.core.errors import BadInput, Misuse
 from mrlab_ros.core.geometry import Pose, Vector, add, cross, subtract
+from mrlab_ros.core.physics.diagnostics import (
+    ALREADY_IN_WORLD,
+    JOINT_STATE_BEYOND,
+    JOINT_STATE_SIZE,
+)
 from mrlab_ros.core.physics.engine import BodyState, LinkPairs
 from mrlab_ros.core.physics.grasp_load import PAD_FRICTION
 
@@ -52,7 +58,7 @@ class Arms:
         try:
             return self._arms[name]
         except KeyError:
-            raise Misuse(f"physics has no arm '{name}'; add it first") from None
+            raise Misuse(NOT_IN_WORLD(name=name)) from None
 
     def __contains__(self, name: str) -> bool:
         return name in self._arms
@@ -68,7 +74,7 @@ class Arms:
         apart: pairs of its links that never touch, though their shapes may.
         """
         if name in self._arms:
-            raise Misuse(f"arm '{name}' is in the world already; remove it first")
+            raise Misuse(ALREADY_IN_WORLD(name=name))
         made_of = (text, joints, apart)
         parked = next((arm for arm in self._parked if arm.made_of == made_of), None)
         if parked is not None:
@@ -78,7 +84,7 @@ class Arms:
             parked.positions = [0.0] * len(joints)
             self.place(name, pose)
             return parked
-        description = Description(text, joints, f"the description of {name}")
+        description = Description(text, joints, name)
         body = self._load(description.text(self._resolve), pose)
         links, joint_index = {-1: description.base}, {}
         for i in range(self._call(pybullet.getNumJoints, body)):
@@ -217,15 +223,18 @@ class Arms:
 
     def move(self, name: str, positions: Sequence[float], velocities: Sequence[float]) -> None:
         arm = self[name]
-        if len(positions) != len(arm.joints) or len(velocities) != len(arm.joints):
+        if not len(positions) == len(velocities) == len(arm.joints):
             raise BadInput(
-                f"{len(positions)} joint positions for {name}; expected {len(arm.joints)}"
+                JOINT_STATE_SIZE(
+                    robot=name,
+                    positions=len(positions),
+                    velocities=len(velocities),
+                    joints=len(arm.joints),
+                )
             )
         # A sum is finite where all of it is, and a NaN or an infinity stays in it.
         if not math.isfinite(sum(positions) + sum(velocities)):
-            raise BadInput(
-                f"the joint state of {name} is not finite: {list(positions)}, {list(velocities)}"
-            )
+            raise BadInput(JOINT_STATE_BEYOND(robot=name))
         arm.positions = positions
         pybullet.resetJointStatesMultiDof(
             arm.body,
@@ -245,7 +254,7 @@ class Arms:
     def link(self, name: str, link: str) -> BodyState:
         arm = self[name]
         if link not in arm.index:
-            raise Misuse(f"{name} has no link '{link}'; its links: {', '.join(arm.index)}")
+            raise Misuse(NO_LINK(robot=name, link=link, known=[*arm.index]))
         if arm.index[link] < 0:
             at = self._call(pybullet.getBasePositionAndOrientation, arm.body)
             return BodyState(Pose(*at))

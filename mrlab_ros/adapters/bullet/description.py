@@ -9,6 +9,7 @@ from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 
+from mrlab_ros.adapters.bullet.diagnostics import NO_COLLISION_MESH, NO_MOVING_JOINT, ROOT_LINKS
 from mrlab_ros.adapters.robots import urdf
 from mrlab_ros.core.errors import BadInput
 from mrlab_ros.core.geometry import Vector
@@ -28,21 +29,19 @@ class Description:
     joints: the prescribed ones, in order. Raises BadInput where the description lacks one.
     """
 
-    def __init__(self, text: str, joints: tuple[str, ...], origin: str) -> None:
+    def __init__(self, text: str, joints: tuple[str, ...], robot: str) -> None:
+        origin = f"the description of {robot}"
         self._root = urdf.parse(text, origin)
         everything = urdf.joints(self._root, origin)
         named = {joint.name: joint for joint in everything}
         missing = [name for name in joints if name not in named or not named[name].moves]
         if missing:
-            raise BadInput(
-                f"{origin} has no moving joint {', '.join(missing)}; its joints: "
-                f"{', '.join(named)}"
-            )
+            raise BadInput(NO_MOVING_JOINT(robot=robot, missing=missing, known=[*named]))
         children = {joint.child for joint in everything}
         links = [str(link.get("name")) for link in self._root.iterfind("link")]
         roots = [link for link in links if link not in children]
         if len(roots) != 1:
-            raise BadInput(f"{origin} has the root links {', '.join(roots)}; expected one")
+            raise BadInput(ROOT_LINKS(robot=robot, links=roots))
         self.base = roots[0]
         self._by_name, self._prescribed = named, joints
         self.links = links
@@ -179,9 +178,9 @@ class Description:
                 path = resolve(uri)
                 if path.suffix.lower() not in MESH_FORMATS or not path.is_file():
                     raise BadInput(
-                        f"the collision mesh {uri} of link '{link.get('name')}' is missing or of "
-                        f"no format that physics reads ({', '.join(MESH_FORMATS)}); generate the "
-                        "robot's meshes again"
+                        NO_COLLISION_MESH(
+                            mesh=uri, link=link.get("name", ""), formats=[*MESH_FORMATS]
+                        )
                     )
                 mesh.set("filename", os.fspath(path))
         return ET.tostring(self._root, encoding="unicode")

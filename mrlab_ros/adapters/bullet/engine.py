@@ -14,12 +14,14 @@ import pybullet
 
 from mrlab_ros.adapters.bullet.arms import OBJECT_GROUP, Arms
 from mrlab_ros.adapters.bullet.contacts import Contacts
+from mrlab_ros.adapters.bullet.diagnostics import BAD_STEP, WORLDS_FULL
 from mrlab_ros.adapters.bullet.fingers import Fingers
 from mrlab_ros.adapters.bullet.holding import Holding
 from mrlab_ros.adapters.bullet.objects import Objects
 from mrlab_ros.adapters.bullet.shapes import STATIC_GROUP, make_body, make_shape
 from mrlab_ros.core.errors import BadInput, Misuse
 from mrlab_ros.core.geometry import Pose, Vector, compose
+from mrlab_ros.core.physics.diagnostics import ALREADY_IN_WORLD
 from mrlab_ros.core.physics.engine import (
     IDENTITY,
     Arm,
@@ -49,7 +51,7 @@ class BulletEngine:
     def __init__(self, resolve: Callable[[str], Path], gravity: float = GRAVITY) -> None:
         self._client = pybullet.connect(pybullet.DIRECT)
         if self._client < 0:
-            raise Misuse("pybullet has no room for another world; close one first")
+            raise Misuse(WORLDS_FULL())
         self._duration = math.nan
         pybullet.setPhysicsEngineParameter(
             numSolverIterations=SOLVER_ITERATIONS,
@@ -179,7 +181,7 @@ class BulletEngine:
 
     def add_surface(self, name: str, body: Body, pose: Pose) -> None:
         if name in self._surfaces:
-            raise Misuse(f"surface '{name}' is in the world already; remove it first")
+            raise Misuse(ALREADY_IN_WORLD(name=name))
         if len(body.parts) == 1:
             # A shape that is not centred is a compound, which is slower in every step.
             (part,) = body.parts
@@ -244,7 +246,7 @@ class BulletEngine:
     def step(self, duration: float) -> None:
         if duration != self._duration:
             if not 1e-5 <= duration <= 0.1:
-                raise BadInput(f"a step of {duration} s; expected 1e-5 to 0.1 s")
+                raise BadInput(BAD_STEP(step=duration))
             self._duration = duration
             pybullet.setTimeStep(duration, self._client)
         if self._holding.held:

@@ -10,6 +10,7 @@ from typing import Any
 import pybullet
 
 from mrlab_ros.adapters.bullet.description import Description
+from mrlab_ros.adapters.bullet.diagnostics import BAD_FINGERS, FINGER_BEYOND
 from mrlab_ros.adapters.bullet.loaded_arm import LoadedArm, Way
 from mrlab_ros.core.errors import BadInput
 from mrlab_ros.core.geometry import Quaternion, Vector, add, cross, dot, rotate, scale, subtract
@@ -87,9 +88,7 @@ class Fingers:
     def drive(self, name: str, arm: LoadedArm, velocities: Sequence[float]) -> None:
         """Drive fingers at `velocities`, m/s or rad/s; raise BadInput where they do not fit."""
         if len(velocities) != len(arm.fingers) or not all(map(math.isfinite, velocities)):
-            raise BadInput(
-                f"finger velocities {list(velocities)} for {name}; expected {len(arm.fingers)}"
-            )
+            raise BadInput(BAD_FINGERS(robot=name, found=[*velocities], count=len(arm.fingers)))
         if arm.fingers:
             self._call(
                 pybullet.setJointMotorControlArray,
@@ -105,8 +104,9 @@ class Fingers:
         for joint, finger, position in zip(arm.fingers, arm.facts.fingers, positions, strict=True):
             if not finger.lower - 1e-3 <= position <= finger.upper + 1e-3:
                 raise BadInput(
-                    f"finger {finger.joint} at {position}; expected {finger.lower} to "
-                    f"{finger.upper}"
+                    FINGER_BEYOND(
+                        finger=finger.joint, position=position, low=finger.lower, high=finger.upper
+                    )
                 )
             self._call(pybullet.resetJointState, arm.body, joint, position, 0.0)
 

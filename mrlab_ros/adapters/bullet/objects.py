@@ -11,9 +11,11 @@ import math
 
 import pybullet
 
+from mrlab_ros.adapters.bullet.diagnostics import NO_SPEED, NOT_IN_WORLD
 from mrlab_ros.adapters.bullet.shapes import STATIC_GROUP, least, make_body, make_shape
 from mrlab_ros.core.errors import BadInput, Misuse
 from mrlab_ros.core.geometry import Pose, Vector, dot, scale, subtract
+from mrlab_ros.core.physics.diagnostics import ALREADY_IN_WORLD
 from mrlab_ros.core.physics.engine import Body, BodyState
 
 # An object slower than this, m/s and rad/s, for two seconds (fixed in Bullet) falls asleep.
@@ -52,12 +54,12 @@ class Objects:
         try:
             return self._bodies[name]
         except KeyError:
-            raise Misuse(f"physics has no object '{name}'; spawn it first") from None
+            raise Misuse(NOT_IN_WORLD(name=name)) from None
 
     def add(self, name: str, body: Body, motion: BodyState) -> int:
         """Put an object into the world; return Bullet's number of it."""
         if name in self._bodies:
-            raise Misuse(f"object '{name}' is in the world already; remove it first")
+            raise Misuse(ALREADY_IN_WORLD(name=name))
         _check(name, motion)
         made = self._make_weighted(body, motion.pose)
         self._bodies[name] = made
@@ -273,4 +275,4 @@ class Objects:
 def _check(name: str, motion: BodyState) -> None:
     velocities = motion.linear + motion.angular
     if not all(abs(v) <= MAX_SPEED for v in velocities):
-        raise BadInput(f"the velocity {velocities} of {name} is no speed; expected m/s, rad/s")
+        raise BadInput(NO_SPEED(object=name, found=[*velocities]))

@@ -8,6 +8,14 @@ from typing import Any
 import numpy as np
 import pybullet
 
+from mrlab_ros.adapters.bullet.diagnostics import (
+    BAD_BODY,
+    BAD_MESH,
+    BAD_SIZE,
+    HOLLOW_MESH,
+    MESH_NO_VERTEX,
+    NO_SHAPE,
+)
 from mrlab_ros.core.errors import BadInput
 from mrlab_ros.core.geometry import Array, Pose
 from mrlab_ros.core.physics.engine import Body, Part, Shape
@@ -31,7 +39,7 @@ def make_shape(client: int, body: Body) -> int:
     pybullet keeps a shape for as long as its world lives.
     """
     if not (math.isfinite(body.mass) and body.mass >= 0 and body.parts):
-        raise BadInput(f"a body of {body.mass} kg with {len(body.parts)} parts; expected one")
+        raise BadInput(BAD_BODY(mass=body.mass, parts=len(body.parts)))
     static = body.mass == 0
     parts = [_shape(part, static) for part in body.parts]
     centred = parts[0]["collisionFramePosition"] == (0.0, 0.0, 0.0)
@@ -42,7 +50,7 @@ def make_shape(client: int, body: Body) -> int:
     else:
         shape = _compound(client, parts)
     if shape < 0:
-        raise BadInput("pybullet made no shape of a body; check the sizes of its parts")
+        raise BadInput(NO_SHAPE())
     return shape
 
 
@@ -118,9 +126,7 @@ def _shape(part: Part, static: bool) -> dict[str, Any]:
     """Return the arguments of createCollisionShape; raise BadInput where the part is no shape."""
     size, count = part.size, NUMBERS.get(part.shape, 0)
     if len(size) != count or not all(1e-4 <= s <= 1000 for s in size):
-        raise BadInput(
-            f"a {part.shape.value} of size {size} m; expected {count} numbers of 0.0001 to 1000"
-        )
+        raise BadInput(BAD_SIZE(shape=part.shape.value, size=[*size], count=count))
     result: dict[str, Any] = {
         "collisionFramePosition": part.pose.position,
         "collisionFrameOrientation": part.pose.orientation,
@@ -139,15 +145,15 @@ def _shape(part: Part, static: bool) -> dict[str, Any]:
 def _mesh(part: Part, static: bool) -> dict[str, Any]:
     vertices, triangles = part.vertices, part.triangles
     if vertices is None or len(vertices) < 3 or not np.isfinite(vertices).all():
-        raise BadInput("a mesh without at least three finite vertices; expected (V, 3) m")
+        raise BadInput(BAD_MESH())
     if part.shape is Shape.HULL:
         return {"shapeType": pybullet.GEOM_MESH, "vertices": _within_margin(vertices).tolist()}
     if not static:
-        raise BadInput("a hollow mesh cannot move; make it of convex parts")
+        raise BadInput(HOLLOW_MESH())
     if triangles is None or not (
         len(triangles) and triangles.min() >= 0 and triangles.max() < len(vertices)
     ):
-        raise BadInput("a mesh whose triangles name vertices it does not have")
+        raise BadInput(MESH_NO_VERTEX())
     return {
         "shapeType": pybullet.GEOM_MESH,
         "vertices": vertices.tolist(),

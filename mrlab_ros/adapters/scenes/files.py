@@ -11,11 +11,13 @@ from pathlib import Path
 
 import yaml
 
-from mrlab_ros.adapters.nearby import like_file
+from mrlab_ros.adapters.diagnostics import FILE_UNREADABLE, FILE_UNWRITABLE, NOT_OF_FORMAT
+from mrlab_ros.adapters.nearby import check_file
+from mrlab_ros.adapters.scenes.diagnostics import BAD_SCENE_NAME, NO_SCENE
 from mrlab_ros.adapters.whole_file import replaced
-from mrlab_ros.adapters.yaml_files import Loader
+from mrlab_ros.adapters.yaml_files import Loader, not_yaml
 from mrlab_ros.core.errors import BadInput
-from mrlab_ros.core.naming import NAME, did_you_mean
+from mrlab_ros.core.naming import NAME, close_to
 from mrlab_ros.core.scene import document as scene_document
 from mrlab_ros.core.scene.document import SceneDocument
 
@@ -42,9 +44,7 @@ class SceneFiles:
             if os.path.lexists(path):
                 return read(path)
         known = self.names()
-        raise BadInput(
-            f"there is no scene '{name}'; there are: {', '.join(known)}{did_you_mean(name, known)}"
-        )
+        raise BadInput(NO_SCENE(scene=name, known=[*known], close=close_to(name, known)))
 
     def save(self, name: str, scene: SceneDocument) -> Path:
         """Write a scene as a whole: a reader sees the old file or the new one.
@@ -56,7 +56,8 @@ class SceneFiles:
         try:
             write(path, scene)
         except OSError as error:
-            raise BadInput(f"{path} cannot be written: {error.strerror}") from None
+            why = error.strerror or str(error)
+            raise BadInput(FILE_UNWRITABLE(file=str(path), why=why)) from None
         return path
 
 
@@ -67,22 +68,20 @@ def read(path: Path) -> SceneDocument:
 
 def content(path: Path) -> object:
     """Return what a YAML or JSON file holds; raise BadInput where it is not one."""
-    if not path.is_file():
-        # Reading a pipe would wait for ever.
-        what = "a folder" if path.is_dir() else "no file" if path.exists() else "missing"
-        like = like_file(path) if what == "missing" else ""
-        raise BadInput(f"{path.name} cannot be read: it is {what}{like}")
+    check_file(path, path.name)
     try:
         data = path.read_bytes()
         as_json = path.suffix == ".json"
         return json.loads(data) if as_json else yaml.load(data, Loader=Loader)
     except OSError as error:
-        raise BadInput(f"{path.name} cannot be read: {error.strerror}") from None
+        why = error.strerror or str(error)
+        raise BadInput(FILE_UNREADABLE(file=path.name, why=why)) from None
     except (ValueError, yaml.YAMLError, RecursionError) as error:
-        kind = "JSON" if path.suffix == ".json" else "YAML"
-        # Marks of the parser name what it read, which is no file to it.
-        found = " ".join(str(error).split()).replace('in "<byte string>", ', "in ")
-        raise BadInput(f"{path.name} is not {kind}: {found}") from None
+        if path.suffix != ".json":
+            raise not_yaml(path.name, error) from None
+        line = getattr(error, "lineno", None)
+        why = getattr(error, "msg", None) or str(error)
+        raise BadInput(NOT_OF_FORMAT(file=path.name, line=line, format="JSON", why=why)) from None
 
 
 def write(path: Path, scene: SceneDocument) -> None:
@@ -100,7 +99,4 @@ def write(path: Path, scene: SceneDocument) -> None:
 
 def _check(name: str) -> None:
     if not NAME.fullmatch(name):
-        raise BadInput(
-            f"'{name}' cannot name a scene; expected lower-case letters, digits and underscores, "
-            "such as class_3"
-        )
+        raise BadInput(BAD_SCENE_NAME(name=name))

@@ -7,6 +7,14 @@ from typing import Any
 
 import numpy as np
 
+from mrlab_ros.adapters.scenes.diagnostics import (
+    OBJECT_MESH_EMPTY,
+    OBJECT_MESH_MISSING,
+    OBJECT_MESH_SIZE,
+    OBJECT_MESH_TOO_FINE,
+    OBJECT_MESH_UNREADABLE,
+    OBJECT_MESH_URI,
+)
 from mrlab_ros.core.errors import BadInput
 from mrlab_ros.core.physics.catalogue import Mesh
 
@@ -26,12 +34,9 @@ class ObjectMeshes:
         """Return where a mesh is; raise BadInput where there is none of a known format."""
         path = (self._root / uri.removeprefix(PREFIX)).resolve()
         if not uri.startswith(PREFIX) or path.suffix.lower() not in FORMATS:
-            raise BadInput(
-                f"the mesh is '{uri}'; expected a URI that begins with {PREFIX} and ends with "
-                f"{', '.join(FORMATS)}"
-            )
+            raise BadInput(OBJECT_MESH_URI(mesh=uri, prefix=PREFIX, formats=[*FORMATS]))
         if not path.is_file():
-            raise BadInput(f"the mesh {uri} does not exist; put it at {path}, or correct the URI")
+            raise BadInput(OBJECT_MESH_MISSING(mesh=uri, path=str(path)))
         return path
 
     def read(self, uri: str) -> Mesh:
@@ -47,20 +52,16 @@ class ObjectMeshes:
         try:
             mesh: Any = trimesh.load(path, force="mesh", process=False)
         except Exception as error:  # trimesh raises what its parsers happen to raise
-            raise BadInput(f"the mesh {uri} cannot be read: {error}; export it again") from None
+            raise BadInput(OBJECT_MESH_UNREADABLE(mesh=uri, why=str(error))) from None
         vertices = np.array(mesh.vertices, dtype=np.float64)
         triangles = np.array(mesh.faces, dtype=np.int32)
         if len(triangles) > self._max_triangles:
-            raise BadInput(
-                f"the mesh {uri} has {len(triangles)} triangles; expected {self._max_triangles} "
-                "at most: simplify it, in Blender with the modifier Decimate"
-            )
+            most = self._max_triangles
+            raise BadInput(OBJECT_MESH_TOO_FINE(mesh=uri, count=len(triangles), most=most))
         if not len(triangles) or not np.isfinite(vertices).all():
-            raise BadInput(f"the mesh {uri} has no triangles, or a vertex that is not finite")
+            raise BadInput(OBJECT_MESH_EMPTY(mesh=uri))
         size = float(np.ptp(vertices, axis=0).max())
-        if not SIZE_RANGE[0] <= size <= SIZE_RANGE[1]:
-            raise BadInput(
-                f"the mesh {uri} measures {size:g} m; expected {SIZE_RANGE[0]:g} to "
-                f"{SIZE_RANGE[1]:g} m: export it in metres"
-            )
+        low, high = SIZE_RANGE
+        if not low <= size <= high:
+            raise BadInput(OBJECT_MESH_SIZE(mesh=uri, size=size, low=low, high=high))
         return Mesh(vertices, triangles)

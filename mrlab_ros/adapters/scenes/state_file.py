@@ -8,6 +8,7 @@ import os
 from collections.abc import Callable
 from pathlib import Path
 
+from mrlab_ros.adapters.diagnostics import NO_ROOM_ON_DISK
 from mrlab_ros.adapters.scenes import files
 from mrlab_ros.adapters.set_aside import set_aside
 from mrlab_ros.core.errors import BadInput, LabError
@@ -48,16 +49,16 @@ class StateFile:
                 files.content(path), path.name, whole=self._whole
             )
         except BadInput as error:
-            self._log(f"{error}. {set_aside(path)}; the lab starts without it")
+            self._log(f"{error} {set_aside(path)}; the lab starts without it")
             return None
         if mistakes:
-            self.keep_copy(f"left out of {path}: {'; '.join(map(str, mistakes))}")
+            self.keep_copy(f"left out of {path}: {' '.join(map(str, mistakes))}")
         return scene
 
     def keep_copy(self, why: str) -> None:
         """Log why a part of the file is left out; copy it, as the next save() replaces it."""
         if self._path is not None:
-            self._log(f"{why}. {set_aside(self._path, copy=True)}")
+            self._log(f"{why.rstrip('.')}. {set_aside(self._path, copy=True)}")
 
     def check_room(self) -> None:
         """Raise LabError where the disk has no room for the next save(); nothing is changed.
@@ -75,10 +76,8 @@ class StateFile:
                 os.posix_fallocate(file.fileno(), 0, 2 * size + ROOM)
         except OSError as error:
             if error.errno in FULL:
-                raise LabError(
-                    f"{path.parent} cannot be written ({error.strerror}), so nothing was "
-                    "changed; make room there, then try again"
-                ) from None
+                why = error.strerror or str(error)
+                raise LabError(NO_ROOM_ON_DISK(folder=str(path.parent), why=why)) from None
         finally:
             with contextlib.suppress(OSError):
                 probe.unlink()

@@ -193,6 +193,12 @@ NAME_TAKEN = Code(
     "Choose another or leave it empty.",
     meaning="A name that something else in the scene has.",
 )
+NO_ROBOT_IN_SCENE = Code(
+    "no_robot_in_scene",
+    "No robot {robot} is in the scene[; there are: {known:list}].",
+    "[Did you mean '{close}'?]",
+    meaning="A robot was named that the scene does not have.",
+)
 ILLEGAL_EVENT = Code(
     "illegal_event",
     "cannot {event} in {state}[; {reason:problem}][; possible now: {possible:list}]",

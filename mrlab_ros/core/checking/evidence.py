@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable
 from dataclasses import dataclass, replace
 
-from mrlab_ros.core.base.diagnostic import Severity
+from mrlab_ros.core.base.diagnostic import Diagnostic, Severity
 from mrlab_ros.core.checking.findings import Finding
 from mrlab_ros.core.checking.recording import Collision, GraspChange, Rehearsed
 from mrlab_ros.core.checking.rehearsal import FARTHEST
@@ -175,7 +175,7 @@ def of_grasps(recorded: Rehearsed, objects: Iterable[str]) -> list[Finding]:
                 found.append(
                     Finding(
                         "grasp", Severity.WARNING,
-                        f"{change.object} in the gripper: {change.reason}.",
+                        f"{change.object} in the gripper{_because(change.reason)}.",
                         "Move more gently there, or grasp it nearer to its centre of mass.",
                         change.robot, "", change.time,
                     )
@@ -190,14 +190,15 @@ def of_grasps(recorded: Rehearsed, objects: Iterable[str]) -> list[Finding]:
             found.append(
                 Finding(
                     "loses_object", Severity.ERROR,
-                    f"It loses {before}{f': {change.reason}' if change.reason else ''}.",
+                    f"It loses {before}{_because(change.reason)}.",
                     "Grasp it nearer to its centre of mass, move more gently, or take a stronger "
                     "gripper.",
                     change.robot, "", change.time,
                 )
             )  # fmt: skip
         elif change.state is Grasp.EMPTY and some:
-            why, remedy = change.reason, "the distances say how far it was away."
+            why = str(change.reason or "").rstrip(".")
+            remedy = "the distances say how far it was away."
             giver = _last_let_go(recorded, change)
             if giver is not None:
                 ago = change.time - giver.time
@@ -218,6 +219,10 @@ def of_grasps(recorded: Rehearsed, objects: Iterable[str]) -> list[Finding]:
         elif change.state is Grasp.OPEN:
             held.pop(change.robot, None)
     return found
+
+
+def _because(reason: Diagnostic | None) -> str:
+    return f": {reason}".rstrip(".") if reason is not None else ""
 
 
 def _taken(recorded: Rehearsed, lost: GraspChange, thing: str) -> bool:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 
+from mrlab_ros.core.base.diagnostic import Diagnostic
 from mrlab_ros.core.geometry import Vector
 from mrlab_ros.core.physics.engine import Kind, Near
 from mrlab_ros.core.physics.grasp import Grasp
@@ -33,13 +34,13 @@ class Collision:
 
 @dataclass(frozen=True)
 class GraspChange:
-    """What became of a gripper at a time, s. reason: why, empty: nothing is to be said."""
+    """What became of a gripper at a time, s. reason: why, None: nothing is to be said."""
 
     time: float
     robot: str
     state: Grasp
     object: str
-    reason: str = ""
+    reason: Diagnostic | None = None
     load: Load | None = None
 
 

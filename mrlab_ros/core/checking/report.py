@@ -101,7 +101,7 @@ class CheckReport:
                         "robot": g.robot,
                         "state": g.state.name.lower(),
                         "object": g.object,
-                        "reason": g.reason,
+                        "reason": str(g.reason or ""),
                         "mass": g.load.mass if g.load else None,
                     }
                     for g in self.grasps

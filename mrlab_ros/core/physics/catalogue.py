@@ -20,7 +20,16 @@ from mrlab_ros.core.geometry import (
     rotate,
     subtract,
 )
-from mrlab_ros.core.naming import did_you_mean
+from mrlab_ros.core.naming import close_to
+from mrlab_ros.core.physics.diagnostics import (
+    CATALOGUE,
+    FIXED_WITH_MASS,
+    MASS_OR_FIXED,
+    NO_OBJECT_TYPE,
+    OBJECT_ENTRY,
+    OBJECT_ID,
+    SHAPE_AND_PARTS,
+)
 from mrlab_ros.core.physics.engine import IDENTITY, Body, Part, Shape
 from mrlab_ros.core.records import (
     FLAG,
@@ -30,6 +39,7 @@ from mrlab_ros.core.records import (
     Number,
     Numbers,
     Record,
+    Words,
     between,
     checked,
     every,
@@ -48,7 +58,15 @@ SIZES = {
 }
 POSITION = Numbers(3, between(-5.0, 5.0), "m")
 ANGLES = Numbers(3, between(-360.0, 360.0), "degrees: roll, pitch, yaw")
-MASS = Number(between(0.001, 500.0), "kg; an object that never moves has fixed: true instead")
+
+
+class _Mass(Number):
+    @property
+    def expected(self) -> Words:
+        return MASS_OR_FIXED(limits=self.limits.words)
+
+
+MASS = _Mass(between(0.001, 500.0), "kg")
 FRICTION = Number(between(0.0, 5.0))
 RESTITUTION = Number(between(0.0, 1.0))
 COLOR = Numbers(4, between(0.0, 1.0), "red, green, blue, alpha")
@@ -119,9 +137,9 @@ class Catalogue:
         try:
             return self._types[type_id]
         except KeyError:
+            close = close_to(type_id, self._types)
             raise BadInput(
-                f"there is no object '{type_id}' in the catalogue; there are: "
-                f"{', '.join(self._types)}{did_you_mean(type_id, self._types)}"
+                NO_OBJECT_TYPE(type=type_id, known=[*self._types], close=close)
             ) from None
 
 
@@ -131,23 +149,23 @@ def parse(document: object, meshes: Meshes | None = None) -> Catalogue:
     A mesh that collides is read; a mesh for displays alone must only exist. Without `meshes` no
     mesh is checked, and none can collide. Raises BadInput that names all mistakes.
     """
-    place = "the catalogue of objects"
+    place = CATALOGUE()
     entries = Record(document, place, ("objects",)).mapping("objects")
     types = every(lambda entry: _type(*entry, meshes), entries.items(), place)
     return Catalogue({kind.id: kind for kind in types})
 
 
 def _type(name: object, value: object, meshes: Meshes | None) -> ObjectType:
-    type_id = checked("an object's id in the catalogue", name, NAME)
-    entry = Record(value, f"object '{type_id}'", FIELDS)
+    type_id = checked(OBJECT_ID(), name, NAME)
+    entry = Record(value, OBJECT_ENTRY(object=type_id), FIELDS)
     fixed = entry.value("fixed", FLAG, False)
     if fixed and entry.value("mass", Number(), 0.0):
-        raise entry.error("fixed is true and a mass is given; leave one of the two out")
+        raise entry.error(FIXED_WITH_MASS())
     mass = 0.0 if fixed else entry.required("mass", MASS)
     uri = entry.value("mesh", TEXT, "")
     described = entry.records("parts", PART_FIELDS, "part")
     if "shape" in entry and described:
-        raise entry.error("it has a shape and parts; leave one of the two out")
+        raise entry.error(SHAPE_AND_PARTS())
     if uri and meshes is not None and "shape" not in entry and not described:
         parts = [_of_mesh(meshes.read(uri), fixed)]
     else:

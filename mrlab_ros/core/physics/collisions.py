@@ -7,7 +7,6 @@ from collections.abc import Iterator, Sequence
 
 import numpy as np
 
-from mrlab_ros.core.errors import BadInput
 from mrlab_ros.core.geometry import Pose, add
 from mrlab_ros.core.physics import contact_rules
 from mrlab_ros.core.physics import surfaces as rooms
@@ -143,8 +142,7 @@ class Collisions:
         if source:
             new = rooms.of_source(source, new, self._world_state.surfaces)
         wanted = {surface.name: surface for surface in new}
-        if len(wanted) != len(new):
-            raise BadInput("two surfaces have the same name; give each its own")
+        rooms.check_names(new)
         if not any(surface.label == rooms.FLOOR for surface in new):
             wanted.setdefault(rooms.FLOOR, rooms.floor())
         most = self._world_state.settings.max_triangles

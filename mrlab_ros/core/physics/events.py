@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+from mrlab_ros.core.base.diagnostic import Diagnostic
 from mrlab_ros.core.physics.engine import Touch
 from mrlab_ros.core.physics.grasp import Grasp
 from mrlab_ros.core.physics.grasp_load import Load
@@ -34,7 +35,7 @@ class CollisionChanged:
 class GraspChanged:
     """State of a gripper. positions, forces: of the fingers, in the arm's order.
 
-    reason: what is to be said of it, empty: nothing. load: what the grasp bears, None unless it is
+    reason: what is to be said of it, None: nothing. load: what the grasp bears, None unless it is
     known.
     """
 
@@ -44,7 +45,7 @@ class GraspChanged:
     object: str
     positions: tuple[float, ...]
     forces: tuple[float, ...]
-    reason: str = ""
+    reason: Diagnostic | None = None
     load: Load | None = None
 
 
@@ -62,7 +63,7 @@ class ObjectRemoved:
     stamp_ns: int
     name: str
     type: str
-    why: str
+    why: Diagnostic
 
 
 Event = CollisionChanged | GraspChanged | LoadChanged | ObjectRemoved

@@ -12,7 +12,9 @@ import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 
+from mrlab_ros.core.base.diagnostic import Diagnostic
 from mrlab_ros.core.geometry import Vector, add, cross, dot, rotate, scale, subtract
+from mrlab_ros.core.physics.diagnostics import OVER_PAYLOAD, SLIPS
 from mrlab_ros.core.physics.engine import BodyState
 
 GRAVITY: Vector = (0.0, 0.0, -9.80665)  # m/s^2, the standard value
@@ -155,19 +157,13 @@ def _wrist_moment(tool0: Vector, thing: BodyState, mass: float) -> float:
     return _length(cross(subtract(thing.pose.position, tool0), scale(GRAVITY, mass)))
 
 
-def remark(load: Load, holder: str) -> str:
-    """Return what is to be said of a load; empty: nothing."""
+def remark(load: Load, holder: str) -> Diagnostic | None:
+    """Return what is to be said of a load; None: nothing."""
     if load.slip_margin < 0:
-        return (
-            f"it slips: holding {load.mass:.3g} kg needs a friction of "
-            f"{load.friction_needed:.2f}, there is {load.friction:.2f}"
-        )
+        return SLIPS(mass=load.mass, friction=load.friction, friction_needed=load.friction_needed)
     if 0 < load.payload < load.mass:
-        return (
-            f"{load.mass:.3g} kg is more than the {load.payload:.3g} kg that {holder} may carry "
-            "with this end effector"
-        )
-    return ""
+        return OVER_PAYLOAD(robot=holder, mass=load.mass, payload=load.payload)
+    return None
 
 
 def _common(axes: Sequence[Vector]) -> tuple[Vector, bool]:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 
+from mrlab_ros.core.base.diagnostic import Diagnostic
 from mrlab_ros.core.clock import SECOND
 from mrlab_ros.core.errors import Misuse
 from mrlab_ros.core.geometry import (
@@ -16,6 +17,15 @@ from mrlab_ros.core.geometry import (
     relative,
     rotate,
     subtract,
+)
+from mrlab_ros.core.physics.diagnostics import (
+    FIXED_OBJECT,
+    HOLDS_ALREADY,
+    HOLDS_NOTHING,
+    NOT_MOVED_YET,
+    OUT_OF_ATTACH_REACH,
+    SIDE_OF_CUP,
+    TOO_WIDE,
 )
 from mrlab_ros.core.physics.engine import BodyState, Kind, Touch
 from mrlab_ros.core.physics.grasp import INWARDS, Grasp, GraspEvent, Gripper
@@ -45,17 +55,15 @@ class Grippers:
         """
         robot, thing = self._world_state.robot(name), self._world_state.object(object_name)
         if not thing.graspable:
-            raise Misuse(f"'{object_name}' is fixed to the room; choose an object that moves")
+            raise Misuse(FIXED_OBJECT(object=object_name))
         if robot.held:
-            raise Misuse(f"'{name}' holds '{robot.held}' already; detach that first")
+            raise Misuse(HOLDS_ALREADY(robot=name, object=robot.held))
         if robot.placed is None:
-            raise Misuse(f"'{name}' has not moved yet; wait for its first joint state")
+            raise Misuse(NOT_MOVED_YET(robot=name))
         away = self._away(robot, thing)
         if away > reach:
             raise Misuse(
-                f"'{object_name}' is {away:.2f} m away from the hand of '{name}'; at most "
-                f"{reach:g} m is in its reach (attach_reach). Bring the hand to the object, or "
-                "the object to the hand, and attach it then"
+                OUT_OF_ATTACH_REACH(object=object_name, robot=name, distance=away, limit=reach)
             )
         self._seize(robot, thing)
 
@@ -63,7 +71,7 @@ class Grippers:
         """Detach what a robot holds; return the object's name."""
         robot = self._world_state.robot(name)
         if not robot.held:
-            raise Misuse(f"'{name}' holds nothing; there is nothing to detach")
+            raise Misuse(HOLDS_NOTHING(robot=name))
         held = robot.held
         self.lose(robot)
         return held
@@ -95,7 +103,7 @@ class Grippers:
         if robot.held:
             self._holding.free(robot)
 
-    def lose(self, robot: Robot, reason: str = "") -> None:
+    def lose(self, robot: Robot, reason: Diagnostic | None = None) -> None:
         """Release what a robot holds while its gripper stays closed."""
         robot.lost, robot.reason = robot.held, reason
         self.let_go(robot)
@@ -158,7 +166,7 @@ class Grippers:
                 self._set_closed(robot, closed, now_ns)
         if robot.held:
             fallen = self._holding.slip(robot, duration)
-            if fallen:
+            if fallen is not None:
                 self.lose(robot, fallen)
         elif robot.closed:
             self._watch(robot, now_ns)
@@ -166,7 +174,7 @@ class Grippers:
     def _set_closed(self, robot: Robot, closed: bool, now_ns: int) -> None:
         robot.closed = closed
         robot.closing_since_ns = now_ns
-        robot.lost = robot.reason = ""
+        robot.lost, robot.reason = "", None
         robot.watch.reset()
         if not closed:
             self.let_go(robot)
@@ -192,7 +200,7 @@ class Grippers:
 
     def _watch(self, robot: Robot, now_ns: int) -> None:
         found: tuple[SceneObject, Grip | None] | None = None
-        shut, reason = False, ""
+        shut, reason = False, None
         if robot.gripper is Gripper.VACUUM:
             found, reason = self._sucked(robot)
             waited = (now_ns - robot.closing_since_ns) / SECOND
@@ -215,25 +223,25 @@ class Grippers:
             robot.reason = reason or robot.reason
             robot.fire(GraspEvent.SHUT)
             self.announce(robot)
-        elif reason and robot.gripper is Gripper.VACUUM:
+        elif reason is not None and robot.gripper is Gripper.VACUUM:
             self._holding.remark(robot, reason)
 
     def _pinched(
         self, robot: Robot, now_ns: int
-    ) -> tuple[tuple[SceneObject, Grip | None] | None, str]:
+    ) -> tuple[tuple[SceneObject, Grip | None] | None, Diagnostic | None]:
         """Return the object between the fingers with its grip, and why there is none."""
         pinched = robot.watch.pinched(now_ns)
         thing = self._world_state.objects.get(pinched[0]) if pinched is not None else None
         if pinched is None or thing is None or not thing.graspable:
-            return None, ""
+            return None, None
         if robot.watch.wedged(self._engine.fingers(robot.name)):
-            return None, f"{thing.name} is wider than the gripper opens"
+            return None, TOO_WIDE(object=thing.name)
         hand = self._world_state.hand(robot).pose
         contacts = [
             (relative(hand, Pose(touch.point)).position, self._in_hand(hand, touch.normal))
             for touch in pinched[1]
         ]
-        return (thing, fingers_grip(contacts)), ""
+        return (thing, fingers_grip(contacts)), None
 
     @staticmethod
     def _in_hand(hand: Pose, way: Vector) -> Vector:
@@ -248,7 +256,9 @@ class Grippers:
             return thing.kept_for in ("", robot.name)
         return robot.takes_over and robot.closing_since_ns >= holder.held_since_ns
 
-    def _sucked(self, robot: Robot) -> tuple[tuple[SceneObject, Grip | None] | None, str]:
+    def _sucked(
+        self, robot: Robot
+    ) -> tuple[tuple[SceneObject, Grip | None] | None, Diagnostic | None]:
         """Return the first object, by name, on which the cup seals, and why there is none.
 
         What was taken from it is not grasped again before the next gripper command, or two cups
@@ -265,25 +275,25 @@ class Grippers:
                 and objects[touch.other].graspable
             ):
                 reached.setdefault(touch.other, []).append(touch)
-        reason = ""
+        reason: Diagnostic | None = None
         for name in sorted(reached):
             inwards = [touch for touch in reached[name] if touch.grip >= INWARDS]
             if not inwards:
-                reason = reason or f"the cup touches {name} with its side"
+                reason = reason or SIDE_OF_CUP(object=name)
                 continue
             grip, leaks = self._sealed(robot, name, inwards)
-            if not leaks:
-                return (objects[name], grip), ""
+            if leaks is None:
+                return (objects[name], grip), None
             reason = reason or leaks
         return None, reason
 
     def _sealed(
         self, robot: Robot, name: str, touches: Sequence[Touch]
-    ) -> tuple[Grip | None, str]:
+    ) -> tuple[Grip | None, Diagnostic | None]:
         """Return the grip of a cup on an object that it touches, and why it does not seal."""
         radius = robot.tool.lip_radius
         if not radius:
-            return None, ""
+            return None, None
         tool = self._engine.link(robot.name, robot.tool_link).pose
         axis = rotate(tool.orientation, OUT)
         depth = max(dot(subtract(touch.point, tool.position), axis) for touch in touches)

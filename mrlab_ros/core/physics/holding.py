@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 
+from mrlab_ros.core.base.diagnostic import Code, Diagnostic
 from mrlab_ros.core.geometry import (
     Pose,
     Vector,
@@ -15,6 +16,7 @@ from mrlab_ros.core.geometry import (
     scale,
     subtract,
 )
+from mrlab_ros.core.physics.diagnostics import CAME_OFF_CUP, SLIPPED_OUT
 from mrlab_ros.core.physics.engine import BodyState
 from mrlab_ros.core.physics.events import GraspChanged, LoadChanged
 from mrlab_ros.core.physics.grasp_load import Grip, Load, attached, bears, remark
@@ -50,7 +52,7 @@ class Holding:
         robot.share_of = None
         robot.pressed.clear()
         robot.leaving.discard(thing.name)
-        robot.told, robot.reason = None, ""
+        robot.told = robot.reason = None
         felt = robot.arm.moving_mass / 2 + thing.type.mass if robot.arm.moving_mass else 0.0
         self._engine.hold(robot.name, robot.arm.hand, thing.name, felt)
         robot.holding.load = robot.told = self._load(robot, thing, (0.0, 0.0, 0.0))
@@ -75,7 +77,7 @@ class Holding:
         """Add an event with the state of a gripper."""
         self._world_state.events.append(self._state(robot))
 
-    def remark(self, robot: Robot, reason: str) -> None:
+    def remark(self, robot: Robot, reason: Diagnostic) -> None:
         """Say something of a gripper whose state stays."""
         if reason != robot.reason and robot.may_remark(self._world_state.now_ns):
             robot.reason = reason
@@ -112,7 +114,7 @@ class Holding:
             return
         said = remark(held.load, robot.name)
         lifted = held.lifted or not self._stands(robot)
-        news = lifted != held.lifted or said[:8] != robot.reason[:8]
+        news = lifted != held.lifted or _code(said) != _code(robot.reason)
         # News come at once; a load that changes steadily leaves room for them.
         changed = robot.quiet(now_ns) and not held.load.about(robot.told)
         if (news or changed) and robot.may_remark(now_ns):
@@ -145,35 +147,47 @@ class Holding:
         """Return whether what is held stands on something, which bears its weight."""
         return any(touch.held and touch.normal[2] > SUPPORTS for touch in robot.touches)
 
-    def slip(self, robot: Robot, duration: float) -> str:
+    def slip(self, robot: Robot, duration: float) -> Diagnostic | None:
         """Let what friction does not hold slide for `duration` s.
 
-        Return why it falls; empty: it is still in the hand.
+        Return why it falls; None: it is still in the hand.
         """
         held = robot.holding
         if held is None or held.load is None or held.grip is None:
-            return ""
+            return None
         load = held.load
         if self._world_state.settings.hold == "infinite" or (
             load.excess <= 0 and held.slip_speed <= 0
         ):
-            return ""
+            return None
         if self._stands(robot):
             held.slip_speed = 0.0
-            return ""
-        numbers = f"friction {load.friction:.2f}, needed {load.friction_needed:.2f}"
+            return None
         if held.grip.vacuum:
-            return f"{robot.held} came off the cup: {load.mass:.3g} kg, {numbers}"
+            return _fallen(CAME_OFF_CUP, robot, load)
         held.slip_speed = max(held.slip_speed + load.excess * duration, 0.0)
         way = held.slip_speed * duration
         held.slid += way
         if held.slid > SLID:
-            return f"{robot.held} slipped out of the fingers: {load.mass:.3g} kg, {numbers}"
+            return _fallen(SLIPPED_OUT, robot, load)
         hand = self._world_state.hand(robot).pose
         shift = rotate(conjugate(hand.orientation), scale(load.way, way))
         held.in_hand = Pose(add(held.in_hand.position, shift), held.in_hand.orientation)
         self._engine.slide(robot.held, shift)
-        return ""
+        return None
+
+
+def _code(said: Diagnostic | None) -> str:
+    return said.code if said is not None else ""
+
+
+def _fallen(code: Code, robot: Robot, load: Load) -> Diagnostic:
+    return code(
+        object=robot.held,
+        mass=load.mass,
+        friction=load.friction,
+        friction_needed=load.friction_needed,
+    )
 
 
 def _length(v: Vector) -> float:

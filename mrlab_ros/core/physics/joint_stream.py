@@ -11,6 +11,7 @@ from typing import NamedTuple
 
 from mrlab_ros.core.clock import SECOND
 from mrlab_ros.core.errors import BadInput
+from mrlab_ros.core.physics.diagnostics import JOINT_STATE_BEYOND, JOINT_STATE_SIZE
 
 # rad, or rad/s, in order of the joints. Tuples: numpy takes longer for so few numbers.
 Joints = tuple[float, ...]
@@ -151,17 +152,13 @@ class JointStream:
         v = tuple(map(float, velocities)) or self._rest
         if len(q) != self._joints or len(v) != self._joints:
             raise BadInput(
-                f"a joint state has {len(q)} positions and {len(v)} velocities; expected "
-                f"{self._joints} of each"
+                JOINT_STATE_SIZE(positions=len(q), velocities=len(v), joints=self._joints)
             )
         if sum(map(abs, q + v)) <= LIMIT:
             return q, v
         # A NaN among others is neither the least nor the greatest of them, but it stays in a sum.
         if not (min(q + v) >= -LIMIT and max(q + v) <= LIMIT and isfinite(sum(q + v))):
-            raise BadInput(
-                f"a joint state holds NaN, Inf or more than {LIMIT:g} rad; the arm stays where "
-                "it is"
-            )
+            raise BadInput(JOINT_STATE_BEYOND(most=LIMIT))
         return q, v
 
     def _put(self, stamp_ns: int, q: Joints) -> None:

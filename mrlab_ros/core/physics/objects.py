@@ -6,10 +6,18 @@ import itertools
 import math
 from collections.abc import Mapping
 
+from mrlab_ros.core.base.diagnostic import Diagnostic
 from mrlab_ros.core.errors import Misuse
 from mrlab_ros.core.geometry import WORLD_SIZE, Pose, Vector, add, checked_vector, scale
 from mrlab_ros.core.naming import checked_name
 from mrlab_ros.core.physics.catalogue import Catalogue, ObjectType
+from mrlab_ros.core.physics.diagnostics import (
+    ALL_HELD,
+    LEFT_ROOM,
+    MADE_ROOM,
+    NO_FREE_PLACE,
+    NO_SURFACE_BELOW,
+)
 from mrlab_ros.core.physics.engine import BodyState
 from mrlab_ros.core.physics.events import ObjectRemoved
 from mrlab_ros.core.physics.grippers import Grippers
@@ -65,17 +73,15 @@ class Inventory:
             return
         oldest = next((o for o in self._objects.values() if not o.held_by), None)
         if oldest is None:
-            raise Misuse(
-                f"all {len(self._objects)} objects are held; let one go or remove one first"
-            )
+            raise Misuse(ALL_HELD(count=len(self._objects)))
         self.remove(oldest.name)
-        self._announce(oldest, f"the oldest of {most} objects made room for a new one")
+        self._announce(oldest, MADE_ROOM(limit=most))
 
     def _free_place(self, kind: ObjectType, wanted: Pose) -> Pose:
         x, y, z = wanted.position
         height = self._engine.below((x, y, z + 0.05))
         if height is None:
-            raise Misuse(f"there is no surface below {wanted.position}; give a pose above one")
+            raise Misuse(NO_SURFACE_BELOW(place=[*wanted.position]))
         pitch = 1.2 * max(kind.size[0], kind.size[1], 0.05)
         for ring in range(SPAWN_RINGS):
             for i in range(max(6 * ring, 1)):
@@ -93,10 +99,7 @@ class Inventory:
                 low = (low[0], low[1], low[2] + min(0.03, kind.size[2] / 2))
                 if not self._engine.overlapping(low, high):
                     return Pose(place, wanted.orientation)
-        raise Misuse(
-            f"no free place for a {kind.id} within {SPAWN_RINGS * pitch:.2g} m; move or "
-            "remove something"
-        )
+        raise Misuse(NO_FREE_PLACE(type=kind.id, distance=SPAWN_RINGS * pitch))
 
     def move(
         self,
@@ -196,9 +199,9 @@ class Inventory:
                 continue
             thing = self._objects[name]
             self.remove(name)
-            self._announce(thing, "it left the room")
+            self._announce(thing, LEFT_ROOM())
         return len(self._objects) < count
 
-    def _announce(self, thing: SceneObject, why: str) -> None:
+    def _announce(self, thing: SceneObject, why: Diagnostic) -> None:
         stage = self._world_state
         stage.events.append(ObjectRemoved(stage.now_ns, thing.name, thing.type.id, why))

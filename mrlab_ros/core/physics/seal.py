@@ -6,7 +6,9 @@ import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 
+from mrlab_ros.core.base.diagnostic import Diagnostic
 from mrlab_ros.core.geometry import Pose, Vector, add, cross, dot, rotate, scale, subtract
+from mrlab_ros.core.physics.diagnostics import NO_SEAL_AT_EDGE, NO_SEAL_CURVED, NO_SEAL_TILTED
 from mrlab_ros.core.physics.engine import Hit
 
 POINTS = 16  # of the lip that are looked at
@@ -43,35 +45,30 @@ def lip(tool: Pose, depth: float, radius: float) -> Lip:
     return Lip(middle, axis, tuple(starts), tuple(ends))
 
 
-def leak(name: str, found: Lip, hits: Sequence[Hit | None]) -> str:
-    """Return why the cup does not seal on object `name`; empty where it does."""
+def leak(name: str, found: Lip, hits: Sequence[Hit | None]) -> Diagnostic | None:
+    """Return why the cup does not seal on object `name`; None where it does."""
     touched = [
         (subtract(end, start), start, hit)
         for start, end, hit in zip(found.starts, found.ends, hits, strict=True)
         if hit is not None
     ]
     if len(touched) < POINTS:
-        share = 100 * len(touched) / POINTS
-        return (
-            f"the cup does not seal: {share:.0f} % of its lip is on {name}; an edge, a hole or a "
-            "rim lies under it"
-        )
+        return NO_SEAL_AT_EDGE(object=name, share=len(touched) / POINTS)
     points = [add(start, scale(way, hit.share)) for way, start, hit in touched]
     normal = _plane(points, found.axis)
     tilt = math.acos(min(max(-dot(normal, found.axis), -1.0), 1.0))
     if tilt > TILT:
-        return (
-            f"the cup does not seal: {name} is tilted by {math.degrees(tilt):.0f} degrees to it; "
-            f"{math.degrees(TILT):.0f} at most"
-        )
+        # To whole degrees: what is said does not change with every step.
+        tilt = math.radians(round(math.degrees(tilt)))
+        return NO_SEAL_TILTED(object=name, tilt=tilt, most=TILT)
     heights = [dot(point, normal) for point in points]
     bent = [dot(hit.normal, normal) for _, _, hit in touched]
     gap = max(heights) - min(heights)
     # A lip that lies round a ball is at one height and yet looks at its slope.
     slope = math.acos(min(max(min(bent), -1.0), 1.0))
     if gap > PLAY or slope > 2 * TILT:
-        return f"the cup does not seal: {name} is too curved under its lip"
-    return ""
+        return NO_SEAL_CURVED(object=name)
+    return None
 
 
 def _plane(points: Sequence[Vector], axis: Vector) -> Vector:

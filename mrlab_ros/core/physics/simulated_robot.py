@@ -8,6 +8,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass, field, replace
 from operator import mul, sub
 
+from mrlab_ros.core.base.diagnostic import Diagnostic
 from mrlab_ros.core.clock import SECOND, PlaybackClock
 from mrlab_ros.core.geometry import Pose, Vector
 from mrlab_ros.core.physics.clearance import Clearance
@@ -162,8 +163,8 @@ class Robot:
     passing: set[str] = field(default_factory=set)
     # By kind, name and link: what the held object presses on.
     pressed: dict[tuple[Kind, str, str], Pressed] = field(default_factory=dict)
-    # What is to be said of the gripper; empty: nothing.
-    reason: str = ""
+    # What is to be said of the gripper; None: nothing.
+    reason: Diagnostic | None = None
     # The load that was announced last.
     told: Load | None = None
     # When a load or a reason was announced while the state stayed: the last REMARKS times.

@@ -10,6 +10,15 @@ from numpy.typing import NDArray
 
 from mrlab_ros.core.errors import BadInput
 from mrlab_ros.core.geometry import Array, Pose
+from mrlab_ros.core.physics.diagnostics import (
+    BAD_SOURCE,
+    SURFACE_BEYOND,
+    SURFACE_IS_LINE,
+    SURFACE_NO_VERTEX,
+    SURFACE_OUTLINE,
+    SURFACE_TOO_FINE,
+    SURFACES_OF_ONE_NAME,
+)
 from mrlab_ros.core.physics.engine import Body, Part, Shape
 
 # A detected plane gets this thickness behind it, m: a headset sees no back side.
@@ -42,6 +51,15 @@ def floor() -> Surface:
     return Surface(FLOOR, FLOOR, Pose(), np.zeros((0, 3)), np.zeros((0, 3), np.int32))
 
 
+def check_names(surfaces: Sequence[Surface]) -> None:
+    """Raise BadInput where two surfaces have the same name."""
+    names = set[str]()
+    for surface in surfaces:
+        if surface.name in names:
+            raise BadInput(SURFACES_OF_ONE_NAME(name=surface.name))
+        names.add(surface.name)
+
+
 def of_source(
     source: str, new: Sequence[Surface], before: Mapping[str, Surface]
 ) -> tuple[Surface, ...]:
@@ -53,11 +71,9 @@ def of_source(
     """
     if len(source) > LONGEST_SOURCE or not source.isprintable():
         raise BadInput(
-            f"the source {source[:80]!r} has {len(source)} characters; expected at most "
-            f"{LONGEST_SOURCE} that can be printed, such as an id of the headset"
+            BAD_SOURCE(source=repr(source[:80]), count=len(source), most=LONGEST_SOURCE)
         )
-    if len({surface.name for surface in new}) != len(new):
-        raise BadInput("two surfaces have the same name; give each its own")
+    check_names(new)
     room = {name: surface for name, surface in before.items() if surface.source != source}
     for surface in new:
         if surface.endless and surface.label == FLOOR:
@@ -78,18 +94,15 @@ def body(surface: Surface, max_triangles: int) -> Body:
     """
     name, vertices, triangles = surface.name, surface.vertices, surface.triangles
     if not np.isfinite(vertices).all() or (len(vertices) and np.abs(vertices).max() > 1000):
-        raise BadInput(f"surface '{name}' has a vertex that is not finite or beyond 1 km")
+        raise BadInput(SURFACE_BEYOND(surface=name))
     if len(triangles):
         if len(triangles) > max_triangles:
             raise BadInput(
-                f"surface '{name}' has {len(triangles)} triangles; expected {max_triangles} at "
-                "most: simplify the mesh, or send the planes of the room instead"
+                SURFACE_TOO_FINE(surface=name, count=len(triangles), most=max_triangles)
             )
         if triangles.min() < 0 or triangles.max() >= len(vertices):
-            raise BadInput(
-                f"surface '{name}' names vertex {triangles.max()} of {len(vertices)}; expected "
-                "indices of its own vertices"
-            )
+            vertex = int(triangles.max() if triangles.min() >= 0 else triangles.min())
+            raise BadInput(SURFACE_NO_VERTEX(surface=name, vertex=vertex, count=len(vertices)))
         # Unused vertices would enlarge the bounding box.
         named, places = np.unique(triangles, return_inverse=True)
         part = Part(
@@ -101,13 +114,10 @@ def body(surface: Surface, max_triangles: int) -> Body:
         part = Part(Shape.BOX, (FLOOR_SIZE, FLOOR_SIZE, 1.0), Pose((0.0, 0.0, -0.5)))
     else:
         if not 3 <= len(vertices) <= MAX_OUTLINE:
-            raise BadInput(
-                f"surface '{name}' has an outline of {len(vertices)} points; expected 3 to "
-                f"{MAX_OUTLINE}, or triangles"
-            )
+            raise BadInput(SURFACE_OUTLINE(surface=name, count=len(vertices), most=MAX_OUTLINE))
         across = vertices - vertices.mean(axis=0)
         if np.linalg.svd(across, compute_uv=False)[1] < 1e-4:
-            raise BadInput(f"the outline of surface '{name}' is a line; expected an area")
+            raise BadInput(SURFACE_IS_LINE(surface=name))
         behind = vertices - [0.0, 0.0, THICKNESS]
         part = Part(Shape.HULL, vertices=np.concatenate([vertices, behind]))
     return Body((part,), 0.0)

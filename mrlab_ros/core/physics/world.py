@@ -9,12 +9,14 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
+from mrlab_ros.core.base.diagnostic import Diagnostic
 from mrlab_ros.core.clock import SECOND
 from mrlab_ros.core.errors import Misuse
 from mrlab_ros.core.geometry import Pose, Vector, compose, relative
 from mrlab_ros.core.physics.arm_motion import ArmMotion
 from mrlab_ros.core.physics.catalogue import Catalogue
 from mrlab_ros.core.physics.collisions import Collisions
+from mrlab_ros.core.physics.diagnostics import ALREADY_IN_WORLD
 from mrlab_ros.core.physics.engine import BodyState, Engine, LinkPairs
 from mrlab_ros.core.physics.events import Contact, Event
 from mrlab_ros.core.physics.grasp import Gripper
@@ -125,7 +127,7 @@ class World:
         gripper: Gripper,
         apart: LinkPairs = frozenset(),
         tool: Tool | None = None,
-        reason: str = "",
+        reason: Diagnostic | None = None,
     ) -> None:
         """Add a robot; its arm is in the world from its first joint state on.
 
@@ -133,7 +135,7 @@ class World:
         is stated of its hand. reason: what is to be said of its gripper.
         """
         if name in self._robots:
-            raise Misuse(f"robot '{name}' is in the world already; remove it first")
+            raise Misuse(ALREADY_IN_WORLD(name=name))
         arm = self._engine.add_arm(name, urdf, joints, pose, apart)
         if not arm.fingers and gripper is Gripper.FINGERS:
             gripper = Gripper.NONE

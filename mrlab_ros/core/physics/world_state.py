@@ -4,9 +4,11 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 
+from mrlab_ros.core.base.diagnostics import NO_ROBOT_IN_SCENE
 from mrlab_ros.core.errors import Misuse
-from mrlab_ros.core.naming import did_you_mean
+from mrlab_ros.core.naming import close_to
 from mrlab_ros.core.physics.catalogue import ObjectType
+from mrlab_ros.core.physics.diagnostics import NO_OBJECT_IN_SCENE
 from mrlab_ros.core.physics.engine import BodyState, Engine
 from mrlab_ros.core.physics.events import Event
 from mrlab_ros.core.physics.settings import Settings
@@ -51,19 +53,19 @@ class WorldState:
         try:
             return self.robots[name]
         except KeyError:
-            known = ", ".join(self.robots) or "none"
-            close = did_you_mean(name, self.robots)
-            raise Misuse(f"no robot '{name}' is in the scene; there are: {known}{close}") from None
+            close = close_to(name, self.robots)
+            raise Misuse(
+                NO_ROBOT_IN_SCENE(robot=name, known=[*self.robots], close=close)
+            ) from None
 
     def object(self, name: str) -> SceneObject:
         """Return an object; raise Misuse where there is none."""
         try:
             return self.objects[name]
         except KeyError:
-            known = ", ".join(self.objects) or "none"
-            close = did_you_mean(name, self.objects)
+            close = close_to(name, self.objects)
             raise Misuse(
-                f"no object '{name}' is in the scene; there are: {known}{close}"
+                NO_OBJECT_IN_SCENE(object=name, known=[*self.objects], close=close)
             ) from None
 
     def hand(self, robot: Robot) -> BodyState:

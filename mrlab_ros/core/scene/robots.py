@@ -8,9 +8,10 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from functools import cache
 
+from mrlab_ros.core.base.diagnostics import NO_ROBOT_IN_SCENE
 from mrlab_ros.core.errors import Misuse
 from mrlab_ros.core.geometry import WORLD_SIZE, Pose, checked_vector
-from mrlab_ros.core.naming import checked_name, did_you_mean
+from mrlab_ros.core.naming import checked_name, close_to
 from mrlab_ros.core.scene.placement import (
     FLOOR,
     SPACING,
@@ -63,9 +64,10 @@ class Scene:
         try:
             return self._robots[name]
         except KeyError:
-            known = ", ".join(self._robots) or "none"
-            close = did_you_mean(name, self._robots)
-            raise Misuse(f"no robot '{name}' is in the scene; there are: {known}{close}") from None
+            close = close_to(name, self._robots)
+            raise Misuse(
+                NO_ROBOT_IN_SCENE(robot=name, known=[*self._robots], close=close)
+            ) from None
 
     def free_name(self, model: str) -> str:
         """Return the model's id with the first free number: ur5e_1, ur5e_2, ..."""

@@ -16,6 +16,7 @@ from mrlab_ros.core.physics.pending_grasp import PendingGrasp
 from mrlab_ros.core.physics.surfaces import Surface
 from mrlab_ros.core.physics.world import World
 from mrlab_ros.core.scene.document import ObjectEntry, SceneDocument
+from mrlab_ros.nodes.physics.diagnostics import CANNOT_HOLD_FIXED, TOO_MANY_OBJECTS
 
 # A robot that is to hold an object may come this long after the object, ns.
 ROBOT_TIMEOUT_NS = 20 * SECOND
@@ -72,19 +73,14 @@ class Contents:
         They are tried in an empty world: robots count only for their names.
         """
         if len(objects) > self._max_objects:
-            raise BadInput(
-                f"{len(objects)} objects are too many; expected {self._max_objects} at most, "
-                "max_objects of config/physics.yaml"
-            )
+            raise BadInput(TOO_MANY_OBJECTS(count=len(objects), most=self._max_objects))
         placed = []
         with self._rehearsal() as world:
             world.set_surfaces(surfaces)
             for entry in objects:
                 thing = world.spawn(entry.type, entry.name, entry.pose, automatic=entry.automatic)
                 if entry.held_by and not thing.graspable:
-                    raise BadInput(
-                        f"{entry.held_by} cannot hold {thing.name}: it is fixed to the room"
-                    )
+                    raise BadInput(CANNOT_HOLD_FIXED(robot=entry.held_by, object=thing.name))
                 pose = world.motion(thing.name).pose
                 placed.append(replace(entry, name=thing.name, pose=pose, automatic=False))
         return tuple(placed)

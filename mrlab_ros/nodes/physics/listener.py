@@ -15,9 +15,11 @@ from rclpy.subscription import Subscription
 from sensor_msgs.msg import JointState
 from std_msgs.msg import String
 
+from mrlab_ros.core.base.diagnostic import Diagnostic
 from mrlab_ros.core.clock import SECOND
 from mrlab_ros.core.errors import LabError
 from mrlab_ros.core.identity import Identity
+from mrlab_ros.core.physics.diagnostics import LET_GO
 from mrlab_ros.core.physics.engine import LinkPairs
 from mrlab_ros.core.physics.grasp import Gripper
 from mrlab_ros.core.physics.grasp_load import Tool
@@ -44,7 +46,7 @@ class Followed:
     built: tuple[str, str] = ("", "")
     program: GripperProgram = field(default_factory=GripperProgram)
     playing: Playing = field(default_factory=Playing)
-    let_go: tuple[int, str] = (0, "")
+    let_go: tuple[int, Diagnostic | None] = (0, None)
 
 
 class GraphListener:
@@ -186,9 +188,9 @@ class GraphListener:
             now_ns = self._follow_clock()
             held = self._world.remove_robot(name) if name in self._world.robots else ""
             if held:
-                said = f"{held} was let go: {name} was given another end effector"
+                said = LET_GO(object=held, robot=name)
                 known.let_go = (now_ns, said)
-                self._log.info(said)
+                self._log.info(str(said))
             # Description and end effector come one after the other.
             since_ns, reason = known.let_go
             try:
@@ -200,7 +202,7 @@ class GraphListener:
                     self._gripper(known.robot.end_effector),
                     self._never_touch(known.robot.model),
                     self._tool(known.robot.model, known.robot.end_effector),
-                    reason if now_ns - since_ns < SECOND else "",
+                    reason if now_ns - since_ns < SECOND else None,
                 )
                 self._world.set_program(name, known.program)
                 self._world.playback(name, known.playing)

@@ -19,18 +19,29 @@ from mrlab_ros.adapters.robots.library import RobotLibrary
 from mrlab_ros.adapters.scenes.object_meshes import ObjectMeshes
 from mrlab_ros.adapters.scenes.state_file import StateFile
 from mrlab_ros.adapters.yaml_files import read_yaml
+from mrlab_ros.core.base.diagnostic import Diagnostic
 from mrlab_ros.core.clock import SECOND
 from mrlab_ros.core.errors import BadInput
 from mrlab_ros.core.physics import catalogue
 from mrlab_ros.core.physics.settings import Settings
 from mrlab_ros.core.physics.world import World
-from mrlab_ros.core.scene.restore import counted
 from mrlab_ros.messages import physics as messages
 from mrlab_ros.messages.poses import pose_from_message
 from mrlab_ros.messages.scenes import placement_to_message, placements_from_messages
 from mrlab_ros.nodes import parameters
 from mrlab_ros.nodes.parameters import PhysicsParameters
 from mrlab_ros.nodes.physics.contents import Contents
+from mrlab_ros.nodes.physics.diagnostics import (
+    CONTENTS_FIT,
+    CONTENTS_SET,
+    OBJECT_ATTACHED,
+    OBJECT_DETACHED,
+    OBJECT_MOVED,
+    OBJECT_REMOVED,
+    OBJECT_SPAWNED,
+    OBJECTS_REMOVED,
+    SURFACES_SET,
+)
 from mrlab_ros.nodes.physics.listener import GraphListener
 from mrlab_ros.nodes.physics.publishers import WorldPublishers
 from mrlab_ros.ros import share
@@ -45,7 +56,7 @@ try:
 except ModuleNotFoundError as error:
     if error.name != "pybullet":
         raise
-    raise BadInput(support.missing()) from None
+    raise BadInput(support.missing() or str(error)) from None
 
 # The world is advanced at least this often, ns, unless it rests: its own step.
 TURN_NS = SECOND // 240
@@ -180,18 +191,18 @@ class PhysicsNode(ParameterNode[PhysicsParameters]):
     # services -------------------------------------------------------------------------------
 
     @answered
-    def _on_spawn(self, request: Any, response: Any) -> str:
+    def _on_spawn(self, request: Any, response: Any) -> Diagnostic:
         pose = pose_from_message(request.pose)
         with self._lock:
             thing = self._world.spawn(
                 request.type, request.name, pose, automatic=request.automatic
             )
-            response.object = messages.object_to_message(thing, self._world.motion(thing.name))
-        p = response.object.pose.position
-        return f"{thing.name} is at {p.x:.3g}, {p.y:.3g}, {p.z:.3g} m"
+            motion = self._world.motion(thing.name)
+        response.object = messages.object_to_message(thing, motion)
+        return OBJECT_SPAWNED(object=thing.name, place=[*motion.pose.position])
 
     @answered
-    def _on_move(self, request: Any, response: Any) -> str:
+    def _on_move(self, request: Any, response: Any) -> Diagnostic:
         with self._lock:
             self._world.move(
                 request.name,
@@ -200,18 +211,18 @@ class PhysicsNode(ParameterNode[PhysicsParameters]):
                 messages.velocity_from_message(request.twist.angular),
                 held=request.held,
             )
-        return f"{request.name} is {'held' if request.held else 'released'}"
+        return OBJECT_MOVED(object=request.name, state="held" if request.held else "released")
 
     @answered
-    def _on_remove(self, request: Any, response: Any) -> str:
+    def _on_remove(self, request: Any, response: Any) -> Diagnostic:
         with self._lock:
             self._world.remove(request.name)
-        return f"{request.name} is removed"
+        return OBJECT_REMOVED(object=request.name)
 
     @answered
-    def _on_clear(self, request: Any, response: Any) -> str:
+    def _on_clear(self, request: Any, response: Any) -> Diagnostic:
         with self._lock:
-            return f"{self._world.clear()} objects are removed"
+            return OBJECTS_REMOVED(count=self._world.clear())
 
     def _on_list(self, request: Any, response: Any) -> Any:
         response.types = [messages.type_to_message(self._types.get(i)) for i in self._types.ids]
@@ -219,28 +230,23 @@ class PhysicsNode(ParameterNode[PhysicsParameters]):
         return response
 
     @answered
-    def _on_surfaces(self, request: Any, response: Any) -> str:
+    def _on_surfaces(self, request: Any, response: Any) -> Diagnostic:
         surfaces = [messages.surface_from_message(s) for s in request.surfaces]
         with self._lock:
             inside = self._world.set_surfaces(surfaces, request.source)
-        count = self._publish_surfaces()
-        if inside:
-            return (
-                f"{count} surfaces; {', '.join(inside)} stand in a robot and count once it has "
-                "moved out of them"
-            )
-        return f"{count} surfaces"
+        return SURFACES_SET(count=self._publish_surfaces(), inside=[*inside])
 
     @answered
-    def _on_attach(self, request: Any, response: Any) -> str:
+    def _on_attach(self, request: Any, response: Any) -> Diagnostic:
         with self._lock:
             self._world.attach(request.robot, request.object)
-        return f"{request.robot} holds {request.object}"
+        return OBJECT_ATTACHED(robot=request.robot, object=request.object)
 
     @answered
-    def _on_detach(self, request: Any, response: Any) -> str:
+    def _on_detach(self, request: Any, response: Any) -> Diagnostic:
         with self._lock:
-            return f"{request.robot} lost {self._world.detach(request.robot)}"
+            held = self._world.detach(request.robot)
+        return OBJECT_DETACHED(robot=request.robot, object=held)
 
     def _on_get(self, request: Any, response: Any) -> Any:
         with self._lock:
@@ -250,7 +256,7 @@ class PhysicsNode(ParameterNode[PhysicsParameters]):
         return response
 
     @answered
-    def _on_set(self, request: Any, response: Any) -> str:
+    def _on_set(self, request: Any, response: Any) -> Diagnostic:
         objects = placements_from_messages(request.objects)
         surfaces = [messages.surface_from_message(s) for s in request.surfaces]
         if request.dry_run:
@@ -259,8 +265,8 @@ class PhysicsNode(ParameterNode[PhysicsParameters]):
             placed = self._contents.replace(objects, surfaces, self._lab_clock.now_ns())
             self._publish_surfaces()
         response.objects = [placement_to_message(thing) for thing in placed]
-        done = "can be set" if request.dry_run else "are set"
-        return f"{counted(placed, 'object')} and {counted(surfaces, 'surface')} {done}"
+        code = CONTENTS_FIT if request.dry_run else CONTENTS_SET
+        return code(objects=len(placed), surfaces=len(surfaces))
 
     def _publish_surfaces(self) -> int:
         """Publish the surfaces and mark them for saving; return how many there are."""

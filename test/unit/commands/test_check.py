@@ -58,7 +58,7 @@ def test_a_collision_refuses_and_the_page_and_the_report_have_one_hash(tmp_path)
     ("words", "sentence"),
     [
         (("--robot", "ur6e"), "did you mean 'ur5e'"),
-        (("--robot", "ur5e", "--scene", "tabel"), "did you mean 'table'"),
+        (("--robot", "ur5e", "--scene", "tabel"), "Did you mean 'table'"),
         (("--robot", "ur5e", "--tool", "hammer"), "there is no end effector 'hammer'"),
         (("--robot", "kuka_kr3_r540", "--scene", "table"), "has no robot kuka_kr3_r540"),
         ((), "add --robot"),

@@ -6,14 +6,30 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from refusals import refused
 
+from mrlab_ros.adapters.diagnostics import FILE_UNWRITABLE, NOT_A_FILE, NOT_OF_FORMAT
 from mrlab_ros.adapters.robots.library import RobotLibrary
+from mrlab_ros.adapters.scenes.diagnostics import BAD_SCENE_NAME, NO_SCENE
 from mrlab_ros.adapters.scenes.files import SceneFiles, content
 from mrlab_ros.adapters.yaml_files import read_yaml
+from mrlab_ros.core.base.diagnostics import (
+    A_MAPPING,
+    A_NAME,
+    BAD_VALUE,
+    COUNTED_NUMBERS,
+    EMPTY_VALUE,
+    ENTRY,
+    FINITE_NUMBERS,
+    MISTAKES,
+    ROWS_OF_NUMBERS,
+    UNKNOWN_FIELD,
+)
 from mrlab_ros.core.errors import BadInput
 from mrlab_ros.core.geometry import Pose
 from mrlab_ros.core.physics import catalogue
 from mrlab_ros.core.physics.surfaces import Surface
+from mrlab_ros.core.scene.diagnostics import NAMED_TWICE
 from mrlab_ros.core.scene.document import RobotEntry, SceneDocument, parse, parse_cell, plain
 
 ROOT = Path(__file__).parents[4]
@@ -54,44 +70,47 @@ def test_a_saved_scene_hides_the_shipped_one_and_leaves_no_other_file(tmp_path):
 
 
 @pytest.mark.parametrize(
-    ("text", "says"),
+    ("text", "code", "values"),
     [
-        ("robots: [{name: A}]", "robot 1: name is 'A'"),
-        ("cows: 1", "'cows' is unknown; expected about, robots"),
-        ("objects: [{name: a, type: cube, position: [0, 0]}]", "expected a list of 3 numbers"),
-        ("objects: [{name: a, type: cube, position: [0, 0, .nan]}]", "position is"),
-        ("objects: [{name: a, type: cube}, {name: a, type: cube}]", "names the object a twice"),
-        ("surfaces: [{name: a, vertices: [1, 2]}]", "expected a list of rows of 3 numbers"),
-        ("systems: [{name: s, mode: 7}]", "members is empty"),
-        ("systems: [{name: s, mode: 7, members: [{robot: a}]}]", "mode is 7; expected parallel"),
-        ("robots: [5]\nobjects: 7", "has 2 mistakes"),
-        ("- 5", "expected a mapping with the fields"),
-        ("", "bad.yaml is empty; expected a mapping"),
-        ("[]", "bad.yaml is empty; expected a mapping"),
-        ("5", "is 5; expected a mapping"),
-        ("[", "is not YAML"),
-        ("a: [1,\nb\n", r"is not YAML: [^<>]* in line 3, column 1"),
-        ("\x00\x01", "is not YAML"),
+        ("robots: [{name: A}]", A_NAME, {}),
+        ("cows: 1", UNKNOWN_FIELD, {"key": "cows"}),
+        ("objects: [{name: a, type: cube, position: [0, 0]}]", COUNTED_NUMBERS, {"count": 3}),
+        ("objects: [{name: a, type: cube, position: [0, 0, .nan]}]", FINITE_NUMBERS, {}),
+        ("objects: [{name: a, type: cube}, {name: a, type: cube}]", NAMED_TWICE, {"name": "a"}),
+        ("surfaces: [{name: a, vertices: [1, 2]}]", ROWS_OF_NUMBERS, {"columns": 3}),
+        ("systems: [{name: s, mode: 7}]", ENTRY, {"one": "system"}),
+        ("systems: [{name: s, mode: 7, members: [{robot: a}]}]", BAD_VALUE, {"found": "7"}),
+        ("robots: [5]\nobjects: 7", MISTAKES, {"count": 2}),
+        ("- 5", A_MAPPING, {}),
+        ("", EMPTY_VALUE, {"what": "bad.yaml"}),
+        ("[]", EMPTY_VALUE, {"what": "bad.yaml"}),
+        ("5", BAD_VALUE, {"what": "bad.yaml", "found": "5"}),
+        ("[", NOT_OF_FORMAT, {"format": "YAML"}),
+        ("a: [1,\nb\n", NOT_OF_FORMAT, {"file": "bad.yaml", "line": 3}),
+        ("\x00\x01", NOT_OF_FORMAT, {"file": "bad.yaml"}),
     ],
 )
-def test_scene_files_that_are_none_are_refused(tmp_path, text, says):
+def test_scene_files_that_are_none_are_refused(tmp_path, text, code, values):
     (tmp_path / "bad.yaml").write_text(text)
-    with pytest.raises(BadInput, match=says):
+    with refused(code, BadInput, **values):
         SceneFiles(ROOT, tmp_path).load("bad")
 
 
-@pytest.mark.parametrize("name", ["../x", "", "A", "no_such"])
-def test_scene_names_that_are_none_are_refused(tmp_path, name):
-    with pytest.raises(BadInput):
+@pytest.mark.parametrize(
+    ("name", "code"),
+    [("../x", BAD_SCENE_NAME), ("", BAD_SCENE_NAME), ("A", BAD_SCENE_NAME), ("no_such", NO_SCENE)],
+)
+def test_scene_names_that_are_none_are_refused(tmp_path, name, code):
+    with refused(code, BadInput):
         SceneFiles(tmp_path, tmp_path).load(name)
 
 
 def test_a_folder_in_place_of_a_scene_and_a_folder_that_cannot_be_written(tmp_path):
     (tmp_path / "bad.yaml").mkdir()
-    with pytest.raises(BadInput, match="bad.yaml cannot be read: it is a folder"):
+    with refused(NOT_A_FILE, BadInput, file="bad.yaml", what="folder"):
         SceneFiles(SHIPPED, tmp_path).load("bad")
     (tmp_path / "file").write_text("")
-    with pytest.raises(BadInput, match="cannot be written: "):
+    with refused(FILE_UNWRITABLE, BadInput):
         SceneFiles(SHIPPED, tmp_path / "file").save("mine", SceneDocument())
 
 

@@ -12,7 +12,9 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from refusals import refused
 
+from mrlab_ros.adapters.diagnostics import NO_ROOM_ON_DISK
 from mrlab_ros.adapters.scenes.state_file import StateFile
 from mrlab_ros.core.errors import LabError
 from mrlab_ros.core.geometry import Pose
@@ -207,7 +209,7 @@ def test_a_disk_without_room_is_found_before_anything_changes(tmp_path, monkeypa
         raise OSError(errno.ENOSPC, "No space left on device")
 
     monkeypatch.setattr(os, "posix_fallocate", full)
-    with pytest.raises(LabError, match="No space left on device.*nothing was changed"):
+    with refused(NO_ROOM_ON_DISK, LabError):
         file.check_room()
     assert list((tmp_path / "state").iterdir()) == []
     StateFile(None, lambda said: None, whole=True).check_room()

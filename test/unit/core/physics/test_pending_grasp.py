@@ -5,11 +5,13 @@ from __future__ import annotations
 import numpy as np
 import pytest
 from fake_engine import FakeEngine
+from refusals import refused
 
 from mrlab_ros.core.clock import SECOND
 from mrlab_ros.core.errors import Misuse
 from mrlab_ros.core.geometry import Pose
 from mrlab_ros.core.physics import catalogue
+from mrlab_ros.core.physics.diagnostics import FIXED_OBJECT
 from mrlab_ros.core.physics.grasp import Gripper
 from mrlab_ros.core.physics.pending_grasp import CLOSING_NS, PendingGrasp
 from mrlab_ros.core.physics.settings import Settings
@@ -84,5 +86,5 @@ def test_what_is_fixed_to_the_room_cannot_come_back(world):
     world.spawn("post", "post", Pose((3.0, 3.0, 0.0)))
     grasp = PendingGrasp("post", "a", IN_HAND, TIMEOUT_NS)
     assert not grasp.check(world, 0, absent=False)
-    with pytest.raises(Misuse, match="fixed to the room"):
+    with refused(FIXED_OBJECT, Misuse):
         grasp.check(world, CLOSING_NS, absent=False)

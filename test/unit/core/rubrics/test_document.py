@@ -72,7 +72,7 @@ def test_a_rubric_is_read_with_its_paths_and_lines(tmp_path):
         ("tests:\n- {expect: passes within 5 mm of poses, points: 1}", "poses has 0 entries"),
         ("tests:\n- {expect: passes within 5 mm of poses, points: 1, poses: [[0, 1]]}", "pose 1"),
         ("tests:\n- {expect: passes within 5 mm of poses, points: 1, poses: [here]}", "pose 1 is"),
-        ("tests: [}", "r.yaml:1: "),
+        ("tests: [}", "r.yaml:1 is not YAML"),
         ("closest: 5\ntests:\n- {expect: no collision, points: 1}", "closest"),
         ("tests: &a\n- *a", "expected a mapping"),
     ],
