@@ -1,4 +1,4 @@
-"""What is said of the files that the adapters read and write."""
+"""What is said of files and folders of this machine, and of what reads them."""
 
 from __future__ import annotations
 
@@ -57,3 +57,35 @@ YAML_ALIAS = Code(
     "Write the values out.",
     meaning="A ROS parameter file has no aliases.",
 )
+
+# readers behind the wall
+READER_SLOW = Code(
+    "reader_slow", "Reading {file} takes more than {limit:time}.", "Is it what it should be?"
+)
+READER_MEMORY = Code("reader_memory", "Reading {file} needs more than {limit:bytes} of memory.")
+READER_FAILED = Code(
+    "reader_failed",
+    "The reader of {file} failed on it (exit status {status:integer})[: {problem}]",
+)
+
+# what is compressed
+INFLATES_TOO_MUCH = Code("inflates_too_much", "it inflates to more than {limit:bytes}")
+COMPRESSED_CUT_SHORT = Code("compressed_cut_short", "its end is missing")
+COMPRESSED_DAMAGED = Code("compressed_damaged", "what is compressed is damaged: {problem}")
+
+# folders
+FOLDER_OF_ANOTHER = Code(
+    "folder_of_another", "{path} belongs to another user; expected a folder of yours."
+)
+FOLDER_UNUSABLE = Code(
+    "folder_unusable",
+    "{path} cannot be used: {problem}; expected a folder, or a path where one can be made.",
+)
+NOT_A_FOLDER = Code("not_a_folder", "{path} is no folder, or a link to one")
+OTHERS_WRITE = Code("others_write", "others can write into {path}")
+OTHERS_EXCHANGE = Code("others_exchange", "others can exchange what lies in {path}")
+
+# what is set aside
+SET_ASIDE = Code("set_aside", "It is now called {file}", severity=INFO)
+COPY_KEPT = Code("copy_kept", "A copy is kept as {file}", severity=INFO)
+NOT_SET_ASIDE = Code("not_set_aside", "It cannot be set aside: {problem}")

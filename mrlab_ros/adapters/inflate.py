@@ -10,13 +10,20 @@ from typing import BinaryIO
 
 import zstandard
 
+from mrlab_ros.adapters.diagnostics import (
+    COMPRESSED_CUT_SHORT,
+    COMPRESSED_DAMAGED,
+    INFLATES_TOO_MUCH,
+)
+from mrlab_ros.core.errors import BadInput
+
 GZIP, ZSTD = b"\x1f\x8b", b"\x28\xb5\x2f\xfd"
 # A KiB of Zstandard can hold 32 MiB; that much may come beyond a limit before it is noticed.
 PIECE = 1024
 BLOCK = 1 << 20
 
 
-class Incomplete(ValueError):
+class Incomplete(BadInput):
     """Compressed bytes that are damaged, or whose end is missing."""
 
 
@@ -49,7 +56,7 @@ def inflate_file(source: Path, target: BinaryIO, limit: int) -> None:
         blocks = _frames(iter(lambda: file.read(PIECE), b""))
         for block in blocks if compressed == ZSTD else _of_gzip(file):
             if target.tell() + len(block) > limit:
-                raise Incomplete(f"it inflates to more than {limit / 2**30:.3g} GiB")
+                raise Incomplete(INFLATES_TOO_MUCH(limit=limit))
             target.write(block)
 
 
@@ -59,7 +66,7 @@ def _of_gzip(file: BinaryIO) -> Iterator[bytes]:
             while block := plain.read(BLOCK):
                 yield block
     except (EOFError, zlib.error, gzip.BadGzipFile) as error:
-        raise Incomplete(str(error)) from None
+        raise Incomplete(COMPRESSED_DAMAGED(problem=str(error))) from None
 
 
 def _frames(pieces: Iterator[bytes | memoryview]) -> Iterator[bytes]:
@@ -74,6 +81,6 @@ def _frames(pieces: Iterator[bytes | memoryview]) -> Iterator[bytes]:
                 yield frame.decompress(rest)
                 rest = frame.unused_data
     except zstandard.ZstdError as error:
-        raise Incomplete(str(error)) from None
+        raise Incomplete(COMPRESSED_DAMAGED(problem=str(error))) from None
     if frame is None or not frame.eof:
-        raise Incomplete("its end is missing")
+        raise Incomplete(COMPRESSED_CUT_SHORT())

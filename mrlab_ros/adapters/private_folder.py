@@ -6,6 +6,14 @@ import os
 import stat
 from pathlib import Path
 
+from mrlab_ros.adapters.diagnostics import (
+    FOLDER_OF_ANOTHER,
+    FOLDER_UNUSABLE,
+    NOT_A_FOLDER,
+    OTHERS_EXCHANGE,
+    OTHERS_WRITE,
+)
+from mrlab_ros.core.base.diagnostic import Diagnostic
 from mrlab_ros.core.errors import BadInput
 
 MODE = 0o700
@@ -21,19 +29,16 @@ def make(path: Path) -> Path:
         folder = path.resolve()
         found = folder.stat()
         if found.st_uid != os.getuid():
-            raise BadInput(f"{path} belongs to another user; expected a folder of yours")
+            raise BadInput(FOLDER_OF_ANOTHER(path=str(path)))
         if stat.S_IMODE(found.st_mode) & 0o077:
             folder.chmod(MODE)
     except OSError as error:
-        raise BadInput(
-            f"{path} cannot be used: {error.strerror}; expected a folder, or a path where one can "
-            "be made"
-        ) from None
+        raise BadInput(FOLDER_UNUSABLE(path=str(path), problem=error.strerror)) from None
     return folder
 
 
-def why_not(path: Path) -> str:
-    """Return why nobody may rely on a folder of a known name being this user's; else empty.
+def why_not(path: Path) -> Diagnostic | None:
+    """Return why nobody may rely on a folder of a known name being this user's; None: one may.
 
     It may be missing where nobody else could make it: then `make` makes it.
     """
@@ -42,24 +47,24 @@ def why_not(path: Path) -> str:
     except FileNotFoundError:
         return _why_not_within(path.parent)
     except OSError as error:
-        return f"{path}: {error.strerror}"
+        return FOLDER_UNUSABLE(path=str(path), problem=error.strerror)
     if not stat.S_ISDIR(found.st_mode):
-        return f"{path} is no folder, or a link to one"
+        return NOT_A_FOLDER(path=str(path))
     if found.st_uid != os.getuid():
-        return f"{path} belongs to another user"
+        return FOLDER_OF_ANOTHER(path=str(path))
     if stat.S_IMODE(found.st_mode) & 0o022:
-        return f"others can write into {path}"
+        return OTHERS_WRITE(path=str(path))
     return _why_not_within(path.parent)
 
 
-def _why_not_within(folder: Path) -> str:
-    """Return why others could exchange what this user makes in a folder; else empty."""
+def _why_not_within(folder: Path) -> Diagnostic | None:
+    """Return why others could exchange what this user makes in a folder; None: they cannot."""
     try:
         found = folder.stat()
     except OSError as error:
-        return f"{folder}: {error.strerror}"
+        return FOLDER_UNUSABLE(path=str(folder), problem=error.strerror)
     if found.st_uid not in (os.getuid(), 0):
-        return f"{folder} belongs to another user"
+        return FOLDER_OF_ANOTHER(path=str(folder))
     if stat.S_IMODE(found.st_mode) & 0o022 and not found.st_mode & stat.S_ISVTX:
-        return f"others can exchange what lies in {folder}"
-    return ""
+        return OTHERS_EXCHANGE(path=str(folder))
+    return None

@@ -7,9 +7,12 @@ import shutil
 import time
 from pathlib import Path
 
+from mrlab_ros.adapters.diagnostics import COPY_KEPT, NOT_SET_ASIDE, SET_ASIDE
+from mrlab_ros.core.base.diagnostic import Diagnostic
 
-def set_aside(path: Path, *, copy: bool = False) -> str:
-    """Rename or copy what is damaged to NAME.damaged-TIME; return a sentence that says so."""
+
+def set_aside(path: Path, *, copy: bool = False) -> Diagnostic:
+    """Rename or copy what is damaged to NAME.damaged-TIME; return what is said of that."""
     stamp = time.strftime("%Y-%m-%dT%H-%M-%S")
     number = 1
     aside = path.with_name(f"{path.name}.damaged-{stamp}")
@@ -22,5 +25,5 @@ def set_aside(path: Path, *, copy: bool = False) -> str:
         else:
             path.rename(aside)
     except OSError as error:
-        return f"It cannot be set aside: {error.strerror}"
-    return f"{'A copy is kept as' if copy else 'It is now called'} {aside.name}"
+        return NOT_SET_ASIDE(problem=error.strerror)
+    return (COPY_KEPT if copy else SET_ASIDE)(file=aside.name)

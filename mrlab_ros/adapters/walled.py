@@ -20,6 +20,8 @@ from pathlib import Path
 from typing import Any
 
 from mrlab_ros.adapters import python_process, wall
+from mrlab_ros.adapters.diagnostics import READER_FAILED, READER_MEMORY, READER_SLOW
+from mrlab_ros.core.base.diagnostic import from_plain, plain
 from mrlab_ros.core.errors import BadInput, LabError
 
 MiB = 1 << 20
@@ -55,6 +57,7 @@ def call(
         "module": function.__module__,
         "function": function.__qualname__,
         "arguments": arguments,
+        "name": name,
         "read": [str(path) for path in read],
         "write": [str(path) for path in write],
         "memory": memory,
@@ -84,15 +87,17 @@ def call(
         last = errors.read()[-500:].decode(errors="replace").strip().rpartition("\n")[2]
     try:
         found = json.loads(text) if status == 0 else {}
-    except ValueError:
-        found = {}
-    if isinstance(found, dict) and "value" in found:
-        return found["value"]
-    if isinstance(found, dict) and "problem" in found:
-        raise BadInput(str(found["problem"]))
+        if "value" in found:
+            return found["value"]
+        # what the reader of a file says is as much from outside as the file
+        problem = from_plain(found["problem"]) if "problem" in found else None
+    except (ValueError, TypeError, KeyError, AttributeError):
+        problem = None
+    if problem is not None:
+        raise BadInput(problem)
     if status in (-signal.SIGALRM, -signal.SIGKILL, -signal.SIGXCPU):
-        raise BadInput(f"reading {name} takes more than {seconds:g} s; is it what it should be?")
-    raise BadInput(f"the reader of {name} failed on it (exit status {status}): {last}")
+        raise BadInput(READER_SLOW(file=name, limit=seconds))
+    raise BadInput(READER_FAILED(file=name, status=status, problem=last))
 
 
 def main() -> None:
@@ -111,9 +116,9 @@ def main() -> None:
         try:
             found = {"value": function(*words["arguments"])}
         except LabError as error:
-            found = {"problem": str(error)}
+            found = {"problem": plain(error)}
         except MemoryError:
-            found = {"problem": f"reading it needs more than {words['memory'] / MiB:g} MiB"}
+            found = {"problem": plain(READER_MEMORY(file=words["name"], limit=words["memory"]))}
         json.dump(found, answer)
 
 

@@ -15,6 +15,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from mrlab_ros.commands import output
+from mrlab_ros.commands.diagnostics import EXTRACTED
 from mrlab_ros.commands.output import AsJson, say
 from mrlab_ros.core.base.diagnostic import plain
 from mrlab_ros.core.foreign_text import for_shell
@@ -130,7 +131,7 @@ def import_(
 
     done = imported(source.expanduser(), bag.expanduser(), robots or [])
     say(
-        done.describe(str(done.folder)),
+        done.said(str(done.folder)),
         as_json=as_json,
         bag=str(done.folder),
         messages=done.messages,
@@ -156,8 +157,10 @@ def extract(
     with tempfile.TemporaryDirectory(prefix="mrlab-") as folder:
         names = _walled(extracted, path, folder, write=[Path(folder)])
         shutil.copytree(folder, root, dirs_exist_ok=True)
-    listed = "".join(f"\n  {name}" for name in names)
-    say(f"wrote {len(names)} files to {root}{listed}", as_json=as_json, files=names)
+    said = EXTRACTED(files=len(names), folder=str(root), names=names)
+    say(said, as_json=as_json, files=names)
+    if not as_json:
+        print("\n".join(f"  {name}" for name in names))
 
 
 def extracted(bag: str, folder: str) -> list[str]:

@@ -8,11 +8,13 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
+from mrlab_ros.adapters.bags.diagnostics import BAG_EXISTS, NO_BAG
 from mrlab_ros.adapters.bags.foreign import Imported, import_bag
 from mrlab_ros.adapters.bags.other import OtherBag, open_bag
-from mrlab_ros.adapters.nearby import like_file
+from mrlab_ros.adapters.nearby import close_file
 from mrlab_ros.adapters.robots.library import RobotLibrary
 from mrlab_ros.commands import behind_wall
+from mrlab_ros.core.base.diagnostic import from_plain, plain
 from mrlab_ros.core.errors import BadInput
 from mrlab_ros.messages.definitions import definition
 from mrlab_ros.ros import share
@@ -21,12 +23,9 @@ from mrlab_ros.ros import share
 def imported(source: Path, folder: Path, models: Sequence[str]) -> Imported:
     """Make the bag `folder` of a foreign one; models: robots whose joints it holds."""
     if not source.exists():
-        raise BadInput(
-            f"there is no bag {source}; name the folder of a bag, or a .db3 file"
-            f"{like_file(source)}"
-        )
+        raise BadInput(NO_BAG(path=str(source), close=close_file(source)))
     if folder.exists():
-        raise BadInput(f"{folder} exists already; name a new folder")
+        raise BadInput(BAG_EXISTS(folder=str(folder)))
     folder.parent.mkdir(parents=True, exist_ok=True)
     with tempfile.TemporaryDirectory(prefix=".importing-", dir=folder.parent) as work:
         made = Path(work, folder.name)
@@ -35,14 +34,16 @@ def imported(source: Path, folder: Path, models: Sequence[str]) -> Imported:
             name=source.name, read=[source], write=[Path(work)],
         )  # fmt: skip
         made.rename(folder)
-    return Imported(**{**done, "folder": folder})
+    skipped = {topic: from_plain(why) for topic, why in done["skipped"].items()}
+    return Imported(**{**done, "folder": folder, "skipped": skipped})
 
 
 def import_of(source: str, folder: str, models: list[str]) -> dict[str, Any]:
     """Import a bag; return the fields of what became of it."""
     library = RobotLibrary(share.directory() / "robots")
     done = import_bag(Path(source), Path(folder), models, library, definition)
-    return {**vars(done), "folder": folder}
+    found: dict[str, Any] = plain({**vars(done), "folder": folder})
+    return found
 
 
 def is_foreign(path: Path) -> bool:

@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
+from mrlab_ros.core.base.diagnostic import Diagnostic, plain
 from mrlab_ros.core.foreign_text import visible_lines
 
 if TYPE_CHECKING:
@@ -22,9 +23,12 @@ REPORT_WIDTH = 120  # of reports, where nothing says how wide the output is
 AsJson = Annotated[bool, typer.Option("--json", help="Print one JSON object.")]
 
 
-def say(message: str, *, as_json: bool, **facts: object) -> None:
-    """Print the lab's sentence, or a JSON object with it and `facts`."""
-    print(json.dumps({**facts, "message": message}) if as_json else message, flush=True)
+def say(said: Diagnostic | str, *, as_json: bool, **facts: object) -> None:
+    """Print what is said, or a JSON object with its text, code and values, and `facts`."""
+    found: dict[str, object] = {"message": str(said)}
+    if isinstance(said, Diagnostic):
+        found |= {"code": said.code, "values": plain(said.values)}
+    print(json.dumps({**plain(facts), **found}) if as_json else str(said), flush=True)
 
 
 def say_error(sentence: str) -> None:

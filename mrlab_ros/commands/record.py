@@ -13,8 +13,24 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from mrlab_ros.commands import output
+from mrlab_ros.commands.diagnostics import (
+    BAG_CLOSED,
+    ENDED_BY_ANOTHER,
+    LAB_SILENT,
+    NOT_A_BAG_NAME,
+    RECORDER_AWAITED,
+    RECORDER_BACK,
+    RECORDER_FROZEN,
+    RECORDER_SILENT,
+    RECORDING_CONTINUES,
+    RECORDING_GONE,
+    STOP_WITH_BAG,
+)
+from mrlab_ros.commands.output import say
+from mrlab_ros.core.base.diagnostic import Diagnostic, Fix
 from mrlab_ros.core.errors import LabError, Misuse
 from mrlab_ros.core.foreign_text import for_shell
+from mrlab_ros.core.recording.diagnostics import NO_RECORDING
 from mrlab_ros.core.recording.states import RecorderState
 
 if TYPE_CHECKING:
@@ -26,13 +42,14 @@ SILENCE = 5.0
 # A recorder that died is back by then: the supervisor starts it again, s.
 RETURN = 20.0
 # A bag of such a name is a command that was meant otherwise.
-COMMANDS = {"stop": "mrlab record --stop", "start": "mrlab record"}
+COMMANDS = {"stop": "record --stop", "start": "record"}
 # A recorder answers by then, but where it closes a bag of hours or is frozen, s.
 ANSWER_S = 3.5
 # A process gives a sign of life once a second; one without any for this long is frozen, s.
 FROZEN_S = 2.5
 # A bag of hours is closed by then, s.
 STOP_TIMEOUT_S = 30.0
+ENDING = (Fix(command="record --stop"), Fix(command="status"))
 
 
 def record(
@@ -64,7 +81,7 @@ def record(
         _end(bag, as_json=as_json)
         return
     if bag is not None and (meant := COMMANDS.get(str(bag))) is not None:
-        raise Misuse(f"'{bag}' is no name for a bag; use {meant}, or the whole path of the bag")
+        raise Misuse(NOT_A_BAG_NAME(bag=str(bag), fixes=(Fix(command=meant),)))
     request = srv.StartRecording.Request(
         bag=str(bag.absolute()) if bag else "",
         topics=[topic.strip() for topic in topics.split(",") if topic.strip()],
@@ -87,7 +104,13 @@ def _show(graph: GraphClient, bag: str, *, as_json: bool) -> None:
     if as_json:
         print(json.dumps({"bag": bag}), flush=True)
         watch = graph.watch(msg.RecorderState, "/recorder/state")
-        _follow(watch, _print_state, _print_message, bag, lambda: size_of(bag))
+        _follow(
+            watch,
+            _print_state,
+            lambda said: say(said, as_json=True),
+            bag,
+            lambda: size_of(bag),
+        )
         return
     print(f"records into {bag}; Ctrl-C ends it, or mrlab record --stop", flush=True)
 
@@ -99,7 +122,7 @@ def _show(graph: GraphClient, bag: str, *, as_json: bool) -> None:
         _follow(
             watch,
             lambda *states: live.update(_line(*states), refresh=True),
-            lambda said: console.print(said, soft_wrap=True),
+            lambda said: console.print(str(said), soft_wrap=True),
             bag,
             lambda: size_of(bag),
         )
@@ -126,10 +149,7 @@ def _interrupted(graph: GraphClient, begun: str, *, as_json: bool) -> None:
     if not begun:
         # It had begun all the same.
         raise typer.Exit(130)
-    if as_json:
-        _print_message(said)
-    else:
-        print(said)
+    say(said, as_json=as_json)
 
 
 def _end(bag: Path | None, *, as_json: bool) -> None:
@@ -139,81 +159,72 @@ def _end(bag: Path | None, *, as_json: bool) -> None:
     from mrlab_ros.client.connect import open_graph
 
     if bag is not None:
-        raise Misuse(f"--stop ends the recording that runs; leave '{bag}' out")
+        raise Misuse(STOP_WITH_BAG(bag=str(bag)))
     with open_graph() as graph:
         state = graph.watch(msg.RecorderState, "/recorder/state").wait(
             lambda _: True, SILENCE, "the recorder"
         )
         if state.state != msg.RecorderState.RECORDING:
-            raise Misuse("nothing is recorded; mrlab record begins a recording")
+            raise Misuse(NO_RECORDING(fixes=(Fix(command="record"),)))
         said = _stop(graph, lambda: size_of(state.bag))
-    print(json.dumps({"bag": state.bag, "message": said}) if as_json else said)
+    say(said, as_json=as_json, bag=state.bag)
 
 
 def _follow(
     watch: Watch[Any],
     show: Any,
-    say: Callable[[str], None],
+    say: Callable[[Diagnostic], None],
     bag: str,
     size: Callable[[], int],
 ) -> None:
     """Show the progress until another client ends the recording; raise LabError where it failed.
 
     A recorder that was killed and restarted goes on in the same bag: it is waited for. One whose
-    bag grows records, whatever is between it and here. say: takes a sentence where that happens;
+    bag grows records, whatever is between it and here. say: takes what is said of that;
     size: returns the bytes of the bag.
     """
-    last, received_at, began = None, time.monotonic(), False
-    waiting, said = False, ""
+    from mrlab_ros.messages.texts import heard
+
+    last: Any = None
+    said: Diagnostic | None = None
+    received_at, began, waiting = time.monotonic(), False, False
     grown_at, known = received_at, 0
-    look = f"mrlab bag info {for_shell([bag])}"
+    looking = (Fix(command=f"bag info {for_shell([bag])}"),)
     while True:
         state = watch.value
-        if state is not last:
+        if state is not None and state is not last:
             gap = time.monotonic() - received_at
             before, last, received_at = last, state, time.monotonic()
             grown_at, known = received_at, 0
             # What is latched from before this recording says nothing of it.
+            trouble = heard(state) if state.message else None
             if state.state == RecorderState.RECORDING.value and state.bag == bag:
                 show(state, before if began else None)
-                if state.message and state.message != said:
-                    say(f"{state.message}; the recording goes on in {bag}")
+                if trouble is not None and trouble != said:
+                    say(RECORDING_CONTINUES(why=trouble, bag=bag))
                 elif waiting:
-                    say(f"the recorder answers again; the recording goes on in {bag}")
-                began, waiting, said = True, False, state.message
-            elif began and not state.message and gap < SILENCE / 2:
-                say(f"another client ended the recording; {look} says what it holds")
+                    say(RECORDER_BACK(bag=bag))
+                began, waiting, said = True, False, trouble
+            elif began and trouble is None and gap < SILENCE / 2:
+                say(ENDED_BY_ANOTHER(bag=bag, fixes=looking))
                 return
             elif began:
-                raise LabError(
-                    state.message
-                    or f"the recording into {bag} has ended: the recorder was restarted; "
-                    f"{look} shows what it holds"
-                )
+                raise LabError(trouble or RECORDING_GONE(bag=bag, fixes=looking))
         silent = time.monotonic() - received_at
         if silent > SILENCE and not began and state is not None and state.message:
-            raise LabError(state.message)
+            raise LabError(heard(state))
         if silent > SILENCE / 2 and (now := size()) != known:
             # The first look says nothing of growth.
             grown_at, known = time.monotonic() if known else grown_at, now
         if min(silent, time.monotonic() - grown_at) > RETURN:
-            raise LabError(
-                f"the recorder has been silent for {RETURN:g} s; what it wrote into {bag} stays "
-                "readable; a restarted recorder goes on in that bag: mrlab record --stop ends it; "
-                "mrlab status shows what runs"
-            )
+            raise LabError(RECORDER_SILENT(silent=RETURN, bag=bag, fixes=ENDING))
         if silent > SILENCE and not waiting:
             waiting = True
             if grown_at > received_at:
-                goes_on = f"the recording goes on in {bag}; Ctrl-C ends it"
-                say(f"the lab has been silent for {SILENCE:g} s, but {goes_on}")
+                say(LAB_SILENT(silent=SILENCE, bag=bag))
             else:
-                say(f"the recorder has been silent for {SILENCE:g} s; waits for its restart")
+                say(RECORDER_AWAITED(silent=SILENCE))
         time.sleep(REFRESH)
-
-
-def _print_message(said: str) -> None:
-    print(json.dumps({"message": said}), flush=True)
 
 
 def _print_state(state: Any, _: Any) -> None:
@@ -229,7 +240,7 @@ def _line(state: Any, before: Any) -> str:
     return f"{state.position:.0f} s  {state.messages} messages  {megabytes(state.bytes)}{rate}"
 
 
-def _stop(graph: GraphClient, size: Callable[[], int]) -> str:
+def _stop(graph: GraphClient, size: Callable[[], int]) -> Diagnostic:
     """End the recording; raise LabError where the recorder does not answer.
 
     size: returns the bytes of its bag; one that grows has a recorder that can be asked elsewhere.
@@ -259,22 +270,16 @@ def _stop(graph: GraphClient, size: Callable[[], int]) -> str:
         if silent > FROZEN_S and size() > before:
             return _stop_elsewhere()
         if silent > FROZEN_S:
-            raise NoAnswer(
-                f"the recorder gave no sign of life for {silent:.0f} s; what it wrote stays "
-                "readable, and if it goes on it ends the recording; mrlab status shows it, and "
-                "mrlab record --stop asks again"
-            ) from None
+            raise NoAnswer(RECORDER_FROZEN(silent=silent, fixes=ENDING)) from None
         state = graph.watch(msg.RecorderState, "/recorder/state")
         state.wait(
             lambda now: now.state != msg.RecorderState.RECORDING, STOP_TIMEOUT_S, "the bag's end"
         )
-        return "the bag is closed"
-    if not answer.success:
-        raise Misuse(answer.message)
-    return str(answer.message)
+        return BAG_CLOSED()
+    return _said(answer)
 
 
-def _stop_elsewhere() -> str:
+def _stop_elsewhere() -> Diagnostic:
     """End the recording of a recorder that works, through a client that is opened anew."""
     from mrlab_msgs.srv import Trigger
 
@@ -285,9 +290,17 @@ def _stop_elsewhere() -> str:
         answer = graph.call(
             Trigger, "/recorder/stop", Trigger.Request(), timeout, find_timeout=RETURN
         )
+    return _said(answer)
+
+
+def _said(answer: Any) -> Diagnostic:
+    """Return what the recorder answered; raise Misuse where it refused."""
+    from mrlab_ros.messages.texts import heard
+
+    said = heard(answer)
     if not answer.success:
-        raise Misuse(answer.message)
-    return str(answer.message)
+        raise Misuse(said)
+    return said
 
 
 def size_of(bag: str) -> int:

@@ -7,6 +7,8 @@ from pathlib import Path
 from mrlab_ros.adapters.bags.courses import Reference
 from mrlab_ros.adapters.robots.library import RobotLibrary
 from mrlab_ros.commands.convert.batch import convert_file
+from mrlab_ros.commands.diagnostics import REFERENCE_REFUSED
+from mrlab_ros.core.base.diagnostic import Fix
 from mrlab_ros.core.conversion.options import Options
 from mrlab_ros.core.errors import BadInput
 from mrlab_ros.core.foreign_text import for_shell
@@ -19,10 +21,14 @@ def reference_of(file: Path, model: str) -> Reference:
     library = RobotLibrary(share.directory() / "robots")
     result = convert_file(file, library.model(model), Options(), None)
     if result.trajectory is None:
+        converting = f"convert {for_shell([str(file)])} --robot {model} --out ."
         raise BadInput(
-            f"the reference {file.name} is refused for {model}: {result.message.rstrip('.')}. "
-            "Mend it, and name what this writes: "
-            f"mrlab convert {for_shell([str(file)])} --robot {model} --out ."
+            REFERENCE_REFUSED(
+                file=file.name,
+                model=model,
+                why=result.diagnostics[0],
+                fixes=(Fix(command=converting),),
+            )
         )
     found = result.trajectory
     return Reference(file.name, model, ReferenceTrajectory(found.frame_rate, found.positions))

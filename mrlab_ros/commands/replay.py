@@ -18,10 +18,14 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from mrlab_ros.commands import output
+from mrlab_ros.commands.diagnostics import RECORDER_SILENT, ROBOT_WITHOUT_PATH
 from mrlab_ros.commands.output import say
 from mrlab_ros.commands.record import SILENCE
+from mrlab_ros.core.base.diagnostic import Fix
 from mrlab_ros.core.errors import LabError, Misuse
+from mrlab_ros.core.recording.diagnostics import REPLAY_OVER
 from mrlab_ros.core.recording.states import RecorderState
+from mrlab_ros.messages.texts import heard
 from mrlab_ros.messages.time import time_from_message
 
 if TYPE_CHECKING:
@@ -69,7 +73,7 @@ def replay(
         if robots or is_foreign(path):
             with imported_for_now(path, robots or []) as found:
                 say(
-                    found.describe(path.name),
+                    found.said(path.name),
                     as_json=as_json,
                     robots=found.robots,
                     skipped=found.skipped,
@@ -77,7 +81,7 @@ def replay(
                 _replay(str(found.folder), rate, start, loop, as_json=as_json)
             return
     elif robots:
-        raise Misuse(f"there is no bag {path}; --robot is for the bags of others, by their path")
+        raise Misuse(ROBOT_WITHOUT_PATH(path=str(path)))
     _replay(str(path.absolute()) if path.exists() else bag, rate, start, loop, as_json=as_json)
 
 
@@ -94,11 +98,11 @@ def _replay(bag: str, rate: float, start: float, loop: bool, *, as_json: bool) -
         try:
             answer = graph.order(srv.Replay, "/recorder/replay", request, BEGIN_TIMEOUT_S)
             if as_json:
-                say(answer.message, as_json=True, bag=bag)
+                say(heard(answer), as_json=True, bag=bag)
                 _follow(watch, None, _print_states())
-                say("the replay is over", as_json=True)
+                say(REPLAY_OVER(), as_json=True)
                 return
-            console.print(answer.message, soft_wrap=True)
+            console.print(str(heard(answer)), soft_wrap=True)
             keyboard = Keyboard(graph, watch) if sys.stdin.isatty() else None
             if keyboard is not None:
                 console.print(KEYS)
@@ -115,7 +119,7 @@ def _replay(bag: str, rate: float, start: float, loop: bool, *, as_json: bool) -
             # The recorder answers a stop once the replay has begun.
             _end(graph, BEGIN_TIMEOUT_S)
             raise typer.Exit(130) from None
-    console.print("the replay is over")
+    console.print(str(REPLAY_OVER()))
 
 
 def _print_states() -> Callable[[Any], None]:
@@ -146,16 +150,14 @@ def _follow(watch: Watch[Any], keyboard: Keyboard | None, show: Callable[[Any], 
         if state is not last:
             last, received_at = state, time.monotonic()
         elif time.monotonic() - received_at > SILENCE:
-            raise LabError(
-                f"the recorder has been silent for {SILENCE:g} s; mrlab status shows what runs"
-            )
+            raise LabError(RECORDER_SILENT(silent=SILENCE, fixes=(Fix(command="status"),)))
         show(state)
         if keyboard is None:
             time.sleep(REFRESH)
         else:
             keyboard.serve(state)
     if state is not None and state.message:
-        raise LabError(state.message)
+        raise LabError(heard(state))
 
 
 def _line(state: Any, keyboard: Keyboard | None) -> str:

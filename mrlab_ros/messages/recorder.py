@@ -4,13 +4,15 @@ from __future__ import annotations
 
 from mrlab_msgs import msg
 
+from mrlab_ros.core.base.diagnostic import Diagnostic
+from mrlab_ros.messages.texts import told
 from mrlab_ros.messages.time import make_header
 
 
 def recorder_state_to_message(
     now_ns: int,
     state: int,
-    message: str,
+    said: Diagnostic | None,
     *,
     bag: str = "",
     position: float = 0.0,
@@ -19,11 +21,14 @@ def recorder_state_to_message(
     messages: int = 0,
     size: int = 0,
 ) -> msg.RecorderState:
-    """state: a value of RecorderState.msg. position, duration: s. size: bytes of the bag."""
+    """state: a value of RecorderState.msg. said: the trouble. position, duration: s.
+
+    size: bytes of the bag.
+    """
     return msg.RecorderState(
         header=make_header(now_ns),
         state=state,
-        message=message,
+        **told(said),
         bag=bag,
         position=position,
         duration=duration,

@@ -40,9 +40,9 @@ def folder() -> tuple[Path, str]:
             reasons.append(f"{path.parent}: {error.strerror}")
             continue
         why = private_folder.why_not(path)
-        if not why:
+        if why is None:
             return path, "; ".join(reasons)
-        reasons.append(why)
+        reasons.append(str(why))
     raise Unavailable(
         f"no folder is this user's alone ({'; '.join(reasons)}); set XDG_RUNTIME_DIR to one"
     )

@@ -14,22 +14,31 @@ import zstandard
 from mrlab_msgs import msg
 from PIL import Image
 from rclpy.serialization import deserialize_message, serialize_message
+from refusals import refused
 from rosbags.rosbag2 import CompressionFormat, CompressionMode, StoragePlugin, Writer
 from rosbags.typesys import Stores, get_types_from_msg, get_typestore
 from sensor_msgs.msg import JointState
 from sqlite_bag import as_sqlite
 from typer.testing import CliRunner
 
+from mrlab_ros.adapters.bags.diagnostics import (
+    BAG_WITHOUT_FILES,
+    MOVES_NO_ROBOT,
+    NOT_ROS_BAG,
+)
 from mrlab_ros.adapters.bags.foreign import Imported
 from mrlab_ros.adapters.bags.reader import Bag
 from mrlab_ros.adapters.bags.writer import BagWriter
+from mrlab_ros.adapters.diagnostics import COMPRESSED_CUT_SHORT
 from mrlab_ros.cli import make_app
+from mrlab_ros.commands.diagnostics import REFERENCE_REFUSED
 from mrlab_ros.commands.foreign import import_of
 from mrlab_ros.commands.replay import Keyboard, next_rate
 from mrlab_ros.commands.status.facts import recorder_facts
 from mrlab_ros.commands.status.table import recorder_line
 from mrlab_ros.core.design import STATES
 from mrlab_ros.core.errors import BadInput
+from mrlab_ros.core.recording.diagnostics import NO_SUCH_JOINTS
 from mrlab_ros.core.recording.metadata import QosProfile, Topic
 from mrlab_ros.messages.definitions import definition
 from mrlab_ros.messages.time import make_header
@@ -136,7 +145,7 @@ def test_a_reference_takes_the_place_of_what_was_played(bag, tmp_path):
     facts = json.loads(run("bag", "report", bag, "--json", "--reference", tmp_path / "ref.mat"))
     assert facts["runs"][0]["deviation"] is None
     scipy.io.savemat(tmp_path / "ref.mat", {"q": wave[:, :2], "fs": 10.0})
-    with pytest.raises(BadInput, match="is refused for ur5e"):
+    with refused(REFERENCE_REFUSED, BadInput, model="ur5e"):
         run("bag", "report", bag, "--reference", tmp_path / "ref.mat")
 
 
@@ -260,24 +269,25 @@ def test_a_compressed_file_alone_becomes_a_bag(tmp_path: Path, mode: Compression
     assert done["robots"] == {"ur5e_1": "ur5e"}
     if mode is CompressionMode.FILE:
         alone.write_bytes(alone.read_bytes()[:-9])
-        with pytest.raises(BadInput, match=r"cannot be read as a ROS 2 bag \(its end is missing"):
+        with refused(COMPRESSED_CUT_SHORT, BadInput):
             run("bag", "import", alone, tmp_path / "other")
 
 
 def test_a_foreign_bag_is_refused_with_what_it_holds(tmp_path: Path) -> None:
     source = foreign(tmp_path / "last week", StoragePlugin.SQLITE3)
-    with pytest.raises(BadInput, match="no joint states of kuka_kr3_r540.*/joint_states: wrist_3"):
+    with refused(NO_SUCH_JOINTS, BadInput, model="kuka_kr3_r540"):
         run("bag", "import", source, tmp_path / "mine", "--robot", "kuka_kr3_r540")
-    with pytest.raises(BadInput, match=f"becomes one with: mrlab bag import '{source}' NEW"):
+    with refused(BAG_WITHOUT_FILES, BadInput) as caught:
         run("bag", "repair", source)
+    assert caught.value.diagnostic.fixes[0].command == f"bag import '{source}' NEW_FOLDER"
     (tmp_path / "no.db3").write_bytes(b"no database")
     (tmp_path / "cut.db3").write_bytes(b"SQLite format 3\0" + bytes(99))
     (tmp_path / "lone.mcap.zst").write_bytes(zstandard.compress(b"\x89MCAP0\r\n"))
     for name in ("no.db3", "cut.db3", "lone.mcap.zst"):
-        with pytest.raises(BadInput, match="cannot be read as a ROS 2 bag"):
+        with refused(NOT_ROS_BAG, BadInput):
             run("bag", "import", tmp_path / name, tmp_path / "other")
     for name in ("cut.db3", "lone.mcap.zst"):
-        with pytest.raises(BadInput, match="cannot be read as a ROS 2 bag"):
+        with refused(NOT_ROS_BAG, BadInput):
             run("bag", "info", tmp_path / name)
     assert not (tmp_path / "mine").exists()
 
@@ -317,9 +327,9 @@ def test_joints_of_no_robot_are_named(tmp_path: Path) -> None:
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr("mrlab_ros.adapters.bags.foreign.chosen_models", lambda *_: {})
         done = Imported(**import_of(str(source), str(tmp_path / "mine"), []))
-    said = done.describe("mine")
-    assert "/joint_states moves no robot" in said
-    assert "wrist_3_joint, " in said
+    (strange,) = done.said("mine").values["notes"]
+    assert (strange.code, strange.values["topic"]) == (MOVES_NO_ROBOT.code, "/joint_states")
+    assert "wrist_3_joint" in strange.values["joints"]
 
 
 def test_info_says_what_is_in_the_bag(bag):

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import errno
 import itertools
+import json
 import os
 import resource
 import signal
@@ -28,17 +30,46 @@ from sensor_msgs.msg import JointState
 from sqlite_bag import as_sqlite
 from std_msgs.msg import String
 
+from mrlab_ros.adapters.bags.diagnostics import (
+    BAG_EXISTS,
+    BAG_MOVED,
+    BAG_NOT_WRITTEN,
+    NO_ATTACHMENT,
+    NO_BAG,
+    NOT_MCAP,
+)
 from mrlab_ros.adapters.bags.reader import Bag
 from mrlab_ros.adapters.bags.repair import repair
 from mrlab_ros.adapters.bags.writer import BagWriter
 from mrlab_ros.adapters.journal import Journal
 from mrlab_ros.adapters.trajectories.json_file import chunks, parse
+from mrlab_ros.core.base.diagnostics import BAD_POSITION
 from mrlab_ros.core.recording import journal as entries
+from mrlab_ros.core.recording.diagnostics import (
+    BAD_REPLAY_RATE,
+    BAD_SPLIT_DURATION,
+    BAD_TOPIC_PATTERN,
+    LEFT_OUT,
+    NO_RECORDING,
+    NO_REPLAY,
+    NOTHING_RUNS,
+    NOTHING_TO_REPLAY,
+    RECORDING_GAP,
+    RECORDING_RUNS,
+    REPLAY_OVER,
+    REPLAY_RUNS,
+)
 from mrlab_ros.core.recording.metadata import QosProfile, Topic
 from mrlab_ros.messages import qos
 from mrlab_ros.messages.definitions import definition
 from mrlab_ros.nodes.recorder import node as recorder_node
 from mrlab_ros.nodes.recorder import recording, replaying
+from mrlab_ros.nodes.recorder.diagnostics import (
+    OTHERS_PUBLISH,
+    RECORDED,
+    RECORDING_FAILED,
+    RECORDING_WITH_GAP,
+)
 from mrlab_ros.nodes.recorder.node import RecorderNode
 from mrlab_ros.ros.raw_streams import Received
 from mrlab_ros.ros.share import directory
@@ -67,10 +98,22 @@ def start(graph: Graph, bag: str, topics: tuple[str, ...] = (), **fields: Any) -
     return Path(answer.bag)
 
 
-def order(graph: Graph, service: str, kind: Any = Trigger, **fields: Any) -> str:
+def order(graph: Graph, service: str, kind: Any = Trigger, **fields: Any) -> Any:
     answer = graph.call(kind, f"/recorder/{service}", **fields)
     assert answer.success, answer.message
-    return answer.message
+    return answer
+
+
+def held(answer: Any) -> int:
+    """Return how many messages a bag holds that was closed."""
+    assert answer.code == RECORDED.code
+    return next(int(each.value) for each in answer.values if each.key == "messages")
+
+
+def reason(answer: Any) -> str:
+    """Return the code of the reason in a refusal by the state."""
+    reasons = [json.loads(each.value) for each in answer.values if each.key == "reason"]
+    return reasons[0]["code"] if reasons else ""
 
 
 def publisher(graph: Graph, topic: str, quality: Any = qos.STREAM) -> Callable[[str], None]:
@@ -104,7 +147,7 @@ def test_a_recording_holds_what_was_said_also_by_who_came_later(graph, recorder,
     order(graph, "split")
     say("after")
     wait_for(lambda: states.last().messages >= 602, "the last message")
-    assert "holds 602 messages" in order(graph, "stop")
+    assert held(order(graph, "stop")) == 602
     wait_for(lambda: states.last().state == State.STOPPED, "the end")
     assert words(folder, "/ur5e_1/telemetry") == [f"first {n}" for n in range(300)] + ["after"]
     assert words(folder, "/ur5e_2/telemetry") == [f"second {n}" for n in range(300)]
@@ -185,26 +228,26 @@ def test_the_meshes_of_an_imported_robot_are_in_the_bag(graph, recorder, monkeyp
 
 
 def test_one_thing_at_a_time_and_each_refusal_says_why(graph, recorder, tmp_path):
-    def refused(kind: Any, service: str, **fields: Any) -> str:
+    def refused(kind: Any, service: str, **fields: Any) -> list[str]:
         answer = graph.call(kind, f"/recorder/{service}", **fields)
         assert not answer.success
-        return answer.message
+        return [answer.code, reason(answer)]
 
-    assert "nothing is recorded or replayed" in refused(Trigger, "stop")
-    assert "nothing is recorded" in refused(Trigger, "split")
+    assert NOTHING_RUNS.code in refused(Trigger, "stop")
+    assert NO_RECORDING.code in refused(Trigger, "split")
     for service in ("pause", "resume"):
-        assert "nothing is replayed" in refused(Trigger, service)
-    assert "expected 1 or more" in refused(srv.StartRecording, "start", split_duration=0.1)
-    assert "names no topic" in refused(srv.StartRecording, "start", topics=["x"])
+        assert NO_REPLAY.code in refused(Trigger, service)
+    assert BAD_SPLIT_DURATION.code in refused(srv.StartRecording, "start", split_duration=0.1)
+    assert BAD_TOPIC_PATTERN.code in refused(srv.StartRecording, "start", topics=["x"])
     (tmp_path / "file").write_text("words")
-    assert "no MCAP file" in refused(srv.Replay, "replay", bag="file", rate=1.0)
-    assert "there is no bag" in refused(srv.Replay, "replay", bag="nowhere", rate=1.0)
-    folder = start(graph, "class", ("/*/telemetry",))
-    assert f"a recording into {folder} runs" in refused(srv.StartRecording, "start")
-    assert f"a recording into {folder} runs" in refused(srv.Replay, "replay", bag="x", rate=1.0)
+    assert NOT_MCAP.code in refused(srv.Replay, "replay", bag="file", rate=1.0)
+    assert NO_BAG.code in refused(srv.Replay, "replay", bag="nowhere", rate=1.0)
+    start(graph, "class", ("/*/telemetry",))
+    assert RECORDING_RUNS.code in refused(srv.StartRecording, "start")
+    assert RECORDING_RUNS.code in refused(srv.Replay, "replay", bag="x", rate=1.0)
     order(graph, "stop")
-    assert "exists already" in refused(srv.StartRecording, "start", bag="file")
-    assert "holds no topic" in refused(srv.Replay, "replay", bag="class", rate=1.0)
+    assert BAG_EXISTS.code in refused(srv.StartRecording, "start", bag="file")
+    assert NOTHING_TO_REPLAY.code in refused(srv.Replay, "replay", bag="class", rate=1.0)
 
 
 # a recorder in a process of its own -----------------------------------------------------------
@@ -299,7 +342,7 @@ def test_a_killed_recorder_goes_on_in_the_same_bag_and_states_the_gap(
         )
         earlier = Bag(bag).message_count
         assert Path(states.last().bag) == bag
-        assert "the recorder was restarted" in states.last().message
+        assert states.last().code == RECORDING_GAP.code
         wait_for(lambda: states.last().messages > earlier + 500, "more messages")
         order(graph, "stop")
         assert states.last() is not None
@@ -310,7 +353,7 @@ def test_a_killed_recorder_goes_on_in_the_same_bag_and_states_the_gap(
     assert [file.path.name for file in found.files] == ["class_0.mcap", "class_1.mcap"]
     (gap,) = found.gaps()
     assert gap.duration > 0.1
-    assert "s are missing from" in gap.describe(found.start_ns)
+    assert gap.said(found.start_ns).code == RECORDING_GAP.code
     numbers = [int(word.split()[0]) for word in words(bag, "/counted")]
     assert sum(b != a + 1 for a, b in itertools.pairwise(numbers)) == 1
     with AnyReader([bag]) as reader:
@@ -370,9 +413,11 @@ def test_a_disk_that_refuses_is_told_at_once_and_the_recorder_lives_on(
     limit = 100_000
     resource.prlimit(process.pid, resource.RLIMIT_FSIZE, (limit, limit))
     folder = start(graph, "class")
-    wait_for(lambda: states and states.last().message, "the trouble")
+    wait_for(lambda: states and states.last().code, "the trouble")
     assert states.last().state == State.STOPPED
-    assert "cannot be written (File too large)" in states.last().message
+    assert states.last().code == BAG_NOT_WRITTEN.code
+    values = {each.key: each.value for each in states.last().values}
+    assert values["problem"] == os.strerror(errno.EFBIG)
     numbers = [int(word.split()[0]) for word in words(folder, "/counted")]
     assert numbers
     assert numbers == list(range(numbers[0], numbers[-1] + 1))
@@ -387,10 +432,9 @@ def test_a_split_that_the_disk_refuses_ends_the_recording(graph, counter, launch
     # A full disk would refuse the next messages before the split.
     (folder / "class_1.mcap").mkdir()
     answer = graph.call(Trigger, "/recorder/split")
-    assert "cannot be written (File exists)" in answer.message
+    assert answer.code == RECORDING_FAILED.code
     wait_for(lambda: states.last().state == State.STOPPED, "the end")
-    assert states.last().message == answer.message
-    assert "the bag is whole" in answer.message
+    assert (states.last().code, states.last().values) == (answer.code, answer.values)
     (folder / "class_1.mcap").rmdir()
     numbers = [int(word.split()[0]) for word in words(folder, "/counted")]
     assert numbers
@@ -514,9 +558,9 @@ def test_pause_seek_rate_and_loop_do_what_they_say(graph, recorder, session, sta
     assert [word for topic, word in ears.heard[heard:] if "grasp" in topic] == ["state 75"]
     order(graph, "set_rate", srv.SetRate, rate=10.0)
     answer = graph.call(srv.SetRate, "/recorder/set_rate", rate=11.0)
-    assert "expected 0.1 to 10" in answer.message
+    assert answer.code == BAD_REPLAY_RATE.code
     answer = graph.call(srv.Seek, "/recorder/seek", position=99.0)
-    assert "expected 0 to" in answer.message
+    assert answer.code == BAD_POSITION.code
     order(graph, "resume")
     wait_for(lambda: ears.of("/ur5e_1/telemetry").count("event 50") >= 2, "two rounds more")
     order(graph, "set_loop", SetLoop, loop=False)
@@ -545,7 +589,7 @@ def test_the_bag_s_trajectories_can_be_fetched_while_it_is_replayed(graph, recor
     positions = small_lab.TRAJECTORIES["wave"].positions
     assert list(answer.trajectory.positions) == pytest.approx(positions.ravel(), abs=1e-12)
     answer = graph.call(srv.GetTrajectory, "/converter/get", id="nothing")
-    assert "has no attachment 'trajectories/nothing.json'" in answer.message
+    assert answer.code == NO_ATTACHMENT.code
     order(graph, "stop")
     wait_for(lambda: not graph.client.count_services("/converter/get"), "the service gone")
 
@@ -554,10 +598,10 @@ def test_a_replay_ends_when_asked_and_refuses_to_run_beside_another(graph, recor
     assert graph.call(srv.ListBags, "/recorder/list_bags").bags == ["class"]
     replay(graph, rate=0.1)
     answer = graph.call(srv.Replay, "/recorder/replay", bag="class", rate=1.0)
-    assert "is being replayed; stop that first" in answer.message
+    assert REPLAY_RUNS.code in reason(answer)
     answer = graph.call(srv.StartRecording, "/recorder/start")
-    assert "is being replayed" in answer.message
-    assert order(graph, "stop") == "the replay is over"
+    assert REPLAY_RUNS.code in reason(answer)
+    assert order(graph, "stop").code == REPLAY_OVER.code
     wait_for(lambda: graph.client.count_publishers("/ur5e_1/telemetry") == 0, "its topics gone")
 
 
@@ -566,7 +610,9 @@ def test_who_still_publishes_is_named(graph, recorder, session, states, monkeypa
     publisher(graph, "/ur5e_1/telemetry")
     answer = graph.call(srv.Replay, "/recorder/replay", bag="class", rate=1.0)
     assert not answer.success
-    assert "/test_client publishes /ur5e_1/telemetry" in answer.message
+    assert answer.code == OTHERS_PUBLISH.code
+    values = {each.key: json.loads(each.value) for each in answer.values}
+    assert values == {"nodes": ["/test_client"], "topics": ["/ur5e_1/telemetry"]}
     wait_until_over(states)
 
 
@@ -603,7 +649,10 @@ def test_a_bag_of_other_definitions_is_brought_to_those_here(graph, recorder, st
     inbox = graph.listen(msg.Grasp, "/ur5e_1/grasp", qos.STREAM)
     answer = graph.call(srv.Replay, "/recorder/replay", bag="older", rate=1.0)
     assert answer.success, answer.message
-    assert "left out /secret: the message type acme_msgs/msg/Secret" in answer.message
+    (left_out,) = (json.loads(each.value) for each in answer.values if each.key == "left_out")
+    assert [(each["code"], each["values"]["topic"]) for each in left_out] == [
+        (LEFT_OUT.code, "/secret")
+    ]
     wait_until_over(states)
     grasp = inbox.last()
     assert (grasp.state, grasp.object, grasp.reason) == (msg.Grasp.HOLDING, "cube_1", "")
@@ -636,13 +685,13 @@ def test_a_recording_that_goes_on_counts_the_bag_and_a_failure_is_told(
     node = graph.add(
         RecorderNode, bag_dir=str(tmp_path), state_dir=str(tmp_path), topics=["/counted"]
     )
-    assert "s are missing" in node.lost[0]
-    assert "holds 7 messages" in order(graph, "stop")
+    assert node.lost[0].values["gap"].code == RECORDING_GAP.code
+    assert held(order(graph, "stop")) == 7
     folder = start(graph, "next")
-    assert "s are missing" in node.lost[0], "the restart is still reported"
+    assert node.lost[0].code == RECORDING_WITH_GAP.code, "the restart is still reported"
     folder.rename(tmp_path / "moved")
     wait_for(lambda: node.failed, "the failure")
-    assert "was renamed or removed" in node.failed[0]
+    assert node.failed[0].code == BAG_MOVED.code
     monkeypatch.setattr(recorder_node, "RESTART_SHOWN_S", 0.0)
     start(graph, "last")
     assert node.failed == node.lost == []

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from pathlib import Path, PurePosixPath
 
+from mrlab_ros.adapters.bags.diagnostics import BAD_ATTACHMENT_NAME, NOT_A_NEW_FOLDER
 from mrlab_ros.adapters.bags.reader import Bag
 from mrlab_ros.core.errors import BadInput
 
@@ -20,10 +21,7 @@ def extract(bag: Bag, folder: Path) -> list[str]:
     for name in names:
         problem = _problem(name, names)
         if problem:
-            raise BadInput(
-                f"the attachment {name!r} {problem}; nothing was written. The bag is made by "
-                "hand: a lab names its attachments such as robots/ur5e_1.urdf"
-            )
+            raise BadInput(BAD_ATTACHMENT_NAME(attachment=name, problem=problem))
     free(folder)
     for name in names:
         target = folder / name
@@ -36,21 +34,21 @@ def extract(bag: Bag, folder: Path) -> list[str]:
 def free(folder: Path) -> Path:
     """Return a folder that is new or empty; raise BadInput for another."""
     if folder.is_symlink() or (folder.exists() and not folder.is_dir()):
-        raise BadInput(f"{folder} is no folder; name a new one with --out")
+        raise BadInput(NOT_A_NEW_FOLDER(folder=str(folder), problem="file"))
     if folder.exists() and any(folder.iterdir()):
-        raise BadInput(f"{folder} is not empty; name a new folder with --out")
+        raise BadInput(NOT_A_NEW_FOLDER(folder=str(folder), problem="full"))
     return folder
 
 
 def _problem(name: str, names: list[str]) -> str:
-    """Say why no file may be called so; empty: it may."""
+    """Return why no file may be called so, by BAD_ATTACHMENT_NAME; empty: it may."""
     parts = name.split("/")
     if not name.isprintable() or any(len(part.encode()) > LONGEST_PART for part in parts):
-        return "cannot be the name of a file"
+        return "unprintable"
     if name.startswith("/") or ".." in parts:
-        return "would be written outside of the folder"
+        return "outside"
     if any(not part or part.startswith(".") for part in parts):
-        return "would be a hidden file"
+        return "hidden"
     if any(str(above) in names for above in PurePosixPath(name).parents):
-        return "would lie in another attachment, not in a folder"
+        return "within"
     return ""

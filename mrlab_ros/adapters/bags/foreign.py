@@ -17,6 +17,13 @@ from rosbags.rosbag2 import Reader
 from rosbags.typesys import Stores, get_types_from_msg, get_typestore
 from rosbags.typesys.store import Typestore
 
+from mrlab_ros.adapters.bags.diagnostics import (
+    BAG_IMPORTED,
+    JOINTS_MOVE,
+    MOVES_NO_ROBOT,
+    NOT_CDR,
+    TYPE_UNKNOWN,
+)
 from mrlab_ros.adapters.bags.other import (
     definition_of,
     merged,
@@ -29,8 +36,10 @@ from mrlab_ros.adapters.bags.other import (
 from mrlab_ros.adapters.bags.writer import BagWriter
 from mrlab_ros.adapters.robots import urdf
 from mrlab_ros.adapters.robots.library import RobotLibrary
+from mrlab_ros.core.base.diagnostic import Diagnostic, Fix
 from mrlab_ros.core.clock import SECOND
 from mrlab_ros.core.errors import BadInput
+from mrlab_ros.core.recording.diagnostics import LEFT_OUT, NOTHING_TO_REPLAY
 from mrlab_ros.core.recording.joint_mapping import chosen_models, columns_of
 from mrlab_ros.core.recording.metadata import QosProfile, Topic
 
@@ -53,23 +62,19 @@ class Imported:
     folder: Path
     messages: int = 0
     robots: dict[str, str] = field(default_factory=dict)
-    skipped: dict[str, str] = field(default_factory=dict)
+    skipped: dict[str, Diagnostic] = field(default_factory=dict)
     strange: dict[str, list[str]] = field(default_factory=dict)
 
-    def describe(self, name: str) -> str:
-        """Return it as a sentence; name: of the bag."""
-        said = f"{name} holds {self.messages} messages"
-        for name, model in self.robots.items():
-            said += f"; the joints move {name} ({model})"
-        for topic, joints in self.strange.items():
-            said += (
-                f"; {topic} moves no robot, for none of the lab has its joints "
-                f"({', '.join(joints) or 'it names none'}); a robot is added with its URDF: "
-                "mrlab robots import URDF"
-            )
-        for topic, why in self.skipped.items():
-            said += f"; left out {topic}: {why}"
-        return said
+    def said(self, name: str) -> Diagnostic:
+        """Return what is said of it; name: of the bag."""
+        notes = [JOINTS_MOVE(robot=name, model=model) for name, model in self.robots.items()]
+        adding = (Fix(command="robots import URDF"),)
+        notes += [
+            MOVES_NO_ROBOT(topic=topic, joints=joints, fixes=adding)
+            for topic, joints in self.strange.items()
+        ]
+        notes += [LEFT_OUT(topic=topic, why=why) for topic, why in self.skipped.items()]
+        return BAG_IMPORTED(bag=name, messages=self.messages, notes=notes)
 
 
 def import_bag(
@@ -106,17 +111,17 @@ class _Import:
         self._library = library
         self._installed = definition
         self._texts: dict[str, str] = {}
-        self._skipped: dict[str, str] = {}
+        self._skipped: dict[str, Diagnostic] = {}
         known = get_typestore(Stores.ROS2_JAZZY)
         connections = [connection for reader in readers for connection in reader.connections]
         for connection in connections:
             why = self._take_text(connection, known)
-            if why:
+            if why is not None:
                 self._skipped[connection.topic] = why
         self._kept = [c for c in connections if c.topic not in self._skipped]
         if not self._kept:
-            why = "; ".join(f"{topic}: {why}" for topic, why in self._skipped.items())
-            raise BadInput(f"{source} holds nothing that can be replayed{f' ({why})' * bool(why)}")
+            left_out = [LEFT_OUT(topic=topic, why=why) for topic, why in self._skipped.items()]
+            raise BadInput(NOTHING_TO_REPLAY(path=str(source), left_out=left_out))
         self._types = get_typestore(Stores.EMPTY)
         for kind in {ROBOTS, TEXT, JOINTS, *(c.msgtype for c in self._kept)}:
             self._register(kind)
@@ -157,18 +162,18 @@ class _Import:
 
     # types ----------------------------------------------------------------------------------
 
-    def _take_text(self, connection: Any, known: Typestore) -> str:
+    def _take_text(self, connection: Any, known: Typestore) -> Diagnostic | None:
         """Keep the definition of a topic's type, the bag's own first; return why there is none."""
         kind = connection.msgtype
         if connection.ext.serialization_format not in ("", "cdr"):
-            return f"it is {connection.ext.serialization_format}, not CDR"
+            return NOT_CDR(format=connection.ext.serialization_format)
         if kind in self._texts:
-            return ""
+            return None
         text = definition_of(connection, self._installed, known)
         if text is None:
-            return f"the bag does not define {kind}, and it is not installed here"
+            return TYPE_UNKNOWN(type=kind)
         self._texts[kind] = text
-        return ""
+        return None
 
     def _text(self, kind: str) -> str:
         if kind not in self._texts:

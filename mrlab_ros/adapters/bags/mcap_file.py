@@ -20,15 +20,21 @@ from mcap.writer import MCAP0_MAGIC
 from zstandard import ZstdError
 
 from mrlab_ros.adapters.bags.diagnostics import (
+    BAG_COMPRESSED,
     BAG_CUT_SHORT,
     BAG_DAMAGED,
+    BAG_EMPTY_FILE,
+    BAG_GONE,
     BAG_NO_INDEX,
     BAG_NOT_BEGUN,
+    BAG_UNREADABLE,
+    MCAP_WITHOUT_CHUNKS,
+    NOT_MCAP,
 )
 from mrlab_ros.adapters.inflate import is_compressed
-from mrlab_ros.core.base.diagnostic import Diagnostic
+from mrlab_ros.core.base.diagnostic import ERROR, Diagnostic
 from mrlab_ros.core.errors import BadInput
-from mrlab_ros.core.foreign_text import for_shell
+from mrlab_ros.core.recording.diagnostics import importing, repairing
 
 RECORD = struct.Struct("<BQ")
 MESSAGE = struct.Struct("<HIQQ")
@@ -88,12 +94,9 @@ class BagFile:
                 file.seek(chunk.offset + RECORD.size)
                 return _decompressed(Chunk.read(ReadDataStream(file)))
         except DAMAGE as error:
-            raise BadInput(
-                f"{self.path} is damaged at byte {chunk.offset} ({error}); bring back a copy "
-                "of the file, or let mrlab bag repair leave that part out"
-            ) from None
+            raise BadInput(damaged(str(self.path), chunk.offset, str(error))) from None
         except OSError as error:
-            raise BadInput(gone(self.path, error)) from None
+            raise BadInput(BAG_GONE(path=str(self.path), problem=error.strerror)) from None
 
     def messages(self, chunk: ChunkRef, topics: Collection[str] | None = None) -> list[Message]:
         """Return the chunk's messages of `topics`, None: of all, in the order of log time."""
@@ -123,11 +126,10 @@ class BagFile:
             yield Attachment.read(ReadDataStream(source))
 
 
-def gone(path: Path, error: OSError) -> str:
-    """Return a sentence about a file that was open before and cannot be opened any more."""
-    return (
-        f"{path} cannot be read any more ({error.strerror}); was the bag renamed, removed, or its "
-        "disk taken away? name it where it is now"
+def damaged(path: str, offset: int, problem: str) -> Diagnostic:
+    """Return what is said of a file whose chunk at `offset` cannot be read."""
+    return BAG_DAMAGED(
+        file=path, offset=offset, problem=problem, severity=ERROR, fixes=repairing(path)
     )
 
 
@@ -138,27 +140,16 @@ def open_file(path: Path) -> BagFile:
             beginning = file.read(len(MCAP0_MAGIC))
             if len(beginning) < len(MCAP0_MAGIC) and MCAP0_MAGIC.startswith(beginning):
                 if path.suffix != ".mcap":
-                    raise BadInput(
-                        f"{path} is empty or was cut off in its first bytes: there is nothing to "
-                        "read or mend in it; bring back a copy"
-                    )
+                    raise BadInput(BAG_EMPTY_FILE(path=str(path)))
                 return BagFile(path, indexed=False, trouble=BAG_NOT_BEGUN(file=path.name))
             if is_compressed(beginning):
-                raise BadInput(
-                    f"{path} is compressed as a whole; a plain bag of it is made with: mrlab bag "
-                    f"import {for_shell([str(path)])} NEW_FOLDER"
-                )
+                raise BadInput(BAG_COMPRESSED(path=str(path), fixes=importing(path)))
             if beginning != MCAP0_MAGIC:
-                raise BadInput(
-                    f"{path} is no MCAP file: it does not begin with MCAP's magic bytes; "
-                    "mrlab bag import makes a bag of the lab of other ROS 2 bags"
-                )
+                raise BadInput(NOT_MCAP(path=str(path), fixes=importing(path)))
             found = _by_index(path, file)
             return found if found is not None else _by_records(path, file)
     except OSError as error:
-        raise BadInput(
-            f"{path} cannot be read ({error.strerror}); check its permissions"
-        ) from None
+        raise BadInput(BAG_UNREADABLE(path=str(path), problem=error.strerror)) from None
 
 
 def _by_index(path: Path, file: Any) -> BagFile | None:
@@ -232,10 +223,7 @@ def _by_records(path: Path, file: Any) -> BagFile:
             elif code in (Opcode.SCHEMA, Opcode.CHANNEL):
                 _take_record(found, code, memoryview(file.read(length)))
             elif code == Opcode.MESSAGE:
-                raise BadInput(
-                    f"{path} has messages outside of chunks and no index; make it a bag of the "
-                    "lab with mrlab bag import"
-                )
+                raise BadInput(MCAP_WITHOUT_CHUNKS(path=str(path), fixes=importing(path)))
         except DAMAGE as error:
             found.trouble = BAG_DAMAGED(file=path.name, offset=offset, problem=str(error))
             break

@@ -14,6 +14,7 @@ from rosbags.interfaces import Nodetype
 from rosbags.typesys import Stores, get_types_from_msg, get_typestore
 from rosbags.typesys.store import Typestore
 
+from mrlab_ros.adapters.bags.diagnostics import FIELD_CHANGED
 from mrlab_ros.core.errors import BadInput
 
 # Types of ROS that numpy calls otherwise.
@@ -60,10 +61,7 @@ def _check(old_kind: str, kind: str, old: Typestore, new: Typestore) -> None:
         if inner and was_inner and _shape(description) == _shape(was):
             _check(was_inner, inner, old, new)
         elif was != description:
-            raise BadInput(
-                f"the field {name} of {kind} is of another kind in the bag than here; replay it "
-                "with the lab that recorded it"
-            )
+            raise BadInput(FIELD_CHANGED(field=name, type=kind))
 
 
 def _shape(description: Any) -> Any:

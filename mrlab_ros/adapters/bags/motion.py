@@ -9,6 +9,7 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
+from mrlab_ros.adapters.bags.diagnostics import BAD_MESH_ADDRESS
 from mrlab_ros.adapters.bags.reader import Bag
 from mrlab_ros.adapters.bags.session import Decoder
 from mrlab_ros.core.clock import SECOND
@@ -134,7 +135,7 @@ def mesh_files(bag: Bag, share: Path) -> Iterator[Any]:
         def resolve(uri: str) -> Path:
             name = f"meshes/{uri.removeprefix(PACKAGE)}"
             if not uri.startswith(PACKAGE):
-                raise BadInput(f"the mesh '{uri}' has no {PACKAGE} address")
+                raise BadInput(BAD_MESH_ADDRESS(uri=uri, expected=PACKAGE))
             own = (share / uri.removeprefix(OWN)).resolve()
             if uri.startswith(OWN) and name not in attached and own.is_relative_to(share):
                 return own

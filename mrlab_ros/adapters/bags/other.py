@@ -19,10 +19,17 @@ from rosbags.rosbag2 import Reader
 from rosbags.typesys import Stores, get_typestore
 from rosbags.typesys.store import Typestore
 
+from mrlab_ros.adapters.bags.diagnostics import (
+    BAG_LACKS_FILES,
+    DATABASE_DAMAGED,
+    MESSAGE_TOO_LARGE,
+    NOT_ROS_BAG,
+)
 from mrlab_ros.adapters.bags.mcap_file import Message
 from mrlab_ros.adapters.bags.reader import METADATA, Bag, mcap_files_in, number_of
 from mrlab_ros.adapters.inflate import ZSTD, Incomplete, inflate_file, inflate_zstd, is_compressed
 from mrlab_ros.adapters.yaml_files import Loader
+from mrlab_ros.core.base.diagnostic import Diagnostic, Fix
 from mrlab_ros.core.clock import SECOND
 from mrlab_ros.core.errors import BadInput
 from mrlab_ros.core.foreign_text import for_shell
@@ -40,6 +47,8 @@ ENDINGS = {b"\x89MCA": ".mcap", SQLITE: ".db3"}
 # A file that is compressed as a whole may hold so many bytes, and so many for each of its own.
 INFLATED, RATIO = 1 << 30, 100
 MOST_BYTES = 1 << 30
+# What sqlite3 returns of a damaged database.
+SQLITE_CORRUPT = 11
 # Messages of one batch.
 BATCH = 500
 
@@ -148,7 +157,7 @@ def merged(
         # rosbags inflates only where metadata.yaml says so.
         plain = inflate_zstd(data, MOST_BYTES) if data.startswith(ZSTD) else data
         if plain is None:
-            raise BadInput(f"a message of {connection.topic} holds more than a GiB")
+            raise BadInput(MESSAGE_TOO_LARGE(topic=connection.topic, limit=MOST_BYTES))
         yield connection, time_ns, bytes(plain)
 
 
@@ -171,43 +180,33 @@ def readable(path: Path) -> Iterator[None]:
     """Raise BadInput where what is read through rosbags is no ROS 2 bag, or damaged."""
     try:
         yield
+    except Incomplete as error:
+        raise BadInput(NOT_ROS_BAG(path=str(path), why=error)) from None
     except (BadInput, OSError):
         raise
     except Exception as error:  # what damage makes rosbags raise has no common base
-        own = type(error).__module__.startswith("mrlab_ros") and not isinstance(error, Incomplete)
-        if own or isinstance(error, AssertionError):
+        if type(error).__module__.startswith("mrlab_ros") or isinstance(error, AssertionError):
             raise
-        if "malformed" in str(error):
-            raise BadInput(
-                f"{path} is damaged ({error}); bring back a copy, or read on with what is left: "
-                + _rescue(path)
-            ) from None
-        if lacking := _lacking(path):
-            raise BadInput(lacking) from None
-        raise BadInput(
-            f"{path} cannot be read as a ROS 2 bag ({error}); expected its folder with "
-            "metadata.yaml, an MCAP file, or a .db3 file"
-        ) from None
+        found = _lacking(path) or NOT_ROS_BAG(path=str(path), why=str(error))
+        # Of apsw's errors, which rosbags may wrap; the lower byte is the kind.
+        if getattr(error.__cause__ or error, "extendedresult", 0) & 0xFF == SQLITE_CORRUPT:
+            found = DATABASE_DAMAGED(path=str(path), problem=str(error), rescue=_rescue(path))
+        raise BadInput(found) from None
 
 
-def _lacking(path: Path) -> str:
-    """Return what to do about files of a bag that were renamed or removed, empty: none were."""
+def _lacking(path: Path) -> Diagnostic | None:
+    """Return what to do about files of a bag that were renamed or removed; None: none were."""
     try:
         facts = yaml.load((path / METADATA).read_text(), Loader=Loader)[ROOT]
         listed = [Path(name).name for name in facts["relative_file_paths"]]
     except (OSError, yaml.YAMLError, UnicodeDecodeError, TypeError, KeyError, AttributeError):
-        return ""
+        return None
     missing = [name for name in listed if not (path / name).is_file()]
     if not missing:
-        return ""
+        return None
     others = [f for f in sorted(path.glob("*.db3"), key=number_of) if f.name not in listed]
-    said = (
-        f"{path} lacks {', '.join(missing)}, which its metadata.yaml lists; bring the file back, "
-        "or give it that name again"
-    )
-    if not others:
-        return said
-    return f"{said}; alone it opens with: mrlab bag info {for_shell([str(others[0])])}"
+    alone = tuple(Fix(command=f"bag info {for_shell([str(other)])}") for other in others[:1])
+    return BAG_LACKS_FILES(path=str(path), files=missing, fixes=alone)
 
 
 def _rescue(path: Path) -> str:

@@ -9,18 +9,26 @@ import yaml
 from mcap.data_stream import ReadDataStream
 from mcap.records import Attachment
 
+from mrlab_ros.adapters.bags.diagnostics import (
+    BAG_GONE,
+    BAG_LACKS_FILES,
+    BAG_WITHOUT_FILES,
+    METADATA_NOT_YAML,
+    NO_ATTACHMENT,
+    NO_BAG,
+)
 from mrlab_ros.adapters.bags.mcap_file import (
     RECORD,
     BagFile,
     Message,
-    gone,
     open_file,
 )
 from mrlab_ros.adapters.bags.writer import is_being_written
-from mrlab_ros.adapters.nearby import like_file
+from mrlab_ros.adapters.nearby import close_file
 from mrlab_ros.adapters.yaml_files import Loader
 from mrlab_ros.core.base.diagnostic import Diagnostic
 from mrlab_ros.core.errors import BadInput
+from mrlab_ros.core.recording.diagnostics import importing, repairing
 from mrlab_ros.core.recording.metadata import (
     GAP,
     BagFacts,
@@ -173,9 +181,9 @@ class Bag:
                         found: Attachment = Attachment.read(ReadDataStream(source))
                         return found
                 except OSError as error:
-                    raise BadInput(gone(file.path, error)) from None
-        known = ", ".join(sorted(n for file in self.files for n in file.attachments)) or "none"
-        raise BadInput(f"{self.path} has no attachment '{name}'; it has: {known}")
+                    raise BadInput(BAG_GONE(path=str(file.path), problem=error.strerror)) from None
+        known = sorted(n for file in self.files for n in file.attachments)
+        raise BadInput(NO_ATTACHMENT(path=str(self.path), attachment=name, known=known))
 
     def definitions(self) -> dict[str, str]:
         """Return the full definition of every message type in it."""
@@ -200,33 +208,25 @@ def files_of(path: Path) -> list[Path]:
     if path.is_file():
         return [path]
     if not path.is_dir():
-        raise BadInput(
-            f"there is no bag {path}; name the folder of a bag or an MCAP file{like_file(path)}"
-        )
+        raise BadInput(NO_BAG(path=str(path), close=close_file(path)))
     listed: list[str] = []
     metadata = path / METADATA
     if metadata.exists():
         try:
             document = yaml.load(metadata.read_text(), Loader=Loader)
         except (yaml.YAMLError, UnicodeDecodeError) as error:
+            problem = getattr(error, "problem", None) or str(error)
             raise BadInput(
-                f"{metadata} is no YAML ({str(error).splitlines()[0]}); remove it, or let mrlab "
-                "bag repair write it anew"
+                METADATA_NOT_YAML(file=str(metadata), problem=problem, fixes=repairing(path))
             ) from None
         listed = [Path(name).name for name in paths_in(document, str(metadata))]
     missing = [name for name in listed if not (path / name).is_file()]
     if missing:
-        raise BadInput(
-            f"{path} lacks {', '.join(missing)}, which its metadata.yaml lists; bring the file "
-            "back, or let mrlab bag repair write the metadata anew without it"
-        )
+        raise BadInput(BAG_LACKS_FILES(path=str(path), files=missing, fixes=repairing(path)))
     files = [path / name for name in listed]
     files += [file for file in mcap_files_in(path) if file.name not in listed]
     if not files:
-        raise BadInput(
-            f"{path} is no bag: it holds no MCAP file; name the folder of a bag, or make one of "
-            "a bag of another kind with mrlab bag import"
-        )
+        raise BadInput(BAG_WITHOUT_FILES(path=str(path), fixes=importing(path)))
     return files
 
 

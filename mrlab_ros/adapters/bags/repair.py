@@ -12,13 +12,23 @@ from pathlib import Path
 import yaml
 from mcap.writer import CompressionType, Writer
 
-from mrlab_ros.adapters.bags.diagnostics import BAG_DAMAGED
+from mrlab_ros.adapters.bags.diagnostics import (
+    BAG_BEING_RECORDED,
+    BAG_DAMAGED,
+    BAG_NOT_REPAIRED,
+    BAG_UNREADABLE,
+    BAG_WITHOUT_FILES,
+    NO_BAG,
+    ORIGINAL_IN_THE_WAY,
+    REPAIR_RUNS,
+)
 from mrlab_ros.adapters.bags.mcap_file import DAMAGE, BagFile, open_file
 from mrlab_ros.adapters.bags.reader import METADATA, Bag, mcap_files_in
 from mrlab_ros.adapters.bags.writer import CHUNK_SIZE, RESERVE, is_being_written, metadata_text
-from mrlab_ros.core.base.diagnostic import Diagnostic
+from mrlab_ros.adapters.nearby import close_file
+from mrlab_ros.core.base.diagnostic import Diagnostic, Fix
 from mrlab_ros.core.errors import BadInput, Misuse
-from mrlab_ros.core.foreign_text import for_shell
+from mrlab_ros.core.recording.diagnostics import importing
 from mrlab_ros.core.recording.metadata import ROOT
 
 KEPT = ".original"
@@ -42,7 +52,7 @@ def repair(path: Path) -> Repaired:
     be written; the bag is as it was then. Raises Misuse where it is recorded or repaired just now.
     """
     if not path.exists():
-        raise BadInput(f"there is no bag {path}; name the folder of a bag or an MCAP file")
+        raise BadInput(NO_BAG(path=str(path), close=close_file(path)))
     with _only_one(path):
         return _repair(path)
 
@@ -53,18 +63,14 @@ def _only_one(path: Path) -> Iterator[None]:
     try:
         folder = os.open(path.parent if path.is_file() else path, os.O_RDONLY | os.O_CLOEXEC)
     except OSError as error:
-        raise BadInput(
-            f"{path} cannot be read ({error.strerror}); check its permissions"
-        ) from None
+        raise BadInput(BAG_UNREADABLE(path=str(path), problem=error.strerror)) from None
     try:
         # Some file systems have no locks.
         with suppress(OSError):
             try:
                 fcntl.flock(folder, fcntl.LOCK_EX | fcntl.LOCK_NB)
             except BlockingIOError:
-                raise Misuse(
-                    f"another mrlab bag repair of {path} is at work; wait for its end"
-                ) from None
+                raise Misuse(REPAIR_RUNS(path=str(path))) from None
         yield
     finally:
         os.close(folder)
@@ -74,15 +80,10 @@ def _repair(path: Path) -> Repaired:
     alone = path.is_file()
     paths = [path] if alone else mcap_files_in(path)
     if not paths:
-        raise BadInput(
-            f"{path} holds no MCAP file, which alone is mended; a bag of another kind becomes one "
-            f"with: mrlab bag import {for_shell([str(path)])} NEW_FOLDER"
-        )
+        raise BadInput(BAG_WITHOUT_FILES(path=str(path), fixes=importing(path)))
     if any(map(is_being_written, paths)):
-        raise Misuse(
-            f"the bag {path} is being recorded and needs no repair; end the recording first: "
-            "mrlab record --stop"
-        )
+        ending = (Fix(command="record --stop"),)
+        raise Misuse(BAG_BEING_RECORDED(path=str(path), fixes=ending))
     files = list(map(open_file, paths))
     damages = {file.path: damage for file in files if (damage := _damage(file))}
     metadata = path / METADATA
@@ -106,10 +107,7 @@ def _repair(path: Path) -> Repaired:
         if not alone:
             (path / RESERVE).unlink(missing_ok=True)
     except OSError as error:
-        raise BadInput(
-            f"the bag {path} cannot be mended ({error.strerror}); make room on that disk, or "
-            "copy the bag to where you may write and mend the copy"
-        ) from None
+        raise BadInput(BAG_NOT_REPAIRED(path=str(path), problem=error.strerror)) from None
     finally:
         for written in (*damages, metadata):
             with suppress(OSError):
@@ -176,9 +174,7 @@ def _keep(path: Path) -> None:
 def _must_be_free(path: Path) -> None:
     """Raise BadInput where an earlier original has that name; a killed repair leaves a link."""
     if _kept(path).exists() and not (path.exists() and _kept(path).samefile(path)):
-        raise BadInput(
-            f"{_kept(path)} is there from an earlier repair; move it away, then repair again"
-        )
+        raise BadInput(ORIGINAL_IN_THE_WAY(path=str(_kept(path))))
 
 
 def _rewrite(file: BagFile, path: Path) -> None:

@@ -17,6 +17,7 @@ from mrlab_ros.adapters.bags.courses import Reference, Samples, add_courses
 from mrlab_ros.adapters.bags.diagnostics import (
     BAD_MESSAGE,
     BAG_LIVE,
+    BAG_WITHOUT_MODEL,
     BAG_WITHOUT_ROBOTS,
     CLOCK_SET_BACK,
     MESSAGES_UNREADABLE,
@@ -25,11 +26,11 @@ from mrlab_ros.adapters.bags.diagnostics import (
 )
 from mrlab_ros.adapters.bags.mcap_file import Message
 from mrlab_ros.adapters.bags.reader import Bag
-from mrlab_ros.core.base.diagnostic import INFO, WARNING, Diagnostic, Fix, Severity
+from mrlab_ros.core.base.diagnostic import INFO, WARNING, Diagnostic, Severity
 from mrlab_ros.core.clock import SECOND, PlaybackClock
 from mrlab_ros.core.errors import BadInput
-from mrlab_ros.core.foreign_text import for_shell
 from mrlab_ros.core.geometry import Pose
+from mrlab_ros.core.recording.diagnostics import importing
 from mrlab_ros.core.recording.moves import ObjectTrack, Placed, Target, Targets
 from mrlab_ros.core.recording.report import (
     GRASP_STATES,
@@ -113,7 +114,7 @@ def model_that_played(bag: Bag) -> str:
     for message in bag.messages(topics=topics):
         for robot in decode(kind, message.data).robots:
             return str(robot.model)
-    raise BadInput(f"{bag.path} names no robot, so nothing in it can be compared with a file")
+    raise BadInput(BAG_WITHOUT_MODEL(path=str(bag.path)))
 
 
 class _Reader:
@@ -328,13 +329,12 @@ def _missing(bag: Bag, report: SessionReport) -> list[Diagnostic]:
     if report.robots:
         return []
     topics = sorted(bag.topics.values(), key=lambda topic: topic.name)
-    fix = Fix(command=f"bag import {for_shell([str(bag.path)])} NEW_FOLDER")
     return [
         BAG_WITHOUT_ROBOTS(
             topics=[topic.name for topic in topics[:NAMED]],
             types=[topic.type for topic in topics[:NAMED]],
             more=max(len(topics) - NAMED, 0) or None,
-            fixes=(fix,) if any(topic.type == JOINTS for topic in topics) else (),
+            fixes=importing(bag.path) if any(topic.type == JOINTS for topic in topics) else (),
         )
     ]
 

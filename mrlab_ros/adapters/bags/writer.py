@@ -19,6 +19,13 @@ import yaml
 from mcap.opcode import Opcode
 from mcap.writer import MCAP0_MAGIC, CompressionType, Writer
 
+from mrlab_ros.adapters.bags.diagnostics import (
+    BAG_DISK_FULL,
+    BAG_EXISTS,
+    BAG_FOLDER_NOT_MADE,
+    BAG_MOVED,
+    BAG_NOT_WRITTEN,
+)
 from mrlab_ros.core.errors import BadInput, LabError
 from mrlab_ros.core.recording.metadata import (
     ROOT,
@@ -153,13 +160,10 @@ class BagWriter:
         try:
             folder.mkdir(parents=True, exist_ok=after is not None)
         except FileExistsError:
-            raise BadInput(
-                f"{folder} exists already; a recording makes a new folder: name another"
-            ) from None
+            raise BadInput(BAG_EXISTS(folder=str(folder))) from None
         except OSError as error:
             raise BadInput(
-                f"the folder {folder} cannot be made ({error.strerror}); name one where you may "
-                "write"
+                BAG_FOLDER_NOT_MADE(folder=str(folder), problem=error.strerror)
             ) from None
         try:
             for part in self.facts.parts:
@@ -226,10 +230,7 @@ class BagWriter:
         except OSError as error:
             raise self._trouble(error) from None
         if not self._file.is_in_place():
-            raise DiskTrouble(
-                f"the bag {self.folder} was renamed or removed while it was recorded; what was "
-                "recorded is whole where it is now; start a new recording"
-            )
+            raise DiskTrouble(BAG_MOVED(folder=str(self.folder)))
 
     def write_metadata(self) -> None:
         """Write metadata.yaml as things are; a reader sees all of it or the one before."""
@@ -329,26 +330,20 @@ class BagWriter:
 
     def _trouble(self, error: OSError) -> DiskTrouble:
         if error.errno not in FULL:
-            return DiskTrouble(
-                f"the bag {self.folder} cannot be written ({error.strerror}); what was recorded "
-                "stays readable; check that folder, then start a new recording"
-            )
+            return DiskTrouble(BAG_NOT_WRITTEN(folder=str(self.folder), problem=error.strerror))
+        free = size = None
+        with contextlib.suppress(OSError):
+            disk = os.statvfs(self.folder)
+            free, size = disk.f_bavail * disk.f_frsize, disk.f_blocks * disk.f_frsize
         return DiskTrouble(
-            f"the bag {self.folder} cannot be written: {_room(self.folder, error)}; a recording "
-            f"needs {(RESERVE_SIZE + CHUNK_SIZE) / 1e6:.0f} MB; what was recorded stays readable; "
-            "make room on that disk, or name a folder on another one, then start a new recording"
+            BAG_DISK_FULL(
+                folder=str(self.folder),
+                cause="quota" if error.errno == errno.EDQUOT else "disk",
+                free=free,
+                size=size,
+                needed=RESERVE_SIZE + CHUNK_SIZE,
+            )
         )
-
-
-def _room(folder: Path, error: OSError) -> str:
-    """Return how much room there is on a disk that has refused, for a person."""
-    try:
-        disk = os.statvfs(folder)
-    except OSError:
-        return str(error.strerror)
-    free, size = disk.f_bavail * disk.f_frsize / 1e6, disk.f_blocks * disk.f_frsize / 1e6
-    whose = "your quota there is used up" if error.errno == errno.EDQUOT else "its disk is full"
-    return f"{whose} ({free:.1f} of {size:.0f} MB are free)"
 
 
 _DUMPER: Any = getattr(yaml, "CSafeDumper", yaml.SafeDumper)

@@ -4,7 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 
+from mrlab_ros.core.base.diagnostic import Fix
 from mrlab_ros.core.errors import BadInput, Misuse
+from mrlab_ros.core.recording.diagnostics import JOINTS_OF_TOPIC, NO_SUCH_JOINTS, SEVERAL_MODELS
 
 
 def columns_of(joints: Sequence[str], names: Sequence[str]) -> list[int] | None:
@@ -45,10 +47,8 @@ def chosen_models(
         most = max((len(models[model]) for model in fitting), default=0)
         fitting = [model for model in fitting if len(models[model]) == most]
         if len(fitting) > 1:
-            raise Misuse(
-                f"the joints of {topic} are those of {', '.join(fitting)}; name the robot with "
-                f"--robot {fitting[0]}"
-            )
+            fix = Fix(option="robot", value=fitting[0])
+            raise Misuse(SEVERAL_MODELS(topic=topic, models=fitting, fixes=(fix,)))
         if fitting:
             found[topic] = fitting[0]
     return found
@@ -67,10 +67,7 @@ def _of_asked(
             if topic not in found and columns_of(models[model], names) is not None
         ]
         if not free:
-            there = "; ".join(f"{topic}: {', '.join(names)}" for topic, names in topics.items())
-            raise BadInput(
-                f"the bag has no joint states of {model}, whose joints are "
-                f"{', '.join(models[model])}; it has {there or 'no joint states'}"
-            )
+            there = [JOINTS_OF_TOPIC(topic=topic, joints=names) for topic, names in topics.items()]
+            raise BadInput(NO_SUCH_JOINTS(model=model, joints=models[model], found=there))
         found[free[0]] = model
     return found

@@ -9,8 +9,16 @@ from typing import Any
 from mrlab_ros.core.base.diagnostic import Diagnostic
 from mrlab_ros.core.clock import SECOND
 from mrlab_ros.core.errors import BadInput
-from mrlab_ros.core.foreign_text import for_shell
-from mrlab_ros.core.recording.diagnostics import RECORDING_GAP, RECORDING_GAP_UNKNOWN
+from mrlab_ros.core.recording.diagnostics import (
+    METADATA_TOO_NEW,
+    METADATA_WITHOUT_FILES,
+    NO_METADATA,
+    OTHER_STORAGE,
+    RECORDING_GAP,
+    RECORDING_GAP_UNKNOWN,
+    importing,
+    repairing,
+)
 
 VERSION = 9
 ROOT = "rosbag2_bagfile_information"
@@ -212,26 +220,26 @@ def paths_in(document: object, name: str) -> list[str]:
 
     Raises BadInput where it is not a bag's, is of a later version or of another storage.
     """
+    folder = name.rpartition("/")[0] or "."
     facts = document.get(ROOT) if isinstance(document, Mapping) else None
     if not isinstance(facts, Mapping):
-        raise BadInput(
-            f"{name} is not the metadata of a bag: it has no {ROOT}; name the folder of a bag, "
-            "or let mrlab bag repair write it anew"
-        )
+        raise BadInput(NO_METADATA(file=name, field=ROOT, fixes=repairing(folder)))
     version, storage = facts.get("version"), facts.get("storage_identifier")
     if not isinstance(version, int) or version > VERSION:
+        raise BadInput(METADATA_TOO_NEW(file=name, version=str(version), known=VERSION))
+    compression = facts.get("compression_format")
+    if storage != "mcap" or compression:
         raise BadInput(
-            f"{name} has version {version}; this lab reads up to {VERSION}: use a newer lab"
-        )
-    if storage != "mcap" or facts.get("compression_format"):
-        raise BadInput(
-            f"{name} names storage {storage} with compression "
-            f"'{facts.get('compression_format') or 'none'}'; expected plain mcap, which is made "
-            f"with: mrlab bag import {for_shell([name.rpartition('/')[0] or '.'])} NEW_FOLDER"
+            OTHER_STORAGE(
+                file=name,
+                storage=str(storage),
+                compression=str(compression) if compression else None,
+                fixes=importing(folder),
+            )
         )
     paths = facts.get("relative_file_paths")
     if not isinstance(paths, Sequence) or not all(isinstance(path, str) for path in paths):
-        raise BadInput(f"{name} names no files; mrlab bag repair writes it anew")
+        raise BadInput(METADATA_WITHOUT_FILES(file=name, fixes=repairing(folder)))
     return list(paths)
 
 

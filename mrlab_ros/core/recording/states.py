@@ -8,6 +8,14 @@ from __future__ import annotations
 
 from enum import Enum
 
+from mrlab_ros.core.base.diagnostic import Diagnostic, Fix
+from mrlab_ros.core.recording.diagnostics import (
+    NO_RECORDING,
+    NO_REPLAY,
+    NOTHING_RUNS,
+    RECORDING_RUNS,
+    REPLAY_RUNS,
+)
 from mrlab_ros.core.state_machine import Table
 
 
@@ -87,17 +95,17 @@ TABLE: Table[RecorderState, RecorderEvent] = Table(
 del S, E
 
 
-def reason(state: RecorderState, event: RecorderEvent, bag: str) -> str:
-    """Return why `event` is refused in `state`, for the text of the error.
+def reason(state: RecorderState, event: RecorderEvent, bag: str) -> Diagnostic:
+    """Return why `event` is refused in `state`.
 
     bag: what is recorded or replayed; empty: nothing.
     """
     if event in (RecorderEvent.START, RecorderEvent.REPLAY):
         if state is RecorderState.RECORDING:
-            return f"a recording into {bag} runs; stop it first: mrlab record --stop"
-        return f"{bag} is being replayed; stop that first"
+            return RECORDING_RUNS(bag=bag, fixes=(Fix(command="record --stop"),))
+        return REPLAY_RUNS(bag=bag)
     if event is RecorderEvent.SPLIT:
-        return "nothing is recorded; start a recording first"
+        return NO_RECORDING()
     if event is RecorderEvent.STOP:
-        return "nothing is recorded or replayed"
-    return "nothing is replayed; start a replay first"
+        return NOTHING_RUNS()
+    return NO_REPLAY()

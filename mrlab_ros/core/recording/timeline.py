@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from mrlab_ros.core.clock import PlaybackClock, checked_position
 from mrlab_ros.core.errors import BadInput
+from mrlab_ros.core.recording.diagnostics import BAD_REPLAY_RATE
 from mrlab_ros.core.recording.metadata import Topic
 
 RATE_RANGE = (0.1, 10.0)
@@ -16,7 +17,7 @@ def checked_replay_rate(rate: float) -> float:
     """Return `rate` where it lies in RATE_RANGE; raise BadInput otherwise."""
     low, high = RATE_RANGE
     if not low <= rate <= high:
-        raise BadInput(f"the rate is {rate}; expected {low} to {high:g}, 1 is as recorded")
+        raise BadInput(BAD_REPLAY_RATE(rate=rate, low=low, high=high))
     return rate
 
 

@@ -9,6 +9,11 @@ from dataclasses import dataclass
 
 from mrlab_ros.core.clock import SECOND
 from mrlab_ros.core.errors import BadInput
+from mrlab_ros.core.recording.diagnostics import (
+    BAD_SPLIT_DURATION,
+    BAD_SPLIT_SIZE,
+    BAD_TOPIC_PATTERN,
+)
 
 PATTERN = re.compile(r"(?:/(?:[A-Za-z_][A-Za-z0-9_]*|\*{1,2}))+")
 # What the lab says: motion, state, events, and how well it went.
@@ -53,10 +58,7 @@ OF_THE_PRESENT = (
 
 def _expression(pattern: str) -> re.Pattern[str]:
     if PATTERN.fullmatch(pattern) is None:
-        raise BadInput(
-            f"'{pattern}' names no topic; expected a name such as /robots or /*/joint_states, "
-            "in which * stands for one part and ** for any parts"
-        )
+        raise BadInput(BAD_TOPIC_PATTERN(pattern=pattern))
     parts = {"**": ".+", "*": "[^/]+"}
     return re.compile("".join("/" + parts.get(part, part) for part in pattern.split("/")[1:]))
 
@@ -81,12 +83,9 @@ class Split:
 
     def __post_init__(self) -> None:
         if not (math.isfinite(self.duration) and (self.duration == 0 or self.duration >= 1)):
-            raise BadInput(
-                f"the files are to be split after {self.duration} s; expected 1 or more, or 0 "
-                "for never"
-            )
+            raise BadInput(BAD_SPLIT_DURATION(duration=self.duration))
         if self.size < 0:
-            raise BadInput(f"the files are to be split at {self.size} bytes; expected 0 or more")
+            raise BadInput(BAD_SPLIT_SIZE(size=self.size))
 
     def due(self, began_ns: int, now_ns: int, size: int) -> bool:
         """Return whether a file that began at `began_ns` and holds `size` bytes is full."""

@@ -22,12 +22,14 @@ from std_msgs.msg import String
 
 from mrlab_ros.adapters.robots.library import MESH_PREFIX, RobotLibrary
 from mrlab_ros.adapters.trajectories.json_file import chunks
+from mrlab_ros.core.base.diagnostic import Diagnostic
 from mrlab_ros.core.bridge.assets import media_type
 from mrlab_ros.core.errors import LabError
 from mrlab_ros.core.robots.frames import without_frames
 from mrlab_ros.core.trajectory.trajectory import Trajectory
 from mrlab_ros.messages import qos, trajectories
 from mrlab_ros.nodes.catalogue import CatalogueClient
+from mrlab_ros.nodes.recorder.diagnostics import NOT_ATTACHED, PARAMETERS_NOT_ATTACHED
 from mrlab_ros.ros import share
 from mrlab_ros.ros.calls import call
 from mrlab_ros.ros.raw_streams import Received
@@ -47,7 +49,9 @@ class SessionContent:
     that the recording does not wait.
     """
 
-    def __init__(self, caller: Caller, attach: Attach, warn_once: Callable[[str], None]) -> None:
+    def __init__(
+        self, caller: Caller, attach: Attach, warn_once: Callable[[Diagnostic], None]
+    ) -> None:
         self._caller = caller
         self._attach = attach
         self._complain = warn_once
@@ -110,8 +114,8 @@ class SessionContent:
         try:
             work()
         except Exception as error:
-            why = str(error) if isinstance(error, LabError | OSError) else repr(error)
-            self._complain(f"{what}: what belongs to it is not in the bag: {why}")
+            why = error if isinstance(error, LabError | OSError) else repr(error)
+            self._complain(NOT_ATTACHED(topic=what, why=why))
 
     def _describe(self, topic: str, message: Any) -> None:
         robot = topic.split("/")[-2]
@@ -200,7 +204,7 @@ class SessionContent:
                 try:
                     found[name] = {"ros__parameters": self._parameters_of(name)}
                 except LabError as error:
-                    self._complain(f"the parameters of {name} are not in the bag: {error}")
+                    self._complain(PARAMETERS_NOT_ATTACHED(node=name, why=error))
         self._attach("parameters.yaml", "application/yaml", yaml.safe_dump(found).encode())
 
     def _parameters_of(self, name: str) -> dict[str, Any]:

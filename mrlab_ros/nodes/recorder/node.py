@@ -20,8 +20,10 @@ from mrlab_ros.adapters.bags.other import open_bag
 from mrlab_ros.adapters.bags.reader import Bag, default_folder
 from mrlab_ros.adapters.bags.writer import BagWriter
 from mrlab_ros.adapters.journal import Journal
+from mrlab_ros.core.base.diagnostic import Diagnostic
 from mrlab_ros.core.errors import LabError
 from mrlab_ros.core.recording import journal as entries
+from mrlab_ros.core.recording.diagnostics import REPLAY_OVER
 from mrlab_ros.core.recording.metadata import GAP, Gap
 from mrlab_ros.core.recording.states import TABLE, RecorderEvent, RecorderState, reason
 from mrlab_ros.core.recording.timeline import ReplayTimeline
@@ -34,6 +36,21 @@ from mrlab_ros.messages.recorder import recorder_state_to_message
 from mrlab_ros.nodes import parameters
 from mrlab_ros.nodes.parameters import RecorderParameters
 from mrlab_ros.nodes.recorder.attachments import SessionContent, versions
+from mrlab_ros.nodes.recorder.diagnostics import (
+    RECORDED,
+    RECORDER_RESTARTED,
+    RECORDING_LOST,
+    RECORDING_SPLIT,
+    RECORDING_WITH_GAP,
+    RECORDS,
+    REPLAY_AT,
+    REPLAY_LOOPS,
+    REPLAY_ONCE,
+    REPLAY_PAUSED,
+    REPLAY_RATE,
+    REPLAY_RESUMED,
+    REPLAYS,
+)
 from mrlab_ros.nodes.recorder.recording import Recording
 from mrlab_ros.nodes.recorder.replaying import Replaying
 from mrlab_ros.nodes.recorder.trajectories import ReplayedTrajectories
@@ -79,12 +96,12 @@ class RecorderNode(ParameterNode[RecorderParameters]):
         self._trajectories: ReplayedTrajectories | None = None
         # A bag that is replayed once the live nodes have left; its state is published before.
         self._preparing: Bag | None = None
-        self._trouble = ""
+        self._trouble: Diagnostic | None = None
         self._made_at = time.monotonic()
-        # What was not recorded because of a restart, a sentence each.
-        self.lost: list[str] = []
+        # What was not recorded because of a restart.
+        self.lost: list[Diagnostic] = []
         # Why the newest recording ended by itself; empty again once another one begins.
-        self.failed: list[str] = []
+        self.failed: list[Diagnostic] = []
         self._state = self.create_publisher(msg.RecorderState, "~/state", qos.LATCHED)
         for kind, name, callback in (
             (srv.StartRecording, "start", self._start),
@@ -126,7 +143,7 @@ class RecorderNode(ParameterNode[RecorderParameters]):
     # recording ------------------------------------------------------------------------------
 
     @answered
-    def _start(self, request: Any, response: Any) -> str:
+    def _start(self, request: Any, response: Any) -> Diagnostic:
         self._check(RecorderEvent.START)
         split = Split(request.split_duration, self.parameters.split_size * MEGABYTE)
         topics = Topics(list(request.topics) or list(self.parameters.topics))
@@ -139,14 +156,17 @@ class RecorderNode(ParameterNode[RecorderParameters]):
         self.failed = []
         if time.monotonic() - self._made_at > RESTART_SHOWN_S:
             self.lost = []
-        self._record(writer, topics, split, "")
+        self._record(writer, topics, split, None)
         self._journal.save(entries.plain(writer.folder, topics.patterns, request.split_duration))
         response.bag = str(writer.folder)
-        self.get_logger().info(f"records into {writer.folder}")
-        return f"records into {writer.folder}"
+        said = RECORDS(folder=str(writer.folder))
+        self.get_logger().info(str(said))
+        return said
 
-    def _record(self, writer: BagWriter, topics: Topics, split: Split, gap: str) -> None:
-        """Start a recording. gap: what the state says of it; may be empty."""
+    def _record(
+        self, writer: BagWriter, topics: Topics, split: Split, gap: Diagnostic | None
+    ) -> None:
+        """Start a recording. gap: what the state says of it."""
         recording = Recording(
             self._streams,
             writer,
@@ -154,15 +174,18 @@ class RecorderNode(ParameterNode[RecorderParameters]):
             split,
             self._observe,
             self._on_disk_trouble,
-            self.get_logger().warning,
+            self._warn,
         )
-        content = SessionContent(self._caller, recording.attach, self.get_logger().warning)
+        content = SessionContent(self._caller, recording.attach, self._warn)
         with self._lock:
             self._machine.fire(RecorderEvent.START)
             self._trouble = gap
             self._recording, self._content = recording, content
         recording.start()
         self._publish_state()
+
+    def _warn(self, said: Diagnostic) -> None:
+        self.get_logger().warning(str(said))
 
     def _go_on(self) -> None:
         """Go on with the recording of a recorder that was killed, in a new file of its bag."""
@@ -176,24 +199,22 @@ class RecorderNode(ParameterNode[RecorderParameters]):
             writer = BagWriter(entry.folder, definition, after=facts)
             writer.note(GAP, gap.note())
             split = Split(entry.split_duration, self.parameters.split_size * MEGABYTE)
-            said = (
-                f"the recorder was restarted: {gap.said(facts.start_ns)}"
-                if facts.messages
-                else "the recorder was restarted before it had received anything"
-            )
+            said = gap.said(facts.start_ns) if facts.messages else RECORDER_RESTARTED()
             self._record(writer, Topics(entry.topics), split, said)
         except LabError as error:
+            lost = RECORDING_LOST(folder=str(entry.folder), why=error)
             with self._lock:
-                self._trouble = f"the recording {entry.folder} ended with the recorder: {error}"
-            self.get_logger().error(self._trouble)
-            self.lost.append(self._trouble)
+                self._trouble = lost
+            self.get_logger().error(str(lost))
+            self.lost.append(lost)
             self._journal.save({})
             return
-        self.lost.append(f"the recording {entry.folder}: {said}")
-        self.get_logger().warning(f"{said}; goes on in {entry.folder}")
+        lost = RECORDING_WITH_GAP(folder=str(entry.folder), gap=said)
+        self.lost.append(lost)
+        self.get_logger().warning(str(lost))
 
     @answered
-    def _split(self, request: Any, response: Any) -> str:
+    def _split(self, request: Any, response: Any) -> Diagnostic:
         self._check(RecorderEvent.SPLIT)
         recording = self._recording
         if recording is not None:
@@ -201,10 +222,10 @@ class RecorderNode(ParameterNode[RecorderParameters]):
         with self._lock:
             # Raises where the recording has ended meanwhile.
             self._machine.fire(RecorderEvent.SPLIT)
-        return "goes on in a new file"
+        return RECORDING_SPLIT()
 
     @answered
-    def _stop(self, request: Any, response: Any) -> str:
+    def _stop(self, request: Any, response: Any) -> Diagnostic | None:
         return self._end(RecorderEvent.STOP)
 
     def _discover(self) -> None:
@@ -221,7 +242,7 @@ class RecorderNode(ParameterNode[RecorderParameters]):
         self.get_logger().error(str(error))
         with self._lock:
             self._machine.fire(RecorderEvent.FAIL)
-            self._trouble, self.failed = str(error), [str(error)]
+            self._trouble, self.failed = error.diagnostic, [error.diagnostic]
             self._recording = None
             content, self._content = self._content, None
         self._journal.save({})
@@ -236,7 +257,7 @@ class RecorderNode(ParameterNode[RecorderParameters]):
         response.bags = bags_in(self._folder)
 
     @answered
-    def _replay(self, request: Any, response: Any) -> str:
+    def _replay(self, request: Any, response: Any) -> Diagnostic:
         self._check(RecorderEvent.REPLAY)
         path = Path(request.bag).expanduser()
         path = path if path.is_absolute() or path.exists() else self._folder / path
@@ -245,7 +266,7 @@ class RecorderNode(ParameterNode[RecorderParameters]):
         replaying = Replaying(self._streams, bag, timeline, self._on_replay_end)
         with self._lock:
             self._machine.fire(RecorderEvent.REPLAY)
-            self._preparing, self._trouble = bag, ""
+            self._preparing, self._trouble = bag, None
         # The lab's own nodes leave the graph as soon as they receive this.
         self._publish_state()
         try:
@@ -265,12 +286,13 @@ class RecorderNode(ParameterNode[RecorderParameters]):
         finally:
             self._publish_state()
         self.get_logger().info(f"replays {bag.path}")
-        left_out = "".join(f"; left out {name}: {w}" for name, w in replaying.skipped.items())
-        return f"replays {bag.duration:.1f} s with {bag.message_count} messages{left_out}"
+        return REPLAYS(
+            duration=bag.duration, messages=bag.message_count, left_out=replaying.left_out
+        )
 
-    def _on_replay_end(self, trouble: str) -> None:
-        if trouble:
-            self.get_logger().error(trouble)
+    def _on_replay_end(self, trouble: Diagnostic | None) -> None:
+        if trouble is not None:
+            self.get_logger().error(str(trouble))
         replaying = self._replaying
         if replaying is None:
             # Somebody ended it in the same moment.
@@ -279,7 +301,7 @@ class RecorderNode(ParameterNode[RecorderParameters]):
         with self._lock:
             if self._replaying is not replaying:
                 return
-            self._machine.fire(RecorderEvent.FAIL if trouble else RecorderEvent.END)
+            self._machine.fire(RecorderEvent.END if trouble is None else RecorderEvent.FAIL)
             self._replaying, self._trouble = None, trouble
         self.get_logger().info(f"the replay of {replaying.bag.path} is over")
         self._publish_state()
@@ -292,29 +314,29 @@ class RecorderNode(ParameterNode[RecorderParameters]):
         replaying.close()
 
     @answered
-    def _pause(self, request: Any, response: Any) -> str:
+    def _pause(self, request: Any, response: Any) -> Diagnostic:
         replaying = self._command(RecorderEvent.PAUSE, Replaying.pause)
-        return f"paused at {replaying.position:.3f} s"
+        return REPLAY_PAUSED(position=replaying.position)
 
     @answered
-    def _resume(self, request: Any, response: Any) -> str:
+    def _resume(self, request: Any, response: Any) -> Diagnostic:
         self._command(RecorderEvent.RESUME, Replaying.resume)
-        return "goes on"
+        return REPLAY_RESUMED()
 
     @answered
-    def _seek(self, request: Any, response: Any) -> str:
+    def _seek(self, request: Any, response: Any) -> Diagnostic:
         self._command(RecorderEvent.SEEK, lambda replaying: replaying.seek(request.position))
-        return f"at {request.position:g} s"
+        return REPLAY_AT(position=request.position)
 
     @answered
-    def _set_rate(self, request: Any, response: Any) -> str:
+    def _set_rate(self, request: Any, response: Any) -> Diagnostic:
         self._command(RecorderEvent.SET_RATE, lambda replaying: replaying.set_rate(request.rate))
-        return f"rate {request.rate:g}"
+        return REPLAY_RATE(rate=request.rate)
 
     @answered
-    def _set_loop(self, request: Any, response: Any) -> str:
+    def _set_loop(self, request: Any, response: Any) -> Diagnostic:
         self._command(RecorderEvent.SET_LOOP, lambda replaying: replaying.set_loop(request.loop))
-        return "loops" if request.loop else "ends at the end"
+        return REPLAY_LOOPS() if request.loop else REPLAY_ONCE()
 
     def _command(self, event: RecorderEvent, act: Callable[[Replaying], None]) -> Replaying:
         """Do with the replay what `event` asks for; raise Misuse where there is none."""
@@ -336,7 +358,7 @@ class RecorderNode(ParameterNode[RecorderParameters]):
         with self._lock:
             self._machine.check(event)
 
-    def _reason(self, state: RecorderState, event: RecorderEvent) -> str:
+    def _reason(self, state: RecorderState, event: RecorderEvent) -> Diagnostic:
         bag = ""
         if self._recording is not None:
             bag = self._recording.folder
@@ -346,10 +368,10 @@ class RecorderNode(ParameterNode[RecorderParameters]):
             bag = str(self._preparing.path)
         return reason(state, event, bag)
 
-    def _end(self, event: RecorderEvent) -> str:
+    def _end(self, event: RecorderEvent) -> Diagnostic | None:
         with self._lock:
             self._machine.fire(event)
-            self._trouble = ""
+            self._trouble = None
             recording, self._recording = self._recording, None
             content, self._content = self._content, None
             replaying, self._replaying = self._replaying, None
@@ -364,17 +386,17 @@ class RecorderNode(ParameterNode[RecorderParameters]):
                 self._close(replaying)
         except LabError as error:
             with self._lock:
-                self._trouble, self.failed = str(error), [str(error)]
+                self._trouble, self.failed = error.diagnostic, [error.diagnostic]
             raise
         finally:
             if self.context.ok():
                 self._publish_state()
         if recording is not None:
-            said = f"{recording.folder} holds {recording.messages} messages"
+            said = RECORDED(folder=recording.folder, messages=recording.messages)
             if self.context.ok():
-                self.get_logger().info(said)
+                self.get_logger().info(str(said))
             return said
-        return "the replay is over" if replaying is not None else ""
+        return REPLAY_OVER() if replaying is not None else None
 
     def _publish_while_working(self) -> None:
         if self._recording is not None or self._replaying is not None:

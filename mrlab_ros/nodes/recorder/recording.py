@@ -10,11 +10,13 @@ from rclpy.node import Node
 from rclpy.subscription import Subscription
 
 from mrlab_ros.adapters.bags.writer import BagWriter
+from mrlab_ros.core.base.diagnostic import Diagnostic
 from mrlab_ros.core.clock import SECOND
 from mrlab_ros.core.errors import BadInput, LabError
 from mrlab_ros.core.recording.metadata import Topic
 from mrlab_ros.core.recording.topics import Split, Topics
 from mrlab_ros.messages.qos import message_class, profile, topic_of
+from mrlab_ros.nodes.recorder.diagnostics import NOT_RECORDED, RECORDING_FAILED, SEVERAL_TYPES
 from mrlab_ros.ros.raw_streams import Received, TopicPoll
 
 # Period at which subscriptions are polled, s.
@@ -84,7 +86,7 @@ class Recording:
         split: Split,
         observe: Callable[[Received, str], None],
         on_trouble: Callable[[LabError], None],
-        warn_once: Callable[[str], None],
+        warn_once: Callable[[Diagnostic], None],
     ) -> None:
         self._streams = streams
         self._writer = writer
@@ -190,7 +192,7 @@ class Recording:
         kinds = {end.topic_type for end in ends}
         if len(kinds) != 1:
             if kinds:
-                self._refuse(name, f"{name} has several types ({', '.join(sorted(kinds))})")
+                self._refuse(name, SEVERAL_TYPES(topic=name, types=sorted(kinds)))
             return False
         topic = topic_of(name, ends)
         known = self._followed.get(name)
@@ -205,7 +207,7 @@ class Recording:
             with self._lock:
                 self._writer.add_topic(topic)
         except BadInput as error:
-            self._refuse(name, str(error))
+            self._refuse(name, error.diagnostic)
             return False
         subscription = self._streams.create_subscription(
             kind, name, lambda _: None, profile(topic, DEPTH), raw=True
@@ -215,9 +217,9 @@ class Recording:
         self._poll.add(subscription, name)
         return True
 
-    def _refuse(self, name: str, why: str) -> None:
+    def _refuse(self, name: str, why: Diagnostic) -> None:
         self._refused.add(name)
-        self._complain(f"not recorded: {why}")
+        self._complain(NOT_RECORDED(why=why))
 
     def _take(self, messages: list[Received]) -> bool:
         with self._lock:
@@ -284,9 +286,9 @@ class Recording:
             try:
                 self._writer.close()
             except LabError as second:
-                self._complain(str(second))
+                self._complain(second.diagnostic)
             else:
-                error = type(error)(f"{error}; the bag is whole, with {self.messages} messages")
+                error = type(error)(RECORDING_FAILED(why=error, messages=self.messages))
                 self._trouble = error
             self._leave()
             self._on_trouble(error)

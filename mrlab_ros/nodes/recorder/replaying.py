@@ -16,13 +16,17 @@ from rclpy.publisher import Publisher
 from mrlab_ros.adapters.bags.mcap_file import Message
 from mrlab_ros.adapters.bags.migration import Convert, migration
 from mrlab_ros.adapters.bags.reader import Bag
+from mrlab_ros.core.base.diagnostic import Diagnostic, Fix
 from mrlab_ros.core.clock import SECOND, checked_position
 from mrlab_ros.core.errors import BadInput, LabError, Misuse
+from mrlab_ros.core.foreign_text import for_shell
+from mrlab_ros.core.recording.diagnostics import LEFT_OUT, NOTHING_TO_REPLAY
 from mrlab_ros.core.recording.metadata import Topic
 from mrlab_ros.core.recording.timeline import ReplayTimeline, is_state
 from mrlab_ros.core.recording.topics import OF_THE_PRESENT, Topics
 from mrlab_ros.messages.definitions import definition
 from mrlab_ros.messages.qos import message_class, profile
+from mrlab_ros.nodes.recorder.diagnostics import OTHERS_PUBLISH, REPLAY_BROKE
 
 # Messages kept for a subscriber that is slow; of a latched topic, for one that comes late.
 DEPTH, LATCHED_DEPTH = 1000, 10
@@ -64,8 +68,8 @@ class Feed:
 class Replaying:
     """Publishes `bag` through `streams`, a node that no executor spins, in a thread of its own.
 
-    It begins with start(). `on_end` is called in that thread at the end, with the error that
-    ended the replay, or an empty text.
+    It begins with start(). `on_end` is called in that thread at the end, with what
+    ended the replay, or None.
     """
 
     def __init__(
@@ -73,7 +77,7 @@ class Replaying:
         streams: Node,
         bag: Bag,
         timeline: ReplayTimeline,
-        on_end: Callable[[str], None],
+        on_end: Callable[[Diagnostic | None], None],
         now_ns: Callable[[], int] = time.monotonic_ns,
     ) -> None:
         self._streams = streams
@@ -82,8 +86,8 @@ class Replaying:
         self._on_end = on_end
         self._now_ns = now_ns
         present = Topics(OF_THE_PRESENT)
-        # What is not replayed, and why, by topic.
-        self.skipped: dict[str, str] = {}
+        # What is not replayed, and why.
+        self.left_out: list[Diagnostic] = []
         self._kinds: dict[str, Any] = {}
         self._converts: dict[str, Convert] = {}
         definitions = bag.definitions()
@@ -92,10 +96,7 @@ class Replaying:
                 self._take(topic, definitions.get(topic.type, ""))
         self._topics = [topic for topic in bag.topics.values() if topic.name in self._kinds]
         if not self._topics:
-            why = "".join(f"; {name}: {reason}" for name, reason in self.skipped.items())
-            raise BadInput(
-                f"{bag.path} holds no topic that can be replayed; record the lab's topics{why}"
-            )
+            raise BadInput(NOTHING_TO_REPLAY(path=str(bag.path), left_out=self.left_out))
         self._names = frozenset(self._kinds)
         self._state_names = frozenset(topic.name for topic in self._topics if is_state(topic))
         self._publishers: dict[str, Publisher] = {}
@@ -112,7 +113,7 @@ class Replaying:
             kind = message_class(topic.type)
             convert = migration(topic.type, recorded, definition(topic.type)) if recorded else None
         except BadInput as error:
-            self.skipped[topic.name] = str(error)
+            self.left_out.append(LEFT_OUT(topic=topic.name, why=error))
             return
         self._kinds[topic.name] = kind
         if convert is not None:
@@ -138,10 +139,8 @@ class Replaying:
         deadline = time.monotonic() + LEAVE_TIMEOUT_S
         while others := self._others():
             if time.monotonic() > deadline:
-                raise Misuse(
-                    f"the replay does not begin: {', '.join(others)}; stop what publishes there, "
-                    "or replay on another ROS domain"
-                )
+                topics = list(dict.fromkeys(others.values()))
+                raise Misuse(OTHERS_PUBLISH(nodes=list(others), topics=topics))
             time.sleep(POLL_PERIOD_S)
 
     def start(self) -> None:
@@ -207,7 +206,8 @@ class Replaying:
 
     # its thread -----------------------------------------------------------------------------
 
-    def _others(self) -> list[str]:
+    def _others(self) -> dict[str, str]:
+        """Return a topic of the bag that each other node publishes."""
         own = self._streams.get_name()
         found: dict[str, set[str]] = {}
         for name in self._names:
@@ -216,7 +216,7 @@ class Replaying:
                     if end.node_name != own:
                         who = f"{end.node_namespace.rstrip('/')}/{end.node_name}"
                         found.setdefault(who, set()).add(name)
-        return [f"{who} publishes {sorted(names)[0]}" for who, names in sorted(found.items())]
+        return {who: min(names) for who, names in sorted(found.items())}
 
     def _matched(self) -> bool:
         return all(
@@ -237,17 +237,18 @@ class Replaying:
         self._feed = Feed(self._bag, place_ns, self._names)
 
     def _run(self) -> None:
-        trouble = ""
+        trouble = None
         try:
             with self._changed:
                 while not self._stopped and self._step():
                     pass
         except Exception as error:
+            path = str(self._bag.path)
+            looking = (Fix(command=f"bag info {for_shell([path])}"),)
             trouble = (
-                str(error)
+                error.diagnostic
                 if isinstance(error, LabError)
-                else f"the bag {self._bag.path} cannot be read on ({error!r}); mrlab bag info "
-                "says what is wrong with it"
+                else REPLAY_BROKE(path=path, problem=repr(error), fixes=looking)
             )
         if not self._stopped:
             self._on_end(trouble)

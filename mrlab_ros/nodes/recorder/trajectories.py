@@ -9,9 +9,11 @@ from rclpy.node import Node
 
 from mrlab_ros.adapters.bags.reader import Bag
 from mrlab_ros.adapters.trajectories.json_file import parse
+from mrlab_ros.core.base.diagnostic import Diagnostic
 from mrlab_ros.core.errors import BadInput
 from mrlab_ros.messages import trajectories
 from mrlab_ros.nodes.recorder.attachments import trajectory_name
+from mrlab_ros.nodes.recorder.diagnostics import BAG_TRAJECTORY
 from mrlab_ros.ros.answers import answered, create_service
 
 
@@ -30,7 +32,7 @@ class ReplayedTrajectories:
         return self._node.get_logger()
 
     @answered
-    def _get(self, request: Any, response: Any) -> str:
+    def _get(self, request: Any, response: Any) -> Diagnostic:
         name = trajectory_name(request.id)
         try:
             found = self._bag.attachment(name)
@@ -44,4 +46,4 @@ class ReplayedTrajectories:
         response.trajectory = trajectories.trajectory_to_message(
             trajectory, request.begin, request.count
         )
-        return f"{request.id} of {self._bag.path.name}"
+        return BAG_TRAJECTORY(trajectory=request.id, bag=self._bag.path.name)

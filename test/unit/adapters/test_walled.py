@@ -11,8 +11,10 @@ import time
 from pathlib import Path
 
 import pytest
+from refusals import refused
 
 from mrlab_ros.adapters import walled
+from mrlab_ros.adapters.diagnostics import READER_FAILED, READER_MEMORY, READER_SLOW
 from mrlab_ros.core.errors import BadInput
 
 
@@ -47,15 +49,15 @@ def test_it_starts_writes_and_signals_nothing(tmp_path: Path) -> None:
         (posix.symlink, ("/etc/passwd", str(tmp_path / "made"))),
         (posix.setsid, ()),
     ):
-        with pytest.raises(BadInput, match="failed on it"):
+        with refused(READER_FAILED, BadInput, file="it"):
             walled.call(function, *arguments, name="it", read=[tmp_path])
     assert list(tmp_path.iterdir()) == []
 
 
 def test_it_ends_in_time_and_in_bounds() -> None:
     began = time.monotonic()
-    with pytest.raises(BadInput, match="more than 1 s"):
+    with refused(READER_SLOW, BadInput, file="it", limit=1):
         walled.call(time.sleep, 600, name="it", seconds=1)
-    with pytest.raises(BadInput, match="memory|MiB"):
+    with refused(READER_MEMORY, BadInput, file="it", limit=2 << 30):
         walled.call(operator.mul, "x", 1 << 33, name="it", seconds=1)
     assert time.monotonic() - began < 100, "a deadline, not a figure"

@@ -9,10 +9,25 @@ from types import SimpleNamespace
 
 import pytest
 import typer
+from refusals import refused
 
 from mrlab_ros.commands import record as command
+from mrlab_ros.commands.diagnostics import (
+    BAG_CLOSED,
+    ENDED_BY_ANOTHER,
+    LAB_SILENT,
+    NOT_A_BAG_NAME,
+    RECORDER_AWAITED,
+    RECORDER_BACK,
+    RECORDER_FROZEN,
+    RECORDER_SILENT,
+    RECORDING_CONTINUES,
+    RECORDING_GONE,
+)
 from mrlab_ros.commands.record import record
+from mrlab_ros.core.base.diagnostic import Diagnostic
 from mrlab_ros.core.errors import LabError, Misuse
+from mrlab_ros.core.recording.diagnostics import RECORDING_GAP
 from mrlab_ros.core.recording.states import RecorderState
 from mrlab_ros.core.watch import Sign
 from mrlab_ros.messages.diagnostics import signs_to_message
@@ -20,12 +35,11 @@ from mrlab_ros.ros.calls import NoAnswer
 from mrlab_ros.ros.graph import Watch
 
 
-@pytest.mark.parametrize(
-    ("word", "meant"), [("stop", "use mrlab record --stop"), ("start", "use mrlab record,")]
-)
+@pytest.mark.parametrize(("word", "meant"), [("stop", "record --stop"), ("start", "record")])
 def test_a_command_is_no_bag(word, meant):
-    with pytest.raises(Misuse, match=meant):
+    with refused(NOT_A_BAG_NAME, Misuse, bag=word) as caught:
         record(Path(word))
+    assert [fix.command for fix in caught.value.diagnostic.fixes] == [meant]
 
 
 BAG = "/bags/class"
@@ -50,13 +64,16 @@ class Recorder:
         return next((s for at, s in reversed(self.states.items()) if at <= self.now), None)
 
 
-def state(which: RecorderState, message: str = "") -> SimpleNamespace:
-    return SimpleNamespace(state=which.value, bag=BAG, message=message)
+def state(which: RecorderState, said: Diagnostic | None = None) -> SimpleNamespace:
+    code = "" if said is None else said.code
+    return SimpleNamespace(
+        state=which.value, bag=BAG, message=str(said or ""), code=code, values=[]
+    )
 
 
-def follow(recorder: Recorder, until: float = 0.0) -> list[str]:
+def follow(recorder: Recorder, until: float = 0.0) -> list[Diagnostic]:
     """Follow a recording. until: s, when its bag ceases to grow."""
-    said: list[str] = []
+    said: list[Diagnostic] = []
     with suppress(KeyboardInterrupt):
         command._follow(
             recorder,
@@ -68,51 +85,48 @@ def follow(recorder: Recorder, until: float = 0.0) -> list[str]:
     return said
 
 
-def recording(*messages: str, until: float = 101.0, since: float = 0.0) -> dict:
-    return {
-        since + k: state(RecorderState.RECORDING, *messages) for k in range(int(until - since))
-    }
+def recording(*said: Diagnostic, until: float = 101.0, since: float = 0.0) -> dict:
+    return {since + k: state(RecorderState.RECORDING, *said) for k in range(int(until - since))}
 
 
 def test_a_recorder_that_returns_after_seven_seconds_is_followed_again(monkeypatch):
-    gap = "the recorder was restarted: 6.4 s are missing"
+    gap = RECORDING_GAP(time=4.0, missing=6.4)
     states = recording(until=4.0) | recording(gap, since=10.0)
-    assert follow(Recorder(monkeypatch, states)) == [
-        "the recorder has been silent for 5 s; waits for its restart",
-        f"{gap}; the recording goes on in {BAG}",
-    ]
+    awaited, back = follow(Recorder(monkeypatch, states))
+    assert awaited == RECORDER_AWAITED(silent=5.0)
+    assert (back.code, back.values["why"].code) == (RECORDING_CONTINUES.code, gap.code)
 
 
 def test_a_recorder_that_does_not_return_is_given_up_with_the_way_to_end_it(monkeypatch):
     recorder = Recorder(monkeypatch, recording(until=4.0))
-    with pytest.raises(LabError, match=r"silent for 20 s.*goes on in that bag: .*record --stop"):
+    with refused(RECORDER_SILENT, LabError, silent=20.0, bag=BAG) as caught:
         follow(recorder)
+    assert caught.value.diagnostic.fixes == command.ENDING
     assert 23.0 < recorder.now < 25.0
 
 
 def test_a_recording_whose_bag_grows_is_watched_on_also_where_the_bridge_is_frozen(monkeypatch):
     states = recording(until=4.0) | recording(since=60.0)
     assert follow(Recorder(monkeypatch, states), until=60.0) == [
-        f"the lab has been silent for 5 s, but the recording goes on in {BAG}; Ctrl-C ends it",
-        f"the recorder answers again; the recording goes on in {BAG}",
+        LAB_SILENT(silent=5.0, bag=BAG),
+        RECORDER_BACK(bag=BAG),
     ]
     recorder = Recorder(monkeypatch, recording(until=4.0))
-    with pytest.raises(LabError, match="silent for 20 s"):
+    with refused(RECORDER_SILENT, LabError, silent=20.0):
         follow(recorder, until=30.0)
     assert 49.0 < recorder.now < 51.0
 
 
 def test_a_recorder_that_returns_without_the_recording_ends_the_command(monkeypatch):
     states = recording(until=4.0) | {8.0: state(RecorderState.STOPPED)}
-    with pytest.raises(LabError, match="the recorder was restarted; mrlab bag info"):
+    with refused(RECORDING_GONE, LabError, bag=BAG):
         follow(Recorder(monkeypatch, states))
 
 
 def test_a_recording_that_another_client_ends_has_ended_well(monkeypatch):
     states = recording(until=4.0) | {4.0: state(RecorderState.STOPPED)}
-    assert follow(Recorder(monkeypatch, states)) == [
-        f"another client ended the recording; mrlab bag info {BAG} says what it holds"
-    ]
+    (ended,) = follow(Recorder(monkeypatch, states))
+    assert (ended.code, ended.fixes[0].command) == (ENDED_BY_ANOTHER.code, f"bag info {BAG}")
 
 
 class Lab:
@@ -144,21 +158,21 @@ class Lab:
 
 def test_a_frozen_recorder_is_given_up_soon_with_what_becomes_of_the_bag(monkeypatch):
     lab = Lab(monkeypatch)
-    with pytest.raises(NoAnswer, match=r"no sign of life for 4 s; .*stays readable"):
+    with refused(RECORDER_FROZEN, NoAnswer):
         command._stop(lab, lambda: 1000)
     assert (lab.calls, lab.now < 5.0) == (1, True)
 
 
 def test_a_recorder_behind_a_frozen_bridge_is_asked_elsewhere(monkeypatch):
     lab = Lab(monkeypatch)
-    monkeypatch.setattr(command, "_stop_elsewhere", lambda: "asked elsewhere")
-    assert command._stop(lab, lambda: int(lab.now * 1000)) == "asked elsewhere"
+    monkeypatch.setattr(command, "_stop_elsewhere", lambda: "elsewhere")
+    assert command._stop(lab, lambda: int(lab.now * 1000)) == "elsewhere"
 
 
 def test_a_recorder_that_lives_may_take_its_time_to_close_a_bag(monkeypatch):
     lab = Lab(monkeypatch, living=True)
     lab.ended.set(state(RecorderState.STOPPED))
-    assert command._stop(lab, lambda: 1000) == "the bag is closed"
+    assert command._stop(lab, lambda: 1000) == BAG_CLOSED()
     assert lab.calls == 1
 
 

@@ -1,8 +1,11 @@
 """Joints of a robot among the names of a foreign bag."""
 
 import pytest
+from refusals import refused
 
+from mrlab_ros.core.base.diagnostic import Fix
 from mrlab_ros.core.errors import BadInput, Misuse
+from mrlab_ros.core.recording.diagnostics import JOINTS_OF_TOPIC, NO_SUCH_JOINTS, SEVERAL_MODELS
 from mrlab_ros.core.recording.joint_mapping import chosen_models, columns_of
 
 ARM = ("base_joint", "elbow_joint")
@@ -33,15 +36,16 @@ def test_the_names_alone_decide_where_one_robot_has_them():
 
 
 def test_names_of_several_robots_need_a_choice():
-    with pytest.raises(Misuse, match="those of small, big; name the robot with --robot small"):
+    with refused(SEVERAL_MODELS, Misuse, models=["small", "big"]) as caught:
         chosen_models([], MODELS, {"/joint_states": list(ARM)})
+    assert caught.value.diagnostic.fixes == (Fix("robot", "small"),)
     assert chosen_models(["big"], MODELS, {"/a": list(ARM)}) == {"/a": "big"}
     two = {"/a": list(ARM), "/b": list(ARM)}
     assert chosen_models(["big", "small"], MODELS, two) == {"/a": "big", "/b": "small"}
 
 
 def test_an_asked_robot_that_is_not_there_is_named_with_what_is():
-    with pytest.raises(BadInput, match="no joint states of other.*axis_1, axis_2; it has /a: pan"):
+    with refused(JOINTS_OF_TOPIC, BadInput, topic="/a", joints=["pan"]):
         chosen_models(["other"], MODELS, {"/a": ["pan"]})
-    with pytest.raises(BadInput, match="it has no joint states"):
+    with refused(NO_SUCH_JOINTS, BadInput, model="other", found=[]):
         chosen_models(["other"], MODELS, {})

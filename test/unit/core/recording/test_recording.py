@@ -12,6 +12,16 @@ from refusals import refused
 
 from mrlab_ros.core.base.diagnostics import BAD_POSITION
 from mrlab_ros.core.errors import BadInput
+from mrlab_ros.core.recording.diagnostics import (
+    BAD_REPLAY_RATE,
+    BAD_SPLIT_DURATION,
+    BAD_SPLIT_SIZE,
+    BAD_TOPIC_PATTERN,
+    METADATA_TOO_NEW,
+    METADATA_WITHOUT_FILES,
+    NO_METADATA,
+    OTHER_STORAGE,
+)
 from mrlab_ros.core.recording.metadata import (
     NEVER_NS,
     ROOT,
@@ -62,7 +72,7 @@ def test_two_stars_stand_for_any_parts():
 
 @pytest.mark.parametrize("pattern", ["robots", "/a b", "/a*", ""])
 def test_a_pattern_that_names_no_topic_is_refused(pattern):
-    with pytest.raises(BadInput, match="names no topic"):
+    with refused(BAD_TOPIC_PATTERN, BadInput, pattern=pattern):
         Topics([pattern])
 
 
@@ -80,9 +90,16 @@ def test_a_file_is_full_by_age_or_size(split, age, size, due):
     assert split.due(5, 5 + round(age * SECOND), size) is due
 
 
-@pytest.mark.parametrize("wrong", [{"duration": 0.5}, {"duration": float("nan")}, {"size": -1}])
-def test_a_split_that_makes_no_sense_is_refused(wrong):
-    with pytest.raises(BadInput, match="split"):
+@pytest.mark.parametrize(
+    ("wrong", "code"),
+    [
+        ({"duration": 0.5}, BAD_SPLIT_DURATION),
+        ({"duration": float("nan")}, BAD_SPLIT_DURATION),
+        ({"size": -1}, BAD_SPLIT_SIZE),
+    ],
+)
+def test_a_split_that_makes_no_sense_is_refused(wrong, code):
+    with refused(code, BadInput, **wrong):
         Split(**wrong)
 
 
@@ -117,24 +134,35 @@ def test_the_metadata_adds_up_over_the_files():
 
 
 @pytest.mark.parametrize(
-    ("change", "words"),
+    ("change", "code", "values", "fix"),
     [
-        ({"version": 10}, "version 10; this lab reads up to 9"),
-        ({"version": "x"}, "version x"),
-        ({"storage_identifier": "sqlite3"}, "storage sqlite3"),
-        ({"compression_format": "zstd"}, "compression 'zstd'"),
-        ({"relative_file_paths": None}, "names no files"),
+        ({"version": 10}, METADATA_TOO_NEW, {"version": "10", "known": 9}, ""),
+        ({"version": "x"}, METADATA_TOO_NEW, {"version": "x"}, ""),
+        (
+            {"storage_identifier": "sqlite3"},
+            OTHER_STORAGE,
+            {"storage": "sqlite3"},
+            "bag import /bags/class NEW_FOLDER",
+        ),
+        (
+            {"compression_format": "zstd"},
+            OTHER_STORAGE,
+            {"compression": "zstd"},
+            "bag import /bags/class NEW_FOLDER",
+        ),
+        ({"relative_file_paths": None}, METADATA_WITHOUT_FILES, {}, "bag repair /bags/class"),
     ],
 )
-def test_metadata_that_cannot_be_used_is_refused(change, words):
+def test_metadata_that_cannot_be_used_is_refused(change, code, values, fix):
     document = BagFacts(parts=[FileInformation("x")]).document()
     document[ROOT].update(change)
-    with pytest.raises(BadInput, match=words):
-        paths_in(document, "m")
+    with refused(code, BadInput, **values) as caught:
+        paths_in(document, "/bags/class/metadata.yaml")
+    assert [each.command for each in caught.value.diagnostic.fixes] == list(filter(None, [fix]))
 
 
 def test_what_is_no_metadata_is_refused():
-    with pytest.raises(BadInput, match="is not the metadata of a bag"):
+    with refused(NO_METADATA, BadInput):
         paths_in(["x"], "m")
 
 
@@ -190,7 +218,7 @@ def test_what_is_due_is_where_the_timeline_is(rate, positions):
 
 @pytest.mark.parametrize("rate", [0.0, 0.09, 10.1, float("nan")])
 def test_a_rate_out_of_range_is_refused(rate):
-    with pytest.raises(BadInput, match="expected 0.1 to 10"):
+    with refused(BAD_REPLAY_RATE, BadInput, low=0.1, high=10.0):
         ReplayTimeline(10.0, rate, 0.0, False)
 
 

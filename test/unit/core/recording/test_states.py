@@ -3,8 +3,16 @@
 from __future__ import annotations
 
 import pytest
+from refusals import refused
 
 from mrlab_ros.core.errors import Misuse
+from mrlab_ros.core.recording.diagnostics import (
+    NO_RECORDING,
+    NO_REPLAY,
+    NOTHING_RUNS,
+    RECORDING_RUNS,
+    REPLAY_RUNS,
+)
 from mrlab_ros.core.recording.states import TABLE, RecorderEvent, RecorderState, reason
 from mrlab_ros.core.state_machine import Machine
 
@@ -30,36 +38,29 @@ def test_a_replay_is_announced_before_it_begins():
 
 
 @pytest.mark.parametrize(
-    ("before", "event", "says"),
+    ("before", "event", "code", "possible"),
     [
-        ((), RecorderEvent.STOP, "nothing is recorded or replayed"),
-        ((), RecorderEvent.SPLIT, "nothing is recorded; start a recording first"),
-        ((), RecorderEvent.PAUSE, "nothing is replayed; start a replay first"),
-        ((RecorderEvent.START,), RecorderEvent.SEEK, "nothing is replayed"),
-        (
-            (RecorderEvent.START,),
-            RecorderEvent.REPLAY,
-            "cannot start a replay in RECORDING; a recording into class.bag runs; stop it first: "
-            "mrlab record --stop; possible now: split the recording and stop",
-        ),
-        (
-            (RecorderEvent.REPLAY,),
-            RecorderEvent.START,
-            "class.bag is being replayed; stop that first",
-        ),
+        ((), RecorderEvent.STOP, NOTHING_RUNS, 2),
+        ((), RecorderEvent.SPLIT, NO_RECORDING, 2),
+        ((), RecorderEvent.PAUSE, NO_REPLAY, 2),
+        ((RecorderEvent.START,), RecorderEvent.SEEK, NO_REPLAY, 2),
+        ((RecorderEvent.START,), RecorderEvent.REPLAY, RECORDING_RUNS, 2),
+        ((RecorderEvent.REPLAY,), RecorderEvent.START, REPLAY_RUNS, 0),
         (
             (RecorderEvent.REPLAY, RecorderEvent.BEGIN, RecorderEvent.PAUSE),
             RecorderEvent.REPLAY,
-            "class.bag is being replayed; stop that first",
+            REPLAY_RUNS,
+            6,
         ),
     ],
 )
-def test_a_refusal_says_what_is_under_way_and_what_to_do(before, event, says):
+def test_a_refusal_says_what_is_under_way(before, event, code, possible):
     machine = machine_after(*before)
     state = machine.state
-    with pytest.raises(Misuse) as raised:
+    bag = {"bag": "class.bag"} if code in (RECORDING_RUNS, REPLAY_RUNS) else {}
+    with refused(code, Misuse, **bag) as caught:
         machine.fire(event)
-    assert says in str(raised.value)
+    assert len(caught.value.diagnostic.values.get("possible", ())) == possible
     assert machine.state is state
 
 

@@ -1,0 +1,70 @@
+"""What single commands say; only here may a text name options."""
+
+from __future__ import annotations
+
+from mrlab_ros.core.base.diagnostic import INFO, WARNING, Code
+
+# record
+NOT_A_BAG_NAME = Code(
+    "not_a_bag_name",
+    "'{bag}' is no name for a bag.",
+    "Name the whole path of the bag where it shall be called so.",
+)
+STOP_WITH_BAG = Code("stop_with_bag", "--stop ends the recording that runs.", "Leave '{bag}' out.")
+RECORDING_CONTINUES = Code(
+    "recording_continues",
+    "{why:problem}; the recording continues in {bag}",
+    severity=WARNING,
+)
+RECORDER_BACK = Code(
+    "recorder_back",
+    "the recorder answers again; the recording continues in {bag}",
+    severity=INFO,
+)
+ENDED_BY_ANOTHER = Code(
+    "ended_by_another", "another client ended the recording into {bag}", severity=INFO
+)
+RECORDING_GONE = Code(
+    "recording_gone",
+    "The recording into {bag} has ended: the recorder was restarted.",
+    meaning="A recorder returned without the recording that ran; the bag holds what came before.",
+)
+RECORDER_SILENT = Code(
+    "recorder_silent",
+    "The recorder has been silent for {silent:time}[; what it wrote into {bag} stays readable, "
+    "and a restarted recorder continues in that bag].",
+)
+RECORDER_AWAITED = Code(
+    "recorder_awaited",
+    "the recorder has been silent for {silent:time}; waits for its restart",
+    severity=WARNING,
+)
+LAB_SILENT = Code(
+    "lab_silent",
+    "the lab has been silent for {silent:time}, but the recording continues in {bag}; Ctrl-C "
+    "ends it",
+    severity=WARNING,
+)
+RECORDER_FROZEN = Code(
+    "recorder_frozen",
+    "The recorder gave no sign of life for {silent:time}; what it wrote stays readable, and if "
+    "it goes on it ends the recording.",
+)
+BAG_CLOSED = Code("bag_closed", "the bag is closed", severity=INFO)
+
+# bags of others
+ROBOT_WITHOUT_PATH = Code(
+    "robot_without_path",
+    "There is no bag {path}; --robot is for the bags of others, by their path.",
+)
+REFERENCE_REFUSED = Code(
+    "reference_refused",
+    "The reference {file} is refused for {model}: {why:problem}.",
+    "Mend it, and name what a conversion of it writes.",
+)
+EXTRACTED = Code(
+    "extracted",
+    "wrote {files:count file|files} to {folder}",
+    severity=INFO,
+    data=("names",),
+)
