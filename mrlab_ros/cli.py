@@ -22,7 +22,8 @@ import mrlab_ros
 from mrlab_ros.adapters.guarded_streams import guard
 from mrlab_ros.adapters.python_process import keep_to_installed_modules
 from mrlab_ros.commands import completion
-from mrlab_ros.commands.output import say_error
+from mrlab_ros.commands.output import say_error, say_problem
+from mrlab_ros.core.base.diagnostic import Diagnostic
 from mrlab_ros.core.errors import LabError
 
 EPILOG = """
@@ -190,7 +191,7 @@ def main() -> None:
         else:
             make_app(asked, completing=True)(prog_name="mrlab")
     except LabError as error:
-        fail(str(error))
+        fail(error.diagnostic)
     except KeyboardInterrupt:
         sys.exit(130)
     except ModuleNotFoundError as error:
@@ -229,11 +230,17 @@ def hang_up(number: int, frame: FrameType | None) -> None:
     signal.default_int_handler(number, frame)
 
 
-def fail(sentence: str, code: int = 1) -> None:
-    """Print one sentence, with the traceback under --debug, and end with `code`."""
+def fail(found: Diagnostic | str, code: int = 1) -> None:
+    """Print what is wrong and the commands that mend it; end with `code`.
+
+    Under --debug the traceback is printed, too.
+    """
     if Settings.debug:
         traceback.print_exc()
-    say_error(sentence)
+    if isinstance(found, str):
+        say_error(found)
+    else:
+        say_problem(found)
     sys.exit(code)
 
 

@@ -18,7 +18,6 @@ from mrlab_ros.commands import output
 from mrlab_ros.commands.diagnostics import EXTRACTED
 from mrlab_ros.commands.output import AsJson, say
 from mrlab_ros.core.base.diagnostic import plain
-from mrlab_ros.core.foreign_text import for_shell
 
 if TYPE_CHECKING:
     from mrlab_ros.adapters.bags.courses import Reference
@@ -235,7 +234,7 @@ def reported(
 
     found = opened(bag)
     session = read_session(found, None if compared is None else _reference(*compared))
-    lines = [_title(found), *report_lines(session)]
+    lines = [_title(found), *report_lines(session, output.with_fixes)]
     text = "\n".join(lines) + "\n"
     said = {"bag": str(found.path.resolve()), **session.facts()}
     facts = json.dumps(said, indent=2) + "\n"
@@ -302,6 +301,9 @@ def _print(bag: Bag) -> None:
     from rich import box
     from rich.table import Table
 
+    from mrlab_ros.adapters.bags.diagnostics import BAG_LIVE
+    from mrlab_ros.core.recording.diagnostics import ENDING
+
     console = output.console()
     began = f"{bag.duration:.1f} s from {_began(bag)}, " if bag.message_count else ""
     console.print(
@@ -309,14 +311,8 @@ def _print(bag: Bag) -> None:
         f"{bag.size / 1e6:.1f} MB in {len(bag.paths)} file{'s' * (len(bag.paths) != 1)}",
         soft_wrap=True,
     )
-    if bag.live:
-        console.print("it is being recorded; mrlab record --stop ends that", soft_wrap=True)
-    for trouble in bag.troubles:
-        console.print(str(trouble), soft_wrap=True)
-    if bag.troubles:
-        console.print(
-            f"mend it with: mrlab bag repair {for_shell([str(bag.path)])}", soft_wrap=True
-        )
+    for trouble in [BAG_LIVE(fixes=ENDING)] if bag.live else bag.troubles:
+        console.print(output.with_fixes(trouble), soft_wrap=True)
     for gap in bag.gaps():
         console.print(str(gap.said(bag.start_ns)), soft_wrap=True)
     table = Table("topic", "type", box=box.SIMPLE_HEAD)

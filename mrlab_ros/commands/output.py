@@ -28,12 +28,28 @@ def say(said: Diagnostic | str, *, as_json: bool, **facts: object) -> None:
     found: dict[str, object] = {"message": str(said)}
     if isinstance(said, Diagnostic):
         found |= {"code": said.code, "values": plain(said.values)}
-    print(json.dumps({**plain(facts), **found}) if as_json else str(said), flush=True)
+    if as_json:
+        print(json.dumps({**plain(facts), **found}), flush=True)
+    else:
+        print(with_fixes(said) if isinstance(said, Diagnostic) else said, flush=True)
 
 
 def say_error(sentence: str) -> None:
     """Print an error; a line end may come from a file's name: no other line begins like ours."""
     print("mrlab: " + sentence.replace("\n", "\n  "), file=sys.stderr)
+
+
+def say_problem(found: Diagnostic) -> None:
+    """Print why something was refused, and the commands that mend it."""
+    say_error(str(found))
+    for command in filter(None, (fix.command for fix in found.fixes)):
+        print(f"  try: mrlab {command}", file=sys.stderr)
+
+
+def with_fixes(found: Diagnostic) -> str:
+    """Return what is said, and the commands that mend it in lines of their own."""
+    tries = [f"\n  try: mrlab {fix.command}" for fix in found.fixes if fix.command]
+    return str(found) + "".join(tries)
 
 
 def console(*, stderr: bool = False, width: int | None = None) -> Console:

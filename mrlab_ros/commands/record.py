@@ -30,7 +30,7 @@ from mrlab_ros.commands.output import say
 from mrlab_ros.core.base.diagnostic import Diagnostic, Fix
 from mrlab_ros.core.errors import LabError, Misuse
 from mrlab_ros.core.foreign_text import for_shell
-from mrlab_ros.core.recording.diagnostics import NO_RECORDING
+from mrlab_ros.core.recording.diagnostics import ENDING, NO_RECORDING
 from mrlab_ros.core.recording.states import RecorderState
 
 if TYPE_CHECKING:
@@ -49,7 +49,7 @@ ANSWER_S = 3.5
 FROZEN_S = 2.5
 # A bag of hours is closed by then, s.
 STOP_TIMEOUT_S = 30.0
-ENDING = (Fix(command="record --stop"), Fix(command="status"))
+TO_END = (*ENDING, Fix(command="status"))
 
 
 def record(
@@ -122,7 +122,7 @@ def _show(graph: GraphClient, bag: str, *, as_json: bool) -> None:
         _follow(
             watch,
             lambda *states: live.update(_line(*states), refresh=True),
-            lambda said: console.print(str(said), soft_wrap=True),
+            lambda said: console.print(output.with_fixes(said), soft_wrap=True),
             bag,
             lambda: size_of(bag),
         )
@@ -217,7 +217,7 @@ def _follow(
             # The first look says nothing of growth.
             grown_at, known = time.monotonic() if known else grown_at, now
         if min(silent, time.monotonic() - grown_at) > RETURN:
-            raise LabError(RECORDER_SILENT(silent=RETURN, bag=bag, fixes=ENDING))
+            raise LabError(RECORDER_SILENT(silent=RETURN, bag=bag, fixes=TO_END))
         if silent > SILENCE and not waiting:
             waiting = True
             if grown_at > received_at:
@@ -270,7 +270,7 @@ def _stop(graph: GraphClient, size: Callable[[], int]) -> Diagnostic:
         if silent > FROZEN_S and size() > before:
             return _stop_elsewhere()
         if silent > FROZEN_S:
-            raise NoAnswer(RECORDER_FROZEN(silent=silent, fixes=ENDING)) from None
+            raise NoAnswer(RECORDER_FROZEN(silent=silent, fixes=TO_END)) from None
         state = graph.watch(msg.RecorderState, "/recorder/state")
         state.wait(
             lambda now: now.state != msg.RecorderState.RECORDING, STOP_TIMEOUT_S, "the bag's end"

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Collection, Iterator, Sequence
+from dataclasses import replace
 from pathlib import Path
 
 import yaml
@@ -87,7 +88,8 @@ class Bag:
     @property
     def troubles(self) -> list[Diagnostic]:
         """What is wrong with its files; while it is recorded, nothing is."""
-        return [] if self.live else [file.trouble for file in self.files if file.trouble]
+        found = [file.trouble for file in self.files if file.trouble and not self.live]
+        return [replace(trouble, fixes=repairing(self.path)) for trouble in found]
 
     def facts(self) -> BagFacts:
         """Return what metadata.yaml should say."""

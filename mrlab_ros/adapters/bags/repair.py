@@ -26,9 +26,9 @@ from mrlab_ros.adapters.bags.mcap_file import DAMAGE, BagFile, open_file
 from mrlab_ros.adapters.bags.reader import METADATA, Bag, mcap_files_in
 from mrlab_ros.adapters.bags.writer import CHUNK_SIZE, RESERVE, is_being_written, metadata_text
 from mrlab_ros.adapters.nearby import close_file
-from mrlab_ros.core.base.diagnostic import Diagnostic, Fix
+from mrlab_ros.core.base.diagnostic import Diagnostic
 from mrlab_ros.core.errors import BadInput, Misuse
-from mrlab_ros.core.recording.diagnostics import importing
+from mrlab_ros.core.recording.diagnostics import ENDING, importing
 from mrlab_ros.core.recording.metadata import ROOT
 
 KEPT = ".original"
@@ -82,8 +82,7 @@ def _repair(path: Path) -> Repaired:
     if not paths:
         raise BadInput(BAG_WITHOUT_FILES(path=str(path), fixes=importing(path)))
     if any(map(is_being_written, paths)):
-        ending = (Fix(command="record --stop"),)
-        raise Misuse(BAG_BEING_RECORDED(path=str(path), fixes=ending))
+        raise Misuse(BAG_BEING_RECORDED(path=str(path), fixes=ENDING))
     files = list(map(open_file, paths))
     damages = {file.path: damage for file in files if (damage := _damage(file))}
     metadata = path / METADATA

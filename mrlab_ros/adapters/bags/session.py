@@ -30,7 +30,7 @@ from mrlab_ros.core.base.diagnostic import INFO, WARNING, Diagnostic, Severity
 from mrlab_ros.core.clock import SECOND, PlaybackClock
 from mrlab_ros.core.errors import BadInput
 from mrlab_ros.core.geometry import Pose
-from mrlab_ros.core.recording.diagnostics import importing
+from mrlab_ros.core.recording.diagnostics import ENDING, importing
 from mrlab_ros.core.recording.moves import ObjectTrack, Placed, Target, Targets
 from mrlab_ros.core.recording.report import (
     GRASP_STATES,
@@ -340,7 +340,7 @@ def _missing(bag: Bag, report: SessionReport) -> list[Diagnostic]:
 
 
 def _condition(bag: Bag) -> list[Diagnostic]:
-    return [BAG_LIVE()] if bag.live else bag.troubles
+    return [BAG_LIVE(fixes=ENDING)] if bag.live else bag.troubles
 
 
 def _said(message: Any, text: str, severity: Severity) -> Diagnostic | None:

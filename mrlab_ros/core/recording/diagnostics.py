@@ -158,6 +158,10 @@ NO_REPLAY = Code("no_replay", "nothing is replayed; start a replay first", sever
 NOTHING_RUNS = Code("nothing_runs", "nothing is recorded or replayed", severity=INFO)
 
 
+# Ends the recording that runs.
+ENDING = (Fix(command="record --stop"),)
+
+
 def importing(path: object) -> tuple[Fix, ...]:
     """Return the fix that makes a bag of the lab of another one."""
     return (Fix(command=f"bag import {for_shell([str(path)])} NEW_FOLDER"),)

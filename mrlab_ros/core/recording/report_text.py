@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 
+from mrlab_ros.core.base.diagnostic import Diagnostic
 from mrlab_ros.core.base.phrase import QUANTITIES
 from mrlab_ros.core.recording.report import Hop, Series, SessionReport
 from mrlab_ros.core.recording.runs import Run
@@ -13,9 +14,9 @@ HEADINGS = ("run", "robot", "trajectory", "began", "took", "result")
 NOTHING = 1e-9
 
 
-def report_lines(report: SessionReport) -> list[str]:
-    """Return the report as lines of text."""
-    lines = [str(report.summary), *map(str, report.troubles), ""]
+def report_lines(report: SessionReport, worded: Callable[[Diagnostic], str] = str) -> list[str]:
+    """Return the report as lines of text. worded: returns what is said of a trouble."""
+    lines = [str(report.summary), *map(worded, report.troubles), ""]
     lines += _table(report.runs)
     idle = without_runs(report)
     if idle:

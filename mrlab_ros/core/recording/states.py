@@ -8,8 +8,9 @@ from __future__ import annotations
 
 from enum import Enum
 
-from mrlab_ros.core.base.diagnostic import Diagnostic, Fix
+from mrlab_ros.core.base.diagnostic import Diagnostic
 from mrlab_ros.core.recording.diagnostics import (
+    ENDING,
     NO_RECORDING,
     NO_REPLAY,
     NOTHING_RUNS,
@@ -102,7 +103,7 @@ def reason(state: RecorderState, event: RecorderEvent, bag: str) -> Diagnostic:
     """
     if event in (RecorderEvent.START, RecorderEvent.REPLAY):
         if state is RecorderState.RECORDING:
-            return RECORDING_RUNS(bag=bag, fixes=(Fix(command="record --stop"),))
+            return RECORDING_RUNS(bag=bag, fixes=ENDING)
         return REPLAY_RUNS(bag=bag)
     if event is RecorderEvent.SPLIT:
         return NO_RECORDING()

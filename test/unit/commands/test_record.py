@@ -101,7 +101,7 @@ def test_a_recorder_that_does_not_return_is_given_up_with_the_way_to_end_it(monk
     recorder = Recorder(monkeypatch, recording(until=4.0))
     with refused(RECORDER_SILENT, LabError, silent=20.0, bag=BAG) as caught:
         follow(recorder)
-    assert caught.value.diagnostic.fixes == command.ENDING
+    assert caught.value.diagnostic.fixes == command.TO_END
     assert 23.0 < recorder.now < 25.0
 
 

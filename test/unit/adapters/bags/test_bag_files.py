@@ -56,7 +56,7 @@ from mrlab_ros.adapters.bags.writer import (
     is_being_written,
 )
 from mrlab_ros.core.errors import BadInput, Misuse
-from mrlab_ros.core.recording.diagnostics import METADATA_TOO_NEW
+from mrlab_ros.core.recording.diagnostics import METADATA_TOO_NEW, repairing
 from mrlab_ros.core.recording.metadata import QosProfile, Topic
 
 MAGIC = b"\x89MCAP0\r\n"
@@ -285,7 +285,7 @@ def test_a_kill_at_the_beginning_of_a_next_file_costs_nothing(tmp_path):
     (folder / "class_1.mcap").write_bytes(MAGIC[:3])
     bag = Bag(folder)
     assert read(folder) == messages
-    assert bag.troubles == [BAG_NOT_BEGUN(file="class_1.mcap")]
+    assert bag.troubles == [BAG_NOT_BEGUN(file="class_1.mcap", fixes=repairing(folder))]
     assert repair(folder).messages == 20
     assert Bag(folder).troubles == []
     assert read(folder) == read_by_rosbags(folder) == messages
