@@ -180,7 +180,10 @@ def survives(module: str, path: Path, tree: ast.Module, tests: tuple[str, ...]) 
             import pytest
 
             sys.meta_path.insert(0, _Mutated(module, tree, str(path)))
-            chosen = [str(ROOT / "test" / "unit" / test) for test in tests]
+            unit = ROOT / "test" / "unit"
+            # The module's own tests first: they notice most.
+            own = unit / Path(*module.split(".")[1:-1]) / f"test_{path.stem}.py"
+            chosen = [str(file) for file in (own, *(unit / t for t in tests)) if file.exists()]
             options = ["-x", "-q", "-n", "0", "-p", "no:cacheprovider"]
             code = int(pytest.main([*options, *chosen]))
         finally:

@@ -55,6 +55,34 @@ def reads(tree: ast.AST) -> Iterator[ast.AST]:
             yield node
 
 
+def errors() -> set[str]:
+    """Return the names of the lab's own error classes."""
+    found, bases = {"LabError"}, {}
+    for path in PACKAGE.rglob("*.py"):
+        for node in ast.walk(ast.parse(path.read_text())):
+            if isinstance(node, ast.ClassDef):
+                bases[node.name] = {getattr(b, "id", getattr(b, "attr", "")) for b in node.bases}
+    while more := {name for name, of in bases.items() if of & found} - found:
+        found |= more
+    return found
+
+
+def test_every_error_has_a_code():
+    known = errors()
+    found = []
+    for path in sorted(PACKAGE.rglob("*.py")):
+        for node in ast.walk(ast.parse(path.read_text())):
+            if not isinstance(node, ast.Call) or not node.args:
+                continue
+            name = getattr(node.func, "id", getattr(node.func, "attr", ""))
+            written = isinstance(node.args[0], ast.JoinedStr) or (
+                isinstance(node.args[0], ast.Constant) and isinstance(node.args[0].value, str)
+            )
+            if name in known and written:
+                found.append(f"{path.relative_to(PACKAGE)}:{node.lineno}")
+    assert found == []
+
+
 def test_no_code_reads_a_sentence():
     found = []
     for path in sorted(PACKAGE.rglob("*.py")):
