@@ -14,6 +14,7 @@ from mrlab_ros.gateway.ports import Ports
 from mrlab_ros.gateway.settings import Settings
 
 API = Path(__file__).parents[3] / "web" / "src" / "api"
+WORDS = API.parent / "words"
 # Interface of web/src/api/types.ts and the gateway's model that it reads.
 ANSWERS = {
     "Upload": "Upload",
@@ -46,7 +47,8 @@ def offered(tmp_path_factory: pytest.TempPathFactory) -> dict[str, Any]:
 
 def fields(interface: str) -> set[str]:
     """Return the names of an interface's fields, those of interfaces in it left out."""
-    text = re.sub(r"/\*\*.*?\*/", "", (API / "types.ts").read_text(), flags=re.DOTALL)
+    texts = (API / "types.ts").read_text() + (WORDS / "diagnostic.ts").read_text()
+    text = re.sub(r"/\*\*.*?\*/", "", texts, flags=re.DOTALL)
     match = re.search(rf"export interface {interface}\b[^{{]*\{{(.*?)\n\}}", text, re.DOTALL)
     assert match, interface
     return set(re.findall(r"^  readonly (\w+)\??:", match[1], re.MULTILINE))

@@ -104,7 +104,9 @@ def test_uneven_streams_stay_within_limits_and_end_at_the_newest_set_point(
     arm.run_to(arm.now_ns + SECOND)
     assert arm.at == pytest.approx(goal)
     after = np.abs(np.diff(arm.path[ended - 1 :], axis=0)).max() * SECOND / TICK
-    assert after <= max(CLOSING_SHARE * FASTEST.max() + 4 * speeds, 0) + 1e-9
+    # The mean interval falls while a burst comes (to 0.17 of its period where four come at once),
+    # so the reference goes its last way in less time than the stream took for it.
+    assert after <= CLOSING_SHARE * FASTEST.max() + 2 * burst * speeds + 1e-9
 
 
 def test_the_rate_may_change_in_the_middle():
