@@ -109,5 +109,16 @@ class Browser:
 
 
 def code_of(response: Any) -> tuple[int, str]:
-    """Return the status and the word of an error."""
+    """Return the status and the code of an error."""
     return response.status_code, response.json()["error"]["code"]
+
+
+def kind_of(response: Any) -> tuple[int, str]:
+    """Return the status and the kind of an error, which clients steer by."""
+    return response.status_code, response.json()["error"]["kind"]
+
+
+def values_of(response: Any) -> dict[str, Any]:
+    """Return the values of an error."""
+    found: dict[str, Any] = response.json()["error"]["values"]
+    return found

@@ -68,3 +68,21 @@ EXTRACTED = Code(
     severity=INFO,
     data=("names",),
 )
+
+# users
+NO_USERS_HERE = Code(
+    "no_users_here",
+    "There is no keys folder here and no lab runs.",
+    "Make one, or name it with --dir.",
+)
+
+# show
+PAGE_NAME = Code("page_name", "The page is '{name}'; expected a name that ends in .html.")
+REPORT_WITHOUT_BAG = Code(
+    "report_without_bag", "{path} does not say which bag it is of.", "Name the bag itself."
+)
+BAG_OF_REPORT_GONE = Code(
+    "bag_of_report_gone",
+    "{path} is of the bag {bag}, which is not there.",
+    "Name the bag itself.",
+)

@@ -16,6 +16,7 @@ from mrlab_ros.commands import output
 from mrlab_ros.core.bridge.access import Login
 from mrlab_ros.core.bridge.rules import Role
 from mrlab_ros.core.errors import BadInput
+from mrlab_ros.gateway.diagnostics import ALLOW_LIST_UNREADABLE
 
 if TYPE_CHECKING:
     from mrlab_ros.adapters.keys.folder import Keys
@@ -288,7 +289,7 @@ def rules_of(allow_list: Path | None) -> Rules:
     try:
         return parse(yaml.load(path.read_text(), Loader=Loader))
     except (OSError, yaml.YAMLError) as error:
-        raise BadInput(f"the allow-list {path} cannot be read: {error}") from error
+        raise BadInput(ALLOW_LIST_UNREADABLE(path=str(path), why=str(error))) from error
 
 
 def this_machine() -> list[str]:

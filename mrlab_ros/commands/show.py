@@ -13,6 +13,7 @@ import typer
 
 from mrlab_ros.commands import completion
 from mrlab_ros.commands.convert.options import with_options
+from mrlab_ros.commands.diagnostics import BAG_OF_REPORT_GONE, PAGE_NAME, REPORT_WITHOUT_BAG
 from mrlab_ros.commands.output import AsJson
 from mrlab_ros.core.conversion.options import Options
 from mrlab_ros.core.errors import BadInput, Misuse
@@ -54,7 +55,7 @@ def show(
     """
     path = output or Path(f"{file.name.split('.')[0] or 'motion'}.html")
     if path.suffix.lower() not in (".html", ".htm"):
-        raise Misuse(f"the page is '{path.name}'; expected a name that ends in .html")
+        raise Misuse(PAGE_NAME(name=path.name))
     from mrlab_ros.commands.convert import report
 
     text, result = _page(file, robot, end_effector, options)
@@ -139,7 +140,7 @@ def _bag_of_report(file: Path) -> Path | None:
     try:
         bag = Path(json.loads(path.read_bytes())["bag"])
     except (ValueError, KeyError, TypeError):
-        raise BadInput(f"{path} does not say which bag it is of; name the bag itself") from None
+        raise BadInput(REPORT_WITHOUT_BAG(path=str(path))) from None
     if not bag.exists():
-        raise BadInput(f"{path} is of the bag {bag}, which is not there; name the bag itself")
+        raise BadInput(BAG_OF_REPORT_GONE(path=str(path), bag=str(bag)))
     return bag

@@ -14,10 +14,13 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from mrlab_ros.commands import output
+from mrlab_ros.commands.diagnostics import NO_USERS_HERE
 from mrlab_ros.commands.output import say
 from mrlab_ros.commands.up.web import qr_lines
+from mrlab_ros.core.base.diagnostic import Fix
 from mrlab_ros.core.bridge.rules import Role
 from mrlab_ros.core.errors import BadInput, Misuse
+from mrlab_ros.gateway.people.diagnostics import ONE_LOCAL_USER, WITH_KEYS
 
 if TYPE_CHECKING:
     from mrlab_ros.gateway.people.accounts import Accounts
@@ -154,15 +157,9 @@ def opened(folder: Path | None, url: str) -> Iterator[Users]:
     elif running is not None and running["signs_in"]:
         file, address = Path(running["users"]), running["address"]
     elif running is not None:
-        raise Misuse(
-            "the lab that runs has one local user and no sign-in; for more people start it with "
-            "keys: mrlab keys init, then mrlab up --keys keys"
-        )
+        raise Misuse(ONE_LOCAL_USER(fixes=WITH_KEYS))
     else:
-        raise BadInput(
-            "there is no keys folder here and no lab runs; make one with mrlab keys init, or name "
-            "it with --dir"
-        )
+        raise BadInput(NO_USERS_HERE(fixes=(Fix(command="keys init"),)))
     database = Database(file)
     try:
         yield Users(Accounts(database), (url or address).rstrip("/"))

@@ -17,7 +17,9 @@ from typing import Any
 from mrlab_ros.adapters.guarded_streams import guard
 from mrlab_ros.adapters.launcher import end_with_launcher
 from mrlab_ros.adapters.python_process import keep_to_installed_modules
+from mrlab_ros.core.base.diagnostic import Fix
 from mrlab_ros.core.errors import BadInput, LabError, Unavailable
+from mrlab_ros.gateway.diagnostics import HTTPS_UNUSABLE, PORT_TAKEN
 from mrlab_ros.gateway.settings import PORT, Settings, parsed_address
 
 # EX_CONFIG of sysexits.h: a restart would end the same way.
@@ -51,6 +53,8 @@ def main() -> None:
         serve(settings_of(sys.argv[1:]))
     except LabError as error:
         logging.error("%s", error)
+        for fix in error.diagnostic.fixes:
+            logging.error("try: mrlab %s", fix.command)
         lasting = isinstance(error, BadInput) and not isinstance(error, Unavailable)
         sys.exit(WRONG_CONFIGURATION if lasting else 1)
 
@@ -117,10 +121,9 @@ def serve(settings: Settings) -> None:
     try:
         config.load()
     except (OSError, ssl.SSLError) as error:
-        raise BadInput(
-            f"{settings.certificate_file} and {settings.certificate_key_file} cannot serve HTTPS: "
-            f"{error}; expected a certificate and its key without password (PEM)"
-        ) from error
+        files = str(settings.certificate_file), str(settings.certificate_key_file)
+        unusable = HTTPS_UNUSABLE(certificate=files[0], key=files[1], why=str(error))
+        raise BadInput(unusable) from error
     host, port = listening.getsockname()[:2]
     scheme = "https" if settings.https else "http"
     address = f"{scheme}://{f'[{host}]' if ':' in host else host}:{port}"
@@ -146,10 +149,10 @@ def listen(settings: Settings) -> socket.socket:
         listening.listen(BACKLOG)
     except OSError as error:
         listening.close()
+        why = os.strerror(error.errno or 0)
+        fixes = (Fix(command="up --http HOST:PORT"),)
         raise Unavailable(
-            f"the pages cannot be served on {settings.host}:{settings.port}: "
-            f"{os.strerror(error.errno or 0)}; another lab may have that port, so choose another "
-            "one with --http HOST:PORT"
+            PORT_TAKEN(host=settings.host, port=settings.port, why=why, fixes=fixes)
         ) from error
     listening.setblocking(False)
     return listening

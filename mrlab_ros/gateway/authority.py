@@ -9,6 +9,7 @@ from fastapi import APIRouter, Request, Response
 
 from mrlab_ros.adapters.keys import certificates
 from mrlab_ros.core.foreign_text import for_html
+from mrlab_ros.gateway.diagnostics import NO_AUTHORITY
 from mrlab_ros.gateway.errors import NotFound
 from mrlab_ros.gateway.settings import Settings
 
@@ -72,7 +73,7 @@ a { color: var(--accent) }
 def authority_file(settings: Settings) -> Path:
     """Return the file of the authority; raises NotFound where the lab has none of its own."""
     if settings.keys is None or settings.certificate is not None:
-        raise NotFound("this gateway has no authority of its own, so there is nothing to install")
+        raise NotFound(NO_AUTHORITY())
     return settings.keys / "ca.pem"
 
 

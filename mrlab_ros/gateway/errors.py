@@ -1,7 +1,8 @@
-"""The one form of errors over HTTP: {"error": {"message": "...", "code": "..."}}."""
+"""The one form of errors over HTTP: {"error": {"kind": "...", "code": "...", ...}}."""
 
 from __future__ import annotations
 
+import json
 import logging
 from collections.abc import Mapping
 from typing import Any, ClassVar
@@ -14,20 +15,32 @@ from starlette.exceptions import HTTPException
 
 from mrlab_ros.adapters.store.port import Missing, StoreFailure
 from mrlab_ros.adapters.trajectories.catalogue import NoTrajectory
+from mrlab_ros.core.base.diagnostic import Diagnostic, plain
 from mrlab_ros.core.errors import BadInput, LabError, Misuse, Unavailable
+from mrlab_ros.gateway.diagnostics import (
+    BAD_REQUEST,
+    GATEWAY_FAULT,
+    HTTP_ERROR,
+    METHOD_NOT_POSSIBLE,
+    NOTHING_AT,
+)
 from mrlab_ros.gateway.lab.connection import NoAnswer, Refused
+from mrlab_ros.gateway.store.answers import Finding
 
 logger = logging.getLogger("mrlab.gateway")
 
 
 class GatewayError(LabError):
-    """An error with a status of its own; a subclass says which."""
+    """An error with a status of its own; a subclass says which.
+
+    kind: what clients steer by, coarser than the code of the diagnostic.
+    """
 
     status: ClassVar[int] = 500
-    code: ClassVar[str] = "fault"
+    kind: ClassVar[str] = "fault"
 
-    def __init__(self, message: str, headers: Mapping[str, str] | None = None) -> None:
-        super().__init__(message)
+    def __init__(self, what: Diagnostic | str, headers: Mapping[str, str] | None = None) -> None:
+        super().__init__(what)
         self.headers = dict(headers or {})
 
 
@@ -35,60 +48,59 @@ class NotSignedIn(GatewayError):
     """Nobody is signed in, or the sign-in has ended."""
 
     status = 401
-    code = "not_signed_in"
+    kind = "not_signed_in"
 
 
 class NotAllowed(GatewayError):
     """Somebody is signed in whose role does not allow this."""
 
     status = 403
-    code = "not_allowed"
+    kind = "not_allowed"
 
 
 class NotFound(GatewayError):
     """There is no such thing, or not for this person."""
 
     status = 404
-    code = "not_found"
+    kind = "not_found"
 
 
 class TooLarge(GatewayError):
     """A body is larger than it may be."""
 
     status = 413
-    code = "too_large"
+    kind = "too_large"
 
 
 class NotTheFile(GatewayError):
     """A body is a form or another envelope instead of a file."""
 
     status = 415
-    code = "not_the_file"
+    kind = "not_the_file"
 
 
 class TooSlow(GatewayError):
     """The rest of a body did not come."""
 
     status = 408
-    code = "too_slow"
+    kind = "too_slow"
 
 
 class TooMany(GatewayError):
     """A person or an address asks too often."""
 
     status = 429
-    code = "too_many"
+    kind = "too_many"
 
-    def __init__(self, message: str, retry_after: float) -> None:
+    def __init__(self, what: Diagnostic | str, retry_after: float) -> None:
         """retry_after: s until it may work again."""
-        super().__init__(message, {"Retry-After": str(max(1, round(retry_after)))})
+        super().__init__(what, {"Retry-After": str(max(1, round(retry_after)))})
 
 
-class Fault(BaseModel):
-    """What went wrong: a sentence for a person, and a word for a program."""
+class Fault(Finding):
+    """What went wrong, as a diagnostic. kind: a coarse word, such as not_found or bad_input."""
 
-    message: str
-    code: str
+    kind: str
 
 
 class Problem(BaseModel):
@@ -119,20 +131,20 @@ RESPONSES: dict[int | str, dict[str, Any]] = {
 
 
 def problem(
-    status: int, code: str, message: str, headers: Mapping[str, str] | None = None
+    status: int, kind: str, what: Diagnostic, headers: Mapping[str, str] | None = None
 ) -> JSONResponse:
     """Return the answer for an error."""
-    body = {"error": {"message": message, "code": code}}
+    body = {"error": {**plain(what), "kind": kind}}
     return JSONResponse(body, status, headers=dict(headers or {}))
 
 
 def of_lab_error(error: LabError) -> JSONResponse:
     """Return the answer for an error that was raised on purpose."""
     if isinstance(error, GatewayError):
-        return problem(error.status, error.code, str(error), error.headers)
-    for kind, status, code in STATUS:
-        if isinstance(error, kind):
-            return problem(status, code, str(error))
+        return problem(error.status, error.kind, error.diagnostic, error.headers)
+    for each, status, kind in STATUS:
+        if isinstance(error, each):
+            return problem(status, kind, error.diagnostic)
     raise AssertionError(error)
 
 
@@ -140,8 +152,18 @@ async def refuse(websocket: WebSocket, error: LabError) -> None:
     """Close a socket with the reason: a browser shows a page none for a refused handshake."""
     offered = websocket.scope.get("subprotocols", [])
     await websocket.accept(subprotocol=offered[0] if offered else None)
-    # A reason has 123 bytes at most.
-    await websocket.close(SOCKET_REFUSED, str(error).encode()[:120].decode(errors="ignore"))
+    await close(websocket, SOCKET_REFUSED, error.diagnostic)
+
+
+async def close(websocket: WebSocket, code: int, why: Diagnostic | None) -> None:
+    """Close a socket that was accepted, and say why: first in a text frame, as data."""
+    reason = ""
+    if why is not None:
+        # The reason of a close has 123 bytes at most, and no room for values.
+        reason = str(why).encode()[:120].decode(errors="ignore")
+        said = {"op": "closing", "code": code, "diagnostic": plain(why)}
+        await websocket.send_text(json.dumps(said))
+    await websocket.close(code, reason)
 
 
 def _is_page(request: Request) -> bool:
@@ -166,12 +188,12 @@ def install(app: FastAPI) -> None:
         # below /api any path is one of the pages' route to the router, which takes GET alone
         if status == 405 and path.startswith("/api/") and _is_page(request):
             status, headers = 404, None
-        words = {
-            404: ("not_found", f"there is nothing at {path}"),
-            405: ("method", f"{request.method} is not possible at {path}"),
-        }
-        code, message = words.get(status, ("http", str(error.detail)))
-        return problem(status, code, message, headers)
+        if status == 404:
+            return problem(status, "not_found", NOTHING_AT(path=path), headers)
+        if status == 405:
+            what = METHOD_NOT_POSSIBLE(method=request.method, path=path)
+            return problem(status, "method", what, headers)
+        return problem(status, "http", HTTP_ERROR(detail=str(error.detail)), headers)
 
     @app.exception_handler(RequestValidationError)
     async def _(_: Request, error: RequestValidationError) -> JSONResponse:
@@ -179,11 +201,9 @@ def install(app: FastAPI) -> None:
             f"{'.'.join(str(part) for part in each['loc'])}: {each['msg']}"
             for each in error.errors()
         ]
-        message = f"the request is not as described in /api/openapi.json: {'; '.join(found)}"
-        return problem(422, "bad_request", message)
+        return problem(422, "bad_request", BAD_REQUEST(mistakes=found))
 
     @app.exception_handler(Exception)
     async def _(request: Request, error: Exception) -> JSONResponse:
         logger.error("%s %s failed", request.method, request.url.path, exc_info=error)
-        message = "the gateway failed at this request; its log, on the lab's machine, says why"
-        return problem(500, "fault", message)
+        return problem(500, "fault", GATEWAY_FAULT())

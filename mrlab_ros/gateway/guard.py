@@ -12,6 +12,8 @@ from collections.abc import Callable
 from starlette.datastructures import Headers, MutableHeaders
 from starlette.types import ASGIApp, Message, Receive, Scope, Send
 
+from mrlab_ros.core.base.diagnostic import Diagnostic
+from mrlab_ros.gateway.diagnostics import WRONG_CSRF, WRONG_HOST, WRONG_ORIGIN
 from mrlab_ros.gateway.errors import problem
 
 # A name or an address, IPv6 in brackets, and maybe a port.
@@ -74,7 +76,7 @@ class Guard:
         refusal = self._refusal(scope)
         if scope["type"] == "websocket":
             if refusal is not None:
-                await send({"type": "websocket.close", "code": 1008, "reason": refusal[0]})
+                await send({"type": "websocket.close", "code": 1008, "reason": refusal[1].code})
                 return
             await self._app(scope, receive, send)
             return
@@ -93,15 +95,12 @@ class Guard:
             return
         await self._app(scope, receive, send_with_headers)
 
-    def _refusal(self, scope: Scope) -> tuple[str, str] | None:
-        """Return code and sentence where the request is refused."""
+    def _refusal(self, scope: Scope) -> tuple[str, Diagnostic] | None:
+        """Return the kind and what is wrong where the request is refused."""
         headers = Headers(scope=scope)
         host = headers.get("host", "")
         if not self._host_allowed(without_port(host)):
-            return "host", (
-                f"this gateway is not called {host[:100]!r}; open it by the address that it "
-                "printed when it started"
-            )
+            return "host", WRONG_HOST(host=host[:100])
         unsafe = scope["type"] == "websocket" or scope["method"] not in SAFE
         if not unsafe:
             return None
@@ -109,16 +108,12 @@ class Guard:
         secure = scope.get("scheme") in ("https", "wss")
         own = f"{'https' if secure else 'http'}://{host}"
         if not origin or origin not in (own, self._public_origin):
-            return "origin", (
-                f"this request comes from {origin[:100] or 'nowhere (no Origin)'!r}, not from the "
-                f"pages of this gateway; expected the header Origin: {self._public_origin or own}"
-            )
+            expected = self._public_origin or own
+            return "origin", WRONG_ORIGIN(origin=origin[:100], expected=expected)
         if scope["type"] == "http" and not self._csrf_matches(
             headers.get(CSRF_HEADER, ""), headers.get("cookie", "")
         ):
-            return "csrf", (
-                "the header X-CSRF-Token is missing or old; take the csrf of GET /api/session"
-            )
+            return "csrf", WRONG_CSRF()
         return None
 
 

@@ -9,6 +9,7 @@ from urllib.parse import urlsplit
 
 from mrlab_ros.adapters.keys import certificates
 from mrlab_ros.core.errors import BadInput
+from mrlab_ros.gateway.diagnostics import BAD_PUBLIC_URL
 from mrlab_ros.gateway.settings import Settings, is_loopback
 
 
@@ -31,10 +32,7 @@ class Hosts:
         if settings.public_url:
             url = urlsplit(settings.public_url)
             if url.scheme not in ("http", "https") or not url.hostname or url.path.strip("/"):
-                raise BadInput(
-                    f"--public-url {settings.public_url} is no address of a site; expected one "
-                    "such as https://lab.example.org"
-                )
+                raise BadInput(BAD_PUBLIC_URL(url=settings.public_url))
             names.add(url.hostname)
             origin = f"{url.scheme}://{url.netloc}"
         if settings.https:

@@ -13,6 +13,7 @@ from fastapi import APIRouter, Request, Response
 from fastapi.responses import RedirectResponse
 
 from mrlab_ros.core.bridge.rules import Role
+from mrlab_ros.gateway.diagnostics import NOTHING_AT
 from mrlab_ros.gateway.errors import NotFound
 from mrlab_ros.gateway.people.people import People, ThePeople, address_of
 from mrlab_ros.gateway.people.person import LOCAL
@@ -144,7 +145,7 @@ async def page(request: Request, people: ThePeople, path: str) -> Response:
     if found is not None:
         return respond(request, found, FOR_EVER if path.startswith("static/") else ASK_AGAIN)
     if path.startswith(NOT_PAGES) or Path(path).suffix in MIME_TYPES:
-        raise NotFound(f"there is nothing at /{path}")
+        raise NotFound(NOTHING_AT(path=f"/{path}"))
     index = await to_thread.run_sync(read_page, folder, "index.html")
     if index is None:
         return Response(NOT_BUILT, 503, media_type="text/html")

@@ -12,6 +12,7 @@ from collections.abc import AsyncIterator
 import h11
 from uvicorn.protocols.http.h11_impl import H11Protocol
 
+from mrlab_ros.gateway.diagnostics import BODY_STOPPED
 from mrlab_ros.gateway.errors import TooSlow
 
 # Until the whole head of a request is there, and between two pieces of a body, s.
@@ -70,7 +71,5 @@ async def in_time(
         except StopAsyncIteration:
             return
         except asyncio.TimeoutError:
-            raise TooSlow(
-                f"nothing came of '{file_name}' for {wait:g} s and nothing was kept; send it again"
-            ) from None
+            raise TooSlow(BODY_STOPPED(file=file_name, wait=wait)) from None
         yield piece

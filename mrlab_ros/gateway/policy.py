@@ -19,6 +19,13 @@ from mrlab_ros.adapters.yaml_files import Loader
 from mrlab_ros.core.bridge.policy import Policy, Verb
 from mrlab_ros.core.bridge.rules import Role, parse
 from mrlab_ros.core.errors import BadInput
+from mrlab_ros.gateway.diagnostics import (
+    ALLOW_LIST_UNREADABLE,
+    NO_ROLE_MAY,
+    NOT_SIGNED_IN,
+    ROLE_TOO_LOW,
+    ROUTE_WITHOUT_POLICY,
+)
 from mrlab_ros.gateway.errors import NotAllowed, NotSignedIn
 from mrlab_ros.gateway.people.person import KnownPerson, Person
 from mrlab_ros.gateway.share import directory
@@ -114,7 +121,7 @@ def read_policy(allow_list: Path | None) -> Policy:
     try:
         return Policy(parse(yaml.load(path.read_text(), Loader=Loader)))
     except (OSError, yaml.YAMLError) as error:
-        raise BadInput(f"the allow-list {path} cannot be read: {error}") from error
+        raise BadInput(ALLOW_LIST_UNREADABLE(path=str(path), why=str(error))) from error
 
 
 def policy_of(connection: HTTPConnection) -> Policy:
@@ -134,15 +141,16 @@ def authorise(connection: HTTPConnection, policy: ThePolicy, person: KnownPerson
     method = connection.scope.get("method", SOCKET)
     path = connection.scope["route"].path
     if (method, path) not in ROUTES:
-        raise NotAllowed(f"{method} {path} has no line in gateway/policy.py, so nobody may use it")
+        raise NotAllowed(ROUTE_WITHOUT_POLICY(method=method, path=path))
     need = ROUTES[method, path]
     if isinstance(need, Everybody):
         return
     if person is None:
-        raise NotSignedIn("nobody is signed in, or the sign-in has ended; sign in first")
+        raise NotSignedIn(NOT_SIGNED_IN())
     role = policy.needed(need.verb, need.key, own=need.own) if isinstance(need, Need) else need
-    if role is None or not person.role.may(role):
+    if role is None:
+        raise NotAllowed(NO_ROLE_MAY())
+    if not person.role.may(role):
         raise NotAllowed(
-            f"{person.name} is {person.role.value}, and this needs "
-            f"{'a role that nobody has' if role is None else role.value}; ask your instructor"
+            ROLE_TOO_LOW(person=person.name, role=person.role.value, needed=role.value)
         )

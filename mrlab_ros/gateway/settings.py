@@ -7,7 +7,16 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 from mrlab_ros.adapters.keys import private_files
+from mrlab_ros.core.base.diagnostic import Fix
 from mrlab_ros.core.errors import BadInput
+from mrlab_ros.gateway.diagnostics import (
+    BAD_ADDRESS,
+    CERTIFICATE_WITHOUT_KEY,
+    INSECURE_WITH_KEYS,
+    NO_CLASS_FILE,
+    NO_HTTPS_FILE,
+    OPEN_TO_NETWORK,
+)
 
 HOST = "127.0.0.1"
 PORT = 8080
@@ -74,29 +83,22 @@ class Settings:
     def check(self) -> None:
         """Raise BadInput where a gateway may not, or cannot, be run with these settings."""
         if self.insecure and (self.https or self.public_url):
-            raise BadInput("--insecure and keys exclude each other; leave one of them out")
+            raise BadInput(INSECURE_WITH_KEYS())
         if (self.certificate is None) != (self.certificate_key is None):
-            raise BadInput(
-                "a certificate for HTTPS needs its key; give both --https-cert and --https-key"
-            )
+            raise BadInput(CERTIFICATE_WITHOUT_KEY())
         if not (self.https or self.insecure or is_loopback(self.host)):
-            raise BadInput(
-                f"the pages are to be served on {self.host}:{self.port}, where anybody in the "
-                "network could read and change everything; give the lab keys (mrlab keys init, "
-                "then mrlab up --keys FOLDER), listen on 127.0.0.1, or accept it with --insecure"
-            )
+            ways = ("keys init", "up --keys keys", "up --insecure")
+            fixes = tuple(Fix(command=way) for way in ways)
+            raise BadInput(OPEN_TO_NETWORK(host=self.host, port=self.port, fixes=fixes))
         if self.classroom is not None and not (self.classroom / CLASS_FILE).is_file():
-            raise BadInput(
-                f"there is no {CLASS_FILE} in {self.classroom}; make the folder with mrlab class "
-                "SUBMISSIONS --rubric RUBRIC.yaml --out FOLDER, and name that one"
-            )
+            make = Fix(command="class SUBMISSIONS --rubric RUBRIC.yaml --out FOLDER")
+            folder = str(self.classroom)
+            raise BadInput(NO_CLASS_FILE(file=CLASS_FILE, folder=folder, fixes=(make,)))
         if self.https:
             for file in (self.certificate_file, self.certificate_key_file):
                 if not file.is_file():
-                    raise BadInput(
-                        f"there is no file {file}, which HTTPS needs; make one with mrlab keys "
-                        "init, or name your own with --https-cert and --https-key"
-                    )
+                    make = Fix(command="keys init")
+                    raise BadInput(NO_HTTPS_FILE(path=str(file), fixes=(make,)))
             private_files.check(self.certificate_key_file)
 
 
@@ -105,10 +107,7 @@ def parsed_address(text: str) -> tuple[str, int]:
     host, colon, port = text.rpartition(":")
     host = host.strip("[]") if colon else HOST
     if not (host and port.isascii() and port.isdigit() and int(port) <= LARGEST_PORT):
-        raise BadInput(
-            f"--http {text} is no address to listen on; expected HOST:PORT such as "
-            f"{HOST}:{PORT} or 0.0.0.0:{PORT}"
-        )
+        raise BadInput(BAD_ADDRESS(address=text))
     return host, int(port)
 
 

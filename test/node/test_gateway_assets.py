@@ -81,4 +81,4 @@ def test_what_is_outside_is_not_served(browser):
     ):
         response = browser.get(path)
         assert response.status_code == 404, path
-        assert response.json()["error"]["code"] == "not_found"
+        assert response.json()["error"]["kind"] == "not_found"

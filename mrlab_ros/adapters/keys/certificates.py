@@ -18,6 +18,18 @@ from cryptography.hazmat.primitives import hashes, serialization
 from cryptography.hazmat.primitives.asymmetric import ec
 from cryptography.x509.oid import ExtendedKeyUsageOID, NameOID, ObjectIdentifier
 
+from mrlab_ros.adapters.keys.diagnostics import (
+    CERTIFICATE_EARLY,
+    CERTIFICATE_EXPIRED,
+    KEY_FILE_UNREADABLE,
+    NO_CERTIFICATE,
+    NO_EC_KEY,
+    NO_HOST,
+    NO_KEY_FILE,
+    NO_PRIVATE_KEY,
+    OTHER_AUTHORITY,
+    OTHER_KEY,
+)
 from mrlab_ros.core.errors import BadInput
 
 # A client whose clock is late by less accepts a new certificate.
@@ -77,11 +89,11 @@ def read(certificate: Path, key: Path) -> Signed:
     try:
         secret = serialization.load_pem_private_key(_bytes(key), None)
     except (ValueError, TypeError) as error:
-        raise BadInput(f"{key} is not a private key without password (PEM): {error}") from error
+        raise BadInput(NO_PRIVATE_KEY(path=str(key), why=str(error))) from error
     if not isinstance(secret, ec.EllipticCurvePrivateKey):
-        raise BadInput(f"{key} is a {type(secret).__name__}; expected an EC key")
+        raise BadInput(NO_EC_KEY(path=str(key), found=type(secret).__name__))
     if secret.public_key() != found.public_key():
-        raise BadInput(f"{key} is not the key of {certificate}; put back the one made with it")
+        raise BadInput(OTHER_KEY(path=str(key), certificate=str(certificate)))
     return Signed(found, secret)
 
 
@@ -90,26 +102,27 @@ def read_certificate(path: Path) -> x509.Certificate:
     try:
         return x509.load_pem_x509_certificate(_bytes(path))
     except ValueError as error:
-        raise BadInput(f"{path} is not a certificate (PEM): {error}") from error
+        raise BadInput(NO_CERTIFICATE(path=str(path), why=str(error))) from error
 
 
-def check(found: x509.Certificate, issuer: x509.Certificate, now: datetime, what: str) -> None:
-    """Raise BadInput where `what` is not valid now, or not of this issuer."""
+def check(found: x509.Certificate, issuer: x509.Certificate, now: datetime, path: Path) -> None:
+    """Raise BadInput where the certificate of `path` is not valid now, or not of this issuer."""
     begin, end = validity(found)
     if now > end:
-        raise BadInput(f"{what} expired on {end:%d %B %Y, %H:%M} UTC")
+        raise BadInput(CERTIFICATE_EXPIRED(path=str(path), end=_instant(end)))
     if now < begin:
-        raise BadInput(
-            f"{what} is valid from {begin:%d %B %Y, %H:%M} UTC, and this machine's clock says "
-            f"{now:%d %B %Y, %H:%M}; set the clock"
-        )
+        raise BadInput(CERTIFICATE_EARLY(path=str(path), begin=_instant(begin), now=_instant(now)))
     try:
         found.verify_directly_issued_by(issuer)
     except Exception as error:  # the signature's error has no class of its own
+        signer, authority = found.issuer.rfc4514_string(), issuer.subject.rfc4514_string()
         raise BadInput(
-            f"{what} was signed by {found.issuer.rfc4514_string()}, not by this folder's "
-            f"authority {issuer.subject.rfc4514_string()}"
+            OTHER_AUTHORITY(path=str(path), signer=signer, authority=authority)
         ) from error
+
+
+def _instant(at: datetime) -> str:
+    return f"{at:%Y-%m-%d %H:%M}"
 
 
 def validity(found: x509.Certificate) -> tuple[datetime, datetime]:
@@ -143,9 +156,10 @@ def _bytes(path: Path) -> bytes:
     try:
         return path.read_bytes()
     except FileNotFoundError as error:
-        raise BadInput(f"there is no file {path}") from error
+        raise BadInput(NO_KEY_FILE(path=str(path))) from error
     except OSError as error:
-        raise BadInput(f"{path} cannot be read: {os.strerror(error.errno or 0)}") from error
+        why = os.strerror(error.errno or 0)
+        raise BadInput(KEY_FILE_UNREADABLE(path=str(path), why=why)) from error
 
 
 def is_host(host: str) -> bool:
@@ -163,10 +177,7 @@ def _host(host: str) -> x509.GeneralName:
     except ValueError:
         pass
     if len(host) > LONGEST_HOST or not HOST.fullmatch(host):
-        raise BadInput(
-            f"{host!r} is neither a host name nor an address; expected one such as "
-            "lab.example.org or 192.168.1.20, without a port"
-        )
+        raise BadInput(NO_HOST(host=host))
     return x509.DNSName(host)
 
 

@@ -25,6 +25,14 @@ from typing import Any
 
 from mrlab_ros.adapters.keys import certificates, private_files, zenoh_settings
 from mrlab_ros.adapters.keys.certificates import Signed
+from mrlab_ros.adapters.keys.diagnostics import (
+    FOLDER_NOT_EMPTY,
+    HAS_NO_KEY,
+    NEW_KEYS_NEEDED,
+    RENEWAL_NEEDED,
+    ROUTER_KEYS_NEEDED,
+    ROUTER_TAKES_CERTIFICATES,
+)
 from mrlab_ros.adapters.keys.people import (
     GATEWAY,
     NOBODY,
@@ -35,9 +43,11 @@ from mrlab_ros.adapters.keys.people import (
     write_passwords,
 )
 from mrlab_ros.adapters.keys.zenoh_settings import LOCAL
+from mrlab_ros.core.base.diagnostic import Fix
 from mrlab_ros.core.bridge.access import Login, Person
 from mrlab_ros.core.bridge.rules import Role, Rules
 from mrlab_ros.core.errors import BadInput, Misuse
+from mrlab_ros.core.foreign_text import for_shell
 
 AUTHORITY_LIFETIME = timedelta(days=5 * 365)
 # Two school years; Apple's systems accept no certificate of a server for more than 825 days.
@@ -67,10 +77,8 @@ class Keys:
         """Make a folder with an authority and the lab's certificate; Misuse where one exists."""
         folder = folder.expanduser().resolve()
         if folder.exists() and (not folder.is_dir() or any(folder.iterdir())):
-            raise Misuse(
-                f"{folder} exists and is not empty; nothing was changed. Name another folder with "
-                "--dir, or remove this one: whoever has keys from it then needs new ones"
-            )
+            fixes = (Fix(command="keys init --dir FOLDER"),)
+            raise Misuse(FOLDER_NOT_EMPTY(folder=str(folder), fixes=fixes))
         mark = secrets.token_hex(3)
         authority = certificates.authority(f"MR-Lab authority {mark}", now, AUTHORITY_LIFETIME)
         all_hosts = list(dict.fromkeys([*hosts, *LOCAL]))
@@ -182,8 +190,8 @@ class Keys:
     def check_known(self, name: str) -> None:
         """Raise BadInput where `name` has no key."""
         if name not in self._people.by_name:
-            known = ", ".join(sorted(self._people.by_name)) or "nobody yet"
-            raise BadInput(f"{name} has no key in {self.folder}; who has one: {known}")
+            known = sorted(self._people.by_name)
+            raise BadInput(HAS_NO_KEY(name=name, folder=str(self.folder), known=known))
 
     def renew(self, hosts: list[str], now: datetime) -> datetime:
         """Make a new certificate of the lab, for `hosts` too; return when it expires."""
@@ -205,20 +213,18 @@ class Keys:
 
     def check(self, now: datetime) -> None:
         """Raise BadInput where a lab cannot be run with this folder, and say what to do."""
-        again = f"; make a new one with: mrlab keys renew --dir {self.folder}"
-        anew = "; make new keys in another folder with mrlab keys init, and hand them out again"
         authority = certificates.read_certificate(self.folder / "ca.pem")
-        name = f"the authority {self.folder / 'ca.pem'}"
         try:
-            certificates.check(authority, authority, now, name)
+            certificates.check(authority, authority, now, self.folder / "ca.pem")
         except BadInput as error:
-            raise BadInput(f"{error}{anew}") from error
+            make = Fix(command="keys init --dir FOLDER")
+            raise BadInput(NEW_KEYS_NEEDED(why=error, fixes=(make,))) from error
         try:
             path = self.folder / "server.pem"
             server = certificates.read(path, self.folder / "server.key")
-            certificates.check(server.certificate, authority, now, f"the certificate {path}")
+            certificates.check(server.certificate, authority, now, path)
         except BadInput as error:
-            raise BadInput(f"{error}{again}") from error
+            raise BadInput(RENEWAL_NEEDED(why=error, fixes=(self._fix("renew"),))) from error
         for secret in ("server.key", "passwords.txt"):
             private_files.check(self.folder / secret)
 
@@ -248,10 +254,9 @@ class Keys:
         file of its own.
         """
         if self.login.by_password:
-            raise Misuse(
-                f"the people of {self.folder} log in by {self.login.value}, and a router takes "
-                "certificates only; make a folder with: mrlab keys init --login certificate"
-            )
+            fixes = (Fix(command="keys init --login certificate"),)
+            folder, login = str(self.folder), self.login.value
+            raise Misuse(ROUTER_TAKES_CERTIFICATES(folder=folder, login=login, fixes=fixes))
         with self._alone():
             self.check(now)
             lab = f"lab.{secrets.token_hex(4)}"
@@ -275,12 +280,10 @@ class Keys:
         try:
             found = certificates.read(ours["lab.pem"], ours["lab.key"]).certificate
             authority = certificates.read_certificate(ours["ca.pem"])
-            certificates.check(found, authority, now, f"the certificate {ours['lab.pem']}")
+            certificates.check(found, authority, now, ours["lab.pem"])
         except BadInput as error:
-            raise BadInput(
-                f"{error}; make it, and the router's file, with: mrlab keys router --dir "
-                f"{self.folder}"
-            ) from error
+            fixes = (self._fix("router"),)
+            raise BadInput(ROUTER_KEYS_NEEDED(why=error, fixes=fixes)) from error
         private_files.check(ours["lab.key"])
         return zenoh_settings.connecting_settings(self.folder)
 
@@ -294,8 +297,12 @@ class Keys:
 
     def _authority(self, now: datetime) -> Signed:
         found = certificates.read(self.folder / "ca.pem", self.folder / "ca.key")
-        certificates.check(found.certificate, found.certificate, now, "the authority")
+        path = self.folder / "ca.pem"
+        certificates.check(found.certificate, found.certificate, now, path)
         return found
+
+    def _fix(self, command: str) -> Fix:
+        return Fix(command=for_shell(["keys", command, "--dir", str(self.folder)]))
 
     @classmethod
     @contextmanager

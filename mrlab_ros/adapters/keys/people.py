@@ -15,9 +15,18 @@ from datetime import datetime
 from pathlib import Path
 
 from mrlab_ros.adapters.keys import private_files
+from mrlab_ros.adapters.keys.diagnostics import (
+    BAD_KEY_NAME,
+    HAS_KEY,
+    KEY_FILE_UNREADABLE,
+    KEYS_DAMAGED,
+    NO_KEYS,
+)
+from mrlab_ros.core.base.diagnostic import Fix
 from mrlab_ros.core.bridge.access import Login, Person
 from mrlab_ros.core.bridge.rules import Role
 from mrlab_ros.core.errors import BadInput, Misuse
+from mrlab_ros.core.foreign_text import for_shell
 
 NAME = re.compile(r"[A-Za-z0-9][A-Za-z0-9_.-]{0,40}")
 # A user whose password nobody knows: zenoh demands passwords only where its file has a user.
@@ -73,16 +82,15 @@ class People:
                 Entry.from_record(document["gateway"]) if document.get("gateway") else None,
             )
         except FileNotFoundError as error:
-            raise BadInput(
-                f"{path.parent} has no keys; make them with: mrlab keys init --dir {path.parent}"
-            ) from error
+            folder = str(path.parent)
+            make = Fix(command=for_shell(["keys", "init", "--dir", folder]))
+            raise BadInput(NO_KEYS(folder=folder, fixes=(make,))) from error
         except OSError as error:
-            raise BadInput(f"{path} cannot be read: {os.strerror(error.errno or 0)}") from error
+            why = os.strerror(error.errno or 0)
+            raise BadInput(KEY_FILE_UNREADABLE(path=str(path), why=why)) from error
         except (ValueError, KeyError, TypeError) as error:
-            raise BadInput(
-                f"{path} is damaged ({type(error).__name__}: {error}); put back a copy, or make "
-                "new keys with mrlab keys init"
-            ) from error
+            why, fixes = f"{type(error).__name__}: {error}", (Fix(command="keys init"),)
+            raise BadInput(KEYS_DAMAGED(path=str(path), why=why, fixes=fixes)) from error
 
     def write(self, path: Path) -> None:
         """Write people.json, for its owner only."""
@@ -110,15 +118,10 @@ class People:
     def check_new(self, name: str) -> None:
         """Raise BadInput where `name` cannot be one, Misuse where it has a key already."""
         if not NAME.fullmatch(name) or name in (NOBODY, GATEWAY):
-            raise BadInput(
-                f"{name!r} is no name for a key; expected up to 41 letters, digits, '_', '-' and "
-                f"'.', beginning with a letter or digit, and not {NOBODY!r} or {GATEWAY!r}"
-            )
+            raise BadInput(BAD_KEY_NAME(name=name, reserved=[NOBODY, GATEWAY]))
         if name in self.by_name:
-            raise Misuse(
-                f"{name} has a key already, as {self.by_name[name].person.role.value}; take it "
-                f"back first with: mrlab keys revoke {name}"
-            )
+            role, revoke = self.by_name[name].person.role.value, f"keys revoke {name}"
+            raise Misuse(HAS_KEY(name=name, role=role, fixes=(Fix(command=revoke),)))
 
 
 def new_password() -> str:
@@ -132,7 +135,8 @@ def read_passwords(path: Path) -> dict[str, str]:
         pairs = (line.partition(":") for line in path.read_text().splitlines() if line.strip())
         return {name: password for name, _, password in pairs}
     except OSError as error:
-        raise BadInput(f"{path} cannot be read: {os.strerror(error.errno or 0)}") from error
+        why = os.strerror(error.errno or 0)
+        raise BadInput(KEY_FILE_UNREADABLE(path=str(path), why=why)) from error
 
 
 def write_passwords(path: Path, passwords: Mapping[str, str]) -> None:

@@ -6,6 +6,8 @@ import os
 import stat
 from pathlib import Path
 
+from mrlab_ros.adapters.keys.diagnostics import KEY_FILE_OPEN, KEY_FILE_UNREADABLE, NO_KEY_FILE
+from mrlab_ros.core.base.diagnostic import Fix
 from mrlab_ros.core.errors import BadInput
 
 
@@ -33,13 +35,9 @@ def check(path: Path) -> None:
     try:
         mode = stat.S_IMODE(path.stat().st_mode)
     except FileNotFoundError as error:
-        raise BadInput(
-            f"there is no file {path}; put back a copy, or make new keys with mrlab keys init"
-        ) from error
+        raise BadInput(NO_KEY_FILE(path=str(path), fixes=(Fix(command="keys init"),))) from error
     except OSError as error:
-        raise BadInput(f"{path} cannot be read: {os.strerror(error.errno or 0)}") from error
+        why = os.strerror(error.errno or 0)
+        raise BadInput(KEY_FILE_UNREADABLE(path=str(path), why=why)) from error
     if mode & 0o077:
-        raise BadInput(
-            f"{path} can be read by others on this machine (mode {mode:o}); take that away with: "
-            f"chmod 600 {path}"
-        )
+        raise BadInput(KEY_FILE_OPEN(path=str(path), mode=f"{mode:o}"))

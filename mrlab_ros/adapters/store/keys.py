@@ -17,6 +17,7 @@ import hashlib
 import re
 import secrets
 
+from mrlab_ros.adapters.store.diagnostics import BAD_UPLOAD_NUMBER, EMPTY_STORE_NAME, NO_UPLOAD_KEY
 from mrlab_ros.core.errors import BadInput
 
 RECORDS = "trajectories/records"
@@ -40,7 +41,7 @@ def segment(name: str) -> str:
     A long one is cut and ends in a hash of all of it.
     """
     if not name:
-        raise BadInput("a name of the store is empty; expected at least one character")
+        raise BadInput(EMPTY_STORE_NAME())
     data = name.encode("utf-8", "surrogatepass")
     leading_dot = name.startswith(".")
     parts = [
@@ -109,12 +110,12 @@ def owner_of(key: str, kind: re.Pattern[str]) -> str:
     """Return the segment of the user whose upload or draft it is; raise BadInput for others."""
     match = kind.fullmatch(key)
     if match is None:
-        what = "an upload" if kind is UPLOAD else "a draft"
-        raise BadInput(f"'{key[:200]}' is no key of {what}; send the file again")
+        what = "upload" if kind is UPLOAD else "draft"
+        raise BadInput(NO_UPLOAD_KEY(key=key[:200], what=what))
     return match[1]
 
 
 def _checked(number: str) -> str:
     if not UNIQUE.fullmatch(number):
-        raise BadInput(f"'{number[:64]}' names nothing that was sent; expected 32 hex digits")
+        raise BadInput(BAD_UPLOAD_NUMBER(number=number[:64]))
     return number

@@ -9,6 +9,7 @@ from collections.abc import Iterable
 from pathlib import Path
 from typing import BinaryIO
 
+from mrlab_ros.adapters.store.diagnostics import NOT_IN_STORE, STORE_FAILED
 from mrlab_ros.adapters.store.port import Entry, Missing, ObjectStore, StoreFailure
 
 
@@ -39,7 +40,7 @@ class MemoryStore(ObjectStore):
         with self._lock:
             self._check()
             if key not in self.objects:
-                raise Missing(f"there is nothing under '{key}' in the store; send it again")
+                raise Missing(NOT_IN_STORE(key=key))
             return self.objects[key][0]
 
     def get_file(self, key: str, file: BinaryIO) -> int:
@@ -75,7 +76,7 @@ class MemoryStore(ObjectStore):
     def _check(self, *, writes: bool = False) -> None:
         if writes and self.writes_left is not None:
             if self.writes_left == 0:
-                raise StoreFailure("the store memory failed (it is full); nothing was changed")
+                raise StoreFailure(STORE_FAILED(store=self.place, why="it is full"))
             self.writes_left -= 1
         if self.broken:
-            raise StoreFailure(f"the store memory failed ({self.broken}); nothing was changed")
+            raise StoreFailure(STORE_FAILED(store=self.place, why=self.broken))

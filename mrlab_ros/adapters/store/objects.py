@@ -19,6 +19,13 @@ from obstore.exceptions import BaseError
 from obstore.store import LocalStore, from_url
 
 from mrlab_ros.adapters import private_folder
+from mrlab_ros.adapters.store.diagnostics import (
+    NO_STORE,
+    NOT_IN_STORE,
+    STORE_FAILED,
+    STORE_FOLDER_UNUSABLE,
+    STORE_UNUSABLE,
+)
 from mrlab_ros.adapters.store.port import Entry, Missing, ObjectStore, StoreFailure
 from mrlab_ros.core.errors import BadInput
 
@@ -56,17 +63,11 @@ def open_store(place: str) -> ObstoreStore:
         path = Path(place).expanduser().absolute()
         return ObstoreStore(_folder(path), str(path))
     if url[1] not in SCHEMES or not url[2].strip("/"):
-        raise BadInput(
-            f"the store '{place}' cannot be used; expected a folder, or an URL such as "
-            "s3://bucket/lab, gs://bucket/lab or az://container/lab"
-        )
+        raise BadInput(NO_STORE(store=place))
     try:
         inside: Any = from_url(place, retry_config=RETRY, client_options=_client(url[1]))
     except (BaseError, ValueError, OSError) as error:
-        raise BadInput(
-            f"the store '{place}' cannot be used ({_reason(error)}); check the URL and the "
-            "credentials in the environment (docs/store.md)"
-        ) from None
+        raise BadInput(STORE_UNUSABLE(store=place, why=_reason(error))) from None
     return ObstoreStore(inside, place)
 
 
@@ -80,11 +81,9 @@ def _folder(path: Path) -> Any:
     try:
         return LocalStore(private_folder.make(path))
     except (OSError, BaseError, BadInput) as error:
-        why = getattr(error, "strerror", None) or _reason(error)
-        raise BadInput(
-            f"the folder {path} cannot be the store: {why}; choose another with the parameter "
-            "store, or another state_dir"
-        ) from None
+        why = error if isinstance(error, BadInput) else _reason(error)
+        why = getattr(error, "strerror", None) or why
+        raise BadInput(STORE_FOLDER_UNUSABLE(folder=str(path), why=why)) from None
 
 
 class ObstoreStore(ObjectStore):
@@ -96,14 +95,14 @@ class ObstoreStore(ObjectStore):
         self._root = Path(str(inside.prefix)) if isinstance(inside, LocalStore) else None
 
     def put(self, key: str, data: bytes) -> None:
-        with self._sentences(key, writes=True):
+        with self._as_errors(key, writes=True):
             obstore.put(self._inside, key, data, use_multipart=False)
 
     def put_file(self, key: str, file: BinaryIO) -> None:
         file.seek(0, os.SEEK_END)
         size = file.tell()
         file.seek(0)
-        with self._sentences(key, writes=True):
+        with self._as_errors(key, writes=True):
             if size <= SINGLE_REQUEST and self._root is None:
                 obstore.put(self._inside, key, file.read(), use_multipart=False)
             else:
@@ -111,23 +110,23 @@ class ObstoreStore(ObjectStore):
                 obstore.put(self._inside, key, parts, chunk_size=PART, max_concurrency=WRITERS)
 
     def get(self, key: str) -> bytes:
-        with self._sentences(key):
+        with self._as_errors(key):
             return bytes(obstore.get(self._inside, key).bytes())
 
     def get_file(self, key: str, file: BinaryIO) -> int:
         size = self.size(key)
-        with self._sentences(key):
+        with self._as_errors(key):
             for begin in range(0, size, PART):
                 end = min(begin + PART, size)
                 file.write(obstore.get_range(self._inside, key, start=begin, end=end))
         return size
 
     def size(self, key: str) -> int:
-        with self._sentences(key):
+        with self._as_errors(key):
             return int(obstore.head(self._inside, key)["size"])
 
     def list(self, prefix: str) -> list[Entry]:
-        with self._sentences(prefix):
+        with self._as_errors(prefix):
             found = [one for part in obstore.list(self._inside, prefix) for one in part]
         return [
             Entry(one["path"], one["size"], one["last_modified"].timestamp(), one["e_tag"] or "")
@@ -135,12 +134,12 @@ class ObstoreStore(ObjectStore):
         ]
 
     def copy(self, source: str, target: str) -> None:
-        with self._sentences(source):
+        with self._as_errors(source):
             obstore.copy(self._inside, source, target)
 
     def delete(self, keys: Iterable[str]) -> None:
         for key in keys:
-            with contextlib.suppress(Missing), self._sentences(key):
+            with contextlib.suppress(Missing), self._as_errors(key):
                 obstore.delete(self._inside, key)
 
     def path(self, key: str) -> Path | None:
@@ -163,20 +162,15 @@ class ObstoreStore(ObjectStore):
         return count
 
     @contextlib.contextmanager
-    def _sentences(self, key: str, *, writes: bool = False) -> Iterator[None]:
-        """Raise what obstore raises as an error of the port, in one sentence."""
+    def _as_errors(self, key: str, *, writes: bool = False) -> Iterator[None]:
+        """Raise what obstore raises as an error of the port."""
         try:
             yield
         except (BaseError, OSError, ValueError) as error:
             missing = isinstance(error, FileNotFoundError) and not NO_BUCKET.search(str(error))
             if missing and not writes:
-                raise Missing(
-                    f"there is nothing under '{key}' in the store; send it again"
-                ) from None
-            raise StoreFailure(
-                f"the store {self.place} failed ({_reason(error)}); nothing was changed: try "
-                "again once it works"
-            ) from None
+                raise Missing(NOT_IN_STORE(key=key)) from None
+            raise StoreFailure(STORE_FAILED(store=self.place, why=_reason(error))) from None
 
 
 def _reason(error: BaseException) -> str:

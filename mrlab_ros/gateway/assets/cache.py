@@ -18,6 +18,7 @@ from mrlab_ros.core.bridge.assets import (
     read_attachment,
 )
 from mrlab_ros.core.errors import BadInput, LabError, Unavailable
+from mrlab_ros.gateway.diagnostics import ASSET_CHANGED, ASSET_UNANSWERED, ASSET_UNSTEADY
 from mrlab_ros.gateway.errors import NotFound
 from mrlab_ros.gateway.lab.connection import LabConnection, NoAnswer, Refused, Sample
 from mrlab_ros.gateway.pages import Page
@@ -77,7 +78,7 @@ class AssetCache:
         try:
             path_of_key(asset_key(path))
         except BadInput as error:
-            raise NotFound(str(error)) from None
+            raise NotFound(error.diagnostic) from None
         entry = self._entries.get(path)
         if entry is not None and self._now() - entry.checked < FRESH_S:
             self._entries.move_to_end(path)
@@ -94,7 +95,7 @@ class AssetCache:
         while at < whole.size:
             found, data = await self._piece(path, at, LARGEST_PIECE)
             if found != whole or not data:
-                raise Changed(f"{asset_key(path)} changed while it was sent; load it again")
+                raise Changed(ASSET_CHANGED(asset=asset_key(path)))
             at += len(data)
             yield data
 
@@ -130,18 +131,16 @@ class AssetCache:
                 if whole.media_type not in NOT_COMPRESSED:
                     packed = await asyncio.to_thread(gzip.compress, body, 6, mtime=0)
                 return Page(body, packed, whole.sha256, whole.media_type)
-        raise Unavailable(f"{asset_key(path)} changes again and again; try again later")
+        raise Unavailable(ASSET_UNSTEADY(asset=asset_key(path)))
 
     async def _piece(self, path: str, offset: int, length: int) -> tuple[Described, bytes]:
         key = asset_key(path)
         try:
             sample: Sample | None = await self._lab.get(f"{key}?offset={offset};length={length}")
         except Refused as error:
-            raise NotFound(str(error)) from None
+            raise NotFound(error.diagnostic) from None
         if sample is None:
-            raise Unavailable(
-                f"the lab does not answer for {key}; check that the lab runs, then try again"
-            )
+            raise Unavailable(ASSET_UNANSWERED(asset=key))
         return read_attachment(sample.attachment)[0], sample.payload
 
     def _keep(self, path: str, entry: _Entry) -> None:

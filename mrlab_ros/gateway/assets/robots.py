@@ -11,6 +11,7 @@ from mrlab_ros.core.bridge.assets import ROBOTS_DOCUMENT
 from mrlab_ros.core.errors import BadInput, LabError
 from mrlab_ros.core.show.document import ShownRobot
 from mrlab_ros.gateway.assets.cache import AssetCache
+from mrlab_ros.gateway.diagnostics import ASSET_TOO_LARGE, ROBOT_NOWHERE
 from mrlab_ros.gateway.pages import Page
 
 
@@ -34,7 +35,8 @@ class Robots:
             try:
                 return self._of_lab(model, end_effector or "")
             except (LabError, ValueError, KeyError, TypeError) as error:
-                raise BadInput(f"{unknown}; nor does the lab have it: {error}") from error
+                why = error if isinstance(error, LabError) else str(error)
+                raise BadInput(ROBOT_NOWHERE(here=unknown, lab=why)) from error
 
     def _of_lab(self, model: str, end_effector: str) -> ShownRobot:
         tool = f"+{end_effector}" if end_effector else ""
@@ -47,5 +49,5 @@ class Robots:
         assert self._assets is not None
         found = from_thread.run(self._assets.get, path)
         if not isinstance(found, Page):
-            raise BadInput(f"{path} has {found.size} bytes, which is too large for a robot")
+            raise BadInput(ASSET_TOO_LARGE(asset=path, size=found.size))
         return found.body

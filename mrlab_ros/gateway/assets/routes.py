@@ -7,6 +7,7 @@ from fastapi.responses import StreamingResponse
 
 from mrlab_ros.core.errors import Unavailable
 from mrlab_ros.gateway.assets.cache import AssetCache
+from mrlab_ros.gateway.diagnostics import GATEWAY_WITHOUT_LAB
 from mrlab_ros.gateway.pages import Page, is_known, respond
 
 # Kept by the browser, and compared each time by its ETag: an asset may be imported anew.
@@ -24,7 +25,7 @@ async def asset(request: Request, path: str) -> Response:
     """
     cache: AssetCache | None = request.app.state.assets
     if cache is None:
-        raise Unavailable("this gateway has no lab; start it with the endpoint of one")
+        raise Unavailable(GATEWAY_WITHOUT_LAB())
     found = await cache.get(path)
     if isinstance(found, Page):
         return respond(request, found, CACHE)

@@ -15,6 +15,13 @@ from rosbags.interfaces import Nodetype
 from rosbags.typesys import Stores, get_types_from_msg, get_typestore
 
 from mrlab_ros.core.errors import BadInput, Unavailable
+from mrlab_ros.gateway.lab.diagnostics import (
+    BYTES_NOT_OF_TYPE,
+    NO_SUCH_FIELD,
+    NOT_OF_TYPE,
+    PACKAGE_MISSING,
+    UNKNOWN_TYPE,
+)
 
 PACKAGE = "mrlab_msgs"
 # What ROS puts into a message without fields.
@@ -63,7 +70,7 @@ class Definitions:
             return bytes(self.store.serialize_cdr(values, name))
         except Exception as error:
             raise BadInput(
-                f"{_short(values)} is no {type_name}: {error}; give each field a value of its type"
+                NOT_OF_TYPE(found=_short(values), type=type_name, why=str(error))
             ) from error
 
     def decode(self, type_name: str, payload: bytes) -> Any:
@@ -78,28 +85,22 @@ class Definitions:
             message, _ = read(memoryview(payload)[4:], 0, definition.cls, self.store)
         except Exception as error:
             raise BadInput(
-                f"{len(payload)} bytes are no {type_name}: {error}; check that both sides have "
-                "the same message definitions"
+                BYTES_NOT_OF_TYPE(size=len(payload), type=type_name, why=str(error))
             ) from error
         return message
 
     def _known(self, type_name: str) -> str:
         name = type_name.replace("/srv/", "/msg/")
         if name not in self.store.fielddefs:
-            raise BadInput(
-                f"{type_name} is no known message type; expected a standard type or one of "
-                f"{PACKAGE}, such as {PACKAGE}/msg/Robots or {PACKAGE}/srv/Seek_Request"
-            )
+            raise BadInput(UNKNOWN_TYPE(type=type_name))
         return name
 
     def _filled(self, name: str, values: Mapping[str, Any]) -> Any:
         fields = dict(self.store.get_msgdef(name).fields)
         strangers = [key for key in values if key not in fields]
         if strangers:
-            raise BadInput(
-                f"{name} has no field {', '.join(strangers)}; it has "
-                f"{', '.join(field for field in fields if field != EMPTY) or 'none'}"
-            )
+            known = [field for field in fields if field != EMPTY]
+            raise BadInput(NO_SUCH_FIELD(type=name, names=strangers, fields=known))
         parts = {key: self._part(kind, values.get(key)) for key, kind in fields.items()}
         return self.store.types[name](**parts)
 
@@ -139,10 +140,7 @@ def installed_definitions() -> Definitions:
     try:
         folder = Path(get_package_share_directory(PACKAGE))
     except PackageNotFoundError as error:
-        raise Unavailable(
-            f"the package {PACKAGE} is not installed here; build it with `make`, or with "
-            "colcon on a ROS machine"
-        ) from error
+        raise Unavailable(PACKAGE_MISSING(package=PACKAGE)) from error
     return Definitions(texts_of(folder))
 
 

@@ -23,6 +23,7 @@ from mrlab_ros.gateway.lab.connection import (
     Unsubscribe,
 )
 from mrlab_ros.gateway.lab.definitions import Definitions, installed_definitions
+from mrlab_ros.gateway.lab.diagnostics import CALL_TIMED_OUT, NOBODY_ANSWERS
 from mrlab_ros.gateway.lab.key_expressions import matches
 
 # Gets the decoded request, returns the fields of the response; raises Refused or NoAnswer.
@@ -137,7 +138,7 @@ class FakeLab:
         self, key: str, payload: bytes | None = None, timeout_s: float = CALL_TIMEOUT_S
     ) -> bytes:
         if key not in self._handlers:
-            raise NoAnswer(f"nobody answers {key}; a test must offer it with serve()")
+            raise NoAnswer(NOBODY_ANSWERS(key=key))
         type_name, handler = self._handlers[key]
         asked = f"{type_name}_Request"
         request = self.definitions.decode(asked, payload or self.definitions.encode(asked, {}))
@@ -146,7 +147,7 @@ class FakeLab:
             try:
                 await asyncio.wait_for(self.held[key].wait(), timeout_s)
             except asyncio.TimeoutError:
-                raise TimedOut(f"{key} did not answer within {timeout_s:g} s") from None
+                raise TimedOut(CALL_TIMED_OUT(key=key, timeout=timeout_s)) from None
         return self.definitions.encode(f"{type_name}_Response", handler(request))
 
     async def get(self, key: str, timeout_s: float = GET_TIMEOUT_S) -> Sample | None:

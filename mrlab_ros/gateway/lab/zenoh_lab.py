@@ -15,6 +15,7 @@ from typing import Any
 import zenoh
 
 from mrlab_ros.adapters.zenoh.configuration import LOOPBACK, configuration
+from mrlab_ros.core.base.diagnostic import Fix
 from mrlab_ros.core.bridge.latency import stamps
 from mrlab_ros.core.errors import LabError
 from mrlab_ros.gateway.lab.connection import (
@@ -31,6 +32,7 @@ from mrlab_ros.gateway.lab.connection import (
     Unsubscribe,
 )
 from mrlab_ros.gateway.lab.definitions import Definitions, learning_definitions
+from mrlab_ros.gateway.lab.diagnostics import CALL_TIMED_OUT, LAB_UNCONNECTED, NOBODY_ANSWERS
 from mrlab_ros.gateway.lab.tokens import TokenTable
 
 SCHEMA = "schema"
@@ -113,10 +115,7 @@ class ZenohLab:
 
     def _connection(self) -> tuple[zenoh.Session, asyncio.AbstractEventLoop]:
         if self._session is None or self._loop is None:
-            raise NoAnswer(
-                "the gateway has no connection to the lab; check that the lab runs, and the "
-                "gateway's endpoint"
-            )
+            raise NoAnswer(LAB_UNCONNECTED())
         return self._session, self._loop
 
     async def query(
@@ -124,10 +123,7 @@ class ZenohLab:
     ) -> bytes:
         replies = await self._ask(key, payload, timeout_s)
         if not replies:
-            raise NoAnswer(
-                f"nobody answers {key}: that node does not run, the robot is not there, or the "
-                f"gateway's key may not call it; it waited {timeout_s:g} s at most"
-            )
+            raise NoAnswer(NOBODY_ANSWERS(key=key))
         return replies[0].payload
 
     async def get(self, key: str, timeout_s: float = GET_TIMEOUT_S) -> Sample | None:
@@ -264,10 +260,8 @@ class ZenohLab:
         await done.wait()
         if refusals and not answers:
             if refusals[0] == "Timeout":
-                raise TimedOut(
-                    f"{key} did not answer within {timeout_s:g} s; check with `mrlab status` "
-                    "whether its node runs, then try again"
-                )
+                fixes = (Fix(command="status"),)
+                raise TimedOut(CALL_TIMED_OUT(key=key, timeout=timeout_s, fixes=fixes))
             raise Refused(refusals[0])
         return answers
 

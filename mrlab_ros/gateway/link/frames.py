@@ -12,6 +12,13 @@ from dataclasses import dataclass
 from enum import IntEnum
 
 from mrlab_ros.core.errors import BadInput
+from mrlab_ros.gateway.link.diagnostics import (
+    FRAME_KIND,
+    FRAME_LENGTH,
+    FRAME_SHORT,
+    KEY_NOT_TEXT,
+    KEY_TOO_LONG,
+)
 
 # kind, flags, count, number
 HEAD = struct.Struct("<BBHI")
@@ -47,7 +54,7 @@ class RecordKind(IntEnum):
     MESSAGE = 1  # of a topic of which each message counts
     VALUE = 2  # of any other topic, too large for a batch
     RESPONSE = 3  # of a service
-    ERROR = 4  # in place of a response: JSON with code and message
+    ERROR = 4  # in place of a response: JSON with code, message, diagnostic
 
 
 @dataclass(frozen=True, slots=True)
@@ -106,19 +113,19 @@ def from_client(frame: bytes) -> Call | Credit | Received:
     kind = frame[0] if frame else 0
     if kind in (ToGateway.CREDIT, ToGateway.RECEIVED):
         if len(frame) != NUMBER.size:
-            raise BadInput(f"a frame of kind {kind} has {len(frame)} bytes; expected 8")
+            raise BadInput(FRAME_LENGTH(frame=kind, size=len(frame), expected=NUMBER.size))
         number = NUMBER.unpack(frame)[4]
         return Credit(number) if kind == ToGateway.CREDIT else Received(number)
     if kind not in (ToGateway.CALL, ToGateway.PUT):
-        raise BadInput(f"a frame begins with {kind}; expected 1 to 4, see docs/link.md")
+        raise BadInput(FRAME_KIND(frame=kind))
     if len(frame) < CALL.size:
-        raise BadInput(f"a frame of kind {kind} has {len(frame)} bytes; expected 12 or more")
+        raise BadInput(FRAME_SHORT(frame=kind, size=len(frame), least=CALL.size))
     _, _, length, request, timeout_ms = CALL.unpack_from(frame)
     behind = CALL.size + length
     if behind > len(frame):
-        raise BadInput(f"a key of {length} bytes does not fit a frame of {len(frame)} bytes")
+        raise BadInput(KEY_TOO_LONG(length=length, size=len(frame)))
     try:
         key = frame[CALL.size : behind].decode()
     except UnicodeDecodeError as error:
-        raise BadInput(f"a key is no UTF-8: {error}") from error
+        raise BadInput(KEY_NOT_TEXT(why=str(error))) from error
     return Call(kind == ToGateway.PUT, key, frame[behind:], request, timeout_ms / 1000)

@@ -11,6 +11,7 @@ from mrlab_ros.core.bridge.rules import Role
 from mrlab_ros.core.errors import BadInput
 from mrlab_ros.gateway.errors import NotAllowed
 from mrlab_ros.gateway.lab.definitions import Definitions
+from mrlab_ros.gateway.link.diagnostics import BAD_DISPLAY_ID, DISPLAY_TAKEN, DISPLAY_TOO_FAR
 from mrlab_ros.gateway.people.person import Person
 
 KEY = "presence"
@@ -65,20 +66,12 @@ class Displays:
         message = self._definitions.decode(TYPE, payload)
         owner = next((each for each, (name, _) in self._seen.items() if name == message.id), token)
         if not 1 <= len(message.id) <= LONGEST_ID or not message.id.isprintable():
-            raise BadInput(
-                f"the display has the id {message.id[:80]!r}; expected 1 to {LONGEST_ID} "
-                "characters that can be printed"
-            )
+            raise BadInput(BAD_DISPLAY_ID(id=message.id[:80], most=LONGEST_ID))
         if owner != token:
-            raise NotAllowed(
-                f"the display {message.id} belongs to another page; choose an id of your own"
-            )
+            raise NotAllowed(DISPLAY_TAKEN(id=message.id))
         for value in _numbers(message):
             if not math.isfinite(value) or abs(value) > FARTHEST:
-                raise BadInput(
-                    f"the display {message.id} is at {value}; expected finite numbers of at most "
-                    f"{FARTHEST:g} m"
-                )
+                raise BadInput(DISPLAY_TOO_FAR(id=message.id, at=value, most=FARTHEST))
         name, last = self._seen.get(token, (message.id, -math.inf))
         if name == message.id and now - last < PERIOD and not message.away:
             return None

@@ -6,6 +6,7 @@ from collections import deque
 
 from mrlab_ros.core.errors import LabError
 from mrlab_ros.gateway.link.credit import ahead
+from mrlab_ros.gateway.link.diagnostics import TOO_MUCH_WAITS
 from mrlab_ros.gateway.link.frames import fragment
 
 # Bytes of a record in one frame: behind it on a slow link other frames wait.
@@ -51,10 +52,7 @@ class ReliableSender:
         """Append a record. Raises Overflow where too much waits; nothing is appended then."""
         records = len(self._waiting) + len(self._unacknowledged)
         if records and (records >= MOST or self._size + len(record) > LARGEST):
-            raise Overflow(
-                f"{records} messages of {self._size} bytes wait for this client, which does not "
-                "acknowledge them; reconnect, and fetch what was missed"
-            )
+            raise Overflow(TOO_MUCH_WAITS(count=records, size=self._size))
         self._waiting.append(record)
         self._size += len(record)
 

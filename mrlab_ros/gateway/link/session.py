@@ -9,10 +9,12 @@ from typing import Any
 
 import orjson
 
+from mrlab_ros.core.base.diagnostic import Diagnostic, plain
 from mrlab_ros.core.bridge.policy import Verb
 from mrlab_ros.gateway.lab.connection import Unsubscribe
 from mrlab_ros.gateway.link import frames
 from mrlab_ros.gateway.link.credit import Credit
+from mrlab_ros.gateway.link.diagnostics import NO_TOPIC_OF_PAGES, SUBSCRIPTIONS_FULL
 from mrlab_ros.gateway.link.frames import RecordKind
 from mrlab_ros.gateway.link.hub import Hub, Message, Topic
 from mrlab_ros.gateway.link.newest import Newest
@@ -58,7 +60,7 @@ class LinkSession:
         self.token = token
         self.person = person
         self.wake: Callable[[], None] = _nothing
-        self.failed = ""
+        self.failed: Diagnostic | None = None
         self._hub = hub
         self._visibility = visibility
         self._may = may
@@ -112,8 +114,8 @@ class LinkSession:
         if number in self._subscriptions:
             self.unsubscribe(number)
         why_not = self._why_not(expression)
-        if why_not:
-            self.text({"op": "refused", "id": number, "key": expression, **why_not})
+        if why_not is not None:
+            self.text({"op": "refused", "id": number, "key": expression, **told(*why_not)})
             return
         # Before the first message: there may be one at once.
         self._subscriptions[number] = Subscription(expression, _nothing)
@@ -169,9 +171,9 @@ class LinkSession:
         """Send a service's response."""
         self._push_record(frames.record(RecordKind.RESPONSE, request, 0.0, payload))
 
-    def fail(self, request: int, code: str, message: str) -> None:
-        """Send why a request has no response."""
-        error = orjson.dumps({"code": code, "message": message})
+    def fail(self, request: int, code: str, why: Diagnostic) -> None:
+        """Send why a request has no response; code: a coarse word for programs."""
+        error = orjson.dumps(told(code, why))
         self._push_record(frames.record(RecordKind.ERROR, request, 0.0, error))
 
     def text(self, message: Mapping[str, Any]) -> None:
@@ -222,7 +224,7 @@ class LinkSession:
         try:
             self._reliable.push(record)
         except Overflow as error:
-            self.failed = str(error)
+            self.failed = error.diagnostic
         self.wake()
 
     def _announce(self, topic: Topic) -> None:
@@ -238,19 +240,20 @@ class LinkSession:
             }
         )
 
-    def _why_not(self, expression: str) -> dict[str, str]:
+    def _why_not(self, expression: str) -> tuple[str, Diagnostic] | None:
         if len(self._subscriptions) >= SUBSCRIPTIONS:
-            return {
-                "code": "too_many",
-                "message": f"this client has {SUBSCRIPTIONS} subscriptions; end some first",
-            }
+            return "too_many", SUBSCRIPTIONS_FULL(count=SUBSCRIPTIONS)
         if not self._may(self.person, Verb.RECEIVE, expression):
-            return {
-                "code": "not_allowed",
-                "message": f"{expression} is no topic that the lab gives to pages; "
-                "docs/protocol.md lists them, with * for one part of a key",
-            }
-        return {}
+            return "not_allowed", NO_TOPIC_OF_PAGES(key=expression)
+        return None
+
+
+def told(code: str, why: Diagnostic) -> dict[str, Any]:
+    """Return the fields that say why something was not done.
+
+    code: a coarse word that clients steer by. message: English, for clients that only print.
+    """
+    return {"code": code, "message": str(why), "diagnostic": plain(why)}
 
 
 def _nothing() -> None:

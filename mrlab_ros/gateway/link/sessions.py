@@ -14,6 +14,7 @@ from mrlab_ros.core.errors import LabError
 from mrlab_ros.gateway.errors import TooMany
 from mrlab_ros.gateway.lab.connection import LabConnection, Phase
 from mrlab_ros.gateway.link import hands, presence
+from mrlab_ros.gateway.link.diagnostics import PAGES_FULL
 from mrlab_ros.gateway.link.hub import Hub
 from mrlab_ros.gateway.link.limits import LinkLimits
 from mrlab_ros.gateway.link.session import LinkSession, May
@@ -77,11 +78,8 @@ class Sessions:
         # Nobody can keep an instructor out by taking all places.
         full = len(self._clients) >= self._limits.pages and not person.role.may(Role.INSTRUCTOR)
         if own >= self._limits.pages_each or full:
-            raise TooMany(
-                f"{own} pages of {person.name} and {len(self._clients)} of all are connected; "
-                "close some, then reload this one",
-                RESUME_S,
-            )
+            found = PAGES_FULL(own=own, person=person.name, all=len(self._clients))
+            raise TooMany(found, RESUME_S)
         session = LinkSession(
             secrets.token_urlsafe(18), person, self.hub, self.visibility, self._may
         )

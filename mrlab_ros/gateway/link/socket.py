@@ -13,16 +13,32 @@ import orjson
 from fastapi import APIRouter, WebSocket
 from starlette.websockets import WebSocketDisconnect
 
+from mrlab_ros.core.base.diagnostic import Diagnostic
 from mrlab_ros.core.bridge.policy import Policy, Verb
 from mrlab_ros.core.errors import BadInput, LabError
 from mrlab_ros.core.freezes import LOOK_PERIOD_S, Freezes, harmless
-from mrlab_ros.gateway.errors import SOCKET_REFUSED, NotAllowed, TooMany
+from mrlab_ros.gateway.diagnostics import GATEWAY_WITHOUT_LAB
+from mrlab_ros.gateway.errors import SOCKET_REFUSED, NotAllowed, TooMany, close
 from mrlab_ros.gateway.lab.connection import CALL_TIMEOUT_S, LabConnection, NoAnswer, TimedOut
-from mrlab_ros.gateway.link import frames, hands, presence
+from mrlab_ros.gateway.link import diagnostics, frames, hands, presence
+from mrlab_ros.gateway.link.diagnostics import (
+    BAD_NUMBER,
+    BAD_OP,
+    BAD_SUBSCRIPTIONS,
+    CALLS_FULL,
+    MAY_NOT_CALL,
+    MAY_NOT_PUBLISH,
+    NEWER_SOCKET,
+    NO_HELLO,
+    NO_JSON,
+    OTHER_PROTOCOL,
+    PAGE_SILENT,
+    SENDS_TOO_MUCH,
+)
 from mrlab_ros.gateway.link.frames import Call, Credit
 from mrlab_ros.gateway.link.lab_clock import LabClock
 from mrlab_ros.gateway.link.limits import LinkLimits
-from mrlab_ros.gateway.link.session import LinkSession, May
+from mrlab_ros.gateway.link.session import LinkSession, May, told
 from mrlab_ros.gateway.link.sessions import Client, Sessions
 from mrlab_ros.gateway.people.people import ThePeople
 from mrlab_ros.gateway.people.person import CurrentPerson, Person
@@ -75,29 +91,25 @@ async def link(websocket: WebSocket, person: CurrentPerson, people: ThePeople) -
     if PROTOCOL not in offered:
         # Accepted first: a browser shows a page no reason for a refused handshake.
         await websocket.accept(subprotocol=offered[0] if offered else None)
-        theirs = ", ".join(offered)[:40] or "no subprotocol"
-        await websocket.close(
-            VERSION, f"this gateway speaks {PROTOCOL}, the page {theirs}; reload the page"
-        )
+        theirs = ", ".join(offered)[:40]
+        await _close(websocket, VERSION, OTHER_PROTOCOL(ours=PROTOCOL, theirs=theirs))
         return
     await websocket.accept(subprotocol=PROTOCOL)
     port: LinkPort | None = websocket.app.state.link
     if port is None:
-        await websocket.close(1011, "this gateway was started without a lab")
+        await _close(websocket, 1011, GATEWAY_WITHOUT_LAB())
         return
     with people.sign_ins.ending(person) as ended:
         try:
             hello = await asyncio.wait_for(websocket.receive_text(), HELLO_S)
             token, received, wanted, hidden = _hello(hello)
             client, resumed = port.sessions.open(person, token, websocket, time.monotonic())
-        except asyncio.TimeoutError:
-            await websocket.close(BROKEN, f"no hello within {HELLO_S:g} s")
-        except (WebSocketDisconnect, KeyError):
-            await _close(websocket, BROKEN, "the first frame is no hello; see docs/link.md")
+        except (asyncio.TimeoutError, WebSocketDisconnect, KeyError):
+            await _close(websocket, BROKEN, NO_HELLO(wait=HELLO_S))
         except BadInput as error:
-            await _close(websocket, BROKEN, str(error))
+            await _close(websocket, BROKEN, error.diagnostic)
         except TooMany as error:
-            await _close(websocket, TOO_MANY, str(error))
+            await _close(websocket, TOO_MANY, error.diagnostic)
         else:
             socket = _Socket(websocket, port, client, hidden)
             await socket.serve(resumed, received if resumed else 0, wanted, ended)
@@ -119,7 +131,7 @@ class _Socket:
         self._frames = port.limits.frames
         self._bytes = port.limits.bytes
         self._calls = port.limits.calls
-        self._close = (1000, "")
+        self._close: tuple[int, Diagnostic | None] = (1000, None)
 
     async def serve(
         self, resumed: bool, received: int, wanted: Mapping[int, str], ended: asyncio.Event
@@ -172,11 +184,11 @@ class _Socket:
         while True:
             await woken.wait()
             woken.clear()
-            if session.failed:
+            if session.failed is not None:
                 self._close = BEHIND, session.failed
                 return
             if self._client.socket is not websocket:
-                self._close = 1000, "this client has a newer socket"
+                self._close = 1000, NEWER_SOCKET()
                 return
             while (frame := session.next_frame()) is not None:
                 if isinstance(frame, str):
@@ -196,7 +208,7 @@ class _Socket:
             size = len(data or text or "")
             fits = size <= self._limits.largest_frame
             if not (fits and self._frames.take(1, now) and self._bytes.take(size, now)):
-                self._close = TOO_MANY, "this page sends too much; reload it"
+                self._close = TOO_MANY, SENDS_TOO_MUCH()
                 return
             try:
                 if data is not None:
@@ -204,7 +216,7 @@ class _Socket:
                 else:
                     self._text(text or "")
             except BadInput as error:
-                self._close = BROKEN, str(error)
+                self._close = BROKEN, error.diagnostic
                 return
 
     def _binary(self, data: bytes, now: float) -> None:
@@ -233,38 +245,33 @@ class _Socket:
         elif op in ("hidden", "visible"):
             self._hidden = op == "hidden"
         else:
-            raise BadInput(f"{str(op)[:40]!r} is no op of {PROTOCOL}; see docs/link.md")
+            raise BadInput(BAD_OP(op=str(op)[:40], protocol=PROTOCOL))
 
     def _put(self, frame: Call, now: float) -> None:
         session, sessions = self._session, self._port.sessions
         try:
             if not self._port.may(session.person, Verb.PUBLISH, frame.key):
-                raise NotAllowed(f"{session.person.role.value}s may not publish {frame.key}")
+                role = session.person.role.value
+                raise NotAllowed(MAY_NOT_PUBLISH(role=role, key=frame.key))
             if frame.key == presence.KEY:
                 sessions.say_where(session, frame.payload, now)
             else:
                 sessions.lab.put(frame.key, frame.payload)
         except NotAllowed as error:
-            refused = {"op": "refused", "key": frame.key, "code": "not_allowed"}
-            session.text({**refused, "message": str(error)})
+            why = told("not_allowed", error.diagnostic)
+            session.text({"op": "refused", "key": frame.key, **why})
 
     def _call(self, frame: Call, now: float) -> None:
         session = self._session
         if not session.is_new(frame.request):
             return
         if not self._port.may(session.person, Verb.CALL, frame.key):
-            role = session.person.role.value
-            session.fail(
-                frame.request,
-                "not_allowed",
-                f"your role, {role}, may not call {frame.key}; ask your instructor",
-            )
+            may_not = MAY_NOT_CALL(role=session.person.role.value, key=frame.key)
+            session.fail(frame.request, "not_allowed", may_not)
         elif not harmless(frame.key) and (why := self._port.freezes.why_doubtful(now)):
-            session.fail(frame.request, "refused", why)
+            session.fail(frame.request, "refused", LabError(why).diagnostic)
         elif self._waiting >= self._limits.calls_waiting or not self._calls.take(1, now):
-            session.fail(
-                frame.request, "too_many", "too many calls at once; wait for their answers"
-            )
+            session.fail(frame.request, "too_many", CALLS_FULL())
         else:
             self._waiting += 1
             task = asyncio.create_task(self._ask(frame))
@@ -286,11 +293,11 @@ class _Socket:
             elif done and frame.key == hands.SERVICE:
                 sessions.hands.note(session.token, frame.payload)
         except TimedOut as error:
-            session.fail(frame.request, "timeout", str(error))
+            session.fail(frame.request, "timeout", error.diagnostic)
         except NoAnswer as error:
-            session.fail(frame.request, "no_service", str(error))
+            session.fail(frame.request, "no_service", error.diagnostic)
         except LabError as error:
-            session.fail(frame.request, "refused", str(error))
+            session.fail(frame.request, "refused", error.diagnostic)
         finally:
             self._waiting -= 1
 
@@ -304,7 +311,7 @@ class _Socket:
                 longest = HIDDEN_SILENCE_S if self._hidden else SILENCE_S
                 left = self._heard + longest - now
                 if left <= 0:
-                    self._close = SILENT, f"nothing came from this page for {longest:g} s"
+                    self._close = SILENT, PAGE_SILENT(wait=longest)
                     return
                 await asyncio.sleep(min(left, LOOK_PERIOD_S) + 0.01)
         finally:
@@ -312,17 +319,17 @@ class _Socket:
 
     async def _sign_in(self, ended: asyncio.Event) -> None:
         await ended.wait()
-        self._close = SIGN_IN_ENDED, "your sign-in has ended, or your role has changed; sign in"
+        self._close = SIGN_IN_ENDED, diagnostics.SIGN_IN_ENDED()
 
 
 def _hello(text: str) -> tuple[str, int, dict[int, str], bool]:
     """Return token, number of the last fragment, subscriptions, and whether the page is hidden."""
     message = _mapping(text)
     if message.get("op") != "hello":
-        raise BadInput("the first frame is no hello; see docs/link.md")
+        raise BadInput(NO_HELLO(wait=HELLO_S))
     wanted = message.get("subscriptions", {})
     if not isinstance(wanted, dict) or not all(key.isdecimal() for key in wanted):
-        raise BadInput("subscriptions of a hello are {number: key expression}")
+        raise BadInput(BAD_SUBSCRIPTIONS())
     received = _number(message, "received") if "received" in message else 0
     return (
         str(message.get("token") or ""),
@@ -336,23 +343,24 @@ def _mapping(text: str) -> dict[str, Any]:
     try:
         message = orjson.loads(text)
     except orjson.JSONDecodeError as error:
-        raise BadInput(f"a text frame is no JSON: {error}") from error
+        raise BadInput(NO_JSON(why=str(error))) from error
     if not isinstance(message, dict):
-        raise BadInput("a text frame is no JSON object; see docs/link.md")
+        raise BadInput(NO_JSON())
     return message
 
 
 def _number(message: Mapping[str, Any], name: str) -> int:
     value = message.get(name)
     if not isinstance(value, int) or not 0 <= value < 1 << 32:
-        raise BadInput(f"{name} is {str(value)[:40]!r}; expected a number from 0 to 2^32 - 1")
+        raise BadInput(BAD_NUMBER(field=name, found=str(value)[:40]))
     return value
 
 
-async def _close(websocket: WebSocket, code: int, reason: str) -> None:
-    # A reason has 123 bytes at most; the other side may have closed already.
+async def _close(websocket: WebSocket, code: int, why: Diagnostic | None) -> None:
+    """Close a socket; why: said before in a text frame."""
+    # The other side may have closed already.
     with suppress(RuntimeError, WebSocketDisconnect):
-        await websocket.close(code, reason.encode()[:120].decode(errors="ignore"))
+        await close(websocket, code, why)
 
 
 def _nothing() -> None:

@@ -5,9 +5,11 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import Any
 
+from mrlab_ros.core.base.diagnostic import Diagnostic, to_texts
 from mrlab_ros.core.bridge.rules import Role
 from mrlab_ros.gateway.lab.definitions import Definitions
 from mrlab_ros.gateway.people.person import Person
+from mrlab_ros.gateway.uploads.diagnostics import NOT_AMONG_YOURS
 
 CATALOGUE = "mrlab_msgs/msg/TrajectoryCatalogue"
 TRAJECTORY = "mrlab_msgs/msg/Trajectory"
@@ -71,11 +73,14 @@ class Visibility:
             return payload
         return self._definitions.encode(
             GET,
-            {
-                "message": f"there is no trajectory {found.trajectory.info.id!r} among yours and "
-                "the shared ones; look it up in the list"
-            },
+            _fields(NOT_AMONG_YOURS(trajectory=found.trajectory.info.id)),
         )
+
+
+def _fields(why: Diagnostic) -> dict[str, Any]:
+    """Return the fields of a response that says why not."""
+    values = [{"key": key, "value": text} for key, text in to_texts(why.values).items()]
+    return {"message": str(why), "code": why.code, "values": values}
 
 
 def _sees_all(person: Person) -> bool:

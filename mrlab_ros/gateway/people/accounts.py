@@ -6,10 +6,12 @@ import re
 import sqlite3
 from dataclasses import dataclass
 
+from mrlab_ros.core.base.diagnostic import Fix
 from mrlab_ros.core.bridge.rules import Role
 from mrlab_ros.core.errors import BadInput, Misuse
 from mrlab_ros.gateway.errors import NotFound
 from mrlab_ros.gateway.people.database import Database, digest, new_secret
+from mrlab_ros.gateway.people.diagnostics import BAD_PERSON_NAME, LINK_USED, NAME_TAKEN, NO_PERSON
 from mrlab_ros.gateway.people.passwords import Passwords
 from mrlab_ros.gateway.people.person import LOCAL
 
@@ -49,7 +51,7 @@ class Accounts:
         """Return a person; raises NotFound where there is none."""
         rows = self._database.rows("SELECT * FROM people WHERE name = ?", name)
         if not rows:
-            raise NotFound(f"there is nobody called {name!r}; mrlab users list shows who there is")
+            raise NotFound(NO_PERSON(name=name[:60], fixes=(Fix(command="users list"),)))
         return _account(rows[0])
 
     def check_new(self, name: str) -> None:
@@ -161,17 +163,11 @@ class Accounts:
 def check_name(name: str) -> None:
     """Raise BadInput where a person cannot have this name."""
     if not NAME.fullmatch(name) or name.lower() in RESERVED:
-        raise BadInput(
-            f"{name[:60]!r} is no name for a person; expected up to 41 letters, digits, '_', '-' "
-            f"and '.', beginning with a letter or digit, and none of {', '.join(RESERVED)}"
-        )
+        raise BadInput(BAD_PERSON_NAME(name=name[:60], reserved=RESERVED))
 
 
 def _taken(name: str) -> Misuse:
-    return Misuse(
-        f"there is somebody called {name!r} already; choose another name, or remove that one "
-        f"first with: mrlab users remove {name}"
-    )
+    return Misuse(NAME_TAKEN(name=name, fixes=(Fix(command=f"users remove {name}"),)))
 
 
 def _account(row: sqlite3.Row) -> Account:
@@ -180,7 +176,4 @@ def _account(row: sqlite3.Row) -> Account:
 
 
 def _no_link() -> NotFound:
-    return NotFound(
-        "this link was used already, or is too old; ask your instructor for a new one "
-        "(mrlab users invite NAME)"
-    )
+    return NotFound(LINK_USED(fixes=(Fix(command="users invite NAME"),)))

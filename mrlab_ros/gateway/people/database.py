@@ -17,6 +17,7 @@ from pathlib import Path
 from typing import Any
 
 from mrlab_ros.core.errors import BadInput
+from mrlab_ros.gateway.people.diagnostics import USERS_UNUSABLE
 
 FILE = "users.sqlite"
 # How long a writer waits for another one, s.
@@ -72,10 +73,7 @@ class Database:
                     connection.execute("INSERT INTO lab VALUES (?, ?)", row)
             found = self.rows("SELECT id, secret FROM lab")[0]
         except (OSError, sqlite3.Error) as error:
-            raise BadInput(
-                f"{path} cannot be used for people and sign-ins: {error}; expected a file that "
-                "this user can write, or none"
-            ) from error
+            raise BadInput(USERS_UNUSABLE(path=str(path), why=str(error))) from error
         self.lab_id: str = found["id"]
         self.secret: bytes = found["secret"]
 

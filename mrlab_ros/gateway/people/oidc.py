@@ -36,6 +36,16 @@ from mrlab_ros.core.records import (
 from mrlab_ros.core.records import enum_values as one_of
 from mrlab_ros.gateway.errors import NotAllowed
 from mrlab_ros.gateway.people.accounts import Account, Accounts, check_name
+from mrlab_ros.gateway.people.diagnostics import (
+    MAIL_NOT_ADMITTED,
+    NO_NAME_LEFT,
+    NOT_CONFIRMED,
+    PROVIDER_INCOMPLETE,
+    PROVIDER_OTHER,
+    PROVIDER_SILENT,
+    SIGN_IN_NOT_BEGUN,
+    SIGN_INS_FULL,
+)
 
 SCOPE = "openid profile email"
 # Asymmetric ones only: with HS256 a public key would be a password.
@@ -50,13 +60,13 @@ CLOCK_SLACK_S = 60
 class NotBegun(NotAllowed):
     """Somebody comes back who did not begin here, or took too long."""
 
-    code = "not_begun"
+    kind = "not_begun"
 
 
 class NotConfirmed(NotAllowed):
     """The provider does not confirm who somebody is."""
 
-    code = "not_confirmed"
+    kind = "not_confirmed"
 
 
 @dataclass(frozen=True)
@@ -119,7 +129,7 @@ class Oidc:
         now = self._steady()
         self._pending = {s: p for s, p in self._pending.items() if p.expires > now}
         if len(self._pending) >= PENDING:
-            raise Unavailable("too many people sign in at once; try again in a few minutes")
+            raise Unavailable(SIGN_INS_FULL())
         pending = Pending(
             secrets.token_urlsafe(24), secrets.token_urlsafe(48), redirect,
             now + PENDING_LIFETIME_S,
@@ -141,7 +151,7 @@ class Oidc:
         """
         pending = self._pending.pop(state, None)
         if pending is None or pending.expires <= self._steady():
-            raise NotBegun("this sign-in took too long, or was not begun here; begin again")
+            raise NotBegun(SIGN_IN_NOT_BEGUN())
         metadata = await self._discover()
         try:
             async with self._client(pending.redirect) as client:
@@ -162,10 +172,8 @@ class Oidc:
                 nonce={"essential": True, "value": pending.nonce},
             ).validate(claims)
         except (OAuthError, JoseError, KeyError, ValueError) as error:
-            raise NotConfirmed(
-                f"the provider did not confirm who you are ({type(error).__name__}: {error}); "
-                "begin again"
-            ) from error
+            why = f"{type(error).__name__}: {error}"
+            raise NotConfirmed(NOT_CONFIRMED(why=why)) from error
         except httpx.HTTPError as error:
             raise _unreachable(self.provider, error) from error
         return claims
@@ -186,7 +194,7 @@ class Oidc:
                 return accounts.add(name, self.provider.role, subject)
             except LabError:
                 continue
-        raise NotAllowed(f"the name {wanted!r} is taken; ask your instructor for another one")
+        raise NotAllowed(NO_NAME_LEFT(name=wanted))
 
     def _check_email(self, claims: Mapping[str, Any]) -> None:
         patterns = self.provider.emails.lower().split()
@@ -196,7 +204,7 @@ class Oidc:
         if not claims.get("email_verified") or not any(
             fnmatch.fnmatchcase(email, pattern) for pattern in patterns
         ):
-            raise NotAllowed(f"{email or 'somebody without a verified e-mail'} may not sign in")
+            raise NotAllowed(MAIL_NOT_ADMITTED(email=email))
 
     async def _discover(self) -> dict[str, Any]:
         """Return what the provider says of itself, asked once."""
@@ -210,9 +218,10 @@ class Oidc:
                     found = answer.raise_for_status().json()
                 needed = ("authorization_endpoint", "token_endpoint", "jwks_uri")
                 if missing := [name for name in needed if not isinstance(found.get(name), str)]:
-                    raise Unavailable(f"{url} names no {', '.join(missing)}")
+                    raise Unavailable(PROVIDER_INCOMPLETE(url=url, missing=missing))
                 if found.get("issuer", "").rstrip("/") != self.provider.issuer.rstrip("/"):
-                    raise Unavailable(f"{url} is of {found.get('issuer')}, another provider")
+                    other = str(found.get("issuer", ""))
+                    raise Unavailable(PROVIDER_OTHER(url=url, issuer=other))
             except (httpx.HTTPError, ValueError) as error:
                 raise _unreachable(self.provider, error) from error
             self._metadata = found
@@ -242,7 +251,5 @@ def plain_name(text: str) -> str:
 
 
 def _unreachable(provider: Provider, error: Exception) -> Unavailable:
-    return Unavailable(
-        f"the provider {provider.issuer} does not answer as it should "
-        f"({type(error).__name__}: {error}); try again, or sign in with a password"
-    )
+    why = f"{type(error).__name__}: {error}"
+    return Unavailable(PROVIDER_SILENT(issuer=provider.issuer, why=why))

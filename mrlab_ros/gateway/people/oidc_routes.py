@@ -16,6 +16,7 @@ from fastapi.responses import RedirectResponse
 
 from mrlab_ros.core.errors import LabError
 from mrlab_ros.gateway.errors import GatewayError, NotFound
+from mrlab_ros.gateway.people.diagnostics import NO_PROVIDER, SIGN_IN_NOT_BEGUN
 from mrlab_ros.gateway.people.oidc import PENDING_LIFETIME_S, NotBegun, Oidc
 from mrlab_ros.gateway.people.people import People, ThePeople, address_of
 from mrlab_ros.gateway.people.routes import base_url
@@ -29,7 +30,7 @@ def oidc_of(request: Request) -> Oidc:
     """Return the provider of this gateway; raises NotFound where it has none."""
     found: Oidc | None = request.app.state.oidc
     if found is None:
-        raise NotFound("this lab has no OpenID Connect provider; sign in with a password")
+        raise NotFound(NO_PROVIDER())
     return found
 
 
@@ -65,7 +66,7 @@ async def callback(request: Request, people: ThePeople, oidc: TheOidc) -> Respon
     begun = request.cookies.get(state_cookie(people), "")
     try:
         if not state or not secrets.compare_digest(state.encode(), begun.encode()):
-            raise NotBegun("this sign-in was not begun in this browser; begin again")
+            raise NotBegun(SIGN_IN_NOT_BEGUN())
         claims = await oidc.finish(str(request.url), state)
         account = await to_thread.run_sync(oidc.account, claims, people.accounts)
     except LabError as error:
@@ -79,7 +80,7 @@ async def callback(request: Request, people: ThePeople, oidc: TheOidc) -> Respon
 def _back_to_sign_in(error: LabError) -> Response:
     """Lead to the page of signing in, which knows a sentence for each of these words."""
     logger.warning("nobody was signed in by the provider: %s", error)
-    word = error.code if isinstance(error, GatewayError) else "unavailable"
+    word = error.kind if isinstance(error, GatewayError) else "unavailable"
     return RedirectResponse(f"/sign-in?problem={word}", 303)
 
 

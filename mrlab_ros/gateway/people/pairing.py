@@ -13,6 +13,13 @@ from mrlab_ros.core.bridge.rules import Role
 from mrlab_ros.core.errors import BadInput
 from mrlab_ros.gateway.errors import NotFound, TooMany
 from mrlab_ros.gateway.people.database import new_secret
+from mrlab_ros.gateway.people.diagnostics import (
+    CODES_WRONG,
+    DEVICES_FULL,
+    NO_DEVICE_SHOWS,
+    PAIRED_ROLE_TOO_HIGH,
+    PAIRING_ENDED,
+)
 from mrlab_ros.gateway.people.person import Person
 
 # RFC 8628 6.1: letters that make no words and are not mistaken for each other.
@@ -47,7 +54,7 @@ class Pairings:
         """Have a device wait; raises TooMany where WAITING do already."""
         self._forget(now)
         if len(self._waiting) >= WAITING:
-            raise TooMany("too many devices wait to be paired; try again", LIFETIME_S)
+            raise TooMany(DEVICES_FULL(), LIFETIME_S)
         code = ""
         while not code or code in (pairing.code for pairing in self._waiting.values()):
             code = "".join(secrets.choice(LETTERS) for _ in range(LENGTH))
@@ -63,18 +70,14 @@ class Pairings:
         self._forget(now)
         wrong = self._wrong.get(person.name, [])
         if len(wrong) >= TRIES:
-            raise TooMany(
-                f"{TRIES} codes were wrong; wait until the device shows a new one",
-                wrong[0] + LIFETIME_S - now,
-            )
+            raise TooMany(CODES_WRONG(count=TRIES), wrong[0] + LIFETIME_S - now)
         plain = normal(code)
         for pairing in self._waiting.values():
             if secrets.compare_digest(pairing.code, plain) and pairing.granted is None:
                 return pairing
         self._wrong[person.name] = [*wrong, now]
         raise NotFound(
-            f"no device shows the code {shown(plain[:LENGTH])}; a code is good for "
-            f"{LIFETIME_S / 60:g} minutes, so compare it with the device again"
+            NO_DEVICE_SHOWS(shown=shown(plain[:LENGTH]), minutes=round(LIFETIME_S / 60))
         )
 
     def approve(self, code: str, person: Person, role: Role, now: float) -> Pairing:
@@ -84,10 +87,8 @@ class Pairings:
         """
         pairing = self.waiting(code, person, now)
         if not person.role.may(role):
-            raise BadInput(
-                f"{person.name} is {person.role.value} and cannot pair a device as {role.value}; "
-                f"choose {person.role.value} or less"
-            )
+            own = person.role.value
+            raise BadInput(PAIRED_ROLE_TOO_HIGH(person=person.name, role=own, wanted=role.value))
         pairing.granted = (person, role)
         return pairing
 
@@ -99,7 +100,7 @@ class Pairings:
         self._forget(now)
         pairing = self._waiting.get(secret)
         if pairing is None:
-            raise NotFound("this pairing has ended; begin another one")
+            raise NotFound(PAIRING_ENDED())
         if pairing.granted is None:
             return None
         return self._waiting.pop(secret)

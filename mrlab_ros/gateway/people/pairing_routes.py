@@ -6,6 +6,7 @@ from fastapi import APIRouter, Request, Response
 
 from mrlab_ros.gateway.errors import NotAllowed, NotFound
 from mrlab_ros.gateway.people import answers
+from mrlab_ros.gateway.people.diagnostics import OWN_PAGES_ONLY
 from mrlab_ros.gateway.people.pairing import LIFETIME_S, shown
 from mrlab_ros.gateway.people.people import ThePeople, address_of
 from mrlab_ros.gateway.people.person import LOCAL, CurrentPerson
@@ -41,7 +42,7 @@ async def collect(
     """Ask whether the device was let in; then it is signed in by a cookie."""
     # A page of another site could otherwise sign its visitor in as somebody else.
     if request.headers.get("sec-fetch-site", "same-origin") != "same-origin":
-        raise NotAllowed("only this gateway's own pages may ask this")
+        raise NotAllowed(OWN_PAGES_ONLY())
     try:
         pairing = people.pairings.collect(secret, people.steady())
     except NotFound:
@@ -58,8 +59,8 @@ async def approve(
     people: ThePeople, person: CurrentPerson, body: answers.PairingApproval
 ) -> answers.PairingState:
     """Let the device that shows a code in, as a role that one has oneself."""
-    if person.name == LOCAL and not people.settings.signs_in:
-        raise NotAllowed("this lab has one local user, and no devices to pair")
+    if person.name == LOCAL:
+        check_signs_in(people)
     pairing = people.pairings.approve(body.code, person, body.role, people.steady())
     return answers.PairingState(
         state="approved", user=answers.User(name=pairing.device, role=body.role)

@@ -8,6 +8,7 @@ from argon2 import PasswordHasher, profiles
 from argon2.exceptions import Argon2Error, InvalidHashError
 
 from mrlab_ros.core.errors import BadInput
+from mrlab_ros.gateway.people.diagnostics import PASSWORD_LENGTH
 
 SHORTEST = 10
 LONGEST = 200
@@ -27,10 +28,8 @@ class Passwords:
     def hash(self, password: str) -> str:
         """Return the hash of a new password; raises BadInput where it is too short or long."""
         if not SHORTEST <= len(password) <= LONGEST:
-            raise BadInput(
-                f"the password has {len(password)} characters; expected {SHORTEST} to {LONGEST}. "
-                "Several words are easy to remember"
-            )
+            count = len(password)
+            raise BadInput(PASSWORD_LENGTH(count=count, least=SHORTEST, most=LONGEST))
         with self._gate:
             return self._hasher.hash(password.encode(errors="surrogatepass"))
 

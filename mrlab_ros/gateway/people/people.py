@@ -21,10 +21,10 @@ from mrlab_ros.gateway.people.rate_limits import Limit, RateLimit
 from mrlab_ros.gateway.people.sign_ins import FOLLOW_PERIOD_S, LIFETIME_S, SignIns
 from mrlab_ros.gateway.settings import Settings, is_loopback
 
-SIGN_INS_BY_ADDRESS = Limit("sign-ins from this address", 60, 2.0)
-SIGN_INS_BY_NAME = Limit("sign-ins with this name", 10, 15.0)
-LINKS_BY_ADDRESS = Limit("links from this address", 30, 2.0)
-PAIRINGS_BY_ADDRESS = Limit("pairings from this address", 10, 10.0)
+SIGN_INS_BY_ADDRESS = Limit("sign_ins_by_address", 60, 2.0)
+SIGN_INS_BY_NAME = Limit("sign_ins_by_name", 10, 15.0)
+LINKS_BY_ADDRESS = Limit("links", 30, 2.0)
+PAIRINGS_BY_ADDRESS = Limit("pairings", 10, 10.0)
 
 
 class People:

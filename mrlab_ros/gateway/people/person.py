@@ -9,6 +9,7 @@ from fastapi import Depends
 from fastapi.requests import HTTPConnection
 
 from mrlab_ros.core.bridge.rules import Role
+from mrlab_ros.gateway.diagnostics import NOT_SIGNED_IN
 from mrlab_ros.gateway.errors import NotSignedIn
 
 # The one person of a lab without keys, on its own machine.
@@ -39,7 +40,7 @@ def known_person(connection: HTTPConnection) -> Person | None:
 def current_person(person: Annotated[Person | None, Depends(known_person)]) -> Person:
     """Return who is signed in, as a dependency of routes and sockets; raises NotSignedIn."""
     if person is None:
-        raise NotSignedIn("nobody is signed in, or the sign-in has ended; sign in first")
+        raise NotSignedIn(NOT_SIGNED_IN())
     return person
 
 

@@ -5,12 +5,13 @@ from __future__ import annotations
 from collections import OrderedDict
 from dataclasses import dataclass
 
+from mrlab_ros.gateway.diagnostics import TOO_MANY_REQUESTS
 from mrlab_ros.gateway.errors import TooMany
 
 
 @dataclass(frozen=True)
 class Limit:
-    """`burst` attempts at once, then one every `period` s. what: for the sentence."""
+    """`burst` attempts at once, then one every `period` s. what: a word of the code."""
 
     what: str
     burst: int
@@ -36,7 +37,7 @@ class RateLimit:
         wait = full_at + limit.period - limit.period * limit.burst - now
         if wait > 0:
             self._full_at[subject] = full_at
-            raise TooMany(f"too many {limit.what}; try again in {wait:.0f} s", wait)
+            raise TooMany(TOO_MANY_REQUESTS(what=limit.what, wait=wait), wait)
         self._full_at[subject] = full_at + limit.period
         while len(self._full_at) > self._subjects:
             self._full_at.popitem(last=False)

@@ -15,6 +15,12 @@ from mrlab_ros.core.bridge.rules import Role
 from mrlab_ros.gateway.errors import NotAllowed, NotFound, NotSignedIn
 from mrlab_ros.gateway.people import answers
 from mrlab_ros.gateway.people.accounts import INVITATION_LIFETIME_S
+from mrlab_ros.gateway.people.diagnostics import (
+    NO_DEVICE,
+    ONE_LOCAL_USER,
+    WITH_KEYS,
+    WRONG_PASSWORD,
+)
 from mrlab_ros.gateway.people.people import People, ThePeople, address_of
 from mrlab_ros.gateway.people.person import CurrentPerson, KnownPerson, Person
 
@@ -43,7 +49,7 @@ def sign_in(
     people.sign_ins_by_name.check(f"{body.name.lower()} {address}", now)
     account = people.accounts.matching(body.name, body.password)
     if account is None:
-        raise NotSignedIn("this name and password do not belong together; try again")
+        raise NotSignedIn(WRONG_PASSWORD())
     csrf = people.sign_in(response, account.name, account.role)
     return session_answer(request, people, Person(account.name, account.role), csrf)
 
@@ -145,7 +151,7 @@ def end_device(people: ThePeople, person: CurrentPerson, sign_in: str) -> None:
     found = [each for each in people.sign_ins.all(people.clock()) if each.id == sign_in]
     # To others' people a foreign sign-in does not exist.
     if not found or not (person.role.may(Role.INSTRUCTOR) or found[0].name == person.name):
-        raise NotFound("there is no such device; it may have signed out")
+        raise NotFound(NO_DEVICE())
     people.sign_ins.end(sign_in)
 
 
@@ -207,7 +213,4 @@ def qr_svg(text: str) -> str:
 def check_signs_in(people: People) -> None:
     """Raise NotAllowed where nobody signs in, as there is one local user."""
     if not people.settings.signs_in:
-        raise NotAllowed(
-            "this lab has one local user and no sign-in; for more people start it with keys: "
-            "mrlab keys init, then mrlab up --keys keys"
-        )
+        raise NotAllowed(ONE_LOCAL_USER(fixes=WITH_KEYS))

@@ -10,6 +10,7 @@ from typing import BinaryIO
 
 from mrlab_ros.adapters.store.port import StoreFailure
 from mrlab_ros.core.trajectory.trajectory import Trajectory
+from mrlab_ros.gateway.uploads.diagnostics import NO_ROOM
 
 MEDIA_TYPES = {
     "json": "application/json",
@@ -34,9 +35,7 @@ def written(trajectory: Trajectory, name: str, form: str, work: Path) -> tuple[B
             size = path.stat().st_size
             return path.open("rb"), size
     except OSError as error:
-        raise StoreFailure(
-            f"the gateway has no room to write '{name}' ({error.strerror}); try again later"
-        ) from None
+        raise StoreFailure(NO_ROOM(file=name, why=str(error.strerror))) from None
 
 
 def pieces(file: BinaryIO) -> Iterator[bytes]:

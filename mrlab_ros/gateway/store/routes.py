@@ -19,11 +19,14 @@ from mrlab_ros.adapters.store import keys
 from mrlab_ros.core.errors import BadInput, Unavailable
 from mrlab_ros.core.show import document
 from mrlab_ros.core.trajectory.record import Record, Version
+from mrlab_ros.gateway.diagnostics import GATEWAY_WITHOUT_LAB
 from mrlab_ros.gateway.errors import NotAllowed
 from mrlab_ros.gateway.people.person import CurrentPerson, Person
 from mrlab_ros.gateway.ports import Ports, ports
 from mrlab_ros.gateway.store import answers, downloads
 from mrlab_ros.gateway.store.shelf import Shelf, duration, shelf_of, trajectory
+from mrlab_ros.gateway.uploads import messages
+from mrlab_ros.gateway.uploads.diagnostics import LABS_OWN, NOT_YOURS
 
 TheShelf = Annotated[Shelf, Depends(shelf_of)]
 ThePorts = Annotated[Ports, Depends(ports)]
@@ -38,10 +41,10 @@ async def ask(there: Ports, service: str, kind: str, request: Mapping[str, Any])
     kind: the type, such as PublishTrajectory.
     """
     if there.lab is None:
-        raise Unavailable("this gateway has no lab; start it with the endpoint of one")
+        raise Unavailable(GATEWAY_WITHOUT_LAB())
     answer = await there.lab.call(f"converter/{service}", f"mrlab_msgs/srv/{kind}", request)
     if not answer.success:
-        raise BadInput(answer.message)
+        raise BadInput(messages.said(answer))
     return answer
 
 
@@ -181,8 +184,9 @@ async def _changeable(
 ) -> Record:
     record, _ = await run_in_threadpool(shelf.find, person, text, deleted=deleted)
     if not shelf.may_change(person, record, f"converter/{service}"):
-        whose = record.owner or "the lab"
-        raise NotAllowed(f"'{record.id}' belongs to {whose}; {person.name} may only look at it")
+        if not record.owner:
+            raise NotAllowed(LABS_OWN(trajectory=record.id, person=person.name))
+        raise NotAllowed(NOT_YOURS(trajectory=record.id, owner=record.owner, person=person.name))
     return record
 
 

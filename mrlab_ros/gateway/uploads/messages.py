@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from mrlab_ros.core.base.diagnostic import Diagnostic, of_record
+from mrlab_ros.core.base.diagnostic import Diagnostic, Severity, of_record
 from mrlab_ros.core.conversion.preview import Preview
 
 OUTCOMES = ("rejected", "accepted", "ambiguous")
@@ -77,3 +77,9 @@ def finite(value: Any) -> float | None:
     """Return a number, None where it is NaN or infinite."""
     number = float(value)
     return number if math.isfinite(number) else None
+
+
+def said(answer: Any) -> Diagnostic:
+    """Return what a response says; its values stay texts, as the wire has them."""
+    values = {each.key: each.value for each in answer.values}
+    return Diagnostic(answer.code, Severity.ERROR, answer.message, values=values)

@@ -19,6 +19,7 @@ from mrlab_ros.core.errors import BadInput
 from mrlab_ros.core.show import document
 from mrlab_ros.gateway.errors import NotFound
 from mrlab_ros.gateway.store.shelf import Shelf, finding_fields
+from mrlab_ros.gateway.uploads.diagnostics import NO_MOTION
 
 
 def keep_accepted(
@@ -73,10 +74,7 @@ def motion(shelf: Shelf, user: str, number: str) -> bytes:
             return text
         return _accepted(shelf, keys.draft(user, note["draft"]), note)
     except (Missing, BadInput, orjson.JSONDecodeError):
-        raise NotFound(
-            "that motion is not there any more; convert the file again, or open the trajectory "
-            "that it became"
-        ) from None
+        raise NotFound(NO_MOTION()) from None
 
 
 def _accepted(shelf: Shelf, draft: str, note: dict[str, Any]) -> bytes:

@@ -20,6 +20,16 @@ from mrlab_ros.adapters.store import keys
 from mrlab_ros.adapters.store.port import ObjectStore, StoreFailure
 from mrlab_ros.core.errors import BadInput
 from mrlab_ros.gateway.errors import TooLarge
+from mrlab_ros.gateway.uploads.diagnostics import (
+    EMPTY_UPLOAD,
+    FILE_NAME_LENGTH,
+    FILE_NAME_SIGNS,
+    FILE_TOO_LARGE,
+    NO_FILE_NAME,
+    NO_ROOM,
+    OTHER_ENDING,
+    QUOTA_FULL,
+)
 
 MiB = 1 << 20
 BLOCK = MiB  # bytes that are hashed and written at once
@@ -69,14 +79,14 @@ class Receiver:
         checked_name(file_name)
         self._check_size(announced or 0)
         used = await run_in_threadpool(self._used, user)
-        with room():
+        with room(file_name):
             opened = tempfile.TemporaryFile(dir=self._work)  # noqa: SIM115
         with opened as file, self._counted(user) as coming:
             digest, size, block = hashlib.sha256(), 0, bytearray()
 
             def keep(data: bytes) -> None:
                 digest.update(data)
-                with room():
+                with room(file_name):
                     file.write(data)
                     file.flush()
 
@@ -92,7 +102,7 @@ class Receiver:
                     block.clear()
             await run_in_threadpool(keep, bytes(block))
             if size == 0:
-                raise BadInput(f"'{file_name}' is empty; save it again and send it")
+                raise BadInput(EMPTY_UPLOAD(file=file_name))
             # What came beside it meanwhile is in the store now.
             used = await run_in_threadpool(self._used, user)
             self._check_quota(user, used, 0)
@@ -106,18 +116,12 @@ class Receiver:
 
     def _check_size(self, size: int) -> None:
         if size > self.bounds.largest:
-            raise TooLarge(
-                f"the file has more than {self.bounds.largest / MiB:.0f} MiB, the limit; save the "
-                "trajectory alone, with save('file.mat', 'q', 't')"
-            )
+            raise TooLarge(FILE_TOO_LARGE(most=self.bounds.largest))
 
     def _check_quota(self, user: str, used: int, announced: int) -> None:
         total = used + max(self._coming.get(user, 0), announced)
         if total > self.bounds.quota:
-            raise TooLarge(
-                f"your files take {used / MiB:.0f} MiB of {self.bounds.quota / MiB:.0f} MiB and "
-                "this one does not fit; uploads go after some days by themselves"
-            )
+            raise TooLarge(QUOTA_FULL(used=used, most=self.bounds.quota))
 
     @contextmanager
     def _counted(self, user: str) -> Iterator[Coming]:
@@ -130,15 +134,12 @@ class Receiver:
 
 
 @contextmanager
-def room() -> Iterator[None]:
+def room(file_name: str) -> Iterator[None]:
     """Say in a sentence that the gateway's own disk is full."""
     try:
         yield
     except OSError as error:
-        raise StoreFailure(
-            f"the gateway has no room for the file ({error.strerror}); nothing was kept: ask for "
-            "room on its disk, then send it again"
-        ) from None
+        raise StoreFailure(NO_ROOM(file=file_name, why=str(error.strerror))) from None
 
 
 class Coming:
@@ -161,22 +162,11 @@ class Coming:
 def checked_name(name: str) -> str:
     """Return a file's name; raise BadInput for one that is too long or of another kind."""
     if len(name) > LONGEST_NAME:
-        raise BadInput(
-            f"the name of the file has {len(name)} characters; expected {LONGEST_NAME} at most: "
-            "give it a shorter one"
-        )
+        raise BadInput(FILE_NAME_LENGTH(count=len(name), most=LONGEST_NAME))
     if not name.strip(". "):
-        raise BadInput(
-            f"'{name}' is no name for a file; give it one that says what it is, such as traj.mat"
-        )
+        raise BadInput(NO_FILE_NAME(file=name))
     if not name.isprintable():
-        raise BadInput(
-            f"the name of the file is {name!r}, with characters that cannot be printed; expected "
-            "letters, digits and signs: give it another one"
-        )
+        raise BadInput(FILE_NAME_SIGNS(file=repr(name)))
     if not name.lower().endswith(ENDINGS):
-        raise BadInput(
-            f"'{name}' is none of the files that are read; expected a name that ends with "
-            f"{', '.join(ENDINGS)}"
-        )
+        raise BadInput(OTHER_ENDING(file=name, endings=ENDINGS))
     return name

@@ -12,6 +12,7 @@ from starlette.requests import ClientDisconnect
 
 from mrlab_ros.adapters.store import keys
 from mrlab_ros.core.errors import BadInput, Unavailable
+from mrlab_ros.gateway.diagnostics import GATEWAY_WITHOUT_LAB
 from mrlab_ros.gateway.errors import NotFound, NotTheFile
 from mrlab_ros.gateway.patience import in_time
 from mrlab_ros.gateway.people.person import CurrentPerson, Person
@@ -19,6 +20,7 @@ from mrlab_ros.gateway.people.rate_limits import Limit, RateLimit
 from mrlab_ros.gateway.ports import Ports, ports
 from mrlab_ros.gateway.store.shelf import Shelf, finding_fields, of_head, shelf_of
 from mrlab_ros.gateway.uploads import answers, messages, motions
+from mrlab_ros.gateway.uploads.diagnostics import BROKE_OFF, CAME_AS_FORM, NO_FILE_NAME, NO_UPLOAD
 from mrlab_ros.gateway.uploads.receive import Receiver
 
 TheShelf = Annotated[Shelf, Depends(shelf_of)]
@@ -72,15 +74,13 @@ async def upload(
     """Receive a file, the raw body of the request; one that breaks off leaves nothing."""
     desk.count(person, UPLOADS)
     if request.headers.get("content-type", "").startswith("multipart/"):
-        raise NotTheFile(
-            f"'{file_name}' came as a form; send the file itself as the body: curl -T {file_name}"
-        )
+        raise NotTheFile(CAME_AS_FORM(file=file_name))
     try:
         received = await desk.receiver.receive(
             shelf.user(person), file_name, content_length, in_time(request.stream(), file_name)
         )
     except ClientDisconnect:
-        raise BadInput(f"'{file_name}' broke off and nothing was kept; send it again") from None
+        raise BadInput(BROKE_OFF(file=file_name)) from None
     return answers.Upload(
         upload=received.number,
         file_name=received.file_name,
@@ -92,7 +92,7 @@ async def upload(
 @router.put("/uploads/", include_in_schema=False)
 async def upload_without_name(person: CurrentPerson) -> None:
     """Say that an upload needs a name."""
-    raise BadInput("the file has no name; give it one that says what it is, such as traj.mat")
+    raise BadInput(NO_FILE_NAME())
 
 
 @router.post("/conversions")
@@ -106,7 +106,7 @@ async def convert(
     """Convert an upload of one's own into a draft, or say what is wrong with it."""
     desk.count(person, CONVERSIONS)
     if there.lab is None:
-        raise Unavailable("this gateway has no lab; start it with the endpoint of one")
+        raise Unavailable(GATEWAY_WITHOUT_LAB())
     user = shelf.user(person)
     key = await run_in_threadpool(_uploaded, shelf, user, asked.upload)
     draft = keys.unique()
@@ -114,7 +114,7 @@ async def convert(
     request |= {"upload": key, "owner": user, "draft": keys.draft(user, draft)}
     answer = await there.lab.call("converter/convert", "mrlab_msgs/srv/ConvertTrajectory", request)
     if not answer.success and not len(answer.diagnostics):
-        raise BadInput(answer.message)
+        raise BadInput(messages.said(answer))
     return await run_in_threadpool(_converted, shelf, user, key, draft, asked, answer)
 
 
@@ -132,7 +132,7 @@ async def motion(
 def _uploaded(shelf: Shelf, user: str, number: str) -> str:
     found = shelf.store.list(keys.uploads(user, number))
     if not found:
-        raise NotFound(f"the upload {number} is not there; send the file again")
+        raise NotFound(NO_UPLOAD(upload=number))
     return found[0].key
 
 

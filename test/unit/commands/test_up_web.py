@@ -7,6 +7,7 @@ from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
+from refusals import refused
 
 from mrlab_ros.adapters.keys.folder import Keys, now
 from mrlab_ros.commands.up.web import (
@@ -19,6 +20,7 @@ from mrlab_ros.commands.up.web import (
 )
 from mrlab_ros.core.bridge.access import Login
 from mrlab_ros.core.errors import BadInput
+from mrlab_ros.gateway.diagnostics import OPEN_TO_NETWORK
 from mrlab_ros.gateway.people.accounts import Accounts
 from mrlab_ros.gateway.people.database import FILE, Database
 from mrlab_ros.processes.options import LabOptions
@@ -48,7 +50,7 @@ def test_port_0_is_any_free_one() -> None:
 
 
 def test_beyond_this_machine_it_needs_keys_or_insecure(keys: Keys) -> None:
-    with pytest.raises(BadInput, match="--insecure"):
+    with refused(OPEN_TO_NETWORK, BadInput, host="0.0.0.0"):
         checked_web("0.0.0.0:0", keys=None)
     assert checked_web("0.0.0.0:0", keys=None, insecure=True).host == "0.0.0.0"
     assert checked_web("0.0.0.0:0", keys=keys.folder).host == "0.0.0.0"

@@ -7,11 +7,21 @@ from pathlib import Path
 import pytest
 from cryptography import x509
 from gateway_side import Gateway, code_of
+from refusals import refused
 
 from mrlab_ros.adapters.keys import certificates
+from mrlab_ros.adapters.keys.diagnostics import KEY_FILE_OPEN
 from mrlab_ros.adapters.keys.folder import Keys, now
 from mrlab_ros.core.bridge.access import Login
 from mrlab_ros.core.errors import BadInput
+from mrlab_ros.gateway.diagnostics import (
+    BAD_ADDRESS,
+    BAD_PUBLIC_URL,
+    CERTIFICATE_WITHOUT_KEY,
+    INSECURE_WITH_KEYS,
+    NO_HTTPS_FILE,
+    OPEN_TO_NETWORK,
+)
 from mrlab_ros.gateway.hosts import Hosts
 from mrlab_ros.gateway.settings import Settings, parsed_address
 
@@ -39,7 +49,7 @@ def test_anybody_can_read_the_authority_and_compare_it(tmp_path: Path, keys: Key
 
 def test_without_one_there_is_nothing_to_install(local_lab: Gateway) -> None:
     for path in ("/ca", "/ca.pem"):
-        assert code_of(local_lab.browser().get(path)) == (404, "not_found")
+        assert code_of(local_lab.browser().get(path)) == (404, "no_authority")
 
 
 def test_a_gateway_is_called_what_its_certificate_names(keys: Keys) -> None:
@@ -56,29 +66,31 @@ def test_a_gateway_is_called_what_its_certificate_names(keys: Keys) -> None:
 
 @pytest.mark.parametrize("url", ["lab.example.org", "ftp://lab", "https://", "https://lab/pages"])
 def test_a_public_address_must_be_one_of_a_site(url: str) -> None:
-    with pytest.raises(BadInput, match="such as https://lab.example.org"):
+    with refused(BAD_PUBLIC_URL, BadInput, url=url):
         Hosts.of(Settings(state_dir=Path(), public_url=url))
 
 
 def test_beyond_this_machine_there_is_https_or_nothing(keys: Keys, tmp_path: Path) -> None:
     here = {"state_dir": tmp_path, "host": "0.0.0.0"}
-    with pytest.raises(BadInput, match="mrlab keys init.*--insecure"):
+    with refused(OPEN_TO_NETWORK, BadInput, host="0.0.0.0") as caught:
         Settings(**here).check()
-    with pytest.raises(BadInput, match="mrlab keys init.*--insecure"):
+    commands = [fix.command for fix in caught.value.diagnostic.fixes]
+    assert commands == ["keys init", "up --keys keys", "up --insecure"]
+    with refused(OPEN_TO_NETWORK, BadInput):
         Settings(**here, public_url="https://lab.example.org").check()
     Settings(**here, insecure=True).check()
     Settings(**here, keys=keys.folder).check()
     Settings(state_dir=tmp_path).check()
-    with pytest.raises(BadInput, match="exclude each other"):
+    with refused(INSECURE_WITH_KEYS, BadInput):
         Settings(**here, keys=keys.folder, insecure=True).check()
-    with pytest.raises(BadInput, match="both --https-cert and --https-key"):
+    with refused(CERTIFICATE_WITHOUT_KEY, BadInput):
         Settings(**here, certificate=tmp_path / "c").check()
-    with pytest.raises(BadInput, match="there is no file"):
+    with refused(NO_HTTPS_FILE, BadInput, path=str(tmp_path / "c")):
         Settings(**here, certificate=tmp_path / "c", certificate_key=tmp_path / "k").check()
     open_key = tmp_path / "open.key"
     open_key.write_bytes((keys.folder / "server.key").read_bytes())
     open_key.chmod(0o644)
-    with pytest.raises(BadInput, match="chmod 600"):
+    with refused(KEY_FILE_OPEN, BadInput, path=str(open_key), mode="644"):
         Settings(**here, certificate=keys.folder / "server.pem", certificate_key=open_key).check()
 
 
@@ -97,7 +109,7 @@ def test_addresses_are_read(text: str, address: tuple[str, int]) -> None:
     "text", ["", "lab", ":80", "lab:", "lab:65536", "lab:-1", "lab:8o", "lab:٣"]
 )
 def test_what_is_no_address_is_refused(text: str) -> None:
-    with pytest.raises(BadInput, match="expected HOST:PORT"):
+    with refused(BAD_ADDRESS, BadInput, address=text):
         parsed_address(text)
 
 

@@ -27,7 +27,7 @@ OWN = "http://localhost:8080"
 def test_a_foreign_host_is_refused_everywhere(local_lab: Gateway, host: str) -> None:
     local = local_lab.local()
     for path in ("/", "/healthz", "/api/session", "/api/nothing"):
-        assert code_of(local.get(path, headers={"host": host})) == (403, "host")
+        assert code_of(local.get(path, headers={"host": host})) == (403, "wrong_host")
 
 
 @pytest.mark.parametrize("host", ["localhost", "127.0.0.1:8080", "[::1]:9000", "LOCALHOST:1"])
@@ -45,7 +45,7 @@ def test_loopback_is_known_by_all_its_names_and_ports(local_lab: Gateway, host: 
 def test_unsafe_requests_of_another_origin_are_refused(local_lab: Gateway, origin: str) -> None:
     local = local_lab.local()
     response = local.send("DELETE", "/api/session", headers={"origin": origin})
-    assert code_of(response) == (403, "origin")
+    assert code_of(response) == (403, "wrong_origin")
     assert local.user
 
 
@@ -53,17 +53,17 @@ def test_a_missing_origin_is_a_foreign_one(local_lab: Gateway) -> None:
     local = local_lab.local()
     csrf = local.get("/api/session").json()["csrf"]
     response = local.http.delete("/api/session", headers={"x-csrf-token": csrf})
-    assert code_of(response) == (403, "origin")
+    assert code_of(response) == (403, "wrong_origin")
 
 
 @pytest.mark.parametrize("token", [None, "", "0" * 64, "é"])
 def test_unsafe_requests_need_the_token_of_their_sign_in(local_lab, token) -> None:
     local = local_lab.local()
     headers = {"origin": OWN} | ({} if token is None else {"x-csrf-token": token.encode()})
-    assert code_of(local.http.delete("/api/session", headers=headers)) == (403, "csrf")
+    assert code_of(local.http.delete("/api/session", headers=headers)) == (403, "wrong_csrf")
     stranger = local_lab.browser().get("/api/session").json()["csrf"]
     headers["x-csrf-token"] = stranger
-    assert code_of(local.http.delete("/api/session", headers=headers)) == (403, "csrf")
+    assert code_of(local.http.delete("/api/session", headers=headers)) == (403, "wrong_csrf")
     assert local.user
 
 

@@ -34,15 +34,15 @@ def test_the_application_answers_every_path_that_is_its_own(lab: Gateway) -> Non
 
 @pytest.mark.parametrize("path", ["/api/x", "/static/gone.js", "/gone.js"])
 def test_a_missing_file_is_no_page(lab: Gateway, path: str) -> None:
-    assert code_of(lab.anyone.get(path)) == (404, "not_found")
+    assert code_of(lab.anyone.get(path)) == (404, "nothing_at")
 
 
 def test_what_no_api_answers_says_so_whatever_the_method(lab: Gateway) -> None:
     known = lab.browser()
     for method in ("POST", "PUT", "PATCH", "DELETE"):
-        assert code_of(known.send(method, "/api/nothing")) == (404, "not_found")
+        assert code_of(known.send(method, "/api/nothing")) == (404, "nothing_at")
     # what is there is there, for another method
-    assert code_of(known.send("POST", "/api/devices")) == (405, "method")
+    assert code_of(known.send("POST", "/api/devices")) == (405, "method_not_possible")
 
 
 def test_files_with_fingerprints_are_kept_for_ever(lab: Gateway) -> None:

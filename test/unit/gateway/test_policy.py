@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from fastapi.routing import APIRoute, APIWebSocketRoute
-from gateway_side import Gateway, code_of
+from gateway_side import Gateway, code_of, values_of
 
 from mrlab_ros.core.bridge.policy import Verb
 from mrlab_ros.core.bridge.rules import Role
@@ -60,8 +60,9 @@ def test_a_student_changes_what_is_their_own() -> None:
 
 def test_a_role_that_is_too_small_is_told_which_one_is_needed(class_lab: Gateway) -> None:
     response = class_lab.browser("anna").get("/api/people")
-    assert code_of(response) == (403, "not_allowed")
-    assert "anna is student, and this needs instructor" in response.text
+    assert code_of(response) == (403, "role_too_low")
+    told = {"person": "anna", "role": "student", "needed": "instructor"}
+    assert values_of(response) == told
 
 
 def test_people_are_the_instructors_alone_and_what_a_person_has_is_a_students() -> None:

@@ -6,7 +6,15 @@ import stat
 from datetime import datetime, timedelta, timezone
 
 import pytest
+from refusals import refused
 
+from mrlab_ros.adapters.keys.diagnostics import (
+    BAD_KEY_NAME,
+    HAS_KEY,
+    KEY_FILE_UNREADABLE,
+    KEYS_DAMAGED,
+    NO_KEYS,
+)
 from mrlab_ros.adapters.keys.folder import Keys
 from mrlab_ros.adapters.keys.people import (
     GATEWAY,
@@ -47,12 +55,14 @@ def test_whose_certificate_expired_is_left_out():
 
 
 def test_a_missing_list_names_the_command_that_makes_one(tmp_path):
-    with pytest.raises(BadInput, match=f"{tmp_path} has no keys; .* init --dir {tmp_path}"):
+    with refused(NO_KEYS, BadInput, folder=str(tmp_path)) as caught:
         People.read(tmp_path / "people.json")
+    (fix,) = caught.value.diagnostic.fixes
+    assert fix.command == f"keys init --dir {tmp_path}"
 
 
 def test_a_name_is_given_once():
-    with pytest.raises(Misuse, match="anna has a key already, as display; .* revoke anna"):
+    with refused(HAS_KEY, Misuse, name="anna", role="display"):
         people().check_new("anna")
     people().check_new("carl")
 
@@ -62,20 +72,20 @@ def test_passwords_are_read_as_they_were_written(tmp_path):
     write_passwords(tmp_path / "passwords.txt", passwords)
     assert stat.S_IMODE((tmp_path / "passwords.txt").stat().st_mode) == 0o600
     assert read_passwords(tmp_path / "passwords.txt") == passwords
-    with pytest.raises(BadInput, match="cannot be read"):
+    with refused(KEY_FILE_UNREADABLE, BadInput):
         read_passwords(tmp_path / "other.txt")
 
 
 @pytest.mark.parametrize("text", ["", "[]", "{}", '{"login": "smile", "hosts": [], "people": []}'])
 def test_a_damaged_list_of_people_is_said(keys, text):
     (keys.folder / "people.json").write_text(text)
-    with pytest.raises(BadInput, match="damaged"):
+    with refused(KEYS_DAMAGED, BadInput):
         Keys(keys.folder)
 
 
 @pytest.mark.parametrize("name", ["", "a b", "-a", "a:b", "ä", "a" * 42, "../a", NOBODY, GATEWAY])
 def test_a_name_that_cannot_be_one_is_refused(keys, name):
-    with pytest.raises(BadInput, match="is no name for a key"):
+    with refused(BAD_KEY_NAME, BadInput, name=name):
         keys.add(name, Role.DISPLAY, NOW)
 
 

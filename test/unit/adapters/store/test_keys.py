@@ -3,8 +3,10 @@
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+from refusals import refused
 
 from mrlab_ros.adapters.store import keys
+from mrlab_ros.adapters.store.diagnostics import EMPTY_STORE_NAME, NO_UPLOAD_KEY
 from mrlab_ros.core.errors import BadInput
 
 NAMES = st.text(min_size=1, max_size=300)
@@ -57,7 +59,7 @@ def test_an_upload_lies_below_its_user():
     "users/anna/drafts/" + "0" * 32 + ".npz",
 ])  # fmt: skip
 def test_what_is_no_upload_is_named(key):
-    with pytest.raises(BadInput, match="no key of an upload"):
+    with refused(NO_UPLOAD_KEY, BadInput, what="upload"):
         keys.owner_of(key, keys.UPLOAD)
 
 
@@ -68,5 +70,5 @@ def test_a_number_of_another_form_names_nothing(number):
 
 
 def test_an_empty_name_is_refused():
-    with pytest.raises(BadInput, match="empty"):
+    with refused(EMPTY_STORE_NAME, BadInput):
         keys.segment("")

@@ -123,7 +123,7 @@ def test_what_the_lab_has_no_more_is_gone(lab, cache, clock):
     asyncio.run(cache.get(PATH))
     clock.now += FRESH_S
     lab.files.clear()
-    with pytest.raises(NotFound, match="there is no asset"):
+    with pytest.raises(NotFound):
         asyncio.run(cache.get(PATH))
     lab.away = NoAnswer("the lab is away")
     with pytest.raises(NoAnswer):

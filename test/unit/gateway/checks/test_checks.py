@@ -6,7 +6,7 @@ from functools import cache
 
 import pytest
 from fake_converter import FakeConverter
-from gateway_side import Gateway, code_of
+from gateway_side import Gateway, kind_of
 
 from mrlab_ros.adapters.store.memory import MemoryStore
 from mrlab_ros.core.bridge.rules import Role
@@ -164,11 +164,11 @@ def test_who_may_not_drive_reads_what_was_found_and_asks_for_nothing(lab):
     browser, motion = lab.person()
     ask(browser, motion)
     when(browser, motion, "done")
-    assert code_of(ask(browser, "no_such")) == (404, "not_found")
+    assert kind_of(ask(browser, "no_such")) == (404, "not_found")
     assert ask(browser, motion, "").status_code == 422
     student = lab.signed_in("greta", Role.STUDENT)
     assert state(student, motion)["summary"] == "not ready: at 0.40 s"
-    assert code_of(ask(student, motion)) == (403, "not_allowed")
+    assert kind_of(ask(student, motion)) == (403, "not_allowed")
 
 
 def test_another_motion_of_the_same_robot_ends_the_check_and_others_wait():

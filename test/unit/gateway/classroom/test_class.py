@@ -5,12 +5,14 @@ import json
 import pytest
 from class_folder import make_class
 from fake_converter import FakeConverter
-from gateway_side import Gateway, code_of
+from gateway_side import Gateway, kind_of
+from refusals import refused
 
 from mrlab_ros.adapters.store.memory import MemoryStore
 from mrlab_ros.adapters.trajectories import json_file
 from mrlab_ros.core.bridge.rules import Role
 from mrlab_ros.core.errors import BadInput
+from mrlab_ros.gateway.diagnostics import NO_CLASS_FILE
 from mrlab_ros.gateway.lab.definitions import installed_definitions
 from mrlab_ros.gateway.lab.fake_lab import FakeLab
 from mrlab_ros.gateway.settings import Settings
@@ -52,9 +54,9 @@ def test_a_teacher_steps_through_a_class(gateway, folder):
     file = teacher.get("/api/class/ben/file")
     assert json_file.parse(file.content, "ben.json").robot_model == "ur5e"
     answer = teacher.get("/api/class/cleo/motion")
-    assert code_of(answer) == (404, "not_found")
+    assert kind_of(answer) == (404, "not_found")
     assert "cleo.mat is empty" in answer.json()["error"]["message"]
-    assert code_of(teacher.get("/api/class/dora/motion")) == (404, "not_found")
+    assert kind_of(teacher.get("/api/class/dora/motion")) == (404, "not_found")
     # marked again meanwhile
     path = folder / "class.json"
     path.write_text(path.read_text().replace('"Pick and place"', '"Pick again"'))
@@ -66,7 +68,7 @@ def test_names_and_marks_are_the_teachers(gateway):
         browser = gateway.browser(f"who_{role.value}", role)
         assert browser.get("/api/session").json()["may"]["grades"] is False
         for path in ("/api/class", "/api/class/anna/motion", "/api/class/anna/file"):
-            assert code_of(browser.get(path)) == (403, "not_allowed")
+            assert kind_of(browser.get(path)) == (403, "not_allowed")
 
 
 def test_no_path_leads_out_of_the_folder(gateway, folder):
@@ -86,8 +88,8 @@ def test_what_is_no_class_is_said(gateway, folder, tmp_path):
     answer = teacher.get("/api/class")
     assert "mrlab.class.9" in answer.json()["error"]["message"]
     (folder / "class.json").unlink()
-    assert code_of(teacher.get("/api/class")) == (503, "unavailable")
-    with pytest.raises(BadInput, match=r"there is no class\.json in .* mrlab class"):
+    assert kind_of(teacher.get("/api/class")) == (503, "unavailable")
+    with refused(NO_CLASS_FILE, BadInput, file="class.json"):
         Settings(state_dir=tmp_path, classroom=folder).check()
 
 

@@ -3,12 +3,15 @@ from __future__ import annotations
 from typing import Any
 
 import pytest
+from refusals import refused
 
+from mrlab_ros.core.base.diagnostic import Code
 from mrlab_ros.core.bridge.rules import Role
 from mrlab_ros.core.errors import BadInput
 from mrlab_ros.gateway.errors import NotAllowed
 from mrlab_ros.gateway.lab.definitions import installed_definitions
 from mrlab_ros.gateway.link import presence
+from mrlab_ros.gateway.link.diagnostics import BAD_DISPLAY_ID, DISPLAY_TAKEN, DISPLAY_TOO_FAR
 from mrlab_ros.gateway.link.presence import Displays, display
 from mrlab_ros.gateway.people.person import Person
 
@@ -39,7 +42,7 @@ def test_name_and_role_are_those_of_the_sign_in():
 def test_the_display_of_another_client_is_refused_until_it_has_left():
     displays = Displays(DEFINITIONS)
     assert displays.admit("a", ANNA, said(id="quest"), 0.0)
-    with pytest.raises(NotAllowed, match="quest belongs to another page"):
+    with refused(DISPLAY_TAKEN, NotAllowed, id="quest"):
         displays.admit("b", BEN, said(id="quest"), 1.0)
     with pytest.raises(NotAllowed):
         displays.admit("b", BEN, said(id="quest", away=True), 1.0)
@@ -59,17 +62,19 @@ def test_a_display_is_there_twenty_times_a_second_at_most_and_goes_at_once():
 
 
 @pytest.mark.parametrize(
-    ("fields", "says"),
+    ("fields", "code", "values"),
     [
-        ({"id": ""}, "expected 1 to 64"),
-        ({"id": "x" * 65}, "expected 1 to 64"),
-        ({"id": "a\nb"}, "can be printed"),
-        ({"id": "q", "head": {"position": {"x": float("nan")}}}, "at nan"),
-        ({"id": "q", "left": {"position": {"z": 1e6}}}, "at 1000000.0"),
+        ({"id": ""}, BAD_DISPLAY_ID, {"id": "", "most": 64}),
+        ({"id": "x" * 65}, BAD_DISPLAY_ID, {"id": "x" * 65}),
+        ({"id": "a\nb"}, BAD_DISPLAY_ID, {"id": "a\nb"}),
+        ({"id": "q", "head": {"position": {"x": float("nan")}}}, DISPLAY_TOO_FAR, {"at": None}),
+        ({"id": "q", "left": {"position": {"z": 1e6}}}, DISPLAY_TOO_FAR, {"at": 1e6}),
     ],
 )
-def test_what_is_no_presence_is_refused(fields: dict[str, Any], says: str):
-    with pytest.raises(BadInput, match=says):
+def test_what_is_no_presence_is_refused(
+    fields: dict[str, Any], code: Code, values: dict[str, Any]
+):
+    with refused(code, BadInput, **values):
         Displays(DEFINITIONS).admit("a", ANNA, said(**fields), 0.0)
 
 

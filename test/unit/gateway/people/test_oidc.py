@@ -172,7 +172,7 @@ def test_each_problem_has_a_sentence_on_the_page() -> None:
 
 
 def test_without_a_provider_there_is_nothing_to_begin(class_lab: Gateway) -> None:
-    assert code_of(class_lab.browser().get("/api/oidc/start")) == (404, "not_found")
+    assert code_of(class_lab.browser().get("/api/oidc/start")) == (404, "no_provider")
 
 
 def test_the_file_names_its_mistakes(tmp_path: Path) -> None:

@@ -21,7 +21,7 @@ def test_only_instructors_see_and_change_people(class_lab: Gateway, role: Role) 
         somebody.send("PATCH", "/api/people/somebody", json={"role": "instructor"}),
         somebody.send("DELETE", "/api/people/somebody"),
     ]
-    assert [code_of(each) for each in tries] == [(403, "not_allowed")] * 4
+    assert [code_of(each) for each in tries] == [(403, "role_too_low")] * 4
     assert [each.name for each in class_lab.people.accounts.all()] == ["somebody"]
 
 
@@ -39,7 +39,7 @@ def test_an_instructor_lists_changes_and_removes(class_lab: Gateway) -> None:
     assert anna.user == {"name": "anna", "role": "operator"}
     assert teacher.send("DELETE", "/api/people/anna").status_code == 204
     assert anna.user is None
-    assert code_of(teacher.send("DELETE", "/api/people/anna")) == (404, "not_found")
+    assert code_of(teacher.send("DELETE", "/api/people/anna")) == (404, "no_person")
 
 
 @pytest.mark.parametrize("name", ["", "local", "LOCAL", "lab", "a b", "../x", "a/b", "x" * 60])
@@ -52,7 +52,7 @@ def test_a_name_must_be_one_for_keys_and_folders(class_lab: Gateway, name: str) 
 def test_names_differ_by_more_than_case(class_lab: Gateway) -> None:
     teacher = class_lab.browser("teacher", Role.INSTRUCTOR)
     body = {"name": "Teacher", "role": "student"}
-    assert code_of(teacher.send("POST", "/api/people", json=body)) == (409, "misuse")
+    assert code_of(teacher.send("POST", "/api/people", json=body)) == (409, "name_taken")
 
 
 def test_a_removed_name_that_comes_back_has_no_old_sign_in(class_lab: Gateway) -> None:
@@ -70,7 +70,7 @@ def test_everybody_ends_their_own_sign_ins_and_no_others(class_lab: Gateway) -> 
     assert [(each["approved_by"], each["this"]) for each in mine].count(("anna", True)) == 1
     assert {each["approved_by"] for each in mine} == {"anna"}
     (other,) = [each["id"] for each in mine if not each["this"]]
-    assert code_of(ben.send("DELETE", f"/api/devices/{other}")) == (404, "not_found")
+    assert code_of(ben.send("DELETE", f"/api/devices/{other}")) == (404, "no_device")
     assert phone.user
     assert anna.send("DELETE", f"/api/devices/{other}").status_code == 204
     assert phone.user is None
