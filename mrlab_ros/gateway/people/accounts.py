@@ -11,7 +11,12 @@ from mrlab_ros.core.bridge.rules import Role
 from mrlab_ros.core.errors import BadInput, Misuse
 from mrlab_ros.gateway.errors import NotFound
 from mrlab_ros.gateway.people.database import Database, digest, new_secret
-from mrlab_ros.gateway.people.diagnostics import BAD_PERSON_NAME, LINK_USED, NAME_TAKEN, NO_PERSON
+from mrlab_ros.gateway.people.diagnostics import (
+    BAD_PERSON_NAME,
+    LINK_USED,
+    NO_PERSON,
+    PERSON_EXISTS,
+)
 from mrlab_ros.gateway.people.passwords import Passwords
 from mrlab_ros.gateway.people.person import LOCAL
 
@@ -167,7 +172,7 @@ def check_name(name: str) -> None:
 
 
 def _taken(name: str) -> Misuse:
-    return Misuse(NAME_TAKEN(name=name, fixes=(Fix(command=f"users remove {name}"),)))
+    return Misuse(PERSON_EXISTS(name=name, fixes=(Fix(command=f"users remove {name}"),)))
 
 
 def _account(row: sqlite3.Row) -> Account:

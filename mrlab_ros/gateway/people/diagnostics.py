@@ -12,8 +12,8 @@ BAD_PERSON_NAME = Code(
     "Expected up to 41 letters, digits, '_', '-' and '.', beginning with a letter or digit, and "
     "not {reserved:either}.",
 )
-NAME_TAKEN = Code(
-    "name_taken",
+PERSON_EXISTS = Code(
+    "person_exists",
     "There is somebody called '{name}' already.",
     "Choose another name, or remove that person first.",
 )

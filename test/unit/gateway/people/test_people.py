@@ -52,7 +52,7 @@ def test_a_name_must_be_one_for_keys_and_folders(class_lab: Gateway, name: str) 
 def test_names_differ_by_more_than_case(class_lab: Gateway) -> None:
     teacher = class_lab.browser("teacher", Role.INSTRUCTOR)
     body = {"name": "Teacher", "role": "student"}
-    assert code_of(teacher.send("POST", "/api/people", json=body)) == (409, "name_taken")
+    assert code_of(teacher.send("POST", "/api/people", json=body)) == (409, "person_exists")
 
 
 def test_a_removed_name_that_comes_back_has_no_old_sign_in(class_lab: Gateway) -> None:
