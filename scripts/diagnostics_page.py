@@ -22,6 +22,7 @@ SAMPLES: dict[str, Any] = {
     "position": [0.42, -0.28, 0.31],
     "problem": "it is damaged",
     "problems": ["it is damaged", "it is empty"],
+    "reasons": ["it is damaged", "it is empty"],
     "count": 3,
     "integer": 3,
     "bytes": 1536000,

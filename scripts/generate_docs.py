@@ -21,7 +21,6 @@ import roles_page
 import rubrics_page
 import typescript_protocol
 
-from mrlab_ros.core import diagnostics
 from mrlab_ros.core.physics import grasp
 from mrlab_ros.core.playback import states as playback
 from mrlab_ros.core.recording import states as recording
@@ -48,7 +47,7 @@ BLOCKS: dict[tuple[str, str], Callable[[], str]] = {
     ("docs/rubrics.md", "measures"): rubrics_page.measures,
 }
 FILES: dict[str, Callable[[], str]] = {
-    "docs/diagnostics.md": lambda: diagnostics_page.current(ROOT) + diagnostics.document(),
+    "docs/diagnostics.md": lambda: diagnostics_page.current(ROOT),
     diagnostics_page.SAMPLES_FILE: lambda: diagnostics_page.samples(ROOT),
     licences_page.PAGE: lambda: licences_page.current(ROOT),
     "docs/parameters.md": parameters_page.current,

@@ -27,6 +27,12 @@ def refused(
     assert {name: said.get(name) for name in values} == plain(values)
 
 
+def said_in(found: Any) -> dict[str, dict[str, Any]]:
+    """Return the values of a diagnostic, or an error, and of all inside it, by their codes."""
+    whole = plain(found)
+    return {each["code"]: each["values"] for each in [*_inner(whole["values"]), whole]}
+
+
 def _inner(value: Any) -> Iterator[dict[str, Any]]:
     if isinstance(value, dict):
         if "code" in value and "values" in value:

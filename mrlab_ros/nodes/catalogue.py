@@ -12,8 +12,10 @@ from rclpy.node import Node
 
 from mrlab_ros.adapters.trajectories import npz_file
 from mrlab_ros.core.errors import BadInput
+from mrlab_ros.core.trajectory.diagnostics import REPLACED_MEANWHILE
 from mrlab_ros.core.trajectory.trajectory import Trajectory
 from mrlab_ros.messages import qos, trajectories
+from mrlab_ros.messages.texts import heard
 from mrlab_ros.ros.calls import call
 
 # Frames in one answer: 17 MB for seven joints, which takes about 0.2 s.
@@ -52,7 +54,7 @@ class CatalogueClient:
     def _ask(self, **request: Any) -> Any:
         answer = call(self._client, srv.GetTrajectory.Request(**request), TIMEOUT_S)
         if not answer.success:
-            raise BadInput(answer.message)
+            raise BadInput(heard(answer))
         return answer
 
     def _read(self, answer: Any) -> Trajectory | None:
@@ -77,9 +79,7 @@ class CatalogueClient:
         for begin in range(0, message.info.frame_count if answer.file else 0, CHUNK):
             part = self._ask(id=message.info.id, begin=begin, count=CHUNK).trajectory
             if not _same(part.info, message.info):
-                raise BadInput(
-                    f"'{message.info.id}' was replaced while it was fetched; load it again"
-                )
+                raise BadInput(REPLACED_MEANWHILE(id=message.info.id))
             message.joint_names = part.joint_names
             for name in ("positions", "velocities", "effort_proxy", "gripper"):
                 getattr(message, name).extend(getattr(part, name))

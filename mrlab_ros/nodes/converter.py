@@ -24,6 +24,7 @@ from mrlab_ros.adapters.store.objects import open_store
 from mrlab_ros.adapters.trajectories.catalogue_writer import CatalogueWriter
 from mrlab_ros.adapters.trajectories.coefficients import load_coefficients
 from mrlab_ros.adapters.trajectories.files import TrajectoryFiles
+from mrlab_ros.adapters.workspaces.diagnostics import NO_ROOM, TOO_LARGE
 from mrlab_ros.adapters.workspaces.pool import ConversionPool
 from mrlab_ros.adapters.workspaces.reader import (
     Limits,
@@ -34,19 +35,21 @@ from mrlab_ros.adapters.workspaces.reader import (
     opened,
 )
 from mrlab_ros.adapters.workspaces.results import Converted, Task, refused
-from mrlab_ros.core.diagnostics import Refused, finding
 from mrlab_ros.core.errors import BadInput, LabError
 from mrlab_ros.core.foreign_text import visible
-from mrlab_ros.core.naming import did_you_mean
+from mrlab_ros.core.naming import close_to
+from mrlab_ros.core.trajectory.diagnostics import NO_SUCH_END_EFFECTOR, UPLOAD_OF_ANOTHER
 from mrlab_ros.core.trajectory.names import checked_id
 from mrlab_ros.core.trajectory.record import head_of
 from mrlab_ros.messages import trajectories
+from mrlab_ros.messages.texts import tell
 from mrlab_ros.messages.trajectories import candidate_to_message, info_from_head
 from mrlab_ros.nodes import parameters
 from mrlab_ros.nodes.parameters import ConverterParameters
 from mrlab_ros.nodes.trajectories import TrajectoryServices
 from mrlab_ros.ros import share
 from mrlab_ros.ros.answers import create_deferred_service
+from mrlab_ros.ros.diagnostics import FAULT
 from mrlab_ros.ros.parameters import ParameterNode
 from mrlab_ros.ros.timers import every
 
@@ -144,12 +147,11 @@ class ConverterNode(ParameterNode[ConverterParameters]):
         try:
             answer()
         except LabError as error:
-            response.success, response.message = False, str(error)
+            tell(response, False, error.diagnostic)
         except Exception as error:
             self.get_logger().error(repr(error))
             if hasattr(response, "success"):
-                response.success = False
-                response.message = f"the converter failed ({error!r}); its log has the details"
+                tell(response, False, FAULT(service="the converter", error=repr(error)))
         return response
 
     def _begin_conversion(self, request: Any, response: Any) -> Future[Any]:
@@ -173,17 +175,16 @@ class ConverterNode(ParameterNode[ConverterParameters]):
             work = partial(self._convert, task, request, data)
             self._pool.submit(work, size, 0 if data is None else size).add_done_callback(finish)
         except LabError as error:
-            response.success, response.message = False, str(error)
+            tell(response, False, error.diagnostic)
             answered.set_result(response)
         return answered
 
     def _task(self, request: Any) -> Task:
         known = self._library.end_effectors()
         if request.end_effector and request.end_effector not in known:
+            close = close_to(request.end_effector, known)
             raise BadInput(
-                f"there is no end effector '{request.end_effector}'; known are: "
-                f"{', '.join(known)}; leave it empty for a bare flange"
-                f"{did_you_mean(request.end_effector, known)}"
+                NO_SUCH_END_EFFECTOR(end_effector=request.end_effector, known=known, close=close)
             )
         if request.id:
             checked_id(request.id)
@@ -192,7 +193,7 @@ class ConverterNode(ParameterNode[ConverterParameters]):
             user = keys.owner_of(request.upload, keys.UPLOAD)
             file = keys.name_of(request.upload.rsplit("/", 1)[1])
             if request.owner and keys.segment(request.owner) != user:
-                raise BadInput(f"the upload is not one of {request.owner}'s; send the file again")
+                raise BadInput(UPLOAD_OF_ANOTHER(owner=request.owner))
         if request.draft:
             keys.owner_of(request.draft, keys.DRAFT)
         return Task(
@@ -221,13 +222,11 @@ class ConverterNode(ParameterNode[ConverterParameters]):
                 return replace(converted, head=self._keep(converted.head, file, request))
         except TooSlow:
             raise  # the pool decides whether it has more time
-        except Refused as error:
-            result = refused(task.file, error.finding)
-            return Converted(result, result.message)
+        except BadInput as error:
+            return _refused(task, error)
         except OSError as error:
             raise BadInput(
-                f"the lab has no room for '{task.file}' ({error.strerror}); make room in "
-                f"{self._work} and send it again"
+                NO_ROOM(file=task.file, error=error.strerror, folder=str(self._work))
             ) from None
 
     @contextlib.contextmanager
@@ -244,8 +243,7 @@ class ConverterNode(ParameterNode[ConverterParameters]):
             return
         size, limit = self._store.size(request.upload), self._pool.limits.file_size
         if size > limit:
-            problem = f"{size / MiB:.0f} MiB, the limit is {limit / MiB:.0f} MiB"
-            raise Refused(finding("too_large", file=task.file, problem=problem))
+            raise BadInput(TOO_LARGE(file=task.file, part="file", size=size, limit=limit))
         with tempfile.TemporaryFile(dir=self._work) as fetched:
             self._store.get_file(request.upload, fetched)  # type: ignore[arg-type]
             fetched.flush()
@@ -266,21 +264,24 @@ class ConverterNode(ParameterNode[ConverterParameters]):
         try:
             converted = done.result()
         except TooSlow as error:
-            result = refused(task.file, error.finding)
-            converted = Converted(result, result.message)
+            converted = _refused(task, error)
         result, head = converted.result, converted.head
-        response.success = head is not None
-        response.message = converted.message
+        tell(response, head is not None, converted.said)
         response.outcome = result.outcome.value
         response.candidates = [candidate_to_message(c) for c in result.candidates]
         if result.preview is not None:
             response.preview = trajectories.preview_to_message(result.preview)
         response.diagnostics = [trajectories.diagnostic_to_message(d) for d in result.diagnostics]
         if head is None:
-            self.get_logger().info(f"refused: {visible(converted.message)}")
+            self.get_logger().info(f"refused: {visible(str(converted.said))}")
             return
         response.trajectory = info_from_head(head)
-        self.get_logger().info(visible(converted.message))
+        self.get_logger().info(visible(str(converted.said)))
+
+
+def _refused(task: Task, error: BadInput) -> Converted:
+    result = refused(task.file, error.diagnostic)
+    return Converted(result, result.said)
 
 
 def _size(path: str) -> int:

@@ -20,9 +20,21 @@ from mrlab_ros.adapters.trajectories.files import TrajectoryFiles
 from mrlab_ros.adapters.trajectories.npz_file import Damaged
 from mrlab_ros.adapters.trajectories.plain_folder import import_folder
 from mrlab_ros.core.errors import BadInput, LabError
+from mrlab_ros.core.trajectory.diagnostics import (
+    DAMAGED_VERSION,
+    DRAFT_OF_ANOTHER,
+    NOT_A_NEW_NAME,
+    PUBLISHED_ALREADY,
+    TRAJECTORY_DELETED,
+    TRAJECTORY_HIDDEN,
+    TRAJECTORY_PUBLISHED,
+    TRAJECTORY_RESTORED,
+    TRAJECTORY_SHARED,
+)
 from mrlab_ros.core.trajectory.names import TrajectoryName, checked_id, parse
 from mrlab_ros.core.trajectory.record import Record, Version, free_name, head_of, newest
 from mrlab_ros.messages import qos, trajectories
+from mrlab_ros.messages.texts import tell
 from mrlab_ros.messages.trajectories import catalogue_to_message, info_from_head
 from mrlab_ros.ros.worker import Worker
 
@@ -62,10 +74,10 @@ class TrajectoryServices:
             "announce_trajectories",
             on_error=lambda error: self._log.error(f"cannot announce a trajectory: {error!r}"),
         )
-        self._problem = ""
+        self._problem: StoreFailure | None = None
         self._open()
         self._publish_catalogue()
-        if self._problem:
+        if self._problem is not None:
             self._log.error(f"the catalogue is not there yet: {self._problem}")
             threading.Thread(target=self._open_later, name="open_store", daemon=True).start()
 
@@ -75,8 +87,8 @@ class TrajectoryServices:
 
     def check_ready(self) -> None:
         """Pass where the catalogue was read; raise StoreFailure."""
-        if self._problem:
-            raise StoreFailure(self._problem)
+        if self._problem is not None:
+            raise StoreFailure(self._problem.diagnostic)
 
     def get(self, request: Any, response: Any, *, private: bool = False) -> None:
         self.check_ready()
@@ -116,35 +128,35 @@ class TrajectoryServices:
         self.check_ready()
         self.catalogue.delete(request.name)
         self.announce()
-        response.success = True
-        response.message = f"'{request.name}' was deleted; converter/restore brings it back"
+        tell(response, True, TRAJECTORY_DELETED(id=request.name))
 
     def publish(self, request: Any, response: Any) -> None:
         self.check_ready()
         user = keys.owner_of(request.draft, keys.DRAFT)
         if request.owner and keys.segment(request.owner) != user:
-            raise BadInput(f"the draft is not one of {request.owner}'s; publish it as its owner")
+            raise BadInput(DRAFT_OF_ANOTHER(owner=request.owner))
         record, version = self.publish_draft(
             request.draft, request.id, request.owner, shared=request.shared
         )
         response.trajectory = info_from_head(head_of(record, version))
-        response.success = True
-        response.message = f"'{record.id}' was published, version {version.number}"
+        tell(response, True, TRAJECTORY_PUBLISHED(id=record.id, version=version.number))
 
     def share(self, request: Any, response: Any) -> None:
         self.check_ready()
         record = self.catalogue.share(request.id, request.shared)
         self.announce()
-        seen_by = "everybody" if record.shared else f"{record.owner} and instructors"
-        response.success, response.message = True, f"'{record.id}' is seen by {seen_by}"
+        said = TRAJECTORY_SHARED(id=record.id)
+        if not record.shared:
+            said = TRAJECTORY_HIDDEN(id=record.id, owner=record.owner)
+        tell(response, True, said)
 
     def restore(self, request: Any, response: Any) -> None:
         self.check_ready()
         record = self.catalogue.restore(request.id, request.version)
         self.announce()
         response.trajectory = info_from_head(head_of(record, record.newest))
-        response.success = True
-        response.message = f"'{record.id}' is there, version {record.newest.number}"
+        version = record.newest.number
+        tell(response, True, TRAJECTORY_RESTORED(id=record.id, version=version))
 
     def publish_draft(
         self, draft: str, text: str, owner: str, *, shared: bool
@@ -155,7 +167,7 @@ class TrajectoryServices:
             for version in record.versions:
                 if version.draft == draft:
                     if name not in ("", record.name) or owner != record.owner:
-                        raise BadInput(f"that draft was published already, as '{record.id}'")
+                        raise BadInput(PUBLISHED_ALREADY(id=record.id))
                     return record, version
         with self._opened(draft) as path:
             npz_file.read(path)
@@ -208,14 +220,14 @@ class TrajectoryServices:
             taken = import_folder(self._plain_folder, self.catalogue, self._log.error)
             if taken:
                 self._log.info(f"took {len(taken)} trajectories of {self._plain_folder} over")
-            self._problem = ""
+            self._problem = None
         except StoreFailure as error:
-            self._problem = str(error)
+            self._problem = error
 
     def _open_later(self) -> None:
-        while self._problem and not self._closed.wait(RETRY_S):
+        while self._problem is not None and not self._closed.wait(RETRY_S):
             self._open()
-        if not self._problem:
+        if self._problem is None:
             self._log.info(f"the catalogue is there: {self.catalogue.store.place} answers")
             self.announce()
 
@@ -248,7 +260,9 @@ class TrajectoryServices:
         except Damaged as error:
             aside = self.catalogue.set_aside(record, version)
             self.announce()
-            said = f"version {version.number} of '{record.id}': {error}; it was moved to {aside}"
+            said = DAMAGED_VERSION(
+                id=record.id, version=version.number, folder=str(aside), why=error
+            )
             self._log.error(f"removed from the catalogue: {said}")
             raise Damaged(said) from error
 
@@ -295,5 +309,5 @@ def _own_name(text: str, owner: str) -> str:
         return ""
     name = parse(text)
     if name.version or (name.owner and name.owner != owner):
-        raise BadInput(f"'{text}' cannot be published; expected a name such as {name.name}")
+        raise BadInput(NOT_A_NEW_NAME(id=text, name=name.name))
     return name.name

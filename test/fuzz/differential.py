@@ -26,7 +26,6 @@ from numpy.typing import NDArray
 
 from mrlab_ros.adapters.workspaces import second_reader, worker
 from mrlab_ros.adapters.workspaces.sink import Found
-from mrlab_ros.core.diagnostics import Refused
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
 BATCH = 50
@@ -70,13 +69,12 @@ def read(data: bytes) -> Matrices | None:
     return found
 
 
-def verdict(data: bytes, found: Matrices) -> str:
+def verdict(data: bytes, matrices: Matrices) -> str:
     """Return what the second reader finds different in a file, empty where it agrees."""
-    for path, values in found.items():
-        try:
-            second_reader.verify(memoryview(data), "fuzz.mat", path, values)
-        except Refused as refused:
-            return str(refused)
+    for path, values in matrices.items():
+        found = second_reader.disagreement(memoryview(data), path, values)
+        if found is not None:
+            return f"{path}: {found}"
     return ""
 
 

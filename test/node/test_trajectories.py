@@ -109,7 +109,8 @@ def test_an_upload_becomes_a_draft_and_a_draft_a_trajectory(graph, node, store, 
     assert ids(graph, "list") == []
     hidden = graph.call(srv.GetTrajectory, "/converter/get", id="anna/wave")
     assert not hidden.success
-    assert "there is no trajectory 'anna/wave'; there are: none" in hidden.message
+    assert hidden.code == "no_trajectory_of_name"
+    assert {v.key: v.value for v in hidden.values} == {"id": "anna/wave", "known": "[]"}
     got = graph.call(srv.GetTrajectory, "/converter/get_any", id="anna/wave@1")
     np.testing.assert_array_equal(np.array(got.trajectory.positions).reshape(-1, 6), q)
     assert got.trajectory.info == info

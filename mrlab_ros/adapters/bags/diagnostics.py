@@ -58,7 +58,7 @@ CLOCK_SET_BACK = Code(
     severity=WARNING,
 )
 BAD_MESSAGE = Code(
-    "bad_message",
+    "bad_bag_message",
     "a message is no {type} ({problem})",
     "Bring back a copy of the bag.",
 )

@@ -15,8 +15,9 @@ import orjson
 from mrlab_ros.adapters.store import keys
 from mrlab_ros.adapters.store.port import Missing, ObjectStore
 from mrlab_ros.core.errors import BadInput
-from mrlab_ros.core.naming import did_you_mean
+from mrlab_ros.core.naming import close_to
 from mrlab_ros.core.trajectory import record as records
+from mrlab_ros.core.trajectory.diagnostics import NO_TRAJECTORY_OF_NAME, RECORD_OF_ANOTHER
 from mrlab_ros.core.trajectory.names import TrajectoryName, parse
 from mrlab_ros.core.trajectory.record import Record, Version
 
@@ -88,11 +89,8 @@ class Catalogue:
         if record is None or (record.deleted_ns and not deleted) or not visible(record):
             shown = named or visible
             ids = [r.id for r in self.records() if not r.deleted_ns and shown(r)]
-            raise NoTrajectory(
-                f"there is no trajectory '{text}'; there are: "
-                f"{', '.join(ids[:MOST_NAMED]) or 'none'}; convert a file or take one of these"
-                f"{did_you_mean(text, ids)}"
-            )
+            known, close = ids[:MOST_NAMED], close_to(text, ids)
+            raise NoTrajectory(NO_TRAJECTORY_OF_NAME(id=text, known=known, close=close))
         return record, record.version(name.version)
 
     def _put(self, place: tuple[str, str], record: Record | None) -> None:
@@ -125,7 +123,7 @@ class Catalogue:
         try:
             record = records.from_document(orjson.loads(self.store.get(key)))
             if keys.record(record.owner, record.name) != key:
-                raise BadInput(f"it holds '{record.id}'")
+                raise BadInput(RECORD_OF_ANOTHER(id=record.id))
         except Missing:
             return None
         except (BadInput, orjson.JSONDecodeError) as error:

@@ -24,6 +24,7 @@ from mrlab_ros.adapters.trajectories.catalogue import Catalogue, changes_documen
 from mrlab_ros.core.errors import BadInput, LabError
 from mrlab_ros.core.trajectory import document
 from mrlab_ros.core.trajectory import record as records
+from mrlab_ros.core.trajectory.diagnostics import OVER_QUOTA, REMOVED_MEANWHILE
 from mrlab_ros.core.trajectory.names import TrajectoryName, checked_id, parse
 from mrlab_ros.core.trajectory.record import Record, Version
 from mrlab_ros.core.trajectory.trajectory import Trajectory
@@ -178,11 +179,7 @@ class CatalogueWriter(Catalogue):
     def _check_quota(self, owner: str, size: int) -> None:
         used = self.usage(owner) if owner and self.quota else 0
         if owner and self.quota and used + size > self.quota:
-            raise BadInput(
-                f"the trajectories of {owner} take {used / 1e6:.0f} MB and this one "
-                f"{size / 1e6:.1f} MB; expected at most {self.quota / 1e6:.0f} MB: delete what is "
-                "no longer used"
-            )
+            raise BadInput(OVER_QUOTA(owner=owner, used=used, size=size, limit=self.quota))
 
     def _change_existing(
         self, text: str, change: Callable[[Record], Record], *, deleted: bool = False
@@ -192,7 +189,7 @@ class CatalogueWriter(Catalogue):
 
         def changed(before: Record | None) -> Record:
             if before is None:
-                raise BadInput(f"'{record.id}' was removed meanwhile")
+                raise BadInput(REMOVED_MEANWHILE(id=record.id))
             return change(before)
 
         after: Record = self._change(name, changed)

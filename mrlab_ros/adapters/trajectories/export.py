@@ -17,8 +17,9 @@ from mrlab_ros.core.conversion.preview import Preview
 from mrlab_ros.core.design import JOINTS, SEVERITIES
 from mrlab_ros.core.errors import BadInput
 from mrlab_ros.core.foreign_text import visible
-from mrlab_ros.core.naming import did_you_mean
+from mrlab_ros.core.naming import close_to
 from mrlab_ros.core.robots.model import RobotModel
+from mrlab_ros.core.trajectory.diagnostics import NO_EXPORT_FORMAT
 from mrlab_ros.core.trajectory.trajectory import Array, Trajectory
 
 Writer = Callable[[Trajectory, Path], Path]
@@ -114,10 +115,8 @@ def path(name: str, trajectory_id: str, folder: Path) -> Path:
 def writer(name: str) -> Writer:
     """Return the writer of the format `name`; raise BadInput that lists the formats."""
     if name not in WRITERS:
-        raise BadInput(
-            f"'{name}' is no format that is written; there are: {', '.join(WRITERS)}"
-            f"{did_you_mean(name, WRITERS)}"
-        )
+        close = close_to(name, WRITERS)
+        raise BadInput(NO_EXPORT_FORMAT(format=name, known=list(WRITERS), close=close))
     return WRITERS[name]
 
 

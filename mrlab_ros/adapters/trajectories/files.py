@@ -17,6 +17,7 @@ from mrlab_ros.adapters.trajectories import npz_file
 from mrlab_ros.adapters.trajectories.npz_file import Damaged
 from mrlab_ros.adapters.whole_file import TEMPORARY, replaced
 from mrlab_ros.core.errors import BadInput
+from mrlab_ros.core.trajectory.diagnostics import NO_ROOM_FOR_COPY, VERSION_GONE, VERSION_REMOVED
 from mrlab_ros.core.trajectory.document import Frames
 from mrlab_ros.core.trajectory.record import Record, Version, head_of
 from mrlab_ros.core.trajectory.trajectory import Trajectory
@@ -49,10 +50,7 @@ class TrajectoryFiles:
         if path is not None:
             if path.is_file():
                 return path
-            raise BadInput(
-                f"the file of version {version.number} is gone from {self._store.place}; convert "
-                "the workspace again"
-            )
+            raise BadInput(VERSION_GONE(version=version.number, place=self._store.place))
         path = self._cached(version)
         with self._lock:
             lock = self._fetching.setdefault(version.key, threading.Lock())
@@ -104,9 +102,7 @@ class TrajectoryFiles:
         try:
             return read(self.path(version))
         except FileNotFoundError:
-            raise BadInput(
-                f"version {version.number} was removed meanwhile; ask for it again"
-            ) from None
+            raise BadInput(VERSION_REMOVED(version=version.number)) from None
 
     def _cached(self, version: Version) -> Path:
         return self._folder / f"{hashlib.sha256(version.key.encode()).hexdigest()}.npz"
@@ -117,14 +113,10 @@ class TrajectoryFiles:
             with replaced(path, 0o600) as file:
                 self._store.get_file(version.key, file)
         except Missing:
-            raise BadInput(
-                f"the file of version {version.number} is gone from {self._store.place}; convert "
-                "the workspace again"
-            ) from None
+            raise BadInput(VERSION_GONE(version=version.number, place=self._store.place)) from None
         except OSError as error:
-            raise StoreFailure(
-                f"a trajectory cannot be kept in {self._folder} ({error.strerror}); make room"
-            ) from None
+            why = NO_ROOM_FOR_COPY(folder=str(self._folder), error=error.strerror)
+            raise StoreFailure(why) from None
         self._make_room(path)
 
     def _make_room(self, keep: Path) -> None:

@@ -14,6 +14,7 @@ from ament_index_python.packages import PackageNotFoundError, get_package_share_
 from mrlab_ros.adapters.whole_file import replaced
 from mrlab_ros.core.errors import BadInput
 from mrlab_ros.core.trajectory import document as trajectory_document
+from mrlab_ros.core.trajectory.diagnostics import NOT_AS_SCHEMA, NOT_JSON
 from mrlab_ros.core.trajectory.trajectory import Trajectory
 
 SUFFIX = ".json"
@@ -66,11 +67,8 @@ def check(document: Any, name: str) -> None:
         sample = {**document, "frames": head}
     error = jsonschema.exceptions.best_match(schema().iter_errors(sample))
     if error is not None:
-        place = "/".join(str(p) for p in error.absolute_path) or "the whole document"
-        raise BadInput(
-            f"'{name}' is no trajectory file: at {place}, {error.message[:200]}; convert the "
-            "workspace again"
-        )
+        place = "/".join(str(p) for p in error.absolute_path)
+        raise BadInput(NOT_AS_SCHEMA(file=name, place=place, error=error.message[:200]))
 
 
 def parse(data: bytes, name: str) -> Trajectory:
@@ -78,7 +76,7 @@ def parse(data: bytes, name: str) -> Trajectory:
     try:
         document = orjson.loads(data)
     except orjson.JSONDecodeError as error:
-        raise BadInput(f"'{name}' is no JSON ({error}); convert the workspace again") from None
+        raise BadInput(NOT_JSON(file=name, error=str(error))) from None
     check(document, name)
     return trajectory_document.trajectory(document)
 

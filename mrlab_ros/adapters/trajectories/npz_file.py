@@ -22,6 +22,7 @@ from numpy.typing import NDArray
 
 from mrlab_ros.core.errors import BadInput
 from mrlab_ros.core.trajectory import document
+from mrlab_ros.core.trajectory.diagnostics import DAMAGED_TRAJECTORY, NEWER_FORMAT, NO_SUCH_FRAME
 from mrlab_ros.core.trajectory.document import Frames
 from mrlab_ros.core.trajectory.trajectory import Channels, Trajectory
 
@@ -86,10 +87,7 @@ class _Archive:
         """Return the metadata; raise BadInput where another version wrote the file."""
         head: dict[str, Any] = orjson.loads(self._zip.read(HEAD))
         if head["format"] != FORMAT:
-            raise BadInput(
-                f"trajectory '{head['id']}' is kept in format {head['format']}; this MR-Lab reads "
-                f"format {FORMAT}: update it, or convert the workspace again"
-            )
+            raise BadInput(NEWER_FORMAT(id=head["id"], found=head["format"], known=FORMAT))
         for name, kind in HEAD_TYPES.items():
             if not isinstance(head[name], kind):
                 raise TypeError(f"'{name}' in its {HEAD} is {head[name]!r}")
@@ -175,9 +173,7 @@ def _opened(path: Path) -> Iterator[tuple[_Archive, BinaryIO]]:
         except (BadInput, MemoryError):
             raise
         except Exception as error:  # zipfile, numpy and orjson raise many kinds
-            raise Damaged(
-                f"'{path.name}' is damaged ({error}); convert the workspace again"
-            ) from error
+            raise Damaged(DAMAGED_TRAJECTORY(file=path.name, error=str(error))) from error
 
 
 def read_head(path: Path) -> dict[str, Any]:
@@ -209,7 +205,7 @@ def read_frames(path: Path, begin: int, count: int, *, verified: bool = False) -
         head = archive.head()
         total = head["frame_count"]
         if not 0 <= begin < total:
-            raise BadInput(f"'{head['id']}' has no frame {begin}; expected 0 to {total - 1}")
+            raise BadInput(NO_SUCH_FRAME(id=head["id"], frame=begin, last=total - 1))
         end = min(total, begin + count) if count else total
         shapes = _shapes(head)
         if end - begin < total and not verified:

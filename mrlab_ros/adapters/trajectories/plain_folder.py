@@ -12,6 +12,7 @@ from mrlab_ros.adapters.trajectories.catalogue_writer import CatalogueWriter
 from mrlab_ros.adapters.trajectories.npz_file import Damaged
 from mrlab_ros.core.errors import BadInput
 from mrlab_ros.core.trajectory import document
+from mrlab_ros.core.trajectory.diagnostics import NAMED_OTHERWISE, NOT_A_TRAJECTORY_FILE
 from mrlab_ros.core.trajectory.names import ID
 
 JSON_SUFFIX = ".json"
@@ -44,20 +45,20 @@ def import_folder(
 
 def _take(path: Path, catalogue: CatalogueWriter) -> str:
     if not path.is_file():
-        what = "a folder" if path.is_dir() else "no file"
-        raise Damaged(f"'{path.name}' is {what}, not a trajectory")
+        found = "folder" if path.is_dir() else "none"
+        raise Damaged(NOT_A_TRAJECTORY_FILE(file=path.name, found=found))
     if path.suffix == JSON_SUFFIX:
         try:
             trajectory = json_file.parse(path.read_bytes(), path.name)
         except BadInput as error:
-            raise Damaged(str(error)) from None
+            raise Damaged(error.diagnostic) from None
         head = document.metadata(trajectory)
     else:
         trajectory = npz_file.read(path)
         head = npz_file.read_head(path)
     name = trajectory.id
     if name != path.stem or not ID.fullmatch(name):
-        raise BadInput(f"'{path.name}' holds the trajectory '{name}'; name it {name}{path.suffix}")
+        raise BadInput(NAMED_OTHERWISE(file=path.name, id=name, name=f"{name}{path.suffix}"))
     if not _is_there(head, catalogue):
         catalogue.save(trajectory)
     return name

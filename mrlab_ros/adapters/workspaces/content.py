@@ -13,9 +13,18 @@ from typing import Any
 
 import numpy as np
 
+from mrlab_ros.adapters.workspaces.diagnostics import (
+    FILE_CHANGED,
+    READERS_DISAGREE,
+    SECOND_READER_CRASHED,
+    TOO_LARGE,
+    TOO_SLOW,
+    UNREADABLE,
+)
 from mrlab_ros.adapters.workspaces.mat5 import INTEGERS
+from mrlab_ros.core.base.diagnostic import Diagnostic, from_plain
 from mrlab_ros.core.conversion.workspace import Variable, Workspace
-from mrlab_ros.core.diagnostics import Refused, finding
+from mrlab_ros.core.errors import BadInput
 
 BLOCK = 1 << 20
 # A matrix in the memory file of the first reading: path, shape, offset and numpy type.
@@ -33,17 +42,16 @@ def index(target: int) -> dict[str, Any]:
     return words
 
 
-def collect(target: int, name: str, again: Callable[[list[Place]], None]) -> Workspace:
-    """Return the workspace in the memory file `target`; raise Refused where it says why not.
+def collect(target: int, again: Callable[[list[Place]], None]) -> Workspace:
+    """Return the workspace in the memory file `target`; raise BadInput where it says why not.
 
     The numbers stay in the memory file, which lives as long as they do. again: reads the
-    matrices at some places with the second reader and raises Refused unless it finds the same
+    matrices at some places with the second reader and raises BadInput unless it finds the same
     bits.
     """
     words = index(target)
-    if "code" in words:
-        found = words["problem"]
-        raise Refused(finding(words["code"], file=name, problem=found, found=found))
+    if words.get("refused"):
+        raise BadInput(from_plain(words["refused"]))
     numbers = mmap.mmap(target, os.fstat(target).st_size, prot=mmap.PROT_READ)
     variables = tuple(_variable(numbers, *entry) for entry in words["variables"])
     confirm = _Confirmation(words["variables"], again)
@@ -82,38 +90,41 @@ def batches(places: list[Place]) -> Iterator[list[Place]]:
 
 
 def compare(status: int | None, target: int, name: str, places: list[Place], limit: float) -> None:
-    """Pass where the second reader found the same bits; raise Refused otherwise.
+    """Pass where the second reader found the same bits; raise BadInput otherwise.
 
     status: how its process ended, None past the time limit of `limit` s. target: its answer.
     """
     variable = places[0][0]
     if status is None or status == -signal.SIGALRM:
-        raise Refused(finding("too_slow", file=name, limit=limit))
+        raise BadInput(TOO_SLOW(file=name, limit=limit))
+    why: Diagnostic | None = None
     if status:
-        problem = f"the second reader crashed on it ({death(status)})"
+        why = SECOND_READER_CRASHED(**death(status))
     else:
         answer = index(target)
-        if answer.get("code") == "too_large":
-            raise Refused(finding("too_large", file=name, problem=answer["problem"]))
-        problem, variable = answer["problem"], answer.get("variable") or variable
-    if problem:
-        raise Refused(finding("readers_disagree", variable=variable, file=name, problem=problem))
+        variable = answer.get("variable") or variable
+        if answer["refused"]:
+            why = from_plain(answer["refused"])
+    if why is not None and why.code == TOO_LARGE.code:
+        raise BadInput(why)
+    if why is not None:
+        raise BadInput(READERS_DISAGREE(variable=variable, file=name, why=why))
 
 
-def death(status: int) -> str:
-    """Say how a process with this exit status ended."""
+def death(status: int) -> dict[str, Any]:
+    """Return how a process with this exit status ended, as the values of diagnostics.ENDED."""
     if status > 0:
-        return f"exit code {status}"
+        return {"exit": status}
     try:
-        return f"signal {-status}, {signal.strsignal(-status)}"
+        return {"signal": -status, "meaning": signal.strsignal(-status)}
     except ValueError:
-        return f"signal {-status}"
+        return {"signal": -status}
 
 
-def copied(source: int, most: int) -> int:
+def copied(source: int, most: int, name: str) -> int:
     """Copy a file into a memory file and return its descriptor.
 
-    Nobody else can change or shorten the copy. Raises ValueError where the file has more than
+    Nobody else can change or shorten the copy. Raises BadInput where the file has more than
     `most` bytes or changes its length meanwhile.
     """
     size = os.fstat(source).st_size
@@ -126,7 +137,7 @@ def copied(source: int, most: int) -> int:
                 break
             at += count
         if at != size or at > most:
-            raise ValueError("it was changed while it was read; save it completely, then retry")
+            raise BadInput(UNREADABLE(file=name, why=FILE_CHANGED()))
     except BaseException:
         os.close(copy)
         raise
@@ -160,4 +171,6 @@ def _variable(
             flat = flat.astype(np.float64)
         values = flat.reshape(tuple(shape), order="F")
     facts |= {name: tuple(facts[name]) for name in ("columns", "units")}
+    if isinstance(facts["note"], dict):
+        facts["note"] = from_plain(facts["note"])
     return Variable(path, kind, tuple(shape), values, **facts)

@@ -22,6 +22,7 @@ from mrlab_ros.adapters.workspaces.mat5 import (
     TooLarge,
 )
 from mrlab_ros.adapters.workspaces.sink import Found, Sink
+from mrlab_ros.core.conversion.diagnostics import SHORT_POINT
 from mrlab_ros.core.conversion.named_columns import GRIPPER
 from mrlab_ros.core.conversion.workspace import JOINT_TRAJECTORY
 from mrlab_ros.core.trajectory.trajectory import Trajectory
@@ -64,7 +65,7 @@ def read_bag(data: memoryview, form: str, sink: Sink, limit: int) -> None:
     form: mcap or sqlite3. A topic with several of them gives topic(1), topic(2) and so on.
     """
     if len(data) > limit:
-        raise TooLarge(f"a bag of {len(data) / 2**20:.0f} MiB, the limit is {limit / 2**20:.0f}")
+        raise TooLarge("bag", limit, len(data))
     from rosbags.rosbag2 import Reader
 
     types = _types()
@@ -83,7 +84,7 @@ def read_bag(data: memoryview, form: str, sink: Sink, limit: int) -> None:
     except Exception as error:
         # what damage makes the reader raise has no common base
         if form == "sqlite3":
-            raise NotAWorkspace(f"an SQLite database but no whole rosbag2 bag ({error})") from None
+            raise NotAWorkspace("sqlite", str(error)) from None
         raise Damaged(f"the bag cannot be read ({error})") from None
     for topic, messages in found.items():
         if not messages:
@@ -120,7 +121,7 @@ def _hand_over(path: str, data: bytes, types: Any, sink: Sink) -> None:
     shape = (len(points), len(names))
     for number, point in enumerate(points, 1):
         if len(point.positions) != len(names):
-            note = f"point {number} has {len(point.positions)} positions for {len(names)} joints"
+            note = SHORT_POINT(point=number, count=len(point.positions), joints=len(names))
             sink.add(Found(path, JOINT_TRAJECTORY, shape, note=note, columns=names))
             return
     # bytes in the order of MATLAB's columns

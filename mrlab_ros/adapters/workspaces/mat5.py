@@ -18,15 +18,19 @@ class Damaged(Exception):
 
 
 class NotATable(Damaged):
-    """A text is no table of numbers; the text of this says why."""
+    """A text is no table of numbers; its argument is the diagnostic that says why."""
 
 
 class NotAWorkspace(Exception):
-    """The bytes are something else, which the text names."""
+    """The bytes are something else: a form of diagnostics.UNSUPPORTED_FORMAT, and a detail."""
 
 
 class TooLarge(Exception):
-    """The bytes declare more than the limit; the text completes 'the file is too large: ...'."""
+    """The bytes declare more than the limit; see diagnostics.TOO_LARGE for `part`."""
+
+    def __init__(self, part: str, limit: float, size: float | None = None) -> None:
+        super().__init__(part, limit, size)
+        self.part, self.limit, self.size = part, limit, size
 
 
 # data types of the elements: numpy code of the numbers they hold
@@ -230,10 +234,7 @@ class Mat5Reader:
                 raise Damaged("a compressed variable ends inside its tag")
             kind, size = struct.unpack(self.order + "II", head)
             if size > self.limit:
-                raise TooLarge(
-                    f"a variable inflates to {size / 2**20:.0f} MiB, the limit is "
-                    f"{self.limit / 2**20:.0f} MiB"
-                )
+                raise TooLarge("variable", self.limit, size)
             inflated = inflater.decompress(inflater.unconsumed_tail, size) if size else b""
             if len(inflated) < size:
                 raise Damaged(
@@ -480,25 +481,25 @@ def read_mat4(data: memoryview, sink: Sink) -> None:
 
 ARCHIVE = b"PK\x03\x04"
 SIGNATURES: tuple[tuple[bytes, str], ...] = (
-    (ARCHIVE, "a ZIP archive (or an Office, .mlx or .slx file)"),
-    (b"\x93NUMPY", "a NumPy array (save it so: np.savez('traj.npz', q=q, fs=100))"),
-    (b"\x89PNG", "a PNG picture"),
-    (b"\xff\xd8\xff", "a JPEG picture"),
-    (b"GIF8", "a GIF picture"),
-    (b"%PDF", "a PDF document"),
-    (b"version https://git-lfs", "a Git LFS pointer: the file itself was not downloaded"),
-    (b"Octave-1-", "an Octave binary file"),
-    (b"7z\xbc\xaf", "a 7-Zip archive"),
-    (b"Rar!", "a RAR archive"),
-    (b"\x7fELF", "a program"),
-    (b"MZ", "a Windows program"),
+    (ARCHIVE, "zip"),
+    (b"\x93NUMPY", "numpy"),
+    (b"\x89PNG", "png"),
+    (b"\xff\xd8\xff", "jpeg"),
+    (b"GIF8", "gif"),
+    (b"%PDF", "pdf"),
+    (b"version https://git-lfs", "lfs"),
+    (b"Octave-1-", "octave"),
+    (b"7z\xbc\xaf", "seven_zip"),
+    (b"Rar!", "rar"),
+    (b"\x7fELF", "elf"),
+    (b"MZ", "exe"),
     (b"SQLite format 3", "sqlite3"),
-    (b"BZh", "a bzip2 archive"),
-    (b"\xfd7zXZ", "an xz archive"),
+    (b"BZh", "bzip"),
+    (b"\xfd7zXZ", "xz"),
     (b"\x89MCAP", "mcap"),
     (b"\x28\xb5\x2f\xfd", "zstd"),
 )
-SPREADSHEET = "a spreadsheet (save the sheet as CSV UTF-8 and convert that file)"
+SPREADSHEET = "spreadsheet"
 # A workbook's archive has one of these at its beginning or in the directory at its end.
 SPREADSHEET_ENTRIES = (b"xl/workbook.", b"application/vnd.oasis.opendocument.spreadsheet")
 ARCHIVE_END = 1 << 16
@@ -506,10 +507,11 @@ HDF5_SIGNATURE = b"\x89HDF\r\n\x1a\n"
 
 
 def recognise(data: memoryview) -> str:
-    """Return mat4, mat5, hdf5, gzip, zstd, mcap, sqlite3, or in words what else the bytes are."""
+    """Return mat4, mat5, hdf5, gzip, zstd, mcap, sqlite3, or what else the bytes are,
+    a form of diagnostics.UNSUPPORTED_FORMAT."""
     head = bytes(data[:4096])
     if not head:
-        return "an empty file"
+        return "empty"
     if head[:2] == b"\x1f\x8b":
         return "gzip"
     for offset in (0, 512, 1024, 2048):
@@ -518,10 +520,8 @@ def recognise(data: memoryview) -> str:
     if head[:6] == b"MATLAB" and len(head) >= 128:
         version = head[124:126] if head[126:128] == b"IM" else head[125:123:-1]
         if head[126:128] in (b"IM", b"MI"):
-            return {b"\x00\x01": "mat5"}.get(
-                version, f"a MAT file of the version {version.hex()}, which nobody knows"
-            )
-        return "a MATLAB file whose header is damaged"
+            return "mat5" if version == b"\x00\x01" else "version"
+        return "header"
     readable = b"\0" not in head[:4]  # else v4, by the format's definition
     if (
         readable
@@ -533,9 +533,9 @@ def recognise(data: memoryview) -> str:
         return "mat4"
     if head.startswith(ARCHIVE) and _is_spreadsheet(data):
         return SPREADSHEET
-    for signature, words in SIGNATURES:
+    for signature, form in SIGNATURES:
         if head.startswith(signature):
-            return words
+            return form
     return _text(head)
 
 
@@ -549,11 +549,11 @@ def _text(head: bytes) -> str:
     try:
         text = head.decode("utf-8", "strict" if len(head) < 4096 else "ignore").lstrip()
     except UnicodeDecodeError:
-        return "a file of an unknown kind"
+        return "unknown"
     if any(ord(c) < 32 and c not in "\t\r\n\f" for c in text):
-        return "a file of an unknown kind"
+        return "unknown"
     if "Created by Octave" in text[:200]:
-        return "an Octave text file (save it with: save -7 traj.mat q)"
+        return "octave"
     if text[:200].lower().startswith(("<!doctype html", "<html")):
-        return "a web page (was the download page saved instead of the file?)"
-    return "a text file"
+        return "html"
+    return "text"

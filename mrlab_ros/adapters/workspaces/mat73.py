@@ -36,7 +36,7 @@ def read_hdf5(file: Any, sink: Sink, limit: int) -> None:
     with _opened(file) as root:
         reader = _Reader(root, sink, limit)
         if any("OCTAVE_NEW_FORMAT" in root[name].attrs for name in reader.names(root)):
-            raise NotAWorkspace("an Octave HDF5 file (save it with: save -7 traj.mat q)")
+            raise NotAWorkspace("octave")
         for name in reader.names(root):
             reader.item(root[name], name, 0)
 
@@ -60,9 +60,7 @@ def values_of(item: Any, path: str, limit: int) -> Any:
     if not isinstance(item, h5py.Dataset) or item.is_virtual or item.external:
         raise Damaged(f"'{path}' takes its values from elsewhere; that is not followed")
     if item.nbytes > limit:
-        raise TooLarge(
-            f"'{path}' holds {item.nbytes / 2**20:.0f} MiB, the limit is {limit / 2**20:.0f} MiB"
-        )
+        raise TooLarge("variable", limit, item.nbytes)
     return item[()]
 
 

@@ -12,6 +12,12 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from mrlab_ros.adapters.workspaces.diagnostics import (
+    CATEGORIES,
+    ENUMERATION,
+    NUMBERS_DIFFER,
+    TOO_MANY_PARTS,
+)
 from mrlab_ros.adapters.workspaces.mat5 import DEEPEST, LONGEST_TEXT, index
 from mrlab_ros.adapters.workspaces.object_sinks import Digests, ObjectSink, WithinObjects, digest
 from mrlab_ros.adapters.workspaces.object_values import (
@@ -33,6 +39,7 @@ from mrlab_ros.adapters.workspaces.object_values import (
     unit_of,
 )
 from mrlab_ros.adapters.workspaces.sink import Found
+from mrlab_ros.core.conversion.workspace import shortened
 
 MOST_PARTS = 50_000  # properties, fields and cells that are visited in one file
 # seconds in a unit of time, as a timeseries names it
@@ -99,7 +106,7 @@ class Opener:
         try:
             self._walk(name, value, inside=False)
         except TooMany:
-            self.sink.add(Found(name, "object", (), note=f"it has more than {MOST_PARTS} parts"))
+            self.sink.add(Found(name, "object", (), note=TOO_MANY_PARTS(most=MOST_PARTS)))
 
     # every kind of value
 
@@ -169,9 +176,7 @@ class Opener:
                 facts["text"] = "true" if value.flat[0] else "false"
             self.sink.add(Found(path, name, shape, **facts))
         elif value not in self.known:
-            self.sink.add(
-                Found(path, name, shape, note="two readers find different numbers in it")
-            )
+            self.sink.add(Found(path, name, shape, note=NUMBERS_DIFFER()))
         else:
             self._numbers(path, name, value, **facts)
 
@@ -213,8 +218,8 @@ class Opener:
 
     def _enumeration(self, path: str, kind: str, stored: NDArray[Any]) -> None:
         names = stored[0, 0]["ValueNames"]
-        said = ", ".join(sorted({str(n) for n in np.ravel(names)})[:8])
-        self._opens(path, kind, shape_of(names), note=f"an enumeration: {said}")
+        said = shortened(sorted({str(n) for n in np.ravel(names)}))
+        self._opens(path, kind, shape_of(names), note=ENUMERATION(names=said))
 
     def _timeseries(self, path: str, properties: dict[str, Any], label: str) -> None:
         """Hand on `path.Data` with its samples as rows, and `path.Time` in s."""
@@ -385,8 +390,8 @@ class Opener:
         self._opens(path, "string", (1, len(strings)), text=only)
 
     def _categorical(self, path: str, properties: dict[str, Any], label: str) -> None:
-        said = ", ".join(texts(properties.get("categoryNames"))[:8])
-        self._opens(path, "categorical", shape_of(properties.get("codes")), note=f"one of {said}")
+        note = CATEGORIES(names=shortened(list(texts(properties.get("categoryNames")))))
+        self._opens(path, "categorical", shape_of(properties.get("codes")), note=note)
 
     def _map(self, path: str, properties: dict[str, Any], label: str) -> None:
         stored = struct(properties.get("serialization"))

@@ -16,12 +16,14 @@ import warnings
 from collections.abc import Callable
 from typing import Any
 
+from mrlab_ros.adapters.workspaces.diagnostics import OBJECT_UNREADABLE
 from mrlab_ros.adapters.workspaces.mat5 import Damaged, Mat5Reader, recognise
 from mrlab_ros.adapters.workspaces.mat73 import read_contents_of_objects
 from mrlab_ros.adapters.workspaces.object_classes import Opener
 from mrlab_ros.adapters.workspaces.object_sinks import Digests, ObjectSink
 from mrlab_ros.adapters.workspaces.sink import Found
 from mrlab_ros.adapters.workspaces.view import View
+from mrlab_ros.core.base.diagnostic import Diagnostic
 
 MISSING = (
     "the lab runs without the package mat-io, which opens it and needs Python 3.11 and numpy 2.2 "
@@ -68,13 +70,13 @@ def open_objects(
         return
     except Exception as error:
         # what damage makes mat-io raise has no common base
-        said = f"mat-io cannot read it ({type(error).__name__}: {error})"
+        said = OBJECT_UNREADABLE(error=f"{type(error).__name__}: {error}")
         _leave_closed(found, opener.opened if opener else set(), said)
         return
     _leave_closed(found, opener.opened, "")
 
 
-def _leave_closed(found: ObjectSink, opened: set[str], why: str) -> None:
+def _leave_closed(found: ObjectSink, opened: set[str], why: Diagnostic | str) -> None:
     for path, kind in found.closed.items():
         if path not in opened:
             found.sink.add(Found(path, kind, (), is_object=True, note=why))

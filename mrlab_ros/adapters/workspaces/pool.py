@@ -13,6 +13,7 @@ from concurrent.futures import Future
 from dataclasses import dataclass, field, replace
 from typing import Any
 
+from mrlab_ros.adapters.workspaces.diagnostics import WAITING_FILES
 from mrlab_ros.adapters.workspaces.reader import Limits, MiB, TooSlow, WorkspaceReader
 from mrlab_ros.core.errors import Misuse
 
@@ -76,10 +77,7 @@ class ConversionPool:
         with self._changed:
             waiting = sum(map(len, self._queues.values()))
             if waiting >= MOST_WAITING or (held and self._held + held > MOST_BYTES):
-                raise Misuse(
-                    f"{waiting} files with {self._held / MiB:.0f} MiB wait already; send this one "
-                    "again in a minute"
-                )
+                raise Misuse(WAITING_FILES(count=waiting, size=self._held))
             rank = time.monotonic() + size / BYTES_PER_S
             job = _Job(rank, next(self._numbers), work, size, held, Future())
             heapq.heappush(self._queues[quick], job)

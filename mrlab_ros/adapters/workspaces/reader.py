@@ -18,9 +18,17 @@ from typing import Any, BinaryIO, TypeVar
 
 from mrlab_ros.adapters.warm_process import WarmProcess
 from mrlab_ros.adapters.workspaces import content, results
+from mrlab_ros.adapters.workspaces.diagnostics import (
+    MISSING,
+    READER_DIED,
+    TOO_LARGE,
+    TOO_SLOW,
+    UNREADABLE,
+    UNSUPPORTED_FORMAT,
+)
 from mrlab_ros.core.conversion.options import MOST_ROWS
 from mrlab_ros.core.conversion.workspace import Workspace
-from mrlab_ros.core.diagnostics import Refused, finding
+from mrlab_ros.core.errors import BadInput
 
 Result = TypeVar("Result")
 MiB = 1 << 20
@@ -38,11 +46,11 @@ class Limits:
     rows: int = MOST_ROWS
 
 
-class TooSlow(Refused):
+class TooSlow(BadInput):
     """A file that was given up at the time limit."""
 
 
-class _Killed(Refused):
+class _Killed(BadInput):
     """A file whose process was killed from outside."""
 
 
@@ -80,7 +88,7 @@ class WorkspaceReader:
         self.close()
 
     def read_file(self, path: Path) -> Workspace:
-        """Read the file at `path`; raise Refused where it is not a whole, fitting workspace."""
+        """Read the file at `path`; raise BadInput where it is not a whole, fitting workspace."""
         with opened(path) as source:
             return self.read(source, path.name)
 
@@ -97,7 +105,7 @@ class WorkspaceReader:
             target = os.memfd_create("variables", os.MFD_CLOEXEC)
             try:
                 self._check_status(self._ask([source, target], name), name)
-                return content.collect(target, name, self._second(source, target, name))
+                return content.collect(target, self._second(source, target, name))
             finally:
                 os.close(target)
 
@@ -127,7 +135,7 @@ class WorkspaceReader:
 
         An accepted trajectory is written into `stored`, an empty file, as
         `adapters/trajectories/npz_file.py` writes it. Raises BadInput where the task is wrong, and
-        Refused where the file could not be read at all.
+        where the file could not be read at all.
         """
         self._check_size(source, task.file)
 
@@ -144,33 +152,30 @@ class WorkspaceReader:
                 try:
                     return results.parse(answer.read())
                 except (ValueError, TypeError, LookupError) as error:
-                    problem = f"its result cannot be read ({error!r})"
-                    raise Refused(
-                        finding("reader_died", file=task.file, problem=problem)
-                    ) from None
+                    raise BadInput(READER_DIED(file=task.file, error=repr(error))) from None
 
         return self._retried(attempt)
 
     def _check_size(self, source: int, name: str) -> None:
         size = os.fstat(source).st_size
         if size > self.limits.file_size:
-            problem = f"{size / MiB:.0f} MiB, the limit is {self.limits.file_size / MiB:.0f} MiB"
-            raise Refused(finding("too_large", file=name, problem=problem))
+            limit = self.limits.file_size
+            raise BadInput(TOO_LARGE(file=name, part="file", size=size, limit=limit))
 
     def _retried(self, attempt: Callable[[], Result]) -> Result:
         try:
             return attempt()
         except _Killed as killed:
             if self._closed:
-                raise Refused(killed.finding) from None
+                raise BadInput(killed.diagnostic) from None
             return attempt()
 
     def _check_status(self, status: int | None, name: str) -> None:
         if status is None or status == -signal.SIGALRM:
-            raise TooSlow(finding("too_slow", file=name, limit=self.limits.time))
+            raise TooSlow(TOO_SLOW(file=name, limit=self.limits.time))
         if status:
-            kind = _Killed if status == -signal.SIGKILL else Refused
-            raise kind(finding("reader_died", file=name, problem=content.death(status)))
+            kind = _Killed if status == -signal.SIGKILL else BadInput
+            raise kind(READER_DIED(file=name, **content.death(status)))
 
     def _ask(self, descriptors: list[int], name: str, **more: Any) -> int | None:
         """Return the exit status of the process that did a request, None past the time limit."""
@@ -184,20 +189,20 @@ class WorkspaceReader:
 
 @contextlib.contextmanager
 def opened(path: Path) -> Iterator[int]:
-    """Open the regular file at `path`; raise Refused where there is none."""
+    """Open the regular file at `path`; raise BadInput where there is none."""
     try:
         # a FIFO would wait for a writer that never comes
         source = os.open(path, os.O_RDONLY | os.O_CLOEXEC | os.O_NONBLOCK)
     except FileNotFoundError:
-        raise Refused(finding("missing", file=str(path))) from None
+        raise BadInput(MISSING(file=str(path))) from None
     except (OSError, ValueError) as error:
-        problem = getattr(error, "strerror", None) or str(error)
-        raise Refused(finding("unreadable", file=path.name, problem=problem)) from None
+        why = getattr(error, "strerror", None) or str(error)
+        raise BadInput(UNREADABLE(file=path.name, why=why)) from None
     try:
         mode = os.fstat(source).st_mode
         if not stat.S_ISREG(mode):
-            found = "a folder" if stat.S_ISDIR(mode) else "no ordinary file"
-            raise Refused(finding("unsupported_format", file=path.name, found=found))
+            form = "folder" if stat.S_ISDIR(mode) else "special"
+            raise BadInput(UNSUPPORTED_FORMAT(file=path.name, form=form))
         yield source
     finally:
         os.close(source)

@@ -16,13 +16,13 @@ from typing import Any, BinaryIO
 import numpy as np
 
 from mrlab_ros.adapters.trajectories import npz_file
+from mrlab_ros.adapters.workspaces.diagnostics import CONVERTER_FAILED, NO_ROOM, TOO_LARGE
 from mrlab_ros.core.base.diagnostic import Diagnostic, from_plain, plain
 from mrlab_ros.core.conversion.candidates import Candidate
 from mrlab_ros.core.conversion.convert import ConversionResult, Outcome, convert
 from mrlab_ros.core.conversion.options import MOST_ROWS, Options
 from mrlab_ros.core.conversion.preview import Preview
 from mrlab_ros.core.conversion.workspace import Workspace
-from mrlab_ros.core.diagnostics import finding
 from mrlab_ros.core.errors import BadInput
 from mrlab_ros.core.robots.model import RobotModel
 from mrlab_ros.core.trajectory.channels import ProxyCoefficients
@@ -32,7 +32,6 @@ from mrlab_ros.core.trajectory.document import metadata
 RECORDS: dict[str, type[Any]] = {
     kind.__name__: kind for kind in (ConversionResult, Candidate, Preview)
 }
-MEMORY = "converting it needs more than {:.0f} MiB"
 
 
 @dataclass(frozen=True)
@@ -57,12 +56,12 @@ class Task:
 class Converted:
     """What became of a file, without its frames.
 
-    result: as `convert` returns it, but its trajectory is None. message: one sentence for a
-    person. head: the metadata of the trajectory where the file was accepted, else None.
+    result: as `convert` returns it, but its trajectory is None. said: what a person is told first.
+    head: the metadata of the trajectory where the file was accepted, else None.
     """
 
     result: ConversionResult
-    message: str
+    said: Diagnostic
     head: dict[str, Any] | None = None
 
 
@@ -75,23 +74,23 @@ def run(
 ) -> bytes:
     """Convert, write an accepted trajectory into its file, and return the document.
 
-    memory: bytes that this process may use, for the sentence where they are not enough.
-    most_rows: a matrix with more samples is refused.
+    memory: bytes that this process may use, said where they are not enough. most_rows: a matrix
+    with more samples is refused.
     """
     try:
         result = converted(task, read, memory, most_rows)
         if result.trajectory is not None:
             npz_file.write(result.trajectory, trajectory)
     except BadInput as error:
-        return json.dumps({"bad_input": str(error)}).encode()
+        return json.dumps({"bad_input": plain(error)}).encode()
     except OSError as error:
-        words = f"the trajectory cannot be stored ({error.strerror}); make room on the disk"
-        return json.dumps({"bad_input": words}).encode()
+        why = NO_ROOM(file=task.file, error=error.strerror)
+        return json.dumps({"bad_input": plain(why)}).encode()
     except MemoryError:
         result = _too_large(task, memory)
     head = metadata(result.trajectory) if result.trajectory is not None else None
     small = replace(result, trajectory=None)
-    document = {"result": _plain(small), "message": result.message, "head": head}
+    document = {"result": _plain(small), "said": plain(result.said), "head": head}
     return json.dumps(document).encode()
 
 
@@ -124,22 +123,23 @@ def converted(
 
 
 def _too_large(task: Task, memory: int) -> ConversionResult:
-    problem = MEMORY.format(memory / 2**20)
-    return refused(task.file, finding("too_large", file=task.file, problem=problem))
+    why = TOO_LARGE(file=task.file, part="converting", limit=memory)
+    return refused(task.file, why)
 
 
 def parse(data: bytes) -> Converted:
     """Return what `run` wrote; raise BadInput where it says that the request was wrong."""
     document = json.loads(data)
     if "bad_input" in document:
-        raise BadInput(document["bad_input"])
-    return Converted(_record(document["result"]), document["message"], document["head"])
+        raise BadInput(from_plain(document["bad_input"]))
+    said = from_plain(document["said"])
+    return Converted(_record(document["result"]), said, document["head"])
 
 
 def unexpected(file: str, error: Exception) -> Diagnostic:
     """Return what is said of a file on which the converter itself fails."""
     said = f"{type(error).__name__}: {error}" if str(error) else type(error).__name__
-    return finding("converter_failed", file=file, problem=said)
+    return CONVERTER_FAILED(file=file, error=said)
 
 
 def refused(file: str, why: Diagnostic) -> ConversionResult:

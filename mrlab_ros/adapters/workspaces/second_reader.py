@@ -17,10 +17,16 @@ import h5py
 import numpy as np
 from numpy.typing import NDArray
 
+from mrlab_ros.adapters.workspaces.diagnostics import (
+    SECOND_CANNOT_READ,
+    SECOND_FINDS,
+    SECOND_FINDS_SIZE,
+    SECOND_FINDS_TYPE,
+)
 from mrlab_ros.adapters.workspaces.mat5 import recognise
 from mrlab_ros.adapters.workspaces.mat73 import values_of
 from mrlab_ros.adapters.workspaces.view import View
-from mrlab_ros.core.diagnostics import Refused, finding
+from mrlab_ros.core.base.diagnostic import Diagnostic
 
 STEP = re.compile(r"\.(?P<field>[^.({]+)|\((?P<element>[\d,]+)\)|\{(?P<cell>[\d,]+)\}")
 H5_FILE = "#file"  # no variable has this name
@@ -33,23 +39,13 @@ class _Opaque(Exception):
     """The path leads into a MATLAB object, whose contents `objects` has compared already."""
 
 
-def verify(data: memoryview, file: str, path: str, values: NDArray[Any]) -> None:
-    """Read the matrix at `path` again; raise Refused unless every bit of it is the same.
-
-    file: the file's name; the rest as in `disagreement`.
-    """
-    problem = disagreement(data, path, values)
-    if problem:
-        raise Refused(finding("readers_disagree", file=file, variable=path, problem=problem))
-
-
 def disagreement(
     data: memoryview,
     path: str,
     values: NDArray[Any],
     loaded: dict[str, Any] | None = None,
-) -> str:
-    """Read the matrix at `path` again; say what differs, or nothing.
+) -> Diagnostic | None:
+    """Read the matrix at `path` again; return what differs, or None.
 
     data: the whole file, not compressed with gzip. path: as the own reader gave it, such as
     `out.q.signals.values`. values: what the own reader found, of two dimensions or more, of
@@ -59,7 +55,7 @@ def disagreement(
     """
     form = recognise(data)
     if form not in ("mat4", "mat5", "hdf5"):
-        return ""
+        return None
     second = "h5py" if form == "hdf5" else "scipy"
     try:
         found = (
@@ -68,33 +64,36 @@ def disagreement(
             else _with_scipy(data, path, loaded)
         )
     except _Opaque:
-        return ""
+        return None
     except MemoryError:
         raise
     except Exception as error:
         # what damage makes the libraries raise has no common base
-        return f"{second} cannot read it ({error or type(error).__name__})"
-    problem = difference(values, found)
-    return f"{second} {problem}" if problem else ""
+        return SECOND_CANNOT_READ(reader=second, error=str(error) or type(error).__name__)
+    return difference(values, found, second)
 
 
-def difference(first: NDArray[Any], second: NDArray[Any]) -> str:
-    """Say how `second` differs from `first`, as a verb with its object; empty: it does not.
+def difference(first: NDArray[Any], second: NDArray[Any], reader: str) -> Diagnostic | None:
+    """Return how `second`, which `reader` found, differs from `first`; None: it does not.
 
     Both are compared as float64, bit for bit: a NaN equals itself, 0.0 does not equal -0.0.
     """
     if second.dtype.kind not in "fiu":
-        return f"finds values of the type {second.dtype}"
+        return SECOND_FINDS_TYPE(reader=reader, found=str(second.dtype))
     if first.shape != second.shape:
-        return f"finds {'x'.join(map(str, second.shape))} values"
+        return SECOND_FINDS_SIZE(reader=reader, size="x".join(map(str, second.shape)))
     count, place = _first_difference(first, second)
     if place is None:
-        return ""
-    names = ("row", "column", *("page" for _ in place[2:]))
-    where = ", ".join(f"{name} {n + 1}" for name, n in zip(names, place, strict=True))
-    return (
-        f"finds {float(second[place])!r} where {float(first[place])!r} was read "
-        f"({where}; {count} of {first.size} values differ)"
+        return None
+    return SECOND_FINDS(
+        reader=reader,
+        second=repr(float(second[place])),
+        first=repr(float(first[place])),
+        row=place[0] + 1,
+        column=place[1] + 1,
+        page=place[2] + 1 if len(place) > 2 else None,
+        count=count,
+        total=first.size,
     )
 
 

@@ -5,6 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Protocol
 
+from mrlab_ros.core.base.diagnostic import Diagnostic
+
 
 @dataclass(frozen=True, eq=False)
 class Found:
@@ -21,7 +23,7 @@ class Found:
     data: memoryview | bytes | None = None
     dtype: str = ""
     is_object: bool = False
-    note: str = ""
+    note: Diagnostic | str = ""
     columns: tuple[str, ...] = ()
     units: tuple[str, ...] = ()
     time: str = ""

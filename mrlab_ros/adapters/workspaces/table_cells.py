@@ -5,6 +5,7 @@ from __future__ import annotations
 import csv
 import re
 
+from mrlab_ros.adapters.workspaces.diagnostics import CELLS_UNREADABLE, NO_TEXT
 from mrlab_ros.adapters.workspaces.instants import is_instant
 from mrlab_ros.adapters.workspaces.mat5 import NotATable
 
@@ -18,7 +19,7 @@ def decoded(data: bytes) -> str:
         try:
             return data.decode("utf-16")
         except UnicodeDecodeError as error:
-            raise NotATable(f"byte {error.start} is not UTF-16 text") from None
+            raise NotATable(NO_TEXT(byte=error.start, encoding="UTF-16")) from None
     try:
         return data.decode("utf-8-sig")
     except UnicodeDecodeError as error:
@@ -28,7 +29,7 @@ def decoded(data: bytes) -> str:
             return data.decode("cp1252")
         except UnicodeDecodeError:
             pass
-    raise NotATable(f"byte {start} is not UTF-8 text")
+    raise NotATable(NO_TEXT(byte=start, encoding="UTF-8"))
 
 
 def separator_of(lines: list[str], asked: str) -> str | None:
@@ -53,7 +54,7 @@ def cells_of(line: str, separator: str | None) -> list[str]:
     try:
         row = next(csv.reader([line], delimiter=separator), [])
     except csv.Error as error:
-        raise NotATable(f"its first row cannot be read ({error})") from None
+        raise NotATable(CELLS_UNREADABLE(error=str(error))) from None
     return [cell.strip() for cell in row]
 
 

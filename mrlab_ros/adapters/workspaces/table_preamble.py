@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 from collections import Counter
 
+from mrlab_ros.adapters.workspaces.diagnostics import LABVIEW_SEGMENTS
 from mrlab_ros.adapters.workspaces.mat5 import NotATable
 from mrlab_ros.adapters.workspaces.table_cells import SEPARATORS, cells_of, is_number, is_value
 
@@ -23,10 +24,7 @@ def labview(lines: list[str], stated: dict[str, float]) -> tuple[int, str, list[
         return 0, "", []
     ends = [i for i, line in enumerate(lines) if line.startswith(END_OF_HEADER)]
     if len(ends) != 2:
-        raise NotATable(
-            f"its LabVIEW header ends {len(ends)} times where a file of one segment has 2; "
-            "export one segment"
-        )
+        raise NotATable(LABVIEW_SEGMENTS(count=len(ends)))
     units: list[str] = []
     separator = "\t"
     for line in lines[: ends[1]]:

@@ -10,6 +10,16 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from mrlab_ros.adapters.workspaces.diagnostics import (
+    CELLS_UNREADABLE,
+    COMMAS_TWICE,
+    EMPTY_CELLS,
+    LINES_DIFFER,
+    NO_NUMBERS,
+    TWO_DATES,
+    UNITS_UNKNOWN,
+    WRONG_CELL,
+)
 from mrlab_ros.adapters.workspaces.instants import is_day, is_instant, seconds
 from mrlab_ros.adapters.workspaces.mat5 import NotATable
 from mrlab_ros.adapters.workspaces.table_cells import (
@@ -83,7 +93,7 @@ def parsed(data: bytes) -> TextTable:
     if headed and headings[-1].lower() == LABVIEW_COMMENT:
         lines, headings = _without_comments(lines, separator, len(headings)), headings[:-1]
     if not any(line.strip() for line in lines):
-        raise NotATable("it holds no row of numbers")
+        raise NotATable(NO_NUMBERS())
     values, instants = _numbers(lines, separator, begin + 1, len(headings))
     if len(headings) != values.shape[1]:
         headings = []
@@ -109,7 +119,7 @@ def _with_units(headings: list[str], units: list[str]) -> list[str]:
     bare = [u.strip("[](){} ") for u in units]
     other = next((u for u in bare if u.lower() not in KNOWN_UNITS and not against(u)), None)
     if other is not None:
-        raise NotATable(f"its row of units has '{other}', which is no unit that is known here")
+        raise NotATable(UNITS_UNKNOWN(found=other))
     return [_with_unit(h, u) for h, u in zip(headings, bare, strict=True)]
 
 
@@ -160,7 +170,7 @@ def _numbers(
     for number, line in enumerate(lines, first_line):
         # loadtxt takes a line that begins with # for a comment.
         if error := SHEET_ERROR.match(line):
-            raise NotATable(f"line {number} has '{error[1]}' where a number is expected")
+            raise NotATable(WRONG_CELL(line=number, found=error[1], expected="number"))
     try:
         values = np.loadtxt(lines, delimiter=separator, ndmin=2, dtype=np.float64)
     except ValueError:
@@ -178,7 +188,7 @@ def _plain(
         try:
             rows = list(csv.reader(lines, delimiter=separator or " "))
         except csv.Error as error:
-            raise NotATable(f"its quoted cells cannot be read ({error})") from None
+            raise NotATable(CELLS_UNREADABLE(error=str(error))) from None
         lines, separator = ["\t".join(c.strip() for c in row) for row in rows], "\t"
     first = next((line for line in lines if line.strip()), "")
     columns = [i for i, c in enumerate(cells_of(first, separator)) if is_instant(c)]
@@ -187,7 +197,7 @@ def _plain(
     if not columns:
         return lines, separator, None
     if len(columns) > 1:
-        raise NotATable(f"it has dates in {len(columns)} columns; keep one of them")
+        raise NotATable(TWO_DATES(count=len(columns)))
     column = columns[0]
     rows = [cells_of(line, separator) if line.strip() else [] for line in lines]
     elapsed = iter(seconds([row[column] if column < len(row) else "" for row in rows if row]))
@@ -198,7 +208,7 @@ def _plain(
             if time is None:
                 wrong = row[column] if column < len(row) else ""
                 line = first_line + number
-                raise NotATable(f"line {line} has '{wrong[:40]}' where a date is expected")
+                raise NotATable(WRONG_CELL(line=line, found=wrong[:40], expected="date"))
             row[column] = repr(time)
         joined.append((separator or " ").join(row))
     return joined, separator, column
@@ -219,11 +229,7 @@ def _refuse_two_commas(lines: list[str], values: NDArray[Any], headings: int) ->
             return
         behind |= {len(c) for c in cells[1::2]}
     if headings or (len(behind) == 1 and min(behind) >= 2):
-        under = f" under {headings} headings" if headings else ""
-        raise NotATable(
-            f"commas are its decimal point and separate its columns as well: each row has {width} "
-            f"values{under}; export it with semicolons between the columns"
-        )
+        raise NotATable(COMMAS_TWICE(count=width, headings=headings or None))
 
 
 def _misfit(lines: list[str], separator: str | None, first_line: int) -> NotATable:
@@ -233,12 +239,12 @@ def _misfit(lines: list[str], separator: str | None, first_line: int) -> NotATab
         cells = [c.strip() for c in (line.split(separator) if separator else line.split())]
         if not any(cells):
             if line.strip():
-                return NotATable(f"line {number} has empty cells where numbers are expected")
+                return NotATable(EMPTY_CELLS(line=number))
             continue
         width = width or len(cells)
         wrong = next((c for c in cells if not is_number(c)), None)
         if wrong is not None:
-            return NotATable(f"line {number} has '{wrong[:40]}' where a number is expected")
+            return NotATable(WRONG_CELL(line=number, found=wrong[:40], expected="number"))
         if len(cells) != width:
-            return NotATable(f"line {number} has {len(cells)} values and the first {width}")
-    return NotATable("it holds no table of numbers")
+            return NotATable(LINES_DIFFER(line=number, count=len(cells), first=width))
+    return NotATable(NO_NUMBERS())

@@ -109,9 +109,7 @@ def read_npz(data: memoryview, sink: Sink, limit: int) -> None:
         with zipfile.ZipFile(io.BufferedReader(View(data))) as archive:
             for entry in archive.infolist():
                 if entry.file_size > limit:
-                    raise TooLarge(
-                        f"'{entry.filename}' inflates to {entry.file_size / 2**20:.0f} MiB"
-                    )
+                    raise TooLarge("variable", limit, entry.file_size)
                 with archive.open(entry) as file:
                     values = np.lib.format.read_array(file, allow_pickle=False)
                 _add(sink, entry.filename.removesuffix(".npy"), values)

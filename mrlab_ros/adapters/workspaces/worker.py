@@ -47,7 +47,7 @@ import numpy as np
 
 from mrlab_ros.adapters import wall
 from mrlab_ros.adapters.guarded_streams import guard
-from mrlab_ros.adapters.inflate import inflate_zstd
+from mrlab_ros.adapters.inflate import Incomplete, inflate_zstd
 from mrlab_ros.adapters.workspaces import (
     content,
     joint_trajectories,
@@ -57,14 +57,23 @@ from mrlab_ros.adapters.workspaces import (
     second_reader,
     tables,
 )
+from mrlab_ros.adapters.workspaces.diagnostics import (
+    BAD_TABLE,
+    NOT_INFLATED,
+    READER_FAILED,
+    TOO_LARGE,
+    UNREADABLE,
+    UNSUPPORTED_FORMAT,
+)
 from mrlab_ros.adapters.workspaces.mat73 import read_hdf5
 from mrlab_ros.adapters.workspaces.object_sinks import ObjectSink
 from mrlab_ros.adapters.workspaces.sink import Found, Sink
 from mrlab_ros.adapters.workspaces.view import View
+from mrlab_ros.core.base.diagnostic import Diagnostic, plain
 from mrlab_ros.core.conversion.dimensions import is_motion
 from mrlab_ros.core.conversion.options import Options
 from mrlab_ros.core.conversion.workspace import Workspace
-from mrlab_ros.core.diagnostics import Refused, finding
+from mrlab_ros.core.errors import BadInput
 from mrlab_ros.core.robots.kinematics import KinematicChain, Segment
 from mrlab_ros.core.robots.model import Joint, RobotModel
 from mrlab_ros.core.trajectory.channels import ProxyCoefficients
@@ -76,7 +85,7 @@ FACTS = ("note", "columns", "units", "time", "is_object", "label", "text")
 # how many bytes one byte of them can hold at most
 COMPRESSED = {"gzip": 1100, "zstd": 33_000}
 # what a table may look like before its rows are read
-TEXTS = ("a text file", "a file of an unknown kind")
+TEXTS = ("text", "unknown")
 # packages that readers of seldom files need, and the exit status that asks for the first of them
 SELDOM = ("matio", "rosbags")
 ASKED = 64
@@ -105,13 +114,13 @@ class OutputFile:
         offset = -1
         if data is not None and _is_kept(shape) and len(data):
             if self.at + len(data) > self.limit:
-                raise mat5.TooLarge(f"its matrices hold more than {self.limit / 2**20:.0f} MiB")
+                raise mat5.TooLarge("numbers", self.limit)
             offset = self.at
             self.file.write(data)
             padding = -len(data) % 8
             self.file.write(bytes(padding))
             self.at += len(data) + padding
-        facts = {name: getattr(found, name) for name in FACTS}
+        facts = {name: plain(getattr(found, name)) for name in FACTS}
         entry = [found.path, found.kind, shape, offset, found.dtype, found.within_object, facts]
         self.index.append(entry)
 
@@ -140,9 +149,11 @@ def inflate(data: memoryview, form: str, limit: int) -> memoryview:
             with gzip.open(View(data)) as file:
                 inflated = file.read(limit + 1)
     except (OSError, EOFError, zlib.error, ValueError) as error:
-        raise mat5.Damaged(f"the {form} file cannot be inflated ({error})") from error
+        raise mat5.Damaged(NOT_INFLATED(form=form, why=str(error))) from error
+    except Incomplete as error:
+        raise mat5.Damaged(NOT_INFLATED(form=form, why=error)) from error
     if inflated is None or len(inflated) > limit:
-        raise mat5.TooLarge(f"it inflates to more than {limit / 2**20:.0f} MiB")
+        raise mat5.TooLarge("inflated", limit)
     return memoryview(inflated)
 
 
@@ -196,11 +207,13 @@ def read(
     raise mat5.NotAWorkspace(form)
 
 
-def read_again(data: memoryview, numbers: mmap.mmap, places: list[list[Any]]) -> tuple[str, str]:
+def read_again(
+    data: memoryview, numbers: mmap.mmap, places: list[list[Any]]
+) -> tuple[str, Diagnostic | None]:
     """Compare matrices that were read before with what the second reader finds in their file.
 
     numbers: what `read` filled. places: path, shape, offset and numpy type of
-    each matrix. Returns the path of the first that differs and what differs, or nothing twice.
+    each matrix. Returns the path of the first that differs and what differs, or neither.
     """
     form = mat5.recognise(data)
     if form in COMPRESSED:
@@ -210,9 +223,9 @@ def read_again(data: memoryview, numbers: mmap.mmap, places: list[list[Any]]) ->
         flat = np.frombuffer(numbers, np.dtype(dtype), math.prod(shape), offset)
         values = flat.reshape(tuple(shape), order="F")
         problem = second_reader.disagreement(data, path, values, loaded)
-        if problem:
+        if problem is not None:
             return path, problem
-    return "", ""
+    return "", None
 
 
 def imported(module: str) -> None:
@@ -226,7 +239,7 @@ def serve(source: int, target: int, numbers: int | None, request: dict[str, Any]
 
     numbers: the memory file of the first reading, where one matrix is to be read again.
     """
-    memory = request["memory"]
+    memory, name = request["memory"], request["name"]
     sink = OutputFile(target, request["output"])
     # An inflated variable is held twice for a moment, while its blocks are joined.
     limit = int(memory / 2.5)
@@ -235,39 +248,43 @@ def serve(source: int, target: int, numbers: int | None, request: dict[str, Any]
         data = memoryview(mmap.mmap(source, size, prot=mmap.PROT_READ) if size else b"")
         if numbers is None:
             with wall.nothing_opens():
-                form = read(data, request["name"], sink, limit, imported)
+                form = read(data, name, sink, limit, imported)
             sink.finish(format=form, sha256=content.sha256(source))
         else:
             length = os.fstat(numbers).st_size
             found = mmap.mmap(numbers, length, prot=mmap.PROT_READ)
             with wall.nothing_opens():
                 path, problem = read_again(data, found, request["again"])
-            sink.finish(problem=problem, variable=path)
-    except mat5.NotAWorkspace as error:
-        sink.finish(code="unsupported_format", problem=str(error))
-    except mat5.NotATable as error:
-        sink.finish(code="bad_table", problem=str(error))
-    except mat5.Damaged as error:
-        sink.finish(code="unreadable", problem=str(error))
-    except mat5.TooLarge as error:
-        sink.finish(code="too_large", problem=str(error))
+            sink.finish(refused=plain(problem), variable=path)
     except MemoryError:
-        sink.finish(
-            code="too_large", problem=f"reading it needs more than {memory / 2**20:.0f} MiB"
-        )
+        sink.finish(refused=plain(TOO_LARGE(file=name, part="reading", limit=memory)))
     except Exception as error:
-        sink.finish(code="unreadable", problem=f"the reader failed on it ({error!r})")
+        sink.finish(refused=plain(_refusal(name, error)))
+
+
+def _refusal(name: str, error: Exception) -> Diagnostic:
+    """Return what is said of a file on which a reader raised an error."""
+    if isinstance(error, mat5.NotAWorkspace):
+        form, *details = error.args
+        return UNSUPPORTED_FORMAT(file=name, form=form, detail="".join(details))
+    if isinstance(error, mat5.NotATable):
+        return BAD_TABLE(file=name, why=error.args[0])
+    if isinstance(error, mat5.Damaged):
+        return UNREADABLE(file=name, why=error.args[0])
+    if isinstance(error, mat5.TooLarge):
+        return TOO_LARGE(file=name, part=error.part, limit=error.limit, size=error.size)
+    return UNREADABLE(file=name, why=READER_FAILED(error=repr(error)))
 
 
 def work(descriptors: list[int], request: dict[str, Any]) -> None:
     """Do what one request asks, in the forked process."""
     signal.setitimer(signal.ITIMER_REAL, request["time"])
     source, target = descriptors[:2]
-    problem = ""
+    changed: BadInput | None = None
     try:
-        copy = content.copied(source, request["file_size"])
-    except ValueError as error:
-        problem = str(error)
+        copy = content.copied(source, request["file_size"], request["name"])
+    except BadInput as error:
+        changed = error
     asked = _task(descriptors[2]) if len(descriptors) == 4 else None
     # the stored trajectory has three matrices for each one of the file
     wall.confine(
@@ -277,15 +294,15 @@ def work(descriptors: list[int], request: dict[str, Any]) -> None:
     )
     wall.shut()
     if asked is None:
-        if problem:
-            OutputFile(target, 0).finish(code="unreadable", problem=problem)
+        if changed is not None:
+            OutputFile(target, 0).finish(refused=plain(changed))
         else:
             serve(copy, target, next(iter(descriptors[2:]), None), request)
         return
 
     def found() -> Workspace:
-        if problem:
-            raise Refused(finding("unreadable", file=request["name"], problem=problem))
+        if changed is not None:
+            raise changed
         return workspace(copy, request)
 
     with os.fdopen(target, "wb") as reply, os.fdopen(descriptors[3], "wb") as trajectory:
@@ -301,7 +318,7 @@ def _task(descriptor: int) -> results.Task:
 
 
 def workspace(copy: int, request: dict[str, Any]) -> Workspace:
-    """Return what the file behind the descriptor `copy` holds; raise Refused where it is none.
+    """Return what the file behind the descriptor `copy` holds; raise BadInput where it is none.
 
     In a process that is walled off: the second reader runs in one of its own, the first in this
     one. request: memory, output: bytes; time: s; name of the file.
@@ -315,7 +332,7 @@ def workspace(copy: int, request: dict[str, Any]) -> Workspace:
 
     numbers = os.memfd_create("variables", os.MFD_CLOEXEC)
     serve(copy, os.dup(numbers), None, request)
-    found = content.collect(numbers, name, again)
+    found = content.collect(numbers, again)
     # the memory file goes with the last who may read it again
     weakref.finalize(found.confirm, os.close, numbers)
     return found
@@ -394,7 +411,7 @@ def warm_up() -> None:
 
         def found() -> Workspace:
             serve(source.fileno(), os.dup(numbers), None, request)
-            return content.collect(numbers, "q.mat", again)
+            return content.collect(numbers, again)
 
         results.run(task, found, 1 << 30, stored)
     os.close(numbers)

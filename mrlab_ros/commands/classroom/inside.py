@@ -14,8 +14,7 @@ from mrlab_ros.commands.convert.one_file import of_trajectory_file_here
 from mrlab_ros.core.conversion.convert import ConversionResult, id_from
 from mrlab_ros.core.conversion.options import DEFAULT_FRAME_RATE, Options
 from mrlab_ros.core.conversion.workspace import Workspace
-from mrlab_ros.core.diagnostics import Refused
-from mrlab_ros.core.errors import Misuse
+from mrlab_ros.core.errors import BadInput, Misuse
 from mrlab_ros.ros import share
 
 
@@ -60,11 +59,11 @@ class Inside:
         request = {**vars(limits), "name": file.name}
         try:
             with opened(file) as source:
-                copy = content.copied(source, limits.file_size)
+                copy = content.copied(source, limits.file_size, file.name)
 
                 def read() -> Workspace:
                     return worker.workspace(copy, request)
 
                 return converted(task, read, limits.memory, limits.rows)
-        except Refused as error:
-            return refused(file.name, error.finding)
+        except BadInput as error:
+            return refused(file.name, error.diagnostic)

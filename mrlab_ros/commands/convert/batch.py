@@ -19,10 +19,11 @@ from pathlib import Path
 import orjson
 from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn
 
-from mrlab_ros.adapters.nearby import like_file
+from mrlab_ros.adapters.nearby import close_file
 from mrlab_ros.adapters.robots.library import RobotLibrary
 from mrlab_ros.adapters.trajectories import export, npz_file
 from mrlab_ros.adapters.trajectories.coefficients import load_coefficients
+from mrlab_ros.adapters.workspaces.diagnostics import MISSING
 from mrlab_ros.adapters.workspaces.pool import ConversionPool
 from mrlab_ros.adapters.workspaces.reader import (
     Limits,
@@ -44,7 +45,6 @@ from mrlab_ros.core.conversion.convert import (
     id_from,
 )
 from mrlab_ros.core.conversion.options import DEFAULT_FRAME_RATE, Options
-from mrlab_ros.core.diagnostics import Refused
 from mrlab_ros.core.errors import BadInput, LabError, Misuse
 from mrlab_ros.core.foreign_text import file_name
 from mrlab_ros.core.robots.model import RobotModel
@@ -207,9 +207,7 @@ def convert_files(wanted: Sequence[Wanted]) -> list[ConversionResult]:
     for each in wanted:
         path = each.path
         if not path.is_file():
-            raise BadInput(
-                f"there is no file {path}; check the folder and the name{like_file(path)}"
-            )
+            raise BadInput(MISSING(file=str(path), close=close_file(path)))
         name = file_name(path.name)
         inputs.append(_input(path))
         tasks.append(
@@ -254,8 +252,8 @@ def _convert(source: Input, task: Task, path: Path, reader: WorkspaceReader) -> 
         return replace(converted.result, trajectory=npz_file.read(path))
     except TooSlow:
         raise  # the pool decides whether it has more time
-    except Refused as error:
-        return refused(task.file, error.finding)
+    except BadInput as error:
+        return refused(task.file, error.diagnostic)
     finally:
         path.unlink(missing_ok=True)
 
@@ -266,7 +264,7 @@ def _awaited(
     try:
         return source, task, future.result()
     except TooSlow as error:
-        return source, task, refused(task.file, error.finding)
+        return source, task, refused(task.file, error.diagnostic)
     except (BadInput, Misuse):
         raise
     except Exception as error:
@@ -331,7 +329,16 @@ def _inputs(request: Request) -> list[Input]:
 
 def _input(path: Path) -> Input:
     name = file_name(path.name)
-    return Input(str(path), name, name, partial(opened, path))
+    return Input(str(path), name, name, partial(_opened, path))
+
+
+@contextlib.contextmanager
+def _opened(path: Path) -> Iterator[int]:
+    """Open a file; where there is none, name the one that may have been meant."""
+    if not path.exists():
+        raise BadInput(MISSING(file=str(path), close=close_file(path)))
+    with opened(path) as source:
+        yield source
 
 
 def _files(given: Iterable[Path]) -> list[Path]:

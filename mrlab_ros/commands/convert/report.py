@@ -10,7 +10,6 @@ from typing import Any
 from rich.console import Console
 from rich.table import Table
 
-from mrlab_ros.adapters.nearby import like_file
 from mrlab_ros.commands import output
 from mrlab_ros.commands.convert.options import command_with
 from mrlab_ros.core.base.diagnostic import Diagnostic, plain
@@ -38,6 +37,7 @@ def record(given: str, result: ConversionResult, written: Path | None) -> dict[s
                 "shape": list(c.shape),
                 "score": c.score,
                 "why": c.why,
+                "reasons": plain(c.reasons),
                 "minimum": c.minimum,
                 "maximum": c.maximum,
                 "sparkline": c.sparkline(),
@@ -46,6 +46,7 @@ def record(given: str, result: ConversionResult, written: Path | None) -> dict[s
         ],
         "diagnostics": plain(result.diagnostics),
         "message": result.message,
+        "said": plain(result.said),
         "trajectory": str(written) if written else None,
     }
 
@@ -91,19 +92,13 @@ def show_findings(
         if following and _advice(following) == _advice(d):
             continue  # said once, below the last of them
         if d.remedy:
-            like = _like(d, words or [])
-            remedy = d.remedy.removesuffix(".") + like if like else d.remedy
-            console.print(f"      {visible(remedy)}")
+            console.print(f"      {visible(d.remedy)}")
         for fix in d.fixes if words else ():
+            if fix.command:
+                _say_next(console, f"mrlab {fix.command}")
             if fix.option:
                 command = command_with(words or [], options or Options(), fix.option, fix.value)
                 _say_next(console, command)
-
-
-def _like(d: Diagnostic, words: list[str]) -> str:
-    """Return which file may have been meant by the one of `words` that is missing."""
-    files = (Path(word) for word in words[2:]) if d.code == "missing" else ()
-    return next(filter(None, (like_file(file) for file in files if not file.exists())), "")
 
 
 def _advice(d: Diagnostic) -> tuple[str, str, list[tuple[str, str]]]:

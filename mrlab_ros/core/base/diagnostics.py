@@ -205,7 +205,7 @@ ILLEGAL_EVENT = Code(
     meaning="A command that the present state does not allow; nothing was changed.",
 )
 BAD_RATE = Code(
-    "bad_rate",
+    "bad_speed",
     "The rate is {rate:exact}; expected {low:exact} to {high:exact}, or -{low:exact} to "
     "-{high:exact} to play backwards; 1 is the declared speed.",
     meaning="A speed of playback that is out of range.",

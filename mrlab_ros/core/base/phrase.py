@@ -21,6 +21,7 @@ unit the value is stored and how it is shown, the same in terminal, page, room a
     {side:choice above=over|below=under}                    the text of one of the known words
     {why:problem}              another diagnostic, or what a library said
     {all:problems}             several of them, a line each
+    {all:reasons}              several of them in one sentence, parted by semicolons
 
 `[text {name} text]` is left out where one of its values is missing: None, "" or an empty list.
 `{{`, `}}`, `[[` and `]]` are the signs themselves. `web/src/words/phrase.ts` reads the same
@@ -212,6 +213,7 @@ QUANTITIES: dict[str, Callable[[Any, Sequence[str]], str]] = {
     "choice": _choice,
     "problem": lambda v, w: visible_lines(str(v)).rstrip("."),
     "problems": lambda v, w: "".join(f"\n  {visible_lines(str(each))}" for each in v),
+    "reasons": lambda v, w: "; ".join(visible_lines(str(each)).rstrip(".") for each in v),
     "measure": lambda v, w: _significant(v, 4, ""),
 }
 # The quantity of each unit that a value's `unit` may name.

@@ -7,6 +7,7 @@ from typing import Any
 
 from numpy.typing import NDArray
 
+from mrlab_ros.core.base.diagnostic import Diagnostic
 from mrlab_ros.core.conversion.candidates import Candidate
 from mrlab_ros.core.conversion.cartesian import PoseEvidence
 from mrlab_ros.core.conversion.clock_columns import ClockColumn
@@ -63,9 +64,9 @@ class Assessment:
     other_tool_path: tuple[str, PoseMatch] | None = None
     twin: str = ""
     copies: tuple[str, ...] = ()
-    objections: tuple[str, ...] = ()
-    doubts: tuple[str, ...] = ()
-    reasons: tuple[str, ...] = ()
+    objections: tuple[Diagnostic, ...] = ()
+    doubts: tuple[Diagnostic, ...] = ()
+    reasons: tuple[Diagnostic, ...] = ()
     points: float = 0.0
 
     @property
@@ -97,12 +98,11 @@ class Assessment:
 
     def candidate(self) -> Candidate:
         """Return what a person can choose."""
-        reasons = (*self.reasons, *self.doubts, *self.objections)
         return Candidate(
             self.path,
             self.variable.shape,
             self.score,
-            "; ".join(reasons),
+            (*self.reasons, *self.doubts, *self.objections),
             float(self.low.min()),
             float(self.high.max()),
             preview(self.variable),

@@ -6,6 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from mrlab_ros.core.base.diagnostic import Diagnostic
 from mrlab_ros.core.conversion.preview import Preview
 
 SPARKS = "▁▂▃▄▅▆▇█"
@@ -17,16 +18,21 @@ class Candidate:
     """A matrix that could be the joint positions.
 
     path: as MATLAB writes it. shape: as MATLAB's size() gives it. score: 0 to 1, larger is
-    likelier. minimum, maximum: in the matrix's own unit.
+    likelier. reasons: what speaks for and against it. minimum, maximum: in the matrix's own unit.
     """
 
     path: str
     shape: tuple[int, ...]
     score: float
-    why: str
+    reasons: tuple[Diagnostic, ...]
     minimum: float
     maximum: float
     preview: Preview
+
+    @property
+    def why(self) -> str:
+        """Return the reasons as one English text."""
+        return "; ".join(map(str, self.reasons))
 
     @property
     def size(self) -> str:

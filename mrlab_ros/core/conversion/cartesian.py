@@ -8,6 +8,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from mrlab_ros.core.base.diagnostic import Diagnostic
+from mrlab_ros.core.conversion.diagnostics import POSE_HINT, POSE_RANGES, QUATERNIONS
 from mrlab_ros.core.robots.model import RobotModel
 from mrlab_ros.core.trajectory.trajectory import Array
 
@@ -37,10 +39,10 @@ def is_transforms(values: NDArray[Any] | None) -> bool:
 
 @dataclass(frozen=True)
 class PoseEvidence:
-    """strong: these are poses. hints: what makes poses likely, in words. possible: in reach."""
+    """strong: why these are poses. hints: what makes poses likely. possible: in reach."""
 
-    strong: str = ""
-    hints: tuple[str, ...] = ()
+    strong: Diagnostic | None = None
+    hints: tuple[Diagnostic, ...] = ()
     possible: bool = False
 
 
@@ -53,23 +55,23 @@ def evidence(values: NDArray[Any], robot: RobotModel) -> PoseEvidence:
     point, rest = sample[:, :3], sample[:, 3:]
     largest_point = float(np.abs(point).max())
     if sample.shape[1] == 7 and _is_quaternion(rest):
-        return PoseEvidence("columns 4 to 7 are unit quaternions")
+        return PoseEvidence(QUATERNIONS())
     turn = rest[:, :3]
     largest_turn = float(np.abs(turn).max())
     within = robot.reach + TOOL
     limits = np.array([(j.lower, j.upper) for j in robot.joints])[:, :3] if robot.joints else None
     if limits is not None and largest_point > 4 * np.pi and sample.shape[1] == 6:
-        ranges = "columns 1 to 3 reach {:.4g} and columns 4 to 6 only {:.4g}"
+        ranges: dict[str, Any] = {"far": largest_point, "near": largest_turn}
         in_mm = bool((np.linalg.norm(point, axis=1) <= 1e3 * (within + 1)).all())
         # millimetres beside radians, or beside degrees that no joint would reach
         if largest_turn <= 2 * np.pi + 1e-3 and largest_point > 12 * largest_turn and in_mm:
-            return PoseEvidence(f"{ranges.format(largest_point, largest_turn)}: mm and rad")
+            return PoseEvidence(POSE_RANGES(angles="rad", **ranges))
         beyond = 1.2 * float(np.degrees(np.abs(limits).max()))
         if largest_turn <= 180.5 and largest_point > beyond and in_mm and largest_turn > 7:
-            return PoseEvidence(f"{ranges.format(largest_point, largest_turn)}: mm and degrees")
+            return PoseEvidence(POSE_RANGES(angles="deg", **ranges))
     if sample.shape[1] != 6 or not _in_reach(point, within):
         return PoseEvidence()
-    return PoseEvidence("", tuple(_hints(point, turn)), possible=True)
+    return PoseEvidence(None, tuple(_hints(point, turn)), possible=True)
 
 
 def _is_quaternion(rest: Array) -> bool:
@@ -90,7 +92,7 @@ def _in_reach(point: Array, within: float) -> bool:
     )
 
 
-def _hints(point: Array, turn: Array) -> list[str]:
+def _hints(point: Array, turn: Array) -> list[Diagnostic]:
     hints = []
     moves = np.ptp(point, axis=0) > STILL
     still = bool(np.ptp(turn, axis=0).max() <= STILL)
@@ -100,14 +102,14 @@ def _hints(point: Array, turn: Array) -> list[str]:
         (down.all(axis=0).sum() == 1 and np.median(np.abs(turn), axis=0).min() <= POINTING_DOWN)
         or (np.abs(length - np.pi).max() <= POINTING_DOWN and length.any())
     ):
-        hints.append("columns 4 to 6 are the orientation of a tool that points down")
+        hints.append("down")
     if moves.sum() >= 2 and still:
-        hints.append("columns 4 to 6 never change while columns 1 to 3 move")
+        hints.append("still")
     if moves.any() and _wraps(turn) and not _wraps(point):
-        hints.append("columns 4 to 6 jump between -pi and pi, as angles of an orientation do")
+        hints.append("wraps")
     if _is_circle(point):
-        hints.append("two of columns 1 to 3 run on a circle")
-    return hints
+        hints.append("circle")
+    return [POSE_HINT(hint=hint) for hint in hints]
 
 
 def _wraps(angles: Array) -> bool:

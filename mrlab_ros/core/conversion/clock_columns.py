@@ -8,6 +8,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from mrlab_ros.core.base.diagnostic import Diagnostic
+from mrlab_ros.core.conversion.diagnostics import CLOCK
 from mrlab_ros.core.conversion.time_vectors import (
     counts_rows,
     is_even,
@@ -35,7 +37,7 @@ class ClockColumn:
     certain: bool
     first: float
     last: float
-    why: str
+    why: Diagnostic
     likely: bool = True
 
 
@@ -75,31 +77,29 @@ def clocks_among(
         headed = time_column_names(variable, c)
         first, last = float(column[0]), float(column[-1])
         others = [i for i in range(columns) if i != c and moves[i]]
-        why = ""
+        why = None
         if headed:
-            why = f"its heading '{variable.columns[c]}' says time"
+            why = CLOCK(heading=variable.columns[c])
         else:
             # where most columns are ramps, each may be the time and none need be
             if not others or 2 * sum(i in steady for i in others) >= len(others):
                 continue
             twin = next((v for v in vectors.get(rows, ()) if _same_course(column, v)), None)
             if twin is not None:
-                why = f"it runs as '{twin.path}' does"
-        if why:
+                why = CLOCK(other=twin.path)
+        if why is not None:
             found.append(ClockColumn(c, True, first, last, why))
             continue
         largest = max(abs(first), abs(last))
         within = sum(max(abs(low[i]), abs(high[i])) <= BEYOND * farthest for i in others)
         if largest > BEYOND * farthest and within >= 0.7 * len(others):
-            why = "it rises steadily, farther than a joint turns"
-            found.append(ClockColumn(c, True, first, last, why))
+            found.append(ClockColumn(c, True, first, last, CLOCK(rises="far")))
         elif _begins_like_a_clock(column) and _is_round(column):
-            found.append(ClockColumn(c, False, first, last, "it rises steadily in round steps"))
+            found.append(ClockColumn(c, False, first, last, CLOCK(rises="round")))
         elif is_irregular(column):
-            why = "it rises in irregular steps, as recorded times do"
-            found.append(ClockColumn(c, False, first, last, why))
+            found.append(ClockColumn(c, False, first, last, CLOCK(rises="irregular")))
         elif is_even(column) and len(others) >= 2:
-            why = "it rises in equal steps throughout"
+            why = CLOCK(rises="even")
             found.append(ClockColumn(c, False, first, last, why, likely=False))
     return tuple(found)
 

@@ -26,7 +26,20 @@ from mrlab_ros.core.conversion import (
 )
 from mrlab_ros.core.conversion.assessment import Assessment
 from mrlab_ros.core.conversion.candidates import Candidate
-from mrlab_ros.core.conversion.explain import bad_message, contents
+from mrlab_ros.core.conversion.diagnostics import (
+    BAD_MESSAGE,
+    DOUBTFUL_VALUES,
+    LATE_POINT,
+    NO_TIMES,
+    RATE_DEFAULT,
+    REPEATED_PIECES,
+    RESAMPLED,
+    TOO_LONG,
+    TOO_MANY_ROWS,
+    TRAJECTORY_TAKEN,
+    WAYPOINTS,
+)
+from mrlab_ros.core.conversion.explain import contents
 from mrlab_ros.core.conversion.headings import split_tables
 from mrlab_ros.core.conversion.layout import Layout, lay_out
 from mrlab_ros.core.conversion.measuring import fits, is_coarse
@@ -36,8 +49,7 @@ from mrlab_ros.core.conversion.preview import Preview, preview
 from mrlab_ros.core.conversion.stated import with_headings, with_statements
 from mrlab_ros.core.conversion.survey import Survey, survey
 from mrlab_ros.core.conversion.workspace import Variable, Workspace
-from mrlab_ros.core.diagnostics import Refused, finding
-from mrlab_ros.core.foreign_text import visible
+from mrlab_ros.core.errors import BadInput
 from mrlab_ros.core.robots.model import RobotModel
 from mrlab_ros.core.trajectory import channels
 from mrlab_ros.core.trajectory.channels import ProxyCoefficients
@@ -74,18 +86,24 @@ class ConversionResult:
     preview: Preview | None = None
 
     @property
+    def said(self) -> Diagnostic:
+        """Return what a person is told first: that it was taken, or why not."""
+        t = self.trajectory
+        if t is None:
+            return self.diagnostics[0]
+        return TRAJECTORY_TAKEN(
+            variable=t.source.variable,
+            file=self.file,
+            frames=t.frame_count,
+            rate=t.frame_rate,
+            duration=t.duration,
+            warnings=len(t.warnings) or None,
+        )
+
+    @property
     def message(self) -> str:
-        """Return one sentence for a person."""
-        if self.trajectory is not None:
-            t, warned = self.trajectory, len(self.trajectory.warnings)
-            variable, file = visible(t.source.variable), visible(self.file)
-            return (
-                f"'{variable}' of '{file}' was taken: {t.frame_count} frames at "
-                f"{t.frame_rate:g} Hz, {t.duration:.2f} s"
-                + (f", with {limits.counted(warned, 'warning')}" if warned else "")
-            )
-        worst = self.diagnostics[0]
-        return f"{worst.message} {worst.remedy}".strip()
+        """Return the English text of what is said."""
+        return str(self.said)
 
 
 def id_from(file: str) -> str:
@@ -111,7 +129,7 @@ def convert(
 ) -> ConversionResult:
     """Convert what `read` returns, a file called `file`; a refusal is a result, not an exception.
 
-    read: returns the file's variables or raises Refused, as WorkspaceReader.read_file does.
+    read: returns the file's variables or raises BadInput, as WorkspaceReader.read_file does.
     trajectory_id: name in the catalogue, empty: from the file's name; raises BadInput where it
     cannot be a name. default_frame_rate: Hz, where neither the options nor the file have one.
     most_rows: a matrix with more samples is refused.
@@ -147,8 +165,8 @@ def convert(
             created_ns=created_ns,
             warnings=_worst_first([n for n in found.notes if n.severity is Severity.WARNING]),
         )
-    except Refused as refused:
-        found.notes.append(refused.finding)
+    except BadInput as refused:
+        found.notes.append(refused.diagnostic)
         notes = dimensions.with_lines(found.notes, found.squeezed)
         return _rejected(file, found.said(notes), found.variable)
     return ConversionResult(file, Outcome.ACCEPTED, trajectory, (), _worst_first(found.notes))
@@ -209,8 +227,8 @@ def _checked(
     workspace, wanted = _prepared(stored, options, robot, file)
     pieces = joining.expanded(options.join) if options.join else []
     if len(set(pieces)) < len(pieces):
-        why = f"{options.join} names a variable more than once"
-        notes.append(finding("doubtful_values", variable=options.join, why=why))
+        why = REPEATED_PIECES(join=options.join)
+        notes.append(DOUBTFUL_VALUES(variable=options.join, why=[why]))
     chosen, survey, offered = _find(workspace, wanted, options, robot, file, notes)
     if chosen is None:
         said = found.said(dimensions.with_lines(notes, squeezed))
@@ -221,8 +239,7 @@ def _checked(
     variable = found.variable = chosen.variable
     count = variable.shape[0] if variable.shape else 0
     if count > rows:
-        words: dict[str, Any] = {"rows": count, "most": rows}
-        raise Refused(finding("too_many_rows", variable=variable.path, **words))
+        raise BadInput(TOO_MANY_ROWS(variable=variable.path, rows=count, most=rows))
     sources = joining.sources(variable.path, options.join)
     for path in sources:
         matrix = stored.find(path)
@@ -338,7 +355,7 @@ def _at_a_rate(
     found = frame_rate.find(survey, assessment, variable.path, rows, layout.times, default, file)
     if not options.resample:
         notes += found.notes
-        assumed = any(n.code == "rate_default" for n in found.notes)
+        assumed = any(n.code == RATE_DEFAULT.code for n in found.notes)
         notes += _waypoints(
             variable.path, layout.arm, found.rate, timed=not assumed, assumed=assumed
         )
@@ -349,8 +366,7 @@ def _at_a_rate(
 def _too_long(path: str, *, duration: float, rate: float) -> Diagnostic:
     """Return what is said of rows that last too long for a rate: s, Hz."""
     lower = 0.99 * (MOST_FRAMES - 1) / duration
-    words: dict[str, Any] = {"duration": duration, "rate": rate, "lower": lower}
-    found = finding("too_long", variable=path, most=MOST_FRAMES, **words)
+    found = TOO_LONG(variable=path, most=MOST_FRAMES, duration=duration, rate=rate, lower=lower)
     # below that a gap is the fault, and no rate mends it
     return found if lower >= 1 else replace(found, fixes=())
 
@@ -369,12 +385,16 @@ def _waypoints(
     least = float(np.median(steps)) if rate > WAYPOINT_RATE else steps[worst]
     if least <= WAYPOINT_STEP:
         return []
-    place: dict[str, Any] = {"first_row": worst + 2, "last_row": worst + 2, "row": worst + 2}
-    numbers: dict[str, Any] = {"value": float(steps[worst]), "unit": "rad", "limit": WAYPOINT_STEP}
-    step = numbers["value"]
-    if not timed:
-        place["fixes"] = (Fix(matlab=TIMES_IN_MATLAB),)
-    return [finding("waypoints", variable=path, rate=rate, step=step, **place, **numbers)]
+    found = WAYPOINTS(
+        variable=path,
+        rate=rate,
+        value=float(steps[worst]),
+        unit="rad",
+        limit=WAYPOINT_STEP,
+        first_row=worst + 2,
+        last_row=worst + 2,
+    )
+    return [found if timed else replace(found, fixes=(Fix(matlab=TIMES_IN_MATLAB),))]
 
 
 def _made_even(
@@ -390,9 +410,9 @@ def _made_even(
     Waypoints become frames at the rate that was asked for, else at `default`, Hz.
     """
     clock = found.clock
-    if clock is None and any(n.code == "rate_default" for n in found.notes):
+    if clock is None and any(n.code == RATE_DEFAULT.code for n in found.notes):
         fixes = (Fix(matlab=TIMES_IN_MATLAB), Fix("resample", "", ""))
-        raise Refused(finding("no_times", variable=path, code=TIMES_IN_MATLAB, fixes=fixes))
+        raise BadInput(NO_TIMES(variable=path, fixes=fixes))
     if clock is None:
         times = np.arange(len(layout.arm)) / found.rate
         even = found.rate
@@ -400,7 +420,7 @@ def _made_even(
     else:
         flaws = rate_findings.flaws(clock)
         if clock.backward:
-            raise Refused(replace(flaws[0], severity=Severity.ERROR))
+            raise BadInput(replace(flaws[0], severity=Severity.ERROR))
         notes += [n for n in found.notes if n not in flaws and not n.code.startswith("time_")]
         times, even = clock.times, frame_rate.resampling_rate(clock)
     if even <= WAYPOINT_RATE:
@@ -412,9 +432,9 @@ def _made_even(
     frames = resampling.frame_count(times_ns, rate)
     words: dict[str, Any] = {"duration": float(times_ns[-1]) * 1e-9, "rate": rate}
     if frames > MOST_FRAMES:
-        raise Refused(_too_long(path, **words))
-    words |= {"points": len(times_ns), "frames": frames, "how": "straight lines"}
-    notes.append(finding("resampled", variable=path, **words))
+        raise BadInput(_too_long(path, **words))
+    words |= {"points": len(times_ns), "frames": frames, "curve": "lines"}
+    notes.append(RESAMPLED(variable=path, **words))
     arm = resampling.resample(times_ns, layout.arm[kept], None, rate)
     gripper = layout.gripper
     if gripper is not None:
@@ -441,14 +461,14 @@ def _resampled(
     late = np.flatnonzero(np.diff(times_ns) <= 0)
     if len(late):
         point = int(late[0]) + 2
-        note = f"point {point} ({times_ns[point - 1] * 1e-9:g} s) is not after the one before it"
-        raise Refused(bad_message(variable, note))
+        why = LATE_POINT(point=point, time=float(times_ns[point - 1]) * 1e-9)
+        raise BadInput(BAD_MESSAGE(variable=variable.path, why=why))
     velocities = _part(workspace, variable, "velocities")
     if velocities is not None:
         velocities = velocities[:, layout.source_columns].astype(np.float64)
         bad = limits.non_finite(velocities, f"{variable.path}.velocities")
         if bad is not None:
-            raise Refused(bad)
+            raise BadInput(bad)
         velocities *= layout.scale
     own = resampling.even_rate(times_ns) or 0.0
     kept = own if default <= own <= MOST_OWN_RATE else default
@@ -457,10 +477,10 @@ def _resampled(
     duration = float(times_ns[-1] - times_ns[0]) * 1e-9
     words: dict[str, Any] = {"duration": duration, "rate": rate}
     if frames > MOST_FRAMES:
-        raise Refused(_too_long(variable.path, **words))
-    how = "straight lines" if velocities is None else "cubic splines through their velocities"
-    words |= {"points": len(times_ns), "frames": frames, "how": how}
-    notes.append(finding("resampled", variable=variable.path, **words))
+        raise BadInput(_too_long(variable.path, **words))
+    curve = "lines" if velocities is None else "splines"
+    words |= {"points": len(times_ns), "frames": frames, "curve": curve}
+    notes.append(RESAMPLED(variable=variable.path, **words))
     arm = resampling.resample(times_ns, layout.arm, velocities, rate)
     gripper = layout.gripper
     if gripper is not None:

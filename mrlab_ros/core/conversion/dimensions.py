@@ -10,8 +10,8 @@ from typing import Any
 from numpy.typing import NDArray
 
 from mrlab_ros.core.base.diagnostic import Diagnostic
+from mrlab_ros.core.conversion.diagnostics import SQUEEZED
 from mrlab_ros.core.conversion.workspace import Variable, Workspace
-from mrlab_ros.core.diagnostics import finding
 from mrlab_ros.core.robots.model import RobotModel
 
 
@@ -66,7 +66,7 @@ def _matrix(values: NDArray[Any], widths: tuple[int, int]) -> tuple[NDArray[Any]
 
 def squeezed_finding(path: str, was: Squeezed, variable: Variable) -> Diagnostic:
     """Return the finding that says how an array was taken."""
-    return finding("squeezed", variable=path, size=was.size, taken=variable.size, line=was.line)
+    return SQUEEZED(variable=path, size=was.size, taken=variable.size, line=was.line)
 
 
 def with_lines(notes: list[Diagnostic], squeezed: dict[str, Squeezed]) -> list[Diagnostic]:

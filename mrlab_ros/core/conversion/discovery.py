@@ -5,8 +5,21 @@ from __future__ import annotations
 from mrlab_ros.core.base.diagnostic import Diagnostic, Fix
 from mrlab_ros.core.conversion import joining
 from mrlab_ros.core.conversion.assessment import Assessment
+from mrlab_ros.core.conversion.diagnostics import (
+    AMBIGUOUS,
+    COPIES,
+    DOUBTFUL_NAME,
+    DOUBTFUL_VALUES,
+    NEUTRAL_NAME,
+    OBJECT_IGNORED,
+    OTHER_CANDIDATES,
+    TOOL_PATH_DIFFERS,
+    TWIN,
+    UNKNOWN_VARIABLE,
+)
 from mrlab_ros.core.conversion.explain import (
     contents,
+    described,
     holds_samples,
     object_finding,
     refusal,
@@ -16,7 +29,7 @@ from mrlab_ros.core.conversion.scoring import FEW_ROWS
 from mrlab_ros.core.conversion.survey import Survey
 from mrlab_ros.core.conversion.variable_names import Hint
 from mrlab_ros.core.conversion.workspace import Variable, Workspace
-from mrlab_ros.core.diagnostics import Refused, finding
+from mrlab_ros.core.errors import BadInput
 
 # A score from which a matrix is taken or offered, and below which it is not even offered.
 PLAUSIBLE, CONCEIVABLE = 0.55, 0.25
@@ -48,19 +61,16 @@ def choose(
     if best is not None:
         same = [a.path for a in plausible if a.path in best.copies]
         if same:
-            names = ", ".join(f"'{path}'" for path in same[:5])
-            notes.append(finding("copies", variable=best.path, found=names))
+            notes.append(COPIES(variable=best.path, others=same[:5]))
         others = [a for a in plausible if a is not best and a.path not in same]
         if others:
-            names = ", ".join(f"'{a.path}'" for a in others[:5])
-            code = "twin" if best.twin in {a.path for a in others} else "other_candidates"
-            notes.append(
-                finding(code, variable=best.path, found=names, fixes=_choices(others[:5]))
-            )
+            code = TWIN if best.twin in {a.path for a in others} else OTHER_CANDIDATES
+            names = [a.path for a in others[:5]]
+            notes.append(code(variable=best.path, others=names, fixes=_choices(others[:5])))
         # functions hold no samples, so nothing is lost with them
         ignored = hidden or [v for v in objects if v.kind != "function_handle"]
         if ignored:
-            notes.append(object_finding("object_ignored", ignored, file))
+            notes.append(object_finding(OBJECT_IGNORED, ignored, file))
         notes += doubts(best, asked=asked)
         return best, [], notes
     if conceivable and not (hidden and not plausible):
@@ -102,8 +112,6 @@ def _rival(variable: Variable, best: Assessment, survey: Survey) -> bool:
 
 
 def _ambiguous(offered: list[Assessment], survey: Survey, file: str) -> Diagnostic:
-    listed = "; ".join(_described(a) for a in offered[:5])
-    count = f"{len(offered)} matrices" if len(offered) > 1 else "One matrix"
     fixes = _choices(offered)
     paths = {a.path for a in offered}
     for found in joining.series(survey.workspace, len(survey.robot.joints)):
@@ -112,19 +120,13 @@ def _ambiguous(offered: list[Assessment], survey: Survey, file: str) -> Diagnost
             line = f"q = [{'; '.join(found.paths[:8])}]; save('traj.mat', 'q')"
             fixes = (*fixes, Fix("join", found.text, line))
             break
-    return finding(
-        "ambiguous",
+    return AMBIGUOUS(
         file=file,
         variable=offered[0].path,
-        count=count,
-        found=listed,
+        count=len(offered),
+        candidates=[described(a, a.candidate().reasons) for a in offered[:5]],
         fixes=fixes,
     )
-
-
-def _described(a: Assessment) -> str:
-    candidate = a.candidate()
-    return f"'{a.path}' ({candidate.size}, {candidate.why})"
 
 
 def _choices(offered: list[Assessment]) -> tuple[Fix, ...]:
@@ -141,20 +143,17 @@ def doubts(chosen: Assessment, *, asked: bool) -> list[Diagnostic]:
     if asked:
         reasons = [*chosen.objections, *reasons]
         if name.hint in (Hint.AGAINST, Hint.DOUBTFUL) and not chosen.objections:
-            notes.append(finding("doubtful_name", variable=path, why=name.why))
+            notes.append(DOUBTFUL_NAME(variable=path, why=name.why))
     elif name.hint in (Hint.NEUTRAL, Hint.TWO_FACED) and not chosen.confirmed:
         fixes = (Fix("variable", path, saving(path)),)
-        notes.append(
-            finding("neutral_name", variable=path, why=name.why, seen=_seen(chosen), fixes=fixes)
-        )
+        seen = chosen.reasons[1:]
+        notes.append(NEUTRAL_NAME(variable=path, why=name.why, seen=seen, fixes=fixes))
     if reasons:
-        why = "; ".join(reasons)
-        notes.append(finding("doubtful_values", variable=path, why=why))
+        notes.append(DOUBTFUL_VALUES(variable=path, why=reasons))
     if chosen.other_tool_path is not None:
         other, match = chosen.other_tool_path
         notes.append(
-            finding(
-                "tool_path_differs",
+            TOOL_PATH_DIFFERS(
                 variable=path,
                 other=other,
                 value=match.error,
@@ -165,20 +164,13 @@ def doubts(chosen: Assessment, *, asked: bool) -> list[Diagnostic]:
     return notes
 
 
-def _seen(chosen: Assessment) -> str:
-    """Say what speaks for a matrix beside its name."""
-    return "; ".join(chosen.reasons[1:]) or "nothing speaks against it"
-
-
 def named(workspace: Workspace, path: str, file: str) -> Variable:
-    """Return the variable that was asked for; raise Refused with the names there are."""
+    """Return the variable that was asked for; raise BadInput with the names there are."""
     found = workspace.find(path)
     if found is None:
-        found_text = contents(workspace)
         fixes = tuple(Fix("variable", name) for name in _similar(workspace, path))
-        raise Refused(
-            finding("unknown_variable", file=file, variable=path, found=found_text, fixes=fixes)
-        )
+        held = contents(workspace)
+        raise BadInput(UNKNOWN_VARIABLE(file=file, variable=path, fixes=fixes, **held))
     return found
 
 

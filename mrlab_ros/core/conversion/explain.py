@@ -7,12 +7,32 @@ from typing import Any
 
 import numpy as np
 
-from mrlab_ros.core.base.diagnostic import MATLAB_PATH, Diagnostic, Fix
+from mrlab_ros.core.base.diagnostic import MATLAB_PATH, Code, Diagnostic, Fix
 from mrlab_ros.core.conversion import relations
 from mrlab_ros.core.conversion.assessment import Assessment, blocking_clocks
 from mrlab_ros.core.conversion.cartesian import is_transforms
 from mrlab_ros.core.conversion.clock_columns import ClockColumn, clocks_among
 from mrlab_ros.core.conversion.datevec import is_datevec
+from mrlab_ros.core.conversion.diagnostics import (
+    BAD_MESSAGE,
+    CANDIDATE,
+    EMPTY,
+    FUNCTION_HANDLE,
+    INSIDE_CONTAINER,
+    LOOKS_LIKE,
+    NEVER_FILLED,
+    NO_TRAJECTORY,
+    NOT_REAL,
+    RECORDED_STATES,
+    SINGLE_SAMPLE,
+    TIME_COLUMN,
+    TRANSFORMS,
+    TRANSPOSED,
+    UNKNOWN_CLASS,
+    UNSUPPORTED_OBJECT,
+    WRONG_CLASS,
+    WRONG_SHAPE,
+)
 from mrlab_ros.core.conversion.dimensions import page_line
 from mrlab_ros.core.conversion.gripper import has_states
 from mrlab_ros.core.conversion.joining import Series, series, unequal, unequal_series
@@ -21,8 +41,7 @@ from mrlab_ros.core.conversion.options import columns_text
 from mrlab_ros.core.conversion.scoring import FEW_ROWS
 from mrlab_ros.core.conversion.survey import Survey
 from mrlab_ros.core.conversion.variable_names import Hint
-from mrlab_ros.core.conversion.workspace import JOINT_STATE, Variable, Workspace
-from mrlab_ros.core.diagnostics import finding
+from mrlab_ros.core.conversion.workspace import JOINT_STATE, Variable, Workspace, shortened
 from mrlab_ros.core.robots.model import RobotModel
 
 OBJECT_CODE = {
@@ -38,9 +57,9 @@ OBJECT_CODE = {
     "'UniformOutput', false)); save('traj.mat', 'q', 't')",
 }
 OPENED = {*OBJECT_CODE, "containers.Map", "dictionary"} - {"function_handle"}
-WHY_CLOSED = {"function_handle": "a function holds no samples until it is called"}
 MOST_MISSES = 200
 MOST_SHOWN = 5
+MOST_LISTED, MOST_INSIDE = 12, 6
 
 
 def matlab_name(path: str) -> str:
@@ -64,18 +83,17 @@ def holds_samples(variable: Variable, hint: Hint) -> bool:
     )
 
 
-def object_finding(code: str, objects: list[Variable], file: str) -> Diagnostic:
+def object_finding(code: Code, objects: list[Variable], file: str) -> Diagnostic:
     """Return a finding that lists objects by name and class, with the MATLAB line for one."""
     ordered = sorted(objects, key=lambda v: (v.kind not in OBJECT_CODE, v.path))
-    listed = ", ".join(f"'{v.path}' ({v.kind})" for v in ordered[:6])
-    if len(ordered) > 6:
-        listed += f" and {len(ordered) - 6} more"
+    listed = shortened([f"{v.path} ({v.kind})" for v in ordered], MOST_INSIDE)
     first = ordered[0]
     line = OBJECT_CODE.get(first.kind, "q = ...; save('traj.mat', 'q')").format(
         name=matlab_name(first.path)
     )
-    why = first.note or WHY_CLOSED.get(first.kind, "only MATLAB knows this class")
-    return finding(code, variable=first.path, file=file, found=listed, code=line, why=why)
+    is_function = first.kind == "function_handle"
+    why = first.note or (FUNCTION_HANDLE() if is_function else UNKNOWN_CLASS())
+    return code(variable=first.path, file=file, objects=listed, line=line, why=why)
 
 
 def refusal(survey: Survey, file: str) -> Diagnostic:
@@ -114,7 +132,7 @@ def refusal(survey: Survey, file: str) -> Diagnostic:
     if named:
         return named[0]
     if opaque and (any(survey.name(v).hint is Hint.POSITIONS for v in opaque) or not misses):
-        return object_finding("unsupported_object", opaque, file)
+        return object_finding(UNSUPPORTED_OBJECT, opaque, file)
     if misses:
         return misses[0][1]
     states = _states(survey)
@@ -130,7 +148,8 @@ def refusal(survey: Survey, file: str) -> Diagnostic:
 
 
 def _recorded(variable: Variable, survey: Survey) -> Diagnostic:
-    return finding("recorded_states", variable=variable.path)
+    replay = Fix(command="replay BAG"), Fix(command="bag import BAG SESSION")
+    return RECORDED_STATES(variable=variable.path, fixes=replay)
 
 
 def _states(survey: Survey) -> Diagnostic | None:
@@ -148,14 +167,13 @@ def no_trajectory(survey: Survey, file: str) -> Diagnostic:
     """Return the finding that lists what is there and says what the matrices look like."""
     robot, joints = survey.robot, len(survey.robot.joints)
     others = [a for a in survey.fitting if a.finite][:MOST_SHOWN]
-    looks = "".join(f" '{a.path}' ({a.variable.size}): {_looks(a)}." for a in others)
-    return finding(
-        "no_trajectory",
+    return NO_TRAJECTORY(
         file=file,
         variable=others[0].path if others else "",
         robot=robot.id,
         joints=joints,
-        found=contents(survey.workspace) + looks,
+        looks=[described(a, _looks(a)) for a in others],
+        **contents(survey.workspace),
         fixes=tuple(_naming(a) for a in others) or (Fix(matlab="save('traj.mat', 'q')"),),
     )
 
@@ -170,42 +188,36 @@ def _naming(a: Assessment) -> Fix:
     return Fix("variable", a.path, saving(a.path))
 
 
-def _looks(a: Assessment) -> str:
-    """Say in words why a matrix that would fit was not taken."""
+def _looks(a: Assessment) -> tuple[Diagnostic, ...]:
+    """Return why a matrix that would fit was not taken."""
     if a.objections:
-        return a.objections[0]
-    return a.name.why if a.name.hint in (Hint.AGAINST, Hint.DOUBTFUL) else "; ".join(a.reasons)
+        return a.objections[:1]
+    return (a.name.why,) if a.name.hint in (Hint.AGAINST, Hint.DOUBTFUL) else a.reasons
 
 
-def contents(workspace: Workspace) -> str:
-    """Return a sentence that lists the variables of the file."""
+def described(a: Assessment, reasons: tuple[Diagnostic, ...]) -> Diagnostic:
+    """Return what is said of one matrix among others."""
+    return CANDIDATE(variable=a.path, size=a.variable.size, reasons=reasons)
+
+
+def contents(workspace: Workspace) -> dict[str, Any]:
+    """Return what the file holds, as the values of diagnostics.CONTENTS."""
     top = [v for v in workspace.variables if v.is_message or not re.search(r"[.({]", v.path)]
-    if not top:
-        return "It holds no variable at all."
-    listed = ", ".join(f"{v.path} ({' '.join(filter(None, (v.size, v.kind)))})" for v in top[:12])
-    more = f" and {len(top) - 12} more" if len(top) > 12 else ""
-    return f"It holds: {listed}{more}.{_within_objects(workspace, top[:12])}"
-
-
-def _within_objects(workspace: Workspace, top: list[Variable]) -> str:
-    """Return a sentence that names matrices inside the objects among `top`, or nothing."""
+    listed = top[:MOST_LISTED]
     opened = tuple(
-        v.path for v in top if v.values is None and not v.is_object and v.kind in OPENED
+        v.path for v in listed if v.values is None and not v.is_object and v.kind in OPENED
     )
     inside = [
-        v
+        f"{v.path} ({v.size})"
         for v in workspace.variables
         if v.values is not None and v.values.size > 1 and v.path.startswith(opened)
     ]
-    if not opened or not inside:
-        return ""
-    listed = ", ".join(f"{v.path} ({v.size})" for v in inside[:6])
-    return f" Inside: {listed}{' and more' if len(inside) > 6 else ''}."
-
-
-def bad_message(variable: Variable, problem: str) -> Diagnostic:
-    """Return the finding for a JointTrajectory that contradicts itself."""
-    return finding("bad_message", variable=variable.path, problem=problem)
+    return {
+        "count": len(top),
+        "held": [f"{v.path} ({' '.join(filter(None, (v.size, v.kind)))})" for v in listed],
+        "more": len(top) - len(listed) or None,
+        "inside": shortened(inside, MOST_INSIDE) if opened else [],
+    }
 
 
 def near_miss(variable: Variable, survey: Survey) -> Diagnostic | None:
@@ -214,18 +226,10 @@ def near_miss(variable: Variable, survey: Survey) -> Diagnostic | None:
     joints = len(robot.joints)
     widths = (joints, joints + 1)
     shape, path = variable.shape, variable.path
-    words: dict[str, Any] = {
-        "variable": path,
-        "name": matlab_name(path),
-        "size": variable.size,
-        "robot": robot.id,
-        "joints": joints,
-        "more": joints + 1,
-        "pick": "",
-    }
+    sized: dict[str, Any] = {"variable": path, "size": variable.size}
     named = survey.name(variable).hint is Hint.POSITIONS
     if variable.is_message and variable.note:
-        return bad_message(variable, variable.note)
+        return BAD_MESSAGE(variable=path, why=variable.note)
     if variable.kind == JOINT_STATE:
         return _recorded(variable, survey)
     if variable.values is not None and (wrong := misnamed(variable, robot)) is not None:
@@ -235,21 +239,22 @@ def near_miss(variable: Variable, survey: Survey) -> Diagnostic | None:
     if variable.values is None and variable.kind in OPENED:
         return None
     if len(shape) > 2:
-        return _many_dimensions(variable, words, joints)
+        return _many_dimensions(variable, robot)
     if 0 in shape:
-        return finding("empty", **words) if max(shape) in (0, *widths) else None
+        return EMPTY(**sized) if max(shape) in (0, *widths) else None
     matching = shape[1] in widths or shape[0] in widths
     if matching and max(shape) > 1 and variable.note == "complex":
-        return finding("not_real", **words)
+        return NOT_REAL(variable=path)
     if variable.values is None:
         if matching and min(shape) > 1:
-            fix = "full" if variable.kind == "sparse" else "double"
-            return finding("wrong_class", **words, kind=variable.kind, fix=fix)
+            made, name = "full" if variable.kind == "sparse" else "double", matlab_name(path)
+            fix = Fix(matlab=f"{name} = {made}({name});")
+            return WRONG_CLASS(variable=path, kind=variable.kind, fixes=(fix,))
         return None
     if min(shape) == 1:
         if max(shape) in widths:
-            return finding("single_sample", **words)
-        return _too_narrow(words, 1) if named and max(shape) > 1 else None
+            return SINGLE_SAMPLE(**sized)
+        return wrong_shape(variable, robot) if named and max(shape) > 1 else None
     if shape[1] in widths and shape[0] >= 2:
         a = survey.of(variable)
         clocks = blocking_clocks(a, robot)
@@ -258,15 +263,14 @@ def near_miss(variable: Variable, survey: Survey) -> Diagnostic | None:
         return _looks_like(a) if a.objections and a.name.hint is not Hint.AGAINST else None
     flipped = Variable(path, variable.kind, shape[::-1], variable.values.T)
     long_enough = shape[1] >= FEW_ROWS or named
-    if shape[1] not in widths and shape[0] in widths and long_enough:
-        extra = clocks_of(flipped, survey)
-        time = f" Row {extra[0].index + 1} is time." if extra else ""
-        return finding("transposed", **words, time=time)
-    if shape[1] not in widths and shape[0] == joints + 2 and clocks_of(flipped, survey):
-        return finding("transposed", **words, time=" One of its rows is time.")
+    if shape[1] not in widths and shape[0] in (*widths, joints + 2):
+        clocks = clocks_of(flipped, survey)
+        if long_enough if shape[0] in widths else clocks:
+            row = clocks[0].index + 1 if clocks else None
+            return TRANSPOSED(robot=robot.id, time_row=row, **sized)
     plausible = 3 <= shape[1] <= 64 and shape[0] >= FEW_ROWS
     if shape[0] > shape[1] and (named or plausible):
-        return wide(variable, survey, words)
+        return wide(variable, survey)
     return None
 
 
@@ -297,32 +301,29 @@ def time_finding(
         fixes = (
             Fix("columns", text, f"q = {name}(:, {text}); t = {name}(:, {clock.index + 1});"),
         )
-        rest = f"Columns {text} are the joints."
+        rest: dict[str, Any] = {"columns": text}
     else:
-        rest = f"Only {len(left)} columns are left, and {robot.id} has {joints} joints."
+        rest = {"left": len(left), "robot": robot.id, "joints": joints}
         fixes = (
             Fix(matlab=f"t = {name}(:, {clock.index + 1}); {name}(:, {clock.index + 1}) = [];"),
         )
-    return finding(
-        "time_column",
+    return TIME_COLUMN(
         variable=variable.path,
-        where=f"column {clock.index + 1}",
         first_row=1,
         last_row=variable.shape[0],
         column=clock.index + 1,
         first=clock.first,
         last=clock.last,
         why=clock.why,
-        rest=rest,
         fixes=fixes,
+        **rest,
     )
 
 
 def _looks_like(a: Assessment) -> Diagnostic:
     if not (a.low.any() or a.high.any()):
-        return finding("never_filled", variable=a.path, size=a.variable.size, last_row=a.rows)
-    return finding(
-        "looks_like",
+        return NEVER_FILLED(variable=a.path, size=a.variable.size, last_row=a.rows)
+    return LOOKS_LIKE(
         variable=a.path,
         size=a.variable.size,
         why=a.objections[0],
@@ -336,8 +337,8 @@ def _look(path: str) -> str:
     return f"plot3({name}(:, 1), {name}(:, 2), {name}(:, 3))"
 
 
-def _many_dimensions(variable: Variable, words: dict[str, Any], joints: int) -> Diagnostic | None:
-    shape, name = variable.shape, words["name"]
+def _many_dimensions(variable: Variable, robot: RobotModel) -> Diagnostic | None:
+    shape, name, joints = variable.shape, matlab_name(variable.path), len(robot.joints)
     if is_transforms(variable.values):
         return _transforms(variable)
     long = [n for n in shape if n > 1]
@@ -345,21 +346,22 @@ def _many_dimensions(variable: Variable, words: dict[str, Any], joints: int) -> 
     if joints not in shape and joints + 1 not in shape:
         return None
     line = page_line(shape, name, joints) if len(long) > 2 else f"q = squeeze({name}){flip};"
-    hint = f" It has {len(shape)} dimensions: in MATLAB {line}"
-    return finding("wrong_shape", **words, hint=hint, fixes=(Fix(matlab=line),))
+    fixes = (Fix(matlab=line),)
+    return wrong_shape(variable, robot, dimensions=len(shape), line=line, fixes=fixes)
 
 
 def _transforms(variable: Variable) -> Diagnostic:
-    return finding("transforms", variable=variable.path, size=variable.size)
+    return TRANSFORMS(variable=variable.path, size=variable.size)
 
 
-def _too_narrow(words: dict[str, Any], columns: int, hint: str = "") -> Diagnostic:
-    if columns > 1:
-        hint += f" A robot of {columns} joints may be meant."
-    return finding("wrong_shape", **words, hint=hint)
+def wrong_shape(variable: Variable, robot: RobotModel, **hints: Any) -> Diagnostic:
+    """Return the finding of a matrix that does not fit the robot."""
+    joints = len(robot.joints)
+    words = {"size": variable.size, "robot": robot.id, "joints": joints, "more": joints + 1}
+    return WRONG_SHAPE(variable=variable.path, **{**words, **hints})
 
 
-def wide(variable: Variable, survey: Survey, words: dict[str, Any]) -> Diagnostic:
+def wide(variable: Variable, survey: Survey) -> Diagnostic:
     """Return the finding of a matrix with too many columns, or too few, with those to take."""
     joints = len(survey.robot.joints)
     clocks = clocks_of(variable, survey)
@@ -368,25 +370,17 @@ def wide(variable: Variable, survey: Survey, words: dict[str, Any]) -> Diagnosti
     if dated:
         taken |= set(range(6))
     left = [c for c in range(variable.shape[1]) if c not in taken]
-    hint = " Columns 1 to 6 are dates." if dated else ""
+    hints: dict[str, Any] = {"dates": 6} if dated else {}
     if clocks:
-        hint = f" Column {clocks[0].index + 1} looks like time, {len(left)} columns follow."
-        if clocks[0].index:
-            hint = f" Column {clocks[0].index + 1} looks like time, beside {len(left)} others."
+        hints = {"time_column": clocks[0].index + 1, "beside": len(left)}
     if len(left) < joints:
-        return _too_narrow(words, len(left), hint)
+        meant = len(left) if len(left) > 1 else None
+        return wrong_shape(variable, survey.robot, meant=meant, **hints)
     block = _block_of_joints(variable, left, survey)
     text = columns_text(block)
-    hint += f" Columns {text} may be the joints."
-    name = words["name"]
-    fixes = (Fix("columns", text, f"q = {name}(:, {text}); save('traj.mat', 'q')"),)
-    pick = f", or pick columns: --columns {quoted(text)}"
-    return finding("wrong_shape", **words | {"pick": pick}, hint=hint, fixes=fixes)
-
-
-def quoted(text: str) -> str:
-    """Return an option's value as a shell takes it."""
-    return f"'{text}'" if " " in text else text
+    line = f"q = {matlab_name(variable.path)}(:, {text}); save('traj.mat', 'q')"
+    fixes = (Fix("columns", text, line),)
+    return wrong_shape(variable, survey.robot, columns=text, fixes=fixes, **hints)
 
 
 def _block_of_joints(variable: Variable, left: list[int], survey: Survey) -> list[int]:
@@ -435,25 +429,23 @@ def _in_pieces(found: Series, workspace: Workspace) -> Diagnostic:
     if found.beside:
         flip = ".'" if row else ""
         code = f"q = {'vertcat' if row else 'horzcat'}({one_by_one}){flip};"
-        kind = f"each joint is a variable of its own, '{paths[0]}' to '{paths[-1]}'"
+        pieces = "joints"
     else:
         down = row or (first.shape[0] != 1 and min(first.shape) > 1)
         flip = "" if down else ".'"
         code = f"q = {'vertcat' if down else 'horzcat'}({one_by_one}){flip};"
-        what = "segments" if min(first.shape) > 1 else "samples, one by one,"
-        kind = f"it is kept in {what} as '{paths[0]}' to '{paths[-1]}'"
+        pieces = "segments" if min(first.shape) > 1 else "samples"
     code += " save('traj.mat', 'q')"
     fixes = (Fix("join", found.text, code),)
     if workspace.omitted:
         # joining what is listed would leave the end of the motion out
-        kind += f", and {workspace.omitted} more that are too many to list"
         fixes = (Fix(matlab=code),)
-    return finding(
-        "inside_container",
+    return INSIDE_CONTAINER(
         variable=paths[0],
-        found=kind,
-        join=found.text,
-        code=code,
+        last=paths[-1],
+        pieces=pieces,
+        more=workspace.omitted or None,
+        line=code,
         value=float(len(paths)),
         fixes=fixes,
     )

@@ -16,12 +16,18 @@ from numpy.typing import NDArray
 from mrlab_ros.core.base.diagnostic import Diagnostic
 from mrlab_ros.core.conversion import rate_findings, rate_scalars
 from mrlab_ros.core.conversion.assessment import Assessment
+from mrlab_ros.core.conversion.diagnostics import (
+    RATE_DEFAULT,
+    RATE_FOUND,
+    RATE_OF_VELOCITY,
+    RATE_UNCLEAR,
+    TIME_UNIT,
+)
 from mrlab_ros.core.conversion.joining import first_path
 from mrlab_ros.core.conversion.rate_scalars import Scalar
 from mrlab_ros.core.conversion.survey import Survey
 from mrlab_ros.core.conversion.time_vectors import (
     PATH_PARAMETERS,
-    UNIT_NAMES,
     Clock,
     clock_of,
     counts_rows,
@@ -31,7 +37,6 @@ from mrlab_ros.core.conversion.time_vectors import (
 )
 from mrlab_ros.core.conversion.variable_names import Hint, hint, leaf, parts, words
 from mrlab_ros.core.conversion.workspace import Variable, Workspace
-from mrlab_ros.core.diagnostics import finding
 
 # structures that hold what belongs to the matrix beside them
 RELATED = words(
@@ -77,14 +82,14 @@ def find(
     chosen: Assessment | None,
     path: str,
     rows: int,
-    column: NDArray[Any] | None,
+    column: tuple[str, NDArray[Any]] | None,
     default: float,
     file: str,
 ) -> Rate:
     """Return the frame rate of the matrix at `path` with `rows` rows.
 
     chosen: its assessment, where it was found by its numbers. column: the column of it that
-    counts time, or None. default: Hz.
+    counts time, as MATLAB writes it and its values, or None. default: Hz.
     """
     workspace = survey.workspace
     coarse = chosen is not None and chosen.coarse
@@ -110,9 +115,7 @@ def find(
     if motion:
         source, rate = motion[0]
         rate = _nice(rate)
-        notes.append(
-            finding("rate_of_velocity", variable=source, value=rate, unit="Hz", rate=rate)
-        )
+        notes.append(RATE_OF_VELOCITY(variable=source, value=rate, unit="Hz", rate=rate))
         return Rate(rate, None, notes)
     if wrong_length is not None:
         notes.append(wrong_length)
@@ -134,12 +137,11 @@ def find(
         return Rate(by_duration.rate, None, notes)
     if unsure:
         notes.append(
-            finding(
-                "rate_unclear",
+            RATE_UNCLEAR(
                 variable=unsure[0].path,
                 value=default,
                 unit="Hz",
-                found=", ".join(f"'{s.path}'" for s in unsure[:MOST_NAMED]),
+                found=[s.path for s in unsure[:MOST_NAMED]],
                 rate=default,
                 fixes=tuple(
                     rate_findings.rate_fix(r)
@@ -152,7 +154,7 @@ def find(
         unused := rate_findings.unused_times(workspace, path, rows, clocks, default)
     ) is not None:
         notes.append(unused)
-    notes.append(finding("rate_default", file=file, rate=default, value=default, unit="Hz"))
+    notes.append(RATE_DEFAULT(file=file, rate=default, value=default, unit="Hz"))
     return Rate(default, None, notes)
 
 
@@ -165,7 +167,7 @@ def _by_clock(
 ) -> Rate:
     best = clocks[0]
     rate = best.rate
-    notes.append(finding("rate_found", variable=best.source, value=rate, unit="Hz", rate=rate))
+    notes.append(RATE_FOUND(variable=best.source, value=rate, unit="Hz", rate=rate))
     confirmed = (
         [s for s in scalars if abs(s.rate - rate) <= rate_findings.AGREES * rate]
         if scalars
@@ -174,12 +176,11 @@ def _by_clock(
     by_motion = bool(motion) and _fits_motion(rate, motion[0][1])
     if not (best.unit_known or confirmed or by_motion):
         notes.append(
-            finding(
-                "time_unit",
+            TIME_UNIT(
                 variable=best.source,
                 value=rate,
                 unit="Hz",
-                what=UNIT_NAMES[best.unit],
+                taken=best.unit,
                 rate=rate,
                 step=rate_findings.step_in_unit(best),
                 fixes=(rate_findings.rate_fix(rate),),
@@ -207,9 +208,7 @@ def _by_scalar(
     known: list[Scalar], motion: tuple[tuple[str, float], ...], notes: list[Diagnostic]
 ) -> Rate:
     best = known[0]
-    notes.append(
-        finding("rate_found", variable=best.path, value=best.rate, unit="Hz", rate=best.rate)
-    )
+    notes.append(RATE_FOUND(variable=best.path, value=best.rate, unit="Hz", rate=best.rate))
     rivals = [
         (s.path, s.rate)
         for s in known[1:]
@@ -247,7 +246,7 @@ def _clocks(
     workspace: Workspace,
     path: str,
     rows: int,
-    column: NDArray[Any] | None,
+    column: tuple[str, NDArray[Any]] | None,
     coarse: bool,
     likely: tuple[float, ...],
 ) -> list[Clock]:
@@ -263,7 +262,7 @@ def _clocks(
         unit = unit_named(leaf(beside.path))
         found.append(clock_of(beside.values, beside.path, named=True, unit=unit, **words))
     if column is not None:
-        found.append(clock_of(column, f"{path}, its column of time", named=True, **words))
+        found.append(clock_of(column[1], column[0], named=True, **words))
     named, others = [], []
     for v in workspace.variables:
         if v.values is None or len(v.shape) != 2 or min(v.shape) != 1 or v.values.size != rows:

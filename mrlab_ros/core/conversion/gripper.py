@@ -16,7 +16,7 @@ NARROWEST_M, NARROWEST_MM = 0.01, 15.0
 
 @dataclass(frozen=True)
 class GripperRange:
-    """What the range of a gripper's values is. meaning: in words; opens: larger means open."""
+    """What the range of a gripper's values is, a name; opens: larger means open."""
 
     meaning: str
     opens: bool
@@ -38,17 +38,17 @@ def meaning(column: NDArray[Any]) -> GripperRange | None:
     """Return what the range of a column says of a gripper, or None where it is no known one."""
     low, high = float(column.min()), float(column.max())
     if (low, high) == (0.0, 1.0):
-        return GripperRange("0 open, 1 closed", opens=False)
+        return GripperRange("states", opens=False)
     if low < -1e-3 * high:
         return None
     if 250 <= high <= 255 and low <= 10:
-        return GripperRange("a position of 0 (open) to 255 (closed), as Robotiq's", opens=False)
+        return GripperRange("position", opens=False)
     if NARROWEST_M <= high <= WIDEST_M:
-        return GripperRange("an opening width in m: larger means open", opens=True)
+        return GripperRange("width_m", opens=True)
     if abs(high - 100) <= 0.5 and low <= 5:
         return GripperRange("percent", opens=False)
     if NARROWEST_MM <= high <= WIDEST_MM:
-        return GripperRange("an opening width in mm: larger means open", opens=True)
+        return GripperRange("width_mm", opens=True)
     return None
 
 

@@ -11,14 +11,23 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mrlab_ros.core.base.diagnostic import Diagnostic, Fix
+from mrlab_ros.core.conversion.diagnostics import (
+    BAD_OPTION,
+    BAD_PART,
+    COUNTS_DOWN,
+    NO_MATRIX,
+    ONE_PIECE,
+    PIECES_DIFFER,
+    SIZES_DIFFER,
+    UNKNOWN_VARIABLE,
+)
 from mrlab_ros.core.conversion.options import indices
 from mrlab_ros.core.conversion.variable_names import Hint, hint
-from mrlab_ros.core.conversion.workspace import Variable, Workspace
-from mrlab_ros.core.diagnostics import Refused, finding
+from mrlab_ros.core.conversion.workspace import Variable, Workspace, shortened
+from mrlab_ros.core.errors import BadInput
 
 NUMBER = re.compile(r"\d+(?=\D*$)")
 MOST_PIECES = 50_000
-MOST_LISTED = 6
 COUNTED = re.compile(r"(?P<begin>\d+)\s*:\s*(?:(?P<step>\d+)\s*:\s*)?(?:\d+|end)")
 PART = re.compile(r"(?P<path>.+)\((?P<rows>[^(),]+),(?P<columns>[^(),]+)\)$")
 
@@ -40,7 +49,7 @@ class Series:
 
 
 def expanded(text: str) -> list[str]:
-    """Return the paths of 'q1..q6', 'theta1..6' or 'a, b'; raise Refused where they are none."""
+    """Return the paths of 'q1..q6', 'theta1..6' or 'a, b'; raise BadInput where they are none."""
     paths: list[str] = []
     for term in re.split(r"[,;\s]+(?![^({]*[)}])", text.strip().strip("[]")):
         first, dots, last = term.partition("..")
@@ -49,8 +58,7 @@ def expanded(text: str) -> list[str]:
             continue
         begin, end = NUMBER.search(first), NUMBER.search(last)
         if begin is None or end is None or not 0 < int(end[0]) - int(begin[0]) < MOST_PIECES:
-            problem = f"'{term}' does not count upwards from one number to another"
-            raise Refused(finding("bad_option", option="join", found=text, problem=problem))
+            raise _unjoinable(text, COUNTS_DOWN(term=term))
         width = len(begin[0])
         paths += [
             f"{first[: begin.start()]}{n:0{width}d}{first[begin.end() :]}"
@@ -59,36 +67,39 @@ def expanded(text: str) -> list[str]:
     return [p for p in paths if p]
 
 
-def joined(workspace: Workspace, text: str, joints: int, contents: str, file: str) -> Variable:
+def joined(
+    workspace: Workspace, text: str, joints: int, contents: dict[str, Any], file: str
+) -> Variable:
     """Return the variables that `text` names as one, called `text`.
 
     Vectors of equal length stand side by side, one a joint, unless each holds one configuration;
-    matrices with equally many columns stand below one another. Raises Refused otherwise.
+    matrices with equally many columns stand below one another. Raises BadInput otherwise.
+    contents: what the file holds, for a refusal.
     """
     pieces = []
     for path in expanded(text):
         found = workspace.find(path)
         if found is None:
-            words = {"file": file, "variable": path, "found": contents}
-            raise Refused(finding("unknown_variable", **words))
+            raise BadInput(UNKNOWN_VARIABLE(file=file, variable=path, **contents))
         if found.values is None or len(found.shape) != 2:
-            problem = f"'{path}' is no matrix of numbers"
-            raise Refused(finding("bad_option", option="join", found=text, problem=problem))
+            raise _unjoinable(text, NO_MATRIX(variable=path))
         pieces.append(found)
     if len(pieces) < 2:
-        problem = "it names one variable, and joining takes two or more"
-        raise Refused(finding("bad_option", option="join", found=text, problem=problem))
+        raise _unjoinable(text, ONE_PIECE())
     arrays = [np.asarray(p.values) for p in pieces]
     whole = _put_together(arrays, joints)
     if whole is None and all(min(a.shape) == 1 for a in arrays):
-        raise Refused(unequal(pieces))
+        raise BadInput(unequal(pieces))
     if whole is None:
-        sizes = ", ".join(f"{p.path} is {p.size}" for p in pieces[:8])
-        problem = f"they differ in size: {sizes}"
-        raise Refused(finding("bad_option", option="join", found=text, problem=problem))
+        sizes = [f"{p.path} ({p.size})" for p in pieces[:8]]
+        raise _unjoinable(text, SIZES_DIFFER(sizes=sizes))
     units = pieces[0].units if len({p.units for p in pieces}) == 1 else ()
     units = units if len(units) == 1 else ()
     return Variable(text.strip(), pieces[0].kind, whole.shape, whole, units=units)
+
+
+def _unjoinable(text: str, why: Diagnostic) -> BadInput:
+    return BadInput(BAD_OPTION(option="join", found=text, why=why))
 
 
 def _put_together(arrays: list[NDArray[Any]], joints: int) -> NDArray[Any] | None:
@@ -115,22 +126,20 @@ def unequal(pieces: list[Variable]) -> Diagnostic:
     """Return the finding of vectors, one a joint, that differ in length."""
     lengths = {p.path: max(p.shape) for p in pieces}
     usual = Counter(lengths.values()).most_common(1)[0][0]
-    others = [f"'{path}' has {n}" for path, n in lengths.items() if n != usual]
-    listed = ", ".join(others[:MOST_LISTED]) + (" ..." if len(others) > MOST_LISTED else "")
+    others = [f"{path} ({n})" for path, n in lengths.items() if n != usual]
     rows = min(lengths.values())
     cut = "; ".join(f"{path}(1:{rows})" for path in lengths)
     line = f"q = reshape([{cut}], {rows}, []); save('traj.mat', 'q')"
     if any(p.shape[0] == 1 for p in pieces):
         line = line.replace("; ", ", ", len(pieces) - 1)
-    return finding(
-        "pieces_differ",
+    return PIECES_DIFFER(
         variable=pieces[0].path,
-        found=f"most have {usual} samples, {listed}",
+        usual=usual,
+        others=shortened(others),
         rows=rows,
-        code=line,
+        line=line,
         value=float(rows),
         limit=float(max(lengths.values())),
-        fixes=(Fix(matlab=line),),
     )
 
 
@@ -207,7 +216,7 @@ def part_of(workspace: Workspace, text: str) -> Workspace | None:
     """Return the workspace with the part `text` of a matrix, such as q(1:200, :), or None.
 
     Everything that has as many rows as the matrix is cut to the same rows, so that times and
-    velocities stay those of the part. Raises Refused where rows or columns are not there.
+    velocities stay those of the part. Raises BadInput where rows or columns are not there.
     """
     match = PART.fullmatch(text.strip())
     if match is None:
@@ -240,16 +249,17 @@ def _same_rows(variable: Variable, count: int, rows: NDArray[np.intp]) -> Variab
 
 
 def _indices(text: str, axis: int, part: str, whole: Variable) -> NDArray[np.intp]:
-    """Return the rows (axis 0) or columns, from 0, of a part; raise Refused if not there."""
-    count, noun = whole.shape[axis], ("row", "column")[axis]
+    """Return the rows (axis 0) or columns, from 0, of a part; raise BadInput if not there."""
     if text.strip() == ":":
-        return np.arange(count)
+        return np.arange(whole.shape[axis])
     try:
-        return np.array(indices(text, count, noun), dtype=np.intp)
-    except ValueError as error:
-        words = {"other": whole.path, "size": whole.size, "problem": str(error)}
+        found = indices(text, whole.shape[axis], ("row", "column")[axis])
+        return np.array(found, dtype=np.intp)
+    except BadInput as error:
         fixes = (Fix("variable", whole.path, f"size({whole.path})"),)
-        raise Refused(finding("bad_part", variable=part, fixes=fixes, **words)) from None
+        raise BadInput(
+            BAD_PART(variable=part, other=whole.path, size=whole.size, why=error, fixes=fixes)
+        ) from None
 
 
 def rows_of(path: str, first: int, last: int) -> str:

@@ -11,12 +11,13 @@ from __future__ import annotations
 import re
 from dataclasses import dataclass
 from itertools import combinations
+from typing import Any
 
 import numpy as np
 
 from mrlab_ros.core.base.diagnostic import Diagnostic
+from mrlab_ros.core.conversion.diagnostics import KINEMATICS_AGREE, KINEMATICS_DIFFER
 from mrlab_ros.core.conversion.workspace import Variable, Workspace
-from mrlab_ros.core.diagnostics import finding
 from mrlab_ros.core.geometry import Array, inverse_transform
 from mrlab_ros.core.robots.kinematics import KinematicChain, Segment
 from mrlab_ros.core.robots.model import RobotModel
@@ -39,10 +40,6 @@ class FileRobot:
     name: str
     chain: KinematicChain
 
-    @property
-    def words(self) -> str:
-        return f"'{self.name}' ({self.path})" if self.name else f"'{self.path}'"
-
 
 @dataclass(frozen=True)
 class Match:
@@ -64,21 +61,19 @@ def findings(workspace: Workspace, robot: RobotModel) -> list[Diagnostic]:
     compared = [(match(one.chain, robot), one) for one in found]
     for agreement, one in compared:
         if agreement is not None and agreement.agrees:
-            millimetres = agreement.distance * 1e3
-            words = {"found": one.words, "robot": robot.id, "distance": millimetres}
-            return [finding("kinematics_agree", variable=one.path, **words)]
+            return [KINEMATICS_AGREE(robot=robot.id, distance=agreement.distance, **_who(one))]
     fitting = [(m, one) for m, one in compared if m is not None]
     if fitting:
         best, one = min(fitting, key=lambda pair: pair[0].distance)
-        problem = (
-            f"for the same joint positions its flange is up to {best.distance * 1e3:.0f} mm and "
-            f"{np.degrees(best.angle):.0f} deg from that of {robot.id}"
-        )
-    else:
-        one = found[0]
-        problem = f"it has {one.chain.joint_count} joints, {robot.id} has {len(robot.joints)}"
-    words = {"found": one.words, "robot": robot.id, "problem": problem}
-    return [finding("kinematics_differ", variable=one.path, **words)]
+        away: dict[str, Any] = {"distance": best.distance, "angle": best.angle}
+        return [KINEMATICS_DIFFER(robot=robot.id, **away, **_who(one))]
+    one = found[0]
+    joints: dict[str, Any] = {"count": one.chain.joint_count, "joints": len(robot.joints)}
+    return [KINEMATICS_DIFFER(robot=robot.id, **joints, **_who(one))]
+
+
+def _who(one: FileRobot) -> dict[str, Any]:
+    return {"variable": one.path, "title": one.name}
 
 
 def match(chain: KinematicChain, robot: RobotModel) -> Match | None:

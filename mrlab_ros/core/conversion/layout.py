@@ -12,11 +12,29 @@ from mrlab_ros.core.base.diagnostic import Diagnostic, Fix
 from mrlab_ros.core.conversion import gripper as grippers
 from mrlab_ros.core.conversion import limits as conversion_limits
 from mrlab_ros.core.conversion.assessment import Assessment, blocking_clocks
+from mrlab_ros.core.conversion.diagnostics import (
+    COLUMNS_APPLIED,
+    DOUBTFUL_VALUES,
+    GRIPPER_APPLIED,
+    GRIPPER_BESIDE,
+    GRIPPER_BETWEEN,
+    GRIPPER_CONSTANT,
+    GRIPPER_OUT_OF_RANGE,
+    GRIPPER_UNMOVED,
+    INVERT_APPLIED,
+    MAY_BE_TIME,
+    NEVER_FILLED,
+    REPEATED_COLUMNS,
+    ROWS_NOT_FILLED,
+    SEVEN_AXES,
+    TRANSPOSE_APPLIED,
+)
 from mrlab_ros.core.conversion.explain import (
     clocks_of,
     matlab_name,
     near_miss,
     time_finding,
+    wrong_shape,
 )
 from mrlab_ros.core.conversion.joining import rows_of
 from mrlab_ros.core.conversion.joint_units import in_radians
@@ -27,7 +45,7 @@ from mrlab_ros.core.conversion.picking import Chosen
 from mrlab_ros.core.conversion.survey import Survey
 from mrlab_ros.core.conversion.variable_names import parts, words
 from mrlab_ros.core.conversion.workspace import Variable, Workspace
-from mrlab_ros.core.diagnostics import Refused, finding
+from mrlab_ros.core.errors import BadInput
 from mrlab_ros.core.robots.model import RobotModel
 from mrlab_ros.core.trajectory.trajectory import Array
 
@@ -43,13 +61,14 @@ class Layout:
     """The samples of a trajectory, K rows.
 
     arm: (K, J) rad, in the robot's order. gripper: (K,) true where closed, or None. times: the
-    column that holds time, as stored, or None. source_columns: which columns of the variable,
-    from 0, the joints were. scale: what the joints were multiplied by to be rad or m.
+    column that holds time, as MATLAB writes it and as stored, or None. source_columns: which
+    columns of the variable, from 0, the joints were. scale: what the joints were multiplied by to
+    be rad or m.
     """
 
     arm: Array
     gripper: NDArray[np.bool_] | None
-    times: NDArray[Any] | None
+    times: tuple[str, NDArray[Any]] | None
     source_columns: list[int]
     scale: float = 1.0
 
@@ -57,29 +76,27 @@ class Layout:
 def lay_out(chosen: Chosen, survey: Survey, options: Options, notes: list[Diagnostic]) -> Layout:
     """Return the samples of the chosen matrix, adding to `notes` what was done to them.
 
-    Raises Refused where they do not fit the robot.
+    Raises BadInput where they do not fit the robot.
     """
     robot = survey.robot
     variable, path, joints = chosen.variable, chosen.variable.path, len(robot.joints)
     values, times = variable.values, None
     if values is None or min(variable.shape) == 0 or len(variable.shape) != 2:
-        raise Refused(_misfit(variable, survey))
+        raise BadInput(_misfit(variable, survey))
     if options.transpose:
-        notes.append(finding("option_applied", variable=path, what=f"'{path}' was transposed"))
+        notes.append(TRANSPOSE_APPLIED(variable=path))
     if options.columns:
         times = _left_out_time(chosen, options, survey)
-        what = f"columns {options.columns} of '{path}' were taken"
-        notes.append(finding("option_applied", variable=path, what=what))
+        notes.append(COLUMNS_APPLIED(variable=path, columns=options.columns))
         if len(set(chosen.picked)) < len(chosen.picked):
-            why = f"columns {options.columns} name a column more than once"
-            notes.append(finding("doubtful_values", variable=path, why=why))
+            why = REPEATED_COLUMNS(columns=options.columns)
+            notes.append(DOUBTFUL_VALUES(variable=path, why=[why]))
     if chosen.gripper is not None:
-        what = f"the gripper was taken from '{options.gripper}'"
-        notes.append(finding("option_applied", variable=path, what=what))
+        notes.append(GRIPPER_APPLIED(variable=path, gripper=options.gripper))
     named = names_joints(variable, robot)
     separate = chosen.gripper is not None and not named
     if not fits(variable, robot) or (separate and variable.shape[1] != joints):
-        raise Refused(_misfit(variable, survey))
+        raise BadInput(_misfit(variable, survey))
     by_name, said = order(variable, robot)
     notes += said
     assessment = survey.of(variable)
@@ -88,14 +105,14 @@ def lay_out(chosen: Chosen, survey: Survey, options: Options, notes: list[Diagno
     values = values[:, by_name]
     bad = conversion_limits.non_finite(values, path)
     if bad is not None:
-        raise Refused(bad)
+        raise BadInput(bad)
     _refuse_times(assessment, survey, notes)
     arm = np.array(values[:, :joints], dtype=np.float64, order="C")
     column = chosen.gripper
     if column is None and values.shape[1] > joints and not chosen.without_gripper:
         column = values[:, joints]
         if not (options.columns or options.gripper) and assessment.last_is_joint:
-            raise Refused(_seven_axes(column, robot, path))
+            raise BadInput(_seven_axes(column, robot, path))
     held = None if column is None else _gripper(column, options, path, chosen, joints, notes)
     if column is None and not chosen.without_gripper:
         notes += _gripper_beside(survey.workspace, path, len(arm))
@@ -103,7 +120,9 @@ def lay_out(chosen: Chosen, survey: Survey, options: Options, notes: list[Diagno
     return Layout(arm, held, times, [chosen.picked[i] for i in by_name[:joints]], scale)
 
 
-def _left_out_time(chosen: Chosen, options: Options, survey: Survey) -> NDArray[Any] | None:
+def _left_out_time(
+    chosen: Chosen, options: Options, survey: Survey
+) -> tuple[str, NDArray[Any]] | None:
     """Return the column of time among those that were not picked, or None."""
     stored = chosen.stored
     assert stored.values is not None
@@ -113,7 +132,9 @@ def _left_out_time(chosen: Chosen, options: Options, survey: Survey) -> NDArray[
     clocks = [c for c in clocks_of(stored, survey) if c.index not in chosen.picked]
     if clocks:
         assert stored.values is not None
-        return np.asarray(stored.values[:, clocks[0].index])
+        column = clocks[0].index
+        part = f"{column + 1}, :" if options.transpose else f":, {column + 1}"
+        return f"{stored.path}({part})", np.asarray(stored.values[:, column])
     return None
 
 
@@ -121,71 +142,52 @@ def _refuse_times(assessment: Assessment, survey: Survey, notes: list[Diagnostic
     """Refuse columns of time among the joints; those that were asked for are a warning."""
     clocks = blocking_clocks(assessment, survey.robot)
     if clocks and not survey.columns_asked:
-        raise Refused(time_finding(assessment.variable, clocks, survey.robot))
+        raise BadInput(time_finding(assessment.variable, clocks, survey.robot))
     if clocks and not any(d.code == "doubtful_values" for d in notes):
-        column = clocks[0].index + 1
-        why = f"column {column} of those you picked may be time and not a joint: {clocks[0].why}"
-        notes.append(finding("doubtful_values", variable=assessment.path, why=why))
+        why = MAY_BE_TIME(column=clocks[0].index + 1, why=clocks[0].why)
+        notes.append(DOUBTFUL_VALUES(variable=assessment.path, why=[why]))
 
 
 def _refuse_unfilled(assessment: Assessment) -> None:
     path, rows = assessment.path, assessment.rows
     if assessment.finite and not (assessment.low.any() or assessment.high.any()):
-        raise Refused(
-            finding("never_filled", variable=path, size=assessment.variable.size, last_row=rows)
-        )
+        size = assessment.variable.size
+        raise BadInput(NEVER_FILLED(variable=path, size=size, last_row=rows))
     if assessment.unfilled is not None:
         first, last = assessment.unfilled
         kept = rows_of(path, last + 1, rows) if first == 1 else rows_of(path, 1, first - 1)
-        raise Refused(
-            finding(
-                "rows_not_filled",
+        raise BadInput(
+            ROWS_NOT_FILLED(
                 variable=path,
-                where=f"rows {first} to {last}",
                 first_row=first,
                 last_row=last,
                 value=0.0,
                 count=last - first + 1,
-                fix=kept,
                 fixes=(Fix("variable", kept, f"q = {kept};"),),
             )
         )
 
 
 def _misfit(variable: Variable, survey: Survey) -> Diagnostic:
-    robot = survey.robot
-    joints = len(robot.joints)
-    return near_miss(variable, survey) or finding(
-        "wrong_shape",
-        variable=variable.path,
-        size=" ".join(filter(None, (variable.size, variable.kind))),
-        robot=robot.id,
-        joints=joints,
-        more=joints + 1,
-        hint="",
-        pick="",
-        name=matlab_name(variable.path),
-    )
+    size = " ".join(filter(None, (variable.size, variable.kind)))
+    return near_miss(variable, survey) or wrong_shape(variable, survey.robot, size=size)
 
 
 def _seven_axes(column: NDArray[Any], robot: RobotModel, path: str) -> Diagnostic:
     joints = len(robot.joints)
     name = matlab_name(path)
     found = grippers.meaning(column)
-    ramp = f" If it is a gripper that moves slowly, {found.meaning}, name it." if found else ""
-    return finding(
-        "seven_axes",
+    return SEVEN_AXES(
         variable=path,
-        where=f"column {joints + 1}",
         first_row=1,
         last_row=len(column),
         column=joints + 1,
         first=float(column[0]),
         last=float(column[-1]),
-        levels=f"{len(np.unique(column))} values",
+        levels=len(np.unique(column)),
         robot=robot.id,
         joints=joints,
-        ramp=ramp,
+        meaning=found.meaning if found else "",
         fixes=(
             Fix("columns", f"1:{joints}", f"q = {name}(:, 1:{joints});"),
             Fix("gripper", str(joints + 1), f"q = [{name}(:, 1:{joints}) {name}(:, end) > 0.5];"),
@@ -208,28 +210,24 @@ def _gripper(
     if not np.isfinite(column).all():
         bad = conversion_limits.non_finite(column.reshape(-1, 1), options.gripper or path)
         assert bad is not None
-        raise Refused(bad)
+        raise BadInput(bad)
     low, high = float(column.min()), float(column.max())
-    where = f"column {joints + 1}" if chosen.gripper is None else f"gripper {options.gripper}"
-    place: dict[str, Any] = {"variable": path, "where": where}
     if options.invert:
-        notes.append(
-            finding("option_applied", variable=path, what="larger values of the gripper are open")
-        )
+        notes.append(INVERT_APPLIED(variable=path))
     if low == high:
-        code = "gripper_unmoved" if low else "gripper_constant"
+        code = GRIPPER_UNMOVED if low else GRIPPER_CONSTANT
         alone = Fix("gripper", NO_GRIPPER, f"q = {matlab_name(path)}(:, 1:{joints});")
-        notes.append(finding(code, first=low, value=low, fixes=(alone,) if low else (), **place))
+        notes.append(code(variable=path, value=low, fixes=(alone,) if low else ()))
         return np.zeros(len(column), dtype=np.bool_)
     threshold = (low + high) / 2
     above = np.asarray(column > threshold)
     closed = ~above if options.invert else above
     side = "below" if options.invert else "above"
     numbers: dict[str, Any] = {"first": low, "last": high, "threshold": threshold, "side": side}
+    numbers["variable"] = path
     name = matlab_name(path)
     if (low, high) != (0.0, 1.0):
         found = grippers.meaning(column)
-        meaning = f"That is {found.meaning}. " if found else ""
         invert = Fix(
             "invert",
             "false" if options.invert else "true",
@@ -238,16 +236,13 @@ def _gripper(
         states = Fix(matlab=f"{name}(:, end) = {name}(:, end) > {threshold:g};")
         if not (options.invert and found):
             fixes = (invert, states) if found and found.opens else (states, invert)
-            words = {"meaning": meaning, "value": high, "fixes": fixes}
-            notes.append(finding("gripper_range", **words, **numbers, **place))
+            meaning = found.meaning if found else ""
+            notes.append(GRIPPER_OUT_OF_RANGE(meaning=meaning, value=high, fixes=fixes, **numbers))
     between = grippers.between_ends(column)
     if between:
-        count = conversion_limits.counted(between, "sample")
         rows = len(column)
         states = Fix(matlab=f"{name}(:, end) = {name}(:, end) > {threshold:g};")
-        notes.append(
-            finding("gripper_between", count=count, rows=rows, fixes=(states,), **numbers, **place)
-        )
+        notes.append(GRIPPER_BETWEEN(count=between, rows=rows, fixes=(states,), **numbers))
     return closed
 
 
@@ -261,8 +256,7 @@ def _gripper_beside(workspace: Workspace, path: str, rows: int) -> list[Diagnost
             column = matlab_name(v.path) + "(:)"
             line = f"q = [{matlab_name(path)} {column}]; save('traj.mat', 'q')"
             return [
-                finding(
-                    "gripper_beside",
+                GRIPPER_BESIDE(
                     variable=v.path,
                     size=v.size,
                     fixes=(Fix("gripper", v.path, line),),

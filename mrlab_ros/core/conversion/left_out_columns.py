@@ -4,8 +4,12 @@ from __future__ import annotations
 
 from mrlab_ros.core.base.diagnostic import Diagnostic
 from mrlab_ros.core.conversion import cartesian, relations
+from mrlab_ros.core.conversion.diagnostics import (
+    DOUBTFUL_VALUES,
+    VELOCITIES_OF,
+    WHOLE_LIKE_POSES,
+)
 from mrlab_ros.core.conversion.picking import Chosen
-from mrlab_ros.core.diagnostics import finding
 from mrlab_ros.core.robots.model import RobotModel
 
 MOST_COLUMNS = 64
@@ -21,9 +25,8 @@ def doubts(chosen: Chosen, robot: RobotModel) -> list[Diagnostic]:
         return []
     path = chosen.variable.path
     poses = cartesian.evidence(whole, robot)
-    if poses.strong:
-        why = f"the whole matrix looks like poses of the tool: {poses.strong}"
-        return [finding("doubtful_values", variable=path, why=why)]
+    if poses.strong is not None:
+        return [DOUBTFUL_VALUES(variable=path, why=[WHOLE_LIKE_POSES(why=poses.strong)])]
     picked = chosen.picked[:joints]
     part = relations.busiest(whole[:, picked])
     taken = relations.course(whole[:, picked], part)
@@ -33,6 +36,6 @@ def doubts(chosen: Chosen, robot: RobotModel) -> list[Diagnostic]:
             continue
         other = relations.course(whole[:, block], part)
         if other is not None and relations.derivative_rate(other, taken) is not None:
-            why = f"they are the velocities of its columns {first + 1}:{first + joints}"
-            return [finding("doubtful_values", variable=path, why=why)]
+            why = VELOCITIES_OF(columns=f"{first + 1}:{first + joints}")
+            return [DOUBTFUL_VALUES(variable=path, why=[why])]
     return []

@@ -1,4 +1,4 @@
-"""Checks of a joint trajectory against a robot's limits; each finding names joint and frame."""
+"""Checks of a joint trajectory against a robot's limits; each finding names joint and row."""
 
 from __future__ import annotations
 
@@ -12,9 +12,15 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mrlab_ros.core.base.diagnostic import Diagnostic, Fix
+from mrlab_ros.core.conversion.diagnostics import (
+    DISCONTINUITY,
+    JOINT_LIMIT,
+    JUMP_FULL_TURN,
+    NON_FINITE,
+    VELOCITY_LIMIT,
+)
 from mrlab_ros.core.conversion.joining import rows_of
 from mrlab_ros.core.conversion.options import LEAST_RATE
-from mrlab_ros.core.diagnostics import finding
 from mrlab_ros.core.robots.model import Joint
 
 Array = NDArray[np.float64]
@@ -33,11 +39,6 @@ TURN_TOLERANCE = 0.5
 MOST_PARTS = 4  # between jumps that are offered
 
 
-def counted(number: int, noun: str) -> str:
-    """Return '1 value' or '3 values'."""
-    return f"{number} {noun}{'' if number == 1 else 's'}"
-
-
 def non_finite(values: NDArray[Any], variable: str) -> Diagnostic | None:
     """Return the finding where `values`, (N, d), hold NaN or Inf."""
     # The sum is finite unless something in it is not (or overflows, which the full look sorts
@@ -48,16 +49,13 @@ def non_finite(values: NDArray[Any], variable: str) -> Diagnostic | None:
     bad = np.argwhere(~np.isfinite(values))
     if not len(bad):
         return None
-    row, column = bad[0] + 1
-    where = f"row {row}, column {column}"
     rows = np.unique(bad[:, 0]) + 1
-    return finding(
-        "non_finite",
+    return NON_FINITE(
         variable=variable,
-        where=where,
         first_row=int(rows[0]),
         last_row=int(rows[-1]),
-        count=counted(len(bad), "value"),
+        column=int(bad[0, 1]) + 1,
+        count=len(bad),
         fixes=_without(rows, len(values), variable),
     )
 
@@ -73,22 +71,18 @@ def _without(rows: NDArray[Any], count: int, variable: str) -> tuple[Fix, ...]:
     return (Fix("", "", line),)
 
 
-def _place(frame: int, column: int) -> str:
-    return f"row {frame + 1}, column {column + 1}"
-
-
 def against_robot(
     positions: Array, frame_rate: float, joints: Sequence[Joint], variable: str, robot: str
 ) -> list[Diagnostic]:
     """Check positions, (N, J) rad in the order of `joints`, sampled at `frame_rate` Hz.
 
-    One finding a joint and kind at most, of its worst frame; frames count from 0.
+    One finding a joint and kind at most, of its worst row.
     """
     findings: list[Diagnostic] = []
     jumps: set[int] = set()
     for column, joint in enumerate(joints):
         q = np.ascontiguousarray(positions[:, column])
-        steps = _steps(q, column, joint, frame_rate, variable, robot)
+        steps = _steps(q, joint, frame_rate, variable, robot)
         beyond = _range(q, column, joint, frame_rate, variable)
         # a full turn, or a jump, is why the joint leaves its range
         findings += [*steps, *beyond] if steps else beyond
@@ -109,30 +103,29 @@ def _range(
         return []
     frame = int(q.argmin() if lower - low > high - upper else q.argmax())
     rows = np.flatnonzero((q < lower) | (q > upper))
+    place = f"q(:, {column + 1})"
+    look = f"find({place} < {joint.lower:.6g} | {place} > {joint.upper:.6g})"
     return [
-        finding(
-            "joint_limit",
+        JOINT_LIMIT(
             variable=variable,
-            where=_place(frame, column),
             joint=joint.name,
-            degrees=np.degrees(q[frame]),
-            column=column + 1,
-            frame=frame,
+            row=frame + 1,
             time=frame / frame_rate,
             lower=joint.lower,
             upper=joint.upper,
-            count=counted(len(rows), "frame"),
+            count=len(rows),
             first_row=int(rows[0]) + 1,
             last_row=int(rows[-1]) + 1,
             value=float(q[frame]),
             limit=joint.upper if q[frame] > upper else joint.lower,
             unit="rad",
+            fixes=(Fix(matlab=look),),
         )
     ]
 
 
 def _steps(
-    q: Array, column: int, joint: Joint, frame_rate: float, variable: str, robot: str
+    q: Array, joint: Joint, frame_rate: float, variable: str, robot: str
 ) -> list[Diagnostic]:
     steps = np.abs(np.diff(q))
     reach = joint.max_velocity / frame_rate
@@ -142,12 +135,9 @@ def _steps(
         return []
     place: dict[str, Any] = {
         "variable": variable,
-        "name": variable,
-        "where": _place(frame, column),
         "joint": joint.name,
         "first_row": frame + 1,
         "last_row": frame + 2,
-        "frame": frame,
         "time": frame / frame_rate,
     }
     usual = float(np.quantile(steps, 0.95))
@@ -155,21 +145,20 @@ def _steps(
     # a joint may wrap every other sample: such jumps are no usual steps
     turned = abs(largest - FULL_TURN) < TURN_TOLERANCE and largest > reach * JUMP_VELOCITY_FACTOR
     if turned and (isolated or _wraps(q)):
-        return [finding("jump_2pi", value=largest, limit=reach, unit="rad", **place)]
+        return [JUMP_FULL_TURN(value=largest, limit=reach, unit="rad", **place)]
     # A handful of waypoints has no usual step that one could stand out from.
     if isolated and len(steps) >= 10:
-        return [_jump(largest, usual, reach, place)]
+        return [DISCONTINUITY(value=largest, limit=reach, unit="rad", usual=usual, **place)]
     too_fast = int(np.count_nonzero(steps > reach * 1.01))
     return [
-        finding(
-            "velocity_limit",
+        VELOCITY_LIMIT(
             value=largest * frame_rate,
             limit=joint.max_velocity,
             unit="rad/s",
             rate=frame_rate,
             slower=_slower(joint.max_velocity / largest),
             robot=robot,
-            count=counted(too_fast, "step"),
+            count=too_fast,
             **place,
         )
     ]
@@ -212,20 +201,3 @@ def _between(jumps: list[int], rows: int, variable: str) -> tuple[Fix, ...]:
             Fix("variable", path, f"q = {path if is_stored else f'q({first}:{last}, :)'};")
         )
     return tuple(fixes)
-
-
-def _jump(largest: float, usual: float, reach: float, place: dict[str, Any]) -> Diagnostic:
-    """Return the finding of a jump."""
-    others = (
-        f"its other steps stay below {usual:.4g} rad"
-        if usual >= 1e-9
-        else "it hardly moves otherwise"
-    )
-    return finding(
-        "discontinuity",
-        value=largest,
-        limit=reach,
-        unit="rad",
-        others=others,
-        **place,
-    )

@@ -7,7 +7,19 @@ import math
 import re
 from dataclasses import dataclass
 
-from mrlab_ros.core.diagnostics import Refused, finding
+from mrlab_ros.core.conversion.diagnostics import (
+    BAD_COLUMNS,
+    BAD_OPTION,
+    BAD_RATE,
+    COUNTS_OF_WHAT,
+    NO_INDEX,
+    NO_INDICES,
+    OUT_OF_RANGE,
+    STEP_OF_ZERO,
+    UNITS_CONTRADICT,
+    UNKNOWN_UNIT,
+)
+from mrlab_ros.core.errors import BadInput
 
 TERM = re.compile(r"(\d+|end)(?:\s*:\s*(?:(\d+)\s*:\s*)?(\d+|end))?$")
 DEFAULT_FRAME_RATE = 100.0  # Hz
@@ -44,22 +56,22 @@ class Options:
     units: str = ""
 
     def checked_rate(self) -> float:
-        """Return the frame rate, Hz, 0 where none was asked for; raise Refused if impossible."""
+        """Return the frame rate, Hz, 0 where none was asked for; raise BadInput if impossible."""
         rate = self.frame_rate
         if rate and not (math.isfinite(rate) and LEAST_RATE <= rate <= MOST_RATE):
-            raise Refused(finding("bad_rate", value=rate, least=LEAST_RATE, most=MOST_RATE))
+            raise BadInput(BAD_RATE(value=rate, least=LEAST_RATE, most=MOST_RATE))
         return rate
 
     def factor(self) -> tuple[str, float]:
         """Return the unit of the joints, empty where none was named, and its factor to rad or m.
 
-        The unit is rad, deg, counts or mm. Raises Refused where it is none of these, or where
+        The unit is rad, deg, counts or mm. Raises BadInput where it is none of these, or where
         `degrees` and `units` contradict each other.
         """
         text = self.units.strip().lower()
         if self.degrees and text not in ("", "deg"):
-            problem = f"--degrees and --units {self.units} contradict each other"
-            raise Refused(finding("bad_option", option="units", found=self.units, problem=problem))
+            why = UNITS_CONTRADICT(found=self.units)
+            raise BadInput(BAD_OPTION(option="units", found=self.units, why=why))
         if self.degrees or text == "deg":
             return "deg", math.pi / 180
         if text in ("", "rad"):
@@ -73,49 +85,45 @@ class Options:
             counts = math.nan
         if name == "counts" and 1 <= counts <= MOST_COUNTS:
             return "counts", 2 * math.pi / counts
-        problem = (
-            "counts needs the counts of one turn, such as counts:4096"
-            if name == "counts"
-            else "there are rad, deg, mm and counts:N"
-        )
-        raise Refused(finding("bad_option", option="units", found=self.units, problem=problem))
+        known = [*UNITS, "counts:N"]
+        why = COUNTS_OF_WHAT() if name == "counts" else UNKNOWN_UNIT(known=known)
+        raise BadInput(BAD_OPTION(option="units", found=self.units, why=why))
 
 
 def parse_columns(text: str, width: int, variable: str, size: str) -> list[int]:
     """Return the indices, from 0, of columns such as '2:7', '[1 3 5]' or '2:end'.
 
-    Raises Refused where `text` is no such list or a column is not among the `width`.
+    Raises BadInput where `text` is no such list or a column is not among the `width`.
     """
-
     try:
         return indices(text, width, "column")
-    except ValueError as error:
-        words = {"columns": text, "size": size, "problem": str(error), "limit": float(width)}
-        raise Refused(finding("bad_columns", variable=variable, **words)) from None
+    except BadInput as error:
+        raise BadInput(
+            BAD_COLUMNS(variable=variable, columns=text, size=size, why=error, limit=float(width))
+        ) from None
 
 
-def indices(text: str, count: int, noun: str) -> list[int]:
+def indices(text: str, count: int, axis: str) -> list[int]:
     """Return the indices, from 0, that `text` lists as MATLAB does.
 
-    Raises ValueError, in words that call them `noun`, where it is no list or one is not among the
-    `count`.
+    axis: row or column. Raises BadInput where it is no list or one is not among the `count`.
     """
     found: list[int] = []
     cleaned = re.sub(r"\s*:\s*", ":", text.strip().removeprefix("[").removesuffix("]"))
     for term in re.split(r"[,\s]+", cleaned.strip()):
         match = TERM.match(term)
         if match is None:
-            raise ValueError(f"'{term}' is no {noun}")
+            raise BadInput(NO_INDEX(term=term, axis=axis))
         first, step, last = match.groups()
         start = count if first == "end" else int(first)
         stop = start if last is None else count if last == "end" else int(last)
         if step == "0":
-            raise ValueError("a step of 0 leads nowhere")
+            raise BadInput(STEP_OF_ZERO())
         if not (start >= 1 and max(start, stop) <= count):
-            raise ValueError(f"there are the {noun}s 1 to {count}")
+            raise BadInput(OUT_OF_RANGE(axis=axis, count=count))
         found += range(start - 1, stop, int(step or 1))
     if not found:
-        raise ValueError(f"that is no {noun} at all")
+        raise BadInput(NO_INDICES(axis=axis))
     return found
 
 

@@ -7,9 +7,17 @@ from typing import Any
 
 from numpy.typing import NDArray
 
+from mrlab_ros.core.conversion.diagnostics import (
+    BAD_OPTION,
+    NO_SUCH_COLUMN,
+    NO_SUCH_VARIABLE,
+    OTHER_LENGTH,
+    ROWS_ALREADY,
+    TOO_FEW_COLUMNS,
+)
 from mrlab_ros.core.conversion.options import NO_GRIPPER, Options, parse_columns
 from mrlab_ros.core.conversion.workspace import Variable, Workspace
-from mrlab_ros.core.diagnostics import Refused, finding
+from mrlab_ros.core.errors import BadInput
 from mrlab_ros.core.robots.model import RobotModel
 
 
@@ -32,12 +40,13 @@ class Chosen:
 def reshaped(workspace: Workspace, options: Options, robot: RobotModel) -> Workspace:
     """Return the workspace as it is once the options that change a shape were applied.
 
-    Matrices that lack the columns are left out: they cannot be what was meant. Raises Refused
+    Matrices that lack the columns are left out: they cannot be what was meant. Raises BadInput
     where no matrix has them.
     """
     if not (options.transpose or options.columns or _is_column(options.gripper)):
         return workspace
-    laid_out, refused, applied = [], None, False
+    laid_out, applied = [], False
+    refused: BadInput | None = None
     for v in workspace.variables:
         if v.values is None or len(v.shape) != 2 or v.values.size == 1 or 1 in v.shape:
             laid_out.append(v)
@@ -45,20 +54,20 @@ def reshaped(workspace: Workspace, options: Options, robot: RobotModel) -> Works
         try:
             laid_out.append(pick(v, options, workspace, robot).variable)
             applied = True
-        except Refused as error:
+        except BadInput as error:
             refused = _likelier(refused, error, robot)
     if refused is not None and not applied:
         raise refused
     return replace(workspace, variables=tuple(laid_out))
 
 
-def _likelier(known: Refused | None, new: Refused, robot: RobotModel) -> Refused:
+def _likelier(known: BadInput | None, new: BadInput, robot: RobotModel) -> BadInput:
     """Return the refusal of the matrix whose width is nearer to the robot's joints."""
     if known is None:
         return new
 
-    def distance(refused: Refused) -> float:
-        return abs((refused.finding.limit or 0.0) - len(robot.joints))
+    def distance(refused: BadInput) -> float:
+        return abs((refused.diagnostic.limit or 0.0) - len(robot.joints))
 
     return new if distance(new) < distance(known) else known
 
@@ -74,8 +83,8 @@ def pick(variable: Variable, options: Options, workspace: Workspace, robot: Robo
     if options.transpose:
         joints = (len(robot.joints), len(robot.joints) + 1)
         if values.shape[1] in joints and values.shape[0] not in joints and not options.columns:
-            problem = f"'{variable.path}' is {variable.size}: its samples are rows already"
-            raise Refused(finding("bad_option", option="transpose", found="true", problem=problem))
+            why = ROWS_ALREADY(variable=variable.path, size=variable.size)
+            raise BadInput(BAD_OPTION(option="transpose", found="true", why=why))
         values, names, given = values.T, (), given[:1] if len(set(given)) == 1 else ()
     stored = values
     width, size = values.shape[1], "x".join(str(n) for n in values.shape)
@@ -123,31 +132,35 @@ def _gripper_column(
         return _gripper_index(text, variable, values.shape[1], picked, robot), False
     found = workspace.find(text)
     if found is None or found.values is None or found.values.size != len(values):
-        problem = (
-            f"there is no variable '{text}'"
-            if found is None
-            else f"'{text}' is {found.size}, and '{variable.path}' has {len(values)} rows"
-        )
-        raise Refused(finding("bad_option", option="gripper", found=text, problem=problem))
+        why = NO_SUCH_VARIABLE(variable=text)
+        if found is not None:
+            length = len(values)
+            why = OTHER_LENGTH(variable=text, size=found.size, other=variable.path, rows=length)
+        raise BadInput(BAD_OPTION(option="gripper", found=text, why=why))
     return found.values.reshape(-1), False
 
 
 def _gripper_index(
     text: str, variable: Variable, width: int, picked: list[int], robot: RobotModel
 ) -> int:
-    """Return the column of the gripper, from 0, among `width`; raise Refused where it is none."""
+    """Return the column of the gripper, from 0, among `width`; raise BadInput where it is none."""
     joints = len(robot.joints)
     column = width - 1 if text == "end" else int(text) - 1
     left = len([c for c in picked if c != column])
-    problem = ""
+    path = variable.path
     if not 0 <= column < width:
-        problem = f"'{variable.path}' has the columns 1 to {width}"
+        why = NO_SUCH_COLUMN(variable=path, width=width)
     elif left < joints:
-        problem = (
-            f"'{variable.path}' has {width} columns, and without column {column + 1} only {left} "
-            f"are left for the {joints} joints of {robot.id}"
+        why = TOO_FEW_COLUMNS(
+            variable=path,
+            width=width,
+            column=column + 1,
+            left=left,
+            joints=joints,
+            robot=robot.id,
         )
-    if not problem:
+    else:
         return column
-    words = {"option": "gripper", "found": text, "problem": problem, "limit": float(width)}
-    raise Refused(finding("bad_option", variable=variable.path, **words))
+    raise BadInput(
+        BAD_OPTION(option="gripper", found=text, why=why, variable=path, limit=float(width))
+    )

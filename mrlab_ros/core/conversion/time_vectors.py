@@ -16,15 +16,6 @@ from mrlab_ros.core.trajectory.trajectory import Array
 SECONDS = {"s": 1.0, "ms": 1e-3, "us": 1e-6, "ns": 1e-9, "days": 86_400.0}
 # units that only a name says, which may mean a minimum or a height as well
 NAMED_SECONDS = {**SECONDS, "min": 60.0, "h": 3600.0}
-UNIT_NAMES = {
-    "s": "seconds",
-    "ms": "milliseconds",
-    "us": "microseconds",
-    "ns": "nanoseconds",
-    "days": "days, as datenum counts them",
-    "min": "minutes",
-    "h": "hours",
-}
 UNIT_WORDS = {
     "s": words("s sec secs second seconds sek sekunden"),
     "ms": words("ms msec msecs millis millisec milliseconds millisekunden"),

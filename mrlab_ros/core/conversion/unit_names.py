@@ -42,7 +42,7 @@ def plain_unit(unit: str) -> str:
 
 
 def against(unit: str) -> str:
-    """Return the quantity, in words, of a unit that joint positions do not have, or empty."""
+    """Return the quantity of a unit that joint positions do not have, or empty."""
     plain = plain_unit(unit)
     return next((what for what, names in UNITS_AGAINST.items() if plain in names), "")
 

@@ -8,6 +8,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from mrlab_ros.core.base.diagnostic import Diagnostic
+from mrlab_ros.core.conversion.diagnostics import UNIT_NAMED, UNIT_REACHES
 from mrlab_ros.core.robots.model import RobotModel
 from mrlab_ros.core.trajectory.trajectory import Array
 
@@ -25,13 +27,13 @@ COUNTS = tuple(2**n for n in range(9, 25))
 class UnitEvidence:
     """The unit that values are likely in.
 
-    unit: rad, deg, counts, or empty where none fits. option: what the option units is set to, and
-    why: what speaks for it; both empty for rad.
+    unit: rad, deg, counts, or empty where none fits. counts: of a turn, else 0. why: what speaks
+    for a unit that has to be named; None for rad.
     """
 
     unit: str
-    option: str = ""
-    why: str = ""
+    counts: int = 0
+    why: Diagnostic | None = None
 
 
 def limits_of(robot: RobotModel) -> Array:
@@ -57,30 +59,28 @@ def evidence(
     largest = float(max(np.abs(low).max(), np.abs(high).max()))
     in_radians = inside(low, high, limits)
     if named == "deg" and largest > 0:
-        return UnitEvidence("deg", "deg", "its name says degrees")
+        return UnitEvidence("deg", why=UNIT_NAMED())
     farthest = float(np.abs(limits).max())
     least = max(LEAST_DEGREES, 2 * farthest)
     if in_radians or largest <= least:
         return UnitEvidence("rad" if in_radians else "")
-    fitting = f"it reaches {largest:g} and is within the limits of {robot.id} only if it is in"
     if inside(np.radians(low), np.radians(high), limits):
-        return UnitEvidence("deg", "deg", f"{fitting} degrees")
+        why = UNIT_REACHES(largest=largest, robot=robot.id, fits="degrees")
+        return UnitEvidence("deg", why=why)
     if largest <= LOOSELY * np.degrees(farthest):
-        why = f"it reaches {largest:g}, as degrees do and radians of {robot.id} do not"
-        return UnitEvidence("deg", "deg", why)
-    for per_turn, words in (
-        (CENTIDEGREES, "hundredths of a degree"),
-        (MILLIDEGREES, "millidegrees"),
-    ):
+        return UnitEvidence("deg", why=UNIT_REACHES(largest=largest, beyond=robot.id))
+    for per_turn, name in ((CENTIDEGREES, "hundredths"), (MILLIDEGREES, "thousandths")):
         scale = 2 * np.pi / per_turn
         if inside(low * scale, high * scale, limits):
-            return UnitEvidence("counts", f"counts:{per_turn}", f"{fitting} {words}, or counts")
+            why = UNIT_REACHES(largest=largest, robot=robot.id, fits=name)
+            return UnitEvidence("counts", per_turn, why)
     if largest >= LEAST_COUNTS and _is_whole(arm):
         for per_turn in COUNTS:
             scale = 2 * np.pi / per_turn
             if inside(low * scale, high * scale, limits):
-                why = f"it holds whole numbers up to {largest:g}, as encoders count them"
-                return UnitEvidence("counts", f"counts:{per_turn}", why)
+                return UnitEvidence(
+                    "counts", per_turn, UNIT_REACHES(largest=largest, counted="counts")
+                )
     return UnitEvidence("")
 
 

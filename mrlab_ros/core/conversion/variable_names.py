@@ -12,33 +12,36 @@ from dataclasses import dataclass
 from enum import Enum
 from functools import lru_cache
 
+from mrlab_ros.core.base.diagnostic import Diagnostic
+from mrlab_ros.core.conversion.diagnostics import NAME_SAYS
+
 
 class Hint(Enum):
-    """What a name says; the value says it in words for a person."""
+    """What a name says of joint positions."""
 
-    POSITIONS = "its name is one that joint positions have"
-    NEUTRAL = "its name does not say what it holds"
-    TWO_FACED = "its name is given to joint positions and to tool paths alike"
-    DOUBTFUL = "its name is often given to something else than joint positions"
-    AGAINST = "its name says that it is something else than joint positions"
+    POSITIONS = "positions"
+    NEUTRAL = "neutral"
+    TWO_FACED = "two_faced"
+    DOUBTFUL = "doubtful"
+    AGAINST = "against"
 
 
 @dataclass(frozen=True)
 class Name:
-    """What a name says. what: the quantity it names, in words, or empty; unit: deg or empty."""
+    """What a name says. what: the quantity it names, or empty; unit: deg or empty."""
 
     hint: Hint
     what: str = ""
     unit: str = ""
 
     @property
-    def why(self) -> str:
-        """Return the hint in words, with the quantity where the name says one."""
+    def why(self) -> Diagnostic:
+        """Return what is said of the hint, with the quantity where the name says one."""
         if self.hint is Hint.AGAINST and self.what:
-            return f"its name says {self.what}"
+            return NAME_SAYS(quantity=self.what)
         if self.hint is Hint.DOUBTFUL and self.what:
-            return f"its name is often given to {self.what}"
-        return self.hint.value
+            return NAME_SAYS(often=self.what)
+        return NAME_SAYS(hint=self.hint.value)
 
 
 def words(text: str) -> frozenset[str]:
@@ -46,11 +49,11 @@ def words(text: str) -> frozenset[str]:
     return frozenset(text.lower().split())
 
 
-VELOCITIES, ACCELERATIONS = "velocities", "accelerations"
-TORQUES, CURRENTS, ERRORS = "torques or forces", "motor currents", "errors or differences"
-POSES, TIMES, PARAMETERS = "positions of the tool", "times", "parameters of a controller or model"
-TURNS = "numbers of turns"
-GRIPPERS, OBSTACLES, TEMPERATURES = "the state of a gripper", "obstacles", "temperatures"
+# quantities, as diagnostics.QUANTITY has them
+VELOCITIES, ACCELERATIONS, JERKS = "velocities", "accelerations", "jerks"
+TORQUES, CURRENTS, ERRORS = "torques", "currents", "errors"
+POSES, TIMES, PARAMETERS = "poses", "times", "parameters"
+TURNS, OBSTACLES, TEMPERATURES = "turns", "obstacles", "temperatures"
 
 # Whole names, without case, separators and trailing digits.
 POSITIONS = words(
@@ -70,16 +73,16 @@ TWO_FACED = words(
     "pathpoints viapoints keyframes"
 )
 WHOLE_DOUBTFUL = {
-    "qd": "joint velocities",
+    "qd": "joint_velocities",
     "qobs": OBSTACLES,
     "qerr": ERRORS,
     "qerror": ERRORS,
-    "u": "control inputs or pixel coordinates",
-    "v": "velocities or pixel coordinates",
-    "x": "positions of the tool or states",
+    "u": "inputs",
+    "v": "pixels",
+    "x": "tool_or_states",
     "p": "points",
-    "s": "states or path parameters",
-    "w": "angular velocities or weights",
+    "s": "states_or_path",
+    "w": "angular_velocities",
     "state": "states",
     "states": "states",
     "b": PARAMETERS,
@@ -107,7 +110,7 @@ AGAINST_PARTS = {
         "omega w rpm drehrate velocidad velocidades vitesse velocita"
     ),
     ACCELERATIONS: words("acc accel accels acceleration accelerations ddot d2 qdd ddq qpp"),
-    "third derivatives": words("jerk jerks d3 d4 ruck"),
+    JERKS: words("jerk jerks d3 d4 ruck"),
     TORQUES: words(
         "torque torques force forces tau wrench moment moments load loads effort efforts ft trq"
     ),
@@ -238,7 +241,7 @@ def _describe(path: str) -> Name:
         return Name(Hint.POSITIONS, "", unit)
     found = Name(*_said_by(bare, whole, [p.rstrip("0123456789") or p for p in said], said), unit)
     if found.hint is Hint.POSITIONS and len(said) > 1 and said[-1] == "rev":
-        return Name(Hint.DOUBTFUL, f"{TURNS} or a reversed path")
+        return Name(Hint.DOUBTFUL, "turns_or_reversed")
     if found.hint is Hint.POSITIONS:
         of_struct = _said_by_struct(path)
         if of_struct is not None and of_struct.what in OF_JOINTS:
@@ -282,7 +285,7 @@ def _said_by(bare: str, whole: str, said: list[str], numbered: list[str]) -> tup
     if bare in WHOLE_DOUBTFUL and len(said) == 1:
         return Hint.DOUBTFUL, WHOLE_DOUBTFUL[bare]
     if said[:1] == ["qd"]:
-        return Hint.DOUBTFUL, "joint velocities"
+        return Hint.DOUBTFUL, "joint_velocities"
     if bare in POSITIONS:
         return Hint.POSITIONS, ""
     if len(bare) == 1 and bare != whole and bare in WHOLE_AGAINST[PARAMETERS]:

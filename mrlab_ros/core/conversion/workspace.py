@@ -10,6 +10,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from mrlab_ros.core.base.diagnostic import Diagnostic
+
 JOINT_TRAJECTORY = "trajectory_msgs/msg/JointTrajectory"
 JOINT_STATE = "sensor_msgs/msg/JointState"
 
@@ -46,7 +48,7 @@ class Variable:
     shape: tuple[int, ...] = ()
     values: NDArray[Any] | None = None
     is_object: bool = False
-    note: str = ""
+    note: Diagnostic | str = ""
     columns: tuple[str, ...] = ()
     units: tuple[str, ...] = ()
     time: str = ""
@@ -69,7 +71,7 @@ class Workspace:
     """The variables of a file in their order.
 
     omitted: how many more there are than listed. confirm: reads the variables at some paths a
-    second time, with another reader, and raises Refused unless both find the same bits; None
+    second time, with another reader, and raises BadInput unless both find the same bits; None
     where there is no second reader.
     """
 
@@ -93,3 +95,8 @@ class Workspace:
         if variable.values is None or variable.values.size != 1:
             return None
         return float(np.asarray(variable.values).reshape(-1)[0])
+
+
+def shortened(names: list[str], most: int = 8) -> list[str]:
+    """Return at most `most` names, and dots where there are more."""
+    return names if len(names) <= most else [*names[:most], "..."]

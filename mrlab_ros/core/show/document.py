@@ -18,7 +18,6 @@ from mrlab_ros.core.conversion.convert import ConversionResult, Outcome
 from mrlab_ros.core.conversion.options import DEFAULT_FRAME_RATE
 from mrlab_ros.core.conversion.preview import Preview
 from mrlab_ros.core.show.packed import packed
-from mrlab_ros.core.show.remedies import for_page
 from mrlab_ros.core.trajectory.trajectory import Source, Trajectory
 
 SCHEMA = "mrlab.motion.1"
@@ -147,7 +146,7 @@ def of_result(
 
 def findings(diagnostics: Sequence[Diagnostic]) -> list[dict[str, Any]]:
     """Return the findings, numbered by their place in the list; NaN and Inf become null."""
-    return [{**plain(d), "remedy": for_page(d.remedy)} for d in diagnostics]
+    return [plain(d) for d in diagnostics]
 
 
 def _head(

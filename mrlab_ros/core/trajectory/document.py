@@ -15,7 +15,8 @@ from numpy.typing import NDArray
 
 from mrlab_ros.core.base.diagnostic import Diagnostic, from_plain, plain
 from mrlab_ros.core.errors import BadInput
-from mrlab_ros.core.trajectory.trajectory import Array, Channels, Source, Trajectory
+from mrlab_ros.core.trajectory.diagnostics import COLUMN_NOT_FINITE, COLUMN_OF_TIME, COLUMN_SHAPE
+from mrlab_ros.core.trajectory.trajectory import Array, Channels, Source, Trajectory, size_of
 
 SCHEMA_VERSION = "1.0"
 UNITS = {"q": "deg", "dq": "deg/s", "tau_proxy": "N*m nominal", "t": "s"}
@@ -76,11 +77,10 @@ def _matrix(columns: Mapping[str, Any], name: str, shape: tuple[int, ...]) -> Ar
         values = np.empty(0)
     if values.shape != shape:
         raise BadInput(
-            f"'{name}' of the trajectory file has the shape {values.shape}; expected {shape}, as "
-            "frame_count and joint_names say; convert the workspace again"
+            COLUMN_SHAPE(column=name, size=size_of(values.shape), expected=size_of(shape))
         )
     if not np.isfinite(values).all():
-        raise BadInput(f"'{name}' of the trajectory file holds NaN or Inf; convert it again")
+        raise BadInput(COLUMN_NOT_FINITE(column=name))
     return values
 
 
@@ -137,9 +137,7 @@ def trajectory(document: Mapping[str, Any]) -> Trajectory:
     shape = (count, len(names))
     t = _matrix(columns, "t", (count,))
     if not np.allclose(t, np.arange(count) / rate, rtol=1e-9, atol=1e-12):
-        raise BadInput(
-            f"'t' of the trajectory file does not count i / {rate:g}; convert the workspace again"
-        )
+        raise BadInput(COLUMN_OF_TIME(rate=rate))
     velocities = np.radians(_matrix(columns, "dq", shape))
     gripper = None
     if document["has_gripper"]:

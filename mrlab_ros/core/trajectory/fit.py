@@ -3,6 +3,11 @@
 from __future__ import annotations
 
 from mrlab_ros.core.errors import BadInput
+from mrlab_ros.core.trajectory.diagnostics import (
+    OF_ANOTHER_END_EFFECTOR,
+    OF_ANOTHER_MODEL,
+    OF_OTHER_JOINTS,
+)
 
 # A model, its joints in order (empty: unknown), and an end effector (empty: none).
 Arm = tuple[str, tuple[str, ...], str]
@@ -13,18 +18,10 @@ def check_fits(trajectory_id: str, made_for: Arm, robot: Arm) -> None:
     model, joints, end_effector = made_for
     found, found_joints, carried = robot
     if model != found:
-        raise BadInput(
-            f"trajectory '{trajectory_id}' was made for {model}, this robot is a {found}; "
-            f"convert the file again for {found}"
-        )
+        raise BadInput(OF_ANOTHER_MODEL(id=trajectory_id, made_for=model, robot_model=found))
     if joints and joints != found_joints:
-        raise BadInput(
-            f"trajectory '{trajectory_id}' has the joints {', '.join(joints)}; expected "
-            f"{', '.join(found_joints)}; convert the file again"
-        )
+        raise BadInput(OF_OTHER_JOINTS(id=trajectory_id, found=joints, expected=found_joints))
     if end_effector not in ("", carried):
         raise BadInput(
-            f"trajectory '{trajectory_id}' was made for the end effector {end_effector}, this "
-            f"robot carries {carried or 'none'}; exchange the end effector, or convert the file "
-            "again"
+            OF_ANOTHER_END_EFFECTOR(id=trajectory_id, made_for=end_effector, carried=carried)
         )

@@ -6,6 +6,7 @@ import re
 from dataclasses import dataclass
 
 from mrlab_ros.core.errors import BadInput
+from mrlab_ros.core.trajectory.diagnostics import BAD_TRAJECTORY_ID, BAD_TRAJECTORY_NAME
 
 LONGEST_NAME = 128
 ID = re.compile(rf"[A-Za-z0-9][A-Za-z0-9._-]{{0,{LONGEST_NAME - 1}}}")
@@ -32,10 +33,7 @@ class TrajectoryName:
 def checked_id(name: str) -> str:
     """Return a trajectory's name without its owner; raise BadInput where it cannot be one."""
     if not ID.fullmatch(name):
-        raise BadInput(
-            f"the name '{name}' cannot be used; expected letters, digits, '.', '_' and '-', at "
-            f"most {LONGEST_NAME}, beginning with a letter or digit"
-        )
+        raise BadInput(BAD_TRAJECTORY_NAME(name=name, most=LONGEST_NAME))
     return name
 
 
@@ -48,8 +46,5 @@ def parse(text: str) -> TrajectoryName:
     owner, slash, rest = text.rpartition("/")
     name, at, version = rest.partition("@")
     if not ID.fullmatch(name) or (slash and not owner) or (at and not VERSION.fullmatch(version)):
-        raise BadInput(
-            f"'{text}' cannot be the id of a trajectory; expected NAME or USER/NAME with letters, "
-            "digits, '.', '_' and '-' in NAME, such as quintic, anna/quintic or quintic@3"
-        )
+        raise BadInput(BAD_TRAJECTORY_ID(id=text))
     return TrajectoryName(owner, name, int(version) if at else 0)

@@ -11,6 +11,16 @@ from functools import cached_property
 from typing import Any
 
 from mrlab_ros.core.errors import BadInput
+from mrlab_ros.core.trajectory.diagnostics import (
+    DELETED_ALREADY,
+    NAME_OF_ANOTHER_MODEL,
+    NEWER_RECORD,
+    NEWEST_ALREADY,
+    NO_RECORD,
+    NO_SUCH_VERSION,
+    NOT_DELETED,
+    SEEN_BY_ALL,
+)
 from mrlab_ros.core.trajectory.names import LONGEST_NAME, TrajectoryName
 
 FORMAT = 1
@@ -68,8 +78,8 @@ class Record:
         for version in self.versions:
             if number in (version.number, 0):
                 return self.newest if number == 0 else version
-        kept = ", ".join(str(version.number) for version in self.versions)
-        raise BadInput(f"'{self.id}' has no version {number}; kept are: {kept}")
+        kept = [version.number for version in self.versions]
+        raise BadInput(NO_SUCH_VERSION(id=self.id, version=number, kept=kept))
 
     def visible_to(self, user: str) -> bool:
         """Say whether a user who is no instructor may see it; an empty one: everybody."""
@@ -88,8 +98,7 @@ def published(
         there, model = record.newest.head["robot_model"], version.head["robot_model"]
         if there != model:
             raise BadInput(
-                f"'{record.id}' is a trajectory of {there} already, and this one is for {model}; "
-                f"choose another name, such as {name.name}_{model}, or delete '{record.id}' first"
+                NAME_OF_ANOTHER_MODEL(id=record.id, there=there, robot_model=model, name=name.name)
             )
     before = record.versions if record is not None else ()
     number = before[-1].number + 1 if before else 1
@@ -100,17 +109,14 @@ def published(
 def shared(record: Record, value: bool) -> Record:
     """Return the record shared or not; raise BadInput for one of the lab's own."""
     if not record.owner and not value:
-        raise BadInput(
-            f"'{record.id}' is the lab's own, which everybody may see; give it an owner by "
-            "publishing it as a user's"
-        )
+        raise BadInput(SEEN_BY_ALL(id=record.id))
     return replace(record, shared=value)
 
 
 def deleted(record: Record, now_ns: int) -> Record:
     """Return the record as deleted; it can be brought back until its time is over."""
     if record.deleted_ns:
-        raise BadInput(f"'{record.id}' is deleted already; restore brings it back")
+        raise BadInput(DELETED_ALREADY(id=record.id))
     return replace(record, deleted_ns=now_ns)
 
 
@@ -118,15 +124,13 @@ def restored(record: Record, number: int, now_ns: int, kept: int) -> Record:
     """Return the record as there, with version `number` as its next one; 0: as it was."""
     if number == 0:
         if not record.deleted_ns:
-            raise BadInput(
-                f"'{record.id}' is not deleted; name the version that becomes the next one"
-            )
+            raise BadInput(NOT_DELETED(id=record.id))
         return replace(record, deleted_ns=0)
     version = record.version(number)
     if version is record.newest:
         if record.deleted_ns:
             return replace(record, deleted_ns=0)
-        raise BadInput(f"version {number} of '{record.id}' is the newest already")
+        raise BadInput(NEWEST_ALREADY(id=record.id, version=number))
     again = replace(version, number=record.newest.number + 1, published_ns=now_ns, draft="")
     return replace(record, deleted_ns=0, versions=(*record.versions, again)[-kept:])
 
@@ -178,10 +182,7 @@ def from_document(document: Mapping[str, Any]) -> Record:
     """Build a record from plain data; raise BadInput where it is none of this format."""
     try:
         if document["format"] != FORMAT:
-            raise BadInput(
-                f"a record of the catalogue has format {document['format']}; this MR-Lab reads "
-                f"format {FORMAT}: update it"
-            )
+            raise BadInput(NEWER_RECORD(found=document["format"], known=FORMAT))
         versions = tuple(
             Version(**{name: version[name] for name in _names(Version)})
             for version in document["versions"]
@@ -194,7 +195,7 @@ def from_document(document: Mapping[str, Any]) -> Record:
         for version in versions:
             _ = version.head["id"], version.head["frame_count"] + 0, version.key + ""
     except (KeyError, TypeError, ValueError, AttributeError) as error:
-        raise BadInput(f"it is no record of a trajectory ({error!r})") from None
+        raise BadInput(NO_RECORD(error=repr(error))) from None
     return record
 
 

@@ -15,6 +15,12 @@ from numpy.typing import NDArray
 
 from mrlab_ros.core.base.diagnostic import Diagnostic
 from mrlab_ros.core.errors import BadInput
+from mrlab_ros.core.trajectory.diagnostics import (
+    CHANNEL_SHAPE,
+    FRAME_RATE_NOT_POSITIVE,
+    POSITIONS_NOT_FINITE,
+    POSITIONS_SHAPE,
+)
 
 Array = NDArray[np.float64]
 
@@ -72,32 +78,27 @@ class Trajectory:
     def __post_init__(self) -> None:
         rows, columns = self.positions.shape if self.positions.ndim == 2 else (0, 0)
         if rows < 2 or columns != len(self.joint_names):
-            raise BadInput(
-                f"the positions of '{self.id}' have shape {self.positions.shape}; expected at "
-                f"least 2 rows and {len(self.joint_names)} columns, one a joint"
-            )
+            size, joints = size_of(self.positions.shape), len(self.joint_names)
+            raise BadInput(POSITIONS_SHAPE(id=self.id, size=size, joints=joints))
         if not np.isfinite(self.positions).all():
-            raise BadInput(f"the positions of '{self.id}' hold NaN or Inf; save finite radians")
+            raise BadInput(POSITIONS_NOT_FINITE(id=self.id))
         if not (np.isfinite(self.frame_rate) and self.frame_rate > 0):
-            raise BadInput(
-                f"the frame rate of '{self.id}' is {self.frame_rate}; expected a number of frames "
-                "per second above 0"
-            )
+            raise BadInput(FRAME_RATE_NOT_POSITIVE(id=self.id, value=self.frame_rate))
         if self.gripper is not None and self.gripper.shape != (rows,):
-            raise BadInput(
-                f"the gripper of '{self.id}' has shape {self.gripper.shape}; expected one state "
-                f"for each of the {rows} frames"
-            )
+            raise self._misshapen("gripper", self.gripper.shape, (rows,))
         arrays = [self.positions, *vars(self.channels).values()]
         for array in arrays:
             if array.shape != self.positions.shape:
-                raise BadInput(
-                    f"a derived channel of '{self.id}' has shape {array.shape}; expected "
-                    f"{self.positions.shape}, the shape of the positions"
-                )
+                raise self._misshapen("derived", array.shape, self.positions.shape)
             array.setflags(write=False)
         if self.gripper is not None:
             self.gripper.setflags(write=False)
+
+    def _misshapen(
+        self, channel: str, found: tuple[int, ...], expected: tuple[int, ...]
+    ) -> BadInput:
+        size, wanted = size_of(found), size_of(expected)
+        return BadInput(CHANNEL_SHAPE(id=self.id, channel=channel, size=size, expected=wanted))
 
     @cached_property
     def frame_count(self) -> int:
@@ -154,3 +155,8 @@ class Trajectory:
         if self.gripper[0]:
             frames.insert(0, 0)
         return tuple((f, bool(self.gripper[f])) for f in frames)
+
+
+def size_of(shape: tuple[int, ...]) -> str:
+    """Return the dimensions of an array as MATLAB's whos writes them, such as 450x6."""
+    return "x".join(map(str, shape))

@@ -162,7 +162,7 @@ def test_the_example_and_the_measures_are_printed():
         ("robot: ur5e\nscene: tabel\ntests: [{expect: no collision, points: 1}]", "'table'"),
         ("tests: [{expect: no colision, points: 1}]", "r.yaml:1: test 'no colision'"),
         ("robot: ur5e\nreference: no.mat\ntests:\n- expect: joints within 1 deg of the reference\n"
-         "  points: 1", "r.yaml: reference: there is no file"),
+         "  points: 1", "r.yaml: reference: There is no file"),
         ("tests: 5", "expected a list"),
         ("tests: [{expect: no collision, points: 1}]", "add robot: ur5e to the rubric"),
         ("closest: 2 m\ntests: [{expect: no collision, points: 1}]", "0 to 500 mm"),

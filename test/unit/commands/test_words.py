@@ -34,9 +34,10 @@ from named_commands import (
 from typer.core import TyperGroup
 
 from mrlab_ros.cli import COMMANDS, make_app, refused
-from mrlab_ros.commands.convert.options import declared, with_options, words_of
+from mrlab_ros.commands.convert.options import declared, option_words, with_options, words_of
+from mrlab_ros.core.base.diagnostic import Code
+from mrlab_ros.core.conversion import diagnostics
 from mrlab_ros.core.conversion.options import Options
-from mrlab_ros.core.diagnostics import KINDS
 
 # Prints the log of what it runs until Ctrl-C.
 WITHOUT_JSON = ["up"]
@@ -94,17 +95,13 @@ def test_the_parser_takes_every_command_of_a_block(page: str, line: str) -> None
 
 def test_every_option_that_mends_a_file_is_one_of_convert_play_load_and_show() -> None:
     """Play takes what convert takes: a finding is mended with the same words."""
-    mends = {
-        option
-        for kind in KINDS.values()
-        for option in OPTION.findall(f"{kind.message} {kind.remedy}")
-    } - {"--row-limit", "--speed", "--package"}
-    assert mends
+    codes = [code for code in vars(diagnostics).values() if type(code) is Code]
+    fields = {option for code in codes for option, _, _ in code.fixes if option} - {"{option}"}
+    assert fields <= set(vars(Options()))
+    mends = {option_words(field, "")[0] for field in vars(Options())}
     for name in ("convert", "play", "load", "show"):
         command, _ = resolved([name])
         assert mends <= options_of(command), name
-    fields = {option for kind in KINDS.values() for option, _, _ in kind.fixes if option}
-    assert fields - {"{option}"} <= set(vars(Options()))
 
 
 def test_the_options_of_a_conversion_are_declared_once() -> None:

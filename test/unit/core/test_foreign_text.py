@@ -14,7 +14,7 @@ from hypothesis import example, given
 from hypothesis import strategies as st
 
 from mrlab_ros.core import foreign_text
-from mrlab_ros.core.diagnostics import finding
+from mrlab_ros.core.conversion.diagnostics import NEVER_FILLED
 from mrlab_ros.core.errors import BadInput
 
 ANY = st.text(st.characters(codec="utf-8"))
@@ -79,7 +79,7 @@ def test_a_shell_takes_it_as_words(words: list[str]) -> None:
 
 def test_findings_and_errors_hold_nothing_that_acts() -> None:
     name = "\x1b[2Jq\nmrlab: accepted"
-    said = finding("never_filled", variable=name, size="2x2")
+    said = NEVER_FILLED(variable=name, size="2x2")
     assert not any(map(acts, said.message))
     assert said.variable == name, "as the file has it, for programs"
     assert not {c for c in str(BadInput(name)) if acts(c)} - {"\n"}
@@ -89,13 +89,8 @@ def test_findings_and_errors_hold_nothing_that_acts() -> None:
     "name", ["q; system('x')", "system('x')", "a=b", "q'", "ü", "q\n!x", "!x"]
 )
 def test_no_line_of_matlab_holds_what_is_no_name(name: str) -> None:
-    found = finding("never_filled", variable=name, size="2x2")
+    found = NEVER_FILLED(variable=name, size="2x2")
     assert [fix.matlab for fix in found.fixes] == ["any(q(:))"]
     for taken in ("q", "out.q", "c{2}.q(1, :)", "s(3).q_d"):
-        (fix,) = finding("never_filled", variable=taken, size="2x2").fixes
+        (fix,) = NEVER_FILLED(variable=taken, size="2x2").fixes
         assert fix.matlab == f"any({taken}(:))"
-
-
-def test_what_a_shell_is_to_take_is_quoted() -> None:
-    found = finding("looks_like", variable="q; touch made", why="", size="")
-    assert "--variable 'q; touch made'" in found.remedy

@@ -224,6 +224,10 @@ function shown(
       return problem(value).replace(/\.$/, '')
     case 'problems':
       return (value as readonly unknown[]).map((each) => `\n  ${problem(each)}`).join('')
+    case 'reasons':
+      return (value as readonly unknown[])
+        .map((each) => problem(each).replace(/\.$/, ''))
+        .join('; ')
     default:
       throw new Error(`there is no quantity ${quantity}`)
   }

@@ -9,6 +9,7 @@ import orjson
 import pytest
 from fakes import make_trajectory
 from kept import Kept
+from refusals import refused
 
 from mrlab_ros.adapters.store import keys
 from mrlab_ros.adapters.store.memory import MemoryStore
@@ -20,6 +21,7 @@ from mrlab_ros.adapters.trajectories.files import TrajectoryFiles
 from mrlab_ros.adapters.trajectories.npz_file import Damaged
 from mrlab_ros.adapters.trajectories.plain_folder import import_folder
 from mrlab_ros.core.errors import BadInput
+from mrlab_ros.core.trajectory.diagnostics import NO_TRAJECTORY_OF_NAME, OVER_QUOTA
 from mrlab_ros.core.trajectory.names import TrajectoryName
 
 DAY_NS = 86_400 * 10**9
@@ -127,9 +129,8 @@ def test_a_reader_follows_a_writer_that_was_started_again(store, writer):
 def test_who_may_not_see_it_is_told_nothing_of_it(writer):
     writer.save(make("anna/secret"))
     writer.save(make("open"))
-    with pytest.raises(NoTrajectory) as said:
+    with refused(NO_TRAJECTORY_OF_NAME, NoTrajectory, known=["open"], close=None):
         writer.find("anna/secret", lambda r: r.visible_to("ben"))
-    assert str(said.value).startswith("there is no trajectory 'anna/secret'; there are: open;")
     with pytest.raises(NoTrajectory) as said:
         writer.find("anna/secre", lambda r: r.visible_to("ben"))
     assert "anna/secret'" not in str(said.value)
@@ -221,7 +222,7 @@ def test_a_write_whose_answer_was_lost_is_looked_up(store, writer):
 def test_a_quota_bounds_a_user_and_nobody_else(writer):
     writer.save(make("anna/a"))
     writer.quota = writer.usage("anna") + 100
-    with pytest.raises(BadInput, match="delete what is no longer used"):
+    with refused(OVER_QUOTA, BadInput, owner="anna"):
         writer.save(make("anna/b"))
     writer.save(make("ben/b"))
     writer.save(make("lab"))
@@ -352,7 +353,7 @@ def test_a_plain_folder_is_taken_over_and_nothing_is_lost(store, writer, tmp_pat
         "damaged": {"bad.npz", "broken.json", "dir.npz"},
     }
     assert (folder / "other.npz").is_file()
-    assert any("name it c.npz" in line for line in log)
+    assert any("Name it c.npz" in line for line in log)
     assert import_folder(folder, writer, log.append) == []
 
 

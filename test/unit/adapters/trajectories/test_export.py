@@ -5,8 +5,8 @@ import pytest
 from fakes import make_model, make_trajectory
 
 from mrlab_ros.adapters.trajectories import export
+from mrlab_ros.core.conversion.diagnostics import NON_FINITE
 from mrlab_ros.core.conversion.preview import Preview
-from mrlab_ros.core.diagnostics import finding
 
 
 @pytest.mark.parametrize("rows", [2, 2000, 2001, 123_457])
@@ -38,7 +38,7 @@ def test_a_picture_does_not_depend_on_what_was_drawn_before(tmp_path):
 
 def test_refused_rows_are_marked(tmp_path):
     shown = Preview("q", np.arange(1, 51), np.zeros((50, 6)))
-    found = finding("non_finite", variable="q", where="", count=1, first_row=7, last_row=9)
+    found = NON_FINITE(variable="q", column=1, count=1, first_row=7, last_row=9)
     export.plot_refused(shown, [], "a.mat", make_model(6), tmp_path / "plain.png")
     export.plot_refused(shown, [found], "a.mat", make_model(6), tmp_path / "marked.png")
     _, (axis,) = export._figure(5, 1)

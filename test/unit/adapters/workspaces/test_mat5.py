@@ -177,7 +177,7 @@ def test_what_octave_writes_as_hdf5_is_named():
     with h5py.File(buffer, "w") as file:
         group = file.create_group("q")
         group.attrs["OCTAVE_NEW_FORMAT"] = np.uint8(1)
-    with pytest.raises(NotAWorkspace, match="Octave HDF5"):
+    with pytest.raises(NotAWorkspace, match="octave"):
         read(buffer.getvalue())
 
 
@@ -250,24 +250,24 @@ def test_v7_3_containers_and_objects():
 
 
 @pytest.mark.parametrize(
-    ("data", "words"),
+    ("data", "form"),
     [
-        (b"", "an empty file"),
-        (b"PK\x03\x04rest", "ZIP"),
-        (b"\x89PNG\r\n\x1a\n", "PNG"),
-        (b"\x93NUMPY\x01\0", "np.savez"),
-        (b"version https://git-lfs.github.com/spec/v1\n", "Git LFS"),
-        (b"# Created by Octave 8.4.0\n# name: q\n", "Octave text"),
-        (b"Octave-1-L\0\0\0\0\0\1\0\0\0q", "Octave binary"),
-        (b"<!DOCTYPE html><html>", "web page"),
-        (b"q = [1 2 3];\n", "text file"),
-        (b"\x00\x9f\x92\x96" * 20, "unknown kind"),
-        (b"MATLAB 5.0 MAT-file".ljust(128, b" "), "header is damaged"),
-        (b"SQLite format 3\0", "SQLite database"),
+        (b"", "empty"),
+        (b"PK\x03\x04rest", "zip"),
+        (b"\x89PNG\r\n\x1a\n", "png"),
+        (b"\x93NUMPY\x01\0", "numpy"),
+        (b"version https://git-lfs.github.com/spec/v1\n", "lfs"),
+        (b"# Created by Octave 8.4.0\n# name: q\n", "octave"),
+        (b"Octave-1-L\0\0\0\0\0\1\0\0\0q", "octave"),
+        (b"<!DOCTYPE html><html>", "html"),
+        (b"q = [1 2 3];\n", "text"),
+        (b"\x00\x9f\x92\x96" * 20, "unknown"),
+        (b"MATLAB 5.0 MAT-file".ljust(128, b" "), "header"),
+        (b"SQLite format 3\0", "sqlite"),
     ],
 )
-def test_other_files_are_named_for_what_they_are(data, words):
-    with pytest.raises(NotAWorkspace, match=words):
+def test_other_files_are_named_for_what_they_are(data, form):
+    with pytest.raises(NotAWorkspace, match=form):
         read(data)
 
 
@@ -325,7 +325,7 @@ def test_dimensions_that_disagree_with_the_numbers_are_named():
 
 def test_a_bomb_is_refused_by_what_it_declares():
     body = zlib.compress(struct.pack("<II", 14, 1 << 30) + bytes(1000))
-    with pytest.raises(TooLarge, match="1024 MiB"):
+    with pytest.raises(TooLarge, match=str(1 << 30)):
         read(header5() + struct.pack("<II", 15, len(body)) + body)
 
 
@@ -427,7 +427,7 @@ def test_a_table_with_headings():
     np.testing.assert_array_equal(sink.values("q"), [[0.5, 1.0], [0.25, 2.0]])
     _, sink = read(b"a,b\r1,2\r3,4\r", "run.csv")
     np.testing.assert_array_equal(sink.values("q"), [[1.0, 2.0], [3.0, 4.0]])
-    with pytest.raises(Damaged, match="first row cannot be read"):
+    with pytest.raises(Damaged, match="cells cannot be read"):
         read(b"'a'," + b"x" * 200_000 + b"\n1,2\n", "run.csv")
     with pytest.raises(Damaged):
         read(b"a,b\n1,2\n3\n", "run.csv")

@@ -12,7 +12,7 @@ from mrlab_ros.adapters import wall
 from mrlab_ros.adapters.workspaces import mat73, worker
 from mrlab_ros.adapters.workspaces.mat5 import Damaged, TooLarge
 from mrlab_ros.adapters.workspaces.reader import WorkspaceReader
-from mrlab_ros.core.diagnostics import Refused
+from mrlab_ros.core.errors import BadInput
 
 pytestmark = pytest.mark.fast
 AT_ONCE = 150  # of the 2,000 files of the fuzz, in `make test`
@@ -37,7 +37,7 @@ def said(reader: WorkspaceReader, data: bytes) -> str:
     """Return all that a reading tells of a file, numbers included."""
     try:
         found = reader.read_bytes(data, "traj.mat")
-    except Refused as error:
+    except BadInput as error:
         return str(error)
     words = [repr(found)]
     for variable in found.variables:

@@ -9,6 +9,7 @@ from found_matrices import matrix
 
 from mrlab_ros.adapters.trajectories.coefficients import load_coefficients
 from mrlab_ros.adapters.workspaces import object_classes, objects, worker
+from mrlab_ros.adapters.workspaces.diagnostics import CATEGORIES, NUMBERS_DIFFER, TOO_MANY_PARTS
 from mrlab_ros.adapters.workspaces.mat5 import Damaged, TooLarge
 from mrlab_ros.adapters.workspaces.object_sinks import Digests, ObjectSink
 from mrlab_ros.adapters.workspaces.object_values import decoded_strings
@@ -178,7 +179,7 @@ def test_maps_enumerations_and_strings_are_opened(version):
     np.testing.assert_array_equal(sink.values("m('q')"), Q)
     assert sink.get_fact("m('q')", "label") == "q"
     assert sink.get_fact("s", "text") == "UR5e"
-    assert sink.get_fact("c", "note") == "one of open, closed"
+    assert sink.get_fact("c", "note") == CATEGORIES(names=["open", "closed"])
     for name in "dw":
         np.testing.assert_allclose(sink.values(name)[:, 0], TIMES, atol=1e-12)
         assert sink.get_fact(name, "units") == ("s",)
@@ -216,7 +217,7 @@ def test_the_number_of_parts_is_bounded(monkeypatch):
     monkeypatch.setattr(object_classes, "MOST_PARTS", 20)
     many = matlab.obj("Run", **{f"x{i}": np.float64(i) for i in range(50)})
     sink = opened("v7", many=many)
-    assert "more than 20 parts" in sink.get_fact("many", "note")
+    assert sink.get_fact("many", "note") == TOO_MANY_PARTS(most=20)
     assert len(sink) < 25
 
 
@@ -225,7 +226,7 @@ def test_a_matrix_that_only_mat_io_finds_has_no_values(monkeypatch):
     sink = opened("v7", ts=matlab.timeseries(Q, TIMES), r=matlab.obj("Run", q=Q))
     for path in ("ts.Data", "r.q"):
         assert sink.values(path) is None
-        assert sink.get_fact(path, "note") == "two readers find different numbers in it"
+        assert sink.get_fact(path, "note") == NUMBERS_DIFFER()
 
 
 def test_without_mat_io_an_object_stays_closed_and_the_note_says_what_is_missing(monkeypatch):

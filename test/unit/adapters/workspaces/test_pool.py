@@ -5,11 +5,12 @@ from __future__ import annotations
 import threading
 
 import pytest
+from refusals import refused
 
 from mrlab_ros.adapters.workspaces import pool as pools
+from mrlab_ros.adapters.workspaces.diagnostics import TOO_SLOW, WAITING_FILES
 from mrlab_ros.adapters.workspaces.pool import ConversionPool
 from mrlab_ros.adapters.workspaces.reader import Limits, TooSlow
-from mrlab_ros.core.diagnostics import finding
 from mrlab_ros.core.errors import Misuse
 
 LONG = 60.0  # s; far above what any of this takes
@@ -22,7 +23,7 @@ def no_processes(monkeypatch):
 
 
 def too_slow(reader):
-    raise TooSlow(finding("too_slow", file="x.mat", limit=reader.limits.time))
+    raise TooSlow(TOO_SLOW(file="x.mat", limit=reader.limits.time))
 
 
 def test_a_slow_file_is_begun_again_with_the_whole_time():
@@ -38,7 +39,7 @@ def test_a_slow_file_is_begun_again_with_the_whole_time():
 
 
 def test_a_file_that_stays_too_slow_is_answered():
-    with ConversionPool(Limits(time=20.0), 2) as pool, pytest.raises(TooSlow, match="20"):
+    with ConversionPool(Limits(time=20.0), 2) as pool, refused(TOO_SLOW, TooSlow, limit=20.0):
         pool.submit(too_slow, 0).result(LONG)
 
 
@@ -79,7 +80,7 @@ def test_too_much_that_waits_is_refused_and_counted_out_again(monkeypatch):
     go_on = threading.Event()
     with ConversionPool(Limits(), 1) as pool:
         first = pool.submit(lambda _: go_on.wait(LONG), 60, 60)
-        with pytest.raises(Misuse, match="wait already; send this one again"):
+        with refused(WAITING_FILES, Misuse):
             pool.submit(lambda _: None, 60, 60)
         go_on.set()
         first.result(LONG)

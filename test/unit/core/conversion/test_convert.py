@@ -6,15 +6,16 @@ from pathlib import Path
 import numpy as np
 import pytest
 from fakes import make_model
+from refusals import said_in
 
 from mrlab_ros.adapters.trajectories.coefficients import load_coefficients
+from mrlab_ros.adapters.workspaces.diagnostics import READERS_DISAGREE, UNREADABLE
 from mrlab_ros.core.base.diagnostic import Severity
 from mrlab_ros.core.conversion import convert as conversion_convert
 from mrlab_ros.core.conversion import joining
 from mrlab_ros.core.conversion.convert import ConversionResult, Outcome, id_from
 from mrlab_ros.core.conversion.options import Options, parse_columns
 from mrlab_ros.core.conversion.workspace import Variable, Workspace
-from mrlab_ros.core.diagnostics import Refused, finding
 from mrlab_ros.core.errors import BadInput
 
 COEFFICIENTS = load_coefficients(Path(__file__).parents[4] / "config" / "torque_proxy.yaml")
@@ -141,8 +142,8 @@ def test_gains_beside_a_timeseries_are_not_published():
         assert result.outcome is Outcome.REJECTED
         worst = result.diagnostics[0]
         assert worst.code == "unsupported_object"
-        assert "q = q.Data; save('traj.mat', 'q')" in worst.remedy
-        assert "'q' (timeseries)" in worst.message
+        assert worst.fixes[0].matlab == "q = q.Data; save('traj.mat', 'q')"
+        assert worst.values["objects"] == ["q (timeseries)"]
     # nor is a smooth matrix without a telling name taken for it
     assert convert(series, var("Y", motion())).outcome is not Outcome.ACCEPTED
 
@@ -159,7 +160,7 @@ def test_gains_beside_a_timeseries_are_not_published():
 def test_objects_come_with_the_line_that_saves_their_numbers(kind, line):
     result = convert(var("d", kind=kind, is_object=True))
     assert result.diagnostics[0].code == "unsupported_object"
-    assert f"q = {line}; save" in result.diagnostics[0].remedy
+    assert result.diagnostics[0].fixes[0].matlab == f"q = {line}; save('traj.mat', 'q')"
 
 
 def test_an_object_that_holds_no_samples_is_not_offered_as_one():
@@ -167,8 +168,8 @@ def test_an_object_that_holds_no_samples_is_not_offered_as_one():
     corners = np.random.default_rng(3).uniform(-2, 2, (30, 6))
     result = convert(box, var("qobs", corners))
     assert result.diagnostics[0].code == "no_trajectory"
-    assert "obs (1x1 Cuboid)" in result.message
-    assert "qobs (30x6 double)" in result.message
+    held = result.diagnostics[0].values["held"]
+    assert held == ["obs (1x1 Cuboid)", "qobs (30x6 double)"]
 
 
 def test_objects_beside_a_clear_trajectory_are_mentioned():
@@ -215,7 +216,8 @@ def test_an_array_of_three_dimensions_is_taken_and_said():
     np.testing.assert_array_equal(result.trajectory.positions, q)
     said = next(d for d in result.diagnostics if d.code == "squeezed")
     assert said.severity is Severity.INFO
-    assert "'q' is 6x1x300; it was taken as 300x6, as q = squeeze(q).'; gives it" in said.message
+    assert (said.values["size"], said.values["taken"]) == ("6x1x300", "300x6")
+    assert said.values["line"] == "q = squeeze(q).';"
 
 
 def test_lines_of_matlab_for_an_array_begin_with_the_one_that_makes_the_matrix():
@@ -254,17 +256,18 @@ def test_degrees_that_the_file_names_are_converted(label):
 def test_samples_kept_one_by_one_come_with_the_line_that_joins_them():
     result = convert(*(var(f"path({i}).pos", motion()[i : i + 1]) for i in range(1, 9)))
     assert result.diagnostics[0].code == "inside_container"
-    assert "q = vertcat(path.pos)" in result.diagnostics[0].remedy
+    assert result.diagnostics[0].values["line"].startswith("q = vertcat(path.pos)")
 
 
 def test_an_empty_workspace_says_so():
     result = convert()
-    assert "no variable at all" in result.message
+    worst = result.diagnostics[0]
+    assert (worst.code, worst.values["count"]) == ("no_trajectory", 0)
 
 
 def test_what_the_reader_refuses_is_a_result():
     def read():
-        raise Refused(finding("unreadable", file="x.mat", problem="it ends"))
+        raise BadInput(UNREADABLE(file="x.mat", why="it ends"))
 
     result = conversion_convert.convert("x.mat", read, Options(), ARM, COEFFICIENTS)
     assert (result.outcome, codes(result)) == (Outcome.REJECTED, {"unreadable"})
@@ -311,9 +314,8 @@ def test_recorded_joint_states_are_said_to_be_replayed(named):
     states = Variable("/joint_states", "sensor_msgs/msg/JointState")
     result = convert(var("/tf", kind="tf2_msgs/msg/TFMessage"), states, variable=named)
     assert result.diagnostics[0].code == "recorded_states"
-    remedy = result.diagnostics[0].remedy
-    assert "mrlab replay BAG." in remedy
-    assert "mrlab bag import BAG SESSION, then mrlab show SESSION" in remedy
+    commands = [fix.command for fix in result.diagnostics[0].fixes]
+    assert commands == ["replay BAG", "bag import BAG SESSION"]
 
 
 def test_unwrap_removes_full_turns():
@@ -351,8 +353,8 @@ def test_the_gripper_is_closed_above_the_middle():
 def test_samples_between_the_gripper_s_ends_are_counted(ends, between):
     column = np.interp(np.arange(300), [140, 159], ends)
     (found,) = [d for d in convert(gripper_motion(column)).diagnostics if "between" in d.code]
-    assert (found.severity, found.where) == (Severity.WARNING, "column 7")
-    assert f"{between} samples of 300" in found.message
+    assert found.severity is Severity.WARNING
+    assert (found.values["count"], found.values["rows"]) == (between, 300)
 
 
 def test_a_noisy_gripper_is_at_its_ends():
@@ -420,12 +422,14 @@ def test_a_closed_object_says_why_it_is_closed():
     closed = var("q", kind="timeseries", shape=(), is_object=True, note="mat-io is missing")
     found = convert(closed).diagnostics[0]
     assert found.code == "unsupported_object"
-    assert "'q' (timeseries) could not be opened: mat-io is missing." in found.message
-    assert "q = q.Data" in found.remedy
+    assert found.values["objects"] == ["q (timeseries)"]
+    assert found.values["why"] == "mat-io is missing"
+    assert found.values["line"].startswith("q = q.Data")
     handle = var("q", kind="function_handle", shape=(1, 1), is_object=True)
     found = convert(handle).diagnostics[0]
     assert found.code == "unsupported_object"
-    assert "arrayfun(@(s) reshape(q(s), 1, []), t(:)" in found.remedy
+    assert found.values["why"].code == "function_handle"
+    assert "arrayfun(@(s) reshape(q(s), 1, []), t(:)" in found.values["line"]
     beside = var("f", kind="function_handle", shape=(1, 1), is_object=True)
     assert "object_ignored" not in codes(convert(var("q", motion()), beside))
 
@@ -433,7 +437,7 @@ def test_a_closed_object_says_why_it_is_closed():
 def test_matrices_inside_objects_are_named():
     log = var("log", kind="Simulink.SimulationData.Dataset", shape=(1, 1))
     result = convert(log, var("log{1}.Data", np.ones((50, 2))))
-    assert "Inside: log{1}.Data (50x2)." in result.diagnostics[0].message
+    assert result.diagnostics[0].values["inside"] == ["log{1}.Data (50x2)"]
 
 
 def test_the_matrix_that_is_taken_is_confirmed_by_a_second_reader():
@@ -451,7 +455,7 @@ def test_the_matrix_that_is_taken_is_confirmed_by_a_second_reader():
     assert joining.sources("q1..q3", "q1..q3") == ["q1", "q2", "q3"]
 
     def differs(paths):
-        raise Refused(finding("readers_disagree", file="traj.mat", variable=paths[0], problem="x"))
+        raise BadInput(READERS_DISAGREE(file="traj.mat", variable=paths[0], why="x"))
 
     workspace = replace(workspace, confirm=differs)
     assert run().diagnostics[0].code == "readers_disagree"
@@ -466,7 +470,7 @@ def test_an_impossible_rate_is_refused(rate):
 def test_an_unknown_variable_is_answered_with_the_names_there_are():
     result = convert(var("q", motion()), variable="Q")
     assert result.diagnostics[0].code == "unknown_variable"
-    assert "q (300x6 double)" in result.message
+    assert result.diagnostics[0].values["held"] == ["q (300x6 double)"]
 
 
 @pytest.mark.parametrize(
@@ -487,7 +491,7 @@ def test_columns_are_written_as_in_matlab(text, columns):
 
 @pytest.mark.parametrize("text", ["0:3", "1:9", "x", "1:0:3", "", "7:2", "-1", "1..3", "1:2:3:4"])
 def test_other_columns_are_refused(text):
-    with pytest.raises(Refused):
+    with pytest.raises(BadInput):
         parse_columns(text, 8, "q", "9x8")
 
 
@@ -530,8 +534,8 @@ def test_more_rows_than_the_limit_are_refused(most, code):
     )
     assert (result.outcome is Outcome.ACCEPTED) is (code is None), result.message
     if code:
-        assert result.diagnostics[0].code == code
-        assert "300 samples; the limit is 299" in result.message
+        worst = result.diagnostics[0]
+        assert (worst.code, worst.values["rows"], worst.values["most"]) == (code, 300, 299)
 
 
 def test_a_time_that_goes_back_is_cut_before_it_does():
@@ -540,7 +544,7 @@ def test_a_time_that_goes_back_is_cut_before_it_does():
     result = convert(var("q", motion()), var("t", t[:, None]))
     (found,) = [d for d in result.diagnostics if d.code == "time_backward"]
     assert found.first_row == 201
-    assert "'q(1:200, :)'" in found.remedy
+    assert found.values["last"] == 200
 
 
 def test_a_time_that_was_not_used_is_named_with_its_row():
@@ -549,7 +553,7 @@ def test_a_time_that_was_not_used_is_named_with_its_row():
     result = convert(var("q", motion()), var("t", t[:, None]))
     (found,) = [d for d in result.diagnostics if d.code == "rate_unused"]
     assert (found.variable, found.severity) == ("t", Severity.WARNING)
-    assert "row 100 is nan" in found.message
+    assert said_in(found)["time_not_finite"]["first_row"] == 100
 
 
 def test_waypoints_are_mended_with_resample():
@@ -573,20 +577,23 @@ def test_degrees_in_some_columns_are_not_converted_in_silence():
     q[:, 5] = np.degrees(q[:, 5]) * 1.5
     result = convert(var("q", q))
     assert result.diagnostics[0].code == "degrees"
-    assert "columns 6 reach" in result.message
+    assert said_in(result.said)["unit_mixed"]["columns"] == "6"
     assert [f.option for f in result.diagnostics[0].fixes] == [""]
     warnings = accepted(var("q", q), units="deg").warnings
-    assert any("may be radians already" in w.message for w in warnings)
+    assert any("little_in_degrees" in said_in(w) for w in warnings)
     assert not accepted(var("q", np.degrees(motion(reach=2.0))), units="deg").warnings
 
 
 def test_options_that_name_things_twice_or_needlessly_are_answered():
     q = motion()
-    for taken in (
-        accepted(var("q", q), columns="1 1 1 1 1 1"),
-        accepted(var("q1", q[:, :1]), var("q2", q[:, 1:2]), join="q1,q1,q1,q1,q1,q2"),
+    for code, taken in (
+        ("repeated_columns", accepted(var("q", q), columns="1 1 1 1 1 1")),
+        (
+            "repeated_pieces",
+            accepted(var("q1", q[:, :1]), var("q2", q[:, 1:2]), join="q1,q1,q1,q1,q1,q2"),
+        ),
     ):
-        assert any("more than once" in w.message for w in taken.warnings)
+        assert any(code in said_in(w) for w in taken.warnings)
     assert accepted(var("q", q), variable="q ").frame_count == 300
     result = convert(var("q", q), transpose=True)
-    assert "its samples are rows already" in result.message
+    assert "rows_already" in said_in(result.said)

@@ -11,12 +11,13 @@ import pytest
 import scipy.io
 
 from mrlab_ros.adapters.trajectories.coefficients import load_coefficients
-from mrlab_ros.core.base.diagnostic import Severity
+from mrlab_ros.adapters.workspaces import diagnostics as files
+from mrlab_ros.core.base.diagnostic import Code, Severity
 from mrlab_ros.core.conversion import convert as conversion_convert
+from mrlab_ros.core.conversion import diagnostics
 from mrlab_ros.core.conversion.convert import Outcome
 from mrlab_ros.core.conversion.options import Options
 from mrlab_ros.core.conversion.workspace import JOINT_TRAJECTORY, Variable, Workspace
-from mrlab_ros.core.diagnostics import KINDS, Refused, finding
 
 COEFFICIENTS = load_coefficients(corpus.ROOT / "config" / "torque_proxy.yaml")
 ROBOT = corpus.model("ur5e")
@@ -136,20 +137,26 @@ EXAMPLES = {
     "gripper_constant": Example([var("q", np.column_stack([Q, 0 * CLOSED]))]),
     "squeezed": Example([Variable("q", "double", (6, 1, ROWS), Q.T.reshape(6, 1, ROWS))]),
     "converted_unit": Example([var("q", np.degrees(Q), units=("deg",))]),
-    "option_applied": Example([var("q", Q.T)], {"transpose": True}),
+    "transpose_applied": Example([var("q", Q.T)], {"transpose": True}),
+    "columns_applied": Example([var("q", TIMED)], {"columns": "2:7"}),
+    "gripper_applied": Example([var("q", Q), var("hand", CLOSED)], {"gripper": "hand"}),
+    "invert_applied": Example([var("q", np.column_stack([Q, 1 - CLOSED]))], {"invert": True}),
+    "units_applied": Example([var("q", np.degrees(Q))], {"units": "deg"}),
+    "unwrap_applied": Example([var("q", Q)], {"unwrap": True}),
 }
 # What the file, the reader or the converter itself brings about: no option mends it.
 OF_THE_FILE = {
-    "missing": {"file": "q.mat"},
-    "unsupported_format": {"file": "q.mat", "found": "a web page"},
-    "unreadable": {"file": "q.mat", "problem": "it ends early"},
-    "bad_table": {"file": "q.csv", "problem": "line 3 has 'x'"},
-    "converter_failed": {"file": "q.mat", "problem": "KeyError()"},
-    "reader_died": {"file": "q.mat", "problem": "signal 11"},
-    "readers_disagree": {"file": "q.mat", "problem": "scipy finds 1.0", "variable": "q"},
-    "too_large": {"file": "q.mat", "problem": "2000 MiB"},
-    "too_slow": {"file": "q.mat", "limit": 20.0},
+    files.MISSING: {},
+    files.UNSUPPORTED_FORMAT: {"form": "html"},
+    files.UNREADABLE: {"why": "it ends early"},
+    files.BAD_TABLE: {"why": "line 3 has 'x'"},
+    files.CONVERTER_FAILED: {"error": "KeyError()"},
+    files.READER_DIED: {"signal": 11},
+    files.READERS_DISAGREE: {"why": "scipy finds 1.0", "variable": "q"},
+    files.TOO_LARGE: {"part": "file", "limit": 2e9},
+    files.TOO_SLOW: {"limit": 20.0},
 }
+REASONS = {"clock", "name_says", "times_of_class", "unit_reaches", "trajectory_taken"}
 ELSEWHERE = {"kinematics_agree", "kinematics_differ"}  # test_kinematics_match
 
 
@@ -174,8 +181,10 @@ def found_in(example: Example, code: str):
 
 
 def test_every_code_of_the_converter_has_an_example():
-    codes = set(KINDS)
-    assert codes == {*EXAMPLES, *OF_THE_FILE, *ELSEWHERE}
+    declared = [code for code in vars(diagnostics).values() if type(code) is Code]
+    # a reason stands inside a finding and ends without a full stop
+    findings = {code.code for code in declared if code.text.endswith((".", "]", "problems}"))}
+    assert findings - REASONS == {*EXAMPLES, *ELSEWHERE}
 
 
 @pytest.mark.parametrize("code", EXAMPLES)
@@ -191,7 +200,7 @@ def test_each_fix_leads_to_an_accepted_file_or_the_next_problem(code):
     if found.severity is Severity.WARNING:
         assert found.fixes, "a warning carries what ends it"
     for fix in found.fixes:
-        assert fix.option or fix.matlab
+        assert fix.option or fix.matlab or fix.command
         if not fix.option:
             continue
         options = Options(**example.options)
@@ -206,8 +215,8 @@ def test_each_fix_leads_to_an_accepted_file_or_the_next_problem(code):
 
 @pytest.mark.parametrize("code", OF_THE_FILE)
 def test_what_no_option_mends_carries_a_line_of_matlab(code):
-    refused = Refused(finding(code, **OF_THE_FILE[code]))
-    assert [f.matlab for f in refused.finding.fixes if not f.option]
+    found = code(file="q.mat", **OF_THE_FILE[code])
+    assert [f.matlab for f in found.fixes if not f.option]
 
 
 # Lines that only MATLAB can run, that need something of the person's own, or that look at data.
