@@ -38,9 +38,11 @@ from mrlab_ros.commands.status.facts import recorder_facts
 from mrlab_ros.commands.status.table import recorder_line
 from mrlab_ros.core.design import STATES
 from mrlab_ros.core.errors import BadInput
+from mrlab_ros.core.physics.diagnostics import SLIPS
 from mrlab_ros.core.recording.diagnostics import NO_SUCH_JOINTS
 from mrlab_ros.core.recording.metadata import QosProfile, Topic
 from mrlab_ros.messages.definitions import definition
+from mrlab_ros.messages.texts import told
 from mrlab_ros.messages.time import make_header
 
 UR5E = (
@@ -136,6 +138,32 @@ def test_the_report_tells_states_contacts_grasps_errors_and_latency(bag, tmp_pat
     assert (run_["robot"], run_["trajectory"], run_["result"]) == ("ur5e_1", "wave", "open")
     assert [each["deed"] for each in run_["actions"]] == ["hit", "grasped"]
     assert run_["deviation"]["most"] == pytest.approx(3.141592653589793 - 3.0)
+
+
+def test_remarks_of_physics_come_with_their_codes_and_those_of_older_bags_as_texts(tmp_path):
+    writer = BagWriter(tmp_path / "class", definition)
+    slips = SLIPS(mass=1.5, friction_needed=0.9, friction=0.4)
+    older = msg.Grasp(state=msg.Grasp.EMPTY, reason="an earlier lab said so")
+    state = msg.PlaybackState(label="PLAYING", trajectory_id="wave")
+    for at, name, message in (
+        (0, "playback_state", state),
+        (1, "grasp", msg.Grasp(state=msg.Grasp.HOLDING, object="a", **told(slips, "reason"))),
+        (2, "grasp", msg.Grasp(state=msg.Grasp.HOLDING, object="b", **told(slips, "reason"))),
+        (3, "grasp", older),
+    ):
+        topic = f"/ur5e_1/{name}"
+        message.header = make_header(START_NS + at * 10**9)
+        kind = f"mrlab_msgs/msg/{type(message).__name__}"
+        writer.add_topic(Topic(topic, kind, (QosProfile(),), "RIHS01_0"))
+        writer.write(topic, START_NS + at * 10**9, serialize_message(message), START_NS)
+    writer.close()
+    facts = json.loads(run("bag", "report", tmp_path / "class", "--json"))
+    remarks = [a["said"] for a in facts["runs"][0]["actions"] if a["deed"] == "remark"]
+    assert [(said["code"], said["values"].get("object")) for said in remarks] == [
+        ("slips", "a"), ("slips", "b"), ("", None),
+    ]  # fmt: skip
+    assert (remarks[0]["robot"], remarks[0]["values"]["friction_needed"]) == ("ur5e_1", "0.9")
+    assert remarks[2]["message"] == older.reason
 
 
 def test_a_reference_takes_the_place_of_what_was_played(bag, tmp_path):

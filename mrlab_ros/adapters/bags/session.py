@@ -6,6 +6,7 @@ import contextlib
 import math
 import struct
 from collections.abc import Callable
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -253,6 +254,9 @@ class _Reader:
             )
         )
         robot.states.add(time, state.label, state.trajectory_id)
+        said = _said(state, "message", INFO)
+        if said is not None:
+            robot.reasons.add(time, said)
 
     def _telemetry(self, time: float, robot: RobotReport, telemetry: Any) -> None:
         if telemetry.frames_sent:
@@ -271,7 +275,9 @@ class _Reader:
         robot.grasps.add(time, label, grasp.object)
         said = _said(grasp, "reason", WARNING)
         if said is not None:
-            robot.remark(time, said)
+            held = {"object": grasp.object} if grasp.object else {}
+            whose = {"robot": robot.name, **held, **said.values}
+            robot.remarks.add(time, replace(said, values=whose))
         if label == HOLDING and getattr(grasp, "friction_needed", None):
             robot.bear(grasp.object, grasp)
 

@@ -55,7 +55,8 @@ class Changes:
     def add(
         self, time: float, label: str, detail: str = "", said: Diagnostic | None = None
     ) -> None:
-        if not self.values or self.values[-1][1:] != (label, detail, said):
+        last = self.values[-1] if self.values else None
+        if last is None or last[1:3] != (label, detail) or _meaning(last[3]) != _meaning(said):
             self.values.append((time, label, detail, said))
 
     def spans(self, end: float) -> list[Span]:
@@ -65,6 +66,17 @@ class Changes:
             Span(time, max(until, time), label, detail, said)
             for (time, label, detail, said), until in zip(self.values, ends, strict=True)
         ]
+
+
+@dataclass
+class Said:
+    """What was said when, s; the same again is ignored, also where its figures vary."""
+
+    values: list[tuple[float, Diagnostic]] = field(default_factory=list)
+
+    def add(self, time: float, said: Diagnostic) -> None:
+        if not self.values or _meaning(self.values[-1][1]) != _meaning(said):
+            self.values.append((time, said))
 
 
 @dataclass(frozen=True)
@@ -192,8 +204,9 @@ class RobotReport:
     model: str = ""
     states: Changes = field(default_factory=Changes)
     grasps: Changes = field(default_factory=Changes)
-    # What was said of its grasps, and when.
-    remarks: list[tuple[float, Diagnostic]] = field(default_factory=list)
+    # What was said of its grasps, and of its states.
+    remarks: Said = field(default_factory=Said)
+    reasons: Said = field(default_factory=Said)
     borne: dict[str, Borne] = field(default_factory=dict)
     collisions: list[Contact] = field(default_factory=list)
     # When the arm or the tool touched something, halting or not.
@@ -216,14 +229,6 @@ class RobotReport:
             self._begin = len(self._holds)
         self.reported.append(reported)
         self._holds.append(reported.holds_from_ns)
-
-    def remark(self, time: float, said: Diagnostic) -> None:
-        """Take note of what is said of a grasp, once until something else is said.
-
-        Figures that vary while it holds make no further remark.
-        """
-        if not self.remarks or _same_remark(self.remarks[-1][1]) != _same_remark(said):
-            self.remarks.append((time, said))
 
     def bear(self, name: str, grasp: Any) -> None:
         """Take note of what a grasp of object `name` bears; grasp: a mrlab_msgs/Grasp."""
@@ -277,7 +282,8 @@ class RobotReport:
             "model": self.model,
             "states": [span.facts() for span in self.states.spans(end)],
             "grasps": [span.facts() for span in self.grasps.spans(end)],
-            "remarks": [{"time": time, "said": plain(said)} for time, said in self.remarks],
+            "remarks": [{"time": time, "said": plain(said)} for time, said in self.remarks.values],
+            "reasons": [{"time": time, "said": plain(said)} for time, said in self.reasons.values],
             "borne": {name: vars(borne) for name, borne in self.borne.items()},
             "collisions": [vars(contact) for contact in self.collisions],
             "contacts": len(self.contacts),
@@ -355,8 +361,13 @@ class SessionReport:
         }
 
 
-def _same_remark(said: Diagnostic) -> tuple[str, dict[str, Any]]:
-    """Return what two remarks have in common that say the same; a text without code is itself."""
+def _meaning(said: Diagnostic | None) -> tuple[str, dict[str, Any]]:
+    """Return what two diagnostics have in common that say the same; a text without code is itself.
+
+    Figures may vary.
+    """
+    if said is None:
+        return "", {}
     if not said.code:
         return said.message, {}
     return said.code, {name: said.values.get(name) for name in ("object", "robot", "link")}

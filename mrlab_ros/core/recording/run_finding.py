@@ -149,7 +149,7 @@ def _actions(
     for contact in robot.collisions:
         said = RUN_HIT(robot=robot.name, other=contact.other, link=contact.link, row=contact.row)
         yield Action(contact.time, Deed.HIT, said)
-    for time, remark in robot.remarks:
+    for time, remark in robot.remarks.values:
         yield Action(time, Deed.REMARK, remark)
     spans = robot.grasps.spans(end)
     before = ""

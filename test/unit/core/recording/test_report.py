@@ -8,7 +8,7 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from mrlab_ros.adapters.bags.diagnostics import BAG_NO_INDEX
+from mrlab_ros.adapters.bags.diagnostics import BAG_NO_INDEX, CLOCK_SET_BACK
 from mrlab_ros.core.base.diagnostic import plain
 from mrlab_ros.core.clock import PlaybackClock
 from mrlab_ros.core.recording.diagnostics import RUN_MISSED
@@ -37,6 +37,16 @@ def test_the_same_told_again_is_no_change():
     spans = [(span.start, span.end, span.label) for span in changes.spans(9.0)]
     assert spans == [(0.0, 1.0, "READY"), (1.0, 4.0, "PLAYING"), (4.0, 9.0, "READY")]
     assert Changes().spans(9.0) == []
+
+
+def test_a_value_changes_with_what_is_said_of_it_but_not_with_figures():
+    states = Changes()
+    said = [CLOCK_SET_BACK(time=time, by=2.0, then="even") for time in (1.0, 2.0)]
+    for time, each in enumerate((None, said[0], said[1], RUN_MISSED(), None)):
+        states.add(float(time), "PAUSED", said=each)
+    assert [(span.start, span.said) for span in states.spans(5.0)] == [
+        (0.0, None), (1.0, said[0]), (3.0, RUN_MISSED()), (4.0, None),
+    ]  # fmt: skip
 
 
 @pytest.mark.parametrize(

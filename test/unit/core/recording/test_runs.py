@@ -249,8 +249,8 @@ def test_a_remark_counts_once_however_its_figures_vary():
         (4.0, "rod_2", "1.2"),
     ):
         values = {"object": name, "friction_needed": needed}
-        robot.remark(time, Diagnostic("slips", WARNING, f"it slips: {needed}", values=values))
+        robot.remarks.add(time, Diagnostic("slips", WARNING, f"it slips: {needed}", values=values))
     for time in (5.0, 6.0):
-        robot.remark(time, Diagnostic("", WARNING, "what an older bag says"))
+        robot.remarks.add(time, Diagnostic("", WARNING, "what an older bag says"))
     (run,) = found(report)
     assert [(a.time, a.said.code) for a in run.actions] == [(2, "slips"), (4, "slips"), (5, "")]
