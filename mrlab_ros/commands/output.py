@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from mrlab_ros.core.base.diagnostic import Diagnostic, plain
-from mrlab_ros.core.foreign_text import visible_lines
+from mrlab_ros.core.foreign_text import visible, visible_lines
 
 if TYPE_CHECKING:
     from rich.console import Console
@@ -42,14 +42,18 @@ def say_error(sentence: str) -> None:
 def say_problem(found: Diagnostic) -> None:
     """Print why something was refused, and the commands that mend it."""
     say_error(str(found))
-    for command in filter(None, (fix.command for fix in found.fixes)):
-        print(f"  try: mrlab {command}", file=sys.stderr)
+    for line in _tries(found):
+        print(line, file=sys.stderr)
 
 
 def with_fixes(found: Diagnostic) -> str:
     """Return what is said, and the commands that mend it in lines of their own."""
-    tries = [f"\n  try: mrlab {fix.command}" for fix in found.fixes if fix.command]
-    return str(found) + "".join(tries)
+    return "\n".join((str(found), *_tries(found)))
+
+
+def _tries(found: Diagnostic) -> list[str]:
+    # A name of a file in a command may have a line end.
+    return [f"  try: mrlab {visible(fix.command)}" for fix in found.fixes if fix.command]
 
 
 def console(*, stderr: bool = False, width: int | None = None) -> Console:

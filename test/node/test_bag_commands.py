@@ -380,13 +380,15 @@ def test_extract_writes_the_attachments(bag, tmp_path):
 
 
 def test_repair_says_what_it_did(bag):
-    assert "is whole, with 10 messages" in run("bag", "repair", bag)
+    done = json.loads(run("bag", "repair", bag, "--json"))
+    assert done == {"files": [], "troubles": [], "messages": 10}
     file = bag / "class_0.mcap"
     file.write_bytes(file.read_bytes()[:-100])
     (bag / "metadata.yaml").unlink()
-    said = run("bag", "repair", bag)
-    assert "class_0.mcap" in said
-    assert "10 messages; the originals are kept as *.original" in said
+    done = json.loads(run("bag", "repair", bag, "--json"))
+    assert (done["files"], done["messages"]) == (["class_0.mcap", "metadata.yaml"], 10)
+    assert [trouble["values"]["file"] for trouble in done["troubles"]] == ["class_0.mcap"]
+    assert (bag / "class_0.mcap.original").exists()
 
 
 @pytest.mark.parametrize(
