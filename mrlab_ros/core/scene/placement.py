@@ -13,7 +13,12 @@ import numpy as np
 
 from mrlab_ros.core.errors import BadInput, Misuse
 from mrlab_ros.core.geometry import Array, Pose, rotate
-from mrlab_ros.core.naming import did_you_mean
+from mrlab_ros.core.naming import close_to
+from mrlab_ros.core.scene.diagnostics import (
+    NO_LEVEL_SURFACE,
+    NO_PLACE_BEFORE_VIEWER,
+    NO_PLACE_ON_SURFACE,
+)
 
 FLOOR = "floor"
 # A plane is level where its normal is this near to the vertical: the cosine of 10 degrees.
@@ -160,11 +165,8 @@ def named_support(name: str, supports: Sequence[Support]) -> Support:
     for support in (*supports, ENDLESS_FLOOR):
         if support.name == wanted:
             return support
-    known = ", ".join(support.name for support in (*supports, ENDLESS_FLOOR))
-    raise BadInput(
-        f"no level surface '{name}' is in the room; there are: {known}"
-        f"{did_you_mean(name, [support.name for support in supports])}"
-    )
+    known = [support.name for support in (*supports, ENDLESS_FLOOR)]
+    raise BadInput(NO_LEVEL_SURFACE(surface=name, known=known, close=close_to(name, known)))
 
 
 def place_on(
@@ -183,9 +185,7 @@ def place_on(
             y = float(middle[1]) + radius * math.sin(angle)
             if _is_clear(support, x, y, 0.0, supports, standing, things):
                 return Pose((x, y, support.height))
-    raise Misuse(
-        f"no free place is on {support.name}; remove a robot or an object there, or give a pose"
-    )
+    raise Misuse(NO_PLACE_ON_SURFACE(surface=support.name))
 
 
 def place_before(
@@ -219,11 +219,9 @@ def place_before(
                 best = cost, _facing(x, y, support.height, viewer)
     if best is not None:
         return best[1]
-    where = only.name if only is not None else f"the {FARTHEST:g} m before the viewer"
-    raise Misuse(
-        f"no free place is on {where}; turn around, remove a robot or an object there, or give a "
-        "pose"
-    )
+    if only is not None:
+        raise Misuse(NO_PLACE_ON_SURFACE(surface=only.name))
+    raise Misuse(NO_PLACE_BEFORE_VIEWER(distance=FARTHEST))
 
 
 def _candidates(viewer: Viewer, *, anywhere: bool) -> Iterator[tuple[float, float, float, float]]:

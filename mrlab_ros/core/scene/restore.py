@@ -10,8 +10,24 @@ import math
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 
+from mrlab_ros.core.base.diagnostic import Diagnostic
 from mrlab_ros.core.errors import BadInput, LabError
 from mrlab_ros.core.physics.surfaces import Surface
+from mrlab_ros.core.scene.diagnostics import (
+    CREATE_SYSTEM,
+    DISSOLVE_SYSTEMS,
+    GRIP_OBJECTS,
+    LEFT_OUT,
+    LOAD_TRAJECTORY,
+    LOADED_IN_PART,
+    NO_TRAJECTORY_NAMED,
+    POSITION_BEYOND,
+    REMOVE_ROBOTS,
+    SET_CONTENTS,
+    SPAWN_ROBOTS,
+    STEP_FAILED,
+    TRAJECTORY_NOT_FITTING,
+)
 from mrlab_ros.core.scene.document import ObjectEntry, RobotEntry, SceneDocument, SystemEntry
 from mrlab_ros.core.systems.members import Loaded
 from mrlab_ros.core.systems.timeline import Member, Timeline
@@ -35,8 +51,9 @@ class DissolveSystems:
 
     names: tuple[str, ...]
 
-    def __str__(self) -> str:
-        return f"dissolve {', '.join(self.names)}"
+    @property
+    def said(self) -> Diagnostic:
+        return DISSOLVE_SYSTEMS(systems=[*self.names])
 
 
 @dataclass(frozen=True)
@@ -45,8 +62,9 @@ class RemoveRobots:
 
     names: tuple[str, ...]
 
-    def __str__(self) -> str:
-        return f"remove {', '.join(self.names)}"
+    @property
+    def said(self) -> Diagnostic:
+        return REMOVE_ROBOTS(robots=[*self.names])
 
 
 @dataclass(frozen=True)
@@ -56,8 +74,9 @@ class SetObjects:
     objects: tuple[ObjectEntry, ...]
     surfaces: tuple[Surface, ...]
 
-    def __str__(self) -> str:
-        return f"set {counted(self.objects, 'object')} and {counted(self.surfaces, 'surface')}"
+    @property
+    def said(self) -> Diagnostic:
+        return SET_CONTENTS(objects=len(self.objects), surfaces=len(self.surfaces))
 
 
 @dataclass(frozen=True)
@@ -66,8 +85,9 @@ class SpawnRobots:
 
     robots: tuple[RobotEntry, ...]
 
-    def __str__(self) -> str:
-        return f"spawn {', '.join(robot.name for robot in self.robots)}"
+    @property
+    def said(self) -> Diagnostic:
+        return SPAWN_ROBOTS(robots=[robot.name for robot in self.robots])
 
 
 @dataclass(frozen=True)
@@ -76,8 +96,9 @@ class LoadTrajectory:
 
     robot: RobotEntry
 
-    def __str__(self) -> str:
-        return f"load {self.robot.trajectory} into {self.robot.name}"
+    @property
+    def said(self) -> Diagnostic:
+        return LOAD_TRAJECTORY(trajectory=self.robot.trajectory, robot=self.robot.name)
 
 
 @dataclass(frozen=True)
@@ -86,8 +107,9 @@ class CreateSystem:
 
     system: SystemEntry
 
-    def __str__(self) -> str:
-        return f"create the system {self.system.name}"
+    @property
+    def said(self) -> Diagnostic:
+        return CREATE_SYSTEM(system=self.system.name)
 
 
 @dataclass(frozen=True)
@@ -96,8 +118,10 @@ class AwaitGrasps:
 
     objects: tuple[ObjectEntry, ...]
 
-    def __str__(self) -> str:
-        return f"grip {', '.join(f'{o.name} with {o.held_by}' for o in self.objects)}"
+    @property
+    def said(self) -> Diagnostic:
+        holders = [thing.held_by for thing in self.objects]
+        return GRIP_OBJECTS(robots=holders, objects=[thing.name for thing in self.objects])
 
 
 Step = (
@@ -153,17 +177,11 @@ def plan_return(wanted: SceneDocument, present: Present) -> tuple[Step, ...]:
     return tuple(steps)
 
 
-def left_out(wanted: SceneDocument, present: Present) -> str:
-    """Return a sentence that names what the lab cannot bring back; empty: nothing."""
+def left_out(wanted: SceneDocument, present: Present) -> Diagnostic | None:
+    """Return what the lab cannot bring back; None: nothing."""
     if present.physics or not (wanted.objects or wanted.surfaces):
-        return ""
-    parts = [
-        counted(entries, what)
-        for entries, what in ((wanted.objects, "object"), (wanted.surfaces, "surface"))
-        if entries
-    ]
-    several = len(wanted.objects) + len(wanted.surfaces) > 1
-    return f"{' and '.join(parts)} {'are' if several else 'is'} left out: no physics runs"
+        return None
+    return LEFT_OUT(objects=len(wanted.objects), surfaces=len(wanted.surfaces))
 
 
 def with_pending(scene: SceneDocument, pending: SceneDocument) -> SceneDocument:
@@ -212,11 +230,12 @@ def run(steps: Sequence[Step], execute: Callable[[Step], None]) -> None:
         try:
             execute(step)
         except LabError as error:
-            done = "; ".join(map(str, steps[:i])) or "nothing"
-            rest = f". Not tried: {'; '.join(map(str, steps[i + 1 :]))}" * (i + 1 < len(steps))
             raise LabError(
-                f"the scene is loaded in part. Done: {done}. Failed: {step}: {error}{rest}. Load "
-                "it again"
+                LOADED_IN_PART(
+                    why=STEP_FAILED(step=step.said, why=error.diagnostic),
+                    done=[each.said for each in steps[:i]],
+                    rest=[each.said for each in steps[i + 1 :]],
+                )
             ) from error
 
 
@@ -234,11 +253,8 @@ def check_trajectories(
         if name not in fitting:
             fitting[name] = {t.trajectory_id: t for t in catalogue(robots[name])}
         if trajectory not in fitting[name]:
-            known = ", ".join(fitting[name]) or "none"
-            raise BadInput(
-                f"the scene wants {name} to play '{trajectory}', which the catalogue does not "
-                f"have for it; there are: {known}. Convert the file, then load again"
-            )
+            known = [*fitting[name]]
+            raise BadInput(TRAJECTORY_NOT_FITTING(robot=name, trajectory=trajectory, known=known))
         return fitting[name][trajectory]
 
     for robot in wanted.robots:
@@ -246,18 +262,19 @@ def check_trajectories(
             loaded = fits(robot.name, robot.trajectory)
             if robot.at > loaded.duration:
                 raise BadInput(
-                    f"the scene wants {robot.name} at {robot.at:g} s of '{robot.trajectory}', "
-                    f"which lasts {loaded.duration:g} s; set at to "
-                    f"{math.floor(loaded.duration * 1000) / 1000} at most"
+                    POSITION_BEYOND(
+                        robot=robot.name,
+                        trajectory=robot.trajectory,
+                        position=robot.at,
+                        duration=loaded.duration,
+                        most=math.floor(loaded.duration * 1000) / 1000,
+                    )
                 )
     for system in wanted.systems:
         members = []
         for m in _complete(system, wanted.robots).members:
             if not m.trajectory:
-                raise BadInput(
-                    f"the system {system.name} names no trajectory for {m.robot}; name one of the "
-                    "catalogue"
-                )
+                raise BadInput(NO_TRAJECTORY_NAMED(system=system.name, robot=m.robot))
             waits = tuple(map(parse_wait, m.waits))
             loaded = fits(m.robot, m.trajectory)
             members.append(
@@ -281,8 +298,3 @@ def _complete(system: SystemEntry, robots: Sequence[RobotEntry]) -> SystemEntry:
         for member in system.members
     ]
     return replace(system, members=tuple(members))
-
-
-def counted(entries: Sequence[object], what: str) -> str:
-    """Return '1 robot', '2 robots'."""
-    return f"{len(entries)} {what}{'s' * (len(entries) != 1)}"

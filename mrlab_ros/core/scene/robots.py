@@ -12,6 +12,7 @@ from mrlab_ros.core.base.diagnostics import NO_ROBOT_IN_SCENE
 from mrlab_ros.core.errors import Misuse
 from mrlab_ros.core.geometry import WORLD_SIZE, Pose, checked_vector
 from mrlab_ros.core.naming import checked_name, close_to
+from mrlab_ros.core.scene.diagnostics import NO_PLACE_ON_FLOOR
 from mrlab_ros.core.scene.placement import (
     FLOOR,
     SPACING,
@@ -87,10 +88,7 @@ class Scene:
                 for r in self._robots.values()
             ) and all(thing.leaves(x, y, 0.0, reach) for thing in things):
                 return Pose((x, y, 0.0))
-        raise Misuse(
-            f"no free place within {GRID_RADIUS * GRID:g} m of the origin; remove a robot, or "
-            "give a pose"
-        )
+        raise Misuse(NO_PLACE_ON_FLOOR(distance=GRID_RADIUS * GRID))
 
     def free_pose_on(
         self,

@@ -17,17 +17,28 @@ from mrlab_ros.adapters.robots.library import RobotLibrary
 from mrlab_ros.adapters.robots.published import published
 from mrlab_ros.adapters.scenes.files import SceneFiles
 from mrlab_ros.adapters.scenes.state_file import SCENE_FILE, StateFile
+from mrlab_ros.core.base.diagnostic import Diagnostic
 from mrlab_ros.core.errors import LabError
 from mrlab_ros.core.geometry import Pose
 from mrlab_ros.core.identity import Identity
 from mrlab_ros.core.scene.document import RobotEntry, SceneDocument
-from mrlab_ros.core.scene.restore import counted, self_contained, with_pending
+from mrlab_ros.core.scene.restore import self_contained, with_pending
 from mrlab_ros.core.scene.robots import PlacedRobot, Scene
 from mrlab_ros.messages import qos
 from mrlab_ros.messages.poses import pose_from_message
 from mrlab_ros.messages.robots import robot_to_message, robots_to_message, text_to_message
 from mrlab_ros.messages.scenes import robot_entry, system_entry
 from mrlab_ros.nodes import parameters
+from mrlab_ros.nodes.lab.diagnostics import (
+    END_EFFECTOR_REMOVED,
+    END_EFFECTOR_SET,
+    NOT_AS_BEFORE,
+    ROBOT_LEFT_OUT,
+    ROBOT_PLACED,
+    ROBOT_REMOVED,
+    ROBOT_SPAWNED,
+    SYSTEM_LEFT_OUT,
+)
 from mrlab_ros.nodes.lab.observer import Observer
 from mrlab_ros.nodes.lab.restore import LabRestore, Return
 from mrlab_ros.nodes.lab.scenes import Scenes
@@ -199,37 +210,38 @@ class LabNode(ParameterNode[LabParameters]):
         self.lost.append(said)
         self.get_logger().warning(said)
 
-    def _lose(self, why: str) -> None:
+    def _lose(self, why: Diagnostic) -> None:
         """Keep a copy of the state file, and say what could not be brought back."""
-        self.lost.append(why)
-        self._file.keep_copy(why)
+        self.lost.append(str(why))
+        self._file.keep_copy(str(why))
 
     def _restore_robots(self, last: SceneDocument) -> SceneDocument:
         """Spawn the robots of the last run; return the document without those that cannot be."""
-        restored, mistakes = [], []
+        restored: list[RobotEntry] = []
+        mistakes: list[Diagnostic] = []
         for robot in last.robots:
             try:
                 self._spawn_entry(robot)
             except LabError as error:
-                mistakes.append(f"{robot.name}: {error}")
+                mistakes.append(ROBOT_LEFT_OUT(robot=robot.name, why=error.diagnostic))
             else:
                 restored.append(robot)
         intact = self_contained(replace(last, robots=tuple(restored)))
         mistakes += [
-            f"{system.name}: its robots are not all there"
+            SYSTEM_LEFT_OUT(system=system.name)
             for system in last.systems
             if system not in intact.systems
         ]
         if mistakes:
-            self._lose(f"left out of the last run: {'; '.join(mistakes)}")
+            self._lose(NOT_AS_BEFORE(all=mistakes))
         if restored:
-            self.get_logger().info(f"the scene is back: {counted(restored, 'robot')}")
+            self.get_logger().info(f"the scene is back with {len(restored)} robots")
         return intact
 
     # services ---------------------------------------------------------------------------------
 
     @answered
-    def _on_spawn(self, request: Any, response: Any) -> str:
+    def _on_spawn(self, request: Any, response: Any) -> Diagnostic:
         if request.automatic:
             pose = self._automatic_pose(request)
         else:
@@ -238,9 +250,7 @@ class LabNode(ParameterNode[LabParameters]):
         robot = self._spawn(request.model, request.end_effector or None, request.name, pose)
         self._announce()
         response.robot = robot_to_message(robot)
-        x, y, z = robot.pose.position
-        height = f", z {z:.3g} m" if z else ""
-        return f"{robot.name} stands at x {x:.3g} m, y {y:.3g} m{height}"
+        return ROBOT_SPAWNED(robot=robot.name, place=[*robot.pose.position])
 
     def _automatic_pose(self, request: Any) -> Pose:
         reach = self._library.model(request.model).reach
@@ -249,14 +259,14 @@ class LabNode(ParameterNode[LabParameters]):
         return self._scene.free_pose_on(reach, request.surface, viewer, seen.supports, seen.things)
 
     @answered
-    def _on_place(self, request: Any, response: Any) -> str:
+    def _on_place(self, request: Any, response: Any) -> Diagnostic:
         self._file.check_room()
         self._scene.place(request.robot, pose_from_message(request.pose))
         self._announce()
-        return f"{request.robot} is placed"
+        return ROBOT_PLACED(robot=request.robot)
 
     @answered
-    def _on_end_effector(self, request: Any, response: Any) -> str:
+    def _on_end_effector(self, request: Any, response: Any) -> Diagnostic:
         robot = self._scene.robot(request.robot)
         end_effector = request.end_effector or None
         description = self._library.description(robot.model, end_effector)
@@ -264,19 +274,21 @@ class LabNode(ParameterNode[LabParameters]):
         self._scene.set_end_effector(robot.name, end_effector)
         self._describe(robot.name, description)
         self._announce()
-        return f"{robot.name} carries {end_effector or 'nothing'}"
+        if end_effector is None:
+            return END_EFFECTOR_REMOVED(robot=robot.name)
+        return END_EFFECTOR_SET(robot=robot.name, end_effector=end_effector)
 
     @answered
-    def _on_remove(self, request: Any, response: Any) -> str:
+    def _on_remove(self, request: Any, response: Any) -> Diagnostic:
         self.remove([request.name])
-        return f"{request.name} is removed"
+        return ROBOT_REMOVED(robot=request.name)
 
     @answered
-    def _on_save_scene(self, request: Any, response: Any) -> str:
+    def _on_save_scene(self, request: Any, response: Any) -> Diagnostic:
         return self._scenes.save(request.name)
 
     @answered
-    def _on_load_scene(self, request: Any, response: Any) -> str:
+    def _on_load_scene(self, request: Any, response: Any) -> Diagnostic:
         self._file.check_room()
         self._return.finish()
         return self._scenes.load(request.name, [robot.name for robot in self._scene.robots])

@@ -13,8 +13,10 @@ from mrlab_msgs.srv import SetLoop
 from rclpy.client import Client
 from rclpy.node import Node
 
+from mrlab_ros.core.base.diagnostic import Code, Diagnostic
 from mrlab_ros.core.errors import LabError, Misuse
 from mrlab_ros.core.physics.surfaces import Surface
+from mrlab_ros.core.scene.diagnostics import STEP_FAILED
 from mrlab_ros.core.scene.document import ObjectEntry, RobotEntry, SceneDocument, SystemEntry
 from mrlab_ros.core.scene.restore import (
     AwaitGrasps,
@@ -31,6 +33,13 @@ from mrlab_ros.core.scene.restore import (
 from mrlab_ros.messages import qos
 from mrlab_ros.messages.physics import surface_to_message
 from mrlab_ros.messages.scenes import create_system_request, placement_to_message
+from mrlab_ros.messages.texts import heard
+from mrlab_ros.nodes.lab.diagnostics import (
+    GRASPS_MISSING,
+    NOT_AS_BEFORE,
+    PLAYBACKS_MISSING,
+    ROBOTS_STAY,
+)
 from mrlab_ros.nodes.lab.observer import Observer
 from mrlab_ros.ros.calls import NoAnswer, call
 
@@ -94,7 +103,7 @@ class LabRestore:
         finally:
             self._caller.destroy_client(client)
         if not answer.success:
-            raise Misuse(answer.message)
+            raise Misuse(heard(answer))
         return answer
 
     def set_objects(
@@ -112,9 +121,11 @@ class LabRestore:
         )
         self.order(srv.SetObjects, "/physics/set_objects", request)
 
-    def _wait_for(self, condition: Callable[[], bool], what: str, timeout: float) -> None:
+    def _wait_for(
+        self, condition: Callable[[], bool], timeout: float, late: Code, **values: Any
+    ) -> None:
         if not self._observer.wait_for(condition, timeout):
-            raise NoAnswer(f"waited {timeout:g} s for {what}")
+            raise NoAnswer(late(limit=timeout, **values))
 
     def _remove(self, names: Sequence[str]) -> None:
         self._robots.remove(names)
@@ -124,8 +135,9 @@ class LabRestore:
         ]
         self._wait_for(
             lambda: not self._observer.published(topics),
-            f"the playback and physics of {', '.join(names)} to end",
             ARRIVAL_TIMEOUT_S,
+            ROBOTS_STAY,
+            robots=[*names],
         )
 
     def _load(self, robot: RobotEntry) -> None:
@@ -148,8 +160,9 @@ class LabRestore:
     def _create(self, system: SystemEntry) -> None:
         self._wait_for(
             lambda: all(self._observer.state(m.robot) is not None for m in system.members),
-            f"the playbacks of {', '.join(m.robot for m in system.members)}",
             ARRIVAL_TIMEOUT_S,
+            PLAYBACKS_MISSING,
+            robots=[member.robot for member in system.members],
         )
         service = "/coordinator/create_system"
         request = create_system_request(system)
@@ -177,8 +190,10 @@ class LabRestore:
         try:
             self._wait_for(
                 lambda: holders.items() <= held.items(),
-                ", ".join(f"{robot} to hold {name}" for name, robot in holders.items()),
                 GRASP_TIMEOUT_S,
+                GRASPS_MISSING,
+                robots=[*holders.values()],
+                objects=[*holders],
             )
         finally:
             self._caller.destroy_subscription(subscription)
@@ -198,7 +213,7 @@ class Return:
         restore: LabRestore,
         observer: Observer,
         log: Callable[[str], None],
-        lose: Callable[[str], None],
+        lose: Callable[[Diagnostic], None],
     ) -> None:
         loaded = tuple(r for r in wanted.robots if r.trajectory and r.name not in wanted.driven)
         # What is not back yet; a state file that is written meanwhile must still hold it.
@@ -236,7 +251,7 @@ class Return:
 
         if not self._observer.wait_for(complete, START_TIMEOUT_S):
             missing = sorted(name for name in awaited if self._observer.state(name) is None)
-            self._warn(f"no playback of {', '.join(missing) or 'a system'} is there")
+            self._warn(PLAYBACKS_MISSING(limit=START_TIMEOUT_S, robots=missing))
             return
         present = Present(
             robots=self._robots,
@@ -260,18 +275,18 @@ class Return:
                 self._restore.execute(step)
             except NoAnswer as error:
                 # It stays pending: the next start tries again.
-                self._warn(f"cannot {step}: {error}")
+                self._warn(STEP_FAILED(step=step.said, why=error.diagnostic))
             except LabError as error:
                 lost.append((step, error))
             except Exception as error:
                 # The graph was left beneath it.
-                self._warn(f"cannot {step}: {error!r}")
+                self._warn(STEP_FAILED(step=step.said, why=repr(error)))
             else:
                 self._done(step)
         if lost and not self._cancelled.is_set():
             # The state file still has what is lost: a copy is kept before it is written without.
-            reasons = "; ".join(f"cannot {step}: {error}" for step, error in lost)
-            self._lose(f"the lab is not as it was: {reasons}")
+            reasons = [STEP_FAILED(step=step.said, why=error.diagnostic) for step, error in lost]
+            self._lose(NOT_AS_BEFORE(all=reasons))
             for step, _ in lost:
                 self._done(step)
 
@@ -283,7 +298,7 @@ class Return:
             systems = tuple(s for s in self.pending.systems if s.name != step.system.name)
             self.pending = replace(self.pending, systems=systems)
 
-    def _warn(self, text: str) -> None:
+    def _warn(self, why: Diagnostic) -> None:
         # What fails because the lab ends is no trouble.
         if not self._cancelled.is_set():
-            self._log(f"the lab is not as it was: {text}")
+            self._log(str(NOT_AS_BEFORE(all=[why])))

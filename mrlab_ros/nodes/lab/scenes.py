@@ -5,19 +5,28 @@ from __future__ import annotations
 import time
 from collections.abc import Callable, Sequence
 from dataclasses import replace
+from typing import Any
 
 from mrlab_msgs import srv
 from rclpy.node import Node
 
 from mrlab_ros.adapters.robots.library import RobotLibrary
 from mrlab_ros.adapters.scenes.files import SceneFiles
+from mrlab_ros.core.base.diagnostic import Diagnostic
 from mrlab_ros.core.scene import restore as core
 from mrlab_ros.core.scene.document import RobotEntry, SceneDocument
-from mrlab_ros.core.scene.restore import Present, counted
+from mrlab_ros.core.scene.restore import Present
 from mrlab_ros.core.systems.members import Loaded
 from mrlab_ros.messages import qos
 from mrlab_ros.messages.physics import surface_from_message
 from mrlab_ros.messages.scenes import loaded_from_messages, placements_from_messages
+from mrlab_ros.nodes.lab.diagnostics import (
+    NO_COORDINATOR_RUNS,
+    NO_PHYSICS_TO_SAVE,
+    NO_PLAYBACK_RUNS,
+    SCENE_LOADED,
+    SCENE_SAVED,
+)
 from mrlab_ros.nodes.lab.observer import Observer
 from mrlab_ros.nodes.lab.restore import ARRIVAL_TIMEOUT_S, LOAD_TIMEOUT_S, LabRestore
 from mrlab_ros.ros.calls import NoAnswer, call
@@ -66,7 +75,7 @@ class Scenes:
         """Return the names of all scenes, sorted."""
         return self._files.names()
 
-    def save(self, name: str) -> str:
+    def save(self, name: str) -> Diagnostic:
         """Save the scene; return what was saved. Raises LabError where it cannot be."""
         time.sleep(SETTLE_S)
         scene = self._document()
@@ -79,13 +88,13 @@ class Scenes:
                 surfaces=tuple(map(surface_from_message, content.surfaces)),
             )
         path = self._files.save(name, core.self_contained(scene))
-        missing = "" if physics else "; objects and surfaces are left out: no physics runs"
-        return f"saved {_content(scene)} in {path}{missing}"
+        missing = None if physics else NO_PHYSICS_TO_SAVE()
+        return SCENE_SAVED(**_counts(scene), file=str(path), missing=missing)
 
-    def load(self, name: str, robots: Sequence[str]) -> str:
+    def load(self, name: str, robots: Sequence[str]) -> Diagnostic:
         """Load a scene in place of `robots` and all else; return what was loaded.
 
-        Raises LabError: either nothing was changed, or the text names what was.
+        Raises LabError: either nothing was changed, or LOADED_IN_PART says what was.
         """
         scene = self._files.load(name)
         systems = self._observer.systems or ()
@@ -99,9 +108,9 @@ class Scenes:
         self._check(scene, present)
         core.run(core.plan_scene(scene, present), self._restore.execute)
         missing = core.left_out(scene, present)
-        if missing:
+        if missing is not None:
             scene = replace(scene, objects=(), surfaces=())
-        return f"loaded {name}: {_content(scene)}{'; ' * bool(missing)}{missing}"
+        return SCENE_LOADED(**_counts(scene), scene=name, missing=missing)
 
     def _physics_runs(self) -> bool:
         return bool(self._get_objects.wait_for_service(timeout_sec=PHYSICS_TIMEOUT_S))
@@ -116,9 +125,9 @@ class Scenes:
             self._restore.set_objects(scene.objects, scene.surfaces, dry_run=True)
         plays = scene.systems or any(robot.trajectory for robot in scene.robots)
         if plays and not self._observer.wait_for(self._playback_runs, ARRIVAL_TIMEOUT_S):
-            raise NoAnswer("no playback runs, which the trajectories of the scene need")
+            raise NoAnswer(NO_PLAYBACK_RUNS())
         if scene.systems and not self._create_system.wait_for_service(ARRIVAL_TIMEOUT_S):
-            raise NoAnswer("no coordinator runs, which the systems of the scene need")
+            raise NoAnswer(NO_COORDINATOR_RUNS())
 
     def _playback_runs(self) -> bool:
         services = self._caller.get_service_names_and_types()
@@ -131,13 +140,10 @@ class Scenes:
         return loaded_from_messages(call(self._list, request).trajectories)
 
 
-def _content(scene: SceneDocument) -> str:
-    return ", ".join(
-        counted(entries, what)
-        for entries, what in (
-            (scene.robots, "robot"),
-            (scene.objects, "object"),
-            (scene.surfaces, "surface"),
-            (scene.systems, "system"),
-        )
-    )
+def _counts(scene: SceneDocument) -> dict[str, Any]:
+    return {
+        "robots": len(scene.robots),
+        "objects": len(scene.objects),
+        "surfaces": len(scene.surfaces),
+        "systems": len(scene.systems),
+    }

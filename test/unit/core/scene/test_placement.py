@@ -9,9 +9,15 @@ import numpy as np
 import pytest
 from hypothesis import assume, given
 from hypothesis import strategies as st
+from refusals import refused
 
 from mrlab_ros.core.errors import BadInput, Misuse
 from mrlab_ros.core.geometry import Pose, quaternion_from_rpy, rotate
+from mrlab_ros.core.scene.diagnostics import (
+    NO_LEVEL_SURFACE,
+    NO_PLACE_BEFORE_VIEWER,
+    NO_PLACE_ON_SURFACE,
+)
 from mrlab_ros.core.scene.placement import (
     BASE_RADIUS,
     BESIDE,
@@ -81,15 +87,15 @@ def test_nothing_stands_below_a_table_or_on_a_shelf_above_the_eyes():
 
 def test_robots_keep_clear_of_each_other_until_there_is_no_room():
     standing: list[Standing] = []
-    refusal = ""
-    while not refusal:
+    refusal = None
+    while refusal is None:
         try:
             pose = place_before(viewer(), REACH, (), standing)
         except Misuse as error:
-            refusal = str(error)
+            refusal = error.diagnostic
         else:
             standing.append(Standing(pose.position, REACH))
-    assert "no free place is on the 3 m before the viewer" in refusal
+    assert refusal == NO_PLACE_BEFORE_VIEWER(distance=3.0)
     assert len(standing) >= 3
     for a, b in itertools.combinations(standing, 2):
         assert math.dist(a.position, b.position) >= SPACING * 2 * REACH - 1e-9
@@ -109,7 +115,7 @@ def test_what_stands_on_a_table_is_not_stood_on():
     before = place_before(viewer(), REACH, (TABLE,), (), TABLE, (cube,))
     assert math.dist(before.position[:2], (1.0, 0.0)) >= BASE_RADIUS + 0.025
     everywhere = Thing.of(Pose((1.0, 0.0, 0.745)), (5.0, 5.0, 0.05))
-    with pytest.raises(Misuse, match="remove a robot or an object there"):
+    with refused(NO_PLACE_ON_SURFACE, Misuse, surface="table_1"):
         place_on(TABLE, (TABLE,), (), (everywhere,))
 
 
@@ -132,14 +138,14 @@ def test_a_named_surface_is_taken_even_behind_the_viewer_or_without_one():
     assert place_before(viewer(math.pi), REACH, (TABLE,), (), TABLE).position[2] == 0.72
     pose = place_on(TABLE, (TABLE,), ())
     assert pose.position == pytest.approx((1.0, 0.0, 0.72))
-    with pytest.raises(Misuse, match="no free place is on tray"):
+    with refused(NO_PLACE_ON_SURFACE, Misuse, surface="tray"):
         place_on(Support("tray", 0.9, box(0, 0, 0.1)), (), ())
 
 
 def test_a_surface_is_found_by_its_name():
     assert named_support("table_1", [TABLE]) is TABLE
     assert named_support("", [TABLE]).height == 0
-    with pytest.raises(BadInput, match=r"no level surface 'tabel_1'.*there are: table_1, floor"):
+    with refused(NO_LEVEL_SURFACE, BadInput, known=["table_1", "floor"], close="table_1"):
         named_support("tabel_1", [TABLE])
 
 
