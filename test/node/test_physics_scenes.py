@@ -210,9 +210,9 @@ def test_a_scene_that_cannot_be_is_refused_and_changes_nothing(graph, lab):
 
 
 def test_one_scene_follows_another_at_once_and_leaves_nothing_of_it(graph, lab):
-    for name, robots in (("handover", 2), ("table", 1), ("handover", 2), ("empty", 0)):
+    for name, count in (("handover", 2), ("table", 1), ("handover", 2), ("empty", 0)):
         done(load_scene(graph, name))
-        wait_for(lambda n=robots: lab.robots and len(lab.robots.last().robots) == n, name)
+        wait_for(lambda n=count: lab.robots and len(lab.robots.last().robots) == n, name)
     done(load_scene(graph, "obstacle_course"))
     wait_for(lambda: [r.name for r in lab.robots.last().robots] == ["ur5e_1"], "the robot")
     wait_for(
