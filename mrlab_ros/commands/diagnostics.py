@@ -86,3 +86,38 @@ BAG_OF_REPORT_GONE = Code(
     "{path} is of the bag {bag}, which is not there.",
     "Name the bag itself.",
 )
+
+# robots of the library
+BAD_ANGLES = Code(
+    "bad_angles",
+    "--joints is '{text}'; expected {count:integer} angles in degrees with commas between them, "
+    "one each for {joints:list}.",
+)
+ROBOTS_HAVE_ERRORS = Code(
+    "robots_have_errors",
+    "{count:count error was|errors were} found.",
+    "See the remedies above.",
+)
+ROBOT_NOT_IMPORTED = Code(
+    "robot_not_imported", "{file} was not imported: {count:count error|errors}."
+)
+MESHES_NOT_INSTALLED = Code(
+    "meshes_not_installed",
+    "The meshes of {file} were not installed: {count:count error|errors}, listed above.",
+)
+MESHES_INSTALLED = Code(
+    "meshes_installed",
+    "{robot} has the meshes of {file}; undo it with: mrlab robots remove {robot}",
+    severity=INFO,
+)
+OWN_MESHES_AGAIN = Code("own_meshes_again", "{robot} has its own meshes again.", severity=INFO)
+MODEL_REMOVED = Code("model_removed", "{robot} was removed.", severity=INFO)
+BAD_PACKAGE_OPTION = Code("bad_package_option", "--package is '{text}'; expected NAME=FOLDER.")
+
+# objects
+NO_PHYSICS_HERE = Code(
+    "no_physics_here",
+    "This lab runs without physics.",
+    meaning="Objects need the physics node, which this lab was started without.",
+)
+BAD_PLACE = Code("bad_place", "The place is '{text}'; expected x,y,z in m, such as 0.5,0,0.8.")

@@ -13,8 +13,18 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from mrlab_ros.commands import output
+from mrlab_ros.commands.diagnostics import (
+    BAD_ANGLES,
+    BAD_PACKAGE_OPTION,
+    MESHES_INSTALLED,
+    MESHES_NOT_INSTALLED,
+    MODEL_REMOVED,
+    OWN_MESHES_AGAIN,
+    ROBOT_NOT_IMPORTED,
+    ROBOTS_HAVE_ERRORS,
+)
 from mrlab_ros.commands.output import AsJson, say
-from mrlab_ros.core.base.diagnostic import Diagnostic, Severity
+from mrlab_ros.core.base.diagnostic import Diagnostic, Severity, plain
 from mrlab_ros.core.errors import BadInput
 from mrlab_ros.ros import share
 
@@ -200,10 +210,7 @@ def _positions(library: RobotLibrary, robot: str, text: str) -> dict[str, float]
     except ValueError:
         degrees = []
     if len(degrees) != len(names) or not all(map(math.isfinite, degrees)):
-        raise BadInput(
-            f"--joints is '{text}'; expected {len(names)} angles in degrees with commas between "
-            f"them, one each for {', '.join(names)}"
-        )
+        raise BadInput(BAD_ANGLES(text=text, count=len(names), joints=[*names]))
     return dict(zip(names, map(math.radians, degrees), strict=True))
 
 
@@ -227,15 +234,14 @@ def check(
             found += hulls.check(text, origin, library.mesh_path)
         shown = [one for one in found if one.severity is not Severity.INFO]
         worst += len(checks.errors(found))
-        findings[robot] = _facts(shown)
+        findings[robot] = plain(shown)
         if not as_json:
             print(f"{robot}: {'ok' if not shown else ''}".rstrip())
             _print(shown)
     if as_json:
         print(json.dumps({"findings": findings}))
     if worst:
-        were = "was" if worst == 1 else "were"
-        raise BadInput(f"{_errors(worst)} {were} found; see the remedies above")
+        raise BadInput(ROBOTS_HAVE_ERRORS(count=worst))
 
 
 SOURCE_HELP = (
@@ -302,15 +308,15 @@ def import_robot(
     wrong = checks.errors(imported.findings)
     if wrong:
         if as_json:
-            print(json.dumps({"findings": _facts(imported.findings)}))
-        raise BadInput(f"{path.name} was not imported: {_errors(len(wrong))}")
+            print(json.dumps({"findings": plain(imported.findings)}))
+        raise BadInput(ROBOT_NOT_IMPORTED(file=path.name, count=len(wrong)))
     assert imported.split is not None
     if sheet is not None:
         from mrlab_ros.adapters.robots import sheet as sheets
 
         sheets.write(library, wanted, sheet.resolve())
     if as_json:
-        known = {"findings": _facts(imported.findings), **_sheet_facts(library, wanted)}
+        known = {"findings": plain(imported.findings), **_sheet_facts(library, wanted)}
         files = {"folder": str(library.imported / wanted), "sheet": sheet and str(sheet.resolve())}
         hand = [finger.name for finger in imported.fingers]
         print(json.dumps({**known, "tip": imported.split.tip, "hand": hand, **files}))
@@ -395,11 +401,9 @@ def meshes(
         _print(found)
     wrong = checks.errors(found)
     if wrong:
-        raise BadInput(
-            f"the meshes of {path.name} were not installed: {_errors(len(wrong))}, listed above"
-        )
-    done = f"{robot} has the meshes of {path.name}; undo it with: mrlab robots remove {robot}"
-    say(done, as_json=as_json, robot=robot, findings=_facts(found))
+        raise BadInput(MESHES_NOT_INSTALLED(file=path.name, count=len(wrong)))
+    done = MESHES_INSTALLED(robot=robot, file=path.name)
+    say(done, as_json=as_json, robot=robot, findings=plain(found))
 
 
 @app.command()
@@ -412,8 +416,8 @@ def remove(
     library = _library()
     vendor_meshes.remove(robot, library)
     own = robot in library.ids()
-    done = f"{robot} has its own meshes again" if own else f"{robot} was removed"
-    say(done, as_json=as_json, robot=robot, removed=not own)
+    done = OWN_MESHES_AGAIN if own else MODEL_REMOVED
+    say(done(robot=robot), as_json=as_json, robot=robot, removed=not own)
 
 
 def _folders(pairs: list[str] | None) -> dict[str, Path]:
@@ -422,27 +426,15 @@ def _folders(pairs: list[str] | None) -> dict[str, Path]:
     for pair in pairs or []:
         name, equals, folder = pair.partition("=")
         if not equals:
-            raise BadInput(f"--package is '{pair}'; expected NAME=FOLDER")
+            raise BadInput(BAD_PACKAGE_OPTION(text=pair))
         folders[name] = Path(folder)
     return folders
-
-
-def _errors(count: int) -> str:
-    return f"{count} error{'' if count == 1 else 's'}"
 
 
 def _say_path(path: Path, *, as_json: bool) -> None:
     print(json.dumps({"path": str(path)}) if as_json else path)
 
 
-def _facts(found: list[Diagnostic] | tuple[Diagnostic, ...]) -> list[dict[str, str]]:
-    return [
-        {"severity": WORDS[d.severity], "code": d.code, "message": d.message, "remedy": d.remedy}
-        for d in found
-    ]
-
-
 def _print(found: list[Diagnostic] | tuple[Diagnostic, ...]) -> None:
     for one in found:
-        remedy = f" {one.remedy}" if one.remedy else ""
-        print(f"  {WORDS[one.severity]}: {one.message}{remedy}")
+        print(f"  {WORDS[one.severity]}: {one}")

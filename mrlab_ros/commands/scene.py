@@ -10,7 +10,9 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from mrlab_ros.commands import output
+from mrlab_ros.commands.diagnostics import BAD_PLACE, NO_PHYSICS_HERE
 from mrlab_ros.commands.output import AsJson, say
+from mrlab_ros.core.base.diagnostic import Diagnostic, Fix
 from mrlab_ros.core.errors import BadInput, Misuse
 
 if TYPE_CHECKING:
@@ -52,15 +54,16 @@ def load(name: Scene, as_json: AsJson = False) -> None:
     say(_scene_file("load", name, LOAD_TIMEOUT), as_json=as_json, scene=name)
 
 
-def _scene_file(verb: str, name: str, timeout: float) -> str:
+def _scene_file(verb: str, name: str, timeout: float) -> Diagnostic:
     from mrlab_msgs import srv
 
     from mrlab_ros.client.connect import open_graph
+    from mrlab_ros.messages.texts import heard
 
     with open_graph() as graph:
         request = srv.SceneFile.Request(name=name)
         service = f"/lab/{verb}_scene"
-        return str(graph.order(srv.SceneFile, service, request, timeout).message)
+        return heard(graph.order(srv.SceneFile, service, request, timeout))
 
 
 @objects.command("list")
@@ -129,6 +132,7 @@ def spawn(
 
     from mrlab_ros.core.geometry import Pose
     from mrlab_ros.messages.poses import pose_to_message
+    from mrlab_ros.messages.texts import heard
 
     position = _place(at) if at else (0.0, 0.0, 0.0)
     half = math.radians(yaw) / 2
@@ -140,7 +144,7 @@ def spawn(
     )
     with _graph() as graph:
         answer = graph.order(srv.SpawnObject, "/physics/spawn_object", request)
-    say(answer.message, as_json=as_json)
+    say(heard(answer), as_json=as_json)
 
 
 @objects.command()
@@ -151,10 +155,12 @@ def remove(
     """Take an object out of the scene."""
     from mrlab_msgs import srv
 
+    from mrlab_ros.messages.texts import heard
+
     with _graph() as graph:
         request = srv.Remove.Request(name=name)
         answer = graph.order(srv.Remove, "/physics/remove_object", request)
-    say(answer.message, as_json=as_json, object=name)
+    say(heard(answer), as_json=as_json, object=name)
 
 
 @objects.command()
@@ -162,9 +168,11 @@ def clear(as_json: AsJson = False) -> None:
     """Take all objects out of the scene."""
     from mrlab_msgs.srv import Trigger
 
+    from mrlab_ros.messages.texts import heard
+
     with _graph() as graph:
         answer = graph.order(Trigger, "/physics/clear_objects", Trigger.Request())
-    say(answer.message, as_json=as_json)
+    say(heard(answer), as_json=as_json)
 
 
 def _graph() -> GraphClient:
@@ -175,7 +183,7 @@ def _graph() -> GraphClient:
     try:
         graph.robots()
         if not graph.is_offered(CATALOGUE):
-            raise Misuse("this lab runs without physics; start it with: mrlab up --physics")
+            raise Misuse(NO_PHYSICS_HERE(fixes=(Fix(command="up --physics"),)))
     except BaseException:
         graph.close()
         raise
@@ -193,7 +201,7 @@ def _place(text: str) -> tuple[float, float, float]:
     try:
         x, y, z = (float(part) for part in text.split(","))
     except ValueError:
-        raise BadInput(f"the place is '{text}'; expected x,y,z in m, such as 0.5,0,0.8") from None
+        raise BadInput(BAD_PLACE(text=text)) from None
     return x, y, z
 
 

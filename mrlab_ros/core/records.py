@@ -430,7 +430,10 @@ class Record:
     def optional(self, key: str, check: Check[T]) -> T | None:
         """Return the field, None where it is missing; raise BadInput where it is wrong."""
         value = self._values.get(key)
-        return None if value is None else checked(self.at(key), value, check)
+        try:
+            return None if value is None else check.read(value)
+        except ValueError as error:
+            raise bad_value(self.at(key), value, check.expected, *error.args[:1]) from None
 
     def value(self, key: str, check: Check[T], default: T) -> T:
         """Return the field, `default` where it is missing; raise BadInput where it is wrong."""
@@ -535,9 +538,11 @@ def read(kind: type[T], values: object, place: Words) -> T:
                 mistakes.append(said.MISSING_FIELD(what=what, expected=f.check.expected))
             continue
         try:
-            found[attribute] = checked(said.FIELD(place=place, key=f.name), value, f.check)
-        except BadInput as error:
-            mistakes.append(error.diagnostic)
+            found[attribute] = f.check.read(value)
+        except ValueError as error:
+            what = said.FIELD(place=place, key=f.name)
+            bad = bad_value(what, value, f.check.expected, *error.args[:1])
+            mistakes.append(bad.diagnostic)
     raise_all(mistakes, place)
     return kind(**found)
 
@@ -546,8 +551,11 @@ def check_fields(instance: Any, place: Words) -> None:
     """Check the fields of a dataclass that was built by hand, as `read` does."""
     mistakes: list[Words] = []
     for attribute, f in fields_of(type(instance)).items():
+        value = getattr(instance, attribute)
         try:
-            checked(said.FIELD(place=place, key=f.name), getattr(instance, attribute), f.check)
-        except BadInput as error:
-            mistakes.append(error.diagnostic)
+            f.check.read(value)
+        except ValueError as error:
+            what = said.FIELD(place=place, key=f.name)
+            bad = bad_value(what, value, f.check.expected, *error.args[:1])
+            mistakes.append(bad.diagnostic)
     raise_all(mistakes, place)

@@ -84,7 +84,7 @@ def test_a_urdf_has_the_end_effector_that_its_key_names(bridge, session):
     assert "gripper_left_finger_joint" in composed
     assert "gripper_left_finger_joint" not in bare
     reason = get(session, "assets/robots/ur5e+parallel_griper.urdf")
-    assert "did you mean 'parallel_gripper'" in reason
+    assert "Did you mean 'parallel_gripper'" in reason
 
 
 def test_each_type_of_object_can_be_drawn(bridge, session):
@@ -280,4 +280,4 @@ def test_the_python_client_draws_a_robot_from_the_lab_alone(bridge, endpoint, tm
     missing = start_client("mrlab_assets.py", "--connect", endpoint, "robots/ur6.urdf")
     _, err = missing.communicate(timeout=60)
     assert missing.returncode == 1
-    assert "did you mean 'ur5e'" in err
+    assert "Did you mean 'ur5e'" in err

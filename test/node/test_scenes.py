@@ -17,7 +17,7 @@ from mrlab_ros.adapters.robots.diagnostics import NO_ROBOT_MODEL
 from mrlab_ros.adapters.scenes.diagnostics import BAD_SCENE_NAME, NO_SCENE
 from mrlab_ros.core.base.diagnostics import RESERVED_NAME
 from mrlab_ros.core.scene.diagnostics import (
-    LEFT_OUT,
+    CONTENTS_LEFT_OUT,
     LOADED_IN_PART,
     POSITION_BEYOND,
     TRAJECTORY_NOT_FITTING,
@@ -158,7 +158,7 @@ def test_objects_of_a_scene_are_named_as_left_out(graph, lab):
     answer = done(scene(graph, "load", "handover"))
     assert answer.code == SCENE_LOADED.code
     left_out = json.loads(values_of(answer)["missing"])
-    assert left_out["code"] == LEFT_OUT.code
+    assert left_out["code"] == CONTENTS_LEFT_OUT.code
     assert left_out["values"] == {"objects": 1, "surfaces": 0}
     wait_for(lambda: names(lab) == ["ur5e_1", f"{KUKA}_1"], "the robots")
 

@@ -201,7 +201,7 @@ def test_help_teaches() -> None:
 @pytest.mark.parametrize(
     ("start", "arguments", "words"),
     [
-        (mrlab, ("up", "--robots", "ur6"), "there is no robot 'ur6'; known are:"),
+        (mrlab, ("up", "--robots", "ur6"), "no robot 'ur6'; there are:"),
         (
             in_process.mrlab,
             ("up", "--config", "/nowhere.yaml"),

@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import asdict
 from typing import Any
 
+from mrlab_ros.adapters.assets.diagnostics import MODEL_LEFT_OUT
 from mrlab_ros.adapters.assets.files import PACKAGE, THUMBNAIL, AssetFiles
 from mrlab_ros.adapters.robots import urdf
 from mrlab_ros.adapters.robots.library import END_EFFECTORS, TIP, RobotLibrary
@@ -25,7 +26,8 @@ def robots(library: RobotLibrary, files: AssetFiles) -> dict[str, Any]:
         try:
             found.append(_robot(library, files, robot_id, tools))
         except (LabError, KeyError, ValueError) as error:
-            problems.append(f"robot '{robot_id}' is left out: {error}")
+            why = error.diagnostic if isinstance(error, LabError) else repr(error)
+            problems.append(str(MODEL_LEFT_OUT(robot=robot_id, why=why)))
     return {
         "robots": found,
         "end_effectors": [_end_effector(library, files, tool) for tool in tools],

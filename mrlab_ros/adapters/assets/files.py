@@ -9,6 +9,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import BinaryIO
 
+from mrlab_ros.adapters.diagnostics import FILE_UNREADABLE
 from mrlab_ros.adapters.robots.library import END_EFFECTORS, RobotLibrary
 from mrlab_ros.core.bridge.assets import Described, Span, media_type
 from mrlab_ros.core.errors import BadInput
@@ -75,7 +76,8 @@ class AssetFiles:
                 stream.seek(wanted.start)
                 return Piece(stream.read(len(wanted)), wanted.start, whole)
         except OSError as error:
-            raise BadInput(f"{path} cannot be read: {error.strerror}; try again") from None
+            why = error.strerror or str(error)
+            raise BadInput(FILE_UNREADABLE(file=path, why=why)) from None
 
     def find(self, path: str) -> Path | None:
         """Return the file of an asset's path; None where there is none for clients."""

@@ -10,6 +10,7 @@ from pathlib import Path
 from typing import Any
 
 from mrlab_ros.adapters.assets import documents
+from mrlab_ros.adapters.assets.diagnostics import NO_ASSET
 from mrlab_ros.adapters.assets.files import PACKAGE, AssetFiles, Piece
 from mrlab_ros.adapters.robots.library import RobotLibrary
 from mrlab_ros.adapters.scenes.object_meshes import ObjectMeshes
@@ -62,10 +63,8 @@ class Assets:
         if made is None:
             piece = self._files.read(path, part)
             if piece is None:
-                raise BadInput(
-                    f"there is no asset {asset_key(path)}; {asset_key(ROBOTS_DOCUMENT)} and "
-                    f"{asset_key(OBJECTS_DOCUMENT)} say what there is"
-                )
+                documents = [asset_key(ROBOTS_DOCUMENT), asset_key(OBJECTS_DOCUMENT)]
+                raise BadInput(NO_ASSET(asset=asset_key(path), documents=documents))
             return piece
         data, kind = made
         wanted = part.of(len(data), asset_key(path))

@@ -9,8 +9,9 @@ from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 
-from mrlab_ros.adapters.bullet.diagnostics import NO_COLLISION_MESH, NO_MOVING_JOINT, ROOT_LINKS
+from mrlab_ros.adapters.bullet.diagnostics import NO_COLLISION_MESH, NO_MOVING_JOINT
 from mrlab_ros.adapters.robots import urdf
+from mrlab_ros.adapters.robots.diagnostics import ROOT_LINKS
 from mrlab_ros.core.errors import BadInput
 from mrlab_ros.core.geometry import Vector
 from mrlab_ros.core.physics.engine import Arm, Finger
@@ -41,7 +42,7 @@ class Description:
         links = [str(link.get("name")) for link in self._root.iterfind("link")]
         roots = [link for link in links if link not in children]
         if len(roots) != 1:
-            raise BadInput(ROOT_LINKS(robot=robot, links=roots))
+            raise BadInput(ROOT_LINKS(file=origin, links=roots))
         self.base = roots[0]
         self._by_name, self._prescribed = named, joints
         self.links = links

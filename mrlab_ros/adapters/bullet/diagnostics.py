@@ -33,11 +33,6 @@ NO_MOVING_JOINT = Code(
     "The description of {robot} has no moving joint {missing:either}; its joints: {known:list}.",
     meaning="A joint of the robot is missing in its description, or does not move there.",
 )
-ROOT_LINKS = Code(
-    "root_links",
-    "The description of {robot} has the root links {links:list}; expected one.",
-    meaning="The links of a robot's description are no tree.",
-)
 NO_COLLISION_MESH = Code(
     "no_collision_mesh",
     "The collision mesh {mesh} of link '{link}' is missing or of no format that physics reads "

@@ -8,8 +8,18 @@ from collections.abc import Iterator
 from dataclasses import dataclass, replace
 
 from mrlab_ros.adapters.robots import urdf
+from mrlab_ros.adapters.robots.diagnostics import (
+    ARM_MIMICS,
+    ARMS_BRANCH,
+    NO_ARM_THERE,
+    NO_LINK_IN_FILE,
+    TIP_GIVEN,
+    TIP_OF_CHAIN,
+    TIP_OF_GROUP,
+    TIP_UNMOVED,
+)
+from mrlab_ros.core.base.diagnostic import Diagnostic
 from mrlab_ros.core.errors import BadInput
-from mrlab_ros.core.foreign_text import for_shell
 
 # Names of joints and links that belong to a hand.
 HAND_NAME = re.compile(r"finger|grip|jaw|knuckle|claw|thumb", re.IGNORECASE)
@@ -31,7 +41,7 @@ class Split:
     tip: str
     below: tuple[urdf.UrdfJoint, ...]
     still: tuple[urdf.UrdfJoint, ...]
-    why: str
+    why: Diagnostic
 
     @property
     def hand(self) -> tuple[urdf.UrdfJoint, ...]:
@@ -48,12 +58,10 @@ def split(root: ET.Element, origin: str, tip: str = "", groups: Groups | None = 
     tree = _Tree(root, origin)
     if tip:
         if tip not in tree.links:
-            raise BadInput(
-                f"{origin} has no link '{tip}'; choose --tip from: {', '.join(tree.links)}"
-            )
-        return tree.split_at(tip, "--tip")
+            raise BadInput(NO_LINK_IN_FILE(file=origin, link=tip, known=[*tree.links]))
+        return tree.split_at(tip, TIP_GIVEN())
     if groups is not None and (named := groups.arm_tip(tree)) is not None:
-        return tree.split_at(named, f"group '{groups.arm_name}' of the SRDF")
+        return tree.split_at(named, TIP_OF_GROUP(group=groups.arm_name))
     return tree.trunk()
 
 
@@ -77,21 +85,17 @@ class _Tree:
             yield joint
             yield from self.below(joint.child)
 
-    def split_at(self, tip: str, why: str) -> Split:
+    def split_at(self, tip: str, why: Diagnostic) -> Split:
         arm = tuple(joint for joint in self.path(tip) if joint.moves)
         if not arm:
-            raise BadInput(
-                f"{self.origin}: no joint moves link '{tip}'; choose another one with --tip"
-            )
+            raise BadInput(TIP_UNMOVED(file=self.origin, link=tip))
         return self._split(arm, tip, why)
 
-    def _split(self, arm: tuple[urdf.UrdfJoint, ...], tip: str, why: str) -> Split:
+    def _split(self, arm: tuple[urdf.UrdfJoint, ...], tip: str, why: Diagnostic) -> Split:
         for joint in arm:
             if joint.mimic is not None:
                 raise BadInput(
-                    f"{self.origin}: joint '{joint.name}' of the arm mimics "
-                    f"'{joint.mimic.joint}'; each joint of an arm is a column of the motion: make "
-                    "it driven or fixed"
+                    ARM_MIMICS(file=self.origin, joint=joint.name, other=joint.mimic.joint)
                 )
         below = tuple(self.below(arm[-1].child))
         used = {joint.name for joint in (*arm, *below)}
@@ -115,7 +119,7 @@ class _Tree:
 
     def trunk(self) -> Split:
         link, arm = self.root, list[urdf.UrdfJoint]()
-        why = "the longest chain of driven joints"
+        why = TIP_OF_CHAIN()
         while True:
             ways = [j for j in self._below.get(link, ()) if j.moves or self._moves_below(j)]
             if not ways:
@@ -127,9 +131,13 @@ class _Tree:
                 arms = first > LONGER_BY and first >= len(arm)
                 if arms and not any(HAND_NAME.search(j.name) for j in ways):
                     raise BadInput(
-                        f"{self.origin}: at link '{link}' chains of {first} and {second} joints "
-                        "begin; the lab moves one arm: name the last link of it with --tip, such "
-                        f"as --tip {for_shell([self._end(ways[0])])}"
+                        ARMS_BRANCH(
+                            file=self.origin,
+                            link=link,
+                            first=first,
+                            second=second,
+                            tip=self._end(ways[0]),
+                        )
                     )
                 break
             joint = ways[0]
@@ -144,10 +152,7 @@ class _Tree:
                 arm.append(joint)
             link = joint.child
         if not arm:
-            raise BadInput(
-                f"{self.origin}: no joint moves before the chains branch at link '{link}', as in "
-                "a gripper or a vehicle; import an arm, or name its last link with --tip"
-            )
+            raise BadInput(NO_ARM_THERE(file=self.origin, link=link))
         return self._split(tuple(arm), self._tip(arm[-1].child), why)
 
     def _of_hand(self, joint: urdf.UrdfJoint) -> bool:
@@ -203,7 +208,7 @@ class Groups:
         try:
             self._root = ET.fromstring(text)
         except ET.ParseError as error:
-            raise BadInput(f"{origin} is not XML: {error}; expected an SRDF") from None
+            raise urdf.not_xml(origin, error, text) from None
         self.arm_name = ""
 
     def arm_tip(self, tree: _Tree) -> str | None:

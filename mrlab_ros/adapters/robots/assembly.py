@@ -12,7 +12,7 @@ import numpy as np
 import trimesh
 import yourdfpy
 
-from mrlab_ros.adapters.robots import urdf
+from mrlab_ros.adapters.robots import diagnostics, urdf
 from mrlab_ros.core.errors import BadInput
 from mrlab_ros.core.geometry import Array
 
@@ -38,7 +38,7 @@ class Assembly:
         def file_of(fname: str) -> str:
             path = Path(fname) if resolve is None else resolve(fname)
             if not path.is_file():
-                raise BadInput(f"{origin}: there is no file {path} of mesh {fname}; add it")
+                raise BadInput(diagnostics.ROBOT_NO_MESH(uri=fname, why=str(path)))
             return str(path)
 
         try:
@@ -55,8 +55,7 @@ class Assembly:
             raise
         except Exception as error:  # yourdfpy and the mesh readers have errors of many kinds
             raise BadInput(
-                f"{origin} cannot be put together: {type(error).__name__}: {error}; compare it "
-                "with the URDF specification, http://wiki.ros.org/urdf/XML"
+                diagnostics.NOT_ASSEMBLED(file=origin, why=f"{type(error).__name__}: {error}")
             ) from error
         model = self._model
         self.scene: trimesh.Scene = model.collision_scene if collision else model.scene
@@ -102,16 +101,12 @@ def _check_tree(root: ET.Element, joints: tuple[urdf.UrdfJoint, ...], origin: st
     parents: dict[str, str] = {}
     for joint in joints:
         if missing := {joint.parent, joint.child} - links:
-            raise BadInput(
-                f"{origin}: joint '{joint.name}' names the link {', '.join(sorted(missing))}, "
-                f"which is not there; its links: {', '.join(sorted(links))}"
-            )
+            lacks = min(missing)
+            raise BadInput(diagnostics.ROBOT_NO_LINK(joint=joint.name, link=lacks))
         if joint.child in parents:
-            raise BadInput(
-                f"{origin}: link '{joint.child}' is the child of two joints; expected one tree"
-            )
+            raise BadInput(diagnostics.TWICE_IN_URDF(file=origin, what="child", name=joint.child))
         parents[joint.child] = joint.parent
         urdf.path_to(joint.child, joints)
     roots = sorted(links - set(parents))
     if len(roots) != 1:
-        raise BadInput(f"{origin} has the root links {', '.join(roots)}; expected one tree")
+        raise BadInput(diagnostics.ROOT_LINKS(file=origin, links=roots))

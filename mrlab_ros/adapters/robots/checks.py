@@ -9,10 +9,24 @@ from pathlib import Path
 import numpy as np
 
 from mrlab_ros.adapters.robots import diagnostics, mesh_files, urdf
+from mrlab_ros.adapters.robots.diagnostics import (
+    ELEMENT_UNNAMED,
+    GEOMETRY_EMPTY,
+    GEOMETRY_UNKNOWN,
+    NAME_UNPRINTABLE,
+    NO_ZERO,
+    SHAPE_LACKS,
+    SIZES_ABOVE_ZERO,
+    TOO_MANY_LINKS,
+    TWICE_IN_URDF,
+    URDF_LINK,
+)
 from mrlab_ros.adapters.robots.mesh_files import Look
 from mrlab_ros.core.base.diagnostic import Code, Diagnostic, Severity
+from mrlab_ros.core.base.diagnostics import FIELD
 from mrlab_ros.core.errors import BadInput
-from mrlab_ros.core.foreign_text import for_table, visible
+from mrlab_ros.core.foreign_text import for_table
+from mrlab_ros.core.records import bad_value
 
 MOST_JOINTS = 16
 MOST_LINKS = 300
@@ -84,31 +98,29 @@ def _check_numbers(root: ET.Element, origin: str) -> None:
     """Raise BadInput where a link has a number or a shape that cannot be read."""
     for link in root.iterfind("link"):
         if not link.get("name"):
-            raise BadInput(f"{origin}: a <link> has no name; add one")
-        where = f"{origin}: link '{link.get('name')}'"
+            raise BadInput(ELEMENT_UNNAMED(file=origin, element="link"))
+        where = URDF_LINK(file=origin, link=link.get("name"))
         for tag, name, count in NUMBERS:
             for element in link.iter(tag):
                 value = element.get(name)
                 if value is not None:
-                    read = urdf.numbers(value, count, f"{where}: {tag} {name}")
+                    named = f"{tag} {name}"
+                    read = urdf.numbers(value, count, where, named)
                     if name == "scale" and not all(read):
-                        raise BadInput(f"{where}: the mesh scale is '{value}'; expected no 0")
+                        raise bad_value(FIELD(place=where, key=named), value, NO_ZERO())
                     if name in SIZES and not min(read) > 0:
-                        expected = "sizes" if count > 1 else "a size"
-                        raise BadInput(
-                            f"{where}: {tag} {name} is '{value}'; expected {expected} above 0, m"
-                        )
+                        expected = SIZES_ABOVE_ZERO(count=count)
+                        raise bad_value(FIELD(place=where, key=named), value, expected)
         for geometry in link.iter("geometry"):
             shape = next(iter(geometry), None)
             if shape is None or shape.tag not in SHAPES:
-                found = "nothing" if shape is None else f"<{shape.tag}>"
-                raise BadInput(
-                    f"{where}: a <geometry> holds {found}; expected one of "
-                    f"{', '.join(f'<{tag}>' for tag in SHAPES)}"
-                )
+                known = [f"<{tag}>" for tag in SHAPES]
+                if shape is None:
+                    raise BadInput(GEOMETRY_EMPTY(place=where, known=known))
+                raise BadInput(GEOMETRY_UNKNOWN(place=where, tag=shape.tag, known=known))
             missing = [name for name in SHAPES[shape.tag] if not shape.get(name)]
             if missing:
-                raise BadInput(f"{where}: a <{shape.tag}> has no {', '.join(missing)}; add it")
+                raise BadInput(SHAPE_LACKS(place=where, tag=shape.tag, missing=missing))
 
 
 def check_tree(root: ET.Element, origin: str) -> tuple[Diagnostic, ...]:
@@ -121,15 +133,12 @@ def check_tree(root: ET.Element, origin: str) -> tuple[Diagnostic, ...]:
     links = [str(element.get("name")) for element in root.iterfind("link")]
     for name in (*links, *(joint.name for joint in joints)):
         if not name.isprintable() or for_table(name) != name:
-            raise BadInput(
-                f"{origin}: a link or a joint is named '{visible(name)}'; expected printable "
-                "characters, and none of = + - @ at the beginning"
-            )
+            raise BadInput(NAME_UNPRINTABLE(file=origin, name=name))
     if len(links) > MOST_LINKS:
-        raise BadInput(f"{origin} has {len(links)} links; expected {MOST_LINKS} at most")
-    _once([joint.name for joint in joints], f"{origin}: two joints are named")
-    _once(links, f"{origin}: two links are named")
-    _once([joint.child for joint in joints], f"{origin}: two joints have the child")
+        raise BadInput(TOO_MANY_LINKS(file=origin, count=len(links), most=MOST_LINKS))
+    _once([joint.name for joint in joints], origin, "joint")
+    _once(links, origin, "link")
+    _once([joint.child for joint in joints], origin, "child")
     for joint in joints:
         urdf.path_to(joint.child, joints)
     found = [
@@ -144,10 +153,10 @@ def check_tree(root: ET.Element, origin: str) -> tuple[Diagnostic, ...]:
     return tuple(found)
 
 
-def _once(names: list[str], what: str) -> None:
+def _once(names: list[str], origin: str, what: str) -> None:
     twice = next((name for name in names if names.count(name) > 1), None)
     if twice is not None:
-        raise BadInput(f"{what} '{twice}'; expected one tree of links, with a name each")
+        raise BadInput(TWICE_IN_URDF(file=origin, what=what, name=twice))
 
 
 def _check_count(joints: tuple[urdf.UrdfJoint, ...]) -> list[Diagnostic]:
@@ -255,7 +264,7 @@ def check_sizes(root: ET.Element, looks: Mapping[str, Look]) -> tuple[Diagnostic
     """Return the findings on meshes that were looked at, by URI."""
     found = []
     scales = {
-        str(mesh.get("filename")): urdf.numbers(mesh.get("scale", "1 1 1"), 3, "mesh scale")
+        str(mesh.get("filename")): urdf.numbers(mesh.get("scale", "1 1 1"), 3, "mesh", "scale")
         for mesh in meshes(root)
     }
     for uri, look in looks.items():

@@ -138,3 +138,353 @@ ROBOT_HULL = Code(
     severity=Severity.WARNING,
     meaning="Collision geometry does not follow what is seen.",
 )
+
+# the library of robots and end effectors
+
+NO_ROBOT_MODEL = Code(
+    "no_robot_model",
+    "There is no robot '{robot}'; there are: {known:list}.",
+    "[Did you mean '{close}'?]",
+    meaning="The library has no robot of this id.",
+)
+NO_END_EFFECTOR = Code(
+    "no_end_effector",
+    "There is no end effector '{end_effector}'; there are: {known:list}, or none for a bare "
+    "flange.",
+    "[Did you mean '{close}'?]",
+    meaning="The library has no end effector of this id.",
+)
+HAND_OF_ITS_OWN = Code(
+    "hand_of_its_own",
+    "Robot '{robot}' has a hand of its own.",
+    "Leave the end effector empty, or import the robot again without its hand.",
+    meaning="An imported robot with a hand takes no end effector of the lab.",
+)
+ROBOT_MESH_URI = Code(
+    "robot_mesh_uri",
+    "The mesh is '{mesh}'; expected a URI that begins with {prefix}.",
+    meaning="The mesh of a robot is none of the library.",
+)
+HOME_SIZE = Code(
+    "home_size",
+    "{file}: home_deg has {count:count value|values}; expected {joints:integer}, one for each "
+    "moving joint.",
+    meaning="The home position of a robot does not fit its joints.",
+)
+SAME_NAMES = Code(
+    "same_names",
+    "Robot '{robot}' and end effector '{end_effector}' both have {names:list}.",
+    "Rename them in one of the two URDFs.",
+    meaning="A robot and an end effector have links or joints of the same name.",
+)
+NO_MOTION_LEADS = Code(
+    "no_motion_leads",
+    "No motion of {robot} leads from {start:list} to {goal:list} rad ({why:problem}).",
+    "Check the first row of the trajectory.",
+    meaning="A motion to the start of a trajectory cannot be planned.",
+)
+MOTION_SIZE = Code(
+    "motion_size",
+    "A motion of {robot} from {start:integer} to {goal:integer} values was asked for; expected "
+    "{joints:integer} joint positions each.",
+    meaning="Joint positions do not fit the robot.",
+)
+SHEET_FORMAT = Code(
+    "sheet_format",
+    "The file is '{file}'; expected a name in {formats:either}.",
+    meaning="A format that no sheet of a robot has.",
+)
+FOLDER_IN_USE = Code(
+    "folder_in_use",
+    "{folder} holds something already.",
+    "Name a new folder.",
+    meaning="A robot was to be exported into a folder that is not empty.",
+)
+
+# what is imported, and from where
+
+BAD_ROBOT_ID = Code(
+    "bad_robot_id",
+    "The id is '{robot}'; expected small letters, digits and _, such as my_robot.",
+    meaning="An id that an imported robot cannot have.",
+)
+ROBOT_ID_TAKEN = Code(
+    "robot_id_taken",
+    "There is a robot '{robot}' already.",
+    "Choose another id.",
+    meaning="The id of an imported robot is taken.",
+)
+NOT_OF_LIBRARY = Code(
+    "not_of_library",
+    "'{robot}' is not one of the lab's own robots.",
+    "Import it again instead.",
+    meaning="Meshes of a manufacturer are for the lab's own robots.",
+)
+NOT_IMPORTED = Code(
+    "not_imported",
+    "Nothing was imported as '{robot}', so nothing is removed.",
+    meaning="There is no imported robot of this id.",
+)
+NO_SHARED_LINK = Code(
+    "no_shared_link",
+    "No link of {file} that has a mesh[ ({meshed:list})] is a link of '{robot}' ({links:list}).",
+    "Give a URDF without a prefix.",
+    meaning="The links of a manufacturer's description have other names than the lab's.",
+)
+NO_DESCRIPTION = Code(
+    "no_description",
+    "'{source}' is neither a file nor an installed ROS package.",
+    "Give the path of a URDF or a xacro.",
+    meaning="The source of a robot is not there.",
+)
+PACKAGE_NO_FILE = Code(
+    "package_no_file",
+    "Package '{package}' has no file {file}[; its descriptions: {known:list}].",
+    meaning="A package does not hold the description that was named.",
+)
+PACKAGE_DESCRIPTIONS = Code(
+    "package_descriptions",
+    "Package '{package}' has {count:count description|descriptions}[: {known:list}].",
+    "[Name the one you want, such as {package}/{first}.]",
+    meaning="A package holds no description of a robot, or several.",
+)
+NO_XACRO = Code(
+    "no_xacro",
+    "{file} is no xacro and takes no arguments.",
+    "Leave out {arguments:list}.",
+    meaning="Arguments are for xacro files.",
+)
+BAD_XACRO_ARGUMENT = Code(
+    "bad_xacro_argument",
+    "The argument is '{argument}'; expected NAME:=VALUE, as xacro takes it.",
+    meaning="An argument of a xacro has another form.",
+)
+XACRO_NO_WALL = Code(
+    "xacro_no_wall",
+    "{file} is a xacro, which is a program, and the kernel here cannot confine it (expected "
+    "Landlock and seccomp).",
+    "Where you trust it, expand it yourself and import what comes out: xacro {file} > {plain}",
+    meaning="A xacro from outside is expanded in a confined process only.",
+)
+XACRO_REFUSED = Code(
+    "xacro_refused",
+    "{file}: xacro says: {why:problem}.",
+    "{hint:choice package=Give the folder of the package that it names.|folder=A xacro reads what "
+    "lies beside it and in its packages; give the folder of the package that it "
+    "needs.|argument=Give what it asks for, as NAME:=VALUE.|file=Correct the file.}",
+    meaning="xacro does not expand a file.",
+)
+URDF_TOO_LARGE = Code(
+    "urdf_too_large",
+    "{file} is larger than {most:bytes}; expected a URDF.",
+    meaning="No description of a robot is as large.",
+)
+MESH_NO_FILE = Code(
+    "mesh_no_file", "{mesh} names no file: {why:problem}.", meaning="The URI of a mesh is none."
+)
+MESH_OUTSIDE = Code(
+    "mesh_outside",
+    "{mesh} is {path}, which is neither beside the description nor in a package.",
+    meaning="A description may not name files elsewhere.",
+)
+MESH_NO_PACKAGE = Code(
+    "mesh_no_package",
+    "Package '{package}' of mesh {mesh} is not installed.",
+    meaning="The package of a mesh is not there.",
+)
+
+# the arm and the hand of a description
+
+TIP_GIVEN = Code(
+    "tip_given",
+    "up to the link that was named",
+    severity=Severity.INFO,
+    meaning="How it was decided which joints are the arm.",
+)
+TIP_OF_GROUP = Code(
+    "tip_of_group",
+    "group '{group}' of the SRDF",
+    severity=Severity.INFO,
+    meaning="How it was decided which joints are the arm.",
+)
+TIP_OF_CHAIN = Code(
+    "tip_of_chain",
+    "the longest chain of driven joints",
+    severity=Severity.INFO,
+    meaning="How it was decided which joints are the arm.",
+)
+TIP_UNMOVED = Code(
+    "tip_unmoved",
+    "{file}: no joint moves link '{link}'.",
+    "Choose another last link of the arm.",
+    meaning="The link that was named as the last of the arm does not move.",
+)
+ARM_MIMICS = Code(
+    "arm_mimics",
+    "{file}: joint '{joint}' of the arm mimics '{other}'; each joint of an arm is a column of the "
+    "motion.",
+    "Make it driven or fixed.",
+    meaning="A joint of an arm follows another one.",
+)
+ARMS_BRANCH = Code(
+    "arms_branch",
+    "{file}: at link '{link}' chains of {first:integer} and {second:integer} joints begin; the "
+    "lab moves one arm.",
+    "Name the last link of it, such as {tip}.",
+    meaning="A description has two arms.",
+)
+NO_ARM_THERE = Code(
+    "no_arm_there",
+    "{file}: no joint moves before the chains branch at link '{link}', as in a gripper or a "
+    "vehicle.",
+    "Import an arm, or name its last link.",
+    meaning="A description has no arm.",
+)
+HAND_LIMITS = Code(
+    "hand_limits",
+    "{file}: joint '{joint}' of the hand has the limits {lower:number} to {upper:number}; "
+    "expected a range between open and closed.",
+    "Add <limit lower= upper=>, or make the joint fixed.",
+    meaning="A joint of a hand has no range.",
+)
+HAND_MIMICS = Code(
+    "hand_mimics",
+    "{file}: joint '{joint}' mimics '{other}', which leads to no driven joint of the hand; "
+    "expected one that does not mimic another.",
+    meaning="Joints of a hand follow each other in a circle, or one that is not there.",
+)
+
+# the text of a URDF
+
+A_URDF = Code("a_urdf", "a URDF", severity=Severity.INFO, meaning="A robot's description.")
+URDF_LINK = Code(
+    "urdf_link", "{file}: link '{link}'", severity=Severity.INFO, meaning="A place in a URDF."
+)
+URDF_JOINT = Code(
+    "urdf_joint", "{file}: joint '{joint}'", severity=Severity.INFO, meaning="A place in a URDF."
+)
+FINITE_COUNT = Code(
+    "finite_count",
+    "{count:count finite number|finite numbers}",
+    severity=Severity.INFO,
+    meaning="What an attribute of a URDF must hold.",
+)
+NO_ZERO = Code(
+    "no_zero", "numbers other than 0", severity=Severity.INFO, meaning="The scale of a mesh."
+)
+SIZES_ABOVE_ZERO = Code(
+    "sizes_above_zero",
+    "{count:count size|sizes} above 0, m",
+    severity=Severity.INFO,
+    meaning="The size of a shape.",
+)
+DOCUMENT_TYPE = Code(
+    "document_type",
+    "{file} declares a document type, which a URDF does not need.",
+    "Remove the lines <!DOCTYPE ...> and <!ENTITY ...>.",
+    meaning="Entities of a document type can expand without end.",
+)
+NOT_XML = Code(
+    "not_xml",
+    "{file} is not XML: {why:problem} in line {line:integer}[, '{found}'].",
+    meaning="A description cannot be parsed.",
+)
+NOT_URDF = Code(
+    "not_urdf",
+    "{file} begins with <{tag}>; expected a URDF, which has <robot>.",
+    meaning="An XML file is no robot's description.",
+)
+STILL_XACRO = Code(
+    "still_xacro",
+    "{file} holds <xacro:{tag}>; expected a plain URDF.",
+    "Expand it: xacro {name} -o robot.urdf",
+    meaning="A URDF still has elements of xacro.",
+)
+ELEMENT_LACKS = Code(
+    "element_lacks",
+    "{file}: <{element} name='{name}'> has no <{tag} {attribute}=...>.",
+    "Add it.",
+    meaning="An element of a URDF lacks what it must have.",
+)
+ELEMENT_UNNAMED = Code(
+    "element_unnamed",
+    "{file}: a <{element}>[ from '{parent}' to '{child}'] has no name.",
+    "Add one.",
+    meaning="A link or a joint of a URDF has no name.",
+)
+NAME_TOO_LONG = Code(
+    "name_too_long",
+    "{file}: a name is {count:integer} characters long, '{name}...'; expected {most:integer} at "
+    "most.",
+    meaning="A name in a URDF is longer than any.",
+)
+NAME_UNPRINTABLE = Code(
+    "name_unprintable",
+    "{file}: a link or a joint is named '{name}'; expected printable characters, and none of "
+    "= + - @ at the beginning.",
+    meaning="A name in a URDF that a terminal or a spreadsheet could take for something else.",
+)
+JOINT_TYPE = Code(
+    "joint_type",
+    "{place:problem} is of type '{type}'; expected {known:either}.",
+    meaning="A joint of a type that the lab does not move.",
+)
+JOINT_AXIS = Code(
+    "joint_axis",
+    "{place:problem}: the axis is '{axis}'; expected a direction such as 0 0 1.",
+    meaning="The axis of a joint has no direction.",
+)
+JOINT_NO_VELOCITY = Code(
+    "joint_no_velocity",
+    "{place:problem} has no <limit> with a velocity; expected lower, upper and velocity (rad, "
+    "rad/s) from the robot's data sheet.",
+    meaning="A moving joint of a URDF states no largest speed.",
+)
+GEOMETRY_EMPTY = Code(
+    "geometry_empty",
+    "{place:problem}: a <geometry> holds nothing; expected one of {known:either}.",
+    meaning="A visual or a collision of a URDF has no shape.",
+)
+GEOMETRY_UNKNOWN = Code(
+    "geometry_unknown",
+    "{place:problem}: a <geometry> holds <{tag}>; expected one of {known:either}.",
+    meaning="A visual or a collision of a URDF has no shape that the lab knows.",
+)
+SHAPE_LACKS = Code(
+    "shape_lacks",
+    "{place:problem}: a <{tag}> has no {missing:list}.",
+    "Add it.",
+    meaning="A shape of a URDF has no size.",
+)
+TOO_MANY_LINKS = Code(
+    "too_many_links",
+    "{file} has {count:integer} links; expected {most:integer} at most.",
+    meaning="A description has more links than any robot.",
+)
+TWICE_IN_URDF = Code(
+    "twice_in_urdf",
+    "{file}: two {what:choice joint=joints are named|link=links are named|child=joints have the "
+    "child} '{name}'; expected one tree of links, with a name each.",
+    meaning="The links of a description are no tree, or two have one name.",
+)
+LINK_CIRCLE = Code(
+    "link_circle",
+    "Link '{link}' hangs below itself; expected a tree of links.",
+    meaning="The links of a description are a circle.",
+)
+NO_LINK_IN_FILE = Code(
+    "no_link_in_file",
+    "{file} has no link '{link}'; its links: {known:list}.",
+    meaning="A link was named that a description does not have.",
+)
+ROOT_LINKS = Code(
+    "root_links",
+    "{file} has the root links {links:list}; expected one.",
+    meaning="The links of a description are no tree.",
+)
+NOT_ASSEMBLED = Code(
+    "not_assembled",
+    "{file} cannot be put together: {why:problem}.",
+    "Compare it with the URDF specification, http://wiki.ros.org/urdf/XML.",
+    meaning="The reader of descriptions fails on one.",
+)

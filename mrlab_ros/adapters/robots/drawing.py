@@ -12,6 +12,7 @@ import trimesh
 
 from mrlab_ros.adapters.robots import urdf
 from mrlab_ros.adapters.robots.assembly import Assembly
+from mrlab_ros.adapters.robots.diagnostics import SHEET_FORMAT
 from mrlab_ros.adapters.robots.library import RobotLibrary
 from mrlab_ros.core.errors import BadInput
 from mrlab_ros.core.geometry import Array
@@ -52,7 +53,7 @@ def write(parts: list[trimesh.Trimesh], path: Path) -> None:
     """Write the meshes, z up, to a file; raise BadInput for a suffix other than FORMATS."""
     suffix = path.suffix.lower()
     if suffix not in FORMATS:
-        raise BadInput(f"the file is '{path.name}'; expected a name in {', '.join(FORMATS)}")
+        raise BadInput(SHEET_FORMAT(file=path.name, formats=[*FORMATS]))
     path.parent.mkdir(parents=True, exist_ok=True)
     if suffix == ".png":
         _picture(parts, path)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from mrlab_ros.adapters.robots.diagnostics import XACRO_REFUSED
 from mrlab_ros.core.errors import BadInput
 
 
@@ -15,15 +16,13 @@ def expand(path: str, arguments: dict[str, str]) -> str:
     except MemoryError:
         raise
     except Exception as error:  # xacro evaluates Python: anything can come out of it
+        # What xacro raises is often a text alone.
         if isinstance(error, PackageNotFoundError) or "not found" in str(error):
-            hint = "give the folder of a package with --package NAME=FOLDER"
+            hint = "package"
         elif isinstance(error, PermissionError) or "Permission denied" in str(error):
-            hint = (
-                "a xacro reads what lies beside it and in its packages; give the folder of one "
-                "with --package NAME=FOLDER"
-            )
+            hint = "folder"
         else:
-            asks = " as NAME:=VALUE" if "rgument" in str(error) else ""
-            hint = f"give what it asks for{asks}, or correct the file"
-        raise BadInput(f"{path.rpartition('/')[2]}: xacro says: {error}; {hint}") from None
+            hint = "argument" if "rgument" in str(error) else "file"
+        file = path.rpartition("/")[2]
+        raise BadInput(XACRO_REFUSED(file=file, why=str(error), hint=hint)) from None
     return expanded

@@ -10,6 +10,7 @@ from pathlib import Path
 import trimesh
 
 from mrlab_ros.adapters.robots import mesh_files, urdf
+from mrlab_ros.adapters.robots.diagnostics import FOLDER_IN_USE
 from mrlab_ros.adapters.robots.drawing import colour
 from mrlab_ros.adapters.robots.library import RobotLibrary, state_masses
 from mrlab_ros.core.errors import BadInput
@@ -23,7 +24,7 @@ def export(library: RobotLibrary, robot_id: str, end_effector: str | None, folde
     holds something.
     """
     if folder.exists() and (not folder.is_dir() or any(folder.iterdir())):
-        raise BadInput(f"{folder} holds something already; name a new folder")
+        raise BadInput(FOLDER_IN_USE(folder=str(folder)))
     root = urdf.parse(library.description(robot_id, end_effector), robot_id)
     state_masses(root)
     meshes = folder / "meshes"

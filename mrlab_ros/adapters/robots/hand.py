@@ -9,6 +9,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from mrlab_ros.adapters.robots import urdf
+from mrlab_ros.adapters.robots.diagnostics import HAND_LIMITS, HAND_MIMICS
 from mrlab_ros.core.errors import BadInput
 from mrlab_ros.core.geometry import Array
 from mrlab_ros.core.robots.kinematics import KinematicChain
@@ -80,11 +81,7 @@ def _range(joint: urdf.UrdfJoint, origin: str) -> tuple[float, float]:
     limit = joint.limit or {}
     lower, upper = limit.get("lower", 0.0), limit.get("upper", 0.0)
     if joint.kind == "continuous" or not lower < upper:
-        raise BadInput(
-            f"{origin}: joint '{joint.name}' of the hand has the limits {lower:g} to {upper:g}; "
-            "expected a range between open and closed: add <limit lower= upper=>, or make the "
-            "joint fixed"
-        )
+        raise BadInput(HAND_LIMITS(file=origin, joint=joint.name, lower=lower, upper=upper))
     return lower, upper
 
 
@@ -103,10 +100,7 @@ def _followed(
         at = by_name[at.mimic.joint]
     if at.mimic is None:
         return at.name, multiplier, offset
-    raise BadInput(
-        f"{origin}: joint '{joint.name}' mimics '{at.mimic.joint}', which leads to no driven "
-        "joint of the hand; expected one that does not mimic another"
-    )
+    raise BadInput(HAND_MIMICS(file=origin, joint=joint.name, other=at.mimic.joint))
 
 
 def _spread(

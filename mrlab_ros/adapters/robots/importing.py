@@ -16,10 +16,16 @@ import numpy as np
 import trimesh
 import yaml
 
+from mrlab_ros.adapters.diagnostics import FILE_UNREADABLE
 from mrlab_ros.adapters.robots import checks, mesh_files, urdf
 from mrlab_ros.adapters.robots.arm_and_hand import Groups, Split, split
 from mrlab_ros.adapters.robots.assembly import Assembly
-from mrlab_ros.adapters.robots.diagnostics import ROBOT_SPEED, ROBOT_STILL
+from mrlab_ros.adapters.robots.diagnostics import (
+    BAD_ROBOT_ID,
+    ROBOT_ID_TAKEN,
+    ROBOT_SPEED,
+    ROBOT_STILL,
+)
 from mrlab_ros.adapters.robots.hand import Finger, fingers
 from mrlab_ros.adapters.robots.library import MESH_PREFIX, RobotLibrary
 from mrlab_ros.adapters.robots.source import MeshFinder, description_text, packages_around
@@ -70,11 +76,9 @@ def import_robot(
     cannot be understood.
     """
     if not ID.fullmatch(robot_id):
-        raise BadInput(
-            f"the id is '{robot_id}'; expected small letters, digits and _, such as my_robot"
-        )
+        raise BadInput(BAD_ROBOT_ID(robot=robot_id))
     if robot_id in library.ids():
-        raise BadInput(f"there is a robot '{robot_id}' already; choose another id with --id")
+        raise BadInput(ROBOT_ID_TAKEN(robot=robot_id))
     packages = packages_around(source) | dict(packages)
     text = description_text(source, packages, arguments)
     find = MeshFinder(source.parent, packages)
@@ -144,7 +148,8 @@ def _read(path: Path) -> str:
     try:
         return path.read_text(encoding="utf-8")
     except (OSError, UnicodeDecodeError) as error:
-        raise BadInput(f"{path} cannot be read: {error}; expected an SRDF") from None
+        why = getattr(error, "strerror", None) or str(error)
+        raise BadInput(FILE_UNREADABLE(file=str(path), why=why)) from None
 
 
 def _elements(root: ET.Element) -> dict[str, ET.Element]:
@@ -217,7 +222,7 @@ def _turn_fingers(root: ET.Element, closing: Sequence[Finger]) -> None:
         if finger.flipped:
             if axis is None:
                 axis = ET.SubElement(element, "axis", xyz="1 0 0")
-            xyz = urdf.numbers(axis.get("xyz", "1 0 0"), 3, f"joint {finger.name}: axis")
+            xyz = urdf.numbers(axis.get("xyz", "1 0 0"), 3, finger.name, "axis")
             axis.set("xyz", " ".join(repr(-value + 0.0) for value in xyz))
         limit = element.find("limit")
         if limit is None:
@@ -257,7 +262,7 @@ def _facts(root: ET.Element, robot_id: str, parts: Split, source: Path) -> dict[
         "reach": round(reach(model, "flange"), 4),
         "reach_definition": "flange",
         "tip_link": parts.tip,
-        "arm": parts.why,
+        "arm": str(parts.why),
         "home_deg": [round(degrees(angle), 6) for angle in home],
         "sources": [{"file": source.name}],
         "notes": [

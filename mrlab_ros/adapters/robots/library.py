@@ -10,13 +10,25 @@ from typing import Any
 
 import numpy as np
 
+from mrlab_ros.adapters.diagnostics import FILE_UNREADABLE
 from mrlab_ros.adapters.robots import drawn, urdf
+from mrlab_ros.adapters.robots.diagnostics import (
+    HAND_OF_ITS_OWN,
+    HOME_SIZE,
+    NO_END_EFFECTOR,
+    NO_ROBOT_MODEL,
+    ROBOT_MESH_URI,
+    ROOT_LINKS,
+    SAME_NAMES,
+)
 from mrlab_ros.adapters.robots.places import imported_folder
 from mrlab_ros.adapters.yaml_files import read_yaml
+from mrlab_ros.core.base.diagnostics import FIELD, ONE_OF
 from mrlab_ros.core.errors import BadInput
-from mrlab_ros.core.naming import did_you_mean
+from mrlab_ros.core.naming import close_to
 from mrlab_ros.core.physics.grasp import Gripper
 from mrlab_ros.core.physics.grasp_load import Tool
+from mrlab_ros.core.records import bad_value
 from mrlab_ros.core.robots.model import RobotModel
 
 END_EFFECTORS = "end_effectors"
@@ -70,10 +82,7 @@ class RobotLibrary:
         robot = urdf.parse(text, f"{robot_id}/robot.urdf")
         tool = self.end_effector(end_effector)
         if facts.get("hand"):
-            raise BadInput(
-                f"robot '{robot_id}' has a hand of its own; leave the end effector empty, or "
-                "import the robot again without its hand"
-            )
+            raise BadInput(HAND_OF_ITS_OWN(robot=robot_id))
         place = f"{END_EFFECTORS}/{end_effector}"
         beside += drawn.levels(self.folder / place, f"{MESH_PREFIX}{place}")
         return drawn.added(_composed(robot, tool, facts, end_effector), beside)
@@ -89,7 +98,7 @@ class RobotLibrary:
     def mesh_path(self, uri: str) -> Path:
         """Return the file that a mesh URI of one of the library's URDFs names."""
         if not uri.startswith(MESH_PREFIX):
-            raise BadInput(f"the mesh is '{uri}'; expected a URI that begins with {MESH_PREFIX}")
+            raise BadInput(ROBOT_MESH_URI(mesh=uri, prefix=MESH_PREFIX))
         place = uri.removeprefix(MESH_PREFIX)
         own = self.folder / place
         return own if own.is_file() else self.imported / place
@@ -113,10 +122,8 @@ class RobotLibrary:
         said = self.end_effector_facts(end_effector).get("gripper")
         ways = [way.value for way in Gripper]
         if said not in ways:
-            raise BadInput(
-                f"{END_EFFECTORS}/{end_effector}/end_effector.yaml: gripper is {said!r}; expected "
-                f"one of {', '.join(ways)}"
-            )
+            file = f"{END_EFFECTORS}/{end_effector}/end_effector.yaml"
+            raise bad_value(FIELD(place=file, key="gripper"), said, ONE_OF(choices=ways))
         return Gripper(said)
 
     def hand_facts(self, robot_id: str, end_effector: str) -> Tool:
@@ -174,20 +181,16 @@ class RobotLibrary:
     def _robot_folder(self, robot_id: str) -> Path:
         known = self.ids()
         if robot_id not in known:
-            raise BadInput(
-                f"there is no robot '{robot_id}'; known are: {', '.join(known)}"
-                f"{did_you_mean(robot_id, known)}"
-            )
+            close = close_to(robot_id, known)
+            raise BadInput(NO_ROBOT_MODEL(robot=robot_id, known=[*known], close=close))
         own = self.folder / robot_id
         return own if own.is_dir() else self.imported / robot_id
 
     def _end_effector_folder(self, end_effector: str) -> Path:
         known = self.end_effectors()
         if end_effector not in known:
-            raise BadInput(
-                f"there is no end effector '{end_effector}'; known are: {', '.join(known)}; "
-                f"leave it empty for a bare flange{did_you_mean(end_effector, known)}"
-            )
+            close = close_to(end_effector, known)
+            raise BadInput(NO_END_EFFECTOR(end_effector=end_effector, known=[*known], close=close))
         return self.folder / END_EFFECTORS / end_effector
 
     def _read_model(self, robot_id: str) -> RobotModel:
@@ -198,10 +201,8 @@ class RobotLibrary:
         chain, joints = urdf.chain(root, facts.get("tip_link", TIP), origin)
         home_deg = facts["home_deg"]
         if len(home_deg) != len(joints):
-            raise BadInput(
-                f"{robot_id}/robot.yaml: home_deg has {len(home_deg)} values; expected "
-                f"{len(joints)}, one a moving joint"
-            )
+            file = f"{robot_id}/robot.yaml"
+            raise BadInput(HOME_SIZE(file=file, count=len(home_deg), joints=len(joints)))
         home = np.array([math.radians(angle) for angle in home_deg])
         home.setflags(write=False)
         return RobotModel(
@@ -231,7 +232,8 @@ def _read(path: Path) -> str:
     try:
         return path.read_text(encoding="utf-8")
     except OSError as error:
-        raise BadInput(f"{path} cannot be read: {error}; install the model again") from None
+        why = error.strerror or str(error)
+        raise BadInput(FILE_UNREADABLE(file=str(path), why=why)) from None
 
 
 def _folders_with(folder: Path, file: str) -> tuple[str, ...]:
@@ -246,16 +248,11 @@ def _composed(
     ours = {element.get("name") for tag in ("link", "joint") for element in tool.iterfind(tag)}
     both = sorted(str(name) for name in taken & ours)
     if both:
-        raise BadInput(
-            f"robot '{facts['id']}' and end effector '{end_effector}' both have "
-            f"{', '.join(both)}; rename them in one of the two URDFs"
-        )
+        raise BadInput(SAME_NAMES(robot=facts["id"], end_effector=end_effector, names=both))
     children = {joint.child for joint in urdf.joints(tool, end_effector)}
     roots = [str(e.get("name")) for e in tool.iterfind("link") if e.get("name") not in children]
     if len(roots) != 1:
-        raise BadInput(
-            f"end effector '{end_effector}' has the root links {', '.join(roots)}; expected one"
-        )
+        raise BadInput(ROOT_LINKS(file=end_effector, links=roots))
     tip = facts.get("tip_link", TIP)
     radius = float(facts.get("flange_diameter", 0.063)) / 2
     robot.append(_adapter_plate(radius))

@@ -11,6 +11,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from mrlab_ros.adapters.robots.diagnostics import ROBOT_MESH_UNREADABLE
 from mrlab_ros.core.errors import BadInput
 
 MAGIC, JSON_CHUNK, BIN_CHUNK = 0x46546C67, 0x4E4F534A, 0x004E4942
@@ -37,7 +38,8 @@ def _read(path: Path) -> bytes:
     try:
         return path.read_bytes()
     except OSError as error:
-        raise BadInput(f"the mesh {path} cannot be read: {error.strerror}") from None
+        why = error.strerror or str(error)
+        raise BadInput(ROBOT_MESH_UNREADABLE(uri=str(path), why=why)) from None
 
 
 def _as_glb(path: Path) -> bytes:
@@ -47,7 +49,7 @@ def _as_glb(path: Path) -> bytes:
         exported = trimesh.load_scene(path).export(file_type="glb")
     except Exception as error:  # every mesh reader has errors of its own
         why = str(error) or type(error).__name__
-        raise BadInput(f"the mesh {path.name} cannot be read: {why}") from None
+        raise BadInput(ROBOT_MESH_UNREADABLE(uri=path.name, why=why)) from None
     assert isinstance(exported, bytes)
     return exported
 
@@ -62,7 +64,7 @@ def _parts(data: bytes, path: Path) -> tuple[dict[str, Any], bytes]:
         rest = data[20 + length :]
         return head, rest[8 : 8 + struct.unpack_from("<I", rest)[0]] if rest else b""
     except (struct.error, ValueError) as error:
-        raise BadInput(f"the mesh {path.name} is not a GLB: {error}") from None
+        raise BadInput(ROBOT_MESH_UNREADABLE(uri=path.name, why=str(error))) from None
 
 
 def _smaller(head: dict[str, Any], binary: bytes) -> tuple[dict[str, Any], bytes]:

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 from ruckig import InputParameter, Result, Ruckig, Synchronization, Trajectory
 
+from mrlab_ros.adapters.robots.diagnostics import MOTION_SIZE, NO_MOTION_LEADS
 from mrlab_ros.core.errors import BadInput
 from mrlab_ros.core.geometry import Array
 from mrlab_ros.core.robots.model import RobotModel
@@ -57,8 +58,7 @@ class RuckigPlanner:
         count = len(model.joints)
         if start.shape != (count,) or goal.shape != (count,):
             raise BadInput(
-                f"a motion of {model.id} from {start.shape} to {goal.shape} values was asked for; "
-                f"expected {count} joint positions each"
+                MOTION_SIZE(robot=model.id, start=start.size, goal=goal.size, joints=count)
             )
         limits = self.limits
         target = InputParameter(count)
@@ -71,8 +71,11 @@ class RuckigPlanner:
         result = Ruckig(count).calculate(target, trajectory)
         if result not in (Result.Working, Result.Finished):
             raise BadInput(
-                f"no motion of {model.id} leads from {np.round(start, 4).tolist()} to "
-                f"{np.round(goal, 4).tolist()} rad (ruckig: {result}); check the trajectory's "
-                "first row"
+                NO_MOTION_LEADS(
+                    robot=model.id,
+                    start=np.round(start, 4).tolist(),
+                    goal=np.round(goal, 4).tolist(),
+                    why=f"ruckig: {result}",
+                )
             )
         return RuckigMotion(trajectory, start, goal)

@@ -11,6 +11,7 @@ from pathlib import Path
 from typing import Any
 
 from mrlab_ros.adapters.robots import drawing, urdf
+from mrlab_ros.adapters.robots.diagnostics import SHEET_FORMAT
 from mrlab_ros.adapters.robots.library import TIP, RobotLibrary
 from mrlab_ros.core.errors import BadInput
 from mrlab_ros.core.foreign_text import for_html, visible
@@ -83,7 +84,7 @@ def of(library: RobotLibrary, robot_id: str) -> Sheet:
 def checked_format(path: Path) -> None:
     """Raise BadInput for a file that is no sheet."""
     if path.suffix.lower() not in FORMATS:
-        raise BadInput(f"the file is '{path.name}'; expected a name in {', '.join(FORMATS)}")
+        raise BadInput(SHEET_FORMAT(file=path.name, formats=[*FORMATS]))
 
 
 def write(library: RobotLibrary, robot_id: str, path: Path) -> None:

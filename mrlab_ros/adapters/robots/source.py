@@ -12,6 +12,19 @@ from pathlib import Path
 from ament_index_python.packages import PackageNotFoundError, get_package_share_directory
 
 from mrlab_ros.adapters import installed, wall, walled
+from mrlab_ros.adapters.diagnostics import FILE_UNREADABLE, NOT_UTF8
+from mrlab_ros.adapters.robots.diagnostics import (
+    BAD_XACRO_ARGUMENT,
+    MESH_NO_FILE,
+    MESH_NO_PACKAGE,
+    MESH_OUTSIDE,
+    NO_DESCRIPTION,
+    NO_XACRO,
+    PACKAGE_DESCRIPTIONS,
+    PACKAGE_NO_FILE,
+    URDF_TOO_LARGE,
+    XACRO_NO_WALL,
+)
 from mrlab_ros.adapters.robots.expansion import expand
 from mrlab_ros.core.errors import BadInput
 
@@ -31,28 +44,25 @@ def find_description(source: str) -> Path:
     try:
         share = Path(get_package_share_directory(package))
     except (PackageNotFoundError, ValueError):
-        raise BadInput(
-            f"'{source}' is neither a file nor an installed ROS package; give the path of a URDF "
-            "or a xacro"
-        ) from None
+        raise BadInput(NO_DESCRIPTION(source=source)) from None
     if inside:
         if not (share / inside).is_file():
-            raise BadInput(
-                f"package '{package}' has no file {inside}; its descriptions: {_names(share)}"
-            )
+            raise BadInput(PACKAGE_NO_FILE(package=package, file=inside, known=_names(share)))
         return share / inside
     found = sorted(share.rglob("*.urdf")) or sorted(share.rglob("*.urdf.xacro"))
     if len(found) != 1:
+        names = _names(share)
         raise BadInput(
-            f"package '{package}' holds these descriptions: {_names(share)}; name the one you "
-            f"want, such as {package}/{_names(share).split(', ')[0]}"
+            PACKAGE_DESCRIPTIONS(
+                package=package, count=len(names), known=names, first=next(iter(names), None)
+            )
         )
     return found[0]
 
 
-def _names(share: Path) -> str:
+def _names(share: Path) -> list[str]:
     found = (*sorted(share.rglob("*.urdf")), *sorted(share.rglob("*.urdf.xacro")))
-    return ", ".join(str(file.relative_to(share)) for file in found) or "none"
+    return [str(file.relative_to(share)) for file in found]
 
 
 def packages_around(path: Path) -> dict[str, Path]:
@@ -87,24 +97,20 @@ def description_text(
     """
     if path.suffix != ".xacro":
         if arguments:
-            raise BadInput(
-                f"{path.name} is no xacro and takes no arguments; leave out {' '.join(arguments)}"
-            )
+            raise BadInput(NO_XACRO(file=path.name, arguments=[*arguments]))
         try:
             if path.stat().st_size > MOST_BYTES:
-                raise BadInput(f"{path} is larger than {MOST_BYTES >> 20} MiB; expected a URDF")
+                raise BadInput(URDF_TOO_LARGE(file=str(path), most=MOST_BYTES))
             return path.read_text(encoding="utf-8")
         except OSError as error:
-            raise BadInput(f"{path} cannot be read: {error}; expected a URDF") from None
+            why = error.strerror or str(error)
+            raise BadInput(FILE_UNREADABLE(file=str(path), why=why)) from None
         except UnicodeDecodeError:
-            raise BadInput(f"{path} is not UTF-8 text; save it as UTF-8") from None
+            raise BadInput(NOT_UTF8(file=str(path))) from None
     given = dict(_argument(text) for text in arguments)
     if not all(wall.layers().values()):
-        raise BadInput(
-            f"{path.name} is a xacro, which is a program, and the kernel here cannot wall it off "
-            "(expected Landlock and seccomp); where you trust it, expand it yourself and "
-            f"import what comes out: xacro {path.name} > {path.stem.removesuffix('.urdf')}.urdf"
-        )
+        plain = f"{path.stem.removesuffix('.urdf')}.urdf"
+        raise BadInput(XACRO_NO_WALL(file=path.name, plain=plain))
     with _prefix(packages) as prefix:
         prefixes = [prefix, *filter(None, os.environ.get("AMENT_PREFIX_PATH", "").split(":"))]
         folders = [path.parent, *packages.values(), *installed.packages()]
@@ -138,11 +144,9 @@ class MeshFinder:
         try:
             path = self._place(uri).resolve()
         except (OSError, ValueError, RuntimeError) as error:  # a loop of links, a NUL
-            raise BadInput(f"{uri} names no file: {error}") from None
+            raise BadInput(MESH_NO_FILE(mesh=uri, why=str(error))) from None
         if not any(path.is_relative_to(folder) for folder in self.folders):
-            raise BadInput(
-                f"{uri} is {path}, which is neither beside the description nor in a package"
-            )
+            raise BadInput(MESH_OUTSIDE(mesh=uri, path=str(path)))
         return path
 
     def _place(self, uri: str) -> Path:
@@ -153,7 +157,7 @@ class MeshFinder:
             try:
                 return Path(get_package_share_directory(package)) / rest
             except (PackageNotFoundError, ValueError):
-                raise BadInput(f"package '{package}' of mesh {uri} is not installed") from None
+                raise BadInput(MESH_NO_PACKAGE(package=package, mesh=uri)) from None
         return self.base / uri.removeprefix("file://")
 
 
@@ -169,7 +173,7 @@ def _shown(folder: Path) -> list[Path]:
 def _argument(text: str) -> tuple[str, str]:
     name, assigned, value = text.partition(":=")
     if not assigned or not name:
-        raise BadInput(f"the argument is '{text}'; expected NAME:=VALUE, as xacro takes it")
+        raise BadInput(BAD_XACRO_ARGUMENT(argument=text))
     return name, value
 
 

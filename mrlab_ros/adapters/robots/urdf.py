@@ -11,8 +11,28 @@ from pathlib import Path
 
 import numpy as np
 
+from mrlab_ros.adapters.robots.diagnostics import (
+    A_URDF,
+    DOCUMENT_TYPE,
+    ELEMENT_LACKS,
+    ELEMENT_UNNAMED,
+    FINITE_COUNT,
+    JOINT_AXIS,
+    JOINT_NO_VELOCITY,
+    JOINT_TYPE,
+    LINK_CIRCLE,
+    NAME_TOO_LONG,
+    NO_LINK_IN_FILE,
+    NOT_URDF,
+    NOT_XML,
+    ROOT_LINKS,
+    STILL_XACRO,
+    URDF_JOINT,
+)
+from mrlab_ros.core.base.diagnostics import FIELD
 from mrlab_ros.core.errors import BadInput
 from mrlab_ros.core.geometry import Pose, quaternion_from_rpy, transform_from_xyz_rpy
+from mrlab_ros.core.records import Words, bad_value
 from mrlab_ros.core.robots.frames import FixedFrame, LinkFrames, MovingFrame
 from mrlab_ros.core.robots.kinematics import KinematicChain, Segment
 from mrlab_ros.core.robots.model import Joint
@@ -32,57 +52,51 @@ def parse(text: str, origin: str) -> ET.Element:
     entities can expand without end), or still holds xacro elements.
     """
     if "<!DOCTYPE" in text or "<!ENTITY" in text:
-        raise BadInput(
-            f"{origin} declares a document type, which a URDF does not need; remove the lines "
-            "<!DOCTYPE ...> and <!ENTITY ...>"
-        )
+        raise BadInput(DOCUMENT_TYPE(file=origin))
     if not text.strip():
-        raise BadInput(f"{origin} is empty; expected a URDF")
+        raise bad_value(origin, None, A_URDF())
     try:
         root = ET.fromstring(text)
     except ET.ParseError as error:
-        raise BadInput(f"{origin} is not XML: {_place(error, text)}; expected a URDF") from None
+        raise not_xml(origin, error, text) from None
     if root.tag != "robot":
-        raise BadInput(f"{origin} begins with <{root.tag}>; expected a URDF, which has <robot>")
+        raise BadInput(NOT_URDF(file=origin, tag=root.tag))
     xacro = next((e.tag for e in root.iter() if str(e.tag).startswith(XACRO)), None)
     if xacro is not None:
-        name = Path(origin).name
-        raise BadInput(
-            f"{origin} holds <xacro:{xacro.removeprefix(XACRO)}>; expected a plain URDF, as made "
-            f"by: xacro {name} -o robot.urdf"
-        )
+        tag, name = xacro.removeprefix(XACRO), Path(origin).name
+        raise BadInput(STILL_XACRO(file=origin, tag=tag, name=name))
     return root
 
 
-def _place(error: ET.ParseError, text: str) -> str:
-    """Return what is wrong with a text that is no XML, and the line where that was noticed."""
+def not_xml(origin: str, error: ET.ParseError, text: str) -> BadInput:
+    """Return the error for a text that is no XML, with the line where that was noticed."""
     what = str(error).partition(": line")[0]
     row, lines = error.position[0], text.splitlines()
     line = lines[row - 1].strip() if 0 < row <= len(lines) else ""
     shown = line if len(line) <= LONGEST_LINE else f"{line[:LONGEST_LINE]} ..."
-    return f"{what} in line {row}, '{shown}'" if shown else f"{what} at its end, line {row}"
+    return BadInput(NOT_XML(file=origin, why=what, line=row, found=shown))
 
 
 def _attribute(element: ET.Element, tag: str, name: str, origin: str) -> str:
     child = element.find(tag)
     value = None if child is None else child.get(name)
     if value is None:
+        given = element.get("name", "")
         raise BadInput(
-            f"{origin}: <{element.tag} name='{element.get('name')}'> has no <{tag} {name}=...>; "
-            "add it"
+            ELEMENT_LACKS(file=origin, element=element.tag, name=given, tag=tag, attribute=name)
         )
     return value
 
 
-def numbers(text: str, count: int, where: str) -> list[float]:
-    """Return the `count` finite numbers in `text`."""
+def numbers(text: str, count: int, place: Words, name: str) -> list[float]:
+    """Return the `count` finite numbers in `text`, the value of `name`; raise BadInput."""
     try:
         values = [float(part) for part in text.split()]
     except ValueError:
         values = []
     if len(values) != count or not np.isfinite(values).all():
-        expected = f"{count} finite numbers" if count > 1 else "a finite number"
-        raise BadInput(f"{where} is '{text}'; expected {expected}") from None
+        what = FIELD(place=place, key=name)
+        raise bad_value(what, text, FINITE_COUNT(count=count)) from None
     return values
 
 
@@ -139,10 +153,8 @@ class UrdfJoint:
         """Return the joint's limits; a continuous joint's are one turn either way."""
         limit = self.limit
         if limit is None or "velocity" not in limit:
-            raise BadInput(
-                f"{origin}: joint '{self.name}' has no <limit> with a velocity; expected lower, "
-                "upper and velocity (rad, rad/s) from the robot's data sheet"
-            )
+            place = URDF_JOINT(file=origin, joint=self.name)
+            raise BadInput(JOINT_NO_VELOCITY(place=place))
         lower, upper = limit.get("lower", 0.0), limit.get("upper", 0.0)
         if self.kind == "continuous":
             lower, upper = -2 * np.pi, 2 * np.pi
@@ -158,16 +170,15 @@ def _joint(element: ET.Element, origin: str) -> UrdfJoint:
     name, kind = element.get("name", ""), element.get("type", "")
     parent, child = (_attribute(element, end, "link", origin) for end in ("parent", "child"))
     if not name:
-        raise BadInput(f"{origin}: the <joint> from '{parent}' to '{child}' has no name; add one")
+        raise BadInput(ELEMENT_UNNAMED(file=origin, element="joint", parent=parent, child=child))
     for given in (name, parent, child):
         if len(given) > LONGEST_NAME:
             raise BadInput(
-                f"{origin}: a name is {len(given)} characters long, '{given[:40]}...'; expected "
-                f"{LONGEST_NAME} at most"
+                NAME_TOO_LONG(file=origin, count=len(given), name=given[:40], most=LONGEST_NAME)
             )
-    where = f"{origin}: joint '{name}'"
+    where = URDF_JOINT(file=origin, joint=name)
     if kind not in (*MOVING, "fixed"):
-        raise BadInput(f"{where} is of type '{kind}'; expected fixed, {', '.join(MOVING)}")
+        raise BadInput(JOINT_TYPE(place=where, type=kind, known=["fixed", *MOVING]))
     place = element.find("origin")
     xyz, rpy = "0 0 0", "0 0 0"
     if place is not None:
@@ -181,22 +192,22 @@ def _joint(element: ET.Element, origin: str) -> UrdfJoint:
         kind=kind,
         parent=parent,
         child=child,
-        xyz=numbers(xyz, 3, f"{where}: origin xyz"),
-        rpy=numbers(rpy, 3, f"{where}: origin rpy"),
-        axis=numbers(direction, 3, f"{where}: axis"),
+        xyz=numbers(xyz, 3, where, "origin xyz"),
+        rpy=numbers(rpy, 3, where, "origin rpy"),
+        axis=numbers(direction, 3, where, "axis"),
         limit=None
         if limit is None
-        else {key: numbers(value, 1, f"{where}: {key}")[0] for key, value in limit.items()},
+        else {key: numbers(value, 1, where, key)[0] for key, value in limit.items()},
         mimic=None if mimic is None else _mimic(mimic, where),
     )
     if joint.moves and not np.linalg.norm(joint.axis) > 1e-9:
-        raise BadInput(f"{where}: the axis is '{direction}'; expected a direction such as 0 0 1")
+        raise BadInput(JOINT_AXIS(place=where, axis=direction))
     return joint
 
 
-def _mimic(element: ET.Element, where: str) -> Mimic:
+def _mimic(element: ET.Element, where: Words) -> Mimic:
     multiplier, offset = (
-        numbers(element.get(name, default), 1, f"{where}: mimic {name}")[0]
+        numbers(element.get(name, default), 1, where, f"mimic {name}")[0]
         for name, default in (("multiplier", "1"), ("offset", "0"))
     )
     return Mimic(element.get("joint", ""), multiplier, offset)
@@ -210,7 +221,7 @@ def path_to(tip: str, all_joints: tuple[UrdfJoint, ...]) -> tuple[str, tuple[Urd
     while link in by_child:
         joint = by_child[link]
         if joint in path:
-            raise BadInput(f"link '{link}' hangs below itself; expected a tree of links")
+            raise BadInput(LINK_CIRCLE(link=link))
         path.append(joint)
         link = joint.parent
     return link, tuple(reversed(path))
@@ -221,9 +232,8 @@ def chain(root: ET.Element, tip: str, origin: str) -> tuple[KinematicChain, tupl
     all_joints = joints(root, origin)
     links = {element.get("name") for element in root.iterfind("link")}
     if tip not in links:
-        raise BadInput(
-            f"{origin} has no link '{tip}'; its links: {', '.join(sorted(map(str, links)))}"
-        )
+        known = sorted(map(str, links))
+        raise BadInput(NO_LINK_IN_FILE(file=origin, link=tip, known=known))
     base, path = path_to(tip, all_joints)
     segments = tuple(joint.segment() for joint in path)
     return KinematicChain(base, segments), tuple(j.limits(origin) for j in path if j.moves)
@@ -239,7 +249,7 @@ def frames(root: ET.Element, origin: str) -> LinkFrames:
     children = {joint.child for joint in all_joints}
     roots = [link for link in links if link not in children]
     if len(roots) != 1:
-        raise BadInput(f"{origin} has the root links {', '.join(roots)}; expected one")
+        raise BadInput(ROOT_LINKS(file=origin, links=roots))
     for link in links:
         path_to(link, all_joints)  # refuses a circle
     return LinkFrames(

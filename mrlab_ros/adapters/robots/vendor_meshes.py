@@ -11,7 +11,12 @@ import numpy as np
 
 from mrlab_ros.adapters.robots import checks, mesh_files, urdf
 from mrlab_ros.adapters.robots.assembly import Assembly
-from mrlab_ros.adapters.robots.diagnostics import ROBOT_FRAME
+from mrlab_ros.adapters.robots.diagnostics import (
+    NO_SHARED_LINK,
+    NOT_IMPORTED,
+    NOT_OF_LIBRARY,
+    ROBOT_FRAME,
+)
 from mrlab_ros.adapters.robots.library import MESH_PREFIX, RobotLibrary
 from mrlab_ros.adapters.robots.source import MeshFinder, description_text, packages_around
 from mrlab_ros.core.base.diagnostic import Diagnostic
@@ -39,7 +44,7 @@ def use_meshes(
     the robot is not one of the library.
     """
     if not (library.folder / robot_id / "robot.urdf").is_file():
-        raise BadInput(f"'{robot_id}' is not one of the lab's own robots; import it again instead")
+        raise BadInput(NOT_OF_LIBRARY(robot=robot_id))
     ours = urdf.parse(library.own_description(robot_id), robot_id)
     packages = packages_around(source) | dict(packages)
     theirs = urdf.parse(description_text(source, packages, arguments), source.name)
@@ -87,7 +92,7 @@ def remove(robot_id: str, library: RobotLibrary) -> None:
     """Remove an imported robot, or the vendor's meshes of a library robot."""
     folder = library.imported / robot_id
     if not robot_id or not (folder / "robot.urdf").is_file():
-        raise BadInput(f"nothing was imported as '{robot_id}'; there is nothing to remove")
+        raise BadInput(NOT_IMPORTED(robot=robot_id))
     shutil.rmtree(folder)
 
 
@@ -103,10 +108,8 @@ def _shared(
     }
     shared = {name: link for name, link in meshed.items() if name in names}
     if not shared:
-        raise BadInput(
-            f"no link of {origin} that has a mesh ({', '.join(meshed) or 'none'}) is a link of "
-            f"'{robot_id}' ({', '.join(sorted(map(str, names)))}); give a URDF without a prefix"
-        )
+        links = sorted(map(str, names))
+        raise BadInput(NO_SHARED_LINK(file=origin, meshed=[*meshed], robot=robot_id, links=links))
     return shared
 
 

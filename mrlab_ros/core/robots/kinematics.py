@@ -11,6 +11,7 @@ import numpy as np
 
 from mrlab_ros.core.errors import Misuse
 from mrlab_ros.core.geometry import Array, Pose, Quaternion, Vector, pose_from_transform
+from mrlab_ros.core.robots.diagnostics import POSITION_COUNT
 
 
 def _frame_with_z_along(axis: Array) -> Array:
@@ -89,7 +90,7 @@ class KinematicChain:
         As tool0(), but without numpy, whose calls take longer than one pose.
         """
         if len(positions) != self.joint_count:
-            raise Misuse(f"there are {len(positions)} positions; expected {self.joint_count}")
+            raise Misuse(POSITION_COUNT(count=len(positions), joints=self.joint_count))
         x = y = z = qx = qy = qz = 0.0
         qw = 1.0
         for ((px, py, pz), (ax, ay, az, aw), prismatic), value in zip(
@@ -126,10 +127,8 @@ class KinematicChain:
     def _poses(self, positions: Array, *, last_only: bool) -> list[Array]:
         positions = np.asarray(positions, dtype=np.float64)
         if positions.ndim == 0 or positions.shape[-1] != self.joint_count:
-            raise Misuse(
-                f"the positions have shape {positions.shape}; expected (..., {self.joint_count}), "
-                "one value a moving joint"
-            )
+            count = positions.shape[-1] if positions.ndim else 1
+            raise Misuse(POSITION_COUNT(count=count, joints=self.joint_count))
         shape = positions.shape[:-1]
         columns = positions.reshape(int(np.prod(shape)), self.joint_count).T
         count = columns.shape[1]

@@ -6,8 +6,11 @@ from collections.abc import Callable
 
 import numpy as np
 
+from mrlab_ros.core.base.diagnostics import ONE_OF
 from mrlab_ros.core.errors import BadInput
 from mrlab_ros.core.geometry import Array
+from mrlab_ros.core.records import bad_value
+from mrlab_ros.core.robots.diagnostics import NO_SPHERICAL_WRIST
 from mrlab_ros.core.robots.kinematics import KinematicChain
 from mrlab_ros.core.robots.model import RobotModel
 
@@ -33,10 +36,7 @@ def wrist_centre(chain: KinematicChain, joints: int = 6) -> Array:
         for p, (origin, _) in zip(across, lines, strict=True)
     )
     if miss > 1e-4:
-        raise BadInput(
-            f"the last three axes miss each other by {miss * 1e3:.1f} mm; expected a spherical "
-            "wrist for reach_definition wrist_centre; write flange instead"
-        )
+        raise BadInput(NO_SPHERICAL_WRIST(distance=float(miss)))
     return point
 
 
@@ -70,8 +70,8 @@ def reach(model: RobotModel, definition: str) -> float:
             return _norm(place)
 
         return _largest(wrist, low, high, range(1, count - 3))
-    raise BadInput(
-        f"reach_definition is '{definition}'; expected wrist_centre, flange or stretched"
+    raise bad_value(
+        "reach_definition", definition, ONE_OF(choices=["wrist_centre", "flange", "stretched"])
     )
 
 

@@ -106,8 +106,8 @@ LOADED_IN_PART = Code(
     "[\nNot tried:{rest:problems}]",
     meaning="A step of loading a scene failed after others had been made.",
 )
-LEFT_OUT = Code(
-    "left_out",
+CONTENTS_LEFT_OUT = Code(
+    "contents_left_out",
     "{objects:count object|objects} and {surfaces:count surface|surfaces} are left out: no "
     "physics runs.",
     severity=INFO,

@@ -14,10 +14,10 @@ from mrlab_ros.core.base.diagnostic import Diagnostic
 from mrlab_ros.core.errors import BadInput, LabError
 from mrlab_ros.core.physics.surfaces import Surface
 from mrlab_ros.core.scene.diagnostics import (
+    CONTENTS_LEFT_OUT,
     CREATE_SYSTEM,
     DISSOLVE_SYSTEMS,
     GRIP_OBJECTS,
-    LEFT_OUT,
     LOAD_TRAJECTORY,
     LOADED_IN_PART,
     NO_TRAJECTORY_NAMED,
@@ -181,7 +181,7 @@ def left_out(wanted: SceneDocument, present: Present) -> Diagnostic | None:
     """Return what the lab cannot bring back; None: nothing."""
     if present.physics or not (wanted.objects or wanted.surfaces):
         return None
-    return LEFT_OUT(objects=len(wanted.objects), surfaces=len(wanted.surfaces))
+    return CONTENTS_LEFT_OUT(objects=len(wanted.objects), surfaces=len(wanted.surfaces))
 
 
 def with_pending(scene: SceneDocument, pending: SceneDocument) -> SceneDocument:

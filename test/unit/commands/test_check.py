@@ -57,9 +57,9 @@ def test_a_collision_refuses_and_the_page_and_the_report_have_one_hash(tmp_path)
 @pytest.mark.parametrize(
     ("words", "sentence"),
     [
-        (("--robot", "ur6e"), "did you mean 'ur5e'"),
+        (("--robot", "ur6e"), "Did you mean 'ur5e'"),
         (("--robot", "ur5e", "--scene", "tabel"), "Did you mean 'table'"),
-        (("--robot", "ur5e", "--tool", "hammer"), "there is no end effector 'hammer'"),
+        (("--robot", "ur5e", "--tool", "hammer"), "no end effector 'hammer'"),
         (("--robot", "kuka_kr3_r540", "--scene", "table"), "has no robot kuka_kr3_r540"),
         ((), "add --robot"),
         (("--robot", "ur5e", "--within", "5 miles"), "expected a length"),

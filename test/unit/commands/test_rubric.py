@@ -158,7 +158,7 @@ def test_the_example_and_the_measures_are_printed():
 @pytest.mark.parametrize(
     ("text", "sentence"),
     [
-        ("robot: ur6e\ntests: [{expect: no collision, points: 1}]", "did you mean 'ur5e'"),
+        ("robot: ur6e\ntests: [{expect: no collision, points: 1}]", "Did you mean 'ur5e'"),
         ("robot: ur5e\nscene: tabel\ntests: [{expect: no collision, points: 1}]", "'table'"),
         ("tests: [{expect: no colision, points: 1}]", "r.yaml:1: test 'no colision'"),
         ("robot: ur5e\nreference: no.mat\ntests:\n- expect: joints within 1 deg of the reference\n"

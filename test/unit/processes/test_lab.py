@@ -200,7 +200,7 @@ def test_the_supervisor_starts_the_host_with_the_arguments() -> None:
 def test_robots_and_parameter_files_that_do_not_exist_are_refused() -> None:
     assert robot_models(" ur5e, ,kuka_kr3_r540") == ("ur5e", "kuka_kr3_r540")
     assert robot_models("") == ()
-    with pytest.raises(BadInput, match="there is no robot 'ur6'; known are:"):
+    with pytest.raises(BadInput, match="no robot 'ur6'; there are:"):
         robot_models("ur5e,ur6")
     with pytest.raises(BadInput, match="no parameter file /nowhere.yaml"):
         parameter_file(Path("/nowhere.yaml"))

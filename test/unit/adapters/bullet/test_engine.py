@@ -11,8 +11,10 @@ from pathlib import Path
 import numpy as np
 import pybullet
 import pytest
+from refusals import refused
 
 from mrlab_ros.adapters.bullet.engine import BulletEngine
+from mrlab_ros.adapters.robots.diagnostics import FOLDER_IN_USE
 from mrlab_ros.adapters.robots.exporting import export
 from mrlab_ros.adapters.robots.library import RobotLibrary
 from mrlab_ros.adapters.yaml_files import read_yaml
@@ -372,5 +374,5 @@ HANDED = [("ur5e", hand) for hand in LIBRARY.end_effectors()]
 def test_plain_bullet_loads_an_exported_robot_with_what_is_seen(robot, hand, capfd, tmp_path):
     path = export(LIBRARY, robot, hand, tmp_path / "visual")
     assert said_of(path, capfd) == ""
-    with pytest.raises(BadInput, match="visual holds something already; name a new folder"):
+    with refused(FOLDER_IN_USE, BadInput, folder=str(tmp_path / "visual")):
         export(LIBRARY, robot, hand, tmp_path / "visual")

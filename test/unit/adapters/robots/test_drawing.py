@@ -9,9 +9,11 @@ import numpy as np
 import pytest
 import trimesh
 from PIL import Image
+from refusals import refused
 from typer.testing import CliRunner
 
 from mrlab_ros.adapters.robots import drawing
+from mrlab_ros.adapters.robots.diagnostics import SHEET_FORMAT
 from mrlab_ros.adapters.robots.library import RobotLibrary
 from mrlab_ros.commands.robots import app
 from mrlab_ros.core.errors import BadInput
@@ -47,7 +49,7 @@ def test_a_page_and_a_gltf_file_hold_the_robot_upright(tmp_path: Path) -> None:
     page = (tmp_path / "ur5e.html").read_text()
     assert "THREE" in page
     assert "src=" not in page.replace("srcdoc", "").split("<script>")[0]
-    with pytest.raises(BadInput, match=r"the file is 'ur5e.gif'; expected a name in .png, .html"):
+    with refused(SHEET_FORMAT, BadInput, file="ur5e.gif"):
         drawing.write(robot, tmp_path / "ur5e.gif")
 
 

@@ -13,8 +13,10 @@ from pathlib import Path
 import numpy as np
 import pytest
 import yourdfpy
+from refusals import refused
 
 from mrlab_ros.adapters.robots import urdf
+from mrlab_ros.adapters.robots.diagnostics import ROOT_LINKS
 from mrlab_ros.adapters.robots.library import RobotLibrary
 from mrlab_ros.adapters.robots.published import published, together
 from mrlab_ros.core.errors import BadInput
@@ -135,5 +137,5 @@ def test_one_urdf_holds_all_robots() -> None:
 
 
 def test_two_trees_are_refused() -> None:
-    with pytest.raises(BadInput, match="has the root links a, b; expected one"):
+    with refused(ROOT_LINKS, BadInput, links=["a", "b"]):
         urdf.frames(urdf.parse("<robot><link name='a'/><link name='b'/></robot>", "x"), "x")

@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 import numpy as np
-import pytest
 from fakes import make_model
 from hypothesis import given
 from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
+from refusals import refused
 
+from mrlab_ros.adapters.robots.diagnostics import MOTION_SIZE
 from mrlab_ros.adapters.robots.ruckig_planner import RuckigPlanner, StagingLimits
 from mrlab_ros.core.errors import BadInput
 
@@ -38,5 +39,5 @@ def test_standing_there_already_takes_no_time():
 
 
 def test_a_goal_for_another_arm_is_refused():
-    with pytest.raises(BadInput, match="expected 6 joint positions each"):
+    with refused(MOTION_SIZE, BadInput, joints=6):
         RuckigPlanner().plan(make_model(6), np.zeros(6), np.zeros(7))

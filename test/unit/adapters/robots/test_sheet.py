@@ -7,8 +7,10 @@ from pathlib import Path
 import numpy as np
 import pytest
 from PIL import Image
+from refusals import refused
 
 from mrlab_ros.adapters.robots import sheet
+from mrlab_ros.adapters.robots.diagnostics import SHEET_FORMAT
 from mrlab_ros.adapters.robots.importing import import_robot
 from mrlab_ros.adapters.robots.library import RobotLibrary
 from mrlab_ros.core.errors import BadInput
@@ -80,5 +82,5 @@ def test_it_is_a_picture_or_a_page(library: RobotLibrary, tmp_path: Path) -> Non
     assert "data:image/png;base64," in page
     assert "finger_1 x 2 -0.01" in page
     assert "<script" not in page
-    with pytest.raises(BadInput, match="'tried.pdf'; expected a name in .png, .html"):
+    with refused(SHEET_FORMAT, BadInput, file="tried.pdf"):
         sheet.write(library, "tried", tmp_path / "tried.pdf")

@@ -8,8 +8,10 @@ import threading
 from pathlib import Path
 
 import pytest
+from refusals import refused
 
 from mrlab_ros.adapters import wall
+from mrlab_ros.adapters.robots.diagnostics import XACRO_NO_WALL, XACRO_REFUSED
 from mrlab_ros.adapters.robots.source import description_text
 from mrlab_ros.core.errors import BadInput
 
@@ -80,7 +82,7 @@ def test_a_xacro_reads_no_file_elsewhere(folder: Path, name: str) -> None:
     (folder / ".keys").mkdir()
     (folder / ".keys" / "secret.yaml").write_text("word: secret_word\n")
     path = name.format(outside=folder.parent)
-    with pytest.raises(BadInput, match="--package NAME=FOLDER") as caught:
+    with refused(XACRO_REFUSED, BadInput, hint="folder") as caught:
         expanded(folder, f"<link name=\"${{load_yaml('{path}')['word']}}\"/>")
     assert "secret_word" not in str(caught.value)
 
@@ -89,7 +91,7 @@ def test_a_xacro_reads_nothing_hidden_in_a_package(folder: Path) -> None:
     git = folder.parent / "other" / ".git"
     git.mkdir(parents=True)
     (git / "config.yaml").write_text("word: secret_word\n")
-    with pytest.raises(BadInput, match="--package NAME=FOLDER") as caught:
+    with refused(XACRO_REFUSED, BadInput, hint="folder") as caught:
         expanded(
             folder,
             "<link name=\"${load_yaml('$(find other)/.git/config.yaml')['word']}\"/>",
@@ -147,5 +149,5 @@ def test_without_a_wall_no_xacro_is_expanded(
     folder: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(wall, "layers", lambda: {"landlock": False, "seccomp": True})
-    with pytest.raises(BadInput, match=r"xacro r\.urdf\.xacro > r\.urdf"):
+    with refused(XACRO_NO_WALL, BadInput, file="r.urdf.xacro", plain="r.urdf"):
         expanded(folder, LINK.format("a"))

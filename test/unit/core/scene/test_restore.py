@@ -69,9 +69,9 @@ def test_without_physics_robots_and_systems_come_and_the_rest_is_named():
         LoadTrajectory(A),
         CreateSystem(CELL),
     )
-    assert restore.left_out(SCENE, present) == codes.LEFT_OUT(objects=2, surfaces=1)
+    assert restore.left_out(SCENE, present) == codes.CONTENTS_LEFT_OUT(objects=2, surfaces=1)
     one = SceneDocument(objects=(CUBE,))
-    assert restore.left_out(one, present) == codes.LEFT_OUT(objects=1, surfaces=0)
+    assert restore.left_out(one, present) == codes.CONTENTS_LEFT_OUT(objects=1, surfaces=0)
     assert restore.left_out(SceneDocument((A,)), present) is None
 
 
