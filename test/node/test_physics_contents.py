@@ -187,5 +187,5 @@ def test_physics_leaves_out_what_cannot_be_and_names_it(graph, tmp_path, capfd):
     now = get_objects(graph)
     assert (names(now.objects), names(now.surfaces)) == (["a", "e"], ["shelf", "floor"])
     said = capfd.readouterr().err
-    for words in ("object 4: position is", "no object 'cow'", "c: the position", "is a line"):
+    for words in ("object 4: position is", "no object 'cow'", "c: The position", "is a line"):
         assert words in said, words

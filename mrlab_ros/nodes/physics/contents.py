@@ -8,6 +8,8 @@ from contextlib import AbstractContextManager
 from dataclasses import replace
 
 from mrlab_ros.adapters.scenes.state_file import StateFile
+from mrlab_ros.core.base.diagnostic import Diagnostic
+from mrlab_ros.core.base.diagnostics import IN_PLACE
 from mrlab_ros.core.clock import SECOND
 from mrlab_ros.core.errors import BadInput, LabError
 from mrlab_ros.core.naming import checked_name
@@ -16,7 +18,11 @@ from mrlab_ros.core.physics.pending_grasp import PendingGrasp
 from mrlab_ros.core.physics.surfaces import Surface
 from mrlab_ros.core.physics.world import World
 from mrlab_ros.core.scene.document import ObjectEntry, SceneDocument
-from mrlab_ros.nodes.physics.diagnostics import CANNOT_HOLD_FIXED, TOO_MANY_OBJECTS
+from mrlab_ros.nodes.physics.diagnostics import (
+    CANNOT_HOLD_FIXED,
+    CONTENTS_NOT_BACK,
+    TOO_MANY_OBJECTS,
+)
 
 # A robot that is to hold an object may come this long after the object, ns.
 ROBOT_TIMEOUT_NS = 20 * SECOND
@@ -148,22 +154,23 @@ class Contents:
                 # A robot of the last run that the lab no longer has drops its object at once.
                 self._put(entry, 0)
             except LabError as error:
-                mistakes.append(f"{entry.name}: {error}")
+                mistakes.append(IN_PLACE(place=entry.name, why=error.diagnostic))
         if mistakes:
-            self._file.keep_copy(f"left out of the last run: {'; '.join(mistakes)}")
+            self._file.keep_copy(str(CONTENTS_NOT_BACK(all=mistakes)))
 
-    def _restore_surfaces(self, surfaces: Sequence[Surface]) -> list[str]:
+    def _restore_surfaces(self, surfaces: Sequence[Surface]) -> list[Diagnostic]:
         """Set the surfaces, without those that cannot be; return why."""
         try:
             self._world.set_surfaces(surfaces)
             return []
         except LabError:
-            intact, mistakes = [], []
+            intact: list[Surface] = []
+            mistakes: list[Diagnostic] = []
         for surface in surfaces:
             try:
                 self._world.set_surfaces([surface])
             except LabError as error:
-                mistakes.append(str(error))
+                mistakes.append(error.diagnostic)
             else:
                 intact.append(surface)
         self._world.set_surfaces(intact)

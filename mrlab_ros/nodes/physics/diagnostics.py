@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from mrlab_ros.core.base.diagnostic import INFO, Code
+from mrlab_ros.core.base.diagnostic import INFO, WARNING, Code
 
 OBJECT_SPAWNED = Code(
     "object_spawned",
@@ -58,6 +58,12 @@ CONTENTS_FIT = Code(
     "{objects:count object|objects} and {surfaces:count surface|surfaces} can be set.",
     severity=INFO,
     meaning="A dry run found nothing wrong with objects and surfaces.",
+)
+CONTENTS_NOT_BACK = Code(
+    "contents_not_back",
+    "Left out of the last run:{all:problems}",
+    severity=WARNING,
+    meaning="Objects or surfaces of the last run cannot be brought back.",
 )
 TOO_MANY_OBJECTS = Code(
     "too_many_objects",
