@@ -20,6 +20,7 @@ import type {
   Version,
 } from '../src/api/types'
 import type { MotionDocument } from '../src/playback/motion'
+import { own } from '../src/words/diagnostic'
 import { fakeMotion } from './fake_motion'
 
 const GALLERY = '/docs/gallery'
@@ -218,7 +219,7 @@ export class FakeApi implements Api {
   }
   async signIn(name: string, password: string): Promise<Session> {
     if (password !== 'secret')
-      throw new ApiError(401, 'wrong_password', 'Name and password do not belong together.')
+      throw new ApiError(401, 'wrong_password', own('Name and password do not belong together.'))
     this.user = { name, role: 'student' }
     return this.session()
   }
@@ -259,6 +260,7 @@ export class FakeApi implements Api {
       return {
         ...none,
         outcome: 'ambiguous',
+        code: '',
         message: 'Two matrices could be the joint positions of UR5e.',
         diagnostics: [],
         candidates: [
@@ -288,6 +290,7 @@ export class FakeApi implements Api {
       return {
         ...none,
         outcome: 'rejected',
+        code: '',
         message: 'q was not taken: one joint leaves its range.',
         diagnostics: [JOINT_LIMIT, RATE],
         motion: '/api/motions/bad',
@@ -295,6 +298,7 @@ export class FakeApi implements Api {
     return {
       ...none,
       outcome: 'accepted',
+      code: '',
       message: 'q, 801 x 6, is a motion of UR5e: 8.0 s at 100 Hz.',
       diagnostics: name.includes('bad') ? [RATE] : [],
       trajectory: trajectory({ id: 'ada/run', owner: 'ada', shared: false, source_file: name }),
@@ -344,7 +348,7 @@ export class FakeApi implements Api {
   }
   async restore(id: string): Promise<TrajectoryInfo> {
     const info = this.#deleted.get(id) ?? this.catalogue.find((each) => each.id === id)
-    if (!info) throw new ApiError(404, 'not_found', `There is no trajectory '${id}'.`)
+    if (!info) throw new ApiError(404, 'not_found', own(`There is no trajectory '${id}'.`))
     this.catalogue = [info, ...this.catalogue.filter((each) => each.id !== id)]
     return info
   }
@@ -401,7 +405,7 @@ export class FakeApi implements Api {
     return this.#pairing
   }
   async approvePairing(code: string, _role: Role): Promise<string> {
-    if (!code) throw new ApiError(404, 'unknown_code', 'No headset shows this code now.')
+    if (!code) throw new ApiError(404, 'unknown_code', own('No headset shows this code now.'))
     this.#pairing = { state: 'approved' }
     return 'Quest 3'
   }

@@ -63,10 +63,15 @@ class Candidate(BaseModel):
 
 
 class Converted(BaseModel):
-    """What became of a file. motion: URL of its MotionDocument; null: it holds no motion."""
+    """What became of a file. values: of the message's code, as the wire has them.
+
+    motion: URL of its MotionDocument; null: it holds no motion.
+    """
 
     outcome: Literal["rejected", "accepted", "ambiguous"]
+    code: str
     message: str
+    values: dict[str, str]
     diagnostics: list[Finding]
     candidates: list[Candidate]
     preview: Preview | None

@@ -172,7 +172,9 @@ def _converted(
     return answers.Converted.model_validate(
         {
             "outcome": outcome,
+            "code": answer.code,
             "message": answer.message,
+            "values": dict(messages.said(answer).values),
             "diagnostics": finding_fields(diagnostics),
             "candidates": [messages.candidate_fields(each) for each in answer.candidates],
             "preview": messages.preview_fields(answer.preview) if rows else None,

@@ -1,4 +1,5 @@
 import type { MotionDocument } from '../playback/motion'
+import { type Told, ToldError } from '../words/diagnostic'
 import type {
   Check,
   Conversion,
@@ -66,21 +67,17 @@ export interface Api {
   approvePairing(code: string, role: Role): Promise<string>
 }
 
-export class ApiError extends Error {
+export class ApiError extends ToldError {
   override readonly name = 'ApiError'
   constructor(
     /** HTTP status; 0: no answer. */
     readonly status: number,
-    readonly code: string,
-    message: string,
+    /** A coarse word, such as not_found; empty: the gateway did not answer. */
+    readonly kind: string,
+    told: Told,
   ) {
-    super(message)
+    super(told)
   }
-}
-
-/** Return what to tell a person of anything that was thrown. */
-export function sentence(error: unknown): string {
-  return error instanceof Error ? error.message : String(error)
 }
 
 export function isAbort(error: unknown): boolean {

@@ -1,4 +1,5 @@
 import type { MotionDocument } from '../playback/motion'
+import { own, type Told } from '../words/diagnostic'
 import { type Api, ApiError, trajectoryUrl } from './api'
 import type {
   Check,
@@ -50,7 +51,7 @@ type Method = 'GET' | 'POST' | 'PUT' | 'PATCH' | 'DELETE'
 /** The gateway, by fetch; uploads by XMLHttpRequest, which alone reports progress. */
 export class HttpApi implements Api {
   #csrf = ''
-  /** Called with the sentence when a sign-in has ended. */
+  /** Called when a sign-in has ended. */
   onSignedOut: () => void = () => {}
 
   constructor(private readonly noAnswer: () => string) {}
@@ -104,7 +105,7 @@ export class HttpApi implements Api {
           if (request.status < 300) resolve(body as Upload)
           else reject(this.#failure(request.status, body))
         })
-      request.onerror = () => end(() => reject(new ApiError(0, 'no_answer', this.noAnswer())))
+      request.onerror = () => end(() => reject(new ApiError(0, 'no_answer', own(this.noAnswer()))))
       request.onabort = () => end(() => reject(new DOMException('Cancelled', 'AbortError')))
       signal.addEventListener('abort', abort)
       if (signal.aborted) request.abort()
@@ -218,7 +219,7 @@ export class HttpApi implements Api {
       response = await fetch(url, init)
     } catch (error) {
       if (error instanceof DOMException) throw error
-      throw new ApiError(0, 'no_answer', this.noAnswer())
+      throw new ApiError(0, 'no_answer', own(this.noAnswer()))
     }
     const answer = parsed(await response.text())
     if (!response.ok) throw this.#failure(response.status, answer)
@@ -226,13 +227,9 @@ export class HttpApi implements Api {
   }
 
   #failure(status: number, answer: unknown): ApiError {
-    const error = (answer as { error?: { code?: string; message?: string } } | null)?.error
+    const error = (answer as { error?: Told & { kind: string } } | null)?.error
     if (status === 401) this.onSignedOut()
-    return new ApiError(
-      status,
-      error?.code ?? '',
-      error?.message ?? `${status}: ${this.noAnswer()}`,
-    )
+    return new ApiError(status, error?.kind ?? '', error ?? own(`${status}: ${this.noAnswer()}`))
   }
 }
 

@@ -1,4 +1,4 @@
-import type { Diagnostic, Fix } from '../words/diagnostic'
+import type { Diagnostic, Fix, Told } from '../words/diagnostic'
 /** The gateway's JSON. Field names are those of mrlab_msgs. */
 
 export type Role = 'student' | 'instructor' | 'operator' | 'display'
@@ -112,9 +112,8 @@ export interface TrajectoryInfo {
   readonly warnings: readonly Diagnostic[]
 }
 
-export interface Conversion {
+export interface Conversion extends Told {
   readonly outcome: 'accepted' | 'rejected' | 'ambiguous'
-  readonly message: string
   readonly diagnostics: readonly Diagnostic[]
   readonly candidates: readonly Candidate[]
   readonly trajectory: TrajectoryInfo | null

@@ -1,3 +1,4 @@
+import { own } from '../words/diagnostic'
 import {
   type Deed,
   type LabOffer,
@@ -77,7 +78,7 @@ export class FakeLink implements Link {
     request: Request,
   ): Promise<Response> {
     const answer = this.answers.get(service)
-    if (answer === undefined) throw new LinkError('no_service', `nobody answers ${service}`)
+    if (answer === undefined) throw new LinkError('no_service', own(`nobody answers ${service}`))
     const arrived = type.request.decode(type.request.encode(request))
     this.calls.push({ service, request: arrived })
     const response = (await answer(arrived)) as Partial<Response>

@@ -1,3 +1,5 @@
+import { type Told, ToldError } from '../words/diagnostic'
+
 /** What the pages need of the lab, wherever it comes from: the gateway's socket, or a fake in tests. */
 export interface Link {
   readonly status: LinkStatus
@@ -33,7 +35,7 @@ export type Unsubscribe = () => void
 
 export interface LinkStatus {
   readonly phase: 'connecting' | 'open' | 'lost' | 'refused'
-  /** Why, for a person; empty while open. */
+  /** Why, in the language that was chosen then; empty while open. */
   readonly reason: string
   /** Round trip, s; NaN until measured. */
   readonly roundTrip: number
@@ -77,12 +79,12 @@ export interface ServiceType<Request, Response> {
   readonly response: MessageType<Response>
 }
 
-export class LinkError extends Error {
+export class LinkError extends ToldError {
   override readonly name = 'LinkError'
   constructor(
     readonly kind: 'timeout' | 'no_service' | 'not_allowed' | 'lost' | 'refused',
-    message: string,
+    told: Told,
   ) {
-    super(message)
+    super(told)
   }
 }

@@ -1,3 +1,5 @@
+import { own, type Told } from '../words/diagnostic'
+import { words } from '../words/words'
 import { callFrame } from './frames'
 import { LinkError, type MessageType } from './link'
 
@@ -42,8 +44,7 @@ export class Services {
       const timer = setTimeout(
         () => {
           this.pending.delete(number)
-          const sentence = `${service} did not answer within ${timeoutS} s`
-          reject(new LinkError('timeout', sentence))
+          reject(new LinkError('timeout', own(words.value.link.timeout(service, timeoutS))))
         },
         (timeoutS + GRACE_S) * 1000,
       )
@@ -56,7 +57,8 @@ export class Services {
           try {
             resolve(response.decode(payload))
           } catch (error) {
-            reject(new LinkError('refused', `${service}: ${(error as Error).message}`))
+            const why = words.value.link.unreadable((error as Error).message)
+            reject(new LinkError('refused', own(`${service}: ${why}`)))
           }
         },
       })
@@ -71,8 +73,12 @@ export class Services {
 
   /** Take why a request has no response. */
   fail(request: number, payload: Uint8Array): void {
-    const { code, message } = JSON.parse(text.decode(payload)) as { code: string; message: string }
-    this.take(request)?.reject(new LinkError(KINDS[code] ?? 'refused', message))
+    const { code, message, diagnostic } = JSON.parse(text.decode(payload)) as {
+      code: string
+      message: string
+      diagnostic?: Told
+    }
+    this.take(request)?.reject(new LinkError(KINDS[code] ?? 'refused', diagnostic ?? own(message)))
   }
 
   /** Send again what has no response yet: the gateway does none of it twice. */
@@ -83,7 +89,7 @@ export class Services {
   /** Reject what waits, or of that only what was sent. */
   lose(message: string, { sentOnly = false } = {}): void {
     for (const [number, { sent }] of [...this.pending]) {
-      if (sent || !sentOnly) this.take(number)?.reject(new LinkError('lost', message))
+      if (sent || !sentOnly) this.take(number)?.reject(new LinkError('lost', own(message)))
     }
   }
 

@@ -1,3 +1,5 @@
+import { own, spoken, type Told } from '../words/diagnostic'
+import { words } from '../words/words'
 import { ClockOffset, exchange } from './clock_offset'
 import {
   CLOSED_FOR_GOOD,
@@ -74,6 +76,8 @@ class SocketLink implements Link {
   private readonly smallView = new DataView(this.small.buffer)
   private token = ''
   private welcomed = false
+  /** Why the gateway closes this socket. */
+  private closing: Told | null = null
   private attempts = 0
   private batchNumber = 0
   private heardAt = 0
@@ -138,7 +142,7 @@ class SocketLink implements Link {
     timeoutS = TIMEOUT_S,
   ): Promise<Response> {
     if (this.current.phase === 'refused') {
-      return Promise.reject(new LinkError('lost', this.current.reason))
+      return Promise.reject(new LinkError('lost', own(this.current.reason)))
     }
     return this.services.call(service, type.request, type.response, request, timeoutS)
   }
@@ -157,8 +161,9 @@ class SocketLink implements Link {
     this.unwatch()
     this.drop()
     clearTimeout(this.retry)
-    this.services.lose('the page has closed its connection')
-    this.setStatus('lost', 'the page has closed its connection')
+    const { closed } = words.value.link
+    this.services.lose(closed)
+    this.setStatus('lost', closed)
   }
 
   private connect(): void {
@@ -167,6 +172,7 @@ class SocketLink implements Link {
     socket.binaryType = 'arraybuffer'
     this.socket = socket
     this.welcomed = false
+    this.closing = null
     this.batchNumber = 0
     this.heardAt = this.beatAt = ownTime()
     // What comes late of a former socket concerns nobody.
@@ -204,7 +210,7 @@ class SocketLink implements Link {
       if (typeof data === 'string') this.onText(JSON.parse(data) as Text)
       else readFrame(data, this.reader)
     } catch (error) {
-      this.lose(`the gateway sent what this page cannot read: ${(error as Error).message}`)
+      this.lose(words.value.link.unreadable((error as Error).message))
     }
   }
 
@@ -226,6 +232,9 @@ class SocketLink implements Link {
       case 'refused':
         console.error(`${text.key}: ${text.message}`)
         break
+      case 'closing':
+        this.closing = text.diagnostic
+        break
       case 'did':
         for (const listener of this.deedListeners) listener(text)
         break
@@ -236,8 +245,7 @@ class SocketLink implements Link {
     if (!resumed) {
       // Another gateway, or too long away: what was done there nobody knows.
       if (this.token !== '') {
-        const sentence = 'the connection was lost before the answer came; check, then try again'
-        this.services.lose(sentence, { sentOnly: true })
+        this.services.lose(words.value.link.answerLost, { sentOnly: true })
       }
       this.records.clear()
       this.topics.forget()
@@ -252,7 +260,7 @@ class SocketLink implements Link {
   private onLab(text: Extract<Text, { op: 'lab' }>): void {
     this.setOffer({ ...text, latched: new Set(text.latched) })
     if (text.phase === 'open') this.setStatus('open', '')
-    else this.setStatus('lost', 'the gateway is there, but the lab is not: it may be starting')
+    else this.setStatus('lost', words.value.link.labAway)
   }
 
   private takeFragment(number: number, last: boolean, data: Uint8Array): void {
@@ -279,7 +287,7 @@ class SocketLink implements Link {
     if (now - this.beatAt > STALL_S) this.heardAt = now
     this.beatAt = now
     if (!isHidden() && now - this.heardAt > SILENCE_S) {
-      this.lose(`the gateway has sent nothing for ${SILENCE_S} s`)
+      this.lose(words.value.link.silent(SILENCE_S))
     } else this.ping()
   }
 
@@ -296,13 +304,14 @@ class SocketLink implements Link {
     }
   }
 
-  private onClose(code: number, reason: string): void {
+  private onClose(code: number, text: string): void {
+    const reason = this.closing === null ? text : spoken(this.closing)
     if (CLOSED_FOR_GOOD.includes(code)) {
       this.drop()
       this.setOffer(NOTHING)
       this.services.lose(reason)
       this.setStatus('refused', reason)
-    } else this.lose(reason || 'the gateway is gone or out of reach')
+    } else this.lose(reason || words.value.link.gone)
   }
 
   /** Leave the socket and try again later. */
@@ -370,6 +379,7 @@ type Text =
     }
   | { op: 'pong'; asked: number; came: number; answered: number }
   | { op: 'refused'; key: string; code: string; message: string }
+  | { op: 'closing'; code: number; diagnostic: Told }
   | { op: 'did'; who: string; service: string }
 
 /** Return this machine's time, s since 1970; it never jumps while the page lives. */

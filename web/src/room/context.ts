@@ -1,7 +1,8 @@
 import type { Object3D, PerspectiveCamera, Vector3 } from 'three'
-import { type Link, LinkError, type ServiceType } from '../link/link'
+import type { Link, ServiceType } from '../link/link'
 import type { CheckApi } from '../pages/lab/robot_check'
 import type { TrajectoryInfo } from '../protocol/mrlab_msgs'
+import { sentence, spoken, type Told } from '../words/diagnostic'
 import type { Words } from '../words/en'
 import type { Drawings } from './drawings/drawings'
 import type { Surroundings } from './panels/panel'
@@ -54,9 +55,8 @@ export interface RoomContext extends Surroundings {
   say(text: string, warns?: boolean): void
 }
 
-interface Answer {
+interface Answer extends Told {
   readonly success: boolean
-  readonly message: string
 }
 
 /** Call a service; say why where it is refused. Returns the answer, null without one. */
@@ -68,10 +68,10 @@ export async function order<Request, Response extends Answer>(
 ): Promise<Response | null> {
   try {
     const answer = await link.call(service, type, request)
-    if (!answer.success) say(answer.message)
+    if (!answer.success) say(spoken(answer))
     return answer.success ? answer : null
   } catch (error) {
-    say(error instanceof LinkError ? error.message : String(error))
+    say(sentence(error))
     return null
   }
 }

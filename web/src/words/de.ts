@@ -1,6 +1,7 @@
 import type { Words } from './en'
+import type { Templates } from './words'
 
-export const de: Words = {
+export const words: Words = {
   close: 'Schließen',
   cancel: 'Abbrechen',
   undo: 'Rückgängig',
@@ -10,6 +11,22 @@ export const de: Words = {
   retry: 'Noch einmal versuchen',
   yes: 'Ja',
   noAnswer: 'Das Labor antwortet nicht. Prüfe, ob es läuft und ob du in seinem Netz bist.',
+  joining: {
+    and: 'und',
+    or: 'oder',
+    row: 'Zeile',
+    rows: (first, last) => `Zeilen ${first} bis ${last}`,
+  },
+  link: {
+    closed: 'Die Seite hat ihre Verbindung geschlossen.',
+    answerLost:
+      'Die Verbindung ging verloren, bevor die Antwort kam. Sieh nach, dann noch einmal.',
+    silent: (seconds) => `Das Gateway hat seit ${seconds} s nichts gesendet.`,
+    unreadable: (why) => `Das Gateway sandte, was diese Seite nicht lesen kann: ${why}`,
+    labAway: 'Das Gateway ist da, das Labor nicht: Vielleicht startet es gerade.',
+    gone: 'Das Gateway ist weg oder nicht erreichbar.',
+    timeout: (service, seconds) => `${service} hat nicht innerhalb von ${seconds} s geantwortet.`,
+  },
   states: {
     IDLE: 'untätig',
     READY: 'bereit',
@@ -596,4 +613,41 @@ export const de: Words = {
     bringHere: 'Szene hierher holen',
     leave: 'Verlassen',
   },
+}
+
+const ROLE = 'display=eine Anzeige|student=Studierende|operator=Betrieb|instructor=Lehrende'
+
+/** What the lab says, by code; the placeholders are those of the English text. */
+export const diagnostics: Templates = {
+  not_signed_in: ['Niemand ist angemeldet, oder die Anmeldung ist beendet.', 'Melde dich an.'],
+  role_too_low: [
+    `{person} hat die Rolle {role:choice ${ROLE}}; nötig ist {needed:choice ${ROLE}}.`,
+    'Frag deine Lehrkraft.',
+  ],
+  nothing_at: ['Unter {path} gibt es nichts.'],
+  wrong_password: ['Name und Passwort passen nicht zusammen.', 'Versuche es noch einmal.'],
+  password_length: [
+    'Das Passwort hat {count:count Zeichen|Zeichen}; nötig sind {least:integer} bis {most:integer}.',
+    'Mehrere Wörter merkt man sich leicht.',
+  ],
+  upload_too_large: [
+    'Die Datei hat mehr als {most:bytes}, die Grenze.',
+    "Sichere nur die Trajektorie: save('file.mat', 'q', 't').",
+  ],
+  quota_full: [
+    'Deine Dateien belegen {used:bytes} von {most:bytes}, und diese passt nicht mehr dazu.',
+    'Hochgeladenes wird nach einigen Tagen entfernt.',
+  ],
+  other_ending: [
+    "'{file}' gehört zu keiner Art von Datei, die gelesen wird.",
+    'Der Name muss auf {endings:either} enden.',
+  ],
+  store_failed: [
+    'Die Ablage {store} hat versagt ({why:problem}); nichts wurde geändert.',
+    'Versuche es noch einmal, wenn sie wieder geht.',
+  ],
+  call_timed_out: [
+    '{key} hat nicht innerhalb von {timeout:time} geantwortet.',
+    'Prüfe, ob der Knoten läuft, und versuche es noch einmal.',
+  ],
 }

@@ -1,4 +1,6 @@
 /** What the lab tells a person, as JSON and messages have it; see core/base/diagnostic.py. */
+import { fill, type Phrase, parse, placeholders, type Values } from './phrase'
+import { templates, words } from './words'
 
 export interface Fix {
   readonly option: string
@@ -26,4 +28,81 @@ export interface Diagnostic {
   readonly unit: string
   readonly values: Readonly<Record<string, unknown>>
   readonly fixes: readonly Fix[]
+}
+
+/** What can be said in each language: a finding, an error, a service's response, a state. */
+export interface Told {
+  readonly code: string
+  /** In English. */
+  readonly message: string
+  readonly remedy?: string
+  /** By name; in messages a list, in which all but texts is JSON. */
+  readonly values?: Values | readonly { readonly key: string; readonly value: string }[]
+}
+
+/** Something that went wrong, with what is to be said of it. */
+export class ToldError extends Error {
+  override readonly name: string = 'ToldError'
+  constructor(readonly told: Told) {
+    super(told.message)
+  }
+}
+
+/** Return what went wrong in a page itself, already in the reader's language. */
+export function own(message: string): Told {
+  return { code: '', message }
+}
+
+/** Return what a diagnostic says in the language that is chosen; in English where it has none. */
+export function say(told: Told): { readonly message: string; readonly remedy: string } {
+  const { message, remedy = '' } = told
+  const found = Object.hasOwn(templates.value, told.code) ? templates.value[told.code] : undefined
+  if (found === undefined) return { message, remedy }
+  const values = byName(told.values)
+  const [text, advice] = [parsed(found[0]), parsed(found[1] ?? '')]
+  const missing = [...placeholders(text, false), ...placeholders(advice, false)].some(
+    ({ name }) => values[name] === undefined || values[name] === null,
+  )
+  // what another version of the lab says may have other values
+  if (missing) return { message, remedy }
+  const filled = (phrase: Phrase) => fill(phrase, values, words.value.joining, nested)
+  return { message: filled(text), remedy: filled(advice) }
+}
+
+/** Return the same as one text. */
+export function spoken(told: Told): string {
+  const { message, remedy } = say(told)
+  return [message, remedy].filter(Boolean).join(' ')
+}
+
+/** Return what to tell a person of anything that was thrown. */
+export function sentence(error: unknown): string {
+  if (error instanceof ToldError) return spoken(error.told)
+  return error instanceof Error ? error.message : String(error)
+}
+
+function byName(values: Told['values']): Values {
+  if (!isList(values)) return values ?? {}
+  return Object.fromEntries(values.map(({ key, value }) => [key, value]))
+}
+
+function isList(values: Told['values']): values is Extract<Told['values'], readonly unknown[]> {
+  return Array.isArray(values)
+}
+
+const known = new Map<string, Phrase>()
+
+function parsed(template: string): Phrase {
+  const found = known.get(template) ?? parse(template)
+  known.set(template, found)
+  return found
+}
+
+/** Return the text of a value that is another diagnostic, or what a library said. */
+function nested(value: unknown): string {
+  return isTold(value) ? spoken(value) : String(value)
+}
+
+function isTold(value: unknown): value is Told {
+  return typeof value === 'object' && value !== null && 'code' in value && 'message' in value
 }

@@ -9,6 +9,23 @@ export const en = {
   retry: 'Try again',
   yes: 'Yes',
   noAnswer: 'The lab does not answer. Check that it is running and that you are on its network.',
+  /** What a language says around the values of a text of the lab. */
+  joining: {
+    and: 'and',
+    or: 'or',
+    row: 'row',
+    rows: (first: string, last: string) => `rows ${first} to ${last}`,
+  },
+  link: {
+    closed: 'The page has closed its connection.',
+    answerLost: 'The connection was lost before the answer came. Check, then try again.',
+    silent: (seconds: number) => `The gateway has sent nothing for ${seconds} s.`,
+    unreadable: (why: string) => `The gateway sent what this page cannot read: ${why}`,
+    labAway: 'The gateway is there, but the lab is not: it may be starting.',
+    gone: 'The gateway is gone or out of reach.',
+    timeout: (service: string, seconds: number) =>
+      `${service} did not answer within ${seconds} s.`,
+  },
   states: {
     IDLE: 'idle',
     READY: 'ready',

@@ -1,33 +1,57 @@
 import { computed, signal } from '@preact/signals'
 import { en, type Words } from './en'
 
-export type Language = 'en' | 'de'
-export const LANGUAGES = { en: 'English', de: 'Deutsch' } as const satisfies Record<
-  Language,
-  string
->
+/** What the lab says, by code: templates of the text and of the remedy (phrase.ts). */
+export type Templates = Readonly<Record<string, readonly [text: string, remedy?: string]>>
+
+/** What the file of a language exports; its name is the language's code, such as de.ts. */
+export interface LanguageFile {
+  readonly words: Words
+  readonly diagnostics: Templates
+}
 
 const KEY = 'mrlab.language'
-const loaded = signal<{ readonly language: Language; readonly words: Words }>({
-  language: 'en',
-  words: en,
-})
+const ENGLISH: LanguageFile = { words: en, diagnostics: {} }
+const loaded = signal<LanguageFile & { readonly language: string }>({ language: 'en', ...ENGLISH })
 
 /** The words of the language that is chosen. */
 export const words = computed(() => loaded.value.words)
+/** What the lab says in that language; none in English, in which it comes. */
+export const templates = computed(() => loaded.value.diagnostics)
 export const language = computed(() => loaded.value.language)
 
-/** Return the language that was chosen here before, else the first of the browser's that there is. */
-export function preferredLanguage(): Language {
-  const wanted = [localStorage.getItem(KEY), ...navigator.languages.map((tag) => tag.slice(0, 2))]
-  return wanted.find((tag): tag is Language => tag === 'en' || tag === 'de') ?? 'en'
+/** Return the files of the languages beside English, by code. A call: tests without Vite have none. */
+function files(): ReadonlyMap<string, () => Promise<LanguageFile>> {
+  const found = import.meta.glob<LanguageFile>(['./??.ts', '!./en.ts'])
+  return new Map(Object.entries(found).map(([path, load]) => [path.slice(2, 4), load]))
 }
 
-export async function setLanguage(next: Language, keep = true): Promise<void> {
-  const chosen = next === 'de' ? (await import('./de')).de : en
-  if (keep) localStorage.setItem(KEY, next)
-  document.documentElement.lang = next
-  loaded.value = { language: next, words: chosen }
+/** Return the codes of the languages that there are. */
+export function languages(): readonly string[] {
+  return ['en', ...files().keys()]
+}
+
+/** Return what a language calls itself, such as Deutsch. */
+export function languageName(code: string): string {
+  const name = new Intl.DisplayNames([code], { type: 'language' }).of(code) ?? code
+  return name.charAt(0).toLocaleUpperCase(code) + name.slice(1)
+}
+
+/** Return the language that was chosen here before, else the first of the browser's that there is. */
+export function preferredLanguage(): string {
+  const wanted = [localStorage.getItem(KEY), ...navigator.languages.map((tag) => tag.slice(0, 2))]
+  const known = languages()
+  return wanted.find((tag): tag is string => tag !== null && known.includes(tag)) ?? 'en'
+}
+
+/** Take a language; English where there is no such one. */
+export async function setLanguage(next: string, keep = true): Promise<void> {
+  const load = files().get(next)
+  const file = load === undefined ? ENGLISH : await load()
+  const code = load === undefined ? 'en' : next
+  if (keep) localStorage.setItem(KEY, code)
+  document.documentElement.lang = code
+  loaded.value = { language: code, words: file.words, diagnostics: file.diagnostics }
 }
 
 /** The person's own kind of the language, such as en-GB: dates and numbers differ. */

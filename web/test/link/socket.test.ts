@@ -172,15 +172,18 @@ describe('services', () => {
     expect((await seek).message).toBe('seek')
   })
 
-  test('an error has its kind and its sentence', async () => {
+  test.each([
+    [{ code: 'may_not_call', message: 'As a display you may not.', values: { key: 'a/play' } }],
+    [undefined],
+  ])('an error has its kind and what is to be said of it', async (diagnostic) => {
     const side = GatewaySide.last.open()
     const play = link.call('a/play', triggerType, {})
-    const error = { code: 'not_allowed', message: 'your role may not' }
+    const error = { code: 'not_allowed', message: 'your role may not', diagnostic }
     side.record(RecordKind.ERROR, 1, utf8.encode(JSON.stringify(error)))
     await expect(play).rejects.toMatchObject({
       name: 'LinkError',
       kind: 'not_allowed',
-      message: 'your role may not',
+      told: diagnostic ?? { code: '', message: 'your role may not' },
     })
   })
 
@@ -286,6 +289,14 @@ describe('the connection', () => {
     expect(GatewaySide.all).toHaveLength(1)
     expect(link.status).toMatchObject({ phase: 'refused', reason: 'reload the page' })
     return rejected
+  })
+
+  test('a gateway says in a frame why it closes, where it has more room', () => {
+    const side = GatewaySide.last.open()
+    const diagnostic = { code: 'x', message: 'Nobody is in.', remedy: 'Sign in.', values: {} }
+    side.text({ op: 'closing', code: 4003, diagnostic })
+    side.end(4003, 'Nobody is')
+    expect(link.status).toMatchObject({ phase: 'refused', reason: 'Nobody is in. Sign in.' })
   })
 
   test('a gateway without its lab says so', () => {

@@ -69,7 +69,7 @@ createInterface({ input: process.stdin }).on('line', (line) => {
   if (kind === undefined) throw new Error(`${type} is none of ${[...services.keys()]}`)
   link.call(service, kind, kind.request.create(request)).then(
     (response) => say({ answer: id, response }),
-    (error: LinkError) => say({ answer: id, error: error.kind, message: error.message }),
+    (error: LinkError) => say({ answer: id, error: error.kind, told: error.told }),
   )
 })
 say({ status: link.status.phase })

@@ -1,5 +1,5 @@
 import { expect, test } from 'vitest'
-import { de } from '../../src/words/de'
+import { words as de } from '../../src/words/de'
 import { en } from '../../src/words/en'
 
 type Tree = { readonly [key: string]: unknown }

@@ -1,9 +1,9 @@
 import { useState } from 'preact/hooks'
-import { sentence } from '../../api/api'
 import type { Role } from '../../api/types'
 import { Button, ButtonLink } from '../../design/button'
 import { Field, Select } from '../../design/field'
 import { Icon } from '../../design/icons'
+import { sentence } from '../../words/diagnostic'
 import { words } from '../../words/words'
 import { session, useApi } from '../shell/session'
 

@@ -1,7 +1,8 @@
 import { computed, signal } from '@preact/signals'
-import { type Api, sentence, submissionUrl } from '../../api/api'
+import { type Api, submissionUrl } from '../../api/api'
 import type { GradedClass, Submission } from '../../api/types'
 import type { MotionDocument } from '../../playback/motion'
+import { sentence } from '../../words/diagnostic'
 
 export type Order = 'class' | 'points'
 export type ClassApi = Pick<Api, 'gradedClass' | 'motion'>

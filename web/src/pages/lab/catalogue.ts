@@ -1,6 +1,7 @@
 import { signal } from '@preact/signals'
-import { type Api, sentence } from '../../api/api'
+import type { Api } from '../../api/api'
 import type { TrajectoryInfo } from '../../api/types'
+import { sentence } from '../../words/diagnostic'
 
 interface Carrier {
   readonly model: string

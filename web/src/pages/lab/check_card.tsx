@@ -2,6 +2,7 @@ import { useState } from 'preact/hooks'
 import type { Check, CheckFinding } from '../../api/types'
 import { Button } from '../../design/button'
 import { Icon, type IconName } from '../../design/icons'
+import { say } from '../../words/diagnostic'
 import { number, words } from '../../words/words'
 import { kindOf } from './check_words'
 import { counted, type RobotCheck } from './robot_check'
@@ -38,6 +39,7 @@ function Finding({
 }) {
   const w = words.value
   const { severity, time } = finding
+  const { message, remedy } = say(finding)
   const at = time === null ? '' : w.check.at(number(time, 2))
   return (
     <li class={`check-finding check-${severity}`}>
@@ -58,8 +60,8 @@ function Finding({
           </button>
         )}
       </p>
-      <p class="small">{finding.message}</p>
-      {finding.remedy && <p class="second tiny">{finding.remedy}</p>}
+      <p class="small">{message}</p>
+      {remedy && <p class="second tiny">{remedy}</p>}
     </li>
   )
 }

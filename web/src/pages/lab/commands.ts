@@ -8,10 +8,10 @@ import {
   type TriggerResponse,
   triggerType,
 } from '../../protocol/mrlab_msgs'
+import { sentence, spoken, type Told } from '../../words/diagnostic'
 
-interface Answer {
+interface Answer extends Told {
   readonly success: boolean
-  readonly message: string
 }
 
 /** Call a service; return why it was refused, empty where it was done. */
@@ -23,9 +23,9 @@ export async function ask<Request, Response extends Answer>(
 ): Promise<string> {
   try {
     const answer = await link.call(service, type, request)
-    return answer.success ? '' : answer.message || service
+    return answer.success ? '' : spoken(answer) || service
   } catch (error) {
-    return error instanceof LinkError ? error.message : String(error)
+    return sentence(error)
   }
 }
 
@@ -47,9 +47,9 @@ export function trigger(link: Link, service: string): Promise<boolean> {
 
 /** Return the names of the bags that the lab can replay, newest first. Rejects with why it says none. */
 export async function listBagsOf(link: Link): Promise<readonly string[]> {
-  const { success, message, bags } = await link.call('recorder/list_bags', listBagsType, {})
-  if (!success) throw new LinkError('refused', message)
-  return bags
+  const answer = await link.call('recorder/list_bags', listBagsType, {})
+  if (!answer.success) throw new LinkError('refused', answer)
+  return answer.bags
 }
 
 /** Return what a robot, a robot system or the recorder's replay is told. */

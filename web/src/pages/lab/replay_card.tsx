@@ -1,6 +1,7 @@
 import { useEffect, useState } from 'preact/hooks'
 import { Button } from '../../design/button'
 import { RecorderState, replayType } from '../../protocol/mrlab_msgs'
+import { spoken } from '../../words/diagnostic'
 import { words } from '../../words/words'
 import { listBagsOf, order, trigger } from './commands'
 import { useLab } from './context'
@@ -32,7 +33,7 @@ export function ReplayCard({ follower }: { follower: LabFollower }) {
   return (
     <article class="lab-card">
       <h2>{w.recordings}</h2>
-      {state?.message && <p class="small">{state.message}</p>}
+      {state?.message && <p class="small">{spoken(state)}</p>}
       {state?.state === RecorderState.RECORDING && <p class="small">{w.recording(state.bag)}</p>}
       {replaying && state ? (
         <>

@@ -3,6 +3,7 @@ import { Button } from '../../design/button'
 import { StateChip } from '../../design/chip'
 import { Menu } from '../../design/menu'
 import { removeType } from '../../protocol/mrlab_msgs'
+import { spoken } from '../../words/diagnostic'
 import { number, words } from '../../words/words'
 import { useApi } from '../shell/session'
 import type { LabCatalogue } from './catalogue'
@@ -110,7 +111,7 @@ export function RobotCard({ view, catalogue, idle }: RobotCardProps) {
           {robot.end_effector && ` + ${robot.end_effector}`}
           {playback?.system && ` · ${w.inSystem(playback.system)}`}
         </p>
-        {playback?.message && <p class="small">{playback.message}</p>}
+        {playback?.message && <p class="small">{spoken(playback)}</p>}
         {touching && <p class="lab-halt small">{touching}</p>}
         {holding && <p class="small">{w.holds(holding)}</p>}
         {state === 'COLLISION_HALT' && may.commands && (

@@ -1,6 +1,7 @@
 import { type Signal, signal } from '@preact/signals'
-import { type Api, ApiError, sentence } from '../../api/api'
+import { type Api, ApiError } from '../../api/api'
 import type { Check, CheckFinding } from '../../api/types'
+import { sentence } from '../../words/diagnostic'
 
 /** ms between two questions about a check that runs, and about one whose scene may change. */
 export const RUNNING_MS = 1000

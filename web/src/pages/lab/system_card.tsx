@@ -2,6 +2,7 @@ import { useEffect, useRef } from 'preact/hooks'
 import { StateChip } from '../../design/chip'
 import { STATE_NAMES, type StateName } from '../../design/tokens'
 import type { RemotePlayer } from '../../playback/player'
+import { spoken } from '../../words/diagnostic'
 import { number, words } from '../../words/words'
 import { useLab } from './context'
 import type { SystemView } from './follow'
@@ -52,7 +53,7 @@ export function SystemCard({ view }: { view: SystemView }) {
         <StateChip state={stateOf(system.label)} />
       </header>
       <p class="second small">{system.mode === 0 ? w.parallel : w.sequential}</p>
-      {system.message && <p class="small">{system.message}</p>}
+      {system.message && <p class="small">{spoken(system)}</p>}
       <svg
         class="lab-segments"
         viewBox={`0 0 100 ${height}`}

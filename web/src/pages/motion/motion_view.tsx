@@ -1,6 +1,5 @@
 import { type Signal, useSignal, useSignalEffect } from '@preact/signals'
 import { useEffect, useMemo, useRef, useState } from 'preact/hooks'
-import { sentence } from '../../api/api'
 import { Segments } from '../../design/field'
 import { Notice } from '../../design/notice'
 import {
@@ -15,6 +14,7 @@ import { Strips } from '../../design/plot/strips'
 import { courseOf } from '../../playback/course'
 import type { MotionDocument } from '../../playback/motion'
 import type { MotionPreview } from '../../scene/preview'
+import { sentence } from '../../words/diagnostic'
 import { language, words } from '../../words/words'
 import './motion.css'
 

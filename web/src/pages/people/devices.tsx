@@ -1,10 +1,10 @@
 import { useEffect, useState } from 'preact/hooks'
-import { sentence } from '../../api/api'
 import type { Device } from '../../api/types'
 import { Button, ButtonLink } from '../../design/button'
 import { Icon } from '../../design/icons'
 import { Notice } from '../../design/notice'
 import { showToast } from '../../design/toast'
+import { sentence } from '../../words/diagnostic'
 import { dateTime, words } from '../../words/words'
 import { session, useApi } from '../shell/session'
 

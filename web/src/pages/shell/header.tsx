@@ -4,7 +4,7 @@ import { Segments } from '../../design/field'
 import { Icon, type IconName } from '../../design/icons'
 import { useOutside } from '../../design/menu'
 import { setTheme, themeName } from '../../design/theme'
-import { LANGUAGES, type Language, language, setLanguage, words } from '../../words/words'
+import { language, languageName, languages, setLanguage, words } from '../../words/words'
 import { navigate, path } from './router'
 import { mayAdmit, session, useApi } from './session'
 
@@ -74,14 +74,11 @@ function AccountMenu() {
           )}
           <div class="account-choice">
             <span class="field-label">{w.nav.language}</span>
-            <Segments<Language>
+            <Segments<string>
               label={w.nav.language}
               value={language.value}
               onChange={(next) => void setLanguage(next)}
-              options={[
-                ['en', LANGUAGES.en],
-                ['de', LANGUAGES.de],
-              ]}
+              options={languages().map((code) => [code, languageName(code)])}
             />
           </div>
           <div class="account-choice">

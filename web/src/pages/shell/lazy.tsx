@@ -1,7 +1,7 @@
 import type { ComponentType } from 'preact'
 import { useEffect, useState } from 'preact/hooks'
-import { sentence } from '../../api/api'
 import { Notice } from '../../design/notice'
+import { sentence } from '../../words/diagnostic'
 import { words } from '../../words/words'
 
 interface Pending<Props> {

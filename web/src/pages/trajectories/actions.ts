@@ -1,6 +1,6 @@
-import { sentence } from '../../api/api'
 import type { TrajectoryInfo } from '../../api/types'
 import { showToast } from '../../design/toast'
+import { sentence } from '../../words/diagnostic'
 import { words } from '../../words/words'
 import { type Catalogue, shortName } from './catalogue'
 

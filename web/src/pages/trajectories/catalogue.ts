@@ -1,6 +1,7 @@
 import { computed, signal } from '@preact/signals'
-import { type Api, sentence } from '../../api/api'
+import type { Api } from '../../api/api'
 import type { TrajectoryInfo } from '../../api/types'
+import { sentence } from '../../words/diagnostic'
 
 /** A list that others change is read this often. */
 const EVERY_MS = 5000

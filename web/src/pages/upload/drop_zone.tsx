@@ -1,8 +1,8 @@
 import { useEffect, useRef, useState } from 'preact/hooks'
-import { sentence } from '../../api/api'
 import { Button } from '../../design/button'
 import { Icon } from '../../design/icons'
 import { showToast } from '../../design/toast'
+import { sentence } from '../../words/diagnostic'
 import { words } from '../../words/words'
 import { exampleFile } from '../motion/example'
 

@@ -2,6 +2,7 @@ import type { Diagnostic, Fix } from '../../api/types'
 import { Button } from '../../design/button'
 import { Icon } from '../../design/icons'
 import { showToast } from '../../design/toast'
+import { say } from '../../words/diagnostic'
 import { words } from '../../words/words'
 import { applied, fixLabel } from './fixes'
 
@@ -54,6 +55,7 @@ function Finding(props: FindingsProps & { finding: Diagnostic; number: number })
   const { finding, number, selected, onSelect, onFix, busy = false, chosenElsewhere } = props
   const w = words.value
   const where = place(finding)
+  const { message, remedy } = say(finding)
   const fixes = finding.fixes.filter((fix) => !chosenElsewhere || fix.option !== 'variable')
   // The same line of MATLAB comes with several options at times.
   const lines = [...new Set(fixes.map((fix) => fix.matlab).filter(Boolean))]
@@ -78,8 +80,8 @@ function Finding(props: FindingsProps & { finding: Diagnostic; number: number })
             <span class="second">{where}</span>
           )}
         </p>
-        <p>{finding.message}</p>
-        {finding.remedy && <p class="second small">{finding.remedy}</p>}
+        <p>{message}</p>
+        {remedy && <p class="second small">{remedy}</p>}
         {onFix && (
           <div class="finding-fixes">
             {fixes

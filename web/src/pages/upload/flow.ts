@@ -1,5 +1,5 @@
 import { computed, signal } from '@preact/signals'
-import { type Api, isAbort, sentence } from '../../api/api'
+import { type Api, isAbort } from '../../api/api'
 import type {
   Conversion,
   ConvertOptions,
@@ -9,6 +9,7 @@ import type {
   Upload,
 } from '../../api/types'
 import type { MotionDocument } from '../../playback/motion'
+import { sentence } from '../../words/diagnostic'
 import { applied } from './fixes'
 
 export type Stage =

@@ -1,6 +1,7 @@
 import { useSignal } from '@preact/signals'
 import { Button } from '../../design/button'
 import { OutcomeChip } from '../../design/chip'
+import { spoken } from '../../words/diagnostic'
 import { words } from '../../words/words'
 import { MotionView } from '../motion/lazy'
 import { Candidates } from './candidates'
@@ -24,7 +25,7 @@ function robotName(flow: UploadFlow, model: string): string {
 function title(flow: UploadFlow, result: Result): string {
   const { conversion, choice } = result
   const w = words.value.upload
-  if (conversion.outcome === 'accepted') return conversion.message
+  if (conversion.outcome === 'accepted') return spoken(conversion)
   if (conversion.outcome === 'ambiguous') return w.several(conversion.candidates.length)
   if (!robotMatters(result.conversion)) return w.unread
   return w.refused(robotName(flow, choice.robot))

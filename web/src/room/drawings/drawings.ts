@@ -1,6 +1,7 @@
 import type { LabFollower } from '../../pages/lab/follow'
 import type { LabScene } from '../../scene/lab_scene'
 import type { SceneRobot } from '../../scene/robot'
+import { sentence } from '../../words/diagnostic'
 import { Envelope } from './envelope'
 import { Reference } from './reference'
 import { ToolRibbon } from './tool_ribbon'
@@ -64,9 +65,9 @@ export class Drawings {
           if (ghost === undefined) return
           drawn.reference = new Reference(motion, course, ghost, found.chain(), names)
         },
-        (error: Error) => {
+        (error: unknown) => {
           drawn.compared = ''
-          this.say(error.message)
+          this.say(sentence(error))
         },
       )
   }

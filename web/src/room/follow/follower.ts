@@ -4,6 +4,7 @@ import { commandsOf } from '../../pages/lab/commands'
 import { LabFollower } from '../../pages/lab/follow'
 import type { CourseOf } from '../../pages/lab/followed_robot'
 import { themeNow } from '../../scene/theme'
+import { sentence } from '../../words/diagnostic'
 import type { RoomContext } from '../context'
 
 /** Return what follows the lab for a room; says which motion could not be fetched. */
@@ -19,8 +20,8 @@ export function roomFollower(
     colour: (state) => THEMES[themeNow().name].states[state],
     stir: () => undefined,
     courseOf: (id) =>
-      courseOf(id).catch((error: Error) => {
-        say(error.message)
+      courseOf(id).catch((error: unknown) => {
+        say(sentence(error))
         throw error
       }),
   })

@@ -1,3 +1,4 @@
+import { sentence } from '../../words/diagnostic'
 import type { RoomContext } from '../context'
 import type { Fixtures } from '../fixtures'
 import { type Person, peopleTab } from '../people/people_tab'
@@ -64,7 +65,7 @@ export function boardTabs(
         const { session } = visit
         if (session?.initiateRoomCapture === undefined) return null
         return () => {
-          session.initiateRoomCapture?.().catch((error: Error) => context.say(error.message))
+          session.initiateRoomCapture?.().catch((error: unknown) => context.say(sentence(error)))
         }
       },
       bringHere: () => room.alignment.align(room),

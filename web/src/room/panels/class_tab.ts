@@ -2,6 +2,7 @@ import { effect } from '@preact/signals'
 import type { Submission } from '../../api/types'
 import type { LabFollower } from '../../pages/lab/follow'
 import { loadTrajectoryType } from '../../protocol/mrlab_msgs'
+import { sentence } from '../../words/diagnostic'
 import { number } from '../../words/words'
 import { order, type RoomContext } from '../context'
 import { BOARD_WIDTH, BOTTOM, EDGE, type Tab, TOP } from './board'
@@ -42,7 +43,7 @@ export function classTab(context: RoomContext, follower: LabFollower, lesson: Le
       const id = await lesson.publish(solution)
       await order(context, `${robot}/load`, loadTrajectoryType, { id })
     } catch (error) {
-      context.say(error instanceof Error ? error.message : String(error))
+      context.say(sentence(error))
     }
   }
   const leave = () => {

@@ -1,4 +1,5 @@
 import type { RobotView } from '../../pages/lab/followed_robot'
+import { spoken } from '../../words/diagnostic'
 import type { RoomContext } from '../context'
 import { GAP, HIT, PANEL_THEME, type Pen, TEXT } from './pen'
 
@@ -49,7 +50,7 @@ export function drawStatus(
   } else if (notice !== '') {
     pen.lines(edge, 122, notice, TEXT.small, width, PANEL_THEME.states.PAUSED, 3)
   } else if (playback?.message) {
-    pen.lines(edge, 122, playback.message, TEXT.small, width, 'second', 3)
+    pen.lines(edge, 122, spoken(playback), TEXT.small, width, 'second', 3)
   } else if (holding) {
     pen.text(edge, 122, words.lab.holds(holding), TEXT.small, width)
   }

@@ -8,6 +8,7 @@ import {
   startRecordingType,
   triggerType,
 } from '../../protocol/mrlab_msgs'
+import { sentence } from '../../words/diagnostic'
 import { order, type RoomContext } from '../context'
 import type { Stats } from '../latency/stats'
 import { BOARD_WIDTH, BOTTOM, EDGE, type Tab, TOP } from './board'
@@ -41,7 +42,7 @@ export function labTab(context: RoomContext, follower: LabFollower, stats: Stats
         bags = found
         context.repaintBoard()
       })
-      .catch((error: Error) => context.say(error.message))
+      .catch((error: unknown) => context.say(sentence(error)))
   }
   const list = () => {
     listed = true
@@ -51,7 +52,7 @@ export function labTab(context: RoomContext, follower: LabFollower, stats: Stats
         scenes = answer.scenes
         context.repaintBoard()
       })
-      .catch((error: Error) => context.say(error.message))
+      .catch((error: unknown) => context.say(sentence(error)))
   }
   function drawScenes(pen: Pen): void {
     pen.text(EDGE, TOP + 4, w.scenes, TEXT.body, COLUMN, 'ink', 700)

@@ -2,6 +2,7 @@ import type { Link } from '../../link/link'
 import { LinkError } from '../../link/link'
 import type { LabFollower } from '../../pages/lab/follow'
 import { RobotSystem, triggerType } from '../../protocol/mrlab_msgs'
+import { spoken } from '../../words/diagnostic'
 
 /** s: what several pauses do one after the other is one deed. */
 const TOGETHER = 1.5
@@ -33,12 +34,12 @@ export async function pauseAll(
   await Promise.all(
     names.map(async (name) => {
       try {
-        const { success, message } = await link.call(`${name}/pause`, triggerType, {})
-        if (success) paused.push(name)
-        else failed.push(`${name}: ${message}`)
+        const answer = await link.call(`${name}/pause`, triggerType, {})
+        if (answer.success) paused.push(name)
+        else failed.push(`${name}: ${spoken(answer)}`)
       } catch (error) {
         if (!(error instanceof LinkError)) throw error
-        failed.push(`${name}: ${error.message}`)
+        failed.push(`${name}: ${spoken(error.told)}`)
       }
     }),
   )

@@ -2,6 +2,7 @@ import { STATE_NAMES, type StateName } from '../../design/tokens'
 import type { SystemView } from '../../pages/lab/follow'
 import { RATES } from '../../playback/player'
 import { RobotSystem, removeType, setModeType, triggerType } from '../../protocol/mrlab_msgs'
+import { spoken } from '../../words/diagnostic'
 import { order, type RoomContext } from '../context'
 import { PagedList } from '../panels/paged_list'
 import { Panel } from '../panels/panel'
@@ -118,7 +119,7 @@ export class SystemPanel {
     const w = this.context.words.room
     const { parallel, sequential } = this.context.words.lab
     const sequence = system.mode === RobotSystem.SEQUENTIAL
-    const about = this.notice || system.message || w.members(system.members.length)
+    const about = this.notice || spoken(system) || w.members(system.members.length)
     const ink = this.notice ? PANEL_THEME.states.PAUSED : 'second'
     pen.lines(EDGE, 80, about, TEXT.small, undefined, ink, 2)
     for (const segment of segmentsOf(system.members, system.duration))

@@ -1,4 +1,5 @@
 import type { LinkStatus } from '../../link/link'
+import { sentence } from '../../words/diagnostic'
 import type { Words } from '../../words/en'
 import type { Ability } from '../session/features'
 
@@ -62,5 +63,5 @@ export function refusalOf(error: unknown, words: Words['room']): string {
   }
   if (name === 'NotSupportedError') return words.refusedEntry(words.noFloor)
   if (name === 'InvalidStateError') return words.refusedEntry(words.busy)
-  return words.refusedEntry(error instanceof Error ? error.message : String(error))
+  return words.refusedEntry(sentence(error))
 }

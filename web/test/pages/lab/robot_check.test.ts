@@ -9,6 +9,7 @@ import {
   RUNNING_MS,
   STALE_MS,
 } from '../../../src/pages/lab/robot_check'
+import { own } from '../../../src/words/diagnostic'
 import { en } from '../../../src/words/en'
 import { FOUND_CHECK, NO_CHECK } from '../../fake_api'
 
@@ -67,7 +68,7 @@ test('an answer about what was loaded before is not taken for what is loaded now
 
 test('a refusal is said; a motion that this person may not see has no check', async () => {
   const refuse = (status: number) => async () => {
-    throw new ApiError(status, '', 'too many checks')
+    throw new ApiError(status, '', own('too many checks'))
   }
   const busy = new RobotCheck({ check: refuse(429), startCheck: refuse(429) }, 'ur5e_1')
   await busy.follow('quintic@3', true)

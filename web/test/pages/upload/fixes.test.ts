@@ -1,6 +1,6 @@
 import { expect, test } from 'vitest'
 import { applied, fixLabel, optionLabels, robotMatters } from '../../../src/pages/upload/fixes'
-import { de } from '../../../src/words/de'
+import { words as de } from '../../../src/words/de'
 import { en } from '../../../src/words/en'
 import { finding } from '../../fake_api'
 
@@ -55,6 +55,7 @@ test('a unit has its name in a label, never the word of the option', () => {
 test('another robot is offered only where it could help', () => {
   const result = (code: string, outcome: 'rejected' | 'accepted' = 'rejected') => ({
     outcome,
+    code: '',
     message: '',
     diagnostics: [finding({ code })],
     candidates: [],

@@ -2,6 +2,7 @@
 import { beforeEach, expect, test } from 'vitest'
 import { ApiError } from '../../../src/api/api'
 import { UploadFlow } from '../../../src/pages/upload/flow'
+import { own } from '../../../src/words/diagnostic'
 import { FakeApi, JOINT_LIMIT } from '../../fake_api'
 
 const UNWRAP = JOINT_LIMIT.fixes[0] as (typeof JOINT_LIMIT.fixes)[number]
@@ -69,7 +70,7 @@ test('a robot that the library lost is replaced by one that there is', async () 
 test('an error keeps file and choices, and the same can be tried again', async () => {
   const convert = api.convert.bind(api)
   api.convert = async () => {
-    throw new ApiError(504, 'no_answer', 'The converter does not answer.')
+    throw new ApiError(504, 'no_answer', own('The converter does not answer.'))
   }
   await flow.choose(file('good.mat'))
   expect(flow.error.value).toBe('The converter does not answer.')

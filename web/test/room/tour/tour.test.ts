@@ -1,6 +1,6 @@
 import { describe, expect, it, vi } from 'vitest'
 import { type Seen, STEPS, Tour } from '../../../src/room/tour/tour'
-import { de } from '../../../src/words/de'
+import { words as de } from '../../../src/words/de'
 import { en } from '../../../src/words/en'
 
 const NOTHING: Seen = { robots: 0, loaded: false, playing: false, scrubs: 0, halted: false }

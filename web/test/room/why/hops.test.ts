@@ -1,6 +1,6 @@
 import { describe, expect, it } from 'vitest'
 import { hopsOf, refusalOf, type Way } from '../../../src/room/why/hops'
-import { de } from '../../../src/words/de'
+import { words as de } from '../../../src/words/de'
 import { en } from '../../../src/words/en'
 
 const GOOD: Way = {
