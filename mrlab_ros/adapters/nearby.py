@@ -19,12 +19,6 @@ def close_file(path: Path) -> str | None:
     return close_to(path.name, (name for name in beside if not name.startswith(".")))
 
 
-def like_file(path: Path) -> str:
-    """Return "; did you mean 'NAME'?" with the entry beside `path` that is closest, or nothing."""
-    close = close_file(path)
-    return f"; did you mean '{close}'?" if close else ""
-
-
 def check_file(path: Path, name: str = "") -> None:
     """Raise BadInput where `path` is no file: reading a pipe would wait forever.
 

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+
 from mrlab_ros.adapters.robots.diagnostics import XACRO_REFUSED
 from mrlab_ros.core.errors import BadInput
 
@@ -10,19 +12,28 @@ def expand(path: str, arguments: dict[str, str]) -> str:
     """Return the URDF's text; raise BadInput where xacro refuses the file."""
     import xacro
     from ament_index_python.packages import PackageNotFoundError
+    from xacro.substitution_args import ArgException
 
+    hints: dict[type[BaseException], str] = {
+        PackageNotFoundError: "package",
+        PermissionError: "folder",
+        ArgException: "argument",
+    }
     try:
         expanded: str = xacro.process_file(path, mappings=arguments).toprettyxml(indent="  ")
     except MemoryError:
         raise
     except Exception as error:  # xacro evaluates Python: anything can come out of it
-        # What xacro raises is often a text alone.
-        if isinstance(error, PackageNotFoundError) or "not found" in str(error):
-            hint = "package"
-        elif isinstance(error, PermissionError) or "Permission denied" in str(error):
-            hint = "folder"
-        else:
-            hint = "argument" if "rgument" in str(error) else "file"
+        known = (hint for one in _wrapped(error) for kind, hint in hints.items()
+                 if isinstance(one, kind))  # fmt: skip
         file = path.rpartition("/")[2]
-        raise BadInput(XACRO_REFUSED(file=file, why=str(error), hint=hint)) from None
+        why = str(error) or type(error).__name__
+        raise BadInput(XACRO_REFUSED(file=file, why=why, hint=next(known, "file"))) from None
     return expanded
+
+
+def _wrapped(error: BaseException | None) -> Iterator[BaseException]:
+    """Yield an error and those that it wraps: as its cause, or as `exc`, as xacro does."""
+    while error is not None:
+        yield error
+        error = getattr(error, "exc", None) or error.__cause__ or error.__context__
