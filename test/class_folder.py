@@ -11,19 +11,21 @@ import numpy as np
 from small_lab import make
 
 from mrlab_ros.adapters.trajectories import json_file
+from mrlab_ros.core.base.diagnostic import plain
+from mrlab_ros.core.checking.diagnostics import CHECK_READY, COLLISION
+from mrlab_ros.core.classroom.diagnostics import NO_FILE_HANDED_IN
+from mrlab_ros.core.rubrics import diagnostics
 
-COLLISION = {
-    "code": "collision", "severity": "error", "message": "wrist_3_link touches cube_1.",
-    "remedy": "Lift the way.", "robot": "ur5e_1", "link": "wrist_3_link", "time": 0.2,
-    "end": 0.3, "value": 0.01, "limit": 0.0, "unit": "m",
-}  # fmt: skip
+TOUCHES = {"link": "wrist_3_link", "kind": "object", "other": "cube_1", "time": 0.2}
+TOUCHED = plain(diagnostics.TOUCHES(**TOUCHES))
+HIT = COLLISION(**TOUCHES, robot="ur5e_1", end=0.3, value=0.01, unit="m", point=(0.4, 0.1, 0.2))
 
 
 def mark(name: str, points: float, of: float, **more: Any) -> dict[str, Any]:
     """Return a mark as class.json has it."""
     return {
-        "name": name, "points": points, "of": of, "passed": points == of, "words": "so it is",
-        "hint": "", "hidden": False, "time": None, "measured": None, "limit": None, "unit": "",
+        "name": name, "points": points, "of": of, "passed": points == of,
+        "found": plain(diagnostics.NOTHING_TOUCHED()), "hint": "", "hidden": False, "time": None,
         **more,
     }  # fmt: skip
 
@@ -32,7 +34,7 @@ def entry(key: str, *marks: dict[str, Any], motion: bool = True, **more: Any) ->
     """Return what class.json says of one submission."""
     return {
         "key": key, "name": key.title(), "identifier": "", "late": False, "notes": [],
-        "outcome": "marked", "words": f"{key} was marked", "marks": list(marks),
+        "outcome": "marked", "found": plain(CHECK_READY()), "marks": list(marks),
         "points": sum(m["points"] for m in marks), "of": sum(m["of"] for m in marks),
         "file": f"{key}.mat", "sha256": "", "verdict": "", "report": "", "robot": "ur5e",
         "tool": "", "duration": 0.5 if motion else None, "hints": [], "findings": [],
@@ -46,13 +48,13 @@ def make_class(folder: Path, frames: int = 50) -> Path:
         entry("anna", mark("no collision", 2, 2), mark("cycle below 8 s", 1, 1)),
         entry(
             "ben",
-            mark("no collision", 0, 2, time=0.2, words="touches cube_1 at 0.20 s", hint="Lift it"),
+            mark("no collision", 0, 2, time=0.2, found=TOUCHED, hint="Lift it"),
             mark("cycle below 8 s", 0.5, 1),
-            findings=[COLLISION],
+            findings=[plain(HIT)],
         ),
         entry(
             "cleo", mark("no collision", 0, 2), mark("cycle below 8 s", 0, 1), motion=False,
-            words="cleo.mat is empty",
+            found=plain(NO_FILE_HANDED_IN(files=["cleo.pdf"])),
         ),
     ]  # fmt: skip
     reference = entry("reference", mark("no collision", 2, 2), mark("cycle below 8 s", 1, 1))

@@ -36,20 +36,19 @@ export const NO_CHECK: Check = {
   state: 'none',
   robot: '',
   trajectory: '',
-  stale: '',
-  message: '',
+  stale: null,
+  problem: null,
   verdict: '',
-  claim: '',
+  claim: null,
   duration: null,
   findings: [],
 }
 const FOUND = {
-  remedy: '',
+  ...finding({}),
   robot: 'ur5e_1',
   end: null,
-  value: null,
-  limit: null,
-  unit: '',
+  kind: '',
+  other: '',
 } as const
 export const FOUND_CHECK: Check = {
   ...NO_CHECK,

@@ -21,10 +21,17 @@ from typing import Any
 
 import numpy as np
 
+from mrlab_ros.adapters.checking.diagnostics import (
+    CHECK_OUT_OF_MEMORY,
+    FOR_ANOTHER_MODEL,
+    NOT_IN_LAB,
+    TOO_LONG_FOR_LAB,
+)
 from mrlab_ros.adapters.checking.stage import Stage, first_link
 from mrlab_ros.adapters.guarded_streams import guard
 from mrlab_ros.adapters.robots.library import RobotLibrary
 from mrlab_ros.adapters.trajectories import npz_file
+from mrlab_ros.core.base.diagnostic import plain
 from mrlab_ros.core.checking import motion
 from mrlab_ros.core.checking.lab_scene import LabScene
 from mrlab_ros.core.checking.rehearsal import Actor
@@ -55,23 +62,19 @@ def check(task: Task) -> dict[str, Any]:
     """Return the report, as JSON has it; raise LabError where it cannot be checked."""
     t = replace(npz_file.read(task.file), id=task.trajectory)
     if t.duration > LONGEST_S:
-        raise BadInput(
-            f"'{t.id}' lasts {t.duration:.0f} s; expected {LONGEST_S:.0f} s at most in the lab. "
-            "Download it and run mrlab check"
-        )
+        raise BadInput(TOO_LONG_FOR_LAB(trajectory=t.id, duration=t.duration, most=LONGEST_S))
     document = task.scene.document
     own = [r for r in document.robots if r.name == task.robot]
     if not own:
-        there = ", ".join(r.name for r in document.robots) or "none"
-        raise BadInput(f"there is no robot '{task.robot}' in the lab; its robots: {there}")
+        raise BadInput(NOT_IN_LAB(robot=task.robot, robots=[r.name for r in document.robots]))
     stage = Stage(task.share, RobotLibrary(task.share / "robots"))
     entries = (own[0], *(r for r in document.robots if r.name != task.robot))
     robots = [stage.robot(e.name, e.model, e.end_effector, e.pose) for e in entries]
     checked = robots[0]
     if t.robot_model != checked.model.id:
+        model = checked.model.id
         raise BadInput(
-            f"'{t.id}' is for {t.robot_model}, and {task.robot} is a {checked.model.id}; load it "
-            f"on a {t.robot_model}"
+            FOR_ANOTHER_MODEL(trajectory=t.id, found=t.robot_model, robot=task.robot, model=model)
         )
     actors = [
         Actor(
@@ -90,7 +93,7 @@ def check(task: Task) -> dict[str, Any]:
         motion.figures_of(t, checked),
         played.recorded,
         inputs=stage.inputs(robots, document),
-        scene=task.scene.words,
+        scene=task.scene.shown,
         graspable=played.graspable,
     )
     return report.document()
@@ -108,7 +111,7 @@ def confine() -> None:
 
 
 def main() -> None:
-    """Check what the standard input says; write {"report": ...} or {"problem": "a sentence"}."""
+    """Check what the standard input says; write {"report": ...} or {"problem": a diagnostic}."""
     guard()
     confine()
     # pybullet prints its build time
@@ -119,9 +122,9 @@ def main() -> None:
             "report": check(pickle.load(sys.stdin.buffer))
         }  # from the gateway itself
     except LabError as error:
-        told = {"problem": str(error)}
+        told = {"problem": plain(error)}
     except MemoryError:
-        told = {"problem": f"the check needs more than {MEMORY / GiB:.0f} GiB of memory"}
+        told = {"problem": plain(CHECK_OUT_OF_MEMORY(most=MEMORY))}
     with answer:
         json.dump(told, answer)
 

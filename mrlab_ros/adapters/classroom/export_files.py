@@ -17,6 +17,22 @@ from typing import Any
 
 import yaml
 
+from mrlab_ros.adapters.classroom.diagnostics import (
+    ENCRYPTED_FILE,
+    INFLATES_TOO_FAR,
+    LARGER_THAN_NEEDED,
+    LINK_NOT_FOLLOWED,
+    NAME_LEADS_OUT,
+    NAMES_NOT_KNOWN,
+    NO_EXPORT,
+    NO_ORDINARY_FILE,
+    NO_ZIP,
+    NOT_READABLE,
+    NOT_UNPACKED,
+    TOO_MANY_FILES,
+    TWICE_IN_ARCHIVE,
+)
+from mrlab_ros.core.base.diagnostic import Diagnostic
 from mrlab_ros.core.classroom.exports import ARCHIVE, METADATA, Entry
 from mrlab_ros.core.errors import BadInput
 from mrlab_ros.core.foreign_text import file_name
@@ -34,7 +50,7 @@ class Export:
     def __init__(self, path: Path) -> None:
         """List what is there; raise BadInput where it is neither a folder nor a zip archive."""
         self.path = path
-        self.problems: list[tuple[str, str]] = []
+        self.problems: list[tuple[str, Diagnostic]] = []
         self._archive: zipfile.ZipFile | None = None
         self._members: dict[str, zipfile.ZipInfo] = {}
         self._inner: dict[str, tuple[str, str]] = {}
@@ -45,7 +61,7 @@ class Export:
             self._archive = _opened(path, path.name)
             self._members, found = self._listed(self._archive, path.name, MOST_FILES)
         else:
-            raise BadInput(f"there is no folder or archive {path}; check the path and the name")
+            raise BadInput(NO_EXPORT(file=str(path)))
         self.entries = [each for entry in found for each in self._with_inner(entry)]
 
     def close(self) -> None:
@@ -76,8 +92,8 @@ class Export:
             # times are objects of Ruby.
             content = yaml.load(self._bytes(named[0]), yaml.CBaseLoader)
         except (yaml.YAMLError, BadInput, RecursionError, ValueError) as error:
-            reason = str(error).partition("\n")[0]
-            self.problems.append((named[0], f"cannot be read ({reason}): names are not known"))
+            why = getattr(error, "diagnostic", None) or str(error)
+            self.problems.append((named[0], NAMES_NOT_KNOWN(why=why)))
             return {}
         return content if isinstance(content, Mapping) else {}
 
@@ -93,7 +109,7 @@ class Export:
             with os.fdopen(source, "rb") as file:
                 content = file.read(MOST_BYTES + 1)
         except OSError as error:
-            raise BadInput(f"{path} cannot be read: {error.strerror}") from None
+            raise BadInput(NOT_READABLE(file=path, why=error.strerror)) from None
         return _bounded(content, path)
 
     def _folder(self) -> Iterator[Entry]:
@@ -103,25 +119,23 @@ class Export:
             within = Path(folder).relative_to(self.path)
             for name in [n for n in folders if (Path(folder) / n).is_symlink()]:
                 path = file_name((within / name).as_posix())
-                self.problems.append((path, "a link; it is not followed"))
+                self.problems.append((path, LINK_NOT_FOLLOWED()))
             for name in sorted(files):
                 path = file_name((within / name).as_posix())
                 self._places[path] = Path(folder) / name
                 try:
                     about = os.lstat(Path(folder) / name)
                 except OSError as error:
-                    self.problems.append((path, f"cannot be read: {error.strerror}"))
+                    self.problems.append((path, NOT_READABLE(file=path, why=error.strerror)))
                     continue
                 if not stat.S_ISREG(about.st_mode):
                     link = stat.S_ISLNK(about.st_mode)
-                    why = "a link; it is not followed" if link else "no ordinary file"
-                    self.problems.append((path, why))
+                    why = LINK_NOT_FOLLOWED if link else NO_ORDINARY_FILE
+                    self.problems.append((path, why()))
                     continue
                 count += 1
                 if count > MOST_FILES:
-                    raise BadInput(
-                        f"{self.path} holds more than {MOST_FILES} files; expected less"
-                    )
+                    raise BadInput(TOO_MANY_FILES(file=str(self.path), most=MOST_FILES))
                 yield Entry(path, about.st_size, (int(about.st_mtime),))
 
     def _listed(
@@ -129,23 +143,21 @@ class Export:
     ) -> tuple[dict[str, zipfile.ZipInfo], list[Entry]]:
         members: dict[str, zipfile.ZipInfo] = {}
         if len(archive.infolist()) > most:
-            raise BadInput(
-                f"{name} holds {len(archive.infolist())} files; at most {most} are read"
-            )
+            raise BadInput(TOO_MANY_FILES(file=name, most=most))
         for info in archive.infolist():
             path = _name(info)
             if info.is_dir():
                 continue
             parts = PurePosixPath(path).parts
             if path.startswith("/") or ".." in parts or not parts or ":" in parts[0]:
-                self.problems.append((path, "its name leads out of the archive; it is not read"))
+                self.problems.append((path, NAME_LEADS_OUT()))
             elif stat.S_ISLNK(info.external_attr >> 16):
-                self.problems.append((path, "a link; it is not followed"))
+                self.problems.append((path, LINK_NOT_FOLLOWED()))
             elif info.flag_bits & ENCRYPTED:
-                self.problems.append((path, "encrypted; ask the student for an open file"))
+                self.problems.append((path, ENCRYPTED_FILE()))
             else:
                 if path in members:
-                    self.problems.append((path, "twice in the archive; the last one is read"))
+                    self.problems.append((path, TWICE_IN_ARCHIVE()))
                 members[path] = info
         entries = [Entry(p, i.file_size, tuple(i.date_time)) for p, i in members.items()]
         return members, entries
@@ -159,13 +171,13 @@ class Export:
             with _opened(io.BytesIO(self._bytes(entry.path)), entry.path) as archive:
                 members, found = self._listed(archive, entry.path, MOST_INNER_FILES)
                 if sum(each.size for each in found) > MOST_INNER_BYTES:
-                    raise BadInput(f"it inflates to more than {MOST_INNER_BYTES // MiB} MiB")
+                    raise BadInput(INFLATES_TOO_FAR(file=entry.path, most=MOST_INNER_BYTES))
                 for each in found:
                     path = f"{entry.path}/{each.path}"
                     self._inner[path] = (entry.path, members[each.path].filename)
                     yield Entry(path, each.size, each.modified)
         except BadInput as error:
-            self.problems.append((entry.path, str(error)))
+            self.problems.append((entry.path, error.diagnostic))
             yield entry
 
 
@@ -173,10 +185,7 @@ def _opened(file: Path | io.BytesIO, name: str) -> zipfile.ZipFile:
     try:
         return zipfile.ZipFile(file)
     except (zipfile.BadZipFile, OSError, ValueError, NotImplementedError) as error:
-        raise BadInput(
-            f"{name} is no zip archive that can be read ({error}); expected the export as the "
-            "system wrote it, or its folder"
-        ) from None
+        raise BadInput(NO_ZIP(file=name, why=str(error))) from None
 
 
 def _name(info: zipfile.ZipInfo) -> str:
@@ -198,10 +207,10 @@ def _inflated(archive: zipfile.ZipFile, info: zipfile.ZipInfo, path: str) -> byt
         zipfile.BadZipFile, OSError, EOFError, zlib.error, RuntimeError, NotImplementedError,
         ValueError,
     ) as error:  # fmt: skip
-        raise BadInput(f"{path} cannot be unpacked: {error}") from None
+        raise BadInput(NOT_UNPACKED(file=path, why=str(error))) from None
 
 
 def _bounded(content: bytes, path: str) -> bytes:
     if len(content) > MOST_BYTES:
-        raise BadInput(f"{path} is larger than {MOST_BYTES // MiB} MiB, which no class needs")
+        raise BadInput(LARGER_THAN_NEEDED(file=path, most=MOST_BYTES))
     return content

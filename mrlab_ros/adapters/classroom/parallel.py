@@ -9,6 +9,12 @@ from collections.abc import Callable, Iterable, Iterator
 from concurrent.futures.process import BrokenProcessPool
 from typing import Any, TypeVar
 
+from mrlab_ros.adapters.classroom.diagnostics import (
+    BACKEND_NOT_INSTALLED,
+    SCHEDULER_NEEDS_CLUSTER,
+    SCHEDULER_NOT_REACHED,
+    UNKNOWN_BACKEND,
+)
 from mrlab_ros.core.errors import BadInput, Misuse
 
 Task = TypeVar("Task")
@@ -38,9 +44,9 @@ def run(
     one is not installed or reached, Broken where a process died.
     """
     if backend not in BACKENDS:
-        raise Misuse(f"--backend is '{backend}'; expected one of: {', '.join(BACKENDS)}")
+        raise Misuse(UNKNOWN_BACKEND(backend=backend, known=BACKENDS))
     if scheduler and backend == "loky":
-        raise Misuse("--scheduler needs --backend dask or ray; loky uses this machine alone")
+        raise Misuse(SCHEDULER_NEEDS_CLUSTER())
     jobs = jobs or os.cpu_count() or 1
     if jobs == 1 and backend == "loky":
         yield from map(function, tasks)
@@ -83,8 +89,7 @@ def _backend(backend: str, jobs: int, scheduler: str) -> Iterator[None]:
                     client = Client(where, timeout=20)  # type: ignore[no-untyped-call]
                 except (OSError, TimeoutError, ValueError) as error:
                     raise BadInput(
-                        f"the dask scheduler {scheduler} is not reached ({error}); start one: "
-                        "dask scheduler"
+                        SCHEDULER_NOT_REACHED(address=scheduler, why=str(error))
                     ) from None
                 stack.enter_context(client)
                 stack.enter_context(joblib.parallel_config(backend="dask"))
@@ -111,7 +116,7 @@ def _backend(backend: str, jobs: int, scheduler: str) -> Iterator[None]:
             finally:
                 get_reusable_executor().shutdown(wait=False, kill_workers=True)
     except ImportError as error:
+        packages = EXTRAS.get(backend, "joblib")
         raise BadInput(
-            f"--backend {backend} needs packages that are not installed ({error.name}); run: "
-            f"pip install {EXTRAS.get(backend, 'joblib')}"
+            BACKEND_NOT_INSTALLED(backend=backend, missing=str(error.name), packages=packages)
         ) from None

@@ -10,6 +10,7 @@ from typing import Any
 
 import orjson
 
+from mrlab_ros.adapters.classroom.diagnostics import NO_CLASS_FOLDER, NOT_WRITABLE
 from mrlab_ros.adapters.whole_file import replaced
 from mrlab_ros.core.errors import BadInput, Misuse
 
@@ -32,14 +33,11 @@ class ResultsFolder:
             )
             own = (path / KEPT).is_dir() or (path / CLASS).is_file()
             if strange and not own:
-                raise Misuse(
-                    f"{path} holds {strange[0]} and is no folder of an earlier class; give an "
-                    "empty or a new folder: --out DIR"
-                )
+                raise Misuse(NO_CLASS_FOLDER(folder=str(path), found=strange[0]))
             for name in (KEPT, PAGES, FEEDBACK, RESULTS, TRAJECTORIES):
                 (path / name).mkdir(parents=True, exist_ok=True)
         except OSError as error:
-            raise BadInput(f"{path} cannot be written: {error.strerror}") from None
+            raise BadInput(NOT_WRITABLE(file=str(path), why=error.strerror)) from None
 
     def write(self, name: str, content: bytes) -> None:
         """Write a file by its path within the folder, replacing it as a whole."""
@@ -49,7 +47,7 @@ class ResultsFolder:
             with replaced(path) as file:
                 file.write(content)
         except OSError as error:
-            raise BadInput(f"{path} cannot be written: {error.strerror}") from None
+            raise BadInput(NOT_WRITABLE(file=str(path), why=error.strerror)) from None
 
     def kept(self, digest: str) -> dict[str, Any] | None:
         """Return the result that was kept under a digest, None where none is whole."""

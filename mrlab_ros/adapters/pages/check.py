@@ -47,7 +47,7 @@ def check_page(
     meshes |= ingredients.small(things, resolve)
     film = _film(recorded, robots, library) if with_film else []
     body = check_body(report, digest, recorded, robots, film, marks)
-    title = f"{report.title}: {report.words.partition(':')[0]}"
+    title = f"{report.title}: {report.verdict.replace('_', ' ')}"
     return page(title, body, document, meshes, ingredients.code(share))
 
 

@@ -10,21 +10,37 @@ from typing import Any
 from mrlab_ros.adapters.checking.apart import smallest_waits
 from mrlab_ros.adapters.checking.stage import Played, Stage, first_link
 from mrlab_ros.adapters.scenes import files as scene_files
+from mrlab_ros.commands.check.diagnostics import (
+    MEMBER_FILE_MISSING,
+    MEMBER_NOT_IN_SCENE,
+    MEMBER_REFUSED,
+    MEMBER_WITHOUT_MOTION,
+    NOT_ONE_SYSTEM,
+    PLACES_NOT_KNOWN,
+    PLAYS_BACKWARDS,
+    ROBOTS_TWICE,
+)
 from mrlab_ros.commands.convert import batch
 from mrlab_ros.commands.convert.one_file import of_trajectory_file
+from mrlab_ros.core.base.diagnostic import Diagnostic, Fix, of_text, plain
 from mrlab_ros.core.checking import motion
+from mrlab_ros.core.checking.diagnostics import (
+    IN_CELL,
+    NO_WAIT_HELPS,
+    WAIT_CLEARS,
+    WAIT_CLEARS_TWO,
+    WAIT_NOT_ENOUGH,
+)
 from mrlab_ros.core.checking.evidence import clearances
-from mrlab_ros.core.checking.findings import Finding, in_order
 from mrlab_ros.core.checking.hardware import conditions
 from mrlab_ros.core.checking.motion import CheckedRobot, MotionFigures
 from mrlab_ros.core.checking.pairs import Delay, Pair, pairs_of, wait_frame
 from mrlab_ros.core.checking.rehearsal import Actor
-from mrlab_ros.core.checking.report import CheckReport, RobotReport
+from mrlab_ros.core.checking.report import CheckReport, RobotReport, in_order
 from mrlab_ros.core.conversion.convert import ConversionResult
 from mrlab_ros.core.conversion.options import Options
 from mrlab_ros.core.errors import BadInput, Misuse
 from mrlab_ros.core.foreign_text import for_shell
-from mrlab_ros.core.physics.engine import Kind
 from mrlab_ros.core.scene import document as scene_document
 from mrlab_ros.core.scene.document import SceneDocument
 from mrlab_ros.core.systems.cell_file import MemberEntry, SystemEntry
@@ -83,29 +99,27 @@ def read(file: Path, scene: SceneDocument, named: str) -> tuple[SystemEntry, Sce
     content = scene_files.content(file)
     if isinstance(content, dict) and content.get("robots"):
         if named:
-            raise Misuse(
-                f"the scene {named} is asked for, and {file.name} has robots and objects of its "
-                "own; leave one of them out"
-            )
+            raise Misuse(ROBOTS_TWICE(scene=named, file=file.name))
         scene = scene_document.parse(content, file.name)
         systems = scene.systems
     else:
         systems = scene_document.parse_cell(content, file.name)
         if not named:
-            raise Misuse(
-                f"{file.name} names robots, and not where they stand; add the scene with them: "
-                f"mrlab check {for_shell([str(file)])} --scene handover, or "
-                "put robots into the file"
-            )
+            command = f"check {for_shell([str(file)])} --scene handover"
+            raise Misuse(PLACES_NOT_KNOWN(file=file.name, fixes=(Fix(command=command),)))
     if len(systems) != 1:
-        names = ", ".join(system.name for system in systems) or "none"
-        raise BadInput(f"{file.name} has {len(systems)} systems ({names}); expected one to check")
+        names = [system.name for system in systems]
+        raise BadInput(NOT_ONE_SYSTEM(file=file.name, count=len(systems), names=names))
     there = [robot.name for robot in scene.robots]
     for member in systems[0].members:
         if member.robot not in there:
             raise BadInput(
-                f"the member {member.robot} is not among the robots of "
-                f"{f'the scene {named}' if named else file.name}: {', '.join(there) or 'none'}"
+                MEMBER_NOT_IN_SCENE(
+                    robot=member.robot,
+                    scene=named or None,
+                    file=None if named else file.name,
+                    robots=there,
+                )
             )
     return systems[0], scene
 
@@ -135,9 +149,13 @@ def load(
     trajectories = {}
     for name, result in found.items():
         if result.trajectory is None:
+            why = next((d for d in result.diagnostics if d.refuses), of_text(result.message))
+            path, model, _ = keys[name]
+            command = f"check {for_shell([str(path)])} --robot {model}"
             raise BadInput(
-                f"{name} cannot play {result.file}: {result.message} Try: mrlab check "
-                f"{keys[name][0]} --robot {keys[name][1]}"
+                MEMBER_REFUSED(
+                    robot=name, file=result.file, why=why, fixes=(Fix(command=command),)
+                )
             )
         trajectories[name] = _at_rate(result.trajectory, system.rate)
     return Cell(system.name or file.stem, system, scene, robots, found, trajectories)
@@ -146,14 +164,11 @@ def load(
 def _path(file: Path, member: MemberEntry, loaded: str) -> Path:
     name = member.trajectory or loaded
     if not name:
-        raise BadInput(
-            f"{file.name} says of {member.robot} no trajectory; add one: trajectory: run.mat"
-        )
+        raise BadInput(MEMBER_WITHOUT_MOTION(file=file.name, robot=member.robot))
     path = file.parent / name
     if not path.is_file():
         raise BadInput(
-            f"the trajectory '{name}' of {member.robot} is no file in {file.parent}; a check "
-            "reads files, not the catalogue of a running lab"
+            MEMBER_FILE_MISSING(trajectory=name, robot=member.robot, folder=str(file.parent))
         )
     return path
 
@@ -161,7 +176,7 @@ def _path(file: Path, member: MemberEntry, loaded: str) -> Path:
 def _at_rate(trajectory: Trajectory, rate: float) -> Trajectory:
     """Return a trajectory played at `rate`; raise Misuse where that is backwards."""
     if rate < 0:
-        raise Misuse(f"the cell plays backwards (rate {rate:g}); a check plays forwards")
+        raise Misuse(PLAYS_BACKWARDS(rate=rate))
     if rate == 1.0:
         return trajectory
     channels = Channels(trajectory.channels.velocities * rate, trajectory.channels.effort_proxy)
@@ -229,15 +244,16 @@ def report_of(
         if (t := cell.trajectories.get(robot.name)) is not None
     }
     recorded = played.recorded
-    found: list[Finding] = []
+    found: list[Diagnostic] = []
     for name, (_, figures) in motions.items():
         start = recorded.starts.get(name, 0.0)
         own = motion.motion_findings(figures, name)
         found += [_later(f, start) for f in own]
-    found += motion.physics_findings(recorded, played.graspable, closest)
-    remedy = wait_words(delay, pairs)
-    findings = in_order(replace(f, remedy=remedy) if _is_first(f, pairs) else f for f in found)
-    scene = f"a cell of {len(motions)} robots"
+    resolved = resolution(delay, pairs)
+    advice = {frozenset((pairs[0].robot, pairs[0].other)): resolved} if resolved else {}
+    found += motion.physics_findings(recorded, played.graspable, closest, advice)
+    findings = in_order(found)
+    scene = IN_CELL(robots=len(motions))
     robots = [
         RobotReport(
             r.name,
@@ -266,6 +282,7 @@ def report_of(
         "system": {"name": cell.system.name, "mode": cell.system.mode.name.lower()},
         "pairs": [vars(pair) for pair in pairs],
         "wait": vars(delay) if delay is not None else None,
+        "resolution": plain(resolved) if resolved is not None else None,
     }
     report = CheckReport(
         cell.title, inputs, robots, findings, recorded.duration, clearances(recorded),
@@ -274,34 +291,19 @@ def report_of(
     return report, motions
 
 
-def _later(found: Finding, start: float) -> Finding:
+def _later(found: Diagnostic, start: float) -> Diagnostic:
     """Return a finding of a motion at its time on the cell's timeline."""
-    time = None if found.time is None else found.time + start
-    return replace(found, time=time, end=None if found.end is None else found.end + start)
+    times = {"time": found.time, "end": found.end}
+    return found.with_values(**{k: t + start for k, t in times.items() if t is not None})
 
 
-def _is_first(found: Finding, pairs: list[Pair]) -> bool:
-    """Return whether a finding is of the first conflict of two robots."""
-    if not pairs or pairs[0].conflict is None or found.kind != Kind.ROBOT.name.lower():
-        return False
-    return {found.robot, found.other} == {pairs[0].robot, pairs[0].other}
-
-
-def wait_words(delay: Delay | None, pairs: list[Pair]) -> str:
-    """Return how the first conflict of two robots is resolved, in words."""
+def resolution(delay: Delay | None, pairs: list[Pair]) -> Diagnostic | None:
+    """Return how the first conflict of two robots is resolved; None: there is no conflict."""
     if not pairs or pairs[0].conflict is None:
-        return ""
+        return None
     if delay is None:
-        return (
-            "No wait at a first frame keeps the two apart: one stands in the other's way. Change "
-            "a way, or a place."
-        )
-    words = (
-        f"Let {delay.robot} wait {delay.seconds:.1f} s: add to its member "
-        f"'after: {delay.other}.frame {delay.frame}'"
-    )
-    if not delay.clears:
-        return f"{words}; it is the smallest that helps, and not enough with what they hold."
-    return f"{words}; rehearsed: the two stay apart" + (
-        "." if delay.all_clear else ", others still touch."
+        return NO_WAIT_HELPS()
+    code = WAIT_CLEARS if delay.all_clear else WAIT_CLEARS_TWO
+    return (code if delay.clears else WAIT_NOT_ENOUGH)(
+        robot=delay.robot, other=delay.other, seconds=delay.seconds, frame=delay.frame
     )

@@ -9,8 +9,10 @@ from typing import Annotated
 import typer
 
 from mrlab_ros.commands import completion
+from mrlab_ros.commands.check.diagnostics import LENGTH_WITHOUT_UNIT, NO_LENGTH
 from mrlab_ros.commands.convert.options import with_options
-from mrlab_ros.commands.output import say_error
+from mrlab_ros.commands.diagnostics import PAGE_NAME
+from mrlab_ros.commands.output import say_problem
 from mrlab_ros.core.conversion.options import Options
 from mrlab_ros.core.errors import LabError, Misuse
 
@@ -68,21 +70,22 @@ def check(
 ) -> None:
     """Say whether a motion is ready for a robot, and why not: limits, collisions, grasps.
 
-    The motion goes through the lab's physics headless, faster than real time. Ends with 0: nothing
-    refuses it, 1: a finding does, 2: it could not be checked. The same inputs give the same hash.
+    The motion goes through the lab's physics headless, faster than real time. Ends with 0: no
+    blocking findings, 1: blocking findings, 2: it could not be checked. The same inputs give the
+    same hash.
     """
     from mrlab_ros.commands.check import run
 
     try:
         if out is not None and out.suffix.lower() not in (".html", ".htm"):
-            raise Misuse(f"the page is '{out.name}'; expected a name that ends in .html")
+            raise Misuse(PAGE_NAME(name=out.name))
         request = run.Request(
             file, robot, tool, scene, points, metres(within, "within"),
             metres(closest, "closest") if closest else None, out, as_json, options, rubric,
         )  # fmt: skip
         code = run.run(request)
     except LabError as error:
-        say_error(str(error))
+        say_problem(error.diagnostic)
         raise typer.Exit(COULD_NOT) from None
     raise typer.Exit(code)
 
@@ -95,7 +98,7 @@ def metres(text: str, option: str) -> float:
     except ValueError:
         value = -1.0
     if not 0 <= value <= 10:
-        raise Misuse(f"--{option} is '{text}'; expected a length up to 10 m, such as 5mm or 0.005")
+        raise Misuse(NO_LENGTH(option=option, text=text))
     if match and not match[2] and value > LONGEST_BARE:
-        raise Misuse(f"--{option} is '{text}', which would be {text} m; write {text}mm or {text}m")
+        raise Misuse(LENGTH_WITHOUT_UNIT(option=option, text=text))
     return value

@@ -12,11 +12,13 @@ from mrlab_ros.adapters.robots.library import RobotLibrary
 from mrlab_ros.adapters.scenes import files as scene_files
 from mrlab_ros.adapters.scenes.files import SceneFiles
 from mrlab_ros.commands.check import cell
+from mrlab_ros.commands.check.diagnostics import MODEL_NOT_IN_SCENE, MOTION_OF_ANOTHER_ROBOT
 from mrlab_ros.commands.convert.one_file import converted
-from mrlab_ros.core.base.diagnostic import Diagnostic, Severity
+from mrlab_ros.core.base.diagnostic import Diagnostic, Fix
 from mrlab_ros.core.checking import motion
+from mrlab_ros.core.checking.diagnostics import IN_EMPTY_ROOM, IN_SCENE
 from mrlab_ros.core.checking.evidence import CLOSE
-from mrlab_ros.core.checking.hardware import JUMPS
+from mrlab_ros.core.checking.hardware import JUMPS, RANGES, SPEEDS
 from mrlab_ros.core.checking.motion import CheckedRobot
 from mrlab_ros.core.checking.rehearsal import Actor
 from mrlab_ros.core.checking.report import digest
@@ -34,7 +36,7 @@ Convert = Callable[[Path, str, str, Options, RobotLibrary], ConversionResult]
 
 CELLS = (".yaml", ".yml")
 # A file that the converter refuses for these holds a motion, which is not ready.
-OF_THE_MOTION = JUMPS | {"joint_limit", "velocity_limit"}
+OF_THE_MOTION = JUMPS | RANGES | SPEEDS
 
 
 @dataclass(frozen=True)
@@ -77,6 +79,12 @@ class CheckedFile:
             and any(d.code in OF_THE_MOTION for d in self.result.diagnostics)
         )
 
+    @property
+    def why(self) -> Diagnostic | None:
+        """Return why its conversion refused it; None: it did not."""
+        found = self.result.diagnostics if self.result is not None else ()
+        return next((d for d in found if d.refuses), None)
+
 
 def check_file(file: Path, setting: Setting) -> CheckedFile:
     """Convert, compute, and rehearse one file; a file that is refused is checked too.
@@ -106,9 +114,9 @@ def check_file(file: Path, setting: Setting) -> CheckedFile:
         "within": setting.within,
         "closest": setting.closest,
     }
-    words = scene_words(setting.scene_name, scene)
+    shown = shown_scene(setting.scene_name, scene)
     if t is None:
-        report = motion.report_of(result, moving, None, None, inputs=inputs, scene=words)
+        report = motion.report_of(result, moving, None, None, inputs=inputs, scene=shown)
         refused = Checked(report, report.document(), scene=scene)
         return CheckedFile(refused, robots, None, result)
     figures = motion.figures_of(t, moving)
@@ -118,7 +126,7 @@ def check_file(file: Path, setting: Setting) -> CheckedFile:
     ]
     played = stage.rehearse(robots, actors, scene, drawn=setting.drawn)
     report = motion.report_of(
-        result, moving, figures, played.recorded, inputs=inputs, scene=words,
+        result, moving, figures, played.recorded, inputs=inputs, scene=shown,
         graspable=played.graspable, points=setting.points, within=setting.within,
         closest=setting.closest,
     )  # fmt: skip
@@ -138,16 +146,15 @@ def _converted(file: Path, entry: RobotEntry, setting: Setting) -> ConversionRes
     except BadInput as error:
         if file.suffix.lower() != ".json" or not file.is_file():
             raise
-        return _refused(
-            file_name(file.name), Diagnostic("unreadable", Severity.ERROR, f"{error}.")
-        )
+        return _refused(file_name(file.name), error.diagnostic)
 
 
 def _of_another_robot(t: Trajectory, file: str, model: str) -> ConversionResult:
     """Return the refusal of a trajectory file that is for another robot than is checked."""
-    message = f"'{file}' is a motion of {t.robot_model}; expected one of {model}."
-    remedy = f"Convert the workspace again: mrlab convert FILE --robot {model}."
-    return _refused(file, Diagnostic("joint_names", Severity.ERROR, message, remedy))
+    fixes = (Fix(command=f"convert FILE --robot {model}"),)
+    return _refused(
+        file, MOTION_OF_ANOTHER_ROBOT(file=file, found=t.robot_model, model=model, fixes=fixes)
+    )
 
 
 def _refused(file: str, why: Diagnostic) -> ConversionResult:
@@ -194,11 +201,8 @@ def entry_of(setting: Setting, model: str = "", end_effector: str = "") -> Robot
         tool = setting.tool or entry.end_effector
         return RobotEntry(entry.name, entry.model, tool, entry.pose)
     if setting.scene.robots and model:
-        there = ", ".join(sorted({r.model for r in setting.scene.robots}))
-        raise Misuse(
-            f"the scene {setting.scene_name} has no robot {model}, so its place there is not "
-            f"known; its robots: {there}. Take one of these, or another scene"
-        )
+        there = sorted({r.model for r in setting.scene.robots})
+        raise Misuse(MODEL_NOT_IN_SCENE(scene=setting.scene_name, robot=model, robots=there))
     return RobotEntry(f"{model or 'robot'}_1", model, setting.tool or end_effector, Pose())
 
 
@@ -213,9 +217,6 @@ def scene_of(name: str, folder: Path) -> SceneDocument:
     return SceneFiles(folder / "config" / "scenes", own).load(name)
 
 
-def scene_words(name: str, scene: SceneDocument) -> str:
-    """Return what a motion goes through, for a person."""
-    if not name:
-        return "an empty room with a floor"
-    count = len(scene.objects)
-    return f"the scene {name} with {count} object{'' if count == 1 else 's'}"
+def shown_scene(name: str, scene: SceneDocument) -> Diagnostic:
+    """Return what a motion goes through."""
+    return IN_SCENE(scene=name, objects=len(scene.objects)) if name else IN_EMPTY_ROOM()

@@ -10,6 +10,14 @@ from pathlib import Path
 from mrlab_ros.adapters.checking.stage import Stage
 from mrlab_ros.adapters.robots.library import RobotLibrary
 from mrlab_ros.commands.check import words
+from mrlab_ros.commands.check.diagnostics import (
+    FOR_ONE_MOTION,
+    NO_PAGE,
+    PAGE_NOT_WRITTEN,
+    POINTS_NOT_READ,
+    SAID_BY_RUBRIC,
+    TOO_FAR_TO_MEASURE,
+)
 from mrlab_ros.commands.check.one import CELLS, CheckedFile, Setting, check_file, scene_of
 from mrlab_ros.commands.convert import report as conversion_report
 from mrlab_ros.core.checking.evidence import CLOSE
@@ -23,7 +31,6 @@ from mrlab_ros.core.rubrics.marking import Marks
 from mrlab_ros.ros import share
 
 READY, REFUSED, COULD_NOT = 0, 1, 2
-NO_MOTION = "the file holds no motion that could be rehearsed; mrlab show draws what it holds"
 
 
 @dataclass(frozen=True)
@@ -48,13 +55,10 @@ def run(request: Request) -> int:
     if request.file.suffix.lower() in CELLS and (
         request.robot or request.tool or request.points is not None
     ):
-        option = "--robot" if request.robot else "--tool" if request.tool else "--points"
-        raise Misuse(f"{option} is for one motion; {request.file.name} is a cell of several")
+        option = "robot" if request.robot else "tool" if request.tool else "points"
+        raise Misuse(FOR_ONE_MOTION(option=option, file=request.file.name))
     if request.closest is not None and request.closest > FARTHEST:
-        raise Misuse(
-            f"--closest is {request.closest:g} m; expected at most {FARTHEST:g} m, as far as is "
-            "measured"
-        )
+        raise Misuse(TOO_FAR_TO_MEASURE(value=request.closest, most=FARTHEST))
     folder = share.directory()
     if request.rubric is not None:
         return _marked(request, request.rubric, folder)
@@ -75,7 +79,7 @@ def _marked(request: Request, path: Path, folder: Path) -> int:
 
     for option in ("robot", "tool", "scene", "closest"):
         if getattr(request, option) not in ("", None):
-            raise Misuse(f"--{option} is given, and so is --rubric, which says it; leave one out")
+            raise Misuse(SAID_BY_RUBRIC(option=option))
     rubric = files.read(path)
     stage = Stage(folder, RobotLibrary(folder / "robots"))
     setting = replace(
@@ -114,7 +118,7 @@ def _finish(
         if not request.as_json:
             print(f"{request.out} ({size / 1e6:.2f} MB)")
     elif request.out is not None and not request.as_json:
-        print(f"no page is written: {NO_MOTION}")
+        print(NO_PAGE())
     return REFUSED if report.refusing else READY
 
 
@@ -125,10 +129,8 @@ def _points(path: Path | None) -> tuple[Vector, ...]:
         with path.open(newline="", encoding="utf-8-sig") as file:
             return points_from_rows(list(csv.reader(file)), path.name)
     except (OSError, UnicodeDecodeError, csv.Error) as error:
-        reason = error.strerror if isinstance(error, OSError) else error
-        raise BadInput(
-            f"the points in {path} cannot be read: {reason}; expected a CSV with x, y, z in m"
-        ) from None
+        why = error.strerror if isinstance(error, OSError) else error
+        raise BadInput(POINTS_NOT_READ(file=str(path), why=str(why))) from None
 
 
 def _say_refused(request: Request, result: ConversionResult) -> None:
@@ -186,5 +188,5 @@ def write_page(
         out.parent.mkdir(parents=True, exist_ok=True)
         out.write_text(text, encoding="utf-8")
     except OSError as error:
-        raise BadInput(f"{out} cannot be written: {error.strerror}") from None
+        raise BadInput(PAGE_NOT_WRITTEN(file=str(out), why=error.strerror)) from None
     return len(text)

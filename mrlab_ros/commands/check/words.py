@@ -10,9 +10,10 @@ from rich.table import Table
 from rich.text import Text
 
 from mrlab_ros.commands import output
-from mrlab_ros.core.checking.evidence import thing
-from mrlab_ros.core.checking.findings import Finding
-from mrlab_ros.core.checking.hardware import CLAIM, State
+from mrlab_ros.core.base.diagnostic import Diagnostic
+from mrlab_ros.core.base.phrase import phrase
+from mrlab_ros.core.checking.diagnostics import CLAIM
+from mrlab_ros.core.checking.hardware import State
 from mrlab_ros.core.checking.report import CheckReport, RobotReport
 from mrlab_ros.core.design import OUTCOME_STYLES, SEVERITY_STYLES
 
@@ -29,16 +30,14 @@ def show(report: CheckReport, document: Mapping[str, Any]) -> None:
     """Print the report."""
     console = output.console(width=output.REPORT_WIDTH)
     style = OUTCOME_STYLES["rejected" if report.refusing else "accepted"]
-    verdict, _, rest = report.words.partition(":")
-    console.print(verdict, style=style, end="")
-    console.print(f":{rest}", soft_wrap=True)
+    console.print(str(report.summary), style=style, soft_wrap=True)
     if report.findings:
         console.print()
         _findings(console, report)
     for robot in report.robots:
         _robot(console, robot, several=len(report.robots) > 1)
     _distances(console, report)
-    console.print(f"\n{CLAIM}")
+    console.print(f"\n{CLAIM()}")
     console.print(f"report {document['hash']}", soft_wrap=True)
 
 
@@ -56,7 +55,7 @@ def _findings(console: Console, report: CheckReport) -> None:
             Text(severity, SEVERITY_STYLES[severity]),
             _time(found),
             *([found.robot] if several else []),
-            found.link,
+            found.link or found.joint,
             Text.assemble(found.message, "\n", (found.remedy, "dim")),
             _number(found.value, found.unit),
             _number(found.limit, found.unit),
@@ -73,7 +72,7 @@ def _robot(console: Console, robot: RobotReport, *, several: bool) -> None:
     table = Table(box=None, show_header=False)
     for condition in robot.hardware:
         mark = Text(MARKS[condition.state], STYLES[condition.state])
-        table.add_row(mark, condition.name, Text(condition.words, "dim"))
+        table.add_row(mark, str(condition.condition), Text(str(condition.found), "dim"))
     console.print(table)
     f = robot.figures
     if f:
@@ -96,8 +95,8 @@ def _distances(console: Console, report: CheckReport) -> None:
         for one in near:
             who = one.held or one.link
             who = f"{one.robot} {who}" if len(report.robots) > 1 else who
-            what = thing(one.kind, one.other, one.other_link)
-            table.add_row(f"{1e3 * max(one.distance, 0.0):.0f} mm", who, what, f"{one.time:.2f} s")
+            what = f"{one.other} {one.other_link}".strip()
+            table.add_row(_number(max(one.distance, 0.0), "m"), who, what, f"{one.time:.2f} s")
         console.print(table)
     _pairs(console, report.extras.get("pairs", ()))
     held: dict[str, str] = {}
@@ -133,7 +132,7 @@ def _pairs(console: Console, pairs: Sequence[Mapping[str, Any]]) -> None:
         console.print(f"  and {len(pairs) - MOST_PAIRS} more pairs; --json has all")
 
 
-def _time(found: Finding) -> str:
+def _time(found: Diagnostic) -> str:
     if found.time is None:
         return ""
     if found.end is None or found.end - found.time < 0.01:
@@ -144,6 +143,4 @@ def _time(found: Finding) -> str:
 def _number(value: float | None, unit: str) -> str:
     if value is None:
         return ""
-    if unit == "m" and abs(value) < 0.1:
-        return f"{1e3 * value:.3g} mm"
-    return f"{value:.3g} {unit}".strip()
+    return phrase("{value:measure}").fill({"value": value, "unit": unit})

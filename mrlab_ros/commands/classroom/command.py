@@ -7,8 +7,9 @@ from typing import Annotated
 
 import typer
 
+from mrlab_ros.commands.classroom.diagnostics import OPTION_OUT_OF_RANGE
 from mrlab_ros.commands.convert.options import with_options
-from mrlab_ros.commands.output import say_error
+from mrlab_ros.commands.output import say_problem
 from mrlab_ros.core.conversion.options import Options
 from mrlab_ros.core.errors import LabError, Misuse
 
@@ -71,7 +72,9 @@ def grade(
             ("jobs", jobs, 0, MOST_JOBS),
         ):
             if not least <= value <= most:
-                raise Misuse(f"--{option} is {value:g}; expected {least:g} to {most:g}")
+                raise Misuse(
+                    OPTION_OUT_OF_RANGE(option=option, value=value, least=least, most=most)
+                )
         read = files.read(rubric)
         setup = run.of_rubric(
             read,
@@ -86,6 +89,6 @@ def grade(
         )  # fmt: skip
         code = run.run(request)
     except LabError as error:
-        say_error(str(error))
+        say_problem(error.diagnostic)
         raise typer.Exit(COULD_NOT) from None
     raise typer.Exit(code)

@@ -19,7 +19,14 @@ import orjson
 from mrlab_ros.adapters.warm_process import WarmProcess
 from mrlab_ros.adapters.workspaces.content import death
 from mrlab_ros.commands.classroom import worker
+from mrlab_ros.commands.classroom.diagnostics import GRADER_NOT_STARTED
 from mrlab_ros.commands.classroom.setup import Setup, Task
+from mrlab_ros.core.base.diagnostic import Diagnostic, from_plain
+from mrlab_ros.core.classroom.diagnostics import (
+    SUBMISSION_CRASHED,
+    SUBMISSION_ENDED,
+    SUBMISSION_GIVEN_UP,
+)
 from mrlab_ros.core.classroom.result import FAILED, without_marks
 from mrlab_ros.core.errors import BadInput
 
@@ -59,8 +66,8 @@ class Grader:
             found = {p.name: p.read_bytes() for p in sorted(out.iterdir()) if p.is_file()}
             if status == 0 and worker.RESULT in found:
                 return found
-            words = self._lost(status)
-            result = without_marks(self.setup.rubric, FAILED, words, names[0] if names else "")
+            why = self._lost(status)
+            result = without_marks(self.setup.rubric, FAILED, why, names[0] if names else "")
             return {worker.RESULT: orjson.dumps(result.plain())}
         finally:
             shutil.rmtree(folder, ignore_errors=True)
@@ -79,26 +86,23 @@ class Grader:
             names.append(own)
         return names
 
-    def _lost(self, status: int | None) -> str:
+    def _lost(self, status: int | None) -> Diagnostic:
         bounds = self.setup.bounds
         if status in (None, -signal.SIGALRM):
-            return f"the check was given up after {bounds.wall:.0f} s"
+            return SUBMISSION_GIVEN_UP(limit=bounds.wall)
         if status in (-signal.SIGXCPU, -signal.SIGKILL):
-            return (
-                f"the check was ended: it took more than {bounds.time:.0f} s of a processor, or "
-                "the machine had no memory left"
-            )
-        return f"the check crashed on it ({death(status or 1)}); the file is the reason, no other"
+            return SUBMISSION_ENDED(limit=bounds.time)
+        return SUBMISSION_CRASHED(why=death(status or 1))
 
     def _ask(self, request: Mapping[str, object]) -> int | None:
         """Return the exit status of the process that did a request, None past the time limit."""
         try:
             ready = self._worker.warm()
         except RuntimeError:
-            raise BadInput("the process that checks did not start") from None
+            raise BadInput(GRADER_NOT_STARTED()) from None
         if ready and "error" in (said := json.loads(ready)):
             self._worker.stop()
-            raise BadInput(str(said["error"]))
+            raise BadInput(from_plain(said["error"]))
         return self._worker.ask(json.dumps(request).encode(), self.setup.bounds.wall + GRACE)
 
 

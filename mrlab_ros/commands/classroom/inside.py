@@ -10,6 +10,7 @@ from mrlab_ros.adapters.trajectories.coefficients import load_coefficients
 from mrlab_ros.adapters.workspaces import content, worker
 from mrlab_ros.adapters.workspaces.reader import Limits, opened
 from mrlab_ros.adapters.workspaces.results import Task, converted, refused
+from mrlab_ros.commands.classroom.diagnostics import NO_ROBOT_IN_RUBRIC
 from mrlab_ros.commands.convert.one_file import of_trajectory_file_here
 from mrlab_ros.core.conversion.convert import ConversionResult, id_from
 from mrlab_ros.core.conversion.options import DEFAULT_FRAME_RATE, Options
@@ -41,10 +42,7 @@ class Inside:
         if found is not None:
             return found
         if not robot:
-            raise Misuse(
-                f"'{file.name}' does not say which robot it is for; name one in the rubric: "
-                "robot: ur5e"
-            )
+            raise Misuse(NO_ROBOT_IN_RUBRIC(file=file.name))
         task = Task(
             file=file.name,
             options=options,

@@ -31,9 +31,22 @@ from mrlab_ros.adapters.classroom.results_folder import (
 from mrlab_ros.commands import output
 from mrlab_ros.commands.check.one import CELLS
 from mrlab_ros.commands.classroom import grader, words, worker
+from mrlab_ros.commands.classroom.diagnostics import (
+    KEY_TABLE_NOT_READ,
+    KEY_TABLE_NOT_WRITTEN,
+    NO_SUBMISSIONS,
+    PROCESSES_KILLED,
+    REFERENCE_IS_CELL,
+    REFERENCE_NOT_READ,
+    STOPPED,
+    WORKSHEET_FAILED,
+    WORKSHEET_WRITTEN,
+)
 from mrlab_ros.commands.classroom.setup import Bounds, Setup, Task
 from mrlab_ros.commands.convert.batch import SUFFIXES
+from mrlab_ros.core.base.diagnostic import Diagnostic
 from mrlab_ros.core.classroom import gradebook
+from mrlab_ros.core.classroom.diagnostics import NO_FILE_HANDED_IN
 from mrlab_ros.core.classroom.exports import Roster, Submission, recognise
 from mrlab_ros.core.classroom.graded import REFERENCE, GradedClass, Student
 from mrlab_ros.core.classroom.pseudonyms import pseudonymous
@@ -89,10 +102,7 @@ def run(request: Request) -> int:
         left_out = (*roster.left_out, *export.problems)
         roster = replace(roster, left_out=left_out)
         if not roster.submissions:
-            raise BadInput(
-                f"{request.source} holds no submission; expected an export of Moodle, ILIAS, "
-                "Canvas or Gradescope, a folder or file for each student"
-            )
+            raise BadInput(NO_SUBMISSIONS(file=str(request.source)))
         folder = ResultsFolder(request.out)
         key_table, who = None, dict[str, Submission]()
         if request.pseudonyms:
@@ -101,7 +111,7 @@ def run(request: Request) -> int:
     students = tuple(Student(s, results[s.key]) for s in roster.submissions)
     graded = GradedClass(rubric, roster.form, students, roster.left_out, results.get(REFERENCE))
     _write(graded, folder)
-    problems: list[str] = []
+    problems: list[Diagnostic] = []
     if request.template is not None:  # it has names, so it is filled by them
         named = [Student(who.get(s.submission.name, s.submission), s.result) for s in students]
         problems = _fill(request, named, request.template)
@@ -121,15 +131,12 @@ def of_rubric(
     if rubric.reference:
         path = Path(rubric.reference)
         if path.suffix.lower() in CELLS:
-            raise BadInput(
-                f"{rubric.origin}: the reference {path.name} is a cell; a class is compared with "
-                "one motion: leave reference out, or name a file with one"
-            )
+            raise BadInput(REFERENCE_IS_CELL(rubric=rubric.origin, file=path.name))
         try:
             reference = (path.name, path.read_bytes())
         except OSError as error:
             raise BadInput(
-                f"{rubric.origin}: the reference {path} cannot be read: {error.strerror}"
+                REFERENCE_NOT_READ(rubric=rubric.origin, file=str(path), why=error.strerror)
             ) from None
     return Setup(rubric, scene, options, reference, bounds, pages)
 
@@ -144,11 +151,9 @@ def _results(
     known = _known(request, folder)
     for submission in roster.submissions:
         if not submission.candidates:
-            found = ", ".join(submission.others) or "nothing"
-            said = f"no file that may hold a motion was handed in; there is {found}"
-            if request.pseudonyms:
-                said = "no file that may hold a motion was handed in"
-            results[submission.key] = without_marks(request.setup.rubric, NO_FILE, said)
+            files = None if request.pseudonyms else submission.others
+            why = NO_FILE_HANDED_IN(files=files)
+            results[submission.key] = without_marks(request.setup.rubric, NO_FILE, why)
         else:
             missing[submission.key] = submission
     if request.setup.reference is not None:
@@ -173,17 +178,10 @@ def _results(
                 break
             except parallel.Broken:
                 if attempt == ATTEMPTS:
-                    raise BadInput(
-                        f"processes were killed {ATTEMPTS} times; is there enough memory? What is "
-                        "done is kept: give fewer --jobs and run the same command again"
-                    ) from None
+                    raise BadInput(PROCESSES_KILLED(count=ATTEMPTS)) from None
             except KeyboardInterrupt:
                 count = total - len(missing)
-                print(
-                    f"\nmrlab: stopped with {count} of {total} checked; they are kept. Run the "
-                    "same command to go on",
-                    file=sys.stderr,
-                )
+                output.say_error(str(STOPPED(done=count, all=total)))
                 raise
     return results
 
@@ -204,7 +202,7 @@ def _run(
             try:
                 task = _task(key, submission, export, setup, pseudonym=request.pseudonyms)
             except BadInput as error:
-                unread.append((key, without_marks(setup.rubric, NO_FILE, str(error))))
+                unread.append((key, without_marks(setup.rubric, NO_FILE, error.diagnostic)))
                 continue
             digest = task.digest(setup.digest)
             found = known(key, digest)
@@ -320,7 +318,7 @@ def _write(graded: GradedClass, folder: ResultsFolder) -> None:
     folder.write(INDEX, class_page(graded, share.directory()).encode())
 
 
-def _fill(request: Request, students: Sequence[Student], template: Path) -> list[str]:
+def _fill(request: Request, students: Sequence[Student], template: Path) -> list[Diagnostic]:
     """Write Moodle's worksheet with the grades beside the folder of the class."""
     out = request.out.with_name(f"{request.out.name}-{template.name}")
     try:
@@ -328,8 +326,10 @@ def _fill(request: Request, students: Sequence[Student], template: Path) -> list
         text, problems = gradebook.filled(content, students, template.name)
         out.write_text(text, encoding="utf-8", newline="")
     except (OSError, UnicodeDecodeError) as error:
-        raise BadInput(f"{template} cannot be read or {out} written: {error}") from None
-    return [f"the worksheet with the grades is {out}", *problems]
+        raise BadInput(
+            WORKSHEET_FAILED(file=str(template), out=str(out), why=str(error))
+        ) from None
+    return [WORKSHEET_WRITTEN(file=str(out)), *problems]
 
 
 def _pseudonyms(roster: Roster, out: Path) -> tuple[Roster, Path, dict[str, Submission]]:
@@ -339,10 +339,7 @@ def _pseudonyms(roster: Roster, out: Path) -> tuple[Roster, Path, dict[str, Subm
         known = json.loads(path.read_text(encoding="utf-8")) if path.exists() else {}
         secret = bytes.fromhex(known["secret"]) if known else secrets.token_bytes(32)
     except (OSError, ValueError, LookupError, TypeError) as error:
-        raise BadInput(
-            f"the key table {path} cannot be read ({error}); without it the pseudonyms would "
-            "change. Mend it, or move it away to get new ones"
-        ) from None
+        raise BadInput(KEY_TABLE_NOT_READ(file=str(path), why=str(error))) from None
     changed, who = pseudonymous(roster, secret)
     students = {
         name: {"name": s.name, "identifier": s.identifier, "email": s.email, "folder": s.folder}
@@ -356,5 +353,5 @@ def _pseudonyms(roster: Roster, out: Path) -> tuple[Roster, Path, dict[str, Subm
             file.write(orjson.dumps(content, option=orjson.OPT_INDENT_2))
         os.replace(written, path)
     except OSError as error:
-        raise BadInput(f"the key table {path} cannot be written: {error.strerror}") from None
+        raise BadInput(KEY_TABLE_NOT_WRITTEN(file=str(path), why=error.strerror)) from None
     return changed, path, who

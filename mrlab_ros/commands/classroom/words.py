@@ -8,7 +8,8 @@ from rich.table import Table
 from rich.text import Text
 
 from mrlab_ros.commands import output
-from mrlab_ros.core.classroom.gradebook import number
+from mrlab_ros.core.base.diagnostic import Diagnostic
+from mrlab_ros.core.classroom.gradebook import number, text
 from mrlab_ros.core.classroom.graded import GradedClass
 from mrlab_ros.core.classroom.result import FAILED, MARKED
 from mrlab_ros.core.design import OUTCOME_STYLES
@@ -16,7 +17,9 @@ from mrlab_ros.core.design import OUTCOME_STYLES
 MOST_ROWS, MOST_LEFT_OUT, MOST_MISTAKES = 20, 10, 5
 
 
-def show(graded: GradedClass, out: Path, key_table: Path | None, problems: list[str]) -> None:
+def show(
+    graded: GradedClass, out: Path, key_table: Path | None, problems: list[Diagnostic]
+) -> None:
     """Print the class in short."""
     console = output.console(width=output.REPORT_WIDTH)
 
@@ -38,7 +41,7 @@ def show(graded: GradedClass, out: Path, key_table: Path | None, problems: list[
             failed = student.result.outcome == FAILED
             style = OUTCOME_STYLES["rejected" if failed else "ambiguous"]
             word = "failed" if failed else "no file"
-            table.add_row(Text(word, style), student.submission.name, student.result.words)
+            table.add_row(Text(word, style), student.submission.name, text(student.result.found))
         console.print(table)
         if len(unmarked) > MOST_ROWS:
             say(f"  and {len(unmarked) - MOST_ROWS} more; {out}/index.html has all")
@@ -64,7 +67,7 @@ def show(graded: GradedClass, out: Path, key_table: Path | None, problems: list[
         )
     console.print()
     for problem in problems:
-        say(problem)
+        say(str(problem))
     say(f"{out}/index.html")
     if key_table is not None:
         say(f"who is who stands in {key_table} alone; keep it, and do not pass it on")

@@ -31,10 +31,13 @@ from mrlab_ros.adapters.guarded_streams import guard
 from mrlab_ros.adapters.trajectories import json_file
 from mrlab_ros.adapters.workspaces.reader import Limits
 from mrlab_ros.commands.check.one import CELLS, CheckedFile, Setting
+from mrlab_ros.commands.classroom.diagnostics import NO_FILE
 from mrlab_ros.commands.classroom.inside import Inside
 from mrlab_ros.commands.classroom.setup import Bounds, Setup
+from mrlab_ros.commands.rubric.diagnostics import REFERENCE_NOT_MARKED
 from mrlab_ros.commands.rubric.marked import check_rubric_file
-from mrlab_ros.core.checking.findings import plain
+from mrlab_ros.core.base.diagnostic import Diagnostic, plain
+from mrlab_ros.core.classroom.diagnostics import SUBMISSION_FAILED, SUBMISSION_OUT_OF_MEMORY
 from mrlab_ros.core.classroom.result import (
     FAILED,
     MARKED,
@@ -54,6 +57,8 @@ MiB = 1 << 20
 MOST_WRITTEN = 512 * MiB  # bytes of one file that a check may write
 RESULT, TRAJECTORY, PAGE, FEEDBACK = "result.json", "trajectory.json", "page.html", "feedback.html"
 MESSAGE_SIZE = 1 << 16
+# A checked file, its name, and why it could not be checked.
+First = tuple[CheckedFile | None, str, Diagnostic | None]
 
 
 class Warm:
@@ -76,9 +81,8 @@ class Warm:
             signal.setitimer(signal.ITIMER_REAL, setup.bounds.wall)
             found = check_rubric_file(file, setup.rubric, self.setting)
             if found.played is None:
-                why = found.result.message if found.result is not None else "it holds no motion"
                 raise BadInput(
-                    f"{setup.rubric.origin}: the reference {name} cannot be marked: {why}"
+                    REFERENCE_NOT_MARKED(rubric=setup.rubric.origin, file=name, why=found.why)
                 )
             self.reference = found.checked
             signal.setitimer(signal.ITIMER_REAL, 0)
@@ -93,25 +97,27 @@ class Warm:
         """Check the first of some files that holds a motion, and write what was found."""
         found, file, problem = self._first(files, folder)
         if found is None:
-            result = without_marks(self.setup.rubric, MARKED, problem, file)
+            result = without_marks(self.setup.rubric, MARKED, problem or NO_FILE(), file)
         else:
             result = self._result(found, file, shown, out)
         (out / RESULT).write_bytes(orjson.dumps(result.plain()))
 
-    def _first(self, files: list[str], folder: Path) -> tuple[CheckedFile | None, str, str]:
+    def _first(
+        self, files: list[str], folder: Path
+    ) -> tuple[CheckedFile | None, str, Diagnostic | None]:
         """Return the first file that holds a motion, else the first that can be told about."""
-        told: tuple[CheckedFile | None, str, str] | None = None
+        told: First | None = None
         ordered = sorted(files, key=lambda name: not name.lower().endswith(CELLS))
         for name in ordered:
             try:
                 found = check_rubric_file(folder / name, self.setup.rubric, self.setting)
             except LabError as error:
-                told = told or (None, name, str(error))
+                told = told or (None, name, error.diagnostic)
                 continue
             if found.holds_motion:
-                return found, name, ""
-            told = told or (found, name, "")
-        return told or (None, "", "no file")
+                return found, name, None
+            told = told or (found, name, None)
+        return told or (None, "", None)
 
     def _result(self, found: CheckedFile, file: str, shown: str, out: Path) -> Result:
         checked = found.checked
@@ -131,7 +137,7 @@ class Warm:
         robot = found.robots[0]
         return Result(
             MARKED,
-            checked.report.words,
+            plain(checked.report.summary),
             marks.plain(),
             marks.public().plain(),
             file,
@@ -175,17 +181,14 @@ def work(warm: Warm, request: dict[str, Any]) -> None:
     try:
         warm.check(request["shown"], request["files"], folder, out)
     except MemoryError:
-        words = (
-            f"the check needs more than {warm.setup.bounds.memory / MiB:.0f} MiB of memory; is "
-            "the motion very long?"
-        )
+        why = SUBMISSION_OUT_OF_MEMORY(limit=warm.setup.bounds.memory)
     except Exception as error:
         # one submission may end neither the class nor its teacher's patience
         traceback.print_exc()
-        words = f"the check failed on it ({type(error).__name__}: {error})"
+        why = SUBMISSION_FAILED(error=f"{type(error).__name__}: {error}")
     else:
         return
-    result = without_marks(warm.setup.rubric, FAILED, words)
+    result = without_marks(warm.setup.rubric, FAILED, why)
     (out / RESULT).write_bytes(orjson.dumps(result.plain()))
 
 
@@ -221,7 +224,7 @@ def main() -> None:
     try:
         warm = Warm(setup, scratch)
     except LabError as error:
-        connection.send(json.dumps({"error": str(error)}).encode())
+        connection.send(json.dumps({"error": plain(error)}).encode())
         return
     # objects that the collector does not visit stay shared with the forks
     gc.collect()

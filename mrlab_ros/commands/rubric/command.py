@@ -10,7 +10,8 @@ from typing import Annotated
 import typer
 
 from mrlab_ros.commands.convert.options import with_options
-from mrlab_ros.commands.output import say_error
+from mrlab_ros.commands.diagnostics import PAGE_NAME
+from mrlab_ros.commands.output import say_problem
 from mrlab_ros.core.conversion.options import Options
 from mrlab_ros.core.errors import LabError, Misuse
 
@@ -26,7 +27,7 @@ def _said() -> Iterator[None]:
     try:
         yield
     except LabError as error:
-        say_error(str(error))
+        say_problem(error.diagnostic)
         raise typer.Exit(COULD_NOT) from None
 
 
@@ -71,7 +72,7 @@ def mark(
 
     with _said():
         if out is not None and out.suffix.lower() not in (".html", ".htm"):
-            raise Misuse(f"the page is '{out.name}'; expected a name that ends in .html")
+            raise Misuse(PAGE_NAME(name=out.name))
         raise typer.Exit(run.mark(file, rubric, options, out, public=public, as_json=as_json))
 
 

@@ -14,6 +14,13 @@ from mrlab_ros.commands.check.one import (
     entry_of,
     scene_of,
 )
+from mrlab_ros.commands.rubric.diagnostics import (
+    CELL_FOR_ONE_ROBOT,
+    OF_REFERENCE,
+    OF_RUBRIC,
+    REFERENCE_NOT_MARKED,
+    ROBOT_NOT_SAID,
+)
 from mrlab_ros.core.conversion.options import Options
 from mrlab_ros.core.errors import BadInput, LabError, Misuse
 from mrlab_ros.core.rubrics.comparison import NearReference
@@ -36,7 +43,7 @@ def setting_of(rubric: Rubric, stage: Stage, share: Path, options: Options) -> S
             entry = entry_of(setting)
             stage.robot(entry.name, entry.model, entry.end_effector, entry.pose)
     except LabError as error:
-        raise type(error)(f"{rubric.origin}: {error}") from None
+        raise type(error)(OF_RUBRIC(rubric=rubric.origin, why=error.diagnostic)) from None
     return setting
 
 
@@ -68,26 +75,19 @@ def reference_of(rubric: Rubric, setting: Setting) -> CheckedFile | None:
     try:
         found = check_rubric_file(path, rubric, setting)
     except LabError as error:
-        raise BadInput(f"{rubric.origin}: reference: {error}") from None
+        raise BadInput(OF_REFERENCE(rubric=rubric.origin, why=error.diagnostic)) from None
     if found.played is None:
-        why = found.result.message if found.result is not None else "it holds no motion"
-        raise BadInput(f"{rubric.origin}: reference: {path.name} cannot be marked: {why}")
+        raise BadInput(REFERENCE_NOT_MARKED(rubric=rubric.origin, file=path.name, why=found.why))
     return found
 
 
 def check_rubric_file(file: Path, rubric: Rubric, setting: Setting) -> CheckedFile:
     """Check a file as a rubric marks it; a cell brings its robots itself."""
     if file.suffix.lower() in CELLS and rubric.robot:
-        raise Misuse(
-            f"{file.name} is a cell of several robots, and the rubric is for one {rubric.robot}; "
-            "leave robot: out of a rubric for cells"
-        )
+        raise Misuse(CELL_FOR_ONE_ROBOT(file=file.name, robot=rubric.robot))
     robots = setting.robot or setting.scene.robots
     if not robots and file.suffix.lower() not in (*CELLS, ".json") and file.is_file():
-        raise Misuse(
-            f"'{file.name}' does not say which robot it is for, nor does the rubric; add robot: "
-            "ur5e to the rubric, or mark a cell (.yaml)"
-        )
+        raise Misuse(ROBOT_NOT_SAID(file=file.name))
     return check_file(file, replace(setting, drawn=True))
 
 

@@ -8,8 +8,10 @@ from pathlib import Path
 from mrlab_ros.adapters.checking.stage import Stage
 from mrlab_ros.adapters.robots.library import RobotLibrary
 from mrlab_ros.adapters.rubrics import files
-from mrlab_ros.commands.check.run import NO_MOTION, write_page
+from mrlab_ros.commands.check.diagnostics import NO_PAGE
+from mrlab_ros.commands.check.run import write_page
 from mrlab_ros.commands.rubric import words
+from mrlab_ros.commands.rubric.diagnostics import EXAMPLE_NOT_READ
 from mrlab_ros.commands.rubric.marked import (
     compared,
     ground_of,
@@ -17,7 +19,6 @@ from mrlab_ros.commands.rubric.marked import (
     reference_of,
     setting_of,
 )
-from mrlab_ros.core.base.diagnostic import Severity
 from mrlab_ros.core.conversion.options import Options
 from mrlab_ros.core.errors import BadInput
 from mrlab_ros.core.rubrics import document
@@ -40,23 +41,22 @@ def lint(path: Path, options: Options, *, as_json: bool) -> int:
     try:
         reference = reference_of(rubric, setting)
     except BadInput as error:
-        flaws.append(Flaw(Severity.ERROR, "", 0, str(error).removeprefix(f"{path}: ")))
+        flaws.append(Flaw(error.diagnostic))
     else:
         if reference is not None:
             marks = marks_of(rubric, reference.checked, reference.checked)
             flaws += flaws_of_reference(rubric, marks)
     if as_json:
-        found = [{**vars(f), "severity": f.severity.name.lower()} for f in flaws]
         said = {
             "rubric": rubric.name,
             "points": rubric.points,
-            "flaws": found,
+            "flaws": [flaw.plain() for flaw in flaws],
             "reference": marks.plain() if marks else None,
         }
         print(json.dumps(said))
     else:
         words.flaws(rubric, flaws, marks)
-    return LOST if any(f.severity is Severity.ERROR for f in flaws) else FULL
+    return LOST if any(flaw.found.refuses for flaw in flaws) else FULL
 
 
 def mark(
@@ -85,7 +85,7 @@ def mark(
         if not as_json:
             print(f"{out} ({size / 1e6:.2f} MB)")
     elif out is not None and not as_json:
-        print(f"no page is written: {NO_MOTION}")
+        print(NO_PAGE())
     return LOST if marks.lost else FULL
 
 
@@ -115,4 +115,4 @@ def example(*, as_json: bool = False) -> str:
     try:
         return path.read_text(encoding="utf-8")
     except OSError as error:
-        raise BadInput(f"{path} cannot be read: {error.strerror}") from None
+        raise BadInput(EXAMPLE_NOT_READ(file=str(path), why=error.strerror)) from None

@@ -9,8 +9,7 @@ from rich.table import Table
 from rich.text import Text
 
 from mrlab_ros.commands import output
-from mrlab_ros.core.base.diagnostic import Severity
-from mrlab_ros.core.checking.report import counted
+from mrlab_ros.core.base.phrase import phrase
 from mrlab_ros.core.design import OUTCOME_STYLES, SEVERITY_STYLES
 from mrlab_ros.core.rubrics.checked import Checked
 from mrlab_ros.core.rubrics.document import at
@@ -43,7 +42,7 @@ def marks(file: Path, rubric: Rubric, found: Marks, checked: Checked) -> None:
             f"{mark.points:g}/{mark.of:g}",
             f"{mark.name}{' (hidden)' if mark.hidden else ''}",
             "" if mark.time is None else f"{mark.time:.2f} s",
-            mark.words,
+            mark.found.message,
         )
         if not mark.passed and mark.hint and not found.note:
             table.add_row("", "", "", "", Text(mark.hint, "dim"))
@@ -63,19 +62,19 @@ def flaws(rubric: Rubric, found: Sequence[Flaw], reference: Marks | None) -> Non
     """Print the flaws of a rubric, as editors read them: file, line, what."""
     console = output.console(width=output.REPORT_WIDTH)
     for flaw in found:
-        severity = flaw.severity.name.lower()
+        severity = flaw.found.severity.name.lower()
         where = at(rubric.origin, flaw.line)
         test = f"test '{flaw.test}': " if flaw.test else ""
         console.print(f"{where}: ", end="", soft_wrap=True)
         console.print(severity, style=SEVERITY_STYLES[severity], end="")
-        console.print(f": {test}{flaw.message}", soft_wrap=True)
-    errors = sum(flaw.severity is Severity.ERROR for flaw in found)
-    tests = f"{counted(len(rubric.tests), 'test')}, {rubric.points:g} points"
+        console.print(f": {test}{flaw.found}", soft_wrap=True)
+    errors = sum(flaw.found.refuses for flaw in found)
+    tests = phrase("{count:count test|tests}").fill({"count": len(rubric.tests)})
     style = NOT if errors else OK
     verdict = "does not work" if errors else "works"
     got = f"; the reference gets {reference.points:g}" if reference is not None else ""
     console.print(verdict, style=style, end="")
-    console.print(f": {rubric.name}, {tests}{got}", soft_wrap=True)
+    console.print(f": {rubric.name}, {tests}, {rubric.points:g} points{got}", soft_wrap=True)
 
 
 def measures() -> None:

@@ -14,7 +14,7 @@ unit the value is stored and how it is shown, the same in terminal, page, room a
     {value:bytes}              B, shown as kB, MB or GB     {value:integer}
     {value:exact}              a number with all its digits, such as a limit that was declared
     {value:measure}            in the unit that the value `unit` names, a key of UNITS
-    {point:position}           (x, y, z) in m
+    {point:position}           (x, y, z) in m; (x, y) too
     {count:count frame|frames} 1 frame, 3 frames
     {rows:rows}                (first, last) from 1: row 7, rows 7 to 9
     {names:list}               a, b and c                   {names:either}     a, b or c
@@ -180,7 +180,7 @@ def _choice(value: str, words: Sequence[str]) -> str:
 
 def _position(value: Sequence[float], words: Sequence[str]) -> str:
     return " ".join(
-        f"{axis} {_digits(v, 3, '')}" for axis, v in zip("xyz", value, strict=True)
+        f"{axis} {_digits(v, 3, '')}" for axis, v in zip("xyz", value, strict=False)
     ) + (" m")
 
 
@@ -220,6 +220,7 @@ QUANTITIES: dict[str, Callable[[Any, Sequence[str]], str]] = {
 UNITS = {
     "": "number",
     "1": "number",
+    "%": "share",
     "rad": "angle",
     "rad/s": "turn_rate",
     "m": "length",

@@ -6,8 +6,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from mrlab_ros.core.base.diagnostic import Severity
-from mrlab_ros.core.checking.findings import Finding
+from mrlab_ros.core.base.diagnostic import Diagnostic
+from mrlab_ros.core.checking.diagnostics import NEAR_SINGULARITY
 from mrlab_ros.core.geometry import Array
 from mrlab_ros.core.robots.kinematics import KinematicChain
 
@@ -77,7 +77,7 @@ def dexterity_of(
     )
 
 
-def findings_of(dexterity: Dexterity, robot: str) -> list[Finding]:
+def findings_of(dexterity: Dexterity, robot: str) -> list[Diagnostic]:
     """Return one finding for each part of the motion that is nearly singular."""
     below = np.concatenate(([False], dexterity.conditioning < NEARLY_SINGULAR, [False]))
     edges = np.flatnonzero(np.diff(below.astype(np.int8))).reshape(-1, 2)
@@ -86,14 +86,13 @@ def findings_of(dexterity: Dexterity, robot: str) -> list[Finding]:
         least = int(begin + dexterity.conditioning[begin:end].argmin())
         value = round(float(dexterity.conditioning[least]), 4)
         found.append(
-            Finding(
-                "near_singularity", Severity.WARNING,
-                f"The arm is nearly singular: conditioning {value:g}, where 1 is even and 0 "
-                "singular.",
-                "Joint motion is possible there; a straight line of the tool is not. Bend the "
-                "elbow or the wrist where the path allows it.",
-                robot, "", float(dexterity.times[begin]), float(dexterity.times[end - 1]),
-                value, NEARLY_SINGULAR, "",
+            NEAR_SINGULARITY(
+                robot=robot,
+                time=float(dexterity.times[begin]),
+                end=float(dexterity.times[end - 1]),
+                value=value,
+                limit=NEARLY_SINGULAR,
+                unit="",
             )
-        )  # fmt: skip
+        )
     return found

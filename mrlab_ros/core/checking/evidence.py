@@ -2,11 +2,25 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, replace
+from types import MappingProxyType
+from typing import Any
 
-from mrlab_ros.core.base.diagnostic import Diagnostic, Severity
-from mrlab_ros.core.checking.findings import Finding
+from mrlab_ros.core.base.diagnostic import Diagnostic
+from mrlab_ros.core.checking.diagnostics import (
+    BEGINS_INSIDE,
+    COLLIDES_AT_START,
+    COLLISION,
+    GRASPS_NOTHING,
+    LEFT_THE_ROOM,
+    LOSES_OBJECT,
+    MISSED_HAND_OVER,
+    PAYLOAD,
+    TOO_CLOSE,
+    UNCERTAIN_GRASP,
+    WAITS_FOREVER,
+)
 from mrlab_ros.core.checking.recording import Collision, GraspChange, Rehearsed
 from mrlab_ros.core.checking.rehearsal import FARTHEST
 from mrlab_ros.core.physics.engine import Kind
@@ -17,6 +31,9 @@ from mrlab_ros.core.physics.grasp import Grasp
 CLOSE = 0.01
 # Between a robot's grasp and the other's loss in a hand-over, s.
 HAND_OVER = 0.1
+# How a conflict of two robots is resolved, by their names.
+Advice = Mapping[frozenset[str], Diagnostic]
+NO_ADVICE: Advice = MappingProxyType({})
 
 
 @dataclass(frozen=True)
@@ -52,61 +69,47 @@ def clearances(recorded: Rehearsed) -> list[Clearance]:
     return sorted(found, key=lambda c: (c.far, c.distance, c.robot, c.other))
 
 
-def thing(kind: Kind, other: str, other_link: str = "") -> str:
-    """Return the words for what a robot touches or nears."""
+def met(kind: Kind, other: str, other_link: str = "") -> dict[str, Any]:
+    """Return what a robot touches or nears, as values of a diagnostic."""
     if kind is Kind.SELF:
-        return f"its own {other_link}"
-    if kind is Kind.ROBOT:
-        return f"{other_link} of {other}" if other_link else other
-    return f"the {other}" if other == "floor" else other
+        other, other_link = other_link, ""
+    found = {"kind": kind.name.lower(), "other": other}
+    return {**found, "other_link": other_link} if other_link else found
 
 
-def of_collisions(recorded: Rehearsed) -> list[Finding]:
-    """Return a finding for each collision, with where it is and how to go round it."""
-    found = []
-    for one in recorded.collisions:
-        what = thing(one.kind, one.other, one.other_link)
-        who = f"{one.held}, held by {one.link}," if one.held else one.link
-        place = ", ".join(f"{v:.3g}" for v in one.point)
-        depth = _deepest(recorded, one)
-        found.append(
-            Finding(
-                "collision", Severity.ERROR,
-                f"{who} touches {what} at {place} m.",
-                _remedy(one.kind, one.time, one.other),
-                one.robot, one.link, one.time, one.end, depth, 0.0, "m",
-                one.kind.name.lower(), one.other,
-            )
-        )  # fmt: skip
+def of_collisions(recorded: Rehearsed, advice: Advice = NO_ADVICE) -> list[Diagnostic]:
+    """Return a finding for each collision, with where it is and how to go round it.
+
+    advice: how a conflict of two robots is resolved, by their names.
+    """
+    found = [
+        (COLLIDES_AT_START if one.time <= 0 else COLLISION)(
+            robot=one.robot,
+            link=one.link,
+            held=one.held or None,
+            **met(one.kind, one.other, one.other_link),
+            point=one.point,
+            time=one.time,
+            end=one.end,
+            value=_deepest(recorded, one),
+            limit=0.0,
+            unit="m",
+            advice=_advice(advice, one),
+        )
+        for one in recorded.collisions
+    ]
     for robot, surfaces in recorded.begins_inside.items():
         found += [
-            Finding(
-                "begins_inside", Severity.ERROR,
-                f"The arm begins inside the surface {surface}.",
-                "Correct the first frame, or where the robot stands in the scene.",
-                robot, "", 0.0,
-            )
+            BEGINS_INSIDE(robot=robot, time=0.0, **met(Kind.SURFACE, surface))
             for surface in surfaces
-        ]  # fmt: skip
-    found += [
-        Finding(
-            "waits_for_ever", Severity.ERROR,
-            f"It waits for ever: '{wait}' does not come true.",
-            "Correct the wait, or the motion that it waits for.",
-            robot,
-        )
-        for robot, wait in recorded.stuck.items()
-    ]  # fmt: skip
-    found += [
-        Finding(
-            "left_the_room", Severity.WARNING,
-            f"{name} left the room and was removed.",
-            "Look at what pushed or dropped it.",
-            "", "", time,
-        )
-        for time, name in recorded.gone
-    ]  # fmt: skip
+        ]
+    found += [WAITS_FOREVER(robot=robot, wait=wait) for robot, wait in recorded.stuck.items()]
+    found += [LEFT_THE_ROOM(time=time, **met(Kind.OBJECT, name)) for time, name in recorded.gone]
     return found
+
+
+def _advice(known: Advice, one: Collision | Clearance) -> Diagnostic | None:
+    return known.get(frozenset((one.robot, one.other))) if one.kind is Kind.ROBOT else None
 
 
 def _deepest(recorded: Rehearsed, one: Collision) -> float:
@@ -123,22 +126,13 @@ def _deepest(recorded: Rehearsed, one: Collision) -> float:
     return max([one.depth, *values])
 
 
-def _remedy(kind: Kind, time: float, other: str) -> str:
-    if time <= 0:
-        return "The first frame touches it already: begin elsewhere, or move what stands there."
-    if kind is Kind.SELF:
-        return "Bend the arm less there, or go through another configuration."
-    if kind is Kind.ROBOT:
-        return "Let one of the two wait, or give them ways that do not cross."
-    if kind is Kind.SURFACE:
-        return "Lift the way there; add a point above it."
-    return f"Lead the way round {other}, or move it; the lab would halt the arm here."
-
-
-def of_distances(recorded: Rehearsed, closest: float = CLOSE) -> list[Finding]:
+def of_distances(
+    recorded: Rehearsed, closest: float = CLOSE, advice: Advice = NO_ADVICE
+) -> list[Diagnostic]:
     """Return a finding for everything that a robot comes close to without touching it.
 
-    closest: m. What it grasps at some time, and what it touches, is left out.
+    closest: m. What it grasps at some time, and what it touches, is left out. advice: how a
+    conflict of two robots is resolved, by their names.
     """
     grasped = {(c.robot, c.object) for c in recorded.grasps if c.object}
     touched = {(c.robot, c.kind, c.other) for c in recorded.collisions}
@@ -149,80 +143,55 @@ def of_distances(recorded: Rehearsed, closest: float = CLOSE) -> list[Finding]:
             continue
         if (one.robot, one.kind, one.other) in touched or (one.held and one.distance <= 0):
             continue
-        who = one.held or one.link
         found.append(
-            Finding(
-                "close", Severity.WARNING,
-                f"{who} comes within {1e3 * max(one.distance, 0.0):.2g} mm of "
-                f"{thing(one.kind, one.other, one.other_link)}.",
-                "Keep more distance: a real cell is measured less exactly than this one.",
-                one.robot, one.link, one.time, None, one.distance, closest, "m",
-                one.kind.name.lower(), one.other,
+            TOO_CLOSE(
+                robot=one.robot,
+                link=one.link,
+                held=one.held or None,
+                **met(one.kind, one.other, one.other_link),
+                time=one.time,
+                value=max(one.distance, 0.0),
+                limit=closest,
+                unit="m",
+                advice=_advice(advice, one),
             )
-        )  # fmt: skip
+        )
     return found
 
 
-def of_grasps(recorded: Rehearsed, objects: Iterable[str]) -> list[Finding]:
+def of_grasps(recorded: Rehearsed, objects: Iterable[str]) -> list[Diagnostic]:
     """Return what is to be said of the grasps. objects: those of the scene that can be held."""
     found = []
     held: dict[str, str] = {}
     some = set(objects)
     for change in recorded.grasps:
         before = held.get(change.robot, "")
+        at: dict[str, Any] = {
+            "robot": change.robot,
+            "time": change.time,
+            "why": change.reason or None,
+        }
         if change.state is Grasp.HOLDING and before == change.object:
             if change.reason:
-                found.append(
-                    Finding(
-                        "grasp", Severity.WARNING,
-                        f"{change.object} in the gripper{_because(change.reason)}.",
-                        "Move more gently there, or grasp it nearer to its centre of mass.",
-                        change.robot, "", change.time,
-                    )
-                )  # fmt: skip
+                found.append(UNCERTAIN_GRASP(**at, **met(Kind.OBJECT, change.object)))
         elif change.state is Grasp.HOLDING:
             held[change.robot] = change.object
             found += _of_load(change)
         elif change.state is Grasp.EMPTY and before:
             held.pop(change.robot)
-            if _taken(recorded, change, before):
-                continue
-            found.append(
-                Finding(
-                    "loses_object", Severity.ERROR,
-                    f"It loses {before}{_because(change.reason)}.",
-                    "Grasp it nearer to its centre of mass, move more gently, or take a stronger "
-                    "gripper.",
-                    change.robot, "", change.time,
-                )
-            )  # fmt: skip
+            if not _taken(recorded, change, before):
+                found.append(LOSES_OBJECT(**at, **met(Kind.OBJECT, before)))
         elif change.state is Grasp.EMPTY and some:
-            why = str(change.reason or "").rstrip(".")
-            remedy = "the distances say how far it was away."
             giver = _last_let_go(recorded, change)
-            if giver is not None:
+            if giver is None:
+                found.append(GRASPS_NOTHING(**at))
+            else:
                 ago = change.time - giver.time
-                told = f"{giver.robot} let go of {giver.object} {ago:.1f} s before"
-                why = f"{why}; {told}" if why else told
-                remedy = (
-                    f"for a hand-over of {giver.object}, close it while {giver.robot} still holds "
-                    "it: in a parallel cell, with 'after:' where one is early."
-                )
-            found.append(
-                Finding(
-                    "grasps_nothing", Severity.WARNING,
-                    f"The gripper closes on nothing{f': {why}' if why else ''}.",
-                    f"Close it where an object is; {remedy}",
-                    change.robot, "", change.time,
-                )
-            )  # fmt: skip
+                thing = met(Kind.OBJECT, giver.object)
+                found.append(MISSED_HAND_OVER(**at, **thing, giver=giver.robot, ago=ago))
         elif change.state is Grasp.OPEN:
             held.pop(change.robot, None)
     return found
-
-
-def _because(reason: Diagnostic | None) -> str:
-    return f": {reason}".rstrip(".") if reason is not None else ""
 
 
 def _taken(recorded: Rehearsed, lost: GraspChange, thing: str) -> bool:
@@ -254,16 +223,17 @@ def _last_let_go(recorded: Rehearsed, missed: GraspChange) -> GraspChange | None
     return None if last is None or last.object in held.values() else last
 
 
-def _of_load(change: GraspChange) -> list[Finding]:
+def _of_load(change: GraspChange) -> list[Diagnostic]:
     load = change.load
     if load is None or not 0 < load.payload < load.mass:
         return []
     return [
-        Finding(
-            "payload", Severity.ERROR,
-            f"It carries {load.mass:.3g} kg in {change.object}; the robot may carry "
-            f"{load.payload:.3g} kg beside its end effector.",
-            "Take a lighter object, or a robot with more payload.",
-            change.robot, "", change.time, None, load.mass, load.payload, "kg",
+        PAYLOAD(
+            robot=change.robot,
+            time=change.time,
+            **met(Kind.OBJECT, change.object),
+            value=load.mass,
+            limit=load.payload,
+            unit="kg",
         )
-    ]  # fmt: skip
+    ]

@@ -2,20 +2,42 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Collection, Iterable, Sequence
 from dataclasses import dataclass
 from enum import Enum
+from typing import Any
 
-from mrlab_ros.core.checking.findings import Finding
-from mrlab_ros.core.checking.joints import JointFigures
-
-# What this list does not say; it stands beside every verdict.
-CLAIM = (
-    "This says what the model shows: nominal kinematics, convex hulls of the links, rigid bodies, "
-    "the objects that the scene names, and prescribed joints. It knows no torque, no controller's "
-    "own limits, no brakes, no cables, no people, and nothing of how the arm comes to the first "
-    "frame. Run it first at low speed with a hand on the stop button."
+from mrlab_ros.core.base.diagnostic import Code, Diagnostic, plain
+from mrlab_ros.core.checking.diagnostics import (
+    ACCELERATION_LIMIT,
+    ACCELERATIONS_IN_LIMITS,
+    BEGINS_AT_REST,
+    BEGINS_INSIDE,
+    COLLIDES_AT_START,
+    COLLISION,
+    CONTINUOUS,
+    ENDS_AT_REST,
+    JERK_LIMIT,
+    JERKS_IN_LIMITS,
+    LARGEST_OF_JOINT,
+    LARGEST_SHARE,
+    LARGEST_STEP,
+    LEAST_ROOM,
+    LIMITS_NOT_STATED,
+    MOVES_AT_END,
+    MOVES_AT_START,
+    NO_COLLISION,
+    NO_MOTION_IN_FILE,
+    NOT_REHEARSED,
+    OUTSIDE_RANGE,
+    OVER_SPEED,
+    POSITIONS_IN_RANGE,
+    REFUSED_BY_CONVERSION,
+    SPEED_AT_END,
+    SPEED_STEP,
+    SPEEDS_IN_LIMITS,
 )
+from mrlab_ros.core.checking.joints import JointFigures
 
 
 class State(Enum):
@@ -28,24 +50,38 @@ class State(Enum):
 
 @dataclass(frozen=True)
 class Condition:
-    """One condition. words: the figure against its limit, or why it is not known."""
+    """One condition. found: the figure against its limit, or why it is not known."""
 
-    name: str
+    condition: Diagnostic
     state: State
-    words: str
+    found: Diagnostic
+
+    def plain(self) -> dict[str, Any]:
+        """Return the condition as a mapping for JSON."""
+        return {
+            "condition": plain(self.condition),
+            "state": self.state.value,
+            "found": plain(self.found),
+        }
 
 
-# Codes of the conversion that say that a joint jumps.
+# Codes of findings that say that a condition does not hold.
 JUMPS = frozenset({"discontinuity", "jump_2pi"})
-CONTACTS = frozenset({"collision", "begins_inside"})
+RANGES = frozenset({"joint_limit", OUTSIDE_RANGE.code})
+SPEEDS = frozenset({"velocity_limit", OVER_SPEED.code})
+CONTACTS = frozenset({COLLISION.code, COLLIDES_AT_START.code, BEGINS_INSIDE.code})
 
 
 def conditions(
-    figures: Sequence[JointFigures], findings: Iterable[Finding], *, rehearsed: bool, scene: str
+    figures: Sequence[JointFigures],
+    findings: Iterable[Diagnostic],
+    *,
+    rehearsed: bool,
+    scene: Diagnostic,
 ) -> list[Condition]:
     """Return every condition; figures: empty where no motion was found.
 
-    rehearsed: whether the motion went through physics. scene: what it went through, in words.
+    rehearsed: whether the motion went through physics. scene: what it went through.
     """
     codes = {f.code for f in findings if f.refuses}
     if not figures:
@@ -56,77 +92,80 @@ def conditions(
     last = max(figures, key=lambda f: f.last_speed)
     step = max(figures, key=lambda f: f.speed_step / f.joint.max_velocity)
     return [
-        Condition(
-            "positions inside their ranges", _unless("joint_limit" in codes),
-            f"least room {nearest.room:.3g} rad, {nearest.joint.name} at "
-            f"{nearest.room_time:.2f} s",
+        _condition(
+            POSITIONS_IN_RANGE, codes & RANGES,
+            LEAST_ROOM(
+                value=nearest.room, unit="rad", joint=nearest.joint.name, time=nearest.room_time
+            ),
         ),
-        Condition(
-            "speeds below their limits", _unless("velocity_limit" in codes),
-            f"at most {100 * fastest.speed_share:.0f}% of the limit, {fastest.joint.name} at "
-            f"{fastest.speed_time:.2f} s",
+        _condition(
+            SPEEDS_IN_LIMITS, codes & SPEEDS,
+            LARGEST_SHARE(
+                value=fastest.speed_share, joint=fastest.joint.name, time=fastest.speed_time
+            ),
         ),
-        _stated("accelerations below their limits", figures, "acceleration", "rad/s^2", codes),
-        _stated("jerks below their limits", figures, "jerk", "rad/s^3", codes),
-        Condition(
-            "begins at rest", _unless("moves_at_start" in codes),
-            f"{first.first_speed:.2g} rad/s, {first.joint.name}",
+        _stated(
+            ACCELERATIONS_IN_LIMITS, figures, "acceleration", "rad/s^2",
+            codes & {ACCELERATION_LIMIT.code},
         ),
-        Condition(
-            "ends at rest", _unless("moves_at_end" in codes),
-            f"{last.last_speed:.2g} rad/s, {last.joint.name}",
+        _stated(JERKS_IN_LIMITS, figures, "jerk", "rad/s^3", codes & {JERK_LIMIT.code}),
+        _condition(
+            BEGINS_AT_REST, codes & {MOVES_AT_START.code},
+            SPEED_AT_END(value=first.first_speed, unit="rad/s", joint=first.joint.name, time=0.0),
         ),
-        Condition(
-            "continuous", _unless(bool(codes & (JUMPS | {"speed_step"}))),
-            f"largest change of speed between two frames {step.speed_step:.2g} rad/s, "
-            f"{step.joint.name} at {step.step_time:.2f} s",
+        _condition(
+            ENDS_AT_REST, codes & {MOVES_AT_END.code},
+            SPEED_AT_END(value=last.last_speed, unit="rad/s", joint=last.joint.name),
         ),
-        _contacts(codes, rehearsed=rehearsed, scene=scene),
+        _condition(
+            CONTINUOUS, codes & {*JUMPS, SPEED_STEP.code},
+            LARGEST_STEP(
+                value=step.speed_step, unit="rad/s", joint=step.joint.name, time=step.step_time
+            ),
+        ),
+        _condition(NO_COLLISION, codes & CONTACTS, scene)
+        if rehearsed
+        else Condition(NO_COLLISION(), State.UNKNOWN, NOT_REHEARSED()),
     ]  # fmt: skip
 
 
 def _without_motion(codes: set[str]) -> list[Condition]:
     """Return what the converter's refusal says, and that the rest is not known."""
-    why = "no motion could be taken from the file"
-    names = {
-        "positions inside their ranges": {"joint_limit"},
-        "speeds below their limits": {"velocity_limit"},
-        "accelerations below their limits": set(),
-        "jerks below their limits": set(),
-        "begins at rest": set(),
-        "ends at rest": set(),
-        "continuous": {*JUMPS},
-        "no collision": set(),
+    refusing: dict[Code, frozenset[str]] = {
+        POSITIONS_IN_RANGE: RANGES,
+        SPEEDS_IN_LIMITS: SPEEDS,
+        ACCELERATIONS_IN_LIMITS: frozenset(),
+        JERKS_IN_LIMITS: frozenset(),
+        BEGINS_AT_REST: frozenset(),
+        ENDS_AT_REST: frozenset(),
+        CONTINUOUS: JUMPS,
+        NO_COLLISION: frozenset(),
     }
     return [
-        Condition(name, State.NOT, "refused by the conversion")
-        if codes & refusing
-        else Condition(name, State.UNKNOWN, why)
-        for name, refusing in names.items()
+        Condition(condition(), State.NOT, REFUSED_BY_CONVERSION())
+        if codes & refused
+        else Condition(condition(), State.UNKNOWN, NO_MOTION_IN_FILE())
+        for condition, refused in refusing.items()
     ]
 
 
-def _unless(refused: bool) -> State:
-    return State.NOT if refused else State.OK
+def _condition(condition: Code, refused: Collection[str], found: Diagnostic) -> Condition:
+    return Condition(condition(), State.NOT if refused else State.OK, found)
 
 
 def _stated(
-    name: str, figures: Sequence[JointFigures], what: str, unit: str, codes: set[str]
+    condition: Code,
+    figures: Sequence[JointFigures],
+    what: str,
+    unit: str,
+    refused: Collection[str],
 ) -> Condition:
     values: dict[str, float] = {f.joint.name: getattr(f, what) for f in figures}
     limits = {f.joint.name: getattr(f.stated, what) for f in figures}
     most = max(values, key=values.__getitem__)
-    words = f"at most {values[most]:.3g} {unit}, {most}"
+    found: dict[str, Any] = {"value": values[most], "unit": unit, "joint": most}
     missing = [joint for joint, limit in limits.items() if limit is None]
-    if f"{what}_limit" in codes:
-        return Condition(name, State.NOT, words)
-    if missing:
-        of = "no limit of it" if len(missing) == len(limits) else f"none of {', '.join(missing)}"
-        return Condition(name, State.UNKNOWN, f"{words}; the model states {of}")
-    return Condition(name, State.OK, words)
-
-
-def _contacts(codes: set[str], *, rehearsed: bool, scene: str) -> Condition:
-    if not rehearsed:
-        return Condition("no collision", State.UNKNOWN, "the motion did not go through physics")
-    return Condition("no collision", _unless(bool(codes & CONTACTS)), f"in {scene}")
+    if not refused and missing:
+        some = missing if len(missing) < len(limits) else None
+        return Condition(condition(), State.UNKNOWN, LIMITS_NOT_STATED(**found, missing=some))
+    return _condition(condition, refused, LARGEST_OF_JOINT(**found))

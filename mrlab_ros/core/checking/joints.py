@@ -6,13 +6,23 @@ frame; nothing is smoothed.
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 
-from mrlab_ros.core.base.diagnostic import Severity
-from mrlab_ros.core.checking.findings import Finding
+from mrlab_ros.core.base.diagnostic import Diagnostic
+from mrlab_ros.core.checking.diagnostics import (
+    ACCELERATION_LIMIT,
+    JERK_LIMIT,
+    MOVES_AT_END,
+    MOVES_AT_START,
+    NEAR_JOINT_LIMIT,
+    OUTSIDE_RANGE,
+    OVER_SPEED,
+    SPEED_STEP,
+)
 from mrlab_ros.core.conversion.limits import LIMIT_TOLERANCE
 from mrlab_ros.core.geometry import Array
 from mrlab_ros.core.robots.model import Joint
@@ -139,89 +149,58 @@ def _end_speed(q: Array, rate: float) -> float:
     return float(abs(-3 * q[0] + 4 * q[1] - q[2]) * rate / 2)
 
 
-def findings_of(figures: Sequence[JointFigures], robot: str, end: float) -> list[Finding]:
+def findings_of(figures: Sequence[JointFigures], robot: str, end: float) -> list[Diagnostic]:
     """Return what the figures say against a motion that is `end` s long."""
-    found: list[Finding] = []
-    for one in figures:
-        found += _of_limits(one, robot)
-        found += _of_ends(one, robot, end)
-    return found
+    return [found for one in figures for found in _of_joint(one, robot, end)]
 
 
-def _of_limits(one: JointFigures, robot: str) -> list[Finding]:
-    joint, name = one.joint, one.joint.name
-    found = []
+def _of_joint(one: JointFigures, robot: str, end: float) -> Iterator[Diagnostic]:
+    joint = one.joint
+    at: dict[str, Any] = {"robot": robot, "joint": joint.name}
     if one.room < -LIMIT_TOLERANCE:
-        found.append(
-            Finding(
-                "joint_limit", Severity.ERROR,
-                f"{name} is {-one.room:.3g} rad beyond its range of {joint.lower:.4g} to "
-                f"{joint.upper:.4g} rad.",
-                "Keep the joint in its range, or convert the file again for this robot.",
-                robot, name, one.room_time, None, one.room, 0.0, "rad",
-            )
-        )  # fmt: skip
+        yield OUTSIDE_RANGE(
+            **at,
+            time=one.room_time,
+            value=-one.room,
+            limit=0.0,
+            unit="rad",
+            lower=joint.lower,
+            upper=joint.upper,
+        )
     elif one.room < NARROW:
-        found.append(
-            Finding(
-                "near_joint_limit", Severity.WARNING,
-                f"{name} comes within {max(one.room, 0.0):.3g} rad of the end of its range.",
-                "Choose another configuration of the arm, or turn the task about the base.",
-                robot, name, one.room_time, None, one.room, NARROW, "rad",
-            )
-        )  # fmt: skip
-    if one.speed > joint.max_velocity * ROUNDING:
-        found.append(
-            Finding(
-                "velocity_limit", Severity.ERROR,
-                f"{name} moves at {one.speed:.3g} rad/s; it reaches {joint.max_velocity:.3g}.",
-                f"Give the motion at least {one.speed_share:.2f} times its duration.",
-                robot, name, one.speed_time, None, one.speed, joint.max_velocity, "rad/s",
-            )
-        )  # fmt: skip
-    for code, what, value, limit, time, unit in (
-        ("acceleration_limit", "accelerates by", one.acceleration, one.stated.acceleration,
-         one.acceleration_time, "rad/s^2"),
-        ("jerk_limit", "has a jerk of", one.jerk, one.stated.jerk, one.jerk_time, "rad/s^3"),
+        room = max(one.room, 0.0)
+        yield NEAR_JOINT_LIMIT(
+            **at, time=one.room_time, value=room, limit=float(NARROW), unit="rad"
+        )
+    most = joint.max_velocity
+    if one.speed > most * ROUNDING:
+        yield OVER_SPEED(
+            **at,
+            time=one.speed_time,
+            value=one.speed,
+            limit=most,
+            unit="rad/s",
+            times=one.speed_share,
+        )
+    for code, value, limit, time, unit in (
+        (ACCELERATION_LIMIT, one.acceleration, one.stated.acceleration, one.acceleration_time,
+         "rad/s^2"),
+        (JERK_LIMIT, one.jerk, one.stated.jerk, one.jerk_time, "rad/s^3"),
     ):  # fmt: skip
         if limit is not None and value > limit * ROUNDING:
-            found.append(
-                Finding(
-                    code, Severity.ERROR,
-                    f"{name} {what} {value:.3g} {unit}; its vendor states {limit:.3g}.",
-                    "Plan with a smooth time law, such as a quintic, or give it more time.",
-                    robot, name, time, None, value, limit, unit,
-                )
-            )  # fmt: skip
-    return found
-
-
-def _of_ends(one: JointFigures, robot: str, end: float) -> list[Finding]:
-    name, most = one.joint.name, REST_SHARE * one.joint.max_velocity
-    found = [
-        Finding(
-            code, Severity.ERROR,
-            f"{name} {verb} at {speed:.3g} rad/s, not at rest.",
-            remedy,
-            robot, name, time, None, speed, most, "rad/s",
-        )
-        for code, verb, speed, time, remedy in (
-            ("moves_at_start", "begins", one.first_speed, 0.0,
-             "Begin with speed 0, for example with a quintic time law."),
-            ("moves_at_end", "ends", one.last_speed, end,
-             "Bring the motion to rest, for example with a quintic time law."),
-        )
-        if speed > most
-    ]  # fmt: skip
+            yield code(**at, time=time, value=value, limit=limit, unit=unit)
+    for code, speed, time in (
+        (MOVES_AT_START, one.first_speed, 0.0),
+        (MOVES_AT_END, one.last_speed, end),
+    ):
+        if speed > REST_SHARE * most:
+            yield code(**at, time=time, value=speed, limit=REST_SHARE * most, unit="rad/s")
     if one.jolts:
-        found.append(
-            Finding(
-                "speed_step", Severity.ERROR,
-                f"{name} changes its speed by {one.speed_step:.3g} rad/s from one frame to the "
-                f"next; its other steps stay below {one.usual_step:.3g}.",
-                "Blend the two parts of the motion, or stop between them.",
-                robot, name, one.step_time, None, one.speed_step,
-                STEP_SHARE * one.joint.max_velocity, "rad/s",
-            )
-        )  # fmt: skip
-    return found
+        yield SPEED_STEP(
+            **at,
+            time=one.step_time,
+            value=one.speed_step,
+            limit=STEP_SHARE * most,
+            unit="rad/s",
+            usual=one.usual_step,
+        )

@@ -6,6 +6,18 @@ import math
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 
+from mrlab_ros.core.base.diagnostic import Diagnostic
+from mrlab_ros.core.checking.diagnostics import (
+    APPEARED,
+    DISAPPEARED,
+    HELD_BY_ANOTHER,
+    IN_LAB,
+    MOVED,
+    OTHER_MODEL,
+    STANDS_ELSEWHERE,
+    SURFACES_CHANGED,
+    WAS_LET_GO,
+)
 from mrlab_ros.core.geometry import Pose
 from mrlab_ros.core.scene.document import SceneDocument
 
@@ -26,14 +38,13 @@ class LabScene:
     in_tool: Mapping[str, Pose] = field(default_factory=dict)
 
     @property
-    def words(self) -> str:
-        """Return what a motion goes through, for a person."""
-        objects, robots = len(self.document.objects), len(self.document.robots)
-        return f"the lab as it stood, {_count(objects, 'object')} and {_count(robots, 'robot')}"
+    def shown(self) -> Diagnostic:
+        """Return what a motion goes through."""
+        return IN_LAB(objects=len(self.document.objects), robots=len(self.document.robots))
 
 
-def changed(before: LabScene, now: LabScene, robot: str) -> str:
-    """Return what differs for a motion of `robot`, as a clause for a person; empty: nothing.
+def changed(before: LabScene, now: LabScene, robot: str) -> Diagnostic | None:
+    """Return what differs for a motion of `robot`; None: nothing.
 
     Where the robot itself stands does not count: the motion begins at its first frame.
     """
@@ -42,29 +53,29 @@ def changed(before: LabScene, now: LabScene, robot: str) -> str:
     objects = {o.name: o for o in was.objects}, {o.name: o for o in now_there.objects}
     for old, new in (robots, objects):
         for name in sorted(old.keys() ^ new.keys()):
-            return f"{name} has come" if name in new else f"{name} is gone"
+            return (APPEARED if name in new else DISAPPEARED)(name=name)
     for name, one in robots[0].items():
         other = robots[1][name]
         if (one.model, one.end_effector) != (other.model, other.end_effector):
-            return f"{name} is another robot, or has another end effector"
+            return OTHER_MODEL(name=name)
         if not same_place(one.pose, other.pose):
-            return f"{name} has been moved"
+            return MOVED(name=name)
         if name != robot and _moved(before.stands.get(name), now.stands.get(name)):
-            return f"{name} stands elsewhere"
+            return STANDS_ELSEWHERE(name=name)
     for name, thing in objects[0].items():
         found = objects[1][name]
         if (thing.type, thing.held_by) != (found.type, found.held_by):
-            return f"{name} is held by another" if found.held_by else f"{name} was let go"
+            return (HELD_BY_ANOTHER if found.held_by else WAS_LET_GO)(name=name)
         # what is held moves with its robot
         if not thing.held_by and not same_place(thing.pose, found.pose):
-            return f"{name} has moved"
+            return MOVED(name=name)
     surfaces = [[(s.name, s.label, len(s.vertices)) for s in d.surfaces] for d in (was, now_there)]
     if surfaces[0] != surfaces[1] or any(
         not same_place(a.pose, b.pose)
         for a, b in zip(was.surfaces, now_there.surfaces, strict=True)
     ):
-        return "the surfaces of the room have changed"
-    return ""
+        return SURFACES_CHANGED()
+    return None
 
 
 def same_place(a: Pose, b: Pose) -> bool:
@@ -81,7 +92,3 @@ def _moved(before: tuple[float, ...] | None, now: tuple[float, ...] | None) -> b
     return len(before) != len(now) or any(
         abs(a - b) > SAME_ANGLE for a, b in zip(before, now, strict=True)
     )
-
-
-def _count(number: int, noun: str) -> str:
-    return f"{number} {noun}{'' if number == 1 else 's'}"

@@ -3,19 +3,19 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import asdict, dataclass
+from dataclasses import asdict, dataclass, replace
 from typing import Any
 
 import numpy as np
 
+from mrlab_ros.core.base.diagnostic import Diagnostic, Severity
 from mrlab_ros.core.checking import dexterity, evidence, joints, waypoints
 from mrlab_ros.core.checking.dexterity import Dexterity
-from mrlab_ros.core.checking.evidence import CLOSE
-from mrlab_ros.core.checking.findings import Finding, from_diagnostic, in_order
-from mrlab_ros.core.checking.hardware import conditions
+from mrlab_ros.core.checking.evidence import CLOSE, NO_ADVICE, Advice
+from mrlab_ros.core.checking.hardware import RANGES, SPEEDS, conditions
 from mrlab_ros.core.checking.joints import JointFigures, StatedLimits
 from mrlab_ros.core.checking.recording import Rehearsed
-from mrlab_ros.core.checking.report import CheckReport, RobotReport
+from mrlab_ros.core.checking.report import CheckReport, RobotReport, in_order
 from mrlab_ros.core.checking.smoothness import spectral_arc_length
 from mrlab_ros.core.conversion.convert import ConversionResult
 from mrlab_ros.core.geometry import Array, Pose, Vector, rotate
@@ -95,7 +95,7 @@ def in_world(points: Array, pose: Pose) -> Array:
     return moved
 
 
-def motion_findings(figures: MotionFigures, robot: str) -> list[Finding]:
+def motion_findings(figures: MotionFigures, robot: str) -> list[Diagnostic]:
     """Return what the figures of a motion say."""
     return [
         *joints.findings_of(figures.joints, robot, float(figures.times[-1])),
@@ -104,22 +104,45 @@ def motion_findings(figures: MotionFigures, robot: str) -> list[Finding]:
 
 
 def physics_findings(
-    recorded: Rehearsed, graspable: Sequence[str], closest: float = CLOSE
-) -> list[Finding]:
-    """Return what a rehearsal says. graspable: the objects that can be held."""
+    recorded: Rehearsed,
+    graspable: Sequence[str],
+    closest: float = CLOSE,
+    advice: Advice = NO_ADVICE,
+) -> list[Diagnostic]:
+    """Return what a rehearsal says. graspable: the objects that can be held. advice: how a
+    conflict of two robots is resolved."""
     return [
-        *evidence.of_collisions(recorded),
-        *evidence.of_distances(recorded, closest),
+        *evidence.of_collisions(recorded, advice),
+        *evidence.of_distances(recorded, closest, advice),
         *evidence.of_grasps(recorded, graspable),
     ]
 
 
-def converted_findings(result: ConversionResult, robot: str) -> list[Finding]:
+def converted_findings(result: ConversionResult, robot: str) -> list[Diagnostic]:
     """Return what the conversion found, without its notes."""
     t = result.trajectory
     found = t.warnings if t is not None and not result.diagnostics else result.diagnostics
     rate = t.frame_rate if t is not None else None
-    return [from_diagnostic(d, robot, rate) for d in found if d.severity > 0]
+    return [_of_motion(d, robot, rate) for d in found if d.severity > 0]
+
+
+def _of_motion(found: Diagnostic, robot: str, frame_rate: float | None) -> Diagnostic:
+    """Return what the conversion found as a finding of the check.
+
+    frame_rate: Hz of the motion, None where it is not known. A joint that moves faster than it can
+    is a warning to the converter, since the lab can play it; no controller can.
+    """
+    values: dict[str, Any] = {"robot": robot}
+    if found.first_row and frame_rate:
+        values["time"] = (found.first_row - 1) / frame_rate
+        values["end"] = (max(found.last_row, found.first_row) - 1) / frame_rate
+    severity = Severity.ERROR if found.code in SPEEDS else found.severity
+    return replace(found.with_values(**values), severity=severity)
+
+
+def _said(found: Diagnostic) -> str | frozenset[str]:
+    """Return what a finding says: the converter and the check have codes of their own for it."""
+    return next((codes for codes in (RANGES, SPEEDS) if found.code in codes), found.code)
 
 
 def joint_rows(figures: Sequence[JointFigures]) -> list[dict[str, Any]]:
@@ -143,7 +166,7 @@ def report_of(
     recorded: Rehearsed | None,
     *,
     inputs: Mapping[str, Any],
-    scene: str,
+    scene: Diagnostic,
     graspable: Sequence[str] = (),
     points: Sequence[Vector] = (),
     within: float = 0.005,
@@ -152,15 +175,15 @@ def report_of(
     """Return the report on a converted file.
 
     figures, recorded: None where the file was refused, or nothing was rehearsed. scene: what the
-    motion went through, in words. points: m in world, that tool0 shall pass within `within` m.
+    motion went through. points: m in world, that tool0 shall pass within `within` m.
     """
     name, t = robot.name, result.trajectory
     found = converted_findings(result, name)
     passed: list[waypoints.Passed] = []
     if figures is not None:
-        # The converter's words on a joint that is too fast or too far name a remedy in the file.
-        known = {(f.code, f.link) for f in found}
-        found += [f for f in motion_findings(figures, name) if (f.code, f.link) not in known]
+        # The converter's finding of a joint that is too fast or too far has a remedy in the file.
+        known = {(_said(f), f.joint) for f in found}
+        found += [f for f in motion_findings(figures, name) if (_said(f), f.joint) not in known]
         if points:
             passed = waypoints.passed(figures.tool, figures.times, points, within)
             found += waypoints.findings_of(passed, within, name)

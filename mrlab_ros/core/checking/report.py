@@ -5,13 +5,14 @@ from __future__ import annotations
 import hashlib
 import json
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any
 
+from mrlab_ros.core.base.diagnostic import Diagnostic, plain
+from mrlab_ros.core.checking.diagnostics import CHECK_NOT_READY, CHECK_READY, CLAIM
 from mrlab_ros.core.checking.evidence import Clearance
-from mrlab_ros.core.checking.findings import Finding, plain
-from mrlab_ros.core.checking.hardware import CLAIM, Condition, State
+from mrlab_ros.core.checking.hardware import Condition, State
 from mrlab_ros.core.checking.recording import GraspChange
 from mrlab_ros.core.checking.waypoints import Passed
 
@@ -45,7 +46,7 @@ class CheckReport:
     title: str
     inputs: Mapping[str, Any]
     robots: Sequence[RobotReport]
-    findings: tuple[Finding, ...]
+    findings: tuple[Diagnostic, ...]
     duration: float | None = None
     clearances: Sequence[Clearance] = ()
     grasps: Sequence[GraspChange] = ()
@@ -57,39 +58,30 @@ class CheckReport:
         return NOT_READY if self.refusing else READY
 
     @property
-    def refusing(self) -> tuple[Finding, ...]:
+    def refusing(self) -> tuple[Diagnostic, ...]:
         return tuple(f for f in self.findings if f.refuses)
 
     @property
-    def words(self) -> str:
-        """Return the verdict in one sentence."""
-        warned = len(self.findings) - len(self.refusing)
+    def summary(self) -> Diagnostic:
+        """Return the verdict and its grounds in short."""
         if self.refusing:
             first = self.refusing[0]
-            more = len(self.refusing) - 1
-            rest = f", and {counted(more, 'more finding')} that {_refuse(more)}" if more else ""
-            return f"not ready: {at(first)}{first.message.rstrip('.')}{rest}"
-        unknown = sorted({c.name for r in self.robots for c in r.hardware if c.state is _U})
-        words = "ready: nothing refuses it"
-        if warned:
-            words += f"; {counted(warned, 'warning')}"
-        if unknown:
-            words += f"; not known: {', '.join(unknown)}"
-        return words
+            return CHECK_NOT_READY(count=len(self.refusing), time=first.time, first=first)
+        unknown = {c.condition for r in self.robots for c in r.hardware if c.state is _U}
+        return CHECK_READY(warnings=len(self.findings) or None, unknown=len(unknown) or None)
 
     def document(self) -> dict[str, Any]:
         """Return the report as JSON has it; `hash` is of all else in it."""
-        document = _rounded(
+        document = rounded(
             {
                 "schema": SCHEMA,
                 "title": self.title,
                 "verdict": self.verdict,
-                "summary": self.words,
+                "summary": plain(self.summary),
                 "inputs": dict(self.inputs),
                 "duration": self.duration,
                 "robots": [
-                    {**vars(r), "hardware": [_condition(c) for c in r.hardware]}
-                    for r in self.robots
+                    {**vars(r), "hardware": [c.plain() for c in r.hardware]} for r in self.robots
                 ],
                 "findings": [plain(f) for f in self.findings],
                 "clearances": [
@@ -101,14 +93,14 @@ class CheckReport:
                         "robot": g.robot,
                         "state": g.state.name.lower(),
                         "object": g.object,
-                        "reason": str(g.reason or ""),
+                        "reason": plain(g.reason) if g.reason else None,
                         "mass": g.load.mass if g.load else None,
                     }
                     for g in self.grasps
                 ],
                 "points": [vars(p) for p in self.points],
                 **self.extras,
-                "claim": CLAIM,
+                "claim": plain(CLAIM()),
             }
         )
         return {**document, "hash": digest(document)}
@@ -123,34 +115,23 @@ def digest(document: Any) -> str:
     return hashlib.sha256(text.encode()).hexdigest()
 
 
-def counted(number: int, noun: str) -> str:
-    """Return '1 finding' or '3 findings'."""
-    return f"{number} {noun}{'' if number == 1 else 's'}"
+def in_order(findings: Iterable[Diagnostic]) -> tuple[Diagnostic, ...]:
+    """Return the findings that refuse first, each kind by time; the same one once."""
+    kept = {(f.code, f.robot, f.link, f.joint, f.time, f.message): f for f in findings}
+    return tuple(
+        sorted(
+            kept.values(),
+            key=lambda f: (-f.severity, f.time if f.time is not None else -1.0, f.robot, f.code),
+        )
+    )
 
 
-def at(finding: Finding) -> str:
-    """Return when a finding is, as words before it; empty: it has no instant."""
-    return "" if finding.time is None else f"at {finding.time:.2f} s "
-
-
-def _refuse(number: int) -> str:
-    return "refuses" if number == 1 else "refuse"
-
-
-def _condition(condition: Condition) -> dict[str, str]:
-    return {
-        "condition": condition.name,
-        "state": condition.state.value,
-        "words": condition.words,
-    }
-
-
-def _rounded(value: Any) -> Any:
+def rounded(value: Any) -> Any:
     """Return plain mappings, lists and numbers: none that JSON cannot hold."""
     if isinstance(value, Mapping):
-        return {str(key): _rounded(each) for key, each in value.items()}
+        return {str(key): rounded(each) for key, each in value.items()}
     if isinstance(value, (list, tuple)):
-        return [_rounded(each) for each in value]
+        return [rounded(each) for each in value]
     if isinstance(value, bool) or value is None or isinstance(value, (int, str)):
         return value
     number = float(value)

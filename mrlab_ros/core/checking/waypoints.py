@@ -4,16 +4,24 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 
-from mrlab_ros.core.base.diagnostic import Severity
-from mrlab_ros.core.checking.findings import Finding
+from mrlab_ros.core.base.diagnostic import Diagnostic
+from mrlab_ros.core.checking.diagnostics import (
+    MISSES_POINT,
+    POINT_COUNT,
+    POINT_NOT_NUMBERS,
+    POINT_OUT_OF_ORDER,
+    POINT_TOO_FAR,
+)
 from mrlab_ros.core.errors import BadInput
 from mrlab_ros.core.geometry import Array, Vector
 
 HEADINGS = ("x", "y", "z")
 MOST_POINTS = 1000
+FARTHEST = 100.0  # m from the origin of the world, along each axis
 
 
 @dataclass(frozen=True)
@@ -67,28 +75,25 @@ def segments(tool: Array, times: Array, point: Array) -> tuple[Array, Array]:
     return distances, times[:-1] + share * np.diff(times)
 
 
-def findings_of(points: Sequence[Passed], tolerance: float, robot: str) -> list[Finding]:
+def findings_of(points: Sequence[Passed], tolerance: float, robot: str) -> list[Diagnostic]:
     """Return a finding for each point that the tool does not pass in order."""
     found = []
     for one in points:
         if one.within(tolerance):
             continue
-        place = ", ".join(f"{v:.4g}" for v in one.point)
-        if one.in_order:
-            words = f"The tool passes point {one.number} ({place}) at {1e3 * one.distance:.3g} mm."
-            remedy = "Correct the path, or say how near is near enough: --within 20mm."
-        else:
-            words = (
-                f"The tool passes point {one.number} ({place}) before point {one.number - 1}, not "
-                "behind it."
-            )
-            remedy = "Order the points as the tool shall pass them, or change the path."
+        at: dict[str, Any] = {
+            "robot": robot,
+            "link": "tool0",
+            "time": one.time,
+            "number": one.number,
+            "point": one.point,
+            "value": one.distance,
+            "limit": tolerance,
+            "unit": "m",
+        }
         found.append(
-            Finding(
-                "misses_point", Severity.ERROR, words, remedy, robot, "tool0", one.time, None,
-                one.distance, tolerance, "m",
-            )
-        )  # fmt: skip
+            MISSES_POINT(**at) if one.in_order else POINT_OUT_OF_ORDER(**at, before=one.number - 1)
+        )
     return found
 
 
@@ -107,19 +112,10 @@ def points_from_rows(rows: Sequence[Sequence[str]], origin: str) -> tuple[Vector
         try:
             x, y, z = map(float, cells)
         except ValueError:
-            raise BadInput(
-                f"{origin}, line {line} is '{', '.join(cells)}'; expected three numbers: x, y, z "
-                "in m, in the frame world"
-            ) from None
-        if not np.isfinite([x, y, z]).all() or max(abs(x), abs(y), abs(z)) > 100:
-            raise BadInput(
-                f"{origin}, line {line} is {x:g}, {y:g}, {z:g}; expected metres within 100 m of "
-                "the world's origin"
-            )
+            raise BadInput(POINT_NOT_NUMBERS(file=origin, line=line, found=cells)) from None
+        if not np.isfinite([x, y, z]).all() or max(abs(x), abs(y), abs(z)) > FARTHEST:
+            raise BadInput(POINT_TOO_FAR(file=origin, line=line, point=(x, y, z), most=FARTHEST))
         points.append((x, y, z))
     if not points or len(points) > MOST_POINTS:
-        raise BadInput(
-            f"{origin} holds {len(points)} points; expected 1 to {MOST_POINTS}, one a line: x, y, "
-            "z in m"
-        )
+        raise BadInput(POINT_COUNT(file=origin, count=len(points), most=MOST_POINTS))
     return tuple(points)

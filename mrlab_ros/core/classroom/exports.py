@@ -10,6 +10,16 @@ from dataclasses import dataclass, field, replace
 from pathlib import PurePosixPath
 from typing import Any
 
+from mrlab_ros.core.base.diagnostic import Diagnostic
+from mrlab_ros.core.classroom.diagnostics import (
+    NEWEST_TAKEN,
+    NO_MOTION_FILE,
+    NONE_NAMED_SO,
+    NOT_NAMED_AS_BY,
+    SENDER_NOT_NAMED,
+    TEXT_NOT_READ,
+)
+
 MOODLE = re.compile(
     r"(?P<name>.+)_(?P<id>\d+)_assignsubmission_(?P<kind>file|onlinetext|comments)(_(?P<file>.*))?"
 )
@@ -59,7 +69,7 @@ class Submission:
     late: bool = False
     candidates: tuple[Entry, ...] = ()
     others: tuple[str, ...] = ()
-    notes: tuple[str, ...] = ()
+    notes: tuple[Diagnostic, ...] = ()
 
 
 @dataclass(frozen=True)
@@ -68,7 +78,7 @@ class Roster:
 
     form: str
     submissions: tuple[Submission, ...]
-    left_out: tuple[tuple[str, str], ...] = ()
+    left_out: tuple[tuple[str, Diagnostic], ...] = ()
 
 
 @dataclass
@@ -78,7 +88,7 @@ class _Found:
     folder: str
     late: bool = False
     files: list[tuple[Entry, str]] = field(default_factory=list)
-    notes: list[str] = field(default_factory=list)
+    notes: list[Diagnostic] = field(default_factory=list)
     text: bool = False
     email: str = ""
 
@@ -111,9 +121,7 @@ def recognise(
         parts = PurePosixPath(entry.path).parts[top:]
         found = _plain(parts, suffixes) if form == "folder" else _named(parts, form)
         if found is None:
-            why = (
-                "no file that may hold a motion" if form == "folder" else f"not named as by {form}"
-            )
+            why = NO_MOTION_FILE() if form == "folder" else NOT_NAMED_AS_BY(form=form)
             left_out.append((entry.path, why))
             continue
         one, rest = found
@@ -133,7 +141,7 @@ def recognise(
 def renamed(submission: Submission, name: str, key: str) -> Submission:
     """Return a submission that says nothing of who handed it in."""
     count = len(submission.candidates)
-    notes = (f"{count} files, the first that holds a motion is taken",) if count > 1 else ()
+    notes = (NEWEST_TAKEN(count=count),) if count > 1 else ()
     return replace(
         submission, key=key, name=name, identifier="", folder=key, email="", others=(), notes=notes
     )
@@ -207,7 +215,7 @@ def _names_of_gradescope(
         submitters = about.get(":submitters") if isinstance(about, Mapping) else None
         people = [p for p in submitters or () if isinstance(p, Mapping)]
         if not people:
-            found.notes.append(f"{METADATA} does not name who sent {found.folder}")
+            found.notes.append(SENDER_NOT_NAMED(file=METADATA, folder=found.folder))
             continue
         found.name = ", ".join(str(p.get(":name") or "?") for p in people)
         found.identifier = ", ".join(str(p[":sid"]) for p in people if p.get(":sid"))
@@ -229,10 +237,10 @@ def _submission(
         (can if _ending(name, suffixes) else cannot).append((entry, name))
     notes = list(found.notes)
     if found.text:
-        notes.append("an online text too, which is not read")
+        notes.append(TEXT_NOT_READ())
     matching = [each for each in can if pattern and PurePosixPath(each[1]).match(pattern)]
     if pattern and can and not matching:
-        notes.append(f"no file is named {pattern}")
+        notes.append(NONE_NAMED_SO(pattern=pattern))
     chosen = matching or can
     tries = [_attempt(name, suffixes) for _, name in chosen]
     counted = len({stem for stem, _ in tries}) == 1  # attempts at one file, numbered
@@ -243,9 +251,9 @@ def _submission(
     )
     chosen = [each for each, _ in newest]
     if len(can) > 1:
-        names = ", ".join(name for _, name in chosen)
-        rule = f"those named {pattern}, " if matching and len(matching) < len(can) else ""
-        notes.append(f"{len(can)} files, {rule}the newest that holds a motion is taken: {names}")
+        names = [name for _, name in chosen]
+        rule = pattern if matching and len(matching) < len(can) else None
+        notes.append(NEWEST_TAKEN(count=len(can), pattern=rule, files=names))
     return Submission(
         key, found.name, form, found.identifier, found.folder, found.email, found.late,
         tuple(entry for entry, _ in chosen), tuple(name for _, name in cannot), tuple(notes),

@@ -5,9 +5,15 @@ from __future__ import annotations
 import csv
 import io
 import re
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from typing import Any
 
+from mrlab_ros.core.base.diagnostic import Diagnostic, from_plain
+from mrlab_ros.core.classroom.diagnostics import (
+    MAXIMUM_DIFFERS,
+    NO_WORKSHEET,
+    NOT_IN_WORKSHEET,
+)
 from mrlab_ros.core.classroom.graded import Student
 from mrlab_ros.core.classroom.result import Result
 from mrlab_ros.core.errors import BadInput
@@ -30,8 +36,8 @@ def cell(value: Any) -> Any:
 
 def table(rubric: Rubric, students: Sequence[Student]) -> str:
     """Return the marks of a class as CSV, a row a student."""
-    text = io.StringIO()
-    writer = csv.writer(text, lineterminator="\r\n")
+    written = io.StringIO()
+    writer = csv.writer(written, lineterminator="\r\n")
     head = ("key", "name", "identifier", "email", "late", "points", "of", "outcome", "verdict")
     writer.writerow([*head, *(cell(t.name) for t in rubric.tests), "file", "words", "notes"])
     for student in students:
@@ -45,10 +51,15 @@ def table(rubric: Rubric, students: Sequence[Student]) -> str:
                 result.outcome,
                 result.verdict,
                 *(number(m["points"]) for m in result.marks["tests"]),
-                *map(cell, (result.file, result.words, "; ".join((*one.notes, *result.notes)))),
+                *map(cell, (result.file, text(result.found), " ".join(map(str, one.notes)))),
             ]
         )
-    return BOM + text.getvalue()
+    return BOM + written.getvalue()
+
+
+def text(found: Mapping[str, Any]) -> str:
+    """Return the text of a diagnostic as JSON has it."""
+    return str(from_plain(found))
 
 
 def number(value: float) -> str:
@@ -56,7 +67,7 @@ def number(value: float) -> str:
     return f"{value:.6g}"
 
 
-def filled(template: str, students: Sequence[Student], name: str) -> tuple[str, list[str]]:
+def filled(template: str, students: Sequence[Student], name: str) -> tuple[str, list[Diagnostic]]:
     """Return Moodle's grading worksheet with the grades in it, and what did not fit.
 
     The number of the column Identifier is the one in the folder names of the export. Cells that
@@ -69,10 +80,7 @@ def filled(template: str, students: Sequence[Student], name: str) -> tuple[str, 
     heads = [head.strip().lower() for head in rows[0]] if rows else []
     identifier, grade = _column(heads, IDENTIFIERS), _column(heads, GRADES)
     if identifier is None or grade is None:
-        raise BadInput(
-            f"{name} has the columns {', '.join(heads) or 'none'}; expected Identifier and Grade, "
-            "as Moodle's grading worksheet has them"
-        )
+        raise BadInput(NO_WORKSHEET(file=name, count=len(heads), columns=heads))
     most, comments = _column(heads, MOST), _column(heads, COMMENTS)
     by_number = {s.submission.identifier: s for s in students if s.submission.identifier}
     met, maxima = set(), set()
@@ -86,28 +94,24 @@ def filled(template: str, students: Sequence[Student], name: str) -> tuple[str, 
         points = number(student.result.points)
         row[grade] = points.replace(".", ",") if delimiter == ";" else points
         if most is not None and _differs(row[most], student.result.of):
-            maxima.add((row[most], number(student.result.of)))
+            maxima.add((row[most], student.result.of))
         if comments is not None:
             row[comments] = str(cell(comment(student.result)))
-    problems = [
-        f"Moodle's maximum is {said}, the rubric has {of} points; the points are written as they "
-        "are"
-        for said, of in sorted(maxima)
-    ]
+    problems = [MAXIMUM_DIFFERS(found=said, points=of) for said, of in sorted(maxima)]
     problems += [
-        f"{s.submission.name}: not in the worksheet"
+        NOT_IN_WORKSHEET(student=s.submission.name)
         for s in students
         if s.key not in met and s.submission.form == "Moodle"
     ]
-    text = io.StringIO()
-    csv.writer(text, delimiter=delimiter, lineterminator="\r\n").writerows(rows)
-    return (BOM if template.startswith(BOM) else "") + text.getvalue(), problems
+    written = io.StringIO()
+    csv.writer(written, delimiter=delimiter, lineterminator="\r\n").writerows(rows)
+    return (BOM if template.startswith(BOM) else "") + written.getvalue(), problems
 
 
 def comment(result: Result) -> str:
     """Return what a student reads beside the grade: each public test, and hints."""
     lines = [
-        f"{m['name']}: {number(m['points'])} of {number(m['of'])}. {m['words']}"
+        f"{m['name']}: {number(m['points'])} of {number(m['of'])}. {text(m['found'])}"
         + (f" {m['hint']}" if m["hint"] and not m["passed"] else "")
         for m in result.public["tests"]
     ]
@@ -133,7 +137,7 @@ def gradescope(result: Result) -> dict[str, Any]:
     ]
     return {
         "score": result.points,
-        "output": "\n".join([result.words, *result.public["hints"]]),
+        "output": "\n".join([text(result.found), *result.public["hints"]]),
         "output_format": "text",
         "visibility": "visible",
         "tests": tests,
@@ -142,7 +146,7 @@ def gradescope(result: Result) -> dict[str, Any]:
 
 
 def _output(mark: Any) -> str:
-    words: str = mark["words"]
+    words = text(mark["found"])
     if mark["time"] is not None:
         words = f"at {mark['time']:.2f} s: {words}"
     return f"{words}\n{mark['hint']}" if mark["hint"] and not mark["passed"] else words

@@ -9,6 +9,7 @@ from dataclasses import dataclass
 from statistics import fmean, median
 from typing import Any
 
+from mrlab_ros.core.base.diagnostic import Diagnostic, plain
 from mrlab_ros.core.classroom.exports import Submission
 from mrlab_ros.core.classroom.result import Result
 from mrlab_ros.core.classroom.similarity import Similar, similar
@@ -43,12 +44,12 @@ class LostTest:
 
 @dataclass(frozen=True)
 class CommonFinding:
-    """A finding that several motions have. message: as one of them has it."""
+    """A finding that several motions have. example: as one of them has it."""
 
     code: str
     severity: str
     students: int
-    message: str
+    example: Mapping[str, Any]
 
 
 @dataclass(frozen=True)
@@ -71,7 +72,7 @@ class GradedClass:
     rubric: Rubric
     form: str
     students: tuple[Student, ...]
-    left_out: tuple[tuple[str, str], ...] = ()
+    left_out: tuple[tuple[str, Diagnostic], ...] = ()
     reference: Result | None = None
 
     def statistics(self) -> Statistics:
@@ -129,7 +130,7 @@ class GradedClass:
                     "name": s.submission.name,
                     "identifier": s.submission.identifier,
                     "late": s.submission.late,
-                    "notes": [*s.submission.notes, *s.result.notes],
+                    "notes": [plain(note) for note in s.submission.notes],
                     **self._plain(s.key, s.result),
                 }
                 for s in self.students
@@ -151,7 +152,7 @@ class GradedClass:
                     for g in common.groups
                 ],
             },
-            "left_out": [list(each) for each in self.left_out],
+            "left_out": [{"path": path, "why": plain(why)} for path, why in self.left_out],
         }
 
     def _tests(self, results: Sequence[Result]) -> list[LostTest]:
@@ -167,7 +168,7 @@ class GradedClass:
     def _plain(key: str, result: Result) -> dict[str, Any]:
         return {
             "outcome": result.outcome,
-            "words": result.words,
+            "found": result.found,
             "points": result.points,
             "of": result.of,
             "file": result.file,
@@ -196,8 +197,7 @@ def _common(results: Sequence[Result]) -> list[CommonFinding]:
             first.setdefault(code, found)
     ordered = sorted(counts, key=lambda code: (-counts[code], code))[:MOST_MISTAKES]
     return [
-        CommonFinding(code, first[code]["severity"], counts[code], first[code]["message"])
-        for code in ordered
+        CommonFinding(code, first[code]["severity"], counts[code], first[code]) for code in ordered
     ]
 
 

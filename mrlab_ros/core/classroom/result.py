@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from typing import Any
 
+from mrlab_ros.core.base.diagnostic import Diagnostic, plain
 from mrlab_ros.core.rubrics.marking import Mark, Marks
 from mrlab_ros.core.rubrics.rubric import Rubric
 
@@ -18,14 +19,15 @@ MOST_FINDINGS = 50
 class Result:
     """The result of a submission, as plain values that JSON holds.
 
-    outcome: MARKED, NO_FILE, or FAILED: the check itself did not come to its end. words: in one
-    sentence. file: the one that was taken, named as it was handed in. marks, public: as
-    `Marks.plain`; public is what the student may read. findings: as `findings.plain`. report: the
-    hash of the check. signature: (K, J) deg, see `similarity`. path: (N, 3) m of tool0.
+    outcome: MARKED, NO_FILE, or FAILED: the check itself did not come to its end. found: why,
+    or the verdict, as `plain` writes a diagnostic. file: the one that was taken, named as it was
+    handed in. marks, public: as `Marks.plain`; public is what the student may read. findings:
+    as `found`. report: the hash of the check. signature: (K, J) deg, see `similarity`. path:
+    (N, 3) m of tool0.
     """
 
     outcome: str
-    words: str
+    found: Mapping[str, Any]
     marks: Mapping[str, Any]
     public: Mapping[str, Any]
     file: str = ""
@@ -40,7 +42,6 @@ class Result:
     path: Sequence[Sequence[float]] = ()
     has_trajectory: bool = False
     has_page: bool = False
-    notes: Sequence[str] = field(default=())
 
     @property
     def points(self) -> float:
@@ -55,10 +56,10 @@ class Result:
         return dict(vars(self))
 
 
-def without_marks(rubric: Rubric, outcome: str, words: str, file: str = "") -> Result:
+def without_marks(rubric: Rubric, outcome: str, why: Diagnostic, file: str = "") -> Result:
     """Return the result of what could not be checked: no points, and why."""
     marks = Marks(
-        tuple(Mark(t.name, 0.0, t.points, False, words, t.hint, t.hidden) for t in rubric.tests),
-        note=words,
+        tuple(Mark(t.name, 0.0, t.points, False, why, t.hint, t.hidden) for t in rubric.tests),
+        note=why,
     )
-    return Result(outcome, words, marks.plain(), marks.public().plain(), file)
+    return Result(outcome, plain(why), marks.plain(), marks.public().plain(), file)

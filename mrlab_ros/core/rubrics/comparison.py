@@ -5,8 +5,16 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass
 
+from mrlab_ros.core.base.diagnostic import Diagnostic
 from mrlab_ros.core.rubrics.alignment import Apart, apart, sampled
 from mrlab_ros.core.rubrics.checked import Checked, Motion
+from mrlab_ros.core.rubrics.diagnostics import (
+    FROM_REFERENCE,
+    NO_REFERENCE_MOTION,
+    NO_REFERENCE_NAMED,
+    NO_REFERENCE_OF_MODEL,
+    REFERENCE_WITHIN_NOTHING,
+)
 from mrlab_ros.core.rubrics.ground import Ground
 from mrlab_ros.core.rubrics.motions import no_motion
 from mrlab_ros.core.rubrics.quantities import ANGLE, LENGTH
@@ -27,29 +35,26 @@ class NearReference:
 
     def assess(self, checked: Checked, reference: Checked | None) -> Outcome:
         if reference is None or not reference.motions:
-            return Outcome(0.0, "There is no reference motion to compare with.", 0.0)
+            return Outcome(0.0, NO_REFERENCE_MOTION(), 0.0)
         motions = checked.played(self.robot)
         if not motions:
             return no_motion(self.robot, checked)
-        found: list[tuple[float, float, str]] = []
+        found: list[tuple[float, float]] = []
         for number, motion in enumerate(motions):
             other = _partner(motion, number, reference)
             if other is None:
-                words = (
-                    f"The reference has no motion of a {motion.robot.model.id} to compare with."
-                )
-                return Outcome(0.0, words, motion.start)
+                model = motion.robot.model.id
+                return Outcome(0.0, NO_REFERENCE_OF_MODEL(model=model), motion.start)
             time, off = self._apart(motion, other)
-            where = "The tool" if self.tool else "A joint"
-            how = "is on average (RMS)" if self.rms else "is at most"
-            found.append((off.rms if self.rms else off.most, time, f"{where} {how}"))
-        value, time, words = max(found, key=lambda each: each[0])
-        share = self.threshold.share(value)
-        text = self.threshold.quantity.words(value)
-        return Outcome(
-            share, f"{words} {text} from the reference; expected {self.threshold.words}.", time,
-            value, self.threshold.limit, "m" if self.tool else "rad",
-        )  # fmt: skip
+            found.append((off.rms if self.rms else off.most, time))
+        value, time = max(found, key=lambda each: each[0])
+        return self.threshold.outcome(
+            FROM_REFERENCE,
+            value,
+            time,
+            what="tool" if self.tool else "joint",
+            how="rms" if self.rms else "most",
+        )
 
     def _apart(self, motion: Motion, other: Motion) -> tuple[float, Apart]:
         """Return how far two motions are apart, and when the most, s."""
@@ -62,13 +67,13 @@ class NearReference:
         off = apart(mine, sampled(other.figures.times, others)[1], largest=not self.tool)
         return motion.start + float(instants[off.row]), off
 
-    def flaws(self, ground: Ground) -> Iterator[str]:
+    def flaws(self, ground: Ground) -> Iterator[Diagnostic]:
         yield from ground.robot_flaws(self.robot)
         yield from self.threshold.flaws()
         if not ground.reference:
-            yield "the rubric names no reference to compare with; add reference: solution.mat"
+            yield NO_REFERENCE_NAMED()
         if not self.threshold.limit > 0:
-            yield "no motion is within 0 of another; take 1 mm or 1 deg, or more"
+            yield REFERENCE_WITHIN_NOTHING()
 
 
 def _partner(motion: Motion, number: int, reference: Checked) -> Motion | None:

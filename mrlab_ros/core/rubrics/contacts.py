@@ -5,11 +5,22 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass
 
-from mrlab_ros.core.checking.evidence import thing as words_of
+from mrlab_ros.core.base.diagnostic import Diagnostic
+from mrlab_ros.core.checking.evidence import met
 from mrlab_ros.core.checking.recording import Collision, Distances, Rehearsed
 from mrlab_ros.core.checking.rehearsal import FARTHEST
 from mrlab_ros.core.physics.engine import Kind
 from mrlab_ros.core.rubrics.checked import Checked
+from mrlab_ros.core.rubrics.diagnostics import (
+    BEYOND_MEASURE,
+    LEAST_DISTANCE,
+    NO_DISTANCE,
+    NOTHING_NEAR,
+    NOTHING_TOUCHED,
+    SELF_DISTANCE,
+    STARTS_INSIDE,
+    TOUCHES,
+)
 from mrlab_ros.core.rubrics.ground import ITSELF, Ground
 from mrlab_ros.core.rubrics.quantities import LENGTH
 from mrlab_ros.core.rubrics.rubric import Measure, Outcome
@@ -47,17 +58,23 @@ class NoCollision:
             if robot in names and self.thing in ("", surface)
         ]
         count = len(hits) + len(inside)
+        more = count - 1 or None
         if not count:
-            return Outcome(1.0, "Nothing is touched.", None, 0.0, 0.0)
-        more = f", and {count - 1} more" if count > 1 else ""
+            return Outcome(1.0, NOTHING_TOUCHED())
         if inside:
-            words = f"{inside[0][0]} begins inside the surface {inside[0][1]}{more}."
-            return Outcome(0.0, words, 0.0, float(count), 0.0)
+            robot, surface = inside[0]
+            found = STARTS_INSIDE(robot=robot, **met(Kind.SURFACE, surface), more=more)
+            return Outcome(0.0, found, 0.0)
         first = hits[0]
-        who = f"{first.held}, held by {first.link}," if first.held else first.link
-        what = words_of(first.kind, first.other, first.other_link)
-        words = f"{who} touches {what} at {first.time:.2f} s{more}."
-        return Outcome(0.0, words, first.time, float(count), 0.0)
+        found = TOUCHES(
+            robot=first.robot,
+            link=first.link,
+            held=first.held or None,
+            **met(first.kind, first.other, first.other_link),
+            time=first.time,
+            more=more,
+        )
+        return Outcome(0.0, found, first.time)
 
     def _counts(self, hit: Collision, names: set[str]) -> bool:
         other = ITSELF if hit.kind is Kind.SELF else hit.other
@@ -66,7 +83,7 @@ class NoCollision:
         # Two robots that touch are told of one of them.
         return hit.kind is Kind.ROBOT and hit.other in names and self.thing in ("", hit.robot)
 
-    def flaws(self, ground: Ground) -> Iterator[str]:
+    def flaws(self, ground: Ground) -> Iterator[Diagnostic]:
         yield from ground.robot_flaws(self.robot)
         yield from ground.thing_flaws(self.thing)
 
@@ -91,19 +108,20 @@ class Distance:
             for at in [series.least()]
         ]
         if not near:
-            what = self.thing or "anything"
-            return Outcome(0.0, f"There is no distance to {what} in what was checked.", 0.0)
+            return Outcome(0.0, NO_DISTANCE(thing=self.thing or None), 0.0)
         value, time, robot, kind, other, series, at = min(near, key=lambda n: n[:2])
         if not series.links[at]:
-            far = f"Nothing comes nearer than {LENGTH.words(FARTHEST)}."
-            return Outcome(1.0, far, None, FARTHEST, self.threshold.limit, "m")
-        who = series.held[at] or series.links[at]
-        what = words_of(kind, other, series.other_links[at])
-        alone = len(checked.motions) == 1
+            far = NOTHING_NEAR(value=FARTHEST, limit=self.threshold.limit, unit="m")
+            return Outcome(1.0, far)
         return self.threshold.outcome(
+            LEAST_DISTANCE,
             max(value, 0.0),
-            f"{who}{'' if alone else f' of {robot}'} comes within {{}} of {what} at {time:.2f} s",
             self._since(recorded, series, time),
+            link=series.links[at],
+            held=series.held[at] or None,
+            robot=robot if len(checked.motions) > 1 else None,
+            time=time,
+            **met(kind, other, series.other_links[at]),
         )
 
     def _since(self, recorded: Rehearsed, series: Distances, least: float) -> float:
@@ -118,18 +136,15 @@ class Distance:
             return True
         return kind is Kind.ROBOT and other in names and self.thing in ("", robot)
 
-    def flaws(self, ground: Ground) -> Iterator[str]:
+    def flaws(self, ground: Ground) -> Iterator[Diagnostic]:
         yield from ground.robot_flaws(self.robot)
         yield from ground.thing_flaws(self.thing)
         yield from ground.thing_flaws(self.but)
         yield from self.threshold.flaws()
         if self.thing == ITSELF:
-            yield "the distance of a robot to itself is not measured; use 'no collision'"
+            yield SELF_DISTANCE()
         if self.threshold.limit > FARTHEST:
-            yield (
-                f"distances are measured up to {LENGTH.words(FARTHEST)}, so "
-                f"{LENGTH.words(self.threshold.limit)} cannot be told from more; take less"
-            )
+            yield BEYOND_MEASURE(most=FARTHEST, limit=self.threshold.limit)
 
 
 def _thing(gaps: Gaps) -> str:

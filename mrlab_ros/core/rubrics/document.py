@@ -6,6 +6,8 @@ import math
 from collections.abc import Mapping
 from typing import Any
 
+from mrlab_ros.core.base.diagnostic import Fix
+from mrlab_ros.core.base.diagnostics import IN_PLACE
 from mrlab_ros.core.checking.evidence import CLOSE
 from mrlab_ros.core.checking.rehearsal import FARTHEST
 from mrlab_ros.core.errors import BadInput, LabError
@@ -17,11 +19,26 @@ from mrlab_ros.core.records import (
     Number,
     Numbers,
     Record,
+    Words,
     above,
     between,
     checked,
     every,
     shown,
+)
+from mrlab_ros.core.rubrics.diagnostics import (
+    BAD_CLOSEST,
+    BAD_POSE,
+    NO_PARTIAL,
+    POSE_COUNT,
+    READS_NO_POSES,
+    RUBRIC_ENTRY,
+    RUBRIC_TEST,
+    SAME_TEST_NAME,
+    TEST_COUNT,
+    TEST_POSE,
+    TURNED_TWICE,
+    UNKNOWN_PARTIAL,
 )
 from mrlab_ros.core.rubrics.forms import FORMS
 from mrlab_ros.core.rubrics.quantities import LENGTH
@@ -51,19 +68,15 @@ def parse(document: object, origin: str, lines: Lines | None = None) -> Rubric:
     record = Record(document, origin, FIELDS)
     entries = record.entries("tests")
     if not 0 < len(entries) <= MOST_TESTS:
-        raise record.error(
-            f"tests has {len(entries)} entries; expected 1 to {MOST_TESTS}. mrlab rubric example "
-            "prints a rubric to begin with"
-        )
+        fixes = (Fix(command="rubric example"),)
+        raise record.error(TEST_COUNT(count=len(entries), most=MOST_TESTS, fixes=fixes))
     closest = record.optional("closest", TEXT)
     try:
         metres = CLOSE if closest is None else LENGTH.read(closest)
     except BadInput as error:
-        raise record.error(f"closest: {error}") from None
+        raise BadInput(IN_PLACE(place=record.at("closest"), why=error.diagnostic)) from None
     if not 0 <= metres <= FARTHEST:
-        raise record.error(
-            f"closest is {closest}; expected 0 to {LENGTH.words(FARTHEST)}, as far as is measured"
-        )
+        raise record.error(BAD_CLOSEST(text=closest, limit=FARTHEST))
     tests = every(lambda numbered: _test(origin, known, *numbered), enumerate(entries), origin)
     _unique(tests, origin)
     assert isinstance(document, Mapping)
@@ -88,10 +101,9 @@ def _unique(tests: list[Test], origin: str) -> None:
     for test in tests:
         other = first.setdefault(test.name, test)
         if other is not test:
-            raise BadInput(
-                f"{at(origin, test.line)}: the name '{test.name}' is that of the test in line "
-                f"{other.line}, too; give each test a name of its own"
-            )
+            place = RUBRIC_TEST(file=origin, line=test.line or None, test=test.name)
+            why = SAME_TEST_NAME(test=test.name, line=other.line)
+            raise BadInput(IN_PLACE(place=place, why=why))
 
 
 def at(origin: str, line: int) -> str:
@@ -101,10 +113,11 @@ def at(origin: str, line: int) -> str:
 
 def _test(origin: str, lines: Lines, index: int, value: object) -> Test:
     line = lines.get(("tests", index), 0)
-    entry = Record(value, f"{at(origin, line)}: test {index + 1}", TEST_FIELDS)
+    number = RUBRIC_ENTRY(file=origin, line=line or None, number=index + 1)
+    entry = Record(value, number, TEST_FIELDS)
     expect = entry.required("expect", FILLED_TEXT)
     name = entry.value("name", FILLED_TEXT, expect)
-    entry.place = f"{at(origin, line)}: test '{name}'"
+    entry.place = RUBRIC_TEST(file=origin, line=line or None, test=name)
     points = entry.required("points", POINTS)
     partial = entry.value("partial", FILLED_TEXT, "")
     of_expect = lines.get(("tests", index, "expect"), line)
@@ -112,7 +125,8 @@ def _test(origin: str, lines: Lines, index: int, value: object) -> Test:
         form, gaps = form_of(expect, FORMS)
         each, until = _partial(form, partial)
     except BadInput as error:
-        raise BadInput(f"{at(origin, of_expect)}: test '{name}': {error}") from None
+        place = RUBRIC_TEST(file=origin, line=of_expect or None, test=name)
+        raise BadInput(IN_PLACE(place=place, why=error.diagnostic)) from None
     poses = _poses(entry, form, expect)
     return Test(
         name=name,
@@ -135,41 +149,33 @@ def _partial(form: Form, rule: str) -> tuple[bool, float | None]:
     word, _, value = rule.partition(" ")
     if word == "until" and form.until is not None:
         return False, form.until.read(value)
-    rules = [f"'{known}'" for known in form.rules]
-    raise BadInput(
-        f"partial is '{rule}'; '{form.text}' knows {' and '.join(rules) or 'no partial points'}"
-        f"{'' if rules else '; leave it out'}"
-    )
+    if not form.rules:
+        raise BadInput(NO_PARTIAL(rule=rule, sentence=form.text))
+    raise BadInput(UNKNOWN_PARTIAL(rule=rule, sentence=form.text, rules=form.rules))
 
 
 def _poses(entry: Record, form: Form, expect: str) -> tuple[Pose | Vector, ...]:
     values = entry.entries("poses")
     if values and not form.poses:
-        raise entry.error(f"'{expect}' reads no poses; write 'passes within 5 mm of poses'")
+        raise entry.error(READS_NO_POSES(sentence=expect))
     if form.poses and not 0 < len(values) <= MOST_POSES:
-        raise entry.error(
-            f"poses has {len(values)} entries; expected 1 to {MOST_POSES}, such as "
-            "[0.4, -0.3, 0.2], m in world"
-        )
-    return tuple(_pose(str(entry.place), number, value) for number, value in enumerate(values, 1))
+        raise entry.error(POSE_COUNT(count=len(values), most=MOST_POSES))
+    return tuple(_pose(entry.place, number, value) for number, value in enumerate(values, 1))
 
 
-def _pose(place: str, number: int, value: object) -> Pose | Vector:
-    where = f"{place}: pose {number}"
+def _pose(place: Words, number: int, value: object) -> Pose | Vector:
+    where = TEST_POSE(place=place, number=number)
     if isinstance(value, list | tuple):
         x, y, z = checked(where, value, POSITION)
         return (x, y, z)
     if not isinstance(value, Mapping):
-        raise BadInput(
-            f"{where} is {shown(value)}; expected [x, y, z] in m, or position: [x, y, z] with "
-            "rpy_deg: [roll, pitch, yaw]"
-        )
+        raise BadInput(BAD_POSE(place=where, found=shown(value)))
     entry = Record(value, where, POSE_FIELDS)
     x, y, z = entry.required("position", POSITION)
     turned = entry.optional("rpy_deg", ANGLES)
     given = entry.optional("orientation", QUATERNION)
     if turned is not None and given is not None:
-        raise entry.error("both rpy_deg and orientation are given; write one of them")
+        raise entry.error(TURNED_TWICE())
     if turned is not None:
         roll, pitch, yaw = (math.radians(angle) for angle in turned)
         return Pose((x, y, z), quaternion_from_rpy(roll, pitch, yaw))
@@ -179,7 +185,7 @@ def _pose(place: str, number: int, value: object) -> Pose | Vector:
             pose = Pose((x, y, z), (qx, qy, qz, qw))
             return Pose(pose.position, normalized(pose.orientation))
         except LabError as error:
-            raise BadInput(f"{where}: {error}") from None
+            raise BadInput(IN_PLACE(place=where, why=error.diagnostic)) from None
     return (x, y, z)
 
 

@@ -4,15 +4,23 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 
+from mrlab_ros.core.base.diagnostic import Diagnostic
 from mrlab_ros.core.checking.joints import REST_SHARE
 from mrlab_ros.core.geometry import Array, Vector
 from mrlab_ros.core.rubrics.checked import Checked, Motion
+from mrlab_ros.core.rubrics.diagnostics import (
+    AT_REST,
+    JOINT_FROM,
+    NOT_AT_REST,
+    OUT_OF_REACH,
+    TOOL_FROM_PLACE,
+)
 from mrlab_ros.core.rubrics.ground import Ground
 from mrlab_ros.core.rubrics.motions import Figure, WorstFigure, no_motion
-from mrlab_ros.core.rubrics.poses import place_words
 from mrlab_ros.core.rubrics.quantities import ANGLE, LENGTH
 from mrlab_ros.core.rubrics.reachable import nearest
 from mrlab_ros.core.rubrics.rubric import Outcome
@@ -40,20 +48,18 @@ class End:
         tool = motion.figures.tool[at]
         count = len(self.place)
         off = float(np.linalg.norm(tool[:count] - np.asarray(self.place)))
-        verb = "ends" if self.last else "begins"
-        words = f"The tool {verb} {{}} away from ({place_words(self.place)})"
-        return self.threshold.outcome(off, words, motion.start + _instant(motion, self.last))
+        time = motion.start + _instant(motion, self.last)
+        return self.threshold.outcome(
+            TOOL_FROM_PLACE, off, time, place=self.place, instant=_name(self.last)
+        )
 
-    def flaws(self, ground: Ground) -> Iterator[str]:
+    def flaws(self, ground: Ground) -> Iterator[Diagnostic]:
         yield from ground.robot_flaws(self.robot)
         yield from self.threshold.flaws()
         robots = ground.of(self.robot)
         short = [nearest(robot, self.place, None) for robot in robots if len(self.place) == 3]
         if short and min(short) > self.threshold.limit:
-            yield (
-                f"({place_words(self.place)}) is out of reach: the tool comes within "
-                f"{LENGTH.words(min(short))} of it"
-            )
+            yield OUT_OF_REACH(place=self.place, value=min(short), limit=self.threshold.limit)
 
 
 @dataclass(frozen=True)
@@ -79,13 +85,18 @@ class AtRest:
             ),
             key=lambda each: each[0],
         )
-        verb = "ends" if self.last else "begins"
+        of: dict[str, Any] = {
+            "instant": _name(self.last),
+            "value": share,
+            "limit": REST_SHARE,
+            "unit": "%",
+        }
         if share <= REST_SHARE:
-            return Outcome(1.0, f"It {verb} at rest.", None, share, REST_SHARE)
-        words = f"{joint} {verb} at {100 * share:.3g}% of its largest speed; expected at most 2%."
-        return Outcome(0.0, words, motion.start + _instant(motion, self.last), share, REST_SHARE)
+            return Outcome(1.0, AT_REST(**of))
+        time = motion.start + _instant(motion, self.last)
+        return Outcome(0.0, NOT_AT_REST(**of, joint=joint), time)
 
-    def flaws(self, ground: Ground) -> Iterator[str]:
+    def flaws(self, ground: Ground) -> Iterator[Diagnostic]:
         yield from ground.robot_flaws(self.robot)
 
 
@@ -101,16 +112,20 @@ def _last_off_home(motion: Motion, threshold: Threshold) -> Figure:
 
 def _off_start(motion: Motion, threshold: Threshold) -> Figure:
     """Return how far the farthest joint ends from where the motion began, rad."""
-    return _farthest(motion, motion.trajectory.positions[0], True, "where it began")
+    return _farthest(motion, motion.trajectory.positions[0], True, "start")
 
 
-def _farthest(motion: Motion, wanted: Array, last: bool, where: str) -> Figure:
+def _farthest(motion: Motion, wanted: Array, last: bool, origin: str) -> Figure:
     """Return how far the farthest joint begins or ends from `wanted`, (J,) rad."""
     off = np.abs(motion.trajectory.positions[-1 if last else 0] - wanted)
     worst = int(off.argmax())
     joint = motion.robot.model.joint_names[worst]
-    words = f"{joint} {'ends' if last else 'begins'} {{}} away from {where}"
-    return Figure(float(off[worst]), _instant(motion, last), words)
+    values = {"joint": joint, "instant": _name(last), "origin": origin}
+    return Figure(float(off[worst]), _instant(motion, last), JOINT_FROM, values)
+
+
+def _name(last: bool) -> str:
+    return "end" if last else "start"
 
 
 def _instant(motion: Motion, last: bool) -> float:

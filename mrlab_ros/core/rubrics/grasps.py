@@ -4,13 +4,33 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 
+from mrlab_ros.core.base.diagnostic import Diagnostic
 from mrlab_ros.core.checking.recording import Rehearsed
 from mrlab_ros.core.physics.grasp import Grasp
 from mrlab_ros.core.rubrics.checked import Checked
 from mrlab_ros.core.rubrics.contacts import recording
+from mrlab_ros.core.rubrics.diagnostics import (
+    GRASPED,
+    GRASPED_LATE,
+    HELD,
+    HELD_FOR,
+    LIES_FROM_OBJECT,
+    LIES_FROM_PLACE,
+    NEVER_GRASPED,
+    NEVER_GRASPED_CLOSES,
+    NEVER_GRASPED_NOTHING,
+    NEVER_GRASPED_OTHER,
+    NO_OBJECT_CHECKED,
+    NO_TOOL_TO_GRASP,
+    NOT_HELD,
+    NOT_IN_THE_ROOM,
+    STILL_HELD,
+    STILL_MOVES,
+)
 from mrlab_ros.core.rubrics.ground import Ground
 from mrlab_ros.core.rubrics.quantities import LENGTH
 from mrlab_ros.core.rubrics.rubric import Measure, Outcome
@@ -59,18 +79,16 @@ def _never(checked: Checked, thing: str) -> Outcome:
     empty = next((g for g in closed if g.state is Grasp.EMPTY), None)
     other = next((g for g in closed if g.state is Grasp.HOLDING), None)
     if other is not None:
-        words = f"{thing} is never grasped; {other.object} is, at {other.time:.2f} s."
-        return Outcome(0.0, words, other.time)
+        found = NEVER_GRASPED_OTHER(object=thing, other=other.object, time=other.time)
+        return Outcome(0.0, found, other.time)
     if empty is not None:
-        why = f": {empty.reason}" if empty.reason else ""
-        words = (
-            f"{thing} is never grasped; the gripper closes on nothing at {empty.time:.2f} s{why}"
-        )
-        return Outcome(0.0, f"{words.rstrip('.')}.", empty.time)
+        why = empty.reason or None
+        found = NEVER_GRASPED_NOTHING(object=thing, time=empty.time, why=why)
+        return Outcome(0.0, found, empty.time)
     if closed:
-        words = f"{thing} is never grasped; the gripper closes at {closed[0].time:.2f} s."
-        return Outcome(0.0, words, closed[0].time)
-    return Outcome(0.0, f"{thing} is never grasped; the gripper does not close.", 0.0)
+        time = closed[0].time
+        return Outcome(0.0, NEVER_GRASPED_CLOSES(object=thing, time=time), time)
+    return Outcome(0.0, NEVER_GRASPED(object=thing), 0.0)
 
 
 @dataclass(frozen=True)
@@ -88,37 +106,31 @@ class Grasps:
             return _never(checked, self.thing)
         inside = [h for h in own if self._inside(h.start)]
         hold = inside[0] if inside else own[0]
-        words = f"{hold.robot} grasps {self.thing} at {hold.start:.2f} s"
-        early = self.since is not None and hold.start < self.since
-        limit = self.since if early or self.until is None else self.until
-        if inside:
-            return Outcome(1.0, f"{words}.", None, hold.start, limit, "s")
-        return Outcome(0.0, f"{words}; expected {self._span}.", hold.start, hold.start, limit, "s")
+        found = GRASPED(
+            robot=hold.robot,
+            object=self.thing,
+            value=hold.start,
+            unit="s",
+            since=None if inside else self.since,
+            until=None if inside else self.until,
+        )
+        return Outcome(1.0, found) if inside else Outcome(0.0, found, hold.start)
 
     def _inside(self, time: float) -> bool:
         return (self.since is None or time >= self.since) and (
             self.until is None or time <= self.until
         )
 
-    @property
-    def _span(self) -> str:
-        if self.since is None:
-            return f"before {self.until:g} s"
-        if self.until is None:
-            return f"after {self.since:g} s"
-        return f"between {self.since:g} and {self.until:g} s"
-
-    def flaws(self, ground: Ground) -> Iterator[str]:
+    def flaws(self, ground: Ground) -> Iterator[Diagnostic]:
         yield from ground.graspable_flaws(self.thing)
         yield from ground.robot_flaws(self.robot)
         yield from _no_gripper(ground, self.robot)
 
 
-def _no_gripper(ground: Ground, robot: str) -> Iterator[str]:
+def _no_gripper(ground: Ground, robot: str) -> Iterator[Diagnostic]:
     robots = ground.of(robot)
     if robots and all(not r.end_effector for r in robots):
-        names = ", ".join(r.name for r in robots)
-        yield f"{names} has no tool to grasp with; add tool: parallel_gripper to the rubric"
+        yield NO_TOOL_TO_GRASP(robots=[r.name for r in robots])
 
 
 @dataclass(frozen=True)
@@ -141,13 +153,13 @@ class Holds:
         if self.span is not None:
             begin, end = max(spans, key=lambda s: s[1] - s[0])
             share = min((end - begin) / self.span, 1.0)
-            words = f"{self.thing} is held for {end - begin:.2f} s; expected {self.span:g} s."
-            return self._outcome(share, words, end, end - begin, self.span)
+            found = HELD_FOR(object=self.thing, value=end - begin, limit=self.span, unit="s")
+            return self._outcome(share, found, end)
         since = spans[0][0] if self.since is None else self.since
         until = recorded.duration if self.until is None else self.until
         if since > until:
-            words = f"{self.thing} is grasped at {since:.2f} s; expected before {until:g} s."
-            return Outcome(0.0, words, since, since, until, "s")
+            found = GRASPED_LATE(object=self.thing, value=since, limit=until, unit="s")
+            return Outcome(0.0, found, since)
         held = sum(max(min(e, until) - max(b, since), 0.0) for b, e in spans)
         wanted = max(until - since, 0.0)
         share = held / wanted if wanted > 0 else float(any(b <= until <= e for b, e in spans))
@@ -156,19 +168,16 @@ class Holds:
         for begin, end in spans:
             if begin <= lost + 1e-6 < end + 1e-6:
                 lost = max(lost, min(end, until))
-        expected = f"from {since:.2f} to {until:.2f} s"
-        words = f"{self.thing} is held {expected}."
+        of: dict[str, Any] = {"object": self.thing, "since": since, "until": until}
+        of |= {"value": held, "limit": wanted, "unit": "s"}
         if share < 1 - 1e-6:
-            words = f"{self.thing} is not held at {lost:.2f} s; expected {expected}."
-        return self._outcome(1.0 if share >= 1 - 1e-6 else share, words, lost, held, wanted)
+            return self._outcome(share, NOT_HELD(**of, time=lost), lost)
+        return self._outcome(1.0, HELD(**of), lost)
 
-    def _outcome(
-        self, share: float, words: str, time: float, measured: float, limit: float
-    ) -> Outcome:
-        share = share if self.each or share >= 1 else 0.0
-        return Outcome(share, words, time, measured, limit, "s")
+    def _outcome(self, share: float, found: Diagnostic, time: float) -> Outcome:
+        return Outcome(share if self.each or share >= 1 else 0.0, found, time)
 
-    def flaws(self, ground: Ground) -> Iterator[str]:
+    def flaws(self, ground: Ground) -> Iterator[Diagnostic]:
         yield from ground.graspable_flaws(self.thing)
         yield from _no_gripper(ground, "")
 
@@ -217,14 +226,14 @@ def let_go(checked: Checked, thing: str) -> tuple[float, Resting] | Outcome:
     if not own:
         return _never(checked, thing)
     if own[-1].end is None:
-        words = f"{thing} is still held by {own[-1].robot} at the end."
-        return Outcome(0.0, words, recorded.duration)
+        found = STILL_HELD(object=thing, robot=own[-1].robot)
+        return Outcome(0.0, found, recorded.duration)
     rests = at_the_end(recorded, thing)
     if rests is None:
-        return Outcome(0.0, f"{thing} is not in the room any more at the end.", own[-1].end)
+        return Outcome(0.0, NOT_IN_THE_ROOM(object=thing), own[-1].end)
     if rests.speed > STANDS:
-        words = f"{thing} still moves at the end, with {rests.speed:.2g} m/s."
-        return Outcome(0.0, words, own[-1].end, rests.speed, STANDS, "m/s")
+        found = STILL_MOVES(object=thing, value=rests.speed, limit=STANDS, unit="m/s")
+        return Outcome(0.0, found, own[-1].end)
     return own[-1].end, rests
 
 
@@ -243,16 +252,19 @@ class Releases:
         if isinstance(found, Outcome):
             return found
         time, rests = found
-        place, name = self.place, f"({', '.join(f'{v:.4g}' for v in self.place)})"
+        place = self.place
         if self.other:
             there = at_the_end(recording(checked), self.other)
             if there is None:
-                return Outcome(0.0, f"There is no {self.other} in what was checked.", time)
-            place, name = there.values[:2], self.other
+                return Outcome(0.0, NO_OBJECT_CHECKED(object=self.other), time)
+            place = there.values[:2]
         off = float(np.linalg.norm(np.subtract(rests.values[: len(place)], place)))
-        return self.threshold.outcome(off, f"{self.thing} lies {{}} away from {name}", time)
+        outcome = self.threshold.outcome
+        if self.other:
+            return outcome(LIES_FROM_OBJECT, off, time, object=self.thing, other=self.other)
+        return outcome(LIES_FROM_PLACE, off, time, object=self.thing, place=place)
 
-    def flaws(self, ground: Ground) -> Iterator[str]:
+    def flaws(self, ground: Ground) -> Iterator[Diagnostic]:
         yield from ground.graspable_flaws(self.thing)
         yield from ground.object_flaws(self.other)
         yield from self.threshold.flaws()

@@ -6,10 +6,17 @@ from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
 from functools import cached_property
 
+from mrlab_ros.core.base.diagnostic import Diagnostic
+from mrlab_ros.core.base.diagnostics import NO_ROBOT_IN_SCENE
 from mrlab_ros.core.checking.motion import CheckedRobot
-from mrlab_ros.core.naming import did_you_mean
+from mrlab_ros.core.naming import close_to
 from mrlab_ros.core.physics.catalogue import ObjectType
 from mrlab_ros.core.physics.surfaces import FLOOR
+from mrlab_ros.core.rubrics.diagnostics import (
+    OBJECT_IS_FIXED,
+    OBJECT_NOT_IN_SCENE,
+    THING_NOT_IN_SCENE,
+)
 from mrlab_ros.core.scene.document import SceneDocument
 
 ITSELF = "itself"
@@ -38,38 +45,29 @@ class Ground:
         """Return the robots of a name or of a model; empty: all."""
         return tuple(r for r in self.robots if robot in ("", r.name, r.model.id))
 
-    def robot_flaws(self, *robots: str) -> Iterator[str]:
+    def robot_flaws(self, *robots: str) -> Iterator[Diagnostic]:
         """Yield what is wrong with names of robots; empty ones are left out."""
         names = [r.name for r in self.robots]
         for robot in robots:
             if robot and not self.of(robot):
-                yield (
-                    f"the scene has no robot '{robot}'; it has: "
-                    f"{', '.join(names) or 'none'}{did_you_mean(robot, names)}"
-                )
+                yield NO_ROBOT_IN_SCENE(robot=robot, known=names, close=close_to(robot, names))
 
-    def object_flaws(self, thing: str) -> Iterator[str]:
+    def object_flaws(self, thing: str) -> Iterator[Diagnostic]:
         """Yield what is wrong with the name of an object."""
         names = [o.name for o in self.scene.objects]
         if thing and thing not in names:
-            yield (
-                f"the scene has no object '{thing}'; it has: {', '.join(names) or 'none'}"
-                f"{did_you_mean(thing, names)}"
-            )
+            yield OBJECT_NOT_IN_SCENE(object=thing, known=names, close=close_to(thing, names))
 
-    def thing_flaws(self, thing: str) -> Iterator[str]:
+    def thing_flaws(self, thing: str) -> Iterator[Diagnostic]:
         """Yield what is wrong with the name of an object, a surface or a robot."""
         names = [o.name for o in self.scene.objects]
         names += [*self.surfaces, *(r.name for r in self.robots), ITSELF]
         if thing and thing not in names:
-            yield (
-                f"the scene has nothing called '{thing}'; it has: {', '.join(names)}"
-                f"{did_you_mean(thing, names)}"
-            )
+            yield THING_NOT_IN_SCENE(thing=thing, known=names, close=close_to(thing, names))
 
-    def graspable_flaws(self, thing: str) -> Iterator[str]:
+    def graspable_flaws(self, thing: str) -> Iterator[Diagnostic]:
         """Yield what is wrong with an object that shall be held."""
         yield from self.object_flaws(thing)
         kind = self.types.get(thing)
         if kind is not None and kind.mass <= 0:
-            yield f"'{thing}' is fixed, so nothing can grasp it; name an object that moves"
+            yield OBJECT_IS_FIXED(object=thing)

@@ -7,7 +7,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from mrlab_ros.core.base.diagnostic import Diagnostic
 from mrlab_ros.core.rubrics.checked import Checked, Motion
+from mrlab_ros.core.rubrics.diagnostics import LIMIT_NOT_STATED, LIMIT_USED, NO_SUCH_LIMIT
 from mrlab_ros.core.rubrics.ground import Ground
 from mrlab_ros.core.rubrics.motions import no_motion
 from mrlab_ros.core.rubrics.quantities import SHARE
@@ -33,12 +35,12 @@ class WithinLimits:
             return no_motion(self.robot, checked)
         uses = [use for motion in motions for use in self._uses(motion)]
         if not uses:
-            return Outcome(0.0, f"No limit of {self.of[0]} is stated for this robot.", 0.0)
-        share, time, words = max(uses, key=lambda use: use[0])
-        return self.threshold.outcome(share, words, time)
+            return Outcome(0.0, NO_SUCH_LIMIT(of=self.of[0]), 0.0)
+        share, time, joint, of = max(uses, key=lambda use: use[0])
+        return self.threshold.outcome(LIMIT_USED, share, time, joint=joint, of=of)
 
-    def _uses(self, motion: Motion) -> Iterator[tuple[float, float, str]]:
-        """Yield of each joint the share of a limit that it uses, when, s, and in words."""
+    def _uses(self, motion: Motion) -> Iterator[tuple[float, float, str, str]]:
+        """Yield of each joint the share of a limit that it uses, when, s, its name and which."""
         q = motion.trajectory.positions
         for column, one in enumerate(motion.figures.joints):
             joint, start = one.joint, motion.start
@@ -47,26 +49,18 @@ class WithinLimits:
                 shares = np.abs(q[:, column] - middle) / half
                 at = int(shares.argmax())
                 time = start + float(motion.figures.times[at])
-                yield float(shares[at]), time, f"{joint.name} uses {{}} of its range"
+                yield float(shares[at]), time, joint.name, RANGES
             if SPEEDS in self.of:
-                yield (
-                    one.speed_share,
-                    start + one.speed_time,
-                    f"{joint.name} uses {{}} of its largest speed",
-                )
+                yield one.speed_share, start + one.speed_time, joint.name, SPEEDS
             for what, value, time in (
                 (ACCELERATIONS, one.acceleration, one.acceleration_time),
                 (JERKS, one.jerk, one.jerk_time),
             ):
                 limit = getattr(one.stated, what) if what in self.of else None
                 if limit is not None:
-                    yield (
-                        value / limit,
-                        start + time,
-                        f"{joint.name} uses {{}} of its {what} limit",
-                    )
+                    yield value / limit, start + time, joint.name, what
 
-    def flaws(self, ground: Ground) -> Iterator[str]:
+    def flaws(self, ground: Ground) -> Iterator[Diagnostic]:
         yield from ground.robot_flaws(self.robot)
         yield from self.threshold.flaws()
         for what in (ACCELERATIONS, JERKS):
@@ -79,10 +73,7 @@ class WithinLimits:
                     if getattr(robot.stated.get(joint.name), what, None) is None
                 ]
                 if missing:
-                    yield (
-                        f"{robot.model.id} states no {what} limit of {', '.join(missing)}, so it "
-                        f"cannot be measured; measure speeds, or state {what} in its robot.yaml"
-                    )
+                    yield LIMIT_NOT_STATED(model=robot.model.id, of=what, joints=missing)
 
 
 def _limits(text: str, of: tuple[str, ...], about: str) -> Form:

@@ -2,9 +2,17 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass
+from typing import Any
 
-from mrlab_ros.core.base.diagnostic import Severity
+from mrlab_ros.core.base.diagnostic import Diagnostic, plain
+from mrlab_ros.core.rubrics.diagnostics import (
+    ALL_HIDDEN,
+    HIDDEN_WITHOUT_HINT,
+    NO_REFERENCE,
+    REFERENCE_LOSES,
+)
 from mrlab_ros.core.rubrics.ground import Ground
 from mrlab_ros.core.rubrics.marking import Marks
 from mrlab_ros.core.rubrics.rubric import Rubric
@@ -15,40 +23,33 @@ class Flaw:
     """One flaw. An ERROR keeps points out of everybody's reach, a WARNING is for the teacher to
     judge. test: empty: of the rubric as a whole. line: 0: not known."""
 
-    severity: Severity
-    test: str
-    line: int
-    message: str
+    found: Diagnostic
+    test: str = ""
+    line: int = 0
+
+    def plain(self) -> dict[str, Any]:
+        """Return the flaw as a mapping for JSON."""
+        return {**plain(self.found), "test": self.test, "line": self.line}
 
 
 def flaws_of(rubric: Rubric, ground: Ground) -> list[Flaw]:
     """Return what a rubric cannot measure there, and what its readers will miss."""
-    found = []
+    return [*_of_tests(rubric, ground), *map(Flaw, _of_rubric(rubric))]
+
+
+def _of_tests(rubric: Rubric, ground: Ground) -> Iterator[Flaw]:
     for test in rubric.tests:
-        found += [
-            Flaw(Severity.ERROR, test.name, test.line, flaw)
-            for flaw in dict.fromkeys(test.measure.flaws(ground))
-        ]
+        for flaw in dict.fromkeys(test.measure.flaws(ground)):
+            yield Flaw(flaw, test.name, test.line)
         if test.hidden and not test.hint:
-            found.append(
-                Flaw(
-                    Severity.WARNING, test.name, test.line,
-                    "it is hidden and has no hint, so a student learns nothing from it; add hint:",
-                )
-            )  # fmt: skip
+            yield Flaw(HIDDEN_WITHOUT_HINT(), test.name, test.line)
+
+
+def _of_rubric(rubric: Rubric) -> Iterator[Diagnostic]:
     if not rubric.reference:
-        found.append(
-            Flaw(
-                Severity.WARNING, "", 0,
-                "it names no reference solution, so nothing shows that full marks can be had; add "
-                "reference: solution.mat",
-            )
-        )  # fmt: skip
+        yield NO_REFERENCE()
     if all(test.hidden for test in rubric.tests):
-        found.append(
-            Flaw(Severity.WARNING, "", 0, "every test is hidden; students see none of it")
-        )
-    return found
+        yield ALL_HIDDEN()
 
 
 def flaws_of_reference(rubric: Rubric, marks: Marks) -> list[Flaw]:
@@ -56,8 +57,9 @@ def flaws_of_reference(rubric: Rubric, marks: Marks) -> list[Flaw]:
     lines = {test.name: test.line for test in rubric.tests}
     return [
         Flaw(
-            Severity.ERROR, mark.name, lines[mark.name],
-            f"the reference loses {mark.of - mark.points:g} of {mark.of:g} points: {mark.words}",
+            REFERENCE_LOSES(lost=mark.of - mark.points, of=mark.of, why=mark.found),
+            mark.name,
+            lines[mark.name],
         )
         for mark in marks.lost
-    ]  # fmt: skip
+    ]

@@ -6,51 +6,44 @@ import math
 from dataclasses import dataclass
 from typing import Any
 
+from mrlab_ros.core.base.diagnostic import Diagnostic, plain
+from mrlab_ros.core.checking.report import rounded
 from mrlab_ros.core.rubrics.checked import Checked
+from mrlab_ros.core.rubrics.diagnostics import NO_MOTION_TO_MARK
 from mrlab_ros.core.rubrics.rubric import Rubric, Test
 
 # Points are given in hundredths, rounded down.
 HUNDREDTHS = 100
-NO_MOTION = "There is no motion to mark."
 ROUNDING = 1e-9
 
 
 @dataclass(frozen=True)
 class Mark:
-    """What a test gave. points: of `of`. words: what was found.
-
-    time: s, the instant at which points were lost. measured and limit in `unit`, None where they
-    are no numbers.
-    """
+    """What a test gave. points: of `of`. time: s, the instant at which points were lost."""
 
     name: str
     points: float
     of: float
     passed: bool
-    words: str
+    found: Diagnostic
     hint: str = ""
     hidden: bool = False
     time: float | None = None
-    measured: float | None = None
-    limit: float | None = None
-    unit: str = ""
 
     def plain(self) -> dict[str, Any]:
         """Return the mark as a mapping for JSON; numbers with six decimals."""
-        return {
-            name: round(value, 6) if isinstance(value, float) else value
-            for name, value in vars(self).items()
-        }
+        found: dict[str, Any] = rounded({**vars(self), "found": plain(self.found)})
+        return found
 
 
 @dataclass(frozen=True)
 class Marks:
     """All marks of a file, in the order of the rubric. hints: of hidden tests that lost points,
-    where the tests themselves are left out. note: why there was no motion to mark, else empty."""
+    where the tests themselves are left out. note: why there was no motion to mark."""
 
     tests: tuple[Mark, ...]
     hints: tuple[str, ...] = ()
-    note: str = ""
+    note: Diagnostic | None = None
 
     @property
     def points(self) -> float:
@@ -81,7 +74,7 @@ class Marks:
             "of": self.of,
             "tests": [mark.plain() for mark in self.tests],
             "hints": list(self.hints),
-            "note": self.note,
+            "note": None if self.note is None else rounded(plain(self.note)),
         }
 
 
@@ -91,7 +84,7 @@ def mark(rubric: Rubric, checked: Checked, reference: Checked | None = None) -> 
     reference: the checked file of `rubric.reference`, for the tests that compare with it.
     """
     tests = tuple(_marked(test, checked, reference) for test in rubric.tests)
-    return Marks(tests, note="" if marked(checked) else _refused(checked))
+    return Marks(tests, note=None if marked(checked) else _refused(checked))
 
 
 def marked(checked: Checked) -> bool:
@@ -101,7 +94,9 @@ def marked(checked: Checked) -> bool:
 
 def _marked(test: Test, checked: Checked, reference: Checked | None) -> Mark:
     if not marked(checked):
-        return Mark(test.name, 0.0, test.points, False, NO_MOTION, test.hint, test.hidden)
+        return Mark(
+            test.name, 0.0, test.points, False, NO_MOTION_TO_MARK(), test.hint, test.hidden
+        )
     found = test.measure.assess(checked, reference)
     passed = found.share >= 1.0 - ROUNDING
     return Mark(
@@ -109,13 +104,10 @@ def _marked(test: Test, checked: Checked, reference: Checked | None) -> Mark:
         test.points if passed else points_of(test.points, found.share),
         test.points,
         passed,
-        found.words,
+        found.found,
         test.hint,
         test.hidden,
         None if passed else found.time,
-        found.measured,
-        found.limit,
-        found.unit,
     )
 
 
@@ -126,7 +118,7 @@ def points_of(points: float, share: float) -> float:
     return min(hundredths / HUNDREDTHS, points)
 
 
-def _refused(checked: Checked) -> str:
+def _refused(checked: Checked) -> Diagnostic:
     """Return why there is no motion: what the conversion said first."""
     first = next((f for f in checked.report.findings if f.refuses), None)
-    return f"{first.message} {first.remedy}".strip() if first else NO_MOTION
+    return first or NO_MOTION_TO_MARK()

@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
-from dataclasses import dataclass
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import dataclass, field
+from typing import Any
 
+from mrlab_ros.core.base.diagnostic import Code, Diagnostic
 from mrlab_ros.core.rubrics.checked import Checked, Motion
+from mrlab_ros.core.rubrics.diagnostics import MEMBER_WAITS_FOREVER, NO_MOTION_OF
 from mrlab_ros.core.rubrics.ground import Ground
 from mrlab_ros.core.rubrics.rubric import Outcome
 from mrlab_ros.core.rubrics.threshold import Threshold
@@ -14,11 +17,12 @@ from mrlab_ros.core.rubrics.threshold import Threshold
 @dataclass(frozen=True)
 class Figure:
     """A figure of a motion. value: in SI; time: s of the motion, the instant that stands for it;
-    words: a sentence without its end, {} where the value is."""
+    code: what is found, with `values` beside the figure and its limit."""
 
     value: float
     time: float
-    words: str
+    code: Code
+    values: Mapping[str, Any] = field(default_factory=dict)
 
 
 @dataclass(frozen=True)
@@ -39,9 +43,10 @@ class WorstFigure:
         sign = -1 if self.threshold.at_least else 1
         found = ((motion, self.figure(motion, self.threshold)) for motion in motions)
         motion, worst = max(found, key=lambda each: sign * each[1].value)
-        return self.threshold.outcome(worst.value, worst.words, motion.start + worst.time)
+        time = motion.start + worst.time
+        return self.threshold.outcome(worst.code, worst.value, time, **worst.values)
 
-    def flaws(self, ground: Ground) -> Iterator[str]:
+    def flaws(self, ground: Ground) -> Iterator[Diagnostic]:
         yield from ground.robot_flaws(self.robot)
         yield from self.threshold.flaws()
 
@@ -50,7 +55,7 @@ def no_motion(robot: str, checked: Checked) -> Outcome:
     """Return what a test gets whose robot has no motion, or has not played it to its end."""
     for motion in checked.of(robot):
         if (wait := checked.stuck.get(motion.robot.name)) is not None:
-            words = f"{motion.robot.name} waits for ever: '{wait}' does not come true."
-            return Outcome(0.0, words, motion.start)
-    names = ", ".join(m.robot.name for m in checked.motions)
-    return Outcome(0.0, f"{robot} has no motion in this file; those that have: {names}.", 0.0)
+            found = MEMBER_WAITS_FOREVER(robot=motion.robot.name, wait=wait)
+            return Outcome(0.0, found, motion.start)
+    names = [m.robot.name for m in checked.motions]
+    return Outcome(0.0, NO_MOTION_OF(robot=robot, robots=names), 0.0)

@@ -7,6 +7,7 @@ from collections.abc import Callable
 import numpy as np
 
 from mrlab_ros.core.rubrics.checked import Motion
+from mrlab_ros.core.rubrics.diagnostics import PATH_LENGTH, SMOOTHNESS, TOOL_SPEED
 from mrlab_ros.core.rubrics.motions import Figure, WorstFigure
 from mrlab_ros.core.rubrics.quantities import DISTANCE, NUMBER, SPEED, Quantity
 from mrlab_ros.core.rubrics.sentences import Form
@@ -18,21 +19,21 @@ def _length(motion: Motion, threshold: Threshold) -> Figure:
     ways = np.cumsum(np.linalg.norm(np.diff(motion.figures.tool, axis=0), axis=1))
     at = min(int(np.searchsorted(ways, threshold.limit)), len(ways) - 1)
     time = float(motion.figures.times[at + 1])
-    return Figure(float(ways[-1]), time, "The tool's path is {} long")
+    return Figure(float(ways[-1]), time, PATH_LENGTH)
 
 
 def _speed(motion: Motion, threshold: Threshold) -> Figure:
     """Return the largest speed of the tool, m/s."""
     at = int(motion.figures.speeds.argmax())
     time = float(motion.figures.times[at])
-    return Figure(float(motion.figures.speeds[at]), time, "The tool moves with {}")
+    return Figure(float(motion.figures.speeds[at]), time, TOOL_SPEED)
 
 
 def _smoothness(motion: Motion, threshold: Threshold) -> Figure:
     """Return SPARC, 0 where nothing moves, at the largest change of the tool's speed."""
     changes = np.abs(np.diff(motion.figures.speeds))
     time = float(motion.figures.times[int(changes.argmax())])
-    return Figure(motion.figures.smoothness or 0.0, time, "The smoothness is {}")
+    return Figure(motion.figures.smoothness or 0.0, time, SMOOTHNESS)
 
 
 def _form(text: str, gap: str, quantity: Quantity, figure: Callable[[Motion, Threshold], Figure],

@@ -5,14 +5,22 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from itertools import product
+from typing import Any
 
 import numpy as np
 
+from mrlab_ros.core.base.diagnostic import Diagnostic
 from mrlab_ros.core.geometry import Array, Pose, add, inverse, rotate
 from mrlab_ros.core.physics.catalogue import ObjectType
 from mrlab_ros.core.physics.surfaces import FLOOR
 from mrlab_ros.core.rubrics.checked import Checked
 from mrlab_ros.core.rubrics.contacts import recording
+from mrlab_ros.core.rubrics.diagnostics import (
+    LIES_ELSEWHERE,
+    LIES_IN_PLACE,
+    LIES_ON_ITSELF,
+    NO_OBJECT_CHECKED,
+)
 from mrlab_ros.core.rubrics.grasps import at_the_end, let_go
 from mrlab_ros.core.rubrics.ground import Ground
 from mrlab_ros.core.rubrics.rubric import Measure, Outcome
@@ -49,14 +57,16 @@ class Places:
         time, rests = found
         kind = checked.objects.get(self.thing)
         if kind is None:
-            return Outcome(0.0, f"There is no {self.thing} in what was checked.", time)
-        where = "in" if self.inside else "on"
+            return Outcome(0.0, NO_OBJECT_CHECKED(object=self.thing), time)
+        of: dict[str, Any] = {"object": self.thing, "other": self.place, "side": self._side}
         corners = _corners(kind, rests.values)
         if self._lies(checked, np.array(rests.values[:3]), corners):
-            return Outcome(1.0, f"{self.thing} lies {where} {self.place}.")
-        at = ", ".join(f"{v:.3g}" for v in rests.values[:3])
-        words = f"{self.thing} lies at ({at}) m, not {where} {self.place}."
-        return Outcome(0.0, words, time)
+            return Outcome(1.0, LIES_IN_PLACE(**of))
+        return Outcome(0.0, LIES_ELSEWHERE(**of, point=rests.values[:3]), time)
+
+    @property
+    def _side(self) -> str:
+        return "in" if self.inside else "on"
 
     def _lies(self, checked: Checked, centre: Array, corners: Array) -> bool:
         low = float(corners[:, 2].min())
@@ -86,14 +96,14 @@ class Places:
             return abs(low - float(box[:, 2].max())) <= ON and _above(centre, box)
         return self.place == FLOOR and abs(low) <= ON
 
-    def flaws(self, ground: Ground) -> Iterator[str]:
+    def flaws(self, ground: Ground) -> Iterator[Diagnostic]:
         yield from ground.graspable_flaws(self.thing)
         if self.inside:
             yield from ground.object_flaws(self.place)
         else:
             yield from ground.thing_flaws(self.place)
         if self.place == self.thing:
-            yield f"'{self.thing}' cannot lie {'in' if self.inside else 'on'} itself"
+            yield LIES_ON_ITSELF(object=self.thing, side=self._side)
 
 
 def _above(centre: Array, box: Array) -> bool:

@@ -4,15 +4,27 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 
+from mrlab_ros.core.base.diagnostic import Diagnostic
 from mrlab_ros.core.checking.waypoints import segments
 from mrlab_ros.core.geometry import Array, Pose, Quaternion, Vector, rotate
 from mrlab_ros.core.rubrics.checked import Checked, Motion
+from mrlab_ros.core.rubrics.diagnostics import (
+    NO_POSES,
+    ONE_POSE_EACH,
+    POSE_NOT_TURNED,
+    POSE_OUT_OF_REACH,
+    POSE_TOO_EARLY,
+    POSE_TOO_FAR,
+    POSE_TURNED,
+    POSES_PASSED,
+    WITHIN_NOTHING,
+)
 from mrlab_ros.core.rubrics.ground import Ground
 from mrlab_ros.core.rubrics.motions import no_motion
-from mrlab_ros.core.rubrics.quantities import ANGLE, LENGTH
 from mrlab_ros.core.rubrics.reachable import nearest
 from mrlab_ros.core.rubrics.rubric import Measure, Outcome
 from mrlab_ros.core.rubrics.sentences import Form, Gaps, Given
@@ -47,35 +59,21 @@ class Passes:
             return no_motion(self.robot, checked)
         found = self.visits(motion)
         passed = sum(visit.passed for visit in found)
-        share = passed / len(found)
-        worst = max(visit.distance for visit in found)
-        limit, unit = self.length, "m"
+        count: dict[str, Any] = {"passed": passed, "count": len(found)}
         if passed == len(found):
-            words = (
-                "The tool passes it" if len(found) == 1 else f"It passes all {len(found)} poses"
-            )
-            words = f"{words}, at most {LENGTH.words(worst)} away."
-            return Outcome(1.0, words, None, worst, limit, unit)
+            worst = max(visit.distance for visit in found)
+            said = POSES_PASSED(**count, value=worst, limit=self.length, unit="m")
+            return Outcome(1.0, said)
         number, first = next((i, v) for i, v in enumerate(found, 1) if not v.passed)
-        name = f"pose {number} ({place_words(self.poses[number - 1])})"
-        if first.early:
-            words = f"The tool passes {name} before the one that comes first"
-        elif first.distance > self.length:
-            words = f"The tool passes {name} at {LENGTH.words(first.distance)}"
+        time = first.time + motion.start
+        place = position_of(self.poses[number - 1])
+        of = {**count, "number": number, "place": place, "time": time}
+        if first.early or first.distance > self.length:
+            code = POSE_TOO_EARLY if first.early else POSE_TOO_FAR
+            said = code(**of, value=first.distance, limit=self.length, unit="m")
         else:
-            words = f"The tool passes {name} turned by {ANGLE.words(first.angle)}"
-        within = LENGTH.words(self.length)
-        if self.angle is not None:
-            within += f" and {ANGLE.words(self.angle)}"
-        of = f"; {passed} of {len(found)} poses passed" if len(found) > 1 else ""
-        return Outcome(
-            share if self.each else 0.0,
-            f"{words} at {first.time + motion.start:.2f} s; expected within {within}{of}.",
-            first.time + motion.start,
-            first.distance,
-            limit,
-            unit,
-        )
+            said = POSE_TURNED(**of, value=first.angle, limit=self.angle, unit="rad")
+        return Outcome(passed / len(found) if self.each else 0.0, said, time)
 
     def visits(self, motion: Motion) -> list[Visit]:
         """Return how each pose is passed; in order, one is looked for behind those before it."""
@@ -83,7 +81,7 @@ class Passes:
         found = []
         after = 0.0
         for pose in self.poses:
-            position = pose.position if isinstance(pose, Pose) else pose
+            position = position_of(pose)
             # A place of two numbers is seen from above.
             distances, instants = segments(tool[:, : len(position)], times, np.asarray(position))
             angles = np.zeros_like(distances)
@@ -111,29 +109,25 @@ class Passes:
             )
         return found
 
-    def flaws(self, ground: Ground) -> Iterator[str]:
+    def flaws(self, ground: Ground) -> Iterator[Diagnostic]:
         yield from ground.robot_flaws(self.robot)
         if not self.poses:
-            yield "it names no poses; add poses: [[0.4, 0.2, 0.3]], m in world"
+            yield NO_POSES()
         if self.each and len(self.poses) == 1:
-            yield "'partial: each' gives no part of the points: there is one pose"
+            yield ONE_POSE_EACH()
         if not self.length > 0:
-            yield "within 0 mm no motion passes anything; take 1 mm or more"
+            yield WITHIN_NOTHING()
         unturned = [i for i, p in enumerate(self.poses, 1) if not isinstance(p, Pose)]
         if self.angle is not None and unturned:
-            yield (
-                f"an angle is asked for, and pose {unturned[0]} has no orientation; add rpy_deg: "
-                "[180, 0, 0] to its position, or leave the angle out"
-            )
+            yield POSE_NOT_TURNED(number=unturned[0])
         robots = ground.of(self.robot)
         for number, pose in enumerate(self.poses, 1):
             if not isinstance(pose, Pose) and len(pose) == 2:
                 continue
             short = [nearest(robot, pose, self.angle) for robot in robots]
             if short and min(short) > self.length > 0:
-                yield (
-                    f"pose {number} ({place_words(pose)}) is out of reach: the tool comes within "
-                    f"{LENGTH.words(min(short))} of it, not within {LENGTH.words(self.length)}"
+                yield POSE_OUT_OF_REACH(
+                    number=number, place=position_of(pose), value=min(short), limit=self.length
                 )
 
 
@@ -148,10 +142,9 @@ def _angles(motion: Motion, orientation: Quaternion, instants: Array) -> Array:
     return angles
 
 
-def place_words(pose: Pose | Vector) -> str:
-    """Return a position, m, as people read it."""
-    position = pose.position if isinstance(pose, Pose) else pose
-    return ", ".join(f"{v:.4g}" for v in position)
+def position_of(pose: Pose | Vector) -> tuple[float, ...]:
+    """Return the position of a pose, m."""
+    return pose.position if isinstance(pose, Pose) else pose
 
 
 def _passes(gaps: Gaps, given: Given, *, ordered: bool = True) -> Measure:

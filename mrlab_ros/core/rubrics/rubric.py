@@ -6,6 +6,7 @@ from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from typing import Any, Protocol
 
+from mrlab_ros.core.base.diagnostic import Diagnostic
 from mrlab_ros.core.checking.evidence import CLOSE
 from mrlab_ros.core.rubrics.checked import Checked
 from mrlab_ros.core.rubrics.ground import Ground
@@ -13,18 +14,15 @@ from mrlab_ros.core.rubrics.ground import Ground
 
 @dataclass(frozen=True)
 class Outcome:
-    """What a measure found. share: of the points, 0 to 1; words: for the one who is marked.
+    """What a measure found. share: of the points, 0 to 1; found: for the one who is marked, with
+    value, limit and unit where the measure is a number.
 
-    time: s, the instant at which points are lost, None where there is none. measured and limit in
-    `unit`; None where the measure is no number.
+    time: s, the instant at which points are lost, None where there is none.
     """
 
     share: float
-    words: str
+    found: Diagnostic
     time: float | None = None
-    measured: float | None = None
-    limit: float | None = None
-    unit: str = ""
 
 
 class Measure(Protocol):
@@ -34,8 +32,8 @@ class Measure(Protocol):
         """Return what a file that holds a motion gets; reference: the solution's motion."""
         ...
 
-    def flaws(self, ground: Ground) -> Iterator[str]:
-        """Yield why it cannot be measured there, a sentence each."""
+    def flaws(self, ground: Ground) -> Iterator[Diagnostic]:
+        """Yield why it cannot be measured there."""
         ...
 
 

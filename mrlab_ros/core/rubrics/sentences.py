@@ -13,8 +13,15 @@ from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
 
+from mrlab_ros.core.base.diagnostic import Fix
 from mrlab_ros.core.errors import BadInput
 from mrlab_ros.core.geometry import Pose, Vector
+from mrlab_ros.core.rubrics.diagnostics import (
+    BAD_PLACE,
+    NEGATIVE,
+    TIMES_SWAPPED,
+    UNKNOWN_SENTENCE,
+)
 from mrlab_ros.core.rubrics.quantities import (
     ANGLE,
     DISTANCE,
@@ -124,11 +131,11 @@ class Form:
                 unit = re.sub(r"^[-+\d.,]*(e[-+]?\d+)?\s?", "", match["to"])
             value = quantity.read(text.lower(), unit.lower())
             if value < 0 and quantity is not NUMBER:
-                raise BadInput(f"'{text}' is negative; expected {quantity.expected}")
+                raise BadInput(NEGATIVE(text=text, expected=quantity.expected))
             gaps[name] = value
         first, last = gaps.get("from"), gaps.get("to")
         if first is not None and last is not None and first >= last:
-            raise BadInput(f"{first:g} s is not before {last:g} s; expected the earlier one first")
+            raise BadInput(TIMES_SWAPPED(first=first, last=last))
         return gaps
 
 
@@ -139,7 +146,7 @@ def _place(text: str) -> tuple[float, ...]:
     except ValueError:
         numbers = ()
     if len(numbers) not in (2, 3) or not all(abs(v) <= 100 for v in numbers):
-        raise BadInput(f"the place is {text}; expected [x, y] or [x, y, z] in m, in world")
+        raise BadInput(BAD_PLACE(text=text))
     return numbers
 
 
@@ -158,11 +165,9 @@ def form_of(sentence: str, forms: Iterable[Form]) -> tuple[Form, dict[str, Any]]
         key=lambda i: difflib.SequenceMatcher(None, wanted, bones[i]).ratio(),
         reverse=True,
     )
-    nearest = " or ".join(f"'{known[i].text}'" for i in ranked[:2])
-    raise BadInput(
-        f"'{plain}' is nothing that a rubric can measure; did you mean {nearest}? docs/rubrics.md "
-        "and mrlab rubric measures have all of them"
-    )
+    fixes = (Fix(command="rubric measures"),)
+    close = [known[i].text for i in ranked[:2]]
+    raise BadInput(UNKNOWN_SENTENCE(text=plain, close=close, fixes=fixes))
 
 
 def _bones(text: str) -> str:

@@ -4,12 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass
+from typing import Any
 
+from mrlab_ros.core.base.diagnostic import Code, Diagnostic
+from mrlab_ros.core.rubrics.diagnostics import PARTIAL_GIVES_NOTHING
 from mrlab_ros.core.rubrics.quantities import Quantity
 from mrlab_ros.core.rubrics.rubric import Outcome
 
-# The unit of a figure in SI, by the unit that people see.
-SI = {"mm": "m", "m": "m", "deg": "rad", "s": "s", "m/s": "m/s", "%": "", "": ""}
 # Of a limit that is met but for a last decimal.
 ROUNDING = 1e-9
 
@@ -24,10 +25,6 @@ class Threshold:
     until: float | None = None
     at_least: bool = False
 
-    @property
-    def words(self) -> str:
-        return f"{'at least' if self.at_least else 'at most'} {self.quantity.words(self.limit)}"
-
     def share(self, value: float) -> float:
         """Return the share of the points, 0 to 1: all up to the limit, then evenly less."""
         beyond = self.limit - value if self.at_least else value - self.limit
@@ -38,25 +35,19 @@ class Threshold:
         span = abs(self.until - self.limit)
         return max(1.0 - beyond / span, 0.0) if span > 0 else 0.0
 
-    def outcome(self, value: float, words: str, time: float | None) -> Outcome:
-        """Return what a figure gets; words: a sentence without its end, {} where the value is."""
-        return Outcome(
-            self.share(value),
-            f"{words.replace('{}', self.quantity.words(value))}; expected {self.words}.",
-            time,
-            value,
-            self.limit,
-            SI[self.quantity.shown],
-        )
+    def outcome(self, code: Code, value: float, time: float | None, /, **values: Any) -> Outcome:
+        """Return what a figure gets; code: what is found, with a limit."""
+        of: dict[str, Any] = {"value": value, "limit": self.limit, "unit": self.quantity.si}
+        return Outcome(self.share(value), code(**of, **values), time)
 
-    def flaws(self) -> Iterator[str]:
+    def flaws(self) -> Iterator[Diagnostic]:
         """Yield why a part of the points could never be given."""
         if self.until is None:
             return
-        wrong = self.until >= self.limit if self.at_least else self.until <= self.limit
-        if wrong:
-            side = "below" if self.at_least else "above"
-            yield (
-                f"'partial: until {self.quantity.words(self.until)}' gives no part of the points: "
-                f"it must lie {side} the limit of {self.quantity.words(self.limit)}"
+        if self.until >= self.limit if self.at_least else self.until <= self.limit:
+            yield PARTIAL_GIVES_NOTHING(
+                until=self.until,
+                side="below" if self.at_least else "above",
+                limit=self.limit,
+                unit=self.quantity.si,
             )

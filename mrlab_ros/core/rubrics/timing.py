@@ -5,8 +5,18 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass
 
+from mrlab_ros.core.base.diagnostic import Diagnostic
 from mrlab_ros.core.rubrics.checked import Checked, Motion
 from mrlab_ros.core.rubrics.contacts import recording
+from mrlab_ros.core.rubrics.diagnostics import (
+    CYCLE_TIME,
+    MEMBER_WAITS_FOREVER,
+    MODE_OF_ONE_MOTION,
+    MODE_USED,
+    NO_CELL,
+    OTHER_MODE,
+    TOTAL_TIME,
+)
 from mrlab_ros.core.rubrics.ground import Ground
 from mrlab_ros.core.rubrics.motions import Figure, WorstFigure
 from mrlab_ros.core.rubrics.quantities import TIME
@@ -26,13 +36,12 @@ class TotalTime:
         stuck = recording(checked).stuck
         if stuck:
             robot, wait = next(iter(stuck.items()))
-            words = f"{robot} waits for ever: '{wait}' does not come true."
-            return Outcome(0.0, words, value, None, self.threshold.limit, "s")
+            return Outcome(0.0, MEMBER_WAITS_FOREVER(robot=robot, wait=wait), value)
         # From the limit on it lasts too long.
         at = min(self.threshold.limit, value)
-        return self.threshold.outcome(value, "The whole lasts {}", at)
+        return self.threshold.outcome(TOTAL_TIME, value, at)
 
-    def flaws(self, ground: Ground) -> Iterator[str]:
+    def flaws(self, ground: Ground) -> Iterator[Diagnostic]:
         yield from self.threshold.flaws()
 
 
@@ -44,21 +53,20 @@ class Mode:
 
     def assess(self, checked: Checked, reference: Checked | None) -> Outcome:
         if not checked.mode:
-            return Outcome(0.0, f"It is one motion; expected a cell in {self.mode} mode.", 0.0)
+            return Outcome(0.0, NO_CELL(mode=self.mode), 0.0)
         if checked.mode == self.mode:
-            return Outcome(1.0, f"The cell is played in {self.mode} mode.")
-        words = f"The cell is played in {checked.mode} mode; expected {self.mode}."
-        return Outcome(0.0, words, 0.0)
+            return Outcome(1.0, MODE_USED(mode=self.mode))
+        return Outcome(0.0, OTHER_MODE(found=checked.mode, mode=self.mode), 0.0)
 
-    def flaws(self, ground: Ground) -> Iterator[str]:
+    def flaws(self, ground: Ground) -> Iterator[Diagnostic]:
         if ground.cell is False:
-            yield "the reference is one motion, which has no mode; name a cell (.yaml)"
+            yield MODE_OF_ONE_MOTION()
 
 
 def _cycle(motion: Motion, threshold: Threshold) -> Figure:
     """Return the time from a robot's first motion to its last, s, and when it is too long."""
     value = motion.figures.cycle
-    return Figure(value, min(threshold.limit, value), "The cycle lasts {}")
+    return Figure(value, min(threshold.limit, value), CYCLE_TIME)
 
 
 def _mode(mode: str) -> Form:

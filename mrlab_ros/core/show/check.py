@@ -8,9 +8,9 @@ from typing import Any
 
 import numpy as np
 
-from mrlab_ros.core.checking.evidence import thing
-from mrlab_ros.core.checking.findings import Finding
-from mrlab_ros.core.checking.hardware import CLAIM, Condition, State
+from mrlab_ros.core.base.diagnostic import Diagnostic
+from mrlab_ros.core.checking.diagnostics import CLAIM
+from mrlab_ros.core.checking.hardware import Condition, State
 from mrlab_ros.core.checking.motion import MotionFigures
 from mrlab_ros.core.checking.recording import Course, Distances, Rehearsed
 from mrlab_ros.core.checking.report import CheckReport, RobotReport
@@ -153,7 +153,6 @@ def check_body(
 ) -> str:
     """Return the HTML of a check. film: times, s, and pictures at them as data: URLs. marks: by
     a rubric, None where there is none."""
-    verdict, _, words = report.words.partition(": ")
     kind = "refused" if report.refusing else "accepted"
     facts = " · ".join(
         f"{r.model}{f' with {r.end_effector}' if r.end_effector else ''}" for r in report.robots
@@ -169,8 +168,7 @@ def check_body(
             f"<h1>{escape(report.title)}</h1>",
             f'<p class="facts">{escape(facts)} · {report.duration or 0:.2f} s</p>',
             f'<p class="verdict {kind}"><svg viewBox="0 0 24 24" aria-hidden="true">'
-            f'<path d="{ICONS[kind]}"/></svg><b>{escape(verdict.capitalize())}</b> '
-            f"<span>{escape(words)}</span></p>",
+            f'<path d="{ICONS[kind]}"/></svg><span>{escape(str(report.summary))}</span></p>',
             "</header>",
             f'<main class="{"with" if shown else "without"}-findings">',
             '<section id="view" aria-label="3D view"></section>',
@@ -180,7 +178,7 @@ def check_body(
             *(_hardware(robot, several=len(report.robots) > 1) for robot in report.robots),
             _plots(shown, recorded, robots),
             "</main>",
-            f'<footer class="foot">{escape(CLAIM)} · <span title="{digest}">report '
+            f'<footer class="foot">{escape(str(CLAIM()))} · <span title="{digest}">report '
             f"{digest[:12]}</span> · made by MR-Lab</footer>",
         )
     )
@@ -200,11 +198,12 @@ def _condition(one: Condition) -> str:
         f'<tr><td class="result {CLASSES[one.state]}"><svg viewBox="0 0 24 24" '
         f'aria-hidden="true"><path d="{ICONS[STATE_ICONS[one.state]]}"/></svg>'
         f"<span>{WORDS[one.state]}</span></td>"
-        f'<td class="robot">{escape(one.name)}</td><td>{escape(one.words)}</td></tr>'
+        f'<td class="robot">{escape(str(one.condition))}</td>'
+        f"<td>{escape(str(one.found))}</td></tr>"
     )
 
 
-def _findings(findings: Sequence[Finding], *, several: bool) -> str:
+def _findings(findings: Sequence[Diagnostic], *, several: bool) -> str:
     if not findings:
         return ""
     items = []
@@ -216,7 +215,7 @@ def _findings(findings: Sequence[Finding], *, several: bool) -> str:
                 SEVERITIES[severity],
                 "" if one.time is None else f"{one.time:.2f} s",
                 one.robot if several else "",
-                one.link,
+                one.link or one.joint,
             )
             if part
         )
@@ -232,7 +231,9 @@ def _findings(findings: Sequence[Finding], *, several: bool) -> str:
     )
 
 
-def _plots(findings: Sequence[Finding], recorded: Rehearsed, robots: Sequence[PlayedRobot]) -> str:
+def _plots(
+    findings: Sequence[Diagnostic], recorded: Rehearsed, robots: Sequence[PlayedRobot]
+) -> str:
     moving = [r for r in robots if r.trajectory is not None and r.figures is not None]
     groups = [("Distances", _distances(findings, recorded, several=len(moving) > 1))]
     for robot in moving:
@@ -256,19 +257,19 @@ def _plots(findings: Sequence[Finding], recorded: Rehearsed, robots: Sequence[Pl
     return f'<section class="plots" aria-label="Plots">{"".join(parts)}</section>'
 
 
-def _marks(findings: Sequence[Finding], robot: str, *words: str, link: str = "") -> Any:
+def _marks(findings: Sequence[Diagnostic], robot: str, *words: str, link: str = "") -> Any:
     """Return the marks of the findings of a robot whose code is one of `words`, or of a link."""
     return tuple(
         Mark(n, f.severity.name.lower(), f.time, f.end if f.end is not None else f.time)
         for n, f in enumerate(findings, 1)
         if f.time is not None
         and f.robot == robot
-        and (f.code in words or (link and f.link == link))
+        and (f.code in words or (link and f.joint == link))
     )
 
 
 def _distances(
-    findings: Sequence[Finding], recorded: Rehearsed, *, several: bool
+    findings: Sequence[Diagnostic], recorded: Rehearsed, *, several: bool
 ) -> list[tuple[Strip, Array]]:
     near = [
         (key, series)
@@ -283,7 +284,7 @@ def _distances(
         values[[not link for link in series.links]] = np.nan
         met = (robot, kind.name.lower(), other)
         who = series.held[at] or series.links[at]
-        name = f"{who} to {thing(kind, other, series.other_links[at])}"
+        name = f"{who} to {other} {series.other_links[at]}".strip()
         marks = tuple(
             Mark(n, f.severity.name.lower(), f.time, f.end if f.end is not None else f.time)
             for n, f in enumerate(findings, 1)
@@ -301,7 +302,7 @@ def _approaches(series: Distances) -> bool:
 
 
 def _tool(
-    findings: Sequence[Finding], robot: PlayedRobot, start: float
+    findings: Sequence[Diagnostic], robot: PlayedRobot, start: float
 ) -> list[tuple[Strip, Array]]:
     figures = robot.figures
     assert figures is not None
@@ -310,7 +311,7 @@ def _tool(
         (
             Strip(
                 "speed of tool0", "m/s", figures.speeds,
-                marks=_marks(findings, robot.name, "misses_point"),
+                marks=_marks(findings, robot.name, "misses_point", "point_out_of_order"),
             ),
             figures.times + start,
         ),
@@ -325,7 +326,7 @@ def _tool(
 
 
 def _joints(
-    findings: Sequence[Finding], robot: PlayedRobot, start: float
+    findings: Sequence[Diagnostic], robot: PlayedRobot, start: float
 ) -> list[tuple[Strip, Array]]:
     trajectory, figures = robot.trajectory, robot.figures
     assert trajectory is not None

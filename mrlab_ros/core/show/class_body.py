@@ -128,7 +128,7 @@ def _lost(graded: GradedClass, figures: Statistics) -> str:
 def _findings(graded: GradedClass, figures: Statistics) -> str:
     rows = "".join(
         f'<li class="{found.severity}"><b>{found.students}</b>'
-        f"<span>{escape(found.message)}</span></li>"
+        f"<span>{escape(found.example['message'])}</span></li>"
         for found in figures.findings[:6]
     )
     nothing = said("No check found anything.", "Keine Prüfung hat etwas gefunden.")
@@ -144,7 +144,7 @@ def _left_out(graded: GradedClass) -> str:
     if not graded.left_out:
         return ""
     rows = "".join(
-        f"<li><code>{escape(path)}</code> <span>{escape(why)}</span></li>"
+        f"<li><code>{escape(path)}</code> <span>{escape(str(why))}</span></li>"
         for path, why in graded.left_out[:MOST_LEFT_OUT]
     )
     head = said(

@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from typing import Any
 from urllib.parse import quote
 
-from mrlab_ros.core.classroom.gradebook import number
+from mrlab_ros.core.classroom.gradebook import number, text
 from mrlab_ros.core.classroom.graded import REFERENCE, GradedClass, Student
 from mrlab_ros.core.classroom.result import MARKED, Result
 from mrlab_ros.core.foreign_text import for_html as escape
@@ -77,9 +77,9 @@ def _row(student: Student, thumbnails: Thumbnails) -> str:
         details.append('<small class="late">' + said("late", "verspätet") + "</small>")
     if result.file:
         details.append(f"<small><bdi>{escape(result.file)}</bdi></small>")
-    notes = (*one.notes, *result.notes)
+    notes = tuple(map(str, one.notes))
     if result.outcome != MARKED or not (result.path or result.has_page):
-        notes = (result.words, *notes)
+        notes = (text(result.found), *notes)
     details += [f'<small class="note">{escape(note)}</small>' for note in notes]
     cells = "".join(
         _mark(mark, number_, result, page) for number_, mark in enumerate(result.marks["tests"])
@@ -131,7 +131,7 @@ def _mark(mark: Mapping[str, Any], place: int, result: Result, page: str) -> str
     state = state_of(mark, result)
     _, english, german = STATES[state]
     content = f"{icon(state)}<b>{number(mark['points'])}</b>{said(english, german)}"
-    words = mark["words"]
+    words = text(mark["found"])
     if mark["time"] is not None:
         words = f"{mark['time']:.2f} s: {words}"
     if page:

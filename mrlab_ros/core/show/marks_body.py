@@ -19,7 +19,7 @@ def marks_body(marks: Marks) -> str:
     return (
         '<section class="runs marks" aria-label="Marks"><h2>Marks</h2>'
         f'<p class="total"><b>{marks.points:g}</b> of {marks.of:g} points'
-        f"{'. ' + escape(marks.note) if marks.note else ''}</p>"
+        f"{'. ' + escape(str(marks.note)) if marks.note else ''}</p>"
         "<table><thead><tr><th>Result</th><th>Points</th><th>Test</th><th>Time</th>"
         f"<th>Found</th></tr></thead><tbody>{rows}</tbody></table>{hints}</section>"
     )
@@ -34,7 +34,8 @@ def _row(mark: Mark) -> str:
         f'<path d="{ICONS[icon]}"/></svg><span>{word}</span></td>'
         f'<td class="figure">{mark.points:g} / {mark.of:g}</td>'
         f'<td class="test">{escape(mark.name)}{hidden}</td>'
-        f'<td class="figure">{instant(mark.time)}</td><td>{escape(mark.words)}{hint}</td></tr>'
+        f'<td class="figure">{instant(mark.time)}</td>'
+        f"<td>{escape(mark.found.message)}{hint}</td></tr>"
     )
 
 

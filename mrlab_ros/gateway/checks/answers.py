@@ -6,7 +6,7 @@ from typing import Annotated, Literal
 
 from pydantic import BaseModel, Field
 
-from mrlab_ros.gateway.store.answers import SeverityWord, Strict
+from mrlab_ros.gateway.store.answers import Finding, Strict
 
 Robot = Annotated[str, Field(min_length=1, max_length=100)]
 TrajectoryId = Annotated[str, Field(min_length=1, max_length=600)]
@@ -19,45 +19,44 @@ class CheckWanted(Strict):
     trajectory: TrajectoryId
 
 
-class CheckFinding(BaseModel):
-    """A finding of a check. time, end: s from the first frame; null: it has no instant."""
+class CheckFinding(Finding):
+    """A finding of a check. time, end: s from the first frame; null: it has no instant.
 
-    severity: SeverityWord
-    code: str
-    message: str
-    remedy: str
-    robot: str
-    link: str
-    time: float | None
-    end: float | None
-    value: float | None
-    limit: float | None
-    unit: str
+    kind, other: what the robot meets, such as object or robot, and its name; empty: nothing.
+    """
+
+    robot: str = ""
+    link: str = ""
+    time: float | None = None
+    end: float | None = None
+    kind: str = ""
+    other: str = ""
 
 
 class CheckCondition(BaseModel):
-    """One condition of a real controller. state: as the report says it."""
+    """One condition of a real controller. state: ok, not or unknown. found: the figure against
+    its limit, or why it is not known."""
 
-    condition: str
+    condition: CheckFinding
     state: str
-    words: str
+    found: CheckFinding
 
 
 class Check(BaseModel):
     """A check of a robot's motion in the lab.
 
-    state: none where nobody asked. stale: what has changed in the lab since, empty where nothing
-    has. message: why it failed. verdict, summary, claim, hash: of the report, mrlab.check.1.
+    state: none where nobody asked. stale: what has changed in the lab since; null: nothing.
+    problem: why it failed. verdict, summary, claim, hash: of the report, mrlab.check.1.
     """
 
     state: Literal["none", "waiting", "running", "done", "failed"]
     robot: str
     trajectory: str
-    stale: str = ""
-    message: str = ""
+    stale: CheckFinding | None = None
+    problem: CheckFinding | None = None
     verdict: str = ""
-    summary: str = ""
-    claim: str = ""
+    summary: CheckFinding | None = None
+    claim: CheckFinding | None = None
     hash: str = ""
     duration: float | None = None
     findings: list[CheckFinding] = []

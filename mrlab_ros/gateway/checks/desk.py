@@ -10,9 +10,11 @@ from dataclasses import dataclass, field
 from typing import Any, Protocol
 
 from mrlab_ros.adapters.checking.in_lab import Task
+from mrlab_ros.core.base.diagnostic import Diagnostic, plain
 from mrlab_ros.core.checking.lab_scene import LabScene, changed
 from mrlab_ros.core.errors import LabError
 from mrlab_ros.gateway.checks.answers import Check
+from mrlab_ros.gateway.checks.diagnostics import CHECK_FAILED, TOO_MANY_CHECKS
 from mrlab_ros.gateway.errors import TooMany
 
 MOST_WAITING = 12
@@ -41,7 +43,7 @@ class Entry:
     scene: LabScene
     state: str = "waiting"
     report: Mapping[str, Any] = field(default_factory=dict)
-    message: str = ""
+    problem: Diagnostic | None = None
     work: asyncio.Task[None] | None = None
 
     @property
@@ -75,10 +77,7 @@ class CheckDesk:
         active = [e for e in self._entries.values() if e.active]
         superseded = [e for e in active if e.key[0] == key[0]]
         if len(active) - len(superseded) >= MOST_WAITING:
-            raise TooMany(
-                f"{len(active)} motions wait to be checked already; try again in {AGAIN_S:.0f} s",
-                AGAIN_S,
-            )
+            raise TooMany(TOO_MANY_CHECKS(count=len(active), seconds=AGAIN_S), AGAIN_S)
         for each in superseded:
             self._end(each)
         entry = self._entries[key] = Entry(key, file, scene)
@@ -119,13 +118,10 @@ class CheckDesk:
                 entry.report = await self._checker.check(task)
                 entry.state = "done"
             except LabError as error:
-                entry.message, entry.state = str(error), "failed"
+                entry.problem, entry.state = error.diagnostic, "failed"
             except Exception:
                 log.exception("the check of %s failed", entry.key)
-                entry.message = (
-                    "the check failed; the gateway's log, on the lab's machine, says why"
-                )
-                entry.state = "failed"
+                entry.problem, entry.state = CHECK_FAILED(), "failed"
 
 
 def answer(key: Key, entry: Entry | None, now: LabScene | None) -> Check:
@@ -135,14 +131,16 @@ def answer(key: Key, entry: Entry | None, now: LabScene | None) -> Check:
         return Check(state="none", robot=robot, trajectory=trajectory)
     report = entry.report
     own: Mapping[str, Any] = next((r for r in report.get("robots", ()) if r["name"] == robot), {})
+    stale = changed(entry.scene, now, robot) if report and now is not None else None
     return Check.model_validate(
         {
             "state": entry.state,
             "robot": robot,
             "trajectory": trajectory,
-            "message": entry.message,
-            "stale": changed(entry.scene, now, robot) if report and now is not None else "",
-            **{k: report.get(k, "") for k in ("verdict", "summary", "claim", "hash")},
+            "problem": entry.problem and plain(entry.problem),
+            "stale": stale and plain(stale),
+            **{k: report.get(k, "") for k in ("verdict", "hash")},
+            **{k: report.get(k) for k in ("summary", "claim")},
             "duration": report.get("duration"),
             "findings": report.get("findings", ()),
             "conditions": own.get("hardware", ()),

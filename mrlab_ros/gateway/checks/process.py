@@ -13,7 +13,9 @@ from typing import Any
 
 from mrlab_ros.adapters import python_process
 from mrlab_ros.adapters.checking.in_lab import Task
+from mrlab_ros.core.base.diagnostic import from_plain
 from mrlab_ros.core.errors import BadInput, Unavailable
+from mrlab_ros.gateway.checks.diagnostics import CHECK_ENDED_EARLY, CHECK_TOO_SLOW
 
 # It gives way to others, so a busy machine takes long.
 PATIENCE_S = 300.0
@@ -34,10 +36,7 @@ class CheckProcess:
                 process.communicate(pickle.dumps(task)), PATIENCE_S
             )
         except asyncio.TimeoutError:
-            raise Unavailable(
-                f"the check took longer than {PATIENCE_S:.0f} s, because this machine is busy "
-                "or the motion is long; pause what plays and check again"
-            ) from None
+            raise Unavailable(CHECK_TOO_SLOW(limit=PATIENCE_S)) from None
         finally:
             if process.returncode is None:
                 with contextlib.suppress(ProcessLookupError):
@@ -48,11 +47,8 @@ class CheckProcess:
         except ValueError:
             lines = problems.decode(errors="replace").strip().splitlines()[-LAST_LINES:]
             log.warning("a check ended with %s: %s", process.returncode, " | ".join(lines))
-            raise Unavailable(
-                f"the check ended early (status {process.returncode}), as when it needs too much "
-                "memory or time; check a shorter motion, or run mrlab check"
-            ) from None
+            raise Unavailable(CHECK_ENDED_EARLY(status=process.returncode)) from None
         if "problem" in told:
-            raise BadInput(told["problem"])
+            raise BadInput(from_plain(told["problem"]))
         report: Mapping[str, Any] = told["report"]
         return report

@@ -14,6 +14,7 @@ from mrlab_ros.core.errors import Unavailable
 from mrlab_ros.core.geometry import Pose
 from mrlab_ros.core.physics.surfaces import FLOOR, Surface
 from mrlab_ros.core.scene.document import ObjectEntry, RobotEntry, SceneDocument
+from mrlab_ros.gateway.checks.diagnostics import ROBOTS_NOT_KNOWN
 from mrlab_ros.gateway.lab.connection import LabConnection, Sample
 from mrlab_ros.gateway.lab.definitions import Definitions
 
@@ -61,9 +62,7 @@ class SceneWatch:
             robots = await lab.get("robots")
             surfaces = await lab.get("surfaces")
             if robots is None:
-                raise Unavailable(
-                    "the lab does not say which robots it has; wait until it runs, then try again"
-                )
+                raise Unavailable(ROBOTS_NOT_KNOWN())
             found = lab.definitions.decode(ROBOTS, robots.payload)
             wanted |= {f"{robot.name}/joint_states" for robot in found.robots}
             # without physics nothing says where objects are

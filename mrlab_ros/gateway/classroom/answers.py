@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from pydantic import BaseModel
 
+from mrlab_ros.gateway.checks.answers import CheckFinding
+
 
 class Mark(BaseModel):
     """What a test of the rubric gave. time: s, where points were lost; null: no instant."""
@@ -12,20 +14,21 @@ class Mark(BaseModel):
     points: float
     of: float
     passed: bool
-    words: str
+    found: CheckFinding
     hint: str
     hidden: bool
     time: float | None
 
 
 class Submission(BaseModel):
-    """One student's submission. motion: there is one to show. words: why there is none."""
+    """One student's submission. motion: there is one to show. found: why there is none, or
+    the verdict of its check."""
 
     key: str
     name: str
     points: float
     of: float
-    words: str
+    found: CheckFinding
     duration: float | None
     robot: str
     tool: str

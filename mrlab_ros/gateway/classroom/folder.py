@@ -10,9 +10,20 @@ from typing import Any
 import orjson
 
 from mrlab_ros.adapters.trajectories import json_file
-from mrlab_ros.core.base.diagnostic import Diagnostic, Severity
+from mrlab_ros.core.base.diagnostic import PLACE, Diagnostic, Severity, from_plain
 from mrlab_ros.core.errors import BadInput, Unavailable
 from mrlab_ros.core.trajectory.trajectory import Trajectory
+from mrlab_ros.gateway.classroom.diagnostics import (
+    CLASS_FILE_TOO_LARGE,
+    CLASS_NO_JSON,
+    CLASS_NOT_READ,
+    LOST_POINTS,
+    MOTION_NOT_THERE,
+    MOTION_OUTSIDE,
+    NO_MOTION_TO_SHOW,
+    NO_SUBMISSION,
+    OTHER_CLASS_SCHEMA,
+)
 from mrlab_ros.gateway.errors import NotFound
 from mrlab_ros.gateway.settings import CLASS_FILE
 
@@ -21,8 +32,6 @@ MiB = 1 << 20
 LARGEST_CLASS, LARGEST_MOTION = 256 * MiB, 256 * MiB
 # The motion of the solution has this key.
 REFERENCE = "reference"
-# The code of lost points, beside those of a check.
-LOST = "test"
 
 
 class ClassFolder:
@@ -44,20 +53,15 @@ class ClassFolder:
                     return self._known[1]
                 text = _read(path, LARGEST_CLASS)
             except OSError as error:
-                raise Unavailable(
-                    f"the class cannot be read: {error.strerror}; let mrlab class write it again"
-                ) from None
+                raise Unavailable(CLASS_NOT_READ(why=error.strerror)) from None
             try:
                 found: dict[str, Any] = orjson.loads(text)
             except orjson.JSONDecodeError as error:
-                raise BadInput(
-                    f"{CLASS_FILE} is no JSON: {error}; run mrlab class again"
-                ) from None
+                raise BadInput(CLASS_NO_JSON(file=CLASS_FILE, why=str(error))) from None
             schema = found.get("schema") if isinstance(found, dict) else None
             if schema != SCHEMA:
                 raise BadInput(
-                    f"{CLASS_FILE} has the schema {schema!r}; expected {SCHEMA}: run mrlab "
-                    "class of this version again"
+                    OTHER_CLASS_SCHEMA(file=CLASS_FILE, found=repr(schema), expected=SCHEMA)
                 )
             self._known = identity, found
             return found
@@ -72,72 +76,59 @@ class ClassFolder:
             if each["key"] == key:
                 found: Mapping[str, Any] = each
                 return found
-        raise NotFound(f"there is no submission '{key}' in this class; choose one of its list")
+        raise NotFound(NO_SUBMISSION(key=key))
 
     def trajectory(self, key: str) -> Trajectory:
         """Return a student's motion; raise NotFound where there is none."""
         entry = self.entry(key)
         named = entry.get("trajectory")
         if not named:
-            words = entry.get("words") or "no motion was found in it"
-            raise NotFound(f"the submission '{key}' has no motion to show: {words}")
+            why = from_plain(entry["found"]) if entry.get("found") else None
+            raise NotFound(NO_MOTION_TO_SHOW(key=key, why=why))
         path = (self.folder / named).resolve()
         if not path.is_relative_to(self.folder.resolve()):
-            raise NotFound(f"the motion of '{key}' lies outside the folder of the class")
+            raise NotFound(MOTION_OUTSIDE(key=key))
         try:
             return json_file.parse(_read(path, LARGEST_MOTION), path.name)
         except OSError as error:
-            raise NotFound(
-                f"the motion of '{key}' is not there ({error.strerror}); run mrlab class again"
-            ) from None
+            raise NotFound(MOTION_NOT_THERE(key=key, why=error.strerror)) from None
 
 
 def findings(entry: Mapping[str, Any], trajectory: Trajectory) -> list[Diagnostic]:
     """Return lost points, then what the check found, as findings of the motion's frames."""
-    found = list(_lost(entry))
-    found += entry.get("findings", ())
-    return [_diagnostic(each, trajectory) for each in found]
+    found = [*_lost(entry), *map(from_plain, entry.get("findings", ()))]
+    return [_in_rows(each, trajectory) for each in found]
 
 
-def _lost(entry: Mapping[str, Any]) -> Iterator[Mapping[str, Any]]:
+def _lost(entry: Mapping[str, Any]) -> Iterator[Diagnostic]:
     for mark in entry.get("marks", ()):
         if not mark["passed"]:
-            yield {
-                **mark,
-                "code": LOST,
-                "severity": "warning" if mark["points"] > 0 else "error",
-                "message": f"{mark['name']}: {mark['words']}",
-                "remedy": mark.get("hint", ""),
-            }
+            found = from_plain(mark["found"])
+            placed = {k: v for k, v in found.values.items() if k in PLACE}
+            yield LOST_POINTS(
+                **{**placed, "time": mark["time"]},
+                test=mark["name"],
+                found=found,
+                hint=mark.get("hint"),
+                severity=Severity.WARNING if mark["points"] > 0 else Severity.ERROR,
+            )
 
 
-def _diagnostic(found: Mapping[str, Any], trajectory: Trajectory) -> Diagnostic:
+def _in_rows(found: Diagnostic, trajectory: Trajectory) -> Diagnostic:
+    """Return a finding with the rows of its instants."""
+
     def row(time: float | None) -> int:
         if time is None:
             return 0
         return min(round(time * trajectory.frame_rate), trajectory.frame_count - 1) + 1
 
-    first = row(found.get("time"))
-    last = row(found.get("end"))
-    return Diagnostic(
-        str(found["code"]),
-        Severity[str(found["severity"]).upper()],
-        str(found["message"]),
-        str(found.get("remedy", "")),
-        {
-            "first_row": first,
-            "last_row": max(last, first),
-            "joint": found.get("link"),
-            "value": found.get("value", found.get("measured")),
-            "limit": found.get("limit"),
-            "unit": found.get("unit"),
-        },
-    )
+    first = row(found.time)
+    return found.with_values(first_row=first, last_row=max(row(found.end), first))
 
 
 def _read(path: Path, most: int) -> bytes:
     with path.open("rb") as file:
         text = file.read(most + 1)
     if len(text) > most:
-        raise BadInput(f"{path.name} has more than {most / MiB:.0f} MiB; it is no file of a class")
+        raise BadInput(CLASS_FILE_TOO_LARGE(file=path.name, most=most))
     return text

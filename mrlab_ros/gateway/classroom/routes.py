@@ -11,8 +11,10 @@ from fastapi import APIRouter, Depends, Path, Request, Response
 from fastapi.concurrency import run_in_threadpool
 
 from mrlab_ros.adapters.trajectories import json_file
+from mrlab_ros.core.base.diagnostic import Fix, from_plain
 from mrlab_ros.core.show import document
 from mrlab_ros.gateway.classroom import answers
+from mrlab_ros.gateway.classroom.diagnostics import NO_CLASS
 from mrlab_ros.gateway.classroom.folder import REFERENCE, ClassFolder, findings
 from mrlab_ros.gateway.errors import NotFound
 from mrlab_ros.gateway.store.shelf import Shelf, shelf_of
@@ -24,10 +26,7 @@ def class_of(request: Request) -> ClassFolder:
     """Return the class of a gateway, as a dependency; raises NotFound where it shows none."""
     found: ClassFolder | None = request.app.state.classroom
     if found is None:
-        raise NotFound(
-            "this gateway shows no class; start the lab with mrlab up --class FOLDER, a folder "
-            "that mrlab class made"
-        )
+        raise NotFound(NO_CLASS(fixes=(Fix(command="up --class FOLDER"),)))
     return found
 
 
@@ -64,7 +63,10 @@ async def motion(graded: TheClass, shelf: TheShelf, key: Key) -> Response:
         entry, loaded = graded.entry(key), graded.trajectory(key)
         robot = shelf.robots.shown(loaded.robot_model, loaded.end_effector)
         shown = document.motion(
-            loaded, robot, message=str(entry["words"]), diagnostics=findings(entry, loaded)
+            loaded,
+            robot,
+            message=str(from_plain(entry["found"])),
+            diagnostics=findings(entry, loaded),
         )
         return orjson.dumps(shown | {"title": entry["name"]})
 

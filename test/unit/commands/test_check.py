@@ -35,7 +35,7 @@ def test_a_grasp_in_its_scene_is_ready_and_told(tmp_path):
     other = check(*given, "--points", points, "--within", "3cm", "--json")
     assert other.exit_code == 1
     misses = [f for f in json.loads(other.stdout)["findings"] if f["code"] == "misses_point"]
-    assert ["point 2" in f["message"] for f in misses] == [True]
+    assert [f["values"]["number"] for f in misses] == [2]
 
 
 def test_a_collision_refuses_and_the_page_and_the_report_have_one_hash(tmp_path):
@@ -43,15 +43,17 @@ def test_a_collision_refuses_and_the_page_and_the_report_have_one_hash(tmp_path)
     page = tmp_path / "page.html"
     said = check(*given, "--out", page)
     assert said.exit_code == 1
-    assert said.stdout.startswith("not ready: at 3.1")
+    assert said.stdout.startswith("not ready: ")
     found = json.loads(check(*given, "--json").stdout)
     hits = [f for f in found["findings"] if f["code"] == "collision"]
-    assert {"pedestal_1", "pillar_2"} <= {w for f in hits for w in f["message"].split()}
+    assert {"pedestal_1", "pillar_2"} <= {f["other"] for f in hits}
+    assert found["summary"]["code"] == "check_not_ready"
+    assert found["summary"]["values"]["time"] == pytest.approx(3.15, abs=0.06)
     assert all(f["link"] and f["time"] > 3 and f["value"] > 0 and f["remedy"] for f in hits)
     assert found["hash"] in said.stdout.replace("\n", "")
     text = page.read_text()
     assert found["hash"] in text
-    assert "wrist_3_link touches pedestal_1" in text
+    assert "touches the object pedestal_1" in text
 
 
 @pytest.mark.parametrize(
@@ -66,7 +68,7 @@ def test_a_collision_refuses_and_the_page_and_the_report_have_one_hash(tmp_path)
         (("--robot", "ur5e", "--within", "5"), "write 5mm or 5m"),
         (("--robot", "ur5e", "--points", "nowhere.csv"), "cannot be read"),
         (("--robot", "ur5e", "--out", "page.pdf"), "ends in .html"),
-        (("--robot", "ur5e", "--closest", "600mm"), "at most 0.5 m"),
+        (("--robot", "ur5e", "--closest", "600mm"), "at most 500 mm"),
     ],
 )
 def test_what_cannot_be_checked_ends_with_2_and_a_sentence(words, sentence):

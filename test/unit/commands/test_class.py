@@ -76,9 +76,11 @@ def test_a_class_is_marked_kept_and_the_same_however_it_is_run(submissions, tmp_
     assert [rows[n]["points"] for n in ("Änne Groß", "Cem", "Dora", "Eva")] == [15, 0, 0, 15]
     assert 0 < rows["Ben"]["points"] < 15
     assert rows["Dora"]["outcome"] == "no_file"
-    assert "report.pdf" in rows["Dora"]["words"]
+    assert rows["Dora"]["found"]["code"] == "no_file_handed_in"
+    assert rows["Dora"]["found"]["values"]["files"] == ["report.pdf"]
     assert rows["Eva"]["file"] == "a.mat"
-    assert "2 files" in rows["Eva"]["notes"][0]
+    assert rows["Eva"]["notes"][0]["code"] == "newest_taken"
+    assert rows["Eva"]["notes"][0]["values"]["count"] == 2
     assert found["reference"]["points"] == 15
     lost = [m for m in rows["Ben"]["marks"] if not m["passed"]]
     assert f"#t={lost[0]['time']:.2f}" in (out / "index.html").read_text()
@@ -122,10 +124,10 @@ def test_a_class_is_marked_kept_and_the_same_however_it_is_run(submissions, tmp_
 @pytest.mark.parametrize(
     ("words", "sentence"),
     [
-        (("nowhere", "--rubric", RUBRIC), "there is no folder or archive nowhere"),
+        (("nowhere", "--rubric", RUBRIC), "no folder or archive nowhere"),
         ((RUBRIC, "--rubric", RUBRIC), "no zip archive"),
         ((ROOT / "config", "--rubric", ROOT / "nowhere.yaml"), "nowhere.yaml"),
-        ((ROOT / "examples", "--rubric", RUBRIC, "--out", ROOT / "config"), "--out DIR"),
+        ((ROOT / "examples", "--rubric", RUBRIC, "--out", ROOT / "config"), "bridge.yaml"),
         ((ROOT / "examples", "--rubric", RUBRIC, "--jobs", "-1"), "--jobs is -1"),
     ],
 )
@@ -138,6 +140,7 @@ def test_what_cannot_be_marked_ends_with_2_and_a_sentence(words, sentence):
 RUDE = """
     import ctypes
     from dataclasses import dataclass
+    from mrlab_ros.core.rubrics.diagnostics import NOTHING_TOUCHED
     from mrlab_ros.core.rubrics.rubric import Outcome
 
     @dataclass(frozen=True)
@@ -152,7 +155,7 @@ RUDE = """
                 bytearray(1 << 40)
             while file == "hangs.mat":
                 pass
-            return Outcome(1.0, "fine")
+            return Outcome(1.0, NOTHING_TOUCHED())
 """
 
 
@@ -178,10 +181,15 @@ def test_what_a_submission_does_to_its_check_harms_no_other(tmp_path, monkeypatc
     finally:
         grader.close()
     assert [said[n]["outcome"] for n in said] == ["failed"] * 4 + ["marked"]
-    assert "Segmentation fault" in said["crashes"]["words"]
-    assert "PermissionError" in said["reaches"]["words"]
-    assert "of memory" in said["hungers"]["words"]
-    assert "of a processor" in said["hangs"]["words"]
+    codes = {name: found["found"]["code"] for name, found in said.items()}
+    assert codes == {
+        "crashes": "submission_crashed",
+        "reaches": "submission_failed",
+        "hungers": "submission_out_of_memory",
+        "hangs": "submission_ended",
+        "behaves": "check_ready",
+    }
+    assert "PermissionError" in said["reaches"]["found"]["values"]["error"]
     assert said["behaves"]["marks"]["points"] == 1.0
 
 

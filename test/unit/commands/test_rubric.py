@@ -92,7 +92,9 @@ def test_a_cell_is_marked_and_the_reference_that_loses_points_is_told(tmp_path):
     assert lost[0]["time"] == 5.0
     (flaw,) = found["flaws"]
     assert flaw["line"] == 10
-    assert "the reference loses 1 of 1 points" in flaw["message"]
+    assert (flaw["code"], flaw["severity"]) == ("reference_loses", "error")
+    assert flaw["values"]["lost"] == flaw["values"]["of"] == 1.0
+    assert flaw["values"]["why"]["code"] == "total_time"
 
 
 def test_a_check_with_a_rubric_has_both(tmp_path):
@@ -103,20 +105,24 @@ def test_a_check_with_a_rubric_has_both(tmp_path):
     found = json.loads(said.stdout)
     assert found["verdict"] == "ready"
     (test,) = found["marks"]["tests"]
-    assert (test["points"], test["time"], test["unit"]) == (1.0, 4.0, "s")
+    assert (test["points"], test["time"], test["found"]["unit"]) == (1.0, 4.0, "s")
+    assert test["found"]["code"] == "cycle_time"
 
 
 def test_a_trajectory_file_that_is_damaged_or_of_another_robot_gets_nothing(tmp_path):
     convert = ("convert", ROOT / "examples" / "two_robot_handover_kr6.mat", "--robot")
     run(*convert, "kuka_kr6_r900_sixx", "--out", tmp_path)
     (tmp_path / "broken.json").write_text("{}")
-    for file, words in (
-        ("two_robot_handover_kr6.json", "is a motion of kuka_kr6_r900_sixx; expected one of ur5e"),
-        ("broken.json", "no trajectory file"),
-    ):
+    for file, code, values in (
+        ("two_robot_handover_kr6.json", "motion_of_another_robot",
+         {"found": "kuka_kr6_r900_sixx", "model": "ur5e"}),
+        ("broken.json", "", {}),
+    ):  # fmt: skip
         found = json.loads(mark(tmp_path / file, RUBRIC, "--public", "--json").stdout)
         assert found["points"] == 0
-        assert words in found["note"]
+        assert found["note"]["severity"] == "error"
+        assert not code or found["note"]["code"] == code
+        assert values.items() <= found["note"]["values"].items()
 
 
 def test_what_is_held_may_touch_what_the_gripper_keeps_away_from(tmp_path):
@@ -143,7 +149,7 @@ def test_a_file_without_a_motion_gets_nothing_and_a_reason():
     assert said.exit_code == 1
     found = json.loads(said.stdout)
     assert (found["points"], found["of"]) == (0.0, 15.0)
-    assert "not a MATLAB workspace" in found["note"]
+    assert found["note"]["code"] == "unsupported_format"
 
 
 def test_the_example_and_the_measures_are_printed():

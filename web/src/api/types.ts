@@ -184,18 +184,14 @@ export interface PairingState {
 }
 
 /** A finding of a check; time and end: s from the first frame, null: it has no instant. */
-export interface CheckFinding {
-  readonly severity: 'info' | 'warning' | 'error'
-  readonly code: string
-  readonly message: string
-  readonly remedy: string
+export interface CheckFinding extends Diagnostic {
   readonly robot: string
   readonly link: string
   readonly time: number | null
   readonly end: number | null
-  readonly value: number | null
-  readonly limit: number | null
-  readonly unit: string
+  /** What the robot meets, such as object, and its name; empty: nothing. */
+  readonly kind: string
+  readonly other: string
 }
 
 /** A check of what a robot of the lab is about to play. */
@@ -204,12 +200,12 @@ export interface Check {
   readonly robot: string
   /** Such as quintic@3 */
   readonly trajectory: string
-  /** What has changed in the lab since; empty: nothing. */
-  readonly stale: string
+  /** What has changed in the lab since; null: nothing. */
+  readonly stale: Diagnostic | null
   /** Why it failed. */
-  readonly message: string
+  readonly problem: Diagnostic | null
   readonly verdict: string
-  readonly claim: string
+  readonly claim: Diagnostic | null
   readonly duration: number | null
   readonly findings: readonly CheckFinding[]
 }
@@ -220,7 +216,7 @@ export interface ClassMark {
   readonly points: number
   readonly of: number
   readonly passed: boolean
-  readonly words: string
+  readonly found: Diagnostic
   readonly hint: string
   readonly hidden: boolean
   readonly time: number | null
@@ -232,8 +228,8 @@ export interface Submission {
   readonly name: string
   readonly points: number
   readonly of: number
-  /** What came of it: why there is no motion. */
-  readonly words: string
+  /** What came of it: why there is no motion, or the verdict of its check. */
+  readonly found: Diagnostic
   readonly duration: number | null
   readonly robot: string
   readonly tool: string

@@ -25,6 +25,7 @@ const DEGREES = 180 / Math.PI
 const UNITS: Readonly<Record<string, string>> = {
   '': 'number',
   '1': 'number',
+  '%': 'share',
   rad: 'angle',
   'rad/s': 'turn_rate',
   'rad/s^2': 'turn_acceleration',

@@ -7,10 +7,11 @@ import os
 import zipfile
 
 import pytest
+from refusals import refused
 
 from mrlab_ros.adapters.classroom import export_files
+from mrlab_ros.adapters.classroom.diagnostics import LARGER_THAN_NEEDED, NO_EXPORT, NO_ZIP
 from mrlab_ros.adapters.classroom.export_files import Export
-from mrlab_ros.core.errors import BadInput
 
 
 def archive(**members):
@@ -77,9 +78,11 @@ def test_what_inflates_too_far_is_not_read(tmp_path, monkeypatch):
     monkeypatch.setattr(export_files, "MOST_INNER_BYTES", 5000)
     bomb = archive(**{f"{n}.mat": bytes(900) for n in range(9)})
     with exported(tmp_path, archive(**{"a.mat": bytes(2000), "b.zip": bomb})) as found:
-        with pytest.raises(BadInput, match="larger than"):
+        with refused(LARGER_THAN_NEEDED, file="a.mat", most=1000):
             found.read("a.mat")
-        assert [path for path, _ in found.problems] == ["b.zip"]
+        assert [(path, why.code) for path, why in found.problems] == [
+            ("b.zip", "inflates_too_far")
+        ]
 
 
 def test_gradescopes_metadata_is_read_and_a_broken_one_told(tmp_path):
@@ -98,12 +101,12 @@ def test_gradescopes_metadata_is_read_and_a_broken_one_told(tmp_path):
         assert sent == [{":name": "Jane", ":sid": "0412346", ":email": ""}]
     with exported(tmp_path, archive(**{"e/submission_metadata.yml": b"a: ["})) as found:
         assert found.metadata() == {}
-        assert "names are not known" in found.problems[0][1]
+        assert found.problems[0][1].code == "names_not_known"
 
 
 @pytest.mark.parametrize("content", [b"", b"PK", b"not an archive"])
 def test_what_is_no_archive_is_refused(tmp_path, content):
-    with pytest.raises(BadInput, match="no zip archive"):
+    with refused(NO_ZIP):
         exported(tmp_path, content)
-    with pytest.raises(BadInput, match="there is no folder or archive"):
+    with refused(NO_EXPORT):
         Export(tmp_path / "nowhere")

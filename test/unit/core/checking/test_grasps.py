@@ -15,8 +15,9 @@ MISSES = GraspChange(12.8, "taker", Grasp.EMPTY, "")
 
 def test_a_taker_that_comes_too_late_is_told_who_let_go_and_when() -> None:
     (found,) = of_grasps(Rehearsed(grasps=[TAKES, LETS_GO, MISSES]), ["rod"])
-    assert found.message == "The gripper closes on nothing: giver let go of rod 8.2 s before."
-    assert "while giver still holds it: in a parallel cell" in found.remedy
+    assert (found.code, found.robot, found.other) == ("missed_hand_over", "taker", "rod")
+    assert found.values["giver"] == "giver"
+    assert found.values["ago"] == pytest.approx(8.2)
 
 
 @pytest.mark.parametrize(
@@ -34,5 +35,4 @@ def test_a_taker_that_comes_too_late_is_told_who_let_go_and_when() -> None:
 )
 def test_a_taker_that_was_not_late_is_told_where_to_close(before: list[GraspChange]) -> None:
     found = of_grasps(Rehearsed(grasps=[*before, MISSES]), ["rod"])[-1]
-    assert found.message == "The gripper closes on nothing."
-    assert "the distances say" in found.remedy
+    assert (found.code, found.robot) == ("grasps_nothing", "taker")

@@ -40,10 +40,10 @@ def test_only_the_end_that_moves_is_named():
 
 def test_a_speed_beyond_the_limit_says_how_much_longer_it_must_take():
     figures = figures_of(3.9 * QUINTIC[:, None] - 1.95, 100.0, [JOINT], {})
-    (found,) = (f for f in findings_of(figures, "r", 2.0) if f.code == "velocity_limit")
+    (found,) = (f for f in findings_of(figures, "r", 2.0) if f.code == "over_speed")
     assert found.value == pytest.approx(3.9 * 1.875 / 2, rel=1e-3)
     assert found.time == pytest.approx(1.0, abs=0.02)
-    assert "1.22 times" in found.remedy
+    assert found.values["times"] == pytest.approx(1.22, abs=0.01)
 
 
 def test_a_step_of_the_speed_in_the_middle_is_found_where_it_is():
@@ -60,7 +60,7 @@ def test_acceleration_and_jerk_count_only_where_they_are_stated():
 
 def test_a_joint_near_its_limit_warns_and_beyond_it_refuses():
     assert codes(1.98 * QUINTIC) == {"near_joint_limit"}
-    assert codes(2.02 * QUINTIC) == {"joint_limit"}
+    assert codes(2.02 * QUINTIC) == {"outside_range"}
 
 
 def test_two_frames_have_figures():

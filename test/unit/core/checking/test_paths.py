@@ -6,12 +6,13 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from refusals import refused
 
 from mrlab_ros.adapters.robots.library import RobotLibrary
 from mrlab_ros.core.checking.dexterity import conditioning, dexterity_of, findings_of, jacobian
+from mrlab_ros.core.checking.diagnostics import POINT_COUNT, POINT_NOT_NUMBERS, POINT_TOO_FAR
 from mrlab_ros.core.checking.smoothness import spectral_arc_length
 from mrlab_ros.core.checking.waypoints import passed, points_from_rows
-from mrlab_ros.core.errors import BadInput
 
 MODEL = RobotLibrary(Path(__file__).parents[4] / "robots").model("ur5e")
 
@@ -86,7 +87,9 @@ def test_a_point_beside_the_path_has_its_least_distance():
 
 def test_a_table_of_points_may_have_a_heading_and_says_its_bad_line():
     assert points_from_rows([["x", "y", "z"], ["1", "2", "3"]], "p.csv") == ((1.0, 2.0, 3.0),)
-    with pytest.raises(BadInput, match=r"p.csv, line 2 is '1, zwei, 3'"):
+    with refused(POINT_NOT_NUMBERS, file="p.csv", line=2, found=["1", "zwei", "3"]):
         points_from_rows([["x", "y", "z"], ["1", "zwei", "3"]], "p.csv")
-    with pytest.raises(BadInput, match="holds 0 points"):
+    with refused(POINT_TOO_FAR, line=1, point=(0.0, 101.0, 0.0)):
+        points_from_rows([["0", "101", "0"]], "p.csv")
+    with refused(POINT_COUNT, count=0):
         points_from_rows([], "p.csv")

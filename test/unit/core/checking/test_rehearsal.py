@@ -9,9 +9,8 @@ import pytest
 from fake_engine import FakeEngine
 
 from mrlab_ros.core.checking import evidence
-from mrlab_ros.core.checking.findings import in_order
 from mrlab_ros.core.checking.rehearsal import FARTHEST, Actor, Rehearsal
-from mrlab_ros.core.checking.report import CheckReport, digest
+from mrlab_ros.core.checking.report import CheckReport, digest, in_order
 from mrlab_ros.core.geometry import Pose
 from mrlab_ros.core.physics import catalogue
 from mrlab_ros.core.physics.engine import Kind
@@ -72,7 +71,7 @@ def test_without_contact_the_least_distance_is_at_its_instant():
     assert least.time == pytest.approx(0.5, abs=0.011)
     assert least.distance == pytest.approx(0.2 - FakeEngine.RADIUS, abs=0.005)
     assert evidence.of_distances(found, 0.01) == []
-    assert [f.code for f in evidence.of_distances(found, 0.3)] == ["close"]
+    assert [f.code for f in evidence.of_distances(found, 0.3)] == ["too_close"]
 
 
 def test_what_is_far_counts_as_far():
@@ -100,7 +99,7 @@ def test_a_wait_that_never_comes_true_ends_the_rehearsal_and_is_said():
     wait = parse("frame 0: object cube_1 held by b")
     found = rehearsed(Actor("a", REST, motion(0.1), waits=(wait,)), Actor("b", REST))
     assert found.stuck == {"a": wait.text}
-    assert [f.code for f in evidence.of_collisions(found)] == ["waits_for_ever"]
+    assert [f.code for f in evidence.of_collisions(found)] == ["waits_forever"]
 
 
 def test_the_same_inputs_give_the_same_recording():
@@ -115,10 +114,12 @@ def test_the_verdict_names_the_first_finding_and_the_hash_is_of_all():
     findings = in_order(evidence.of_collisions(found))
     report = CheckReport("t.mat", {"robot": "m"}, (), findings, 1.0)
     document = report.document()
-    assert report.words.startswith("not ready: at 0.3")
+    summary = report.summary
+    assert (summary.code, summary.values["first"]) == ("check_not_ready", findings[0])
+    assert summary.values["count"] == len(findings)
     assert document["verdict"] == "not_ready"
     whole = {k: v for k, v in document.items() if k != "hash"}
     assert document["hash"] == digest(dict(reversed(whole.items())))
     other = dataclasses.replace(report, inputs={"robot": "n"})
     assert other.document()["hash"] != document["hash"]
-    assert CheckReport("t.mat", {}, (), ()).words == "ready: nothing refuses it"
+    assert CheckReport("t.mat", {}, (), ()).summary.code == "check_ready"

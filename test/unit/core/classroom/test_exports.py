@@ -47,7 +47,7 @@ def test_who_sent_canvas_a_text_alone_has_a_row_too():
         ("doejane", False, 1),
         ("leeann", True, 0),
     ]
-    assert found.submissions[1].notes == ("an online text too, which is not read",)
+    assert [n.code for n in found.submissions[1].notes] == ["text_not_read"]
     assert found.left_out == ()
 
 
@@ -64,13 +64,13 @@ def test_gradescope_says_who_sent_a_submission():
     one, other = found.submissions
     assert (one.name, one.identifier, one.email) == ("Jane Doe, Max", "9", "j@x.org")
     assert other.name == "submission_2"
-    assert "does not name who" in other.notes[0]
+    assert [n.code for n in other.notes] == ["sender_not_named"]
 
 
 def test_a_folder_around_all_is_no_student_and_junk_is_nobodys():
     found = students("hw1/a.mat", "hw1/b.mat", "hw1/readme.txt", "__MACOSX/hw1/._a.mat")
     assert [s.name for s in found.submissions] == ["a", "b"]
-    assert found.left_out == (("hw1/readme.txt", "no file that may hold a motion"),)
+    assert [(p, why.code) for p, why in found.left_out] == [("hw1/readme.txt", "no_motion_file")]
 
 
 def test_who_sent_no_motion_is_in_the_class_all_the_same():
@@ -82,7 +82,7 @@ def test_who_sent_no_motion_is_in_the_class_all_the_same():
     jane, maximilian = found.submissions
     assert jane.candidates == maximilian.candidates == ()
     assert maximilian.others == ("report.pdf",)
-    assert any("online text" in note for note in maximilian.notes)
+    assert "text_not_read" in [note.code for note in maximilian.notes]
 
 
 def test_several_files_are_named_and_the_rule_too():
@@ -90,12 +90,15 @@ def test_several_files_are_named_and_the_rule_too():
     found = students((f"{folder}/old.mat", (1,)), (f"{folder}/new.mat", (2,)))
     (jane,) = found.submissions
     assert [e.path for e in jane.candidates] == [f"{folder}/new.mat", f"{folder}/old.mat"]
-    assert jane.notes == ("2 files, the newest that holds a motion is taken: new.mat, old.mat",)
+    (note,) = jane.notes
+    assert note.code == "newest_taken"
+    assert note.values == {"count": 2, "files": ["new.mat", "old.mat"]}
     found = students((f"{folder}/old.mat", (1,)), (f"{folder}/new.csv", (2,)), pattern="*.mat")
     assert [e.path for e in found.submissions[0].candidates] == [f"{folder}/old.mat"]
-    assert "those named *.mat" in found.submissions[0].notes[0]
+    assert found.submissions[0].notes[0].values["pattern"] == "*.mat"
     found = students(f"{folder}/old.mat", pattern="task*.mat")
-    assert found.submissions[0].notes == ("no file is named task*.mat",)
+    (note,) = found.submissions[0].notes
+    assert (note.code, note.values["pattern"]) == ("none_named_so", "task*.mat")
 
 
 def test_the_last_attempt_comes_first_however_late_it_was_unpacked():

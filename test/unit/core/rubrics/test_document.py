@@ -4,11 +4,28 @@ from __future__ import annotations
 
 import pytest
 from made_motions import ROBOT, thing
+from refusals import refused
 
+from mrlab_ros.adapters.diagnostics import KEY_TWICE
 from mrlab_ros.adapters.rubrics import files
-from mrlab_ros.core.base.diagnostic import Severity
+from mrlab_ros.core.base import diagnostics as said
 from mrlab_ros.core.errors import BadInput
 from mrlab_ros.core.geometry import Pose
+from mrlab_ros.core.rubrics.diagnostics import (
+    BAD_CLOSEST,
+    BAD_POSE,
+    NO_PARTIAL,
+    NO_UNIT,
+    OTHER_UNIT,
+    POSE_COUNT,
+    READS_NO_POSES,
+    RUBRIC_TEST,
+    SAME_TEST_NAME,
+    TEST_COUNT,
+    TEST_POSE,
+    UNKNOWN_PARTIAL,
+    UNKNOWN_SENTENCE,
+)
 from mrlab_ros.core.rubrics.document import parse
 from mrlab_ros.core.rubrics.ground import Ground
 from mrlab_ros.core.rubrics.lint import flaws_of
@@ -52,43 +69,65 @@ def test_a_rubric_is_read_with_its_paths_and_lines(tmp_path):
     assert isinstance(found.tests[1].measure.poses[1], Pose)
 
 
+ONE = "tests:\n- {expect: no collision, points: 1"
+POSES = "tests:\n- {expect: passes within 5 mm of poses, points: 1"
+
+
 @pytest.mark.parametrize(
-    ("text", "words"),
+    ("text", "code", "values"),
     [
-        ("tests: []", "r.yaml: tests has 0 entries"),
-        ("", "expected a mapping"),
-        ("tests:\n- {expect: no collision}", "r.yaml:2: test 'no collision': points is missing"),
-        ("tests:\n- {expect: no collision, points: 0}", "points is 0; expected a number above 0"),
-        ("tests:\n- {expect: no collision, points: -1}", "points is -1"),
-        ("tests:\n- points: 1\n  expect: no colission", "r.yaml:3: test 'no colission': 'no col"),
-        ("tests:\n- {expect: no collision, points: 1, hitn: x}", "hitn"),
-        ("tests:\n- {expect: no collision, points: 1}\n- {expect: no collision, points: 1}",
-         "r.yaml:3: the name 'no collision' is that of the test in line 2"),
-        ("tests:\n- {expect: no collision, points: 1, points: 2}", "'points' is there twice"),
-        ("tests:\n- {expect: no collision, points: 1, partial: each}", "knows no partial points"),
-        ("tests:\n- {expect: cycle < 8 s, points: 1, partial: each}", "knows 'until 4 s'"),
-        ("tests:\n- {expect: cycle < 8 s, points: 1, partial: until 9 mm}", "unit 'mm'"),
-        ("tests:\n- {expect: no collision, points: 1, poses: [[0, 0, 1]]}", "reads no poses"),
-        ("tests:\n- {expect: passes within 5 mm of poses, points: 1}", "poses has 0 entries"),
-        ("tests:\n- {expect: passes within 5 mm of poses, points: 1, poses: [[0, 1]]}", "pose 1"),
-        ("tests:\n- {expect: passes within 5 mm of poses, points: 1, poses: [here]}", "pose 1 is"),
-        ("tests: [}", "r.yaml:1 is not YAML"),
-        ("closest: 5\ntests:\n- {expect: no collision, points: 1}", "closest"),
-        ("tests: &a\n- *a", "expected a mapping"),
+        ("tests: []", TEST_COUNT, {"count": 0}),
+        ("", said.EMPTY_VALUE, {}),
+        ("tests:\n- {expect: no collision}", said.MISSING_FIELD, {}),
+        ("tests:\n- {expect: no collision, points: 0}", said.BAD_VALUE, {"found": "0"}),
+        ("tests:\n- {expect: no collision, points: -1}", said.BAD_VALUE, {"found": "-1"}),
+        ("tests:\n- points: 1\n  expect: no colission", UNKNOWN_SENTENCE,
+         {"text": "no colission"}),
+        (f"{ONE}, hitn: x}}", said.UNKNOWN_FIELD, {}),
+        (f"{ONE}}}\n- {{expect: no collision, points: 1}}", SAME_TEST_NAME, {"line": 2}),
+        (f"{ONE}, points: 2}}", KEY_TWICE, {"key": "points"}),
+        (f"{ONE}, partial: each}}", NO_PARTIAL, {"rule": "each"}),
+        ("tests:\n- {expect: cycle < 8 s, points: 1, partial: each}", UNKNOWN_PARTIAL,
+         {"rules": ["until 4 s"]}),
+        ("tests:\n- {expect: cycle < 8 s, points: 1, partial: until 9 mm}", OTHER_UNIT,
+         {"given": "mm"}),
+        (f"{ONE}, poses: [[0, 0, 1]]}}", READS_NO_POSES, {}),
+        (f"{POSES}}}", POSE_COUNT, {"count": 0}),
+        (f"{POSES}, poses: [[0, 1]]}}", TEST_POSE, {"number": 1}),
+        (f"{POSES}, poses: [here]}}", BAD_POSE, {"found": "'here'"}),
+        ("closest: '5'\ntests:\n- {expect: no collision, points: 1}", NO_UNIT, {"text": "5"}),
+        ("closest: 5 m\ntests:\n- {expect: no collision, points: 1}", BAD_CLOSEST,
+         {"text": "5 m"}),
     ],
 )  # fmt: skip
-def test_a_mistake_is_named_with_its_line(tmp_path, text, words):
-    with pytest.raises(BadInput) as error:
+def test_a_mistake_has_its_code(tmp_path, text, code, values):
+    with refused(code, **values):
         files.read(written(tmp_path, text))
-    assert words in str(error.value)
+
+
+@pytest.mark.parametrize(
+    ("text", "line"),
+    [
+        ("tests:\n- {expect: no collision}", 2),
+        ("tests:\n- points: 1\n  expect: no colission", 3),
+        (f"{ONE}}}\n- {{expect: no collision, points: 1}}", 3),
+    ],
+)
+def test_a_mistake_has_its_line(tmp_path, text, line):
+    with refused(RUBRIC_TEST, line=line):
+        files.read(written(tmp_path, text))
+
+
+@pytest.mark.parametrize("text", ["tests: [}", "tests: &a\n- *a"])
+def test_what_is_no_yaml_is_refused(tmp_path, text):
+    with pytest.raises(BadInput):
+        files.read(written(tmp_path, text))
 
 
 def test_all_mistakes_are_named_at_once(tmp_path):
     text = "tests:\n- {expect: no colision, points: 1}\n- {expect: cycle < 8, points: 1}\n"
-    with pytest.raises(BadInput) as error:
+    with refused(said.MISTAKES, count=2):
         files.read(written(tmp_path, text))
-    assert "r.yaml:2" in str(error.value)
-    assert "r.yaml:3" in str(error.value)
 
 
 SCENE = SceneDocument(
@@ -100,40 +139,47 @@ GROUND = Ground(
 
 
 @pytest.mark.parametrize(
-    ("test", "words"),
+    ("test", "code", "values"),
     [
-        ({"expect": "no collision with pilar"}, "nothing called 'pilar'"),
-        ({"expect": "no collision of ur5e_2"}, "no robot 'ur5e_2'; it has: ur5e_1; did you mean"),
-        ({"expect": "grasps cube_2"}, "no object 'cube_2'; it has: cube_1, bin_1; did you mean"),
-        ({"expect": "grasps bin_1"}, "is fixed"),
-        ({"expect": "holds cube_3 for 2 s"}, "no object 'cube_3'"),
-        ({"expect": "places cube_1 on cube_1"}, "cannot lie on itself"),
-        ({"expect": "releases cube_1 within 5 mm of tray_1"}, "no object 'tray_1'"),
-        ({"expect": "distance > 60 cm"}, "measured up to 500 mm"),
-        ({"expect": "passes within 5 mm of [2, 2, 2]"}, "out of reach"),
-        ({"expect": "ends within 5 mm of [0, 0, 3]"}, "out of reach"),
-        ({"expect": "within 50% of jerk limits"}, "states no jerk limit"),
-        ({"expect": "parallel mode used"}, "no mode"),
-        ({"expect": "joints within 5 deg of the reference"}, "names no reference"),
-        ({"expect": "cycle < 8 s", "partial": "until 6 s"}, "must lie above"),
-        ({"expect": "distance > 5 cm", "partial": "until 6 cm"}, "must lie below"),
+        ({"expect": "no collision with pilar"}, "thing_not_in_scene", {"thing": "pilar"}),
+        ({"expect": "no collision of ur5e_2"}, "no_robot_in_scene",
+         {"robot": "ur5e_2", "known": ["ur5e_1"], "close": "ur5e_1"}),
+        ({"expect": "grasps cube_2"}, "object_not_in_scene",
+         {"object": "cube_2", "close": "cube_1"}),
+        ({"expect": "grasps bin_1"}, "object_is_fixed", {"object": "bin_1"}),
+        ({"expect": "holds cube_3 for 2 s"}, "object_not_in_scene", {"object": "cube_3"}),
+        ({"expect": "places cube_1 on cube_1"}, "lies_on_itself", {"side": "on"}),
+        ({"expect": "releases cube_1 within 5 mm of tray_1"}, "object_not_in_scene",
+         {"object": "tray_1"}),
+        ({"expect": "distance > 60 cm"}, "beyond_measure", {"most": 0.5, "limit": 0.6}),
+        ({"expect": "passes within 5 mm of [2, 2, 2]"}, "pose_out_of_reach", {"number": 1}),
+        ({"expect": "ends within 5 mm of [0, 0, 3]"}, "out_of_reach", {"limit": 0.005}),
+        ({"expect": "within 50% of jerk limits"}, "limit_not_stated", {"of": "jerk"}),
+        ({"expect": "parallel mode used"}, "mode_of_one_motion", {}),
+        ({"expect": "joints within 5 deg of the reference"}, "no_reference_named", {}),
+        ({"expect": "cycle < 8 s", "partial": "until 6 s"}, "partial_gives_nothing",
+         {"side": "above", "until": 6.0, "limit": 8.0, "unit": "s"}),
+        ({"expect": "distance > 5 cm", "partial": "until 6 cm"}, "partial_gives_nothing",
+         {"side": "below"}),
         ({"expect": "passes within 5 mm of poses", "partial": "each",
-          "poses": [[0.4, 0.1, 0.4]]}, "there is one pose"),
+          "poses": [[0.4, 0.1, 0.4]]}, "one_pose_each", {}),
         ({"expect": "passes within 5 mm and 5 deg of poses", "poses": [[0.4, 0.1, 0.4]]},
-         "pose 1 has no orientation"),
-        ({"expect": "no collision", "hidden": True}, "has no hint"),
+         "pose_not_turned", {"number": 1}),
+        ({"expect": "no collision", "hidden": True}, "hidden_without_hint", {}),
     ],
 )  # fmt: skip
-def test_the_linter_says_what_cannot_be_measured(test, words):
+def test_the_linter_says_what_cannot_be_measured(test, code, values):
     rubric = parse({"tests": [{"points": 1, **test}]}, "r")
-    flaws = flaws_of(rubric, GROUND)
-    assert any(words in flaw.message for flaw in flaws), [f.message for f in flaws]
+    flaws = {flaw.found.code: flaw for flaw in flaws_of(rubric, GROUND)}
+    assert code in flaws
+    found = flaws[code].found.values
+    assert {name: found[name] for name in values} == values
 
 
 def test_a_direction_of_no_length_is_told_with_its_line():
     pose = {"position": [0.4, 0.1, 0.4], "orientation": [0, 0, 0, 0]}
     test = {"expect": "passes within 5 mm of poses", "points": 1, "poses": [pose]}
-    with pytest.raises(BadInput, match="r:7: test 'passes .*: pose 1: .* length 0"):
+    with refused(RUBRIC_TEST, line=7):
         parse({"tests": [test]}, "r", {("tests", 0): 7})
 
 
@@ -145,4 +191,4 @@ def test_what_can_be_measured_has_no_errors():
     ]  # fmt: skip
     tests = [{"expect": s, "points": 1} for s in sentences]
     flaws = flaws_of(parse({"tests": tests}, "r"), GROUND)
-    assert [f.message for f in flaws if f.severity is Severity.ERROR] == []
+    assert [flaw.found.code for flaw in flaws if flaw.found.refuses] == []

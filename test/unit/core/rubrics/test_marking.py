@@ -9,10 +9,10 @@ from hypothesis import given
 from hypothesis import strategies as st
 from made_motions import checked
 
-from mrlab_ros.core.base.diagnostic import Severity
-from mrlab_ros.core.checking.findings import Finding
+from mrlab_ros.core.base.diagnostic import Diagnostic, Severity
 from mrlab_ros.core.checking.report import CheckReport
 from mrlab_ros.core.rubrics.checked import Checked
+from mrlab_ros.core.rubrics.diagnostics import NO_MOTION_TO_MARK
 from mrlab_ros.core.rubrics.marking import mark, points_of
 from mrlab_ros.core.rubrics.quantities import LENGTH
 from mrlab_ros.core.rubrics.rubric import Outcome, Rubric, Test
@@ -26,7 +26,7 @@ class Fixed:
         self.share, self.time = share, time
 
     def assess(self, given, reference):
-        return Outcome(self.share, "found.", self.time, 1.0, 2.0, "m")
+        return Outcome(self.share, NO_MOTION_TO_MARK(), self.time)
 
 
 SHARES = st.floats(0, 1)
@@ -91,10 +91,10 @@ def test_a_threshold_falls_evenly_from_its_limit_to_its_end(limit, span, values)
 
 
 def test_a_file_without_a_motion_gets_nothing_and_is_told_why_once():
-    finding = Finding("not_numbers", Severity.ERROR, "'q' is text.", "Save numbers.")
+    finding = Diagnostic("not_numbers", Severity.ERROR, "'q' is text.", "Save numbers.")
     refused = Checked(CheckReport("f", {}, (), (finding,)), {})
     marks = mark(rubric([(1.0, 3.0, False), (0.5, 1.0, True)]), refused)
-    assert (marks.points, marks.of, marks.note) == (0.0, 4.0, "'q' is text. Save numbers.")
-    assert {m.words for m in marks.tests} == {"There is no motion to mark."}
+    assert (marks.points, marks.of, marks.note) == (0.0, 4.0, finding)
+    assert {m.found.code for m in marks.tests} == {NO_MOTION_TO_MARK.code}
     assert all(m.time is None for m in marks.tests)
     assert json.loads(json.dumps(marks.public().plain()))["hints"] == ["h1"]

@@ -1,4 +1,4 @@
-"""What each measure finds: shares, words, and the instant of lost points."""
+"""What each measure finds: shares, values, and the instant of lost points."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ def hit(time, other="pillar_1", kind=Kind.OBJECT, robot="ur5e_1"):
 def test_a_collision_counts_where_it_is_meant_and_at_its_first_instant():
     found = checked(record=recorded(collisions=[hit(2.0), hit(1.2, "upper_arm", Kind.SELF)]))
     lost = outcome("no collision", found)
-    assert (lost.share, lost.time, lost.measured) == (0.0, 1.2, 2.0)
+    assert (lost.share, lost.time, lost.found.values["more"]) == (0.0, 1.2, 1)
     assert outcome("no collision with pillar_1", found).time == 2.0
     assert outcome("no collision with itself", found).time == 1.2
     assert outcome("no collision with the floor", found).share == 1.0
@@ -57,10 +57,10 @@ def test_the_least_distance_and_when_it_is_first_too_small():
     )
     assert outcome("distance to bin_1 > 4 cm", found).share == 1.0
     lost = outcome("distance to bin_1 > 10 cm", found)
-    assert (lost.share, lost.time, lost.measured) == (0.0, 1.0, 0.05)
+    assert (lost.share, lost.time, lost.found.value) == (0.0, 1.0, 0.05)
     assert outcome("distance > 10 cm", found, partial="until 0 mm").share == pytest.approx(0.5)
     assert outcome("distance to everything but bin_1 > 10 cm", found).share == 0.0
-    assert "no distance" in outcome("distance to cube_1 > 1 cm", found).words
+    assert outcome("distance to cube_1 > 1 cm", found).found.code == "no_distance"
 
 
 def test_what_is_picked_up_is_left_out_of_the_distance():
@@ -73,12 +73,14 @@ def test_what_is_picked_up_is_left_out_of_the_distance():
         times=[0.0, 1.0, 2.0, 3.0], distances={("ur5e_1", (Kind.SURFACE, "floor")): series}
     )
     found = checked(record=record)
-    assert outcome("distance > 1 mm", found).measured == 0.0
+    assert outcome("distance > 1 mm", found).found.value == 0.0
     kept = outcome("distance to everything but cube_1 > 1 mm", found)
-    assert (kept.share, kept.measured) == (1.0, 0.02)
+    assert (kept.share, kept.found.value) == (1.0, 0.02)
     lost = outcome("distance to everything but cube_1 > 10 cm", found)
     assert (lost.share, lost.time) == (0.0, 1.0)
-    assert "finger_link comes within 20 mm of the floor at 1.00 s" in lost.words
+    at = {"link": "finger_link", "value": 0.02, "kind": "surface", "other": "floor", "time": 1.0}
+    assert lost.found.code == "least_distance"
+    assert {name: lost.found.values[name] for name in at} == at
     assert outcome("distance to everything but bin_1 > 1 mm", found).share == 0.0
 
 
@@ -110,7 +112,8 @@ def test_a_robot_that_waits_for_ever_has_not_played_its_motion(sentence):
     assert outcome(sentence, checked(back)).share == 1.0
     lost = outcome(sentence, checked(back, record=stuck))
     assert lost.share == 0.0
-    assert "ur5e_1 waits for ever: 'frame 0: after kr6_1.frame 9'" in lost.words
+    assert lost.found.code == "member_waits_forever"
+    assert lost.found.values["wait"] == "frame 0: after kr6_1.frame 9"
 
 
 def test_no_angle_at_all_is_an_angle():
@@ -127,7 +130,7 @@ def test_poses_are_passed_in_order_or_in_any():
     assert outcome("passes within 1 mm of poses in any order", found, poses=turned).share == 1.0
     lost = outcome("passes within 1 mm of poses", found, poses=turned, partial="each")
     assert lost.share == 0.5
-    assert "before the one that comes first" in lost.words
+    assert (lost.found.code, lost.found.values["number"]) == ("pose_too_early", 2)
     assert lost.time == pytest.approx(1.2, abs=0.02)
 
 
@@ -135,7 +138,7 @@ def test_a_pose_that_is_missed_says_how_far_and_when():
     away = (TOOL[100] + np.cross(TOOL[101] - TOOL[99], [0, 0, 1])).tolist()
     off = float(np.linalg.norm(np.array(away) - TOOL[100]))
     lost = outcome(f"passes within {off * 500:.6f} mm of poses", checked(), poses=[away])
-    assert lost.measured == pytest.approx(off, rel=0.05)
+    assert lost.found.value == pytest.approx(off, rel=0.05)
     assert lost.time == pytest.approx(2.0, abs=0.1)
     assert outcome(f"passes within {off * 1001:.6f} mm of poses", checked(), poses=[away]).share
 
@@ -149,7 +152,7 @@ def test_a_direction_counts_where_it_is_asked_for():
     wrong = {"position": [x, y, z], "rpy_deg": [0, 0, 0]}
     sentence = "passes within 2 mm and 3 deg of poses"
     assert outcome(sentence, checked(), poses=[right]).share == 1.0
-    assert "turned by" in outcome(sentence, checked(), poses=[wrong]).words
+    assert outcome(sentence, checked(), poses=[wrong]).found.code == "pose_turned"
     assert outcome("passes within 2 mm of poses", checked(), poses=[wrong]).share == 1.0
 
 
@@ -158,26 +161,26 @@ def test_grasps_in_their_time():
     assert outcome("grasps cube_1", found).share == 1.0
     assert outcome("grasps cube_1 between 1 and 2 s", found).share == 1.0
     late = outcome("grasps cube_1 before 1 s", found)
-    assert (late.share, late.time, late.measured, late.limit) == (0.0, 1.5, 1.5, 1.0)
+    assert (late.share, late.time) == (0.0, 1.5)
+    assert (late.found.value, late.found.values["until"]) == (1.5, 1.0)
     early = outcome("grasps cube_1 after 2 s", found)
-    assert (early.time, early.limit) == (1.5, 2.0)
+    assert (early.time, early.found.values["since"]) == (1.5, 2.0)
     assert outcome("grasps cube_2", found).time == 1.5
     assert outcome("grasps cube_1 by kr6_1", found).share == 0.0
 
 
 @pytest.mark.parametrize(
-    ("grasps", "time", "words"),
+    ("grasps", "time", "code"),
     [
-        ((), 0.0, "does not close"),
-        ([(1.0, "CLOSING", ""), (1.4, "EMPTY", "")], 1.4, "closes on nothing"),
-        ([(1.0, "CLOSING", "")], 1.0, "closes at 1.00 s"),
-        ([(1.5, "HOLDING", "cube_2")], 1.5, "cube_2 is, at 1.50 s"),
+        ((), 0.0, "never_grasped"),
+        ([(1.0, "CLOSING", ""), (1.4, "EMPTY", "")], 1.4, "never_grasped_nothing"),
+        ([(1.0, "CLOSING", "")], 1.0, "never_grasped_closes"),
+        ([(1.5, "HOLDING", "cube_2")], 1.5, "never_grasped_other"),
     ],
 )
-def test_what_is_never_grasped_names_the_attempt(grasps, time, words):
+def test_what_is_never_grasped_names_the_attempt(grasps, time, code):
     lost = outcome("grasps cube_1", checked(record=recorded(grasps)))
-    assert (lost.share, lost.time) == (0.0, time)
-    assert words in lost.words
+    assert (lost.share, lost.time, lost.found.code) == (0.0, time, code)
 
 
 def test_holds_by_their_span_and_partly():
@@ -214,13 +217,14 @@ def test_releases_and_places_by_where_the_object_lies_at_rest():
 
 
 def test_what_is_still_held_or_rolls_or_left_is_not_released():
+    sentence = "places cube_1 on the floor"
     held = recorded(HELD[:2], {"cube_1": (0.3, 0.1, 0.025)})
-    assert "still held" in outcome("places cube_1 on the floor", checked(record=held)).words
+    assert outcome(sentence, checked(record=held)).found.code == "still_held"
     rolls = recorded(HELD, {"cube_1": (0.3, 0.1, 0.025)})
     rolls.objects["cube_1"].values[0] = [0.2, 0.1, 0.025, 0, 0, 0, 1]
-    assert "still moves" in outcome("places cube_1 on the floor", checked(record=rolls)).words
+    assert outcome(sentence, checked(record=rolls)).found.code == "still_moves"
     gone = recorded(HELD, {"cube_1": (0.3, 0.1, 0.025)}, gone=[(3.5, "cube_1")])
-    assert "not in the room" in outcome("places cube_1 on the floor", checked(record=gone)).words
+    assert outcome(sentence, checked(record=gone)).found.code == "not_in_the_room"
 
 
 def test_times_are_lost_from_the_limit_on():
@@ -230,26 +234,26 @@ def test_times_are_lost_from_the_limit_on():
     lost = outcome("cycle < 3 s", found, partial="until 5 s")
     assert lost.share == pytest.approx((5 - cycle) / 2)
     assert lost.time == 3.0
-    assert outcome("total time < 5 s", found).measured == 6.0
+    assert outcome("total time < 5 s", found).found.value == 6.0
     assert outcome("total time < 6 s", found).share == 1.0
 
 
 def test_the_mode_of_a_cell():
     cell = checked(extras={"system": {"mode": "parallel"}})
     assert outcome("parallel mode used", cell).share == 1.0
-    assert "expected sequential" in outcome("sequential mode used", cell).words
-    assert "one motion" in outcome("parallel mode used", checked()).words
+    assert outcome("sequential mode used", cell).found.code == "other_mode"
+    assert outcome("parallel mode used", checked()).found.code == "no_cell"
 
 
 def test_shares_of_the_limits():
     found = checked()
     fastest = max(j.speed_share for j in reach().figures.joints)
     speeds = outcome("within 1% of speed limits", found)
-    assert speeds.measured == pytest.approx(fastest)
+    assert speeds.found.value == pytest.approx(fastest)
     assert speeds.time == pytest.approx(2.0, abs=0.1)
     assert outcome("within 100% of limits", found).share == 1.0
     middle = checked(reach((0, 0, 0, 0, 0, 2 * np.pi * 0.9)))
-    assert outcome("within 80% of ranges", middle).measured == pytest.approx(0.9)
+    assert outcome("within 80% of ranges", middle).found.value == pytest.approx(0.9)
     assert outcome("within 80% of jerk limits", found).share == 0.0
 
 
@@ -262,7 +266,7 @@ def test_a_stated_acceleration_is_measured():
     t = reach().trajectory
     found = checked(Motion(stated, t, figures_of(t, stated)))
     most = max(j.acceleration for j in reach().figures.joints)
-    measured = outcome("within 10% of acceleration limits", found).measured
+    measured = outcome("within 10% of acceleration limits", found).found.value
     assert measured == pytest.approx(most)
 
 
@@ -300,14 +304,15 @@ def test_a_reference_is_compared_after_alignment_in_time():
         assert outcome("joints within 0.5 deg of the reference", same, checked()).share == 1.0
         assert outcome("tool within 2 mm of the reference", same, checked()).share == 1.0
     lost = outcome("joints within 5 deg of the reference", other, checked())
-    assert lost.measured == pytest.approx(0.5, abs=0.01)
-    assert outcome("joints within 5 deg RMS of the reference", other, checked()).measured < 0.4
+    assert lost.found.value == pytest.approx(0.5, abs=0.01)
+    assert outcome("joints within 5 deg RMS of the reference", other, checked()).found.value < 0.4
     # wrist 3 turns the tool about itself
     assert outcome("tool within 1 mm of the reference", other, checked()).share == 1.0
-    assert "no reference" in outcome("tool within 1 mm of the reference", other).words
+    assert outcome("tool within 1 mm of the reference", other).found.code == "no_reference_motion"
 
 
 def test_a_robot_without_a_motion_is_named():
-    words = outcome("ends at rest by kr6_1", checked()).words
-    assert words == "kr6_1 has no motion in this file; those that have: ur5e_1."
+    found = outcome("ends at rest by kr6_1", checked()).found
+    assert (found.code, found.robot) == ("no_motion_of", "kr6_1")
+    assert found.values["robots"] == ["ur5e_1"]
     assert ROBOT.name == "ur5e_1"

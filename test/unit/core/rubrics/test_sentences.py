@@ -10,8 +10,19 @@ import re
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+from refusals import refused
 
 from mrlab_ros.core.errors import BadInput
+from mrlab_ros.core.rubrics.diagnostics import (
+    BAD_PLACE,
+    BEYOND_MOST,
+    NEGATIVE,
+    NO_UNIT,
+    NOT_A_NUMBER,
+    OTHER_UNIT,
+    TIMES_SWAPPED,
+    UNKNOWN_SENTENCE,
+)
 from mrlab_ros.core.rubrics.forms import FORMS
 from mrlab_ros.core.rubrics.quantities import ANGLE, LENGTH, SHARE, TIME
 from mrlab_ros.core.rubrics.sentences import GAPS, Given, form_of
@@ -77,25 +88,38 @@ def test_a_sentence_as_teachers_write_it(sentence, gaps):
 
 
 @pytest.mark.parametrize(
-    ("sentence", "words"),
+    ("sentence", "code", "values"),
     [
-        ("no colision", "did you mean 'no collision [of ROBOT]"),
-        ("grabs cube_1 before 4 s", "did you mean 'grasps OBJECT [by ROBOT] before TO'"),
-        ("torque below 5 Nm", "nothing that a rubric can measure"),
-        ("cycle < 8", "'8' has no unit; expected a time, such as 4 s"),
-        ("cycle < 8 mm", "'8 mm' has the unit 'mm'; expected a time"),
-        ("cycle < -8 s", "'-8 s' is negative"),
-        ("cycle < 1,5 s", "write 1.5"),
-        ("within 80 of limits", "has no unit; expected a percentage, such as 80%"),
-        ("passes within 900 km of [0, 0, 1]", "has the unit 'km'"),
-        ("passes within 900 m of [0, 0, 1]", "beyond"),
-        ("passes within 5 mm of [0, 0, 0, 1]", "expected [x, y] or [x, y, z]"),
-        ("grasps cube_1 between 4 and 2 s", "4 s is not before 2 s"),
+        ("no colision", UNKNOWN_SENTENCE, {"text": "no colision"}),
+        ("grabs cube_1 before 4 s", UNKNOWN_SENTENCE, {}),
+        ("torque below 5 Nm", UNKNOWN_SENTENCE, {}),
+        ("cycle < 8", NO_UNIT, {"text": "8", "expected": TIME.expected}),
+        ("cycle < 8 mm", OTHER_UNIT, {"text": "8 mm", "given": "mm"}),
+        ("cycle < -8 s", NEGATIVE, {"text": "-8 s"}),
+        ("cycle < 1,5 s", NOT_A_NUMBER, {"better": "1.5"}),
+        ("within 80 of limits", NO_UNIT, {"expected": SHARE.expected}),
+        ("passes within 900 km of [0, 0, 1]", OTHER_UNIT, {"given": "km"}),
+        ("passes within 900 m of [0, 0, 1]", BEYOND_MOST, {"limit": 100.0, "unit": "m"}),
+        ("passes within 5 mm of [0, 0, 0, 1]", BAD_PLACE, {}),
+        ("grasps cube_1 between 4 and 2 s", TIMES_SWAPPED, {"first": 4.0, "last": 2.0}),
     ],
 )
-def test_what_cannot_be_read_is_said(sentence, words):
-    with pytest.raises(BadInput, match=re.escape(words)):
+def test_what_cannot_be_read_is_said(sentence, code, values):
+    with refused(code, **values):
         read(sentence)
+
+
+@pytest.mark.parametrize(
+    ("sentence", "form"),
+    [
+        ("no colision", "no collision [of ROBOT] [with [the] THING]"),
+        ("grabs cube_1 before 4 s", "grasps OBJECT [by ROBOT] before TO"),
+    ],
+)
+def test_the_nearest_form_is_named_first(sentence, form):
+    with refused(UNKNOWN_SENTENCE) as error:
+        read(sentence)
+    assert error.value.diagnostic.values["close"][0] == form
 
 
 @given(

@@ -8,8 +8,18 @@ import pytest
 from fake_converter import FakeConverter
 from gateway_side import Gateway, kind_of
 
+from mrlab_ros.adapters.checking.diagnostics import NOT_IN_LAB
 from mrlab_ros.adapters.store.memory import MemoryStore
+from mrlab_ros.core.base.diagnostic import plain
 from mrlab_ros.core.bridge.rules import Role
+from mrlab_ros.core.checking.diagnostics import (
+    CHECK_NOT_READY,
+    CLAIM,
+    COLLISION,
+    IN_EMPTY_ROOM,
+    NO_COLLISION,
+)
+from mrlab_ros.core.checking.hardware import Condition, State
 from mrlab_ros.core.errors import BadInput
 from mrlab_ros.gateway.checks import desk, scene
 from mrlab_ros.gateway.checks.desk import CheckDesk
@@ -19,16 +29,15 @@ from mrlab_ros.gateway.lab.fake_lab import FakeLab
 
 definitions = cache(installed_definitions)
 UPRIGHT = {"x": 0.0, "y": 0.0, "z": 0.0, "w": 1.0}
-FINDING = {
-    "severity": "error", "code": "collision", "message": "wrist_3_link touches cube_1",
-    "remedy": "", "robot": "ur5e_1", "link": "wrist_3_link", "time": 0.4, "end": None,
-    "value": 0.01, "limit": 0.0, "unit": "m",
-}  # fmt: skip
+FINDING = COLLISION(
+    robot="ur5e_1", link="wrist_3_link", kind="object", other="cube_1", time=0.4,
+    point=(0.4, 0.1, 0.2), value=0.01, unit="m",
+)  # fmt: skip
 REPORT = {
-    "verdict": "not_ready", "summary": "not ready: at 0.40 s", "claim": "what it says",
-    "hash": "abc", "duration": 0.5, "findings": [FINDING],
+    "verdict": "not_ready", "summary": plain(CHECK_NOT_READY(count=1, time=0.4, first=FINDING)),
+    "claim": plain(CLAIM()), "hash": "abc", "duration": 0.5, "findings": [plain(FINDING)],
     "robots": [{"name": "ur5e_1", "hardware": [
-        {"condition": "no collision", "state": "not", "words": "it touches"}]}],
+        Condition(NO_COLLISION(), State.NOT, IN_EMPTY_ROOM()).plain()]}],
 }  # fmt: skip
 
 
@@ -36,7 +45,7 @@ class FakeChecker:
     """Answers when it is told to."""
 
     def __init__(self):
-        self.tasks, self.cancelled, self.problem = [], 0, ""
+        self.tasks, self.cancelled, self.problem = [], 0, None
         self.go = None  # an Event that holds the answer back; None: it comes at once
 
     async def check(self, task):
@@ -122,9 +131,10 @@ def test_a_check_is_of_the_lab_as_it_stands_and_stale_when_that_has_changed(lab)
     assert ask(browser, motion).status_code == 202
     found = when(browser, motion, "done")
     assert found["verdict"] == "not_ready"
-    assert found["findings"][0]["time"] == 0.4
-    assert found["conditions"][0]["condition"] == "no collision"
-    assert found["stale"] == ""
+    (first,) = found["findings"]
+    assert (first["code"], first["time"], first["other"]) == ("collision", 0.4, "cube_1")
+    assert found["conditions"][0]["condition"]["code"] == "no_collision"
+    assert found["stale"] is None
     (task,) = lab.checker.tasks
     (entry,) = task.scene.document.robots
     assert (task.robot, entry.pose.position) == ("ur5e_1", (0.5, 0.0, 0.1))
@@ -133,18 +143,18 @@ def test_a_check_is_of_the_lab_as_it_stands_and_stale_when_that_has_changed(lab)
     assert ask(browser, motion).json()["state"] == "done"
     moved = placed(name="ur5e_1", model="ur5e", end_effector="hand")
     lab.lab.publish("robots", {"robots": [moved]})
-    assert "another end effector" in state(browser, motion)["stale"]
+    assert state(browser, motion)["stale"]["code"] == "other_model"
     ask(browser, motion)
-    assert when(browser, motion, "done")["stale"] == ""
+    assert when(browser, motion, "done")["stale"] is None
     assert len(lab.checker.tasks) == 2
 
 
 def test_a_check_that_fails_says_why_and_is_run_again(lab):
     browser, motion = lab.person()
-    lab.checker.problem = "it is for another robot"
+    lab.checker.problem = NOT_IN_LAB(robot="ur5e_1")
     ask(browser, motion)
-    assert when(browser, motion, "failed")["message"] == "it is for another robot"
-    lab.checker.problem = ""
+    assert when(browser, motion, "failed")["problem"]["code"] == "not_in_lab"
+    lab.checker.problem = None
     ask(browser, motion)
     when(browser, motion, "done")
 
@@ -167,7 +177,7 @@ def test_who_may_not_drive_reads_what_was_found_and_asks_for_nothing(lab):
     assert kind_of(ask(browser, "no_such")) == (404, "not_found")
     assert ask(browser, motion, "").status_code == 422
     student = lab.signed_in("greta", Role.STUDENT)
-    assert state(student, motion)["summary"] == "not ready: at 0.40 s"
+    assert state(student, motion)["summary"]["code"] == "check_not_ready"
     assert kind_of(ask(student, motion)) == (403, "not_allowed")
 
 
@@ -232,4 +242,4 @@ def test_a_scene_is_read_from_the_messages_of_the_lab():
     assert (cube.held_by, other.held_by) == ("a", "")
     assert found.in_tool["cube_1"].position == (0.0, 0.0, 0.2)
     assert found.document.surfaces[0].vertices.shape == (3, 3)
-    assert found.words == "the lab as it stood, 2 objects and 2 robots"
+    assert found.shown.values == {"objects": 2, "robots": 2}

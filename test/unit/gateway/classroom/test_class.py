@@ -47,7 +47,8 @@ def test_a_teacher_steps_through_a_class(gateway, folder):
     assert (motion["schema"], motion["title"]) == ("mrlab.motion.1", "Ben")
     lost, partly, collision = motion["findings"]
     rate = motion["frame_rate"]
-    assert lost["message"] == "no collision: touches cube_1 at 0.20 s"
+    assert (lost["code"], lost["values"]["test"]) == ("lost_points", "no collision")
+    assert lost["values"]["found"]["code"] == "touches"
     assert (lost["severity"], lost["first_row"]) == ("error", round(0.2 * rate) + 1)
     assert (partly["severity"], partly["first_row"]) == ("warning", 0)
     assert (collision["code"], collision["last_row"]) == ("collision", round(0.3 * rate) + 1)
@@ -55,7 +56,7 @@ def test_a_teacher_steps_through_a_class(gateway, folder):
     assert json_file.parse(file.content, "ben.json").robot_model == "ur5e"
     answer = teacher.get("/api/class/cleo/motion")
     assert kind_of(answer) == (404, "not_found")
-    assert "cleo.mat is empty" in answer.json()["error"]["message"]
+    assert answer.json()["error"]["code"] == "no_motion_to_show"
     assert kind_of(teacher.get("/api/class/dora/motion")) == (404, "not_found")
     # marked again meanwhile
     path = folder / "class.json"
@@ -79,14 +80,14 @@ def test_no_path_leads_out_of_the_folder(gateway, folder):
     (folder.parent.parent / "secret.json").write_text("{}")
     path.write_text(json.dumps(document))
     answer = teacher.get("/api/class/anna/motion")
-    assert "outside" in answer.json()["error"]["message"]
+    assert answer.json()["error"]["code"] == "motion_outside"
 
 
 def test_what_is_no_class_is_said(gateway, folder, tmp_path):
     teacher = gateway.browser("grace", Role.INSTRUCTOR)
     (folder / "class.json").write_text('{"schema": "mrlab.class.9"}')
     answer = teacher.get("/api/class")
-    assert "mrlab.class.9" in answer.json()["error"]["message"]
+    assert answer.json()["error"]["code"] == "other_class_schema"
     (folder / "class.json").unlink()
     assert kind_of(teacher.get("/api/class")) == (503, "unavailable")
     with refused(NO_CLASS_FILE, BadInput, file="class.json"):
@@ -95,4 +96,4 @@ def test_what_is_no_class_is_said(gateway, folder, tmp_path):
 
 def test_a_gateway_without_a_class_says_how_to_show_one(local_lab):
     answer = local_lab.local().get("/api/class")
-    assert "mrlab up --class FOLDER" in answer.json()["error"]["message"]
+    assert kind_of(answer) == (404, "not_found")

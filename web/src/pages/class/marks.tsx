@@ -30,7 +30,7 @@ export function Marks({ submission, onSelect }: MarksProps) {
                 </span>
               </p>
               <p class="small">
-                {mark.words}
+                {mark.found.message}
                 {time !== null && !passed && submission.motion && (
                   <>
                     {' '}

@@ -222,7 +222,7 @@ export function ClassPage() {
           <div class="motion-view">
             <Notice severity="warning">
               <h2>{w.noMotion}</h2>
-              <p>{current.words}</p>
+              <p>{current.found.message}</p>
             </Notice>
           </div>
         ) : loaded?.motion ? (

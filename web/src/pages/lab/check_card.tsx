@@ -101,7 +101,7 @@ export function CheckCard({ check, enabled, onSeek }: CheckCardProps) {
           <Icon name={VERDICTS[verdict]} />
           <span>
             <strong>{w.verdicts[verdict]}</strong>
-            {verdict === 'failed' && <span class="small"> {known.message}</span>}
+            {verdict === 'failed' && <span class="small"> {known.problem?.message}</span>}
             {!running && verdict !== 'failed' && (
               <span class="small second"> {said.filter(Boolean).join(', ') || w.nothing}</span>
             )}
@@ -112,7 +112,7 @@ export function CheckCard({ check, enabled, onSeek }: CheckCardProps) {
       {known.stale && (
         <p class="check-stale small">
           <Icon name="warning" />
-          <span>{w.stale(known.stale)}</span>
+          <span>{w.stale(known.stale.message)}</span>
         </p>
       )}
       {problem && <p class="field-error small">{problem}</p>}

@@ -18,14 +18,14 @@ export function checkLabel(check: Check | null, { check: w }: Pick<Words, 'check
   if (state !== 'done') return w.verdicts.running
   const { refusing, warning } = counted(check)
   const count = refusing + warning
-  const said = `${w.verdicts[verdict === 'ready' ? 'ready' : 'not_ready']}${stale ? '?' : ''}`
+  const said = `${w.verdicts[verdict === 'ready' ? 'ready' : 'not_ready']}${stale !== null ? '?' : ''}`
   return count > 0 ? `${said} · ${count}` : said
 }
 
 /** Return the colour of a verdict, which stands below its words. */
 export function checkColour({ state, verdict, stale }: Check): string {
   const { states } = PANEL_THEME
-  if (state !== 'done' || stale) return states.PAUSED
+  if (state !== 'done' || stale !== null) return states.PAUSED
   return verdict === 'ready' ? states.READY : states.COLLISION_HALT
 }
 

@@ -10,16 +10,17 @@ import {
 } from '../../../src/pages/class/class_steps'
 import { keyOfPath } from '../../../src/pages/class/page'
 import { publishedName } from '../../../src/pages/class/published_name'
+import { finding } from '../../fake_api'
 import { fakeMotion } from '../../fake_motion'
 
 function submission(key: string, points: number, more: Partial<Submission> = {}): Submission {
-  const lost = { points: 0, of: 1, words: '', hint: '', hidden: false, time: null }
+  const lost = { points: 0, of: 1, found: finding({}), hint: '', hidden: false, time: null }
   return {
     key,
     name: key,
     points,
     of: 3,
-    words: '',
+    found: finding({}),
     duration: 1,
     robot: 'ur5e',
     tool: '',

@@ -11,7 +11,7 @@ import {
 } from '../../../src/pages/lab/robot_check'
 import { own } from '../../../src/words/diagnostic'
 import { en } from '../../../src/words/en'
-import { FOUND_CHECK, NO_CHECK } from '../../fake_api'
+import { FOUND_CHECK, finding, NO_CHECK } from '../../fake_api'
 
 beforeEach(() => {
   vi.useFakeTimers()
@@ -56,14 +56,16 @@ test('an answer about what was loaded before is not taken for what is loaded now
     late = resolve
   })
   const ask = vi.fn(async (_robot: string, trajectory: string) =>
-    trajectory === 'old@1' ? first : { ...NO_CHECK, state: 'failed' as const, message: 'why' },
+    trajectory === 'old@1'
+      ? first
+      : { ...NO_CHECK, state: 'failed' as const, problem: finding({ message: 'why' }) },
   )
   const check = new RobotCheck({ check: ask, startCheck: ask }, 'ur5e_1')
   const before = check.follow('old@1', true)
   await check.follow('new@1', true)
   late(FOUND_CHECK)
   await before
-  expect(check.check.value?.message).toBe('why')
+  expect(check.check.value?.problem?.message).toBe('why')
 })
 
 test('a refusal is said; a motion that this person may not see has no check', async () => {

@@ -3,13 +3,18 @@ import { expect, test } from 'vitest'
 import { checkColour, checkLabel, findingChoices } from '../../../src/room/panels/check_view'
 import { PANEL_THEME } from '../../../src/room/panels/pen'
 import { en } from '../../../src/words/en'
-import { FOUND_CHECK, NO_CHECK } from '../../fake_api'
+import { FOUND_CHECK, finding, NO_CHECK } from '../../fake_api'
 
 test('the button of a check says its verdict and how much was found', () => {
   expect(checkLabel(null, en)).toBe('Check')
   expect(checkLabel({ ...NO_CHECK, state: 'running' }, en)).toBe('Checking…')
   expect(checkLabel(FOUND_CHECK, en)).toBe('Not ready · 3')
-  expect(checkLabel({ ...FOUND_CHECK, stale: 'cube_1 has moved' }, en)).toBe('Not ready? · 3')
+  expect(
+    checkLabel(
+      { ...FOUND_CHECK, stale: finding({ code: 'moved', message: 'cube_1 has been moved' }) },
+      en,
+    ),
+  ).toBe('Not ready? · 3')
   expect(checkLabel({ ...NO_CHECK, state: 'done', verdict: 'ready' }, en)).toBe('Ready')
 })
 
@@ -18,7 +23,9 @@ test('a verdict of an earlier scene has the colour of no verdict', () => {
   const ready = { ...NO_CHECK, state: 'done', verdict: 'ready' } as const
   expect(checkColour(ready)).toBe(states.READY)
   expect(checkColour(FOUND_CHECK)).toBe(states.COLLISION_HALT)
-  expect(checkColour({ ...ready, stale: 'cube_1 has moved' })).toBe(states.PAUSED)
+  expect(
+    checkColour({ ...ready, stale: finding({ code: 'moved', message: 'cube_1 has been moved' }) }),
+  ).toBe(states.PAUSED)
 })
 
 test('findings are listed by severity, kind and instant; who may not play checks nothing', () => {
