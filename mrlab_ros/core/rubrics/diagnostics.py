@@ -182,8 +182,8 @@ NEGATIVE = Code("negative", "'{text}' is negative; expected {expected:problem}."
 TIMES_SWAPPED = Code(
     "times_swapped", "{first:time} is not before {last:time}; expected the earlier one first."
 )
-BAD_PLACE = Code(
-    "bad_place", "The place is {text}; expected [[x, y]] or [[x, y, z]] in m, in world."
+NOT_A_PLACE = Code(
+    "not_a_place", "The place is {text}; expected [[x, y]] or [[x, y, z]] in m, in world."
 )
 UNKNOWN_SENTENCE = Code(
     "unknown_sentence",

@@ -17,8 +17,8 @@ from mrlab_ros.core.base.diagnostic import Fix
 from mrlab_ros.core.errors import BadInput
 from mrlab_ros.core.geometry import Pose, Vector
 from mrlab_ros.core.rubrics.diagnostics import (
-    BAD_PLACE,
     NEGATIVE,
+    NOT_A_PLACE,
     TIMES_SWAPPED,
     UNKNOWN_SENTENCE,
 )
@@ -146,7 +146,7 @@ def _place(text: str) -> tuple[float, ...]:
     except ValueError:
         numbers = ()
     if len(numbers) not in (2, 3) or not all(abs(v) <= 100 for v in numbers):
-        raise BadInput(BAD_PLACE(text=text))
+        raise BadInput(NOT_A_PLACE(text=text))
     return numbers
 
 

@@ -14,11 +14,11 @@ from refusals import refused
 
 from mrlab_ros.core.errors import BadInput
 from mrlab_ros.core.rubrics.diagnostics import (
-    BAD_PLACE,
     BEYOND_MOST,
     NEGATIVE,
     NO_UNIT,
     NOT_A_NUMBER,
+    NOT_A_PLACE,
     OTHER_UNIT,
     TIMES_SWAPPED,
     UNKNOWN_SENTENCE,
@@ -100,7 +100,7 @@ def test_a_sentence_as_teachers_write_it(sentence, gaps):
         ("within 80 of limits", NO_UNIT, {"expected": SHARE.expected}),
         ("passes within 900 km of [0, 0, 1]", OTHER_UNIT, {"given": "km"}),
         ("passes within 900 m of [0, 0, 1]", BEYOND_MOST, {"limit": 100.0, "unit": "m"}),
-        ("passes within 5 mm of [0, 0, 0, 1]", BAD_PLACE, {}),
+        ("passes within 5 mm of [0, 0, 0, 1]", NOT_A_PLACE, {}),
         ("grasps cube_1 between 4 and 2 s", TIMES_SWAPPED, {"first": 4.0, "last": 2.0}),
     ],
 )
