@@ -18,6 +18,7 @@ unit the value is stored and how it is shown, the same in terminal, page, room a
     {count:count frame|frames} 1 frame, 3 frames
     {rows:rows}                (first, last) from 1: row 7, rows 7 to 9
     {names:list}               a, b and c                   {names:either}     a, b or c
+    {events:list play=start}   the same, with words of its own for those that are known
     {side:choice above=over|below=under}                    the text of one of the known words
     {why:problem}              another diagnostic, or what a library said
     {all:problems}             several of them, a line each
@@ -178,6 +179,11 @@ def _choice(value: str, words: Sequence[str]) -> str:
     return known[value] or value
 
 
+def _worded(names: Sequence[object], words: Sequence[str]) -> list[object]:
+    known = dict(word.partition("=")[::2] for word in words)
+    return [known.get(str(name), name) for name in names]
+
+
 def _position(value: Sequence[float], words: Sequence[str]) -> str:
     return " ".join(
         f"{axis} {_digits(v, 3, '')}" for axis, v in zip("xyz", value, strict=False)
@@ -208,8 +214,8 @@ QUANTITIES: dict[str, Callable[[Any, Sequence[str]], str]] = {
     "position": _position,
     "count": lambda v, w: " ".join(filter(None, [f"{v}", *([w[v != 1]] if w else [])])),
     "rows": _rows,
-    "list": lambda v, w: joined(v),
-    "either": lambda v, w: joined(v, "or"),
+    "list": lambda v, w: joined(_worded(v, w)),
+    "either": lambda v, w: joined(_worded(v, w), "or"),
     "choice": _choice,
     "problem": lambda v, w: visible_lines(str(v)).rstrip("."),
     "problems": lambda v, w: "".join(f"\n  {visible_lines(str(each))}" for each in v),

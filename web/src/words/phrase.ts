@@ -146,8 +146,13 @@ function significant(value: number, count: number, unit: string): string {
   return `${number(Number(value.toPrecision(count)), 12)}${unit}`
 }
 
-function joined(names: unknown, last: string): string {
-  const texts = (Array.isArray(names) ? names : [names]).map(String)
+function chosen(value: unknown, words: readonly string[]): string {
+  const word = words.find((each) => each.startsWith(`${value}=`) || each === value)
+  return word === undefined ? String(value) : word.slice(word.indexOf('=') + 1)
+}
+
+function joined(names: unknown, words: readonly string[], last: string): string {
+  const texts = (Array.isArray(names) ? names : [names]).map((name) => chosen(name, words))
   return texts.length < 2
     ? texts.join('')
     : `${texts.slice(0, -1).join(', ')} ${last} ${texts[texts.length - 1]}`
@@ -213,14 +218,11 @@ function shown(
       return last <= first ? `${joining.row} ${first}` : joining.rows(`${first}`, `${last}`)
     }
     case 'list':
-      return joined(value, joining.and)
+      return joined(value, words, joining.and)
     case 'either':
-      return joined(value, joining.or)
-    case 'choice': {
-      const word = words.find((each) => each.startsWith(`${value}=`) || each === value)
-      if (word === undefined) return String(value)
-      return word.slice(word.indexOf('=') + 1)
-    }
+      return joined(value, words, joining.or)
+    case 'choice':
+      return chosen(value, words)
     case 'problem':
       return problem(value).replace(/\.$/, '')
     case 'problems':
