@@ -41,7 +41,7 @@ export class LabObjects {
     private readonly stage: SceneHost,
     private readonly meshes: MeshSource,
     private readonly toolOf: (robot: string) => Object3D | undefined,
-    private readonly trouble: (sentence: string) => void,
+    private readonly trouble: (mesh: string) => void,
   ) {
     this.instances = new Instances(stage.world)
   }
@@ -168,7 +168,8 @@ export class LabObjects {
         if (entry.look === look) this.drawMesh(entry, mesh, loaded)
       })
       .catch((error: unknown) => {
-        this.trouble(`${mesh}: ${error instanceof Error ? error.message : String(error)}`)
+        console.warn(`${mesh}:`, error)
+        this.trouble(mesh.slice(mesh.lastIndexOf('/') + 1))
         if (entry.look === look) this.drawPrimitive(entry, object)
       })
       .then(() => this.stage.invalidate())

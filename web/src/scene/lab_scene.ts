@@ -41,7 +41,7 @@ interface Entry {
 
 /** Robots, objects, contacts and the room of a lab, live or out of a bag. */
 export class LabScene {
-  /** Meshes that could not be read, a sentence each. */
+  /** The files of meshes that could not be read. */
   readonly troubles = new Set<string>()
   private readonly robots = new Map<string, Entry>()
   private readonly objects: LabObjects
@@ -56,8 +56,8 @@ export class LabScene {
     private readonly meshes: MeshSource,
     private readonly onTrouble: () => void = () => undefined,
   ) {
-    const trouble = (sentence: string) => {
-      this.troubles.add(sentence)
+    const trouble = (mesh: string) => {
+      this.troubles.add(mesh)
       this.onTrouble()
     }
     this.objects = new LabObjects(stage, meshes, (name) => this.toolOf(name), trouble)
@@ -256,7 +256,7 @@ export class LabScene {
     this.paintLabel(shown.name, entry)
     robot.ready.then(() => {
       if (this.robots.get(shown.name) !== entry) return
-      for (const sentence of robot.troubles) this.troubles.add(sentence)
+      for (const mesh of robot.troubles) this.troubles.add(mesh)
       if (robot.troubles.length > 0) this.onTrouble()
       patch.fit(robot.footprint())
       this.frame()

@@ -193,7 +193,7 @@ export function createMotionPreview(
     clearTimeout(waiting)
     const troubles = scene?.robot.troubles ?? []
     if (!disposed && scene !== null)
-      say(troubles.length > 0 ? words.missing(troubles.join('; ')) : '')
+      say(troubles.length > 0 ? words.missing(troubles.join(', ')) : '')
   })
 
   return {

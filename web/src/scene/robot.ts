@@ -44,7 +44,7 @@ interface Wanted {
 /** A robot of a URDF that moves: no joint is clamped, so a refused pose looks refused. */
 export class SceneRobot {
   readonly root: URDFRobot
-  /** Meshes that could not be read, a sentence each; a placeholder stands where they belong. */
+  /** The files of meshes that could not be read; a placeholder stands where they belong. */
   readonly troubles: string[] = []
   /** Resolves when every mesh, or its placeholder, is there. */
   readonly ready: Promise<void>
@@ -256,9 +256,8 @@ export class SceneRobot {
   }
 
   private missing(uri: string, error: unknown): Object3D {
-    const why = error instanceof Error ? error.message : String(error)
-    const name = uri.slice(uri.lastIndexOf('/') + 1)
-    this.troubles.push(why.includes(name) ? why : `${uri}: ${why}`)
+    console.warn(`${uri}:`, error)
+    this.troubles.push(uri.slice(uri.lastIndexOf('/') + 1))
     const group = new Group()
     group.add(new LineSegments(this.placeholder, this.looks.missing))
     return group

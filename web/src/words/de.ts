@@ -17,6 +17,24 @@ export const words: Words = {
     row: 'Zeile',
     rows: (first, last) => `Zeilen ${first} bis ${last}`,
   },
+  scene: {
+    view: 'Der Roboter in 3D. Pfeiltasten drehen die Ansicht, Plus und Minus zoomen, 0 zeigt alles.',
+    play: 'Abspielen',
+    pause: 'Anhalten',
+    time: 'Zeit',
+    speed: 'Tempo',
+    ghosts: 'Erste und letzte Stellung',
+    compared: 'Die andere Bewegung',
+    path: 'Werkzeugbahn',
+    start: 'Anfang',
+    end: 'Ende',
+    loading: (here, count) => `Der Roboter wird geladen, ${here} von ${count} Teilen`,
+    noWebGL:
+      'Dieser Browser zeichnet nicht in 3D (WebGL 2 ist aus oder fehlt); Kurven und Befunde sind vollständig.',
+    missing: (names) => `Ein Kasten steht für jedes fehlende Teil des Roboters: ${names}`,
+    at: (time, row) => `${time} s, Zeile ${row}`,
+    gripper: { open: 'Greifer offen', closed: 'Greifer zu' },
+  },
   link: {
     closed: 'Die Seite hat ihre Verbindung geschlossen.',
     answerLost:
@@ -453,6 +471,7 @@ export const words: Words = {
     noFloor:
       'sie kennt keinen Boden. Richte den Raum in den Einstellungen der Brille ein, dann drücke erneut.',
     busy: 'eine andere Seite benutzt sie. Schließe diese und drücke erneut.',
+    missing: (names: string) => `Ein Kasten steht für jedes fehlende Teil: ${names}`,
     hops: {
       connecting: 'Der Weg zum Gateway: wird verbunden.',
       lost: (why: string) => `Der Weg zum Gateway ist verloren, es wird erneut versucht: ${why}`,

@@ -16,6 +16,25 @@ export const en = {
     row: 'row',
     rows: (first: string, last: string) => `rows ${first} to ${last}`,
   },
+  scene: {
+    view: 'The robot in 3D. Arrow keys turn the view, plus and minus zoom, 0 shows all.',
+    play: 'Play',
+    pause: 'Pause',
+    time: 'Time',
+    speed: 'Speed',
+    ghosts: 'First and last pose',
+    compared: 'The other motion',
+    path: 'Tool path',
+    start: 'start',
+    end: 'end',
+    loading: (here: number, count: number) => `Loading the robot, ${here} of ${count} parts`,
+    noWebGL:
+      'This browser cannot draw in 3D (WebGL 2 is off or missing); the plots and findings are complete.',
+    missing: (names: string) =>
+      `A box stands for each part of the robot that is missing: ${names}`,
+    at: (time: string, row: number) => `${time} s, row ${row}`,
+    gripper: { open: 'gripper open', closed: 'gripper closed' },
+  },
   link: {
     closed: 'The page has closed its connection.',
     answerLost: 'The connection was lost before the answer came. Check, then try again.',
@@ -450,6 +469,7 @@ export const en = {
     noFloor:
       'it knows no floor to stand on. Set the room up in the settings of the headset, then press Enter again.',
     busy: 'another page is using it. Close that page, then press Enter again.',
+    missing: (names: string) => `A box stands for each part that is missing: ${names}`,
     hops: {
       connecting: 'The way to the gateway: connecting.',
       lost: (why: string) => `The way to the gateway is lost, it is tried again: ${why}`,

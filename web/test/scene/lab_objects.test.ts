@@ -84,7 +84,7 @@ test('what a robot holds sits in its hand where the lab says', () => {
 test('a mesh that is missing is said, and its primitive drawn', async () => {
   const { world, objects, said } = scene()
   objects.set([{ ...cube(1), mesh: 'package://p/cup.glb' }])
-  await vi.waitFor(() => expect(said).toHaveBeenCalledWith('package://p/cup.glb: 404'))
+  await vi.waitFor(() => expect(said).toHaveBeenCalledWith('cup.glb'))
   const drawn = () => world.children.find((each) => each instanceof InstancedMesh)
   await vi.waitFor(() => {
     objects.follow()

@@ -1,7 +1,7 @@
 import { signal } from '@preact/signals'
 import type { Api } from '../../api/api'
 import type { TrajectoryInfo } from '../../api/types'
-import { sentence } from '../../words/diagnostic'
+import { sentence, ToldError } from '../../words/diagnostic'
 
 interface Carrier {
   readonly model: string
@@ -61,15 +61,15 @@ export class LabCatalogue {
     }
   }
 
-  /** Convert a file for a robot model and publish it under a name; return its id. Rejects with a
-   * sentence. */
+  /** Convert a file for a robot model and publish it under a name; return its id. Rejects with
+   * why not. */
   async take(file: File, robot_model: string, name: string, end_effector = ''): Promise<string> {
     const { signal } = new AbortController()
     const { upload } = await this.api.upload(file, () => undefined, signal)
     const request = { upload, robot_model, end_effector }
-    const { draft, message } = await this.api.convert(request, signal)
-    if (draft === null) throw new Error(message)
-    const { id } = await this.api.publish(draft, name, false)
+    const conversion = await this.api.convert(request, signal)
+    if (conversion.draft === null) throw new ToldError(conversion)
+    const { id } = await this.api.publish(conversion.draft, name, false)
     await this.load()
     return id
   }

@@ -1,8 +1,7 @@
 import { useEffect, useRef } from 'preact/hooks'
 import type { RemotePlayer } from '../../playback/player'
 import { Controls, type TimeMark } from '../../scene/controls'
-import { ENGLISH, GERMAN } from '../../scene/words'
-import { language } from '../../words/words'
+import { words } from '../../words/words'
 
 interface TimelineProps {
   readonly player: RemotePlayer
@@ -19,11 +18,10 @@ const NO_MARKS: readonly TimeMark[] = []
 export function Timeline({ player, rate, enabled, marks = NO_MARKS }: TimelineProps) {
   const host = useRef<HTMLDivElement>(null)
   const shown = useRef<Controls | null>(null)
-  const german = language.value === 'de'
+  const { scene } = words.value
   useEffect(() => {
-    const words = german ? GERMAN : ENGLISH
     const row = (time: number) => Math.floor(time * rate + 1e-6) + 1
-    const controls = new Controls(player, words, rate > 0 ? 1 / rate : 0.01, row, [])
+    const controls = new Controls(player, scene, rate > 0 ? 1 / rate : 0.01, row, [])
     controls.setEnabled(enabled)
     host.current?.append(controls.element)
     shown.current = controls
@@ -42,8 +40,8 @@ export function Timeline({ player, rate, enabled, marks = NO_MARKS }: TimelinePr
       cancelAnimationFrame(request)
       controls.dispose()
     }
-  }, [player, rate, german, enabled])
+  }, [player, rate, scene, enabled])
   const { duration } = player
-  useEffect(() => shown.current?.setMarks(marks), [marks, duration, player, rate, german, enabled])
+  useEffect(() => shown.current?.setMarks(marks), [marks, duration, player, rate, scene, enabled])
   return <div class="lab-timeline" ref={host} />
 }

@@ -1,6 +1,7 @@
 import { LabScene } from '../../scene/lab_scene'
 import { MeshLibrary } from '../../scene/meshes'
 import { Stage } from '../../scene/stage'
+import { words } from '../../words/words'
 
 /** The picture of the lab, in code that is loaded only when it is shown. */
 export class LabView {
@@ -18,7 +19,7 @@ export class LabView {
   ) {
     this.stage = new Stage(container, label)
     this.scene = new LabScene(this.stage, this.meshes, () => {
-      say([...this.scene.troubles].join('; '))
+      say(words.value.scene.missing([...this.scene.troubles].join(', ')))
     })
     this.stage.onFrame(() => {
       const more = pose()

@@ -59,11 +59,10 @@ export function MotionView({ motion, compared = null, selected }: MotionViewProp
     let dispose = () => {}
     import('../../scene/preview')
       .then(async ({ createMotionPreview }) => {
-        const { GERMAN, ENGLISH } = await import('../../scene/words')
         const element = host.current
         if (!here || element === null) return
         const made = createMotionPreview(element, motion, {
-          words: language.value === 'de' ? GERMAN : ENGLISH,
+          words: words.value.scene,
           compared: comparable(motion, compared) ? compared : null,
         })
         const stopTime = made.onTime((now) => {

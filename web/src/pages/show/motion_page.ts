@@ -2,13 +2,14 @@ import type { MotionDocument } from '../../playback/motion'
 import { type MeshBytes, MeshLibrary } from '../../scene/meshes'
 import { createMotionPreview } from '../../scene/preview'
 import { reducedMotion } from '../../scene/theme'
-import { ENGLISH, GERMAN } from '../../scene/words'
+import { ENGLISH } from '../../scene/words'
+import { words as de } from '../../words/de'
 import { attachCursors } from './plots'
 
 /** Put the 3D view into a page that shows one motion, and join it with plots and findings. */
 export function showMotion(view: HTMLElement, motion: MotionDocument, bytes: MeshBytes): void {
   const meshes = new MeshLibrary(bytes)
-  const words = navigator.language.startsWith('de') ? GERMAN : ENGLISH
+  const words = navigator.language.startsWith('de') ? de.scene : ENGLISH
   const poster = document.querySelector<HTMLImageElement>('.poster img')?.src
   const preview = createMotionPreview(view, motion, {
     meshes,

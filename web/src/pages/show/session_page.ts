@@ -10,7 +10,8 @@ import { type MeshBytes, MeshLibrary } from '../../scene/meshes'
 import { NoWebGL } from '../../scene/renderer'
 import { Stage } from '../../scene/stage'
 import { themeNow } from '../../scene/theme'
-import { ENGLISH, GERMAN } from '../../scene/words'
+import { ENGLISH } from '../../scene/words'
+import { words as de } from '../../words/de'
 import { STATES } from './german'
 import { instantOf } from './instant'
 import { attachCursors } from './plots'
@@ -25,7 +26,7 @@ const LATE = 0.1 // s, by which a halt may be recorded before the collision that
 /** Put a recorded session into its page: the scene, the timeline, the events. */
 export function showSession(view: HTMLElement, session: SessionDocument, bytes: MeshBytes): void {
   const german = navigator.language.startsWith('de')
-  const words = german ? GERMAN : ENGLISH
+  const words = german ? de.scene : ENGLISH
   const wordOf = (state: string) =>
     (german && STATES[state]) || state.toLowerCase().replace('_', ' ')
   const player = new MotionPlayer(session.duration, () => performance.now() / 1000)

@@ -16,7 +16,7 @@ export interface Listeners {
   readonly board: Board
   readonly panels: RobotPanels
   readonly systems: SystemPanels
-  /** Meshes that could not be read, a sentence each. */
+  /** The files of meshes that could not be read. */
   readonly troubles: ReadonlySignal<readonly string[]>
   /** A robot has begun to halt. */
   halt(): void

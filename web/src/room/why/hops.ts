@@ -15,7 +15,7 @@ export interface Way {
   /** Whether the lab has said which robots there are, and how many. */
   readonly known: boolean
   readonly robots: number
-  /** Meshes and trajectories that could not be read. */
+  /** The files of meshes that could not be read. */
   readonly troubles: readonly string[]
 }
 
@@ -50,7 +50,11 @@ export function hopsOf(way: Way, words: Words['room']): Hop[] {
   }
   if (way.robots === 0) found.push({ id: 'robots', severity: 'info', words: words.empty })
   if (way.troubles.length > 0) {
-    found.push({ id: 'meshes', severity: 'warning', words: way.troubles.join('; ') })
+    found.push({
+      id: 'meshes',
+      severity: 'warning',
+      words: words.missing(way.troubles.join(', ')),
+    })
   }
   return found
 }
