@@ -1,5 +1,6 @@
 import type { Submission } from '../../api/types'
 import { Icon } from '../../design/icons'
+import { say } from '../../words/diagnostic'
 import { number, words } from '../../words/words'
 import { numbersOf } from './class_steps'
 
@@ -30,7 +31,7 @@ export function Marks({ submission, onSelect }: MarksProps) {
                 </span>
               </p>
               <p class="small">
-                {mark.found.message}
+                {say(mark.found).message}
                 {time !== null && !passed && submission.motion && (
                   <>
                     {' '}

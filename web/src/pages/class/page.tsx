@@ -6,7 +6,7 @@ import { Segments } from '../../design/field'
 import { Icon } from '../../design/icons'
 import { Notice } from '../../design/notice'
 import type { MotionDocument } from '../../playback/motion'
-import { sentence } from '../../words/diagnostic'
+import { sentence, spoken } from '../../words/diagnostic'
 import { number, words } from '../../words/words'
 import { MotionView } from '../motion/lazy'
 import { navigate, path } from '../shell/router'
@@ -222,7 +222,7 @@ export function ClassPage() {
           <div class="motion-view">
             <Notice severity="warning">
               <h2>{w.noMotion}</h2>
-              <p>{current.found.message}</p>
+              <p>{spoken(current.found)}</p>
             </Notice>
           </div>
         ) : loaded?.motion ? (

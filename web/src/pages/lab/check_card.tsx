@@ -2,7 +2,7 @@ import { useState } from 'preact/hooks'
 import type { Check, CheckFinding } from '../../api/types'
 import { Button } from '../../design/button'
 import { Icon, type IconName } from '../../design/icons'
-import { say } from '../../words/diagnostic'
+import { say, spoken } from '../../words/diagnostic'
 import { number, words } from '../../words/words'
 import { kindOf } from './check_words'
 import { counted, type RobotCheck } from './robot_check'
@@ -101,7 +101,9 @@ export function CheckCard({ check, enabled, onSeek }: CheckCardProps) {
           <Icon name={VERDICTS[verdict]} />
           <span>
             <strong>{w.verdicts[verdict]}</strong>
-            {verdict === 'failed' && <span class="small"> {known.problem?.message}</span>}
+            {verdict === 'failed' && (
+              <span class="small"> {known.problem !== null && spoken(known.problem)}</span>
+            )}
             {!running && verdict !== 'failed' && (
               <span class="small second"> {said.filter(Boolean).join(', ') || w.nothing}</span>
             )}
@@ -112,7 +114,7 @@ export function CheckCard({ check, enabled, onSeek }: CheckCardProps) {
       {known.stale && (
         <p class="check-stale small">
           <Icon name="warning" />
-          <span>{w.stale(known.stale.message)}</span>
+          <span>{w.stale(say(known.stale).message)}</span>
         </p>
       )}
       {problem && <p class="field-error small">{problem}</p>}

@@ -2,7 +2,7 @@ import { effect } from '@preact/signals'
 import type { Submission } from '../../api/types'
 import type { LabFollower } from '../../pages/lab/follow'
 import { loadTrajectoryType } from '../../protocol/mrlab_msgs'
-import { sentence } from '../../words/diagnostic'
+import { say, sentence, spoken } from '../../words/diagnostic'
 import { number } from '../../words/words'
 import { order, type RoomContext } from '../context'
 import { BOARD_WIDTH, BOTTOM, EDGE, type Tab, TOP } from './board'
@@ -65,7 +65,7 @@ export function classTab(context: RoomContext, follower: LabFollower, lesson: Le
 
   function drawMarks(pen: Pen, y: number, { marks, motion, found }: Submission): void {
     const missed = PANEL_THEME.states.PAUSED
-    if (!motion) pen.lines(EDGE, y, found.message, TEXT.small, undefined, missed, 2)
+    if (!motion) pen.lines(EDGE, y, spoken(found), TEXT.small, undefined, missed, 2)
     const top = motion ? y : y + 2 * ROW
     // what was lost comes first where not all fit
     const lost = marks.filter(({ passed }) => !passed)
@@ -78,7 +78,7 @@ export function classTab(context: RoomContext, follower: LabFollower, lesson: Le
       pen.text(EDGE, row, `${sign} ${mark.name}`, TEXT.small, POINTS - 100, ink, 600)
       pen.text(EDGE + POINTS, row, points, TEXT.small, 90, ink, 600, 'right')
       const width = BOARD_WIDTH - 2 * EDGE - WORDS
-      pen.text(EDGE + WORDS, row, mark.found.message, TEXT.small, width, 'second')
+      pen.text(EDGE + WORDS, row, say(mark.found).message, TEXT.small, width, 'second')
     })
   }
 
