@@ -112,3 +112,5 @@ def _entry(code: Code) -> Iterator[str]:
             f"`{matlab}`" if matlab else "",
         ]
         yield from ("", f"Fix: {', or '.join(filter(None, ways))}")
+    for words in code.commands:
+        yield from ("", f"Fix: `mrlab {words}`")

@@ -7,6 +7,8 @@ from collections.abc import Callable
 
 import zenoh
 
+from mrlab_ros.adapters.zenoh.diagnostics import NO_LAB_AT, NOTHING_ANSWERS
+from mrlab_ros.core.base.diagnostic import Diagnostic, Severity, of_text
 from mrlab_ros.core.errors import LabError, Unavailable
 
 # A bridge that stands still does not answer a handshake either, ms.
@@ -39,10 +41,8 @@ class ZenohLink:
         try:
             self._session = zenoh.open(config)
         except zenoh.ZError as error:
-            raise Unavailable(
-                f"no lab answers at {endpoint} ({str(error).split(' at /')[0]}); mrlab status "
-                "shows what runs"
-            ) from None
+            why = of_text(str(error).split(" at /")[0])
+            raise Unavailable(NO_LAB_AT(endpoint=endpoint, why=why)) from None
 
     def close(self) -> None:
         self._session.close()
@@ -66,5 +66,6 @@ class ZenohLink:
             if reply.ok is not None:
                 return reply.ok.payload.to_bytes()
             if reply.err is not None:
-                raise Refusal(reply.err.payload.to_string())
-        raise NoQueryable(f"nothing answers {key}; mrlab status shows what runs")
+                _, _, code = str(reply.err.encoding).partition(";")
+                raise Refusal(Diagnostic(code, Severity.ERROR, reply.err.payload.to_string()))
+        raise NoQueryable(NOTHING_ANSWERS(key=key))

@@ -2,16 +2,15 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Callable, Collection
 from typing import Any
 
 from mrlab_msgs import msg
 
+from mrlab_ros.client import diagnostics as say
+from mrlab_ros.core.base.diagnostic import Diagnostic, Fix, heard
 from mrlab_ros.core.errors import LabError, Misuse
-
-# What a halt says of its contact.
-CONTACT = re.compile(r"touches (\S+)")
+from mrlab_ros.core.playback.diagnostics import HALTED_BY_CONTACT
 
 
 class Course:
@@ -32,38 +31,26 @@ class Course:
         elif state.state == kind.COMPLETE:
             self.complete = True
         elif state.state == kind.COLLISION_HALT:
-            raise Misuse(halted(self._robot, state.message, self._objects()))
+            raise Misuse(halted(self._robot, heard(state), self._objects()))
         elif state.state == kind.IDLE and self.moving:
-            raise LabError(
-                f"the playback of {self._robot} was restarted, or stood aside for a replay; where "
-                f"it stands: mrlab status; play on from there with: mrlab resume {self._robot}"
-            )
+            raise LabError(say.PLAYBACK_GONE(robot=self._robot))
         elif state.state == kind.READY and self.moving and not self.complete:
-            raise Misuse(
-                f"{self._robot} ended before its last frame: {state.message or 'stopped'}"
-            )
+            why = heard(state) if state.message else None
+            raise Misuse(say.ENDED_EARLY(robot=self._robot, why=why))
 
 
-def halted(robot: str, why: str, objects: Collection[str] = ()) -> str:
+def halted(robot: str, why: Diagnostic, objects: Collection[str] = ()) -> Diagnostic:
     """Return what is said of a robot that a collision halted, with the commands that end it.
 
-    objects: the names of those in the scene, which can be removed.
+    why: what its state says. objects: the names of those in the scene, which can be removed.
     """
-    contact = CONTACT.search(why)
-    if why and contact is None:
+    place, resume = Fix(command=f"place {robot} --at X,Y"), Fix(command=f"resume {robot}")
+    reason = why if why.message else None
+    if why.message and why.code != HALTED_BY_CONTACT.code:
         # It was taken elsewhere already; what it touches there is not said.
-        return (
-            f"{robot} is still in its collision halt ({why}), which ends once its arm has been "
-            "clear for a moment. Where the arm touches something there too, take that away: "
-            f"mrlab objects list, or place the robot elsewhere: mrlab place {robot} --at X,Y. "
-            f"Then play on with: mrlab resume {robot}"
-        )
-    other = contact.group(1) if contact else ""
-    away = f"place the robot elsewhere: mrlab place {robot} --at X,Y"
-    if other in objects:
-        away = f"take {other} away: mrlab objects remove {other}, or {away}"
-    return (
-        f"{robot} was halted by a collision: {why or 'its arm touches something'}. Its arm goes "
-        f"back to the first frame with: mrlab stop {robot}. So that it does not happen again, "
-        f"{away}. Then play on with: mrlab resume {robot}"
-    )
+        fixes = (Fix(command="objects list"), place, resume)
+        return say.STILL_HALTED(robot=robot, why=reason, fixes=fixes)
+    other = why.values.get("other", "")
+    remove = (Fix(command=f"objects remove {other}"),) if other in objects else ()
+    fixes = (Fix(command=f"stop {robot}"), *remove, place, resume)
+    return say.HALTED(robot=robot, why=reason, fixes=fixes)

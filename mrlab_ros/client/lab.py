@@ -14,8 +14,10 @@ from mrlab_msgs import srv
 from mrlab_msgs.srv import Trigger
 
 from mrlab_ros.client.connect import open_graph
+from mrlab_ros.client.diagnostics import BAD_BASE_PLACE, NO_SINGLE_BAG
 from mrlab_ros.client.motion import Motion, motion_of
 from mrlab_ros.client.robot import LabRobot, standing, surviving
+from mrlab_ros.core.base.diagnostic import heard
 from mrlab_ros.core.conversion.options import Options
 from mrlab_ros.core.errors import BadInput, Misuse
 from mrlab_ros.ros.graph import GraphClient
@@ -99,7 +101,7 @@ class Lab:
         )
         if at is not None:
             if len(at) != 2:
-                raise Misuse(f"at is {at!r}; expected x and y, m, such as (1.0, 0.5)")
+                raise Misuse(BAD_BASE_PLACE(found=repr(at)))
             request.pose = standing(*at, yaw)
         answer = self.graph.order(srv.SpawnRobot, "/lab/spawn_robot", request)
         return LabRobot(self.graph, answer.robot, answer.message)
@@ -138,7 +140,7 @@ class Lab:
         )
         if not answer.success:
             if not answer.diagnostics:
-                raise BadInput(answer.message)
+                raise BadInput(heard(answer))
             from mrlab_ros.messages.trajectories import result_from_response  # seldom needed
 
             raise FileRefused(result_from_response(path.name, answer))
@@ -216,7 +218,5 @@ def one_file(path: Path) -> Path:
         return path
     inside = sorted(each for each in path.iterdir() if each.name.endswith(BAG_FILES))
     if len(inside) != 1:
-        raise BadInput(
-            f"the folder '{path}' holds {len(inside)} files of a bag; name one file of it"
-        )
+        raise BadInput(NO_SINGLE_BAG(folder=str(path), found=len(inside)))
     return inside[0]

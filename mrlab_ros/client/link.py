@@ -90,7 +90,7 @@ class LinkGraph(GraphClient):
                 answer = self._link.query(key, payload, timeout)
                 return deserialize_message(answer, kind.Response)
             except Refusal as error:
-                raise NoAnswer(str(error)) from None
+                raise NoAnswer(error.diagnostic) from None
             except NoQueryable:
                 if time.monotonic() > deadline:
                     break

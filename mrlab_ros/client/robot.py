@@ -12,10 +12,15 @@ from typing import Any, TypeVar
 from mrlab_msgs import msg, srv
 from mrlab_msgs.srv import SetLoop, Trigger
 
+from mrlab_ros.client import diagnostics as say
 from mrlab_ros.client.course import Course, halted
 from mrlab_ros.client.follow import Follower
 from mrlab_ros.client.motion import Motion
+from mrlab_ros.core.base.diagnostic import heard
+from mrlab_ros.core.base.diagnostics import ILLEGAL_EVENT
 from mrlab_ros.core.errors import LabError, Misuse
+from mrlab_ros.core.playback.diagnostics import OF_ROBOT
+from mrlab_ros.core.playback.states import State
 from mrlab_ros.messages import qos
 from mrlab_ros.messages.time import time_from_message
 from mrlab_ros.ros.calls import NoAnswer
@@ -24,12 +29,13 @@ from mrlab_ros.ros.graph import GraphClient
 T = TypeVar("T")
 # A robot of the scene has published its state by then, and moves by then after play, s.
 STATE_TIMEOUT_S = 5.0
-# The objects are latched; where physics is away, a sentence does without them, s.
+# The objects are latched; where physics is away, none are named, s.
 OBJECTS_TIMEOUT_S = 1.0
 POLL_PERIOD_S = 0.02
 # A robot that moves reports ten times a second; one that is silent for longer than this has gone,
 # or its machine stands still, s.
 SILENCE_S = 10.0
+HALT = State.COLLISION_HALT.name
 MOVING = (msg.PlaybackState.ADJUSTING, msg.PlaybackState.PLAYING)
 
 
@@ -60,7 +66,7 @@ class LabRobot:
         """What the robot reports of its playback; raises NoAnswer where it has none."""
         if self._follower is None:
             self._follower = Follower(self._graph, self.name)
-            self._follower.watch.wait(lambda _: True, STATE_TIMEOUT_S, f"the state of {self.name}")
+            self._follower.watch.wait(lambda _: True, STATE_TIMEOUT_S)
         return self._follower
 
     @property
@@ -187,7 +193,7 @@ class LabRobot:
         """Return the names of the objects of the scene; none where nobody says them at once."""
         try:
             watch = self._graph.watch(msg.SceneObjects, "/objects")
-            said = watch.wait(lambda _: True, OBJECTS_TIMEOUT_S, "the objects")
+            said = watch.wait(lambda _: True, OBJECTS_TIMEOUT_S)
         except NoAnswer:
             return []
         return [thing.name for thing in said.objects]
@@ -200,11 +206,11 @@ class LabRobot:
         answer = self._graph.call(kind, f"/{self.name}/{verb}", request)
         if answer.success:
             return str(answer.message)
-        state = self.follower.state
-        halt = state.state == msg.PlaybackState.COLLISION_HALT
-        if halt and verb in ("play", "load") and f"in {state.label}" in answer.message:
-            raise Misuse(halted(self.name, state.message, self._objects()))
-        raise Misuse(f"{self.name}: {answer.message}")
+        why, state = heard(answer), self.follower.state
+        in_halt = why.code == ILLEGAL_EVENT.code and why.values["state"] == HALT == state.label
+        if in_halt and verb in ("play", "load"):
+            raise Misuse(halted(self.name, heard(state), self._objects()))
+        raise Misuse(OF_ROBOT(robot=self.name, why=why))
 
 
 class Run:
@@ -228,16 +234,11 @@ class Run:
         for state in new:
             self._course.take(state)
         if not self._course.moving and not self.complete and time.monotonic() > self._deadline:
-            raise LabError(
-                f"{self.follower.robot} accepted play but does not move after "
-                f"{STATE_TIMEOUT_S:g} s; mrlab status shows what runs"
-            )
+            still = say.DOES_NOT_MOVE(robot=self.follower.robot, timeout=STATE_TIMEOUT_S)
+            raise LabError(still)
         silent = time.monotonic() - self.follower.heard
         if self.follower.state.state in MOVING and silent > SILENCE_S:
-            raise NoAnswer(
-                f"{self.follower.robot} moved and has said nothing for {silent:.0f} s: it was "
-                "removed, or its part of the lab has ended; mrlab status shows what runs"
-            )
+            raise NoAnswer(say.RUN_SILENT(robot=self.follower.robot, silent=round(silent)))
         return new
 
     @property

@@ -121,3 +121,22 @@ NO_PHYSICS_HERE = Code(
     meaning="Objects need the physics node, which this lab was started without.",
 )
 BAD_PLACE = Code("bad_place", "The place is '{text}'; expected x,y,z in m, such as 0.5,0,0.8.")
+# robots and systems of the running lab
+DISSOLVED_IN_PLAY = Code("dissolved_in_play", "{system} was dissolved while it played.")
+SYSTEM_STANDS = Code("system_stands", "{system} is {state}[: {why:problem}].")
+NO_MODE = Code("no_mode", "The mode is '{mode}'; expected parallel or sequential.")
+YAW_WITHOUT_PLACE = Code(
+    "yaw_without_place", "--yaw {yaw:number} needs a place.", "Give it with --at X,Y."
+)
+BAD_AT = Code("bad_at", "--at is '{found}'; expected X,Y or X,Y,Z in m, such as 1,-0.5.")
+ONLY_FOR_A_FILE = Code(
+    "only_for_a_file",
+    "{option} is for a file; a trajectory[ such as '{trajectory}'] is converted already.",
+    "[The speed is set with {speed}.]",
+)
+NO_PAGES = Code(
+    "no_pages",
+    "The lab that runs serves no pages.",
+    "Start it without --no-web and --no-bridge.",
+)
+NO_PEM = Code("no_pem", "{path} is no certificate in PEM: {why:problem}.")

@@ -151,12 +151,15 @@ def _ask(url: str) -> Gateway:
 def _expiry(certificate: Path) -> Certificate:
     from cryptography import x509
 
+    from mrlab_ros.commands.diagnostics import NO_PEM
+    from mrlab_ros.core.base.diagnostic import of_text
     from mrlab_ros.core.errors import BadInput
 
     try:
         read = x509.load_pem_x509_certificate(certificate.read_bytes())
     except (OSError, ValueError) as error:
-        raise BadInput(f"{certificate} is no certificate in PEM: {error}") from None
+        why = of_text(str(error))
+        raise BadInput(NO_PEM(path=str(certificate), why=why)) from None
     end = read.not_valid_after_utc
     left = (end - datetime.now(timezone.utc)).total_seconds()
     return Certificate(str(certificate), f"{end:%Y-%m-%d}", left)

@@ -8,6 +8,7 @@ from typing import Annotated, Any
 
 import typer
 
+from mrlab_ros.commands.diagnostics import NO_PAGES
 from mrlab_ros.commands.up.web import open_in_browser, opening_url
 from mrlab_ros.core.errors import Misuse
 from mrlab_ros.processes.run_file import RunFile, domains, nobody
@@ -43,7 +44,5 @@ def running_web() -> dict[str, Any]:
         raise Misuse(nobody(domain, domains()))
     web: dict[str, Any] | None = found.get("web")
     if web is None:
-        raise Misuse(
-            "the lab that runs serves no pages; start it without --no-web and --no-bridge"
-        )
+        raise Misuse(NO_PAGES())
     return web

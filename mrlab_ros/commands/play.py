@@ -11,6 +11,7 @@ import typer
 
 from mrlab_ros.commands import completion, output
 from mrlab_ros.commands.convert.options import FIELDS, with_options, words_of
+from mrlab_ros.commands.diagnostics import ONLY_FOR_A_FILE
 from mrlab_ros.commands.output import say
 from mrlab_ros.core.conversion.options import Options
 from mrlab_ros.core.errors import Misuse
@@ -76,7 +77,7 @@ def play(
             motion = in_catalogue(lab, found, trajectory, options, given, console)
             run = found.play(motion, speed=1.0 if speed is None else speed, loop=loop)
         else:
-            _check_no_file_options(options, "what is loaded")
+            _check_no_file_options(options)
             run = found.run() or found.play(speed=speed, loop=loop)
         if not wait:
             # The state that names a motion just loaded may still be on its way.
@@ -114,7 +115,7 @@ def in_catalogue(
     findings and the commands that mend it; the command then ends as mrlab convert does.
     """
     if not is_file(trajectory):
-        _check_no_file_options(options, f"the trajectory '{trajectory}'")
+        _check_no_file_options(options, trajectory)
         return trajectory
     from mrlab_ros.client.lab import FileRefused
 
@@ -133,11 +134,11 @@ def in_catalogue(
     return motion.id
 
 
-def _check_no_file_options(options: Options, what: str) -> None:
+def _check_no_file_options(options: Options, trajectory: str = "") -> None:
     """Raise Misuse where there are options of a conversion and nothing to convert."""
     if given := words_of(options):
-        hint = "; the speed is set with --speed" if f"--{_rate_option()}" in given else ""
-        raise Misuse(f"{given[0]} is for a file, and {what} is converted already{hint}")
+        speed = "--speed" if f"--{_rate_option()}" in given else None
+        raise Misuse(ONLY_FOR_A_FILE(option=given[0], trajectory=trajectory, speed=speed))
 
 
 def _rate_option() -> str:

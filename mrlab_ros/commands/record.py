@@ -27,7 +27,7 @@ from mrlab_ros.commands.diagnostics import (
     STOP_WITH_BAG,
 )
 from mrlab_ros.commands.output import say
-from mrlab_ros.core.base.diagnostic import Diagnostic, Fix
+from mrlab_ros.core.base.diagnostic import Diagnostic, Fix, heard
 from mrlab_ros.core.errors import LabError, Misuse
 from mrlab_ros.core.foreign_text import for_shell
 from mrlab_ros.core.recording.diagnostics import ENDING, NO_RECORDING
@@ -161,9 +161,7 @@ def _end(bag: Path | None, *, as_json: bool) -> None:
     if bag is not None:
         raise Misuse(STOP_WITH_BAG(bag=str(bag)))
     with open_graph() as graph:
-        state = graph.watch(msg.RecorderState, "/recorder/state").wait(
-            lambda _: True, SILENCE, "the recorder"
-        )
+        state = graph.watch(msg.RecorderState, "/recorder/state").wait(lambda _: True, SILENCE)
         if state.state != msg.RecorderState.RECORDING:
             raise Misuse(NO_RECORDING(fixes=(Fix(command="record"),)))
         said = _stop(graph, lambda: size_of(state.bag))
@@ -183,8 +181,6 @@ def _follow(
     bag grows records, whatever is between it and here. say: takes what is said of that;
     size: returns the bytes of the bag.
     """
-    from mrlab_ros.messages.texts import heard
-
     last: Any = None
     said: Diagnostic | None = None
     received_at, began, waiting = time.monotonic(), False, False
@@ -272,9 +268,7 @@ def _stop(graph: GraphClient, size: Callable[[], int]) -> Diagnostic:
         if silent > FROZEN_S:
             raise NoAnswer(RECORDER_FROZEN(silent=silent, fixes=TO_END)) from None
         state = graph.watch(msg.RecorderState, "/recorder/state")
-        state.wait(
-            lambda now: now.state != msg.RecorderState.RECORDING, STOP_TIMEOUT_S, "the bag's end"
-        )
+        state.wait(lambda now: now.state != msg.RecorderState.RECORDING, STOP_TIMEOUT_S)
         return BAG_CLOSED()
     return _said(answer)
 
@@ -295,8 +289,6 @@ def _stop_elsewhere() -> Diagnostic:
 
 def _said(answer: Any) -> Diagnostic:
     """Return what the recorder answered; raise Misuse where it refused."""
-    from mrlab_ros.messages.texts import heard
-
     said = heard(answer)
     if not answer.success:
         raise Misuse(said)

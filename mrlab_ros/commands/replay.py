@@ -21,11 +21,10 @@ from mrlab_ros.commands import output
 from mrlab_ros.commands.diagnostics import RECORDER_SILENT, ROBOT_WITHOUT_PATH
 from mrlab_ros.commands.output import say
 from mrlab_ros.commands.record import SILENCE
-from mrlab_ros.core.base.diagnostic import Fix
+from mrlab_ros.core.base.diagnostic import Fix, heard
 from mrlab_ros.core.errors import LabError, Misuse
 from mrlab_ros.core.recording.diagnostics import REPLAY_OVER
 from mrlab_ros.core.recording.states import RecorderState
-from mrlab_ros.messages.texts import heard
 from mrlab_ros.messages.time import time_from_message
 
 if TYPE_CHECKING:
@@ -144,7 +143,7 @@ def _follow(watch: Watch[Any], keyboard: Keyboard | None, show: Callable[[Any], 
     working = (msg.RecorderState.REPLAYING, msg.RecorderState.PAUSED)
     # A short one may be over already; what is latched from before says nothing of it.
     with suppress(NoAnswer):
-        watch.wait(lambda s: s.state in working, BEGUN_TIMEOUT_S, "the replay")
+        watch.wait(lambda s: s.state in working, BEGUN_TIMEOUT_S)
     last, received_at = None, time.monotonic()
     while (state := watch.value) is not None and state.state in working:
         if state is not last:

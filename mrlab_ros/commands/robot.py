@@ -10,6 +10,7 @@ import typer
 
 from mrlab_ros.commands import completion, output
 from mrlab_ros.commands.convert.options import with_options
+from mrlab_ros.commands.diagnostics import BAD_AT, YAW_WITHOUT_PLACE
 from mrlab_ros.commands.output import AsJson, say
 from mrlab_ros.core.conversion.options import Options
 from mrlab_ros.core.errors import BadInput, Misuse
@@ -56,7 +57,7 @@ def spawn(
 
     place = _place(at)[:2] if at else None
     if place is None and yaw:
-        raise Misuse(f"--yaw {yaw:g} needs a place; give it with --at X,Y")
+        raise Misuse(YAW_WITHOUT_PLACE(yaw=yaw))
     with Lab() as lab:
         robot = lab.spawn(model, at=place, yaw=math.radians(yaw), end_effector=tool, name=name)
     _say(robot.name, robot.message, as_json=as_json)
@@ -179,6 +180,6 @@ def _place(text: str) -> tuple[float, float, float]:
     except ValueError:
         numbers = []
     if len(numbers) not in (2, 3) or not all(map(math.isfinite, numbers)):
-        raise BadInput(f"--at is '{text}'; expected X,Y or X,Y,Z in m, such as 1,-0.5")
+        raise BadInput(BAD_AT(found=text))
     x, y, *rest = numbers
     return x, y, rest[0] if rest else 0.0

@@ -58,7 +58,7 @@ def _scene_file(verb: str, name: str, timeout: float) -> Diagnostic:
     from mrlab_msgs import srv
 
     from mrlab_ros.client.connect import open_graph
-    from mrlab_ros.messages.texts import heard
+    from mrlab_ros.core.base.diagnostic import heard
 
     with open_graph() as graph:
         request = srv.SceneFile.Request(name=name)
@@ -73,7 +73,7 @@ def list_objects(as_json: AsJson = False) -> None:
 
     with _graph() as graph:
         watch = graph.watch(msg.SceneObjects, "/objects")
-        found = watch.wait(lambda _: True, 5.0, "the objects").objects
+        found = watch.wait(lambda _: True, 5.0).objects
     if as_json:
         print(json.dumps([_document(thing) for thing in found], indent=2))
         return
@@ -130,9 +130,9 @@ def spawn(
     """Put an object into the scene."""
     from mrlab_msgs import srv
 
+    from mrlab_ros.core.base.diagnostic import heard
     from mrlab_ros.core.geometry import Pose
     from mrlab_ros.messages.poses import pose_to_message
-    from mrlab_ros.messages.texts import heard
 
     position = _place(at) if at else (0.0, 0.0, 0.0)
     half = math.radians(yaw) / 2
@@ -155,7 +155,7 @@ def remove(
     """Take an object out of the scene."""
     from mrlab_msgs import srv
 
-    from mrlab_ros.messages.texts import heard
+    from mrlab_ros.core.base.diagnostic import heard
 
     with _graph() as graph:
         request = srv.Remove.Request(name=name)
@@ -168,7 +168,7 @@ def clear(as_json: AsJson = False) -> None:
     """Take all objects out of the scene."""
     from mrlab_msgs.srv import Trigger
 
-    from mrlab_ros.messages.texts import heard
+    from mrlab_ros.core.base.diagnostic import heard
 
     with _graph() as graph:
         answer = graph.order(Trigger, "/physics/clear_objects", Trigger.Request())

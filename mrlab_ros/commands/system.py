@@ -10,9 +10,13 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from mrlab_ros.commands import completion, output
+from mrlab_ros.commands.diagnostics import DISSOLVED_IN_PLAY, NO_MODE, SYSTEM_STANDS
 from mrlab_ros.commands.output import AsJson, say
+from mrlab_ros.core.base.diagnostic import Fix, heard
 from mrlab_ros.core.errors import BadInput, Misuse
-from mrlab_ros.core.naming import checked_name, did_you_mean
+from mrlab_ros.core.naming import checked_name, close_to
+from mrlab_ros.core.playback.diagnostics import MEMBER_OF_SYSTEM, PLAYED_TO_END
+from mrlab_ros.core.systems.diagnostics import NO_SYSTEM
 
 if TYPE_CHECKING:
     from mrlab_ros.core.systems.cell_file import MemberEntry, SystemEntry
@@ -108,7 +112,7 @@ def create(
             if system.at > 0:
                 at = srv.Seek.Request(position=system.at)
                 graph.order(srv.Seek, f"/{name}/seek", at)
-            say(answer.message, as_json=as_json, system=name)
+            say(heard(answer), as_json=as_json, system=name)
             if not as_json:
                 print(f"next: mrlab system play {name}")
 
@@ -120,10 +124,7 @@ def _check_entry(graph: GraphClient, system: SystemEntry) -> None:
         graph.robot(member.robot)
         for other in others:
             if any(each.robot == member.robot for each in other.members):
-                raise Misuse(
-                    f"'{member.robot}' is a member of system '{other.name}' already; dissolve "
-                    f"that first: mrlab system dissolve {other.name}"
-                )
+                raise Misuse(MEMBER_OF_SYSTEM(robot=member.robot, system=other.name))
     if system.name:
         taken = {robot.name for robot in graph.robots()} | {other.name for other in others}
         checked_name(system.name, frozenset(taken), "system")
@@ -185,13 +186,13 @@ def play(
                     say(words, as_json=as_json, system=name, state=state.label)
             return len(seen) > 1 and state.label in ("READY", "PAUSED", "COLLISION_HALT")
 
-        watch.wait(lambda m: note(m) or True, 5.0, "the systems")
+        watch.wait(lambda m: note(m) or True, 5.0)
         answer = graph.order(Trigger, f"/{name}/play", Trigger.Request(), 30.0)
-        say(answer.message, as_json=as_json, system=name)
+        say(heard(answer), as_json=as_json, system=name)
         if not wait:
             return
         try:
-            last = watch.wait(note, 24 * 3600.0, f"the end of {name}")
+            last = watch.wait(note, 24 * 3600.0)
         except KeyboardInterrupt:
             print(
                 f"{name} plays on; end it with: mrlab system pause {name}, or mrlab system stop "
@@ -200,9 +201,10 @@ def play(
             raise typer.Exit(130) from None
         state = next((s for s in last.systems if s.name == name), None)
     if state is None:
-        raise Misuse(f"{name} was dissolved while it played")
-    if state.message != "played to the end":
-        raise Misuse(f"{name} is {state.label}: {state.message}")
+        raise Misuse(DISSOLVED_IN_PLAY(system=name))
+    if state.code != PLAYED_TO_END.code:
+        why = heard(state) if state.message else None
+        raise Misuse(SYSTEM_STANDS(system=name, state=state.label, why=why))
 
 
 def _simple(verb: str, words: str) -> None:
@@ -215,7 +217,7 @@ def _simple(verb: str, words: str) -> None:
         with open_graph() as graph:
             _system(graph, name)
             answer = graph.order(Trigger, f"/{name}/{verb}", Trigger.Request())
-        say(answer.message, as_json=as_json, system=name)
+        say(heard(answer), as_json=as_json, system=name)
 
 
 _simple("pause", "Pause all members; play continues from there.")
@@ -272,7 +274,7 @@ def mode(
     from mrlab_ros.core.systems.timeline import Mode
 
     if mode.upper() not in Mode.__members__:
-        raise BadInput(f"the mode is '{mode}'; expected parallel or sequential")
+        raise BadInput(NO_MODE(mode=mode))
     _order(
         name,
         "set_mode",
@@ -304,7 +306,7 @@ def dissolve(name: Name, as_json: AsJson = False) -> None:
     with open_graph() as graph:
         request = srv.Remove.Request(name=name)
         answer = graph.order(srv.Remove, "/coordinator/dissolve_system", request)
-    say(answer.message, as_json=as_json, system=name)
+    say(heard(answer), as_json=as_json, system=name)
 
 
 def _order(name: str, service: str, kind: Any, request: Any, *, as_json: bool) -> None:
@@ -313,7 +315,7 @@ def _order(name: str, service: str, kind: Any, request: Any, *, as_json: bool) -
     with open_graph() as graph:
         _system(graph, name)
         answer = graph.order(kind, f"/{name}/{service}", request)
-    say(answer.message, as_json=as_json, system=name)
+    say(heard(answer), as_json=as_json, system=name)
 
 
 def _systems(graph: GraphClient, name: str = "") -> list[Any]:
@@ -327,9 +329,9 @@ def _systems(graph: GraphClient, name: str = "") -> list[Any]:
     from mrlab_ros.ros.graph import LATCHED_BURST_S
 
     watch = graph.watch(msg.RobotSystems, "/systems")
-    watch.wait(lambda _: True, 5.0, "the systems")
+    watch.wait(lambda _: True, 5.0)
     with suppress(NoAnswer):
-        watch.wait(lambda m: any(s.name == name for s in m.systems), LATCHED_BURST_S, name)
+        watch.wait(lambda m: any(s.name == name for s in m.systems), LATCHED_BURST_S)
     assert watch.value is not None
     return list(watch.value.systems)
 
@@ -340,11 +342,9 @@ def _system(graph: GraphClient, name: str) -> Any:
         if system.name == name:
             return system
     known = [system.name for system in systems]
-    raise Misuse(
-        f"there is no system '{name}'; there are: "
-        f"{', '.join(known) or 'none; mrlab system create cell.yaml makes one'}"
-        f"{did_you_mean(name, known)}"
-    )
+    fixes = () if known else (Fix(command="system create cell.yaml"),)
+    close = close_to(name, known)
+    raise Misuse(NO_SYSTEM(system=name, known=known, close=close, fixes=fixes))
 
 
 def _mode(system: Any) -> str:

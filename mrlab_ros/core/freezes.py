@@ -7,8 +7,10 @@ Carrying them out then would move robots long after somebody was told that the c
 from __future__ import annotations
 
 import math
-import re
 from collections.abc import Callable
+
+from mrlab_ros.core.base.diagnostic import Diagnostic
+from mrlab_ros.core.runtime.diagnostics import MAY_BE_OLD, WAITED_IN_FREEZE
 
 # A process that did not run for longer was frozen, and a request that waited longer then is
 # refused, s. It is below the shortest time that a caller waits, 2 s for orders of a system.
@@ -21,13 +23,6 @@ LOOK_PERIOD_S = 0.5
 # at once when the process runs again. Callers over zenoh and the web wait longer than LONG_S.
 LONG_S = 3.0
 THAW_S = 1.0
-# Services that are carried out however late: what stops an arm, and what changes nothing.
-HARMLESS = re.compile(r"(pause|stop)$|(list|get)_[^/]*$")
-
-
-def harmless(service: str) -> bool:
-    """Return whether a call of `service` moves and changes nothing, or stops what moves."""
-    return HARMLESS.search(service.rpartition("/")[2]) is not None
 
 
 class Freezes:
@@ -70,8 +65,8 @@ class Freezes:
                 self._from = before
             self._until = now
 
-    def why_late(self, sent: float, now: float) -> str:
-        """Return why a request that was sent at `sent` is refused; empty: it came in time.
+    def why_late(self, sent: float, now: float) -> Diagnostic | None:
+        """Return why a request that was sent at `sent` is refused; None: it came in time.
 
         What was sent long before the freeze did not wait for its end: the clock of its sender
         differs, and nothing can be said of it.
@@ -79,19 +74,19 @@ class Freezes:
         self.look(now)
         waited = self._until - max(sent, self._from)
         if self._from - FROZEN_AFTER_S <= sent and waited > FROZEN_AFTER_S:
-            return self._words(f"this request waited {waited:.0f} s of that")
-        return ""
+            return WAITED_IN_FREEZE(
+                process=self.process, frozen=self._frozen, waited=round(waited)
+            )
+        return None
 
-    def why_doubtful(self, now: float) -> str:
-        """Return why something is refused that does not say when it was sent; empty: it is not."""
+    def why_doubtful(self, now: float) -> Diagnostic | None:
+        """Return why something is refused that does not say when it was sent; None: it is not."""
         self.look(now)
         if now - self._until < THAW_S and self._until - self._from > LONG_S:
-            return self._words("this may have been sent before")
-        return ""
+            return MAY_BE_OLD(process=self.process, frozen=self._frozen)
+        return None
 
-    def _words(self, what: str) -> str:
-        frozen = self._until - self._from
-        return (
-            f"{self.process} did not run for {frozen:.0f} s and {what}, so it was not carried "
-            "out; send it again"
-        )
+    @property
+    def _frozen(self) -> int:
+        """How long the last freeze was, s."""
+        return round(self._until - self._from)

@@ -5,7 +5,8 @@ from __future__ import annotations
 import re
 from collections.abc import Callable
 
-from mrlab_ros.core.freezes import harmless
+from mrlab_ros.core.base.diagnostic import Diagnostic
+from mrlab_ros.core.runtime.diagnostics import LAB_WITHOUT_ID, OTHER_LAB, SHARED_SERVICE
 
 
 class Identity:
@@ -31,7 +32,7 @@ class Identity:
             return True
         if lab not in self.others:
             self.others.add(lab)
-            self._log(self.sentence(lab))
+            self._log(str(OTHER_LAB(other_lab=lab, lab=self.lab)))
         return False
 
     def obeys(self, lab: str) -> bool:
@@ -43,21 +44,9 @@ class Identity:
         if self.lab and not lab:
             if lab not in self.others:
                 self.others.add(lab)
-                self._log(
-                    f"a lab node without an id is on this ROS domain; this lab, {self.lab}, "
-                    "ignores the robots it lists. Stop that node, or start it with another "
-                    "ROS_DOMAIN_ID"
-                )
+                self._log(str(LAB_WITHOUT_ID(lab=self.lab)))
             return False
         return self.accepts(lab)
-
-    def sentence(self, lab: str) -> str:
-        """Return what to say of another lab."""
-        return (
-            f"another lab, {lab}, is on this ROS domain; this one, {self.lab}, ignores it, but "
-            "topics and services of one name are shared. Start one of them again with another "
-            "ROS_DOMAIN_ID"
-        )
 
 
 # A coordinator that met another lab names its systems once a second; a lab that has said nothing
@@ -80,15 +69,9 @@ class Neighbours:
         if self._lab and lab and lab != self._lab:
             self._seen[lab] = now
 
-    def why_not(self, service: str, servers: int, now: float) -> str:
-        """Return why a call would reach more than this lab; empty where it does not, or may."""
-        if servers < 2 or harmless(service):
-            return ""
+    def why_not(self, service: str, servers: int, now: float) -> Diagnostic | None:
+        """Return why a call that moves something would reach another lab, too; None: it won't."""
+        if servers < 2:
+            return None
         present = [lab for lab, seen in self._seen.items() if now - seen < PRESENT_S]
-        if not present:
-            return ""
-        return (
-            f"{service} was not called, as another lab on this ROS domain has it too: "
-            f"{'; '.join(present)}. Start one of the labs again with another ROS_DOMAIN_ID; pause "
-            "and stop still reach both"
-        )
+        return SHARED_SERVICE(service=service, labs=present) if present else None

@@ -3,7 +3,11 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass
+
+from mrlab_ros.core.base.diagnostic import Diagnostic
+from mrlab_ros.core.runtime import diagnostics as say
 
 # Time between two signs of life, and after how long a silent process counts as dead, s.
 PERIOD_S = 1.0
@@ -13,7 +17,6 @@ FORGOTTEN_AFTER_S = 60.0
 # For so long a process says that it was restarted, or that it did not run, s.
 RESTART_SHOWN_S = 60.0
 FREEZE_SHOWN_S = 60.0
-# Is in what a process says of its restart.
 
 
 @dataclass(frozen=True)
@@ -29,35 +32,47 @@ class Sign:
     """What a process says of itself.
 
     restarts: how often it was started again. last_exit: how it ended before, such as SIGKILL.
-    lost: what could not be brought back, a sentence each; None: that is not known yet. failed:
-    what went wrong since, newest first. freeze: the last one, of a minute.
+    lost: what could not be brought back; None: that is not known yet. failed: what went wrong
+    since, newest first. freeze: the last one, of a minute.
     """
 
     process: str
     restarts: int = 0
     last_exit: str = ""
-    lost: tuple[str, ...] | None = ()
-    failed: tuple[str, ...] = ()
+    lost: tuple[Diagnostic, ...] | None = ()
+    failed: tuple[Diagnostic, ...] = ()
     freeze: Freeze | None = None
 
     def restarted(self, age: float) -> bool:
         """Return whether a process that runs for `age` s was started again lately."""
         return self.restarts > 0 and age < RESTART_SHOWN_S
 
-    def sentence(self, age: float) -> str:
-        """Return what to show of a process that runs for `age` s; empty: nothing is amiss."""
-        lost = "; ".join(self.lost or ())
-        if self.restarted(age):
-            ended = f" ({self.last_exit})" if self.last_exit else ""
-            said = f"lost: {lost}" if lost else "nothing was lost"
-            if self.lost is None:
-                said = "what was lost is being determined"
-            lost = f"it died{ended} and was restarted {age:.0f} s ago; {said}"
-        frozen = ""
+    def trouble(self, age: float) -> Diagnostic | None:
+        """Return what to say of a process that runs for `age` s; None: nothing is amiss."""
+        said = [*self.failed]
         if self.freeze is not None:
-            duration, ago = self.freeze.duration, self.freeze.ago
-            frozen = f"it did not run for about {duration:.0f} s, until {ago:.0f} s ago"
-        return "; ".join(text for text in (*self.failed, frozen, lost) if text)
+            frozen, ago = round(self.freeze.duration), round(self.freeze.ago)
+            said.append(say.DID_NOT_RUN(frozen=frozen, ago=ago))
+        lost = joined(self.lost or ())
+        if self.restarted(age):
+            died = say.DIED_AND_LOOKS if self.lost is None else say.DIED
+            if lost is not None:
+                died = say.DIED_AND_LOST
+            lost = died(last_exit=self.last_exit, ago=round(age), lost=lost)
+        return joined([*said, lost] if lost else said)
+
+
+def silence(seconds: float) -> Diagnostic:
+    """Return what to say of a process that has been silent for so long."""
+    return say.PROCESS_SILENT(silent=round(seconds))
+
+
+def joined(said: Sequence[Diagnostic]) -> Diagnostic | None:
+    """Return several diagnostics as one, which is an error where one of them is; None: none."""
+    if len(said) < 2:
+        return said[0] if said else None
+    worst = max(each.severity for each in said)
+    return say.AND_ALSO(first=said[0], then=joined(said[1:]), severity=worst)
 
 
 class Watch:

@@ -6,15 +6,18 @@ from collections.abc import Mapping
 
 from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus, KeyValue
 
-from mrlab_ros.core.watch import Sign
+from mrlab_ros.core.base.diagnostic import Diagnostic, Severity, to_texts
+from mrlab_ros.core.watch import Sign, silence
 from mrlab_ros.messages.time import make_header
 
 # What the names of the lab's processes begin with on /diagnostics.
 PREFIX = "mrlab: "
 # What a process says of itself alone, and never of another.
 RESTARTS = "restarts"
-# That its own text says how it ended, and what was lost: for a minute after its restart.
+# That it says itself how it ended, and what was lost: for a minute after its restart.
 RESTARTED = "restarted"
+# The code of what is amiss; the values of its text by name stand beside it.
+CODE = "code"
 
 
 def signs_to_message(
@@ -24,34 +27,29 @@ def signs_to_message(
 
     age: how long it runs, s.
     """
-    trouble = own.sentence(age)
-    level = DiagnosticStatus.WARN if trouble else DiagnosticStatus.OK
-    values = {
-        RESTARTS: str(own.restarts),
-        "last_exit": own.last_exit,
-        **({RESTARTED: "true"} if own.restarted(age) else {}),
-        **{f"failed {number}": text for number, text in enumerate(own.failed, 1)},
-        **{f"lost {number}": text for number, text in enumerate(own.lost or (), 1)},
-    }
-    statuses = [
-        DiagnosticStatus(
-            level=DiagnosticStatus.ERROR if own.failed else level,
-            name=f"{PREFIX}{own.process}",
-            message=trouble or "runs",
-            hardware_id="mrlab",
-            values=[KeyValue(key=key, value=value) for key, value in values.items()],
-        )
-    ]
+    facts = {RESTARTS: str(own.restarts), "last_exit": own.last_exit}
+    if own.restarted(age):
+        facts[RESTARTED] = "true"
+    statuses = [_status(own.process, own.trouble(age), facts, failed=bool(own.failed))]
     statuses += [
-        DiagnosticStatus(
-            level=DiagnosticStatus.ERROR,
-            name=f"{PREFIX}{process}",
-            message=f"no sign of life for {seconds:.0f} s: it died or hangs",
-            hardware_id="mrlab",
-        )
-        for process, seconds in silent.items()
+        _status(process, silence(seconds), {}, failed=True) for process, seconds in silent.items()
     ]
     return DiagnosticArray(header=make_header(now_ns), status=statuses)
+
+
+def _status(
+    process: str, trouble: Diagnostic | None, facts: Mapping[str, str], *, failed: bool
+) -> DiagnosticStatus:
+    level = DiagnosticStatus.ERROR if failed else DiagnosticStatus.WARN
+    if trouble is not None:
+        facts = {**to_texts(trouble.values), **facts, CODE: trouble.code}
+    return DiagnosticStatus(
+        level=level if trouble is not None else DiagnosticStatus.OK,
+        name=f"{PREFIX}{process}",
+        message="runs" if trouble is None else str(trouble),
+        hardware_id="mrlab",
+        values=[KeyValue(key=key, value=value) for key, value in facts.items()],
+    )
 
 
 def living_in(message: DiagnosticArray) -> list[str]:
@@ -72,12 +70,20 @@ def restarted_in(message: DiagnosticArray) -> set[str]:
     }
 
 
-def troubles_in(message: DiagnosticArray) -> dict[str, str]:
-    """Return for each process in a message what is amiss with it, empty: nothing."""
+def troubles_in(message: DiagnosticArray) -> dict[str, Diagnostic | None]:
+    """Return for each process in a message what is amiss with it; None: nothing."""
     return {
         status.name.removeprefix(PREFIX): (
-            "" if status.level == DiagnosticStatus.OK else str(status.message)
+            None if status.level == DiagnosticStatus.OK else _trouble(status)
         )
         for status in message.status
         if status.name.startswith(PREFIX)
     }
+
+
+def _trouble(status: DiagnosticStatus) -> Diagnostic:
+    values = {each.key: each.value for each in status.values}
+    code = values.pop(CODE, "")
+    failed = status.level == DiagnosticStatus.ERROR
+    severity = Severity.ERROR if failed else Severity.WARNING
+    return Diagnostic(code, severity, status.message, values=values)

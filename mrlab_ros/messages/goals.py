@@ -53,7 +53,9 @@ def feedback_to_message(now_ns: int, robot: str, joints: Iterable[str], instant:
 
 
 def result_to_message(outcome: Outcome) -> Any:
-    return FollowJointTrajectory.Result(error_code=outcome.code.value, error_string=outcome.text)
+    return FollowJointTrajectory.Result(
+        error_code=outcome.code.value, error_string=str(outcome.said)
+    )
 
 
 def _positions(tolerances: Iterable[Any]) -> dict[str, float]:

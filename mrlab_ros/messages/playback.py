@@ -11,6 +11,7 @@ from mrlab_ros.core.geometry import Array
 from mrlab_ros.core.playback.playback import PlaybackStatus
 from mrlab_ros.core.trajectory.trajectory import Trajectory
 from mrlab_ros.messages.poses import transform_to_pose_message
+from mrlab_ros.messages.texts import told
 from mrlab_ros.messages.time import make_header, time_to_message
 
 
@@ -29,7 +30,7 @@ def status_to_message(
         header=make_header(now_ns, robot),
         state=status.state.value,
         label=status.state.name,
-        message=status.message,
+        **told(status.message),
         trajectory_id=trajectory.id if trajectory else "",
         trajectory_version=trajectory.version if trajectory else 0,
         clock=clock_to_message(status.clock),

@@ -9,12 +9,14 @@ from mrlab_msgs import msg
 from mrlab_ros.core.errors import BadInput
 from mrlab_ros.core.playback.playback import Playback
 from mrlab_ros.core.playback.states import State
+from mrlab_ros.core.systems.diagnostics import BAD_COMMAND
 from mrlab_ros.core.systems.members import Command, Loaded, Order, Reply
 from mrlab_ros.core.systems.robot_system import RobotSystem
 from mrlab_ros.core.systems.states import SystemState
 from mrlab_ros.core.systems.timeline import Member
 from mrlab_ros.core.systems.waits import parse
 from mrlab_ros.messages.playback import clock_to_message
+from mrlab_ros.messages.texts import told
 from mrlab_ros.messages.time import make_header, time_from_message, time_to_message
 
 
@@ -40,7 +42,7 @@ def system_to_message(system: RobotSystem) -> msg.RobotSystem:
         policy=system.policy.value,
         state=system.state.value,
         label=system.state.name,
-        message=system.message,
+        **told(system.message),
         clock=clock_to_message(system.clock),
         duration=system.duration,
         rate=system.rate,
@@ -87,9 +89,7 @@ def order_from_message(message: msg.DriveOrder) -> Order:
     try:
         command = Command(message.command)
     except ValueError:
-        raise BadInput(
-            f"command {message.command} is unknown; expected one of DriveOrder.msg"
-        ) from None
+        raise BadInput(BAD_COMMAND(command=message.command)) from None
     return Order(
         message.robot,
         command,

@@ -7,7 +7,8 @@ from typing import Any
 
 from diagnostic_msgs.msg import KeyValue
 
-from mrlab_ros.core.base.diagnostic import Diagnostic, Severity, of_text, to_texts
+from mrlab_ros.core.base.diagnostic import Diagnostic, to_texts
+from mrlab_ros.core.base.diagnostic import heard as heard
 from mrlab_ros.core.base.phrase import Value
 
 
@@ -24,14 +25,6 @@ def told(said: Diagnostic | str | None, text: str = "message") -> dict[str, Any]
     if not isinstance(said, Diagnostic):
         return {text: said or ""}
     return {text: str(said), "code": said.code, "values": values_to_message(said.values)}
-
-
-def heard(answer: Any) -> Diagnostic:
-    """Return what a response or a state said; the texts of its values stay texts."""
-    if not answer.code:
-        return of_text(answer.message)
-    values = {each.key: each.value for each in answer.values}
-    return Diagnostic(answer.code, Severity.ERROR, answer.message, values=values)
 
 
 def tell(answer: Any, success: bool, said: Diagnostic | str | None) -> None:

@@ -11,11 +11,11 @@ from mrlab_msgs import srv
 from rclpy.node import Node
 
 from mrlab_ros.adapters.trajectories import npz_file
+from mrlab_ros.core.base.diagnostic import heard
 from mrlab_ros.core.errors import BadInput
 from mrlab_ros.core.trajectory.diagnostics import REPLACED_MEANWHILE
 from mrlab_ros.core.trajectory.trajectory import Trajectory
 from mrlab_ros.messages import qos, trajectories
-from mrlab_ros.messages.texts import heard
 from mrlab_ros.ros.calls import call
 
 # Frames in one answer: 17 MB for seven joints, which takes about 0.2 s.

@@ -15,6 +15,7 @@ from pathlib import Path
 from mrlab_ros.adapters import python_process
 from mrlab_ros.core.errors import BadInput
 from mrlab_ros.processes.child import ProcessSpec
+from mrlab_ros.processes.diagnostics import NO_PARAMETER_FILE
 from mrlab_ros.processes.options import LabOptions
 from mrlab_ros.processes.web import GatewayProcess
 
@@ -167,9 +168,7 @@ def parameter_file(chosen: Path | None) -> Path:
 
         chosen = share.directory() / "config" / "lab.yaml"
     if not chosen.is_file():
-        raise BadInput(
-            f"there is no parameter file {chosen}; name an existing one as config, or leave it out"
-        )
+        raise BadInput(NO_PARAMETER_FILE(path=str(chosen)))
     from mrlab_ros.processes.parameter_file import check_parameter_file
 
     check_parameter_file(chosen)

@@ -114,10 +114,10 @@ def run(names: list[str]) -> int:
                 gc.freeze()
             # What its nodes could not bring back after a restart.
             watcher.lost = [
-                str(said) for node in spun.values() for said in getattr(node.node, "lost", ())
+                said for node in spun.values() for said in getattr(node.node, "lost", ())
             ]
             watcher.failed = [
-                str(said) for node in spun.values() for said in getattr(node.node, "failed", ())
+                said for node in spun.values() for said in getattr(node.node, "failed", ())
             ]
             time.sleep(POLL_PERIOD_S)
         return 0

@@ -8,9 +8,10 @@ from pathlib import Path
 from mrlab_ros.adapters.yaml_files import RosLoader, read_yaml
 from mrlab_ros.core import records
 from mrlab_ros.core.errors import BadInput
-from mrlab_ros.core.naming import PARAMETERS_OF_RCLPY, did_you_mean
+from mrlab_ros.core.naming import PARAMETERS_OF_RCLPY, close_to
 from mrlab_ros.core.records import Field, Record
 from mrlab_ros.nodes.parameters import NODES
+from mrlab_ros.processes.diagnostics import NO_NODE
 
 # Sections for every node of a process.
 FOR_ALL = ("/**", "/*")
@@ -39,10 +40,8 @@ def parameter(path: Path, node: str, name: str) -> object:
 def _check_section(name: object, content: object) -> None:
     node = str(name).removeprefix("/**").removeprefix("/")
     if name not in FOR_ALL and node not in NODES:
-        raise BadInput(
-            f"{name}: there is no such node in the lab; expected one of {', '.join(NODES)}, or "
-            f"/** for all{did_you_mean(node, NODES)}"
-        )
+        close = close_to(node, NODES)
+        raise BadInput(NO_NODE(node=str(name), nodes=list(NODES), close=close))
     kinds = tuple(NODES.values()) if name in FOR_ALL else (NODES[node],)
     known: dict[str, list[Field]] = {}
     for kind in kinds:

@@ -3,18 +3,20 @@
 from __future__ import annotations
 
 from mrlab_ros.adapters.bullet.support import missing
+from mrlab_ros.core.base.diagnostic import Diagnostic
 from mrlab_ros.core.errors import BadInput
+from mrlab_ros.processes.diagnostics import NO_PHYSICS, RUNS_WITHOUT_PHYSICS
 
 
-def wanted(chosen: bool | None) -> tuple[bool, str]:
-    """Return whether to start physics, and a sentence where it is left out for a reason.
+def wanted(chosen: bool | None) -> tuple[bool, Diagnostic | None]:
+    """Return whether to start physics, and why not where it is left out for a reason.
 
     chosen: the user's choice; None: none was made, and physics starts where it can. Raises
     BadInput where physics is chosen and cannot run.
     """
     why_not = missing()
     if chosen and why_not:
-        raise BadInput(f"there is no physics: {why_not}")
+        raise BadInput(NO_PHYSICS(why=why_not))
     if chosen is None and why_not:
-        return False, f"runs without physics: {why_not}"
-    return chosen is not False, ""
+        return False, RUNS_WITHOUT_PHYSICS(why=why_not)
+    return chosen is not False, None

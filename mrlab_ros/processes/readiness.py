@@ -7,6 +7,7 @@ import time
 from collections.abc import Callable, Sequence
 from typing import TYPE_CHECKING, Any
 
+from mrlab_ros.core.base.diagnostic import Diagnostic
 from mrlab_ros.core.identity import Identity, Neighbours
 from mrlab_ros.processes.lab import NodeEntry
 
@@ -103,7 +104,7 @@ class Readiness:
                 return what
         return ""
 
-    def why_not(self, service: str) -> str:
-        """Return why a call of `service` would reach another lab, too; empty: it would not."""
+    def why_not(self, service: str) -> Diagnostic | None:
+        """Return why a call of `service` would reach another lab, too; None: it would not."""
         servers = self._graph.node.count_services(service)
         return self._neighbours.why_not(service, servers, time.monotonic())

@@ -44,7 +44,7 @@ def main() -> None:
             sys.exit("nobody waits for the lab any longer")
         print(f"the lab is ready after {time.monotonic() - began:.1f} s", flush=True)
         if refused := [why for service in services if (why := readiness.why_not(service))]:
-            sys.exit("\n".join(refused))
+            sys.exit("\n".join(map(str, refused)))
 
 
 if __name__ == "__main__":

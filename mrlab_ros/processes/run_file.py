@@ -14,8 +14,11 @@ from typing import IO, Any
 
 from mrlab_ros.adapters import private_folder
 from mrlab_ros.adapters.whole_file import replaced
+from mrlab_ros.core.base.diagnostic import Diagnostic, Fix
 from mrlab_ros.core.errors import Misuse, Unavailable
 from mrlab_ros.processes.child import ProcessState
+from mrlab_ros.processes.diagnostics import DOMAIN_TAKEN, LABS_ELSEWHERE, NO_PRIVATE_FOLDER
+from mrlab_ros.ros.diagnostics import NO_LAB
 
 # `mrlab status` holds the lock for a moment; a claim retries for this long, s.
 CLAIM_TIMEOUT_S = 0.2
@@ -43,9 +46,7 @@ def folder() -> tuple[Path, str]:
         if why is None:
             return path, "; ".join(reasons)
         reasons.append(str(why))
-    raise Unavailable(
-        f"no folder is this user's alone ({'; '.join(reasons)}); set XDG_RUNTIME_DIR to one"
-    )
+    raise Unavailable(NO_PRIVATE_FOLDER(reasons=reasons))
 
 
 class RunFile:
@@ -77,11 +78,7 @@ class RunFile:
             if time.monotonic() > deadline:
                 lock.close()
                 owner = self.read() or {}
-                raise Misuse(
-                    f"a lab runs on ROS domain {self._domain} already (process "
-                    f"{owner.get('pid', 'unknown')}); use that one, stop it, or set "
-                    "ROS_DOMAIN_ID to another number"
-                )
+                raise Misuse(DOMAIN_TAKEN(domain=self._domain, pid=owner.get("pid")))
             time.sleep(CLAIM_TIMEOUT_S / 10)
         self._lock = lock
         self._facts = {"domain": self._domain, "pid": os.getpid(), **facts}
@@ -129,16 +126,11 @@ def domains() -> list[int]:
     )
 
 
-def nobody(domain: int, labs: Sequence[int]) -> str:
+def nobody(domain: int, labs: Sequence[int]) -> Diagnostic:
     """Return what to say of an empty domain; labs: the domains on which this user runs labs."""
-    begin = f"no lab answers on ROS domain {domain}; "
-    if not labs:
-        return f"{begin}start one with: mrlab up (or set ROS_DOMAIN_ID to the domain of one)"
-    listed = ", ".join(map(str, labs))
-    return (
-        f"{begin}yours {'runs on domain' if len(labs) == 1 else 'run on domains'} {listed}: "
-        f"export ROS_DOMAIN_ID={labs[0]}"
-    )
+    if labs:
+        return LABS_ELSEWHERE(domain=domain, labs=list(labs))
+    return NO_LAB(domain=domain, fixes=(Fix(command="up"),))
 
 
 def _locked(file: IO[bytes], kind: int) -> bool:

@@ -11,6 +11,7 @@ from diagnostic_msgs.msg import DiagnosticArray
 from rclpy.context import Context
 from rclpy.node import Node
 
+from mrlab_ros.core.base.diagnostic import Diagnostic
 from mrlab_ros.core.watch import PERIOD_S, Sign, Watch
 from mrlab_ros.messages import qos
 from mrlab_ros.messages.diagnostics import living_in, signs_to_message
@@ -27,7 +28,7 @@ RENEWED_FOR_S = 10.0
 class Watcher:
     """A hidden node with a thread of its own: a busy node is no dead process.
 
-    lost: what could not be brought back after a restart, a sentence each; None: not known yet.
+    lost: what could not be brought back after a restart; None: not known yet.
     failed: what went wrong since, newest first.
     """
 
@@ -46,8 +47,8 @@ class Watcher:
             int(environment.get(RESTARTS, "0")) if restarts is None else restarts,
             environment.get(LAST_EXIT, "") if last_exit is None else last_exit,
         )
-        self.lost: Iterable[str] | None = None
-        self.failed: Iterable[str] = ()
+        self.lost: Iterable[Diagnostic] | None = None
+        self.failed: Iterable[Diagnostic] = ()
         self._watch = Watch(process)
         self._began = time.monotonic()
         self._node = Node(

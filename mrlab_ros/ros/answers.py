@@ -14,11 +14,11 @@ from rclpy.service import Service
 
 from mrlab_ros.core.base.diagnostic import Diagnostic
 from mrlab_ros.core.errors import LabError
-from mrlab_ros.core.freezes import harmless
 from mrlab_ros.messages import qos
 from mrlab_ros.messages.texts import tell
 from mrlab_ros.ros import freezes
-from mrlab_ros.ros.diagnostics import FAULT
+from mrlab_ros.ros.diagnostics import FAULT, SERVICE_ENDED
+from mrlab_ros.ros.moves import moves
 
 Response = TypeVar("Response")
 
@@ -43,7 +43,7 @@ def answered(callback: Callable[..., Diagnostic | str | None]) -> Callable[..., 
     return wrapped
 
 
-def refusal(kind: Any, why: Diagnostic | str) -> Any:
+def refusal(kind: Any, why: Diagnostic) -> Any:
     """Return a response of a service of type `kind` that says failure; None: it cannot say so."""
     response = kind.Response()
     if not hasattr(response, "success"):
@@ -52,7 +52,7 @@ def refusal(kind: Any, why: Diagnostic | str) -> Any:
     return response
 
 
-def end_service(node: Node, service: Any, why: str) -> None:
+def end_service(node: Node, service: Any, why: Diagnostic) -> None:
     """Refuse the requests that wait for `service` with `why`, then destroy it.
 
     A request in the queue of a service that is destroyed would never be answered.
@@ -78,8 +78,9 @@ def create_service(
     """Create a service whose `callback(request, response)` returns the response.
 
     A request that waited while this process did not run is refused: its caller was told that
-    nobody answered. What stops an arm, and what changes nothing, is carried out however late;
-    halts: says of a request that it only does that, where the service's name does not.
+    nobody answered. What stops an arm, and what changes nothing, is carried out however late:
+    services that config/bridge.yaml declares with `moves: false`, and requests of which `halts`
+    says so.
     """
 
     def work(request: Any, response: Any, send: Callable[[Any], None]) -> None:
@@ -104,7 +105,7 @@ def create_deferred_service(
             try:
                 answer = done.result()
             except CancelledError:
-                answer = refusal(kind, f"{service.srv_name} ended before it could answer")
+                answer = refusal(kind, SERVICE_ENDED(service=service.srv_name))
             # InvalidHandle: the service was destroyed meanwhile, nobody waits for the answer
             with contextlib.suppress(rclpy_implementation.InvalidHandle):
                 if answer is not None and node.context.ok():
@@ -132,12 +133,14 @@ def _offer(
         kind, name, lambda *taken: taken, **options, qos_profile=qos.SERVICES
     )
 
+    may_be_late = not moves(service.srv_name, kind)
+
     def carry_out(taken: tuple[Any, Any], header: Any) -> None:
         def send(answer: Any) -> None:
             Service.send_response(service, answer, header)
 
-        why = "" if harmless(name) or halts(taken[0]) else freezes.why_late(header)
-        refused = refusal(kind, why) if why else None
+        why = None if may_be_late or halts(taken[0]) else freezes.why_late(header)
+        refused = None if why is None else refusal(kind, why)
         if refused is None:
             work(*taken, send)
             return

@@ -17,6 +17,7 @@ from typing import Any
 from rclpy.subscription import Subscription
 
 from mrlab_ros.core.errors import Unavailable
+from mrlab_ros.ros.diagnostics import NO_ARRIVALS
 
 # Gets a message's CDR and when it was published, ns since 1970.
 OnMessage = Callable[[bytes, int], None]
@@ -36,10 +37,7 @@ def _announce(subscription: Subscription, descriptor: int | None) -> None:
             handle.pointer, _EVENTFD_WRITE if descriptor is not None else None, descriptor
         )
     if failed:
-        raise Unavailable(
-            f"the middleware does not announce the messages of {subscription.topic_name} (rcl: "
-            f"error {failed}); set RMW_IMPLEMENTATION to one that does, such as rmw_fastrtps_cpp"
-        )
+        raise Unavailable(NO_ARRIVALS(topic=subscription.topic_name, error=failed))
 
 
 class _Taker:

@@ -8,6 +8,7 @@ from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
 from mrlab_ros.core.errors import Unreached
+from mrlab_ros.ros.diagnostics import NO_ANSWER_IN_TIME, NOT_OFFERED, SERVICE_ENDED
 
 if TYPE_CHECKING:
     from rclpy.client import Client
@@ -78,10 +79,10 @@ class _Call:
         """Return the answer, or the NoAnswer that says why there is none."""
         name = self._client.srv_name
         if self._future is None:
-            return NoAnswer(f"nobody offers {name}; is that part of the lab running?")
+            return NoAnswer(NOT_OFFERED(service=name))
         if self._future.done():
             return self._future.result()
         self._client.remove_pending_request(self._future)
         if self._gone:
-            return NoAnswer(f"{name} ended before it answered; try again")
-        return NoAnswer(f"{name} did not answer within {timeout:g} s; try again")
+            return NoAnswer(SERVICE_ENDED(service=name))
+        return NoAnswer(NO_ANSWER_IN_TIME(service=name, timeout=timeout))

@@ -8,11 +8,12 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from typing import Any
 
+from mrlab_ros.core.base.diagnostic import Diagnostic
 from mrlab_ros.core.clock import SECOND
 from mrlab_ros.core.freezes import Freezes
 
 # Every thread that spins a node says that the process runs.
-PROCESS = Freezes("the process", time.process_time)
+PROCESS = Freezes("lab", time.process_time)
 LOCK = threading.Lock()
 
 
@@ -34,8 +35,8 @@ def watching() -> Iterator[None]:
             PROCESS.end()
 
 
-def why_late(header: Any) -> str:
-    """Return why a request is refused that came with `header`; empty: it came in time.
+def why_late(header: Any) -> Diagnostic | None:
+    """Return why a request is refused that came with `header`; None: it came in time.
 
     Its age is by the wall clock, as its sender stamps it.
     """
@@ -45,7 +46,7 @@ def why_late(header: Any) -> str:
         return PROCESS.why_late(now - age_s, now)
 
 
-def why_doubtful() -> str:
-    """Return why something without a stamp of its sender is refused; empty: it is not."""
+def why_doubtful() -> Diagnostic | None:
+    """Return why something without a stamp of its sender is refused; None: it is not."""
     with LOCK:
         return PROCESS.why_doubtful(time.monotonic())

@@ -12,10 +12,13 @@ from typing import Any, Generic, TypeVar
 from mrlab_msgs import msg, srv
 from rclpy.qos import QoSProfile
 
+from mrlab_ros.core.base.diagnostic import Fix, heard
+from mrlab_ros.core.base.diagnostics import NO_ROBOT_IN_SCENE
 from mrlab_ros.core.errors import Misuse
-from mrlab_ros.core.naming import did_you_mean
+from mrlab_ros.core.naming import close_to
 from mrlab_ros.messages import qos
 from mrlab_ros.ros.calls import NoAnswer
+from mrlab_ros.ros.diagnostics import NO_LAB, NOT_AS_AWAITED, NOTHING_CAME
 
 T = TypeVar("T")
 C = TypeVar("C", bound="GraphClient")
@@ -40,20 +43,17 @@ class Watch(Generic[T]):
             self.value = value
             self._changed.notify_all()
 
-    def wait(self, wanted: Callable[[T], bool], timeout: float, what: str) -> T:
+    def wait(self, wanted: Callable[[T], bool], timeout: float) -> T:
         """Return the present value or the first later one for which `wanted` is true.
 
-        Raises NoAnswer, which says `what` was waited for, after `timeout` s.
+        Raises NoAnswer after `timeout` s.
         """
         deadline = time.monotonic() + timeout
         with self._changed:
             while self.value is None or not wanted(self.value):
                 if not self._changed.wait(max(deadline - time.monotonic(), 0.0)):
-                    raise NoAnswer(
-                        f"waited {timeout:g} s for {what}: "
-                        f"{'nothing came' if self.value is None else 'it did not come'} on "
-                        f"{self.topic}; is that part of the lab running? mrlab status shows it"
-                    )
+                    code = NOTHING_CAME if self.value is None else NOT_AS_AWAITED
+                    raise NoAnswer(code(topic=self.topic, timeout=timeout))
             return self.value
 
 
@@ -128,18 +128,16 @@ class GraphClient(ABC):
         """Call a service and return its answer; raise Misuse with its message where it refuses."""
         answer = self.call(kind, service, request, timeout)
         if not answer.success:
-            raise Misuse(answer.message)
+            raise Misuse(heard(answer))
         return answer
 
     def robots(self, timeout: float = FIND_TIMEOUT_S) -> list[Any]:
         """Return the robots of the scene; raise NoAnswer where no lab publishes any."""
         watch = self.watch(msg.Robots, "/robots")
         try:
-            robots: list[Any] = watch.wait(lambda _: True, timeout, "the robots").robots
+            robots: list[Any] = watch.wait(lambda _: True, timeout).robots
         except NoAnswer:
-            raise NoAnswer(
-                f"no lab answers on ROS domain {self.domain}; {self.advice()}"
-            ) from None
+            raise NoAnswer(NO_LAB(domain=self.domain, fixes=self.advice())) from None
         return robots
 
     def robot(self, name: str) -> Any:
@@ -149,11 +147,13 @@ class GraphClient(ABC):
             if robot.name == name:
                 return robot
         known = [robot.name for robot in robots]
-        listed = ", ".join(known)
         raise Misuse(
-            f"no robot '{name}' is in the scene; there "
-            + (f"are: {listed}" if known else "are none: mrlab spawn ur5e puts one there")
-            + did_you_mean(name, known)
+            NO_ROBOT_IN_SCENE(
+                robot=name,
+                known=known,
+                close=close_to(name, known),
+                fixes=() if known else (Fix(command="spawn ur5e"),),
+            )
         )
 
     def catalogue(self) -> list[Any]:
@@ -164,8 +164,6 @@ class GraphClient(ABC):
         infos: list[Any] = answer.trajectories
         return infos
 
-    def advice(self) -> str:
+    def advice(self) -> tuple[Fix, ...]:
         """Return what to do where a part of the lab does not answer."""
-        if "lab" in self.node_names():
-            return "that part of the lab is missing: mrlab status shows what runs"
-        return "start a lab with: mrlab up (or set ROS_DOMAIN_ID to the domain of a running one)"
+        return (Fix(command="status" if "lab" in self.node_names() else "up"),)

@@ -24,6 +24,7 @@ from mrlab_ros.messages import qos
 from mrlab_ros.messages.requests import fitted
 from mrlab_ros.ros import fast_dds
 from mrlab_ros.ros.calls import NoAnswer, call
+from mrlab_ros.ros.diagnostics import CLIENT_CLOSED, NOT_OFFERED
 from mrlab_ros.ros.domain import domain_id
 from mrlab_ros.ros.graph import CALL_TIMEOUT_S, FIND_TIMEOUT_S, GraphClient
 
@@ -131,12 +132,12 @@ class Graph(GraphClient):
                 kind, service, qos_profile=qos.SERVICES
             )
         if not client.wait_for_service(timeout_sec=find_timeout):
-            raise NoAnswer(f"nobody offers {service} on ROS domain {self.domain}; {self.advice()}")
+            raise NoAnswer(NOT_OFFERED(service=service, domain=self.domain, fixes=self.advice()))
         return call(client, request, timeout)
 
     def _check_open(self) -> None:
         if self._closing.is_set():
-            raise Misuse("this client of the lab is closed; open another one: Lab()")
+            raise Misuse(CLIENT_CLOSED())
 
     def node_names(self) -> Collection[str]:
         names: list[str] = self.node.get_node_names()

@@ -25,6 +25,7 @@ from rclpy.task import Future
 
 from mrlab_ros.core.errors import BadInput
 from mrlab_ros.ros import fast_dds, freezes
+from mrlab_ros.ros.diagnostics import BAD_ROS_ARGUMENTS
 from mrlab_ros.ros.type_supports import skip_generator
 
 # The longest the executor waits at a time, s; what arrives is handed on at once all the same.
@@ -67,10 +68,7 @@ def start_up() -> None:
     except (rclpy_implementation.RCLError, rclpy_implementation.UnknownROSArgsError) as error:
         # After the reason rcl names lines of its own sources.
         reason = str(error).split(", at /")[0].removeprefix("failed to initialize rcl: ")
-        raise BadInput(
-            f"ROS refuses the command line: {reason}; expected arguments such as --ros-args -p "
-            "lab:robots:='[ur5e]' --params-file config/lab.yaml"
-        ) from error
+        raise BadInput(BAD_ROS_ARGUMENTS(why=reason)) from error
 
 
 def shut_down() -> None:

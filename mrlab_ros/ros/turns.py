@@ -11,9 +11,11 @@ from typing import Any
 from rclpy.node import Node
 from rclpy.service import Service
 
+from mrlab_ros.core.base.diagnostic import Diagnostic
 from mrlab_ros.core.errors import Misuse
-from mrlab_ros.core.freezes import harmless
 from mrlab_ros.ros.answers import answered, create_deferred_service, end_service
+from mrlab_ros.ros.diagnostics import WAITED_TOO_LONG
+from mrlab_ros.ros.moves import moves
 from mrlab_ros.ros.worker import Worker
 
 # A request that waited longer for its turn is refused, s. A caller over zenoh gives up after 5 s,
@@ -25,7 +27,8 @@ class Turns:
     """Offers services of `node` that `worker` carries out.
 
     A request whose turn comes late is refused: its caller may have been told that nobody
-    answered. What stops an arm, and what changes nothing, is carried out however late. The node's
+    answered. What stops an arm, and what changes nothing, is carried out however late, as
+    answers.create_service() says. The node's
     thread takes every request at once, so that the time of waiting is known by its own clock.
     """
 
@@ -35,13 +38,14 @@ class Turns:
         # By name of the service.
         self._waiting: defaultdict[str, set[Future[Any]]] = defaultdict(set)
 
-    def offer(self, kind: Any, name: str, action: Callable[[Any, Any], str]) -> Service:
-        """Create a service whose `action(request, response)` returns the response's message."""
+    def offer(self, kind: Any, name: str, action: Callable[[Any, Any], Diagnostic]) -> Service:
+        """Create a service whose `action(request, response)` returns what to say."""
+        may_be_late = not moves(self._node.resolve_service_name(name), kind)
 
         @answered
-        def in_turn(_: Node, call: tuple[Any, float], response: Any) -> str:
+        def in_turn(_: Node, call: tuple[Any, float], response: Any) -> Diagnostic:
             request, came = call
-            if not harmless(name):
+            if not may_be_late:
                 _refuse_overdue(time.monotonic() - came)
             return action(request, response)
 
@@ -56,7 +60,7 @@ class Turns:
         service = create_deferred_service(self._node, kind, name, begin)
         return service
 
-    def end(self, service: Service, why: str) -> None:
+    def end(self, service: Service, why: Diagnostic) -> None:
         """Refuse the requests that wait for `service`, then destroy it."""
         for future in list(self._waiting.pop(service.srv_name, ())):
             future.cancel()
@@ -71,7 +75,4 @@ class Turns:
 
 def _refuse_overdue(waited_s: float) -> None:
     if waited_s > MOST_WAIT_S:
-        raise Misuse(
-            f"this request waited {waited_s:.0f} s for the ones before it, so it was not carried "
-            "out; send it again"
-        )
+        raise Misuse(WAITED_TOO_LONG(waited=waited_s))

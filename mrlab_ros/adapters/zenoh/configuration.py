@@ -8,6 +8,8 @@ from pathlib import Path
 
 import zenoh
 
+from mrlab_ros.adapters.zenoh.diagnostics import BAD_ZENOH_FILE, BAD_ZENOH_SETTINGS
+from mrlab_ros.core.base.diagnostic import of_text
 from mrlab_ros.core.bridge.links import LEASE_BEYOND, LEASE_WITHIN, healing, is_local
 from mrlab_ros.core.errors import BadInput
 
@@ -72,9 +74,11 @@ def configuration(
         for path, value in (healing(lease) | dict(security or {})).items():
             config.insert_json5(path, json.dumps(value))
     except (zenoh.ZError, OSError) as error:
+        why = of_text(first_line(error))
         raise BadInput(
-            f"zenoh does not accept {file or f'mode {mode}, listen {listen}, connect {connect}'}: "
-            f"{first_line(error)}; see docs/bridge.md for examples"
+            BAD_ZENOH_FILE(file=str(file), why=why)
+            if file
+            else BAD_ZENOH_SETTINGS(mode=mode, listen=listen, connect=connect, why=why)
         ) from error
     return config
 

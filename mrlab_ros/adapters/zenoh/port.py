@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from typing import Protocol
 
+from mrlab_ros.core.base.diagnostic import Diagnostic
 from mrlab_ros.core.bridge.guests import Link
 from mrlab_ros.core.bridge.rules import TopicRule
 
@@ -52,7 +53,7 @@ class Query(Protocol):
         """Reply on the queried key, which must not be a pattern."""
         ...
 
-    def refuse(self, reason: str) -> None: ...
+    def refuse(self, reason: Diagnostic) -> None: ...
 
     def ignore(self) -> None:
         """End the caller's wait without a reply."""

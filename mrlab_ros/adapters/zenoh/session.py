@@ -14,7 +14,9 @@ import zenoh
 from zenoh import ext
 
 from mrlab_ros.adapters.zenoh.configuration import first_line
+from mrlab_ros.adapters.zenoh.diagnostics import ENDPOINT_TAKEN, ZENOH_NOT_OPEN
 from mrlab_ros.adapters.zenoh.port import Declared, Publisher, Query
+from mrlab_ros.core.base.diagnostic import Diagnostic, of_text
 from mrlab_ros.core.bridge.guests import Link
 from mrlab_ros.core.bridge.rules import Congestion, Reliability, TopicRule
 from mrlab_ros.core.errors import Unavailable
@@ -273,8 +275,9 @@ class _Query:
         )
         self._query.drop()
 
-    def refuse(self, reason: str) -> None:
-        self._query.reply_err(reason.encode(), encoding=zenoh.Encoding.TEXT_PLAIN)
+    def refuse(self, reason: Diagnostic) -> None:
+        encoding = zenoh.Encoding.TEXT_PLAIN.with_schema(reason.code)
+        self._query.reply_err(str(reason).encode(), encoding=encoding)
         self._query.drop()
 
     def ignore(self) -> None:
@@ -282,16 +285,11 @@ class _Query:
 
 
 def _why_not_open(config: zenoh.Config, error: zenoh.ZError) -> Unavailable:
-    endpoints = ", ".join(_endpoints(config.get_json("listen/endpoints")))
+    endpoints = _endpoints(config.get_json("listen/endpoints"))
+    # zenoh tells by its text alone.
     if "Address already in use" in str(error):
-        return Unavailable(
-            f"the bridge cannot listen on {endpoints}: another program has that port, perhaps a "
-            "lab that still runs; stop it, or choose another port with the parameter listen"
-        )
-    return Unavailable(
-        f"the bridge cannot open zenoh on {endpoints}: {first_line(error)}; check the "
-        "parameters listen, connect and zenoh_config"
-    )
+        return Unavailable(ENDPOINT_TAKEN(endpoints=endpoints))
+    return Unavailable(ZENOH_NOT_OPEN(endpoints=endpoints, why=of_text(first_line(error))))
 
 
 def _endpoints(text: str) -> list[str]:

@@ -21,7 +21,7 @@ def robot_facts(robot: Any, follower: Follower) -> dict[str, Any]:
         "end_effector": robot.end_effector,
         "position": [position.x, position.y, position.z],
         "state": state.label if known else None,
-        "message": state.message,
+        **said_of(state),
         "trajectory": state.trajectory_id or None,
         "frame": follower.frame,
         "frame_count": state.frame_count,
@@ -34,6 +34,12 @@ def robot_facts(robot: Any, follower: Follower) -> dict[str, Any]:
     }
 
 
+def said_of(state: Any) -> dict[str, Any]:
+    """Return what a state says: its text, its code, and the values by name."""
+    values = {each.key: each.value for each in state.values}
+    return {"message": state.message, "code": state.code, "values": values}
+
+
 def recorder_facts(state: Any) -> dict[str, Any] | None:
     if state is None:
         return None
@@ -44,7 +50,7 @@ def recorder_facts(state: Any) -> dict[str, Any] | None:
         "duration": state.duration,
         "rate": state.rate,
         "messages": state.messages,
-        "message": state.message,
+        **said_of(state),
     }
 
 

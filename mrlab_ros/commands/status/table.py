@@ -56,12 +56,13 @@ def _head(facts: Mapping[str, Any], nodes: Mapping[str, bool]) -> Iterator[Text]
     if web := facts["web"]:
         how = "" if web["answers"] else ", which do not answer"
         yield Text(f"Pages at {web['address']}{how}; open them with: mrlab open")
-    for name, text in trouble.items():
-        yield Text(f"{name}: {text}", ERROR)
-    recorder = recorder_line(facts["recorder"])
+    for name, said in trouble.items():
+        yield Text(f"{name}: {said['message']}", ERROR)
+    recorder = facts["recorder"]
     # Why a recording ended by itself is a trouble of the recorder's process, too.
-    if recorder and not any(recorder in text for text in trouble.values()):
-        yield Text(recorder)
+    failed = trouble.get("recorder", {}).get("severity") == "error"
+    if (line := recorder_line(recorder)) and not (failed and recorder["state"] == "STOPPED"):
+        yield Text(line)
     for robot in facts["robots"]:
         if robot["state"] == "COLLISION_HALT":
             yield Text(

@@ -8,7 +8,8 @@ import time
 from collections.abc import Callable, Iterable, Mapping
 from typing import TYPE_CHECKING, Any
 
-from mrlab_ros.commands.status.facts import latency_facts, recorder_facts, robot_facts
+from mrlab_ros.commands.status.facts import latency_facts, recorder_facts, robot_facts, said_of
+from mrlab_ros.core.base.diagnostic import Diagnostic, plain
 from mrlab_ros.core.watch import SILENT_AFTER_S
 from mrlab_ros.processes.lab import NODES, PROCESSES
 from mrlab_ros.processes.run_file import RunFile
@@ -99,8 +100,8 @@ class View:
         # The newest report of each observer, by what it is called here.
         self._latencies: dict[str, Any] = {}
         self._answers, self._asked = False, -math.inf
-        # By process when it was heard last, and what is amiss with it; empty: nothing.
-        self._troubles: dict[str, tuple[float, str]] = {}
+        # By process when it was heard last, and what is amiss with it; None: nothing.
+        self._troubles: dict[str, tuple[float, Diagnostic | None]] = {}
         self._restarted: set[str] = set()
         graph.subscribe(msg.Latency, "/latency", self._on_latency, qos.LATCHED)
         if graph.prompt:
@@ -157,16 +158,16 @@ class View:
 
         now = time.monotonic() - age
         found = troubles_in(message)
-        self._troubles |= {name: (now, text) for name, text in found.items()}
+        self._troubles |= {name: (now, said) for name, said in found.items()}
         self._restarted = (self._restarted - found.keys()) | restarted_in(message)
 
-    def troubles(self) -> dict[str, str]:
+    def troubles(self) -> dict[str, Diagnostic]:
         """Return what is amiss with processes, by process."""
         now = time.monotonic()
         return {
-            name: text
-            for name, (heard, text) in sorted(self._troubles.items())
-            if text and now - heard < SILENT_AFTER_S
+            name: said
+            for name, (heard, said) in sorted(self._troubles.items())
+            if said is not None and now - heard < SILENT_AFTER_S
         }
 
     def _on_latency(self, report: Any) -> None:
@@ -226,7 +227,7 @@ class View:
                 {
                     "name": s.name,
                     "state": s.label,
-                    "message": s.message,
+                    **said_of(s),
                     "members": [m.robot for m in s.members],
                     "duration": s.duration,
                 }
@@ -234,7 +235,7 @@ class View:
             ],
             "latency": [latency_facts(name, report) for name, report in self.latencies()],
             "recorder": recorder_facts(self._recorder.value),
-            "trouble": self.troubles(),
+            "trouble": {name: plain(said) for name, said in self.troubles().items()},
             "restarted": sorted(self._restarted & self.troubles().keys()),
         }
 

@@ -11,6 +11,7 @@ from mrlab_ros.commands.up.keys import follow_keys, keys_changed_at, tell_when_k
 from mrlab_ros.commands.up.refusals import Refusals
 from mrlab_ros.commands.up.speaker import Speaker
 from mrlab_ros.commands.up.web import run_facts, say_where
+from mrlab_ros.core.base.diagnostic import Diagnostic
 from mrlab_ros.core.identity import Identity
 from mrlab_ros.processes.child import SELF, ProcessState
 from mrlab_ros.processes.lab import lab_nodes, lab_processes
@@ -27,12 +28,12 @@ class LabRun:
     """Keeps the processes of one lab running, and says what a person has to know of it.
 
     listen: where zenoh clients connect; None: there is no bridge. no_physics: why there is none;
-    empty: there is, or nobody wants it. stop: ends the lab.
+    None: there is, or nobody wants it. stop: ends the lab.
     """
 
     options: LabOptions
     listen: str | None
-    no_physics: str
+    no_physics: Diagnostic | None
     stop: threading.Event
     say: Speaker = field(default_factory=Speaker)
 
@@ -103,7 +104,7 @@ class LabRun:
         if self._keys is not None:
             tell_when_keys_expire(self._keys, self.say, router=bool(options.connect))
         if self.no_physics:
-            self.say(SELF, self.no_physics)
+            self.say(SELF, str(self.no_physics))
         if options.sim_time:
             self.say(SELF, "--sim-time: nothing moves until somebody publishes /clock")
 

@@ -167,7 +167,8 @@ class Code:
 
     text, remedy: templates (`phrase.py`) of one or more sentences. meaning: one sentence for the
     generated page of codes. fixes: each (option, value, MATLAB); templates of `str.format`, in
-    which `{name:matlab}` is a variable as MATLAB takes it. data: names of further values.
+    which `{name:matlab}` is a variable as MATLAB takes it. commands: fixes that are command lines,
+    templates of the words after `mrlab`. data: names of further values.
     """
 
     code: str
@@ -176,6 +177,7 @@ class Code:
     severity: Severity = ERROR
     meaning: str = ""
     fixes: tuple[tuple[str, str, str], ...] = ()
+    commands: tuple[str, ...] = ()
     data: tuple[str, ...] = ()
 
     @property
@@ -210,7 +212,10 @@ class Code:
         if fixes is None:
             quoted = {k: _Said(v) if isinstance(v, str) else v for k, v in values.items()}
             quoted.setdefault("name", _Said(values.get("variable") or ""))
-            fixes = tuple(Fix(*(part.format(**quoted) for part in fix)) for fix in self.fixes)
+            fixes = tuple(
+                Fix(*(part.format(**quoted) for part in fix))
+                for fix in (*self.fixes, *(("", "", "", words) for words in self.commands))
+            )
         return Diagnostic(
             self.code,
             self.severity if severity is None else severity,
@@ -307,6 +312,14 @@ def of_record(record: Any) -> Diagnostic:
         | {name: value for name, value in placed.items() if value or value == 0.0},
         tuple(Fix(fix.option, fix.value, fix.matlab, fix.command) for fix in record.fixes),
     )
+
+
+def heard(answer: Any) -> Diagnostic:
+    """Return what a response or a state said; the texts of its values stay texts."""
+    if not answer.code:
+        return of_text(answer.message)
+    values = {each.key: each.value for each in answer.values}
+    return Diagnostic(answer.code, Severity.ERROR, answer.message, values=values)
 
 
 def from_plain(found: Mapping[str, Any]) -> Diagnostic:

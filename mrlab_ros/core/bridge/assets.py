@@ -13,6 +13,7 @@ from dataclasses import dataclass
 from pathlib import PurePosixPath
 from urllib.parse import quote, unquote
 
+from mrlab_ros.core.bridge import diagnostics as say
 from mrlab_ros.core.errors import BadInput
 
 ASSETS = "assets"
@@ -56,7 +57,7 @@ def asset_key(path: str) -> str:
 def key_of_uri(uri: str) -> str:
     """Return the key of a package:// URI; raise BadInput for any other."""
     if not uri.startswith(PACKAGE):
-        raise BadInput(f"the URI is '{uri}'; expected one that begins with {PACKAGE}")
+        raise BadInput(say.NOT_A_PACKAGE_URI(uri=uri, begin=PACKAGE))
     return asset_key(uri.removeprefix(PACKAGE))
 
 
@@ -66,17 +67,12 @@ def path_of_key(key: str) -> str:
     Raises BadInput for a key expression and for a path with empty, hidden or relative parts.
     """
     if "*" in key:
-        raise BadInput(
-            f"'{key}' stands for several assets; get each by its own key, as in "
-            f"{asset_key(ROBOTS_DOCUMENT)} and {asset_key(OBJECTS_DOCUMENT)}"
-        )
+        robots, objects = asset_key(ROBOTS_DOCUMENT), asset_key(OBJECTS_DOCUMENT)
+        raise BadInput(say.SEVERAL_ASSETS(key=key, robots=robots, objects=objects))
     path = unquote(key.removeprefix(f"{ASSETS}/"))
     parts = path.split("/")
     if any(not part or part.startswith(".") or "\\" in part or "\0" in part for part in parts):
-        raise BadInput(
-            f"'{path}' names no asset; expected a path such as "
-            "mrlab_ros/robots/ur5e/meshes/base_link.glb, without '..' and hidden names"
-        )
+        raise BadInput(say.NO_ASSET_NAME(path=path))
     return path
 
 
@@ -98,16 +94,10 @@ class Span:
         Raises BadInput where they begin behind its end, or are more than one reply may hold.
         """
         if self.offset > size:
-            raise BadInput(
-                f"{key} has {size} bytes; the offset is {self.offset}: ask for an offset of at "
-                "most its size"
-            )
+            raise BadInput(say.ASSET_OFFSET_BEYOND(key=key, size=size, offset=self.offset))
         end = size if self.length is None else min(size, self.offset + self.length)
         if end - self.offset > LARGEST_PIECE:
-            raise BadInput(
-                f"{key} has {size} bytes, and one reply holds {LARGEST_PIECE} at most; get it in "
-                f"pieces: {key}?offset=0;length={LARGEST_PIECE}, then the next offset"
-            )
+            raise BadInput(say.ASSET_IN_PIECES(key=key, size=size, largest=LARGEST_PIECE))
         return range(self.offset, end)
 
 
@@ -115,10 +105,7 @@ def span(offset: str | None, length: str | None) -> Span:
     """Read a query's parameters `offset` and `length`, in bytes; raise BadInput."""
     for name, value in (("offset", offset), ("length", length)):
         if value is not None and not DIGITS.fullmatch(value):
-            raise BadInput(
-                f"the parameter {name} is '{value}'; expected a number of bytes, as in "
-                "?offset=0;length=65536"
-            )
+            raise BadInput(say.BAD_ASSET_PARAMETER(parameter=name, found=value))
     return Span(int(offset or 0), None if length is None else int(length))
 
 
@@ -145,8 +132,5 @@ def read_attachment(attachment: bytes) -> tuple[Described, int]:
         offset = int(found.pop("offset"))
         described = Described(int(found["size"]), str(found["sha256"]), str(found["media_type"]))
     except (ValueError, TypeError, KeyError, AttributeError):
-        raise BadInput(
-            f"the attachment {attachment[:80]!r} is not that of an asset; expected JSON with "
-            "size, sha256, media_type and offset"
-        ) from None
+        raise BadInput(say.BAD_ASSET_ATTACHMENT(found=repr(attachment[:80]))) from None
     return described, offset

@@ -7,6 +7,7 @@ import re
 from collections.abc import Mapping
 from typing import Any
 
+from mrlab_ros.core.bridge import diagnostics as say
 from mrlab_ros.core.errors import BadInput
 
 # A link that is silent for so long, s, counts as broken. Beyond this machine that is short, so a
@@ -80,16 +81,11 @@ def check_router(mode: str, listen: tuple[str, ...], connect: tuple[str, ...]) -
     """
     if mode != "client" or listen:
         raise BadInput(
-            f"the bridge has keys and connects to {', '.join(connect)}, with mode {mode} and "
-            f"listen {list(listen)}; people then connect to that router alone, so leave listen "
-            "empty and set mode to client"
+            say.ROUTER_NEEDS_CLIENT(endpoints=list(connect), mode=mode, listen=list(listen))
         )
     for endpoint in connect:
         if not endpoint.startswith(("tls/", "quic/")):
-            raise BadInput(
-                f"the bridge has keys and is to connect to {endpoint}, where it can show none; "
-                "expected a router's endpoint such as tls/router.example.org:7447"
-            )
+            raise BadInput(say.ROUTER_WITHOUT_TLS(endpoint=endpoint))
 
 
 def check_endpoints(listen: tuple[str, ...], insecure: bool, keys: bool = False) -> None:
@@ -99,33 +95,14 @@ def check_endpoints(listen: tuple[str, ...], insecure: bool, keys: bool = False)
     """
     for endpoint in listen:
         if not re.fullmatch(r"[a-z][a-z-]*/.+", endpoint):
-            raise BadInput(
-                f"the bridge is to listen on {endpoint!r}; expected protocol/address:port, such "
-                "as tcp/127.0.0.1:7447"
-            )
+            raise BadInput(say.BAD_ENDPOINT(endpoint=endpoint))
         protocol, address = endpoint.split("/", 1)
         if protocol == "quic":
-            raise BadInput(
-                f"the bridge is to listen on {endpoint}; of QUIC links it can bound neither the "
-                "number nor the bytes of one person, who could take the lab from all others; "
-                f"listen on tls/{address}"
-            )
+            raise BadInput(say.QUIC_UNBOUNDED(endpoint=endpoint, better=f"tls/{address}"))
         encrypted = protocol == "tls"
         if keys and not encrypted:
-            raise BadInput(
-                f"the lab has keys, and the bridge is to listen on {endpoint}, where nobody "
-                f"can show one; listen on tls/{address}, or leave the keys out"
-            )
+            raise BadInput(say.KEYS_NEED_TLS(endpoint=endpoint, better=f"tls/{address}"))
         if encrypted and not keys:
-            raise BadInput(
-                f"the bridge is to listen on {endpoint}, and for {protocol} it needs keys; make "
-                "them with mrlab keys init and name the folder: mrlab up --keys FOLDER, or the "
-                "parameter keys"
-            )
+            raise BadInput(say.TLS_NEEDS_KEYS(endpoint=endpoint, protocol=protocol))
         if not (is_local(endpoint) or encrypted or insecure):
-            raise BadInput(
-                f"the bridge is to listen on {endpoint}, where anybody in the network could watch "
-                "and move the robots; give the lab keys (mrlab keys init, then mrlab up --keys "
-                "FOLDER), listen on tcp/127.0.0.1, or accept it with --insecure (the parameter "
-                "insecure)"
-            )
+            raise BadInput(say.OPEN_ENDPOINT(endpoint=endpoint))

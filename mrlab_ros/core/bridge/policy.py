@@ -55,6 +55,11 @@ class Policy:
             return Role.DISPLAY
         return None
 
+    def moves(self, key: str) -> bool:
+        """Return whether a call of a service may move or change something."""
+        rules = list(_fitting(self.rules.services, f"/{key}"))
+        return not rules or any(rule.moves for rule in rules)
+
 
 def _fitting(rules: Iterable[RuleT], name: str) -> Iterator[RuleT]:
     """Return the rules of which one decides about `name`, whatever its type is."""

@@ -13,6 +13,7 @@ from enum import Enum
 from functools import cached_property
 from typing import Generic, TypeVar
 
+from mrlab_ros.core.bridge.diagnostics import RULE_GOES_OUT, RULE_WITHOUT_NAME
 from mrlab_ros.core.errors import BadInput
 from mrlab_ros.core.records import (
     FLAG,
@@ -139,10 +140,7 @@ class TopicRule:
 
     def __post_init__(self) -> None:
         if self.direction is Direction.OUT and self.role is not Role.INSTRUCTOR:
-            raise BadInput(
-                f"the rule for {self.name} has a role but goes out; everybody who may connect "
-                "receives it, so leave the role out, or set direction: in"
-            )
+            raise BadInput(RULE_GOES_OUT(topic=self.name))
 
     @cached_property
     def pattern(self) -> re.Pattern[str]:
@@ -174,6 +172,12 @@ class ServiceRule:
         enum_values(Role),
         "Who may call it in the browser for what is their own.",
         Role.INSTRUCTOR,
+    )
+    moves: bool = field(
+        FLAG,
+        "Whether a call moves or changes something; false: it stops what moves or changes "
+        "nothing, and is carried out however late it comes.",
+        True,
     )
 
     def needed(self, *, own: bool) -> Role:
@@ -226,10 +230,8 @@ def parse(document: object) -> Rules:
 def _rule(kind: type[TopicRule | ServiceRule], entry: object) -> TopicRule | ServiceRule:
     name = entry.get("name") if isinstance(entry, Mapping) else None
     if not isinstance(name, str):
-        raise BadInput(
-            f"{PLACE} holds {shown(entry)}; expected an entry with a name, such as "
-            "{name: /robots}"
-        )
+        example = "{name: /robots}"
+        raise BadInput(RULE_WITHOUT_NAME(place=PLACE, found=shown(entry), example=example))
     return read(kind, entry, f"the rule for {name}")
 
 

@@ -15,9 +15,11 @@ from itertools import pairwise
 
 import numpy as np
 
+from mrlab_ros.core.base.diagnostic import Diagnostic
 from mrlab_ros.core.clock import SECOND
 from mrlab_ros.core.errors import BadInput
 from mrlab_ros.core.geometry import Array
+from mrlab_ros.core.playback import diagnostics as say
 from mrlab_ros.core.robots.model import RobotModel
 from mrlab_ros.core.trajectory.trajectory import Channels, Source, Trajectory
 
@@ -51,8 +53,8 @@ class Code(Enum):
 class WrongGoal(BadInput):
     """A goal that cannot be carried out."""
 
-    def __init__(self, code: Code, text: str) -> None:
-        super().__init__(text)
+    def __init__(self, said: Diagnostic, code: Code = Code.INVALID_GOAL) -> None:
+        super().__init__(said)
         self.code = code
 
 
@@ -86,40 +88,34 @@ def trajectory(
     passed, what lies ahead is left. Raises WrongGoal.
     """
     moving = np.zeros_like(arm) if velocities is None else velocities
-    order = _order(goal.joint_names, model)
+    places = order(goal.joint_names, model)
     if not goal.points:
-        raise _wrong("the goal has no points; expected one or more")
+        raise WrongGoal(say.NO_POINTS())
     times = np.array([point.time for point in goal.points])
     _check_times(times)
     rows = {
-        kind: _rows(goal.points, kind, order)
+        kind: _rows(goal.points, kind, places, model)
         for kind in ("positions", "velocities", "accelerations")
     }
     if any(point.effort for point in goal.points):
-        raise _wrong(
-            "the points have efforts, which a position controller cannot follow; drop them"
-        )
+        raise WrongGoal(say.HAS_EFFORTS())
     positions = rows["positions"]
     if positions is None:
-        raise _wrong("the points have no positions; expected one a joint")
-    _check_positions(positions, model, goal.points)
+        raise WrongGoal(say.NO_POSITIONS())
+    for number, row in enumerate(positions, 1):
+        check_limits(row, model, point=number)
     speeds = rows["velocities"]
     if speeds is not None and np.abs(speeds[-1]).max() > STANDSTILL:
         joint = int(np.abs(speeds[-1]).argmax())
-        raise _wrong(
-            f"at the last point {model.joint_names[joint]} has the velocity "
-            f"{speeds[-1][joint]:.3g} rad/s; expected 0: the arm stands there"
-        )
+        velocity = float(speeds[-1][joint])
+        raise WrongGoal(say.ENDS_MOVING(joint=model.joint_names[joint], value=velocity))
     passed = (now_ns - (goal.stamp_ns or now_ns)) / SECOND
     if passed > times[-1]:
-        raise WrongGoal(
-            Code.OLD_HEADER_TIMESTAMP,
-            f"the goal ended {passed - times[-1]:.3f} s ago; set header.stamp to a later time, or "
-            "to 0 to start at once",
-        )
+        over = say.GOAL_OVER(ago=float(passed - times[-1]))
+        raise WrongGoal(over, Code.OLD_HEADER_TIMESTAMP)
     times = times - passed
     if times[-1] > LONGEST:
-        raise _wrong(f"the goal ends in {times[-1]:g} s; expected {LONGEST:g} at most")
+        raise WrongGoal(say.GOAL_TOO_LONG(duration=float(times[-1]), longest=LONGEST))
     ahead = times > 0
     if not ahead.any():
         # One point at 0, which JTC takes as a set-point; here only a small step is one.
@@ -155,71 +151,69 @@ def unpublished(name: str, model: RobotModel, positions: Array, velocities: Arra
     )
 
 
-def check_limits(positions: Array, model: RobotModel, where: str) -> None:
-    """Raise WrongGoal where a joint of `positions`, (J,) rad, is beyond its limits, or none."""
+def check_limits(
+    positions: Array, model: RobotModel, point: int | None = None, time: float | None = None
+) -> None:
+    """Raise WrongGoal where a joint of `positions`, (J,) rad, is beyond its limits, or none.
+
+    point: counted from 1; time: s between two points. None: of a joint command.
+    """
     for joint, value in zip(model.joints, positions.tolist(), strict=True):
         if not joint.lower - AT_LIMIT <= value <= joint.upper + AT_LIMIT:
-            raise _wrong(
-                f"{joint.name} is {value:.4g} rad{where}; expected {joint.lower:.4g} to "
-                f"{joint.upper:.4g}"
+            raise WrongGoal(
+                say.JOINT_OUT_OF_RANGE(
+                    joint=joint.name,
+                    value=value,
+                    lower=joint.lower,
+                    upper=joint.upper,
+                    point=point,
+                    time=time,
+                )
             )
 
 
-def _wrong(text: str) -> WrongGoal:
-    return WrongGoal(Code.INVALID_GOAL, text)
-
-
-def _order(names: Sequence[str], model: RobotModel) -> list[int]:
-    """Return for each joint of the model its place in `names`."""
+def order(names: Sequence[str], model: RobotModel) -> list[int]:
+    """Return for each joint of the model its place in `names`; raise WrongGoal."""
     known = model.joint_names
     if sorted(names) != sorted(known):
-        missing = [joint for joint in known if joint not in names]
-        foreign = [name for name in names if name not in known]
-        twice = sorted({name for name in names if list(names).count(name) > 1})
-        said = [
-            f"{what} {', '.join(which)}"
-            for what, which in (("without", missing), ("with", foreign), ("twice", twice))
-            if which
-        ]
-        raise WrongGoal(
-            Code.INVALID_JOINTS,
-            f"the joint names are {'; '.join(said)}; expected each of {', '.join(known)} once, in "
-            "any order",
+        wrong = say.WRONG_JOINT_NAMES(
+            missing=[joint for joint in known if joint not in names],
+            unknown=[name for name in names if name not in known],
+            repeated=sorted({name for name in names if list(names).count(name) > 1}),
+            expected=known,
         )
+        raise WrongGoal(wrong, Code.INVALID_JOINTS)
     return [list(names).index(joint) for joint in known]
 
 
 def _check_times(times: Array) -> None:
     if not np.isfinite(times).all() or times[0] < 0:
-        raise _wrong(f"the first point is at {times[0]:g} s; expected 0 or later")
-    for number, (before, after) in enumerate(pairwise(times.tolist())):
+        raise WrongGoal(say.BAD_FIRST_TIME(time=float(times[0])))
+    for number, (before, after) in enumerate(pairwise(times.tolist()), 1):
         if after <= before:
-            raise _wrong(
-                f"point {number} is at {before:g} s and point {number + 1} at {after:g} s; "
-                "expected times that increase"
-            )
+            raise WrongGoal(say.TIMES_NOT_RISING(point=number, before=before, after=after))
 
 
-def _rows(points: Sequence[Point], kind: str, order: list[int]) -> Array | None:
+def _rows(
+    points: Sequence[Point], kind: str, places: list[int], model: RobotModel
+) -> Array | None:
     """Return the values of all points, (N, J) in the model's order; None where none has any."""
     values = [list(getattr(point, kind)) for point in points]
     if not any(values):
         return None
-    for number, row in enumerate(values):
-        if len(row) != len(order):
-            raise _wrong(
-                f"point {number} has {len(row)} {kind}; expected {len(order)}, one a joint"
+    for number, row in enumerate(values, 1):
+        if len(row) != len(places):
+            raise WrongGoal(
+                say.WRONG_VALUE_COUNT(
+                    found=len(row), what=kind, expected=len(places), point=number
+                )
             )
-    rows = np.array(values, dtype=np.float64)[:, order]
+    rows = np.array(values, dtype=np.float64)[:, places]
     if not np.isfinite(rows).all():
-        number = int(np.flatnonzero(~np.isfinite(rows).all(axis=1))[0])
-        raise _wrong(f"point {number} has {kind} that are NaN or infinite; expected numbers")
+        number, joint = np.argwhere(~np.isfinite(rows))[0].tolist()
+        name = model.joint_names[joint]
+        raise WrongGoal(say.VALUE_NOT_FINITE(joint=name, what=kind, point=number + 1))
     return rows
-
-
-def _check_positions(positions: Array, model: RobotModel, points: Sequence[Point]) -> None:
-    for number, row in enumerate(positions):
-        check_limits(row, model, f" at point {number} ({points[number].time:g} s)")
 
 
 def _check_motion(frames: Array, speeds: Array, model: RobotModel) -> None:
@@ -229,14 +223,17 @@ def _check_motion(frames: Array, speeds: Array, model: RobotModel) -> None:
     fastest = np.maximum(steps, np.abs(speeds[1:]))
     if (fastest > most * (1 + VELOCITY_SLACK)).any():
         frame, joint = np.unravel_index(int((fastest / most).argmax()), fastest.shape)
-        raise _wrong(
-            f"{model.joint_names[joint]} moves at {fastest[frame, joint]:.3g} rad/s at "
-            f"{(frame + 1) / FRAME_RATE:g} s; expected {most[joint]:.3g} at most: give that way "
-            "more time. The motion begins where the arm is, with the velocity that it has there"
+        raise WrongGoal(
+            say.GOAL_TOO_FAST(
+                joint=model.joint_names[joint],
+                value=float(fastest[frame, joint]),
+                limit=float(most[joint]),
+                time=float(frame + 1) / FRAME_RATE,
+            )
         )
     for frame in (frames.argmax(axis=0).tolist()) + (frames.argmin(axis=0).tolist()):
         if frame:
-            check_limits(frames[frame], model, f" at {frame / FRAME_RATE:g} s, between two points")
+            check_limits(frames[frame], model, time=frame / FRAME_RATE)
 
 
 def _sampled(

@@ -17,7 +17,13 @@ import numpy as np
 from mrlab_ros.core.clock import SECOND
 from mrlab_ros.core.errors import BadInput
 from mrlab_ros.core.geometry import Array
-from mrlab_ros.core.playback.goal import check_limits, unpublished
+from mrlab_ros.core.playback.diagnostics import (
+    COMMAND_JUMPS,
+    COMMAND_TOO_FAST,
+    VALUE_NOT_FINITE,
+    WRONG_VALUE_COUNT,
+)
+from mrlab_ros.core.playback.goal import check_limits, order, unpublished
 from mrlab_ros.core.robots.model import RobotModel
 from mrlab_ros.core.trajectory.trajectory import Trajectory
 
@@ -85,29 +91,27 @@ class SetPoints:
         """
         known = self._model.joint_names
         names = list(names) or list(known)
-        if sorted(names) != sorted(known):
-            raise BadInput(
-                f"the joint command names {', '.join(names)}; expected each of {', '.join(known)} "
-                "once, in any order"
-            )
+        places = order(names, self._model)
         for kind, values in (("positions", positions), ("velocities", velocities)):
             if len(values) != len(names) and (values or kind == "positions"):
                 raise BadInput(
-                    f"the joint command has {len(values)} {kind}; expected {len(known)}"
+                    WRONG_VALUE_COUNT(found=len(values), what=kind, expected=len(known))
                 )
-        order = [names.index(joint) for joint in known]
-        found = np.array(positions, dtype=np.float64)[order]
+        found = np.array(positions, dtype=np.float64)[places]
         if not np.isfinite(found).all():
             joint = known[int(np.flatnonzero(~np.isfinite(found))[0])]
-            raise BadInput(f"the joint command for {joint} is NaN or infinite; expected rad")
-        check_limits(found, self._model, " in the joint command")
+            raise BadInput(VALUE_NOT_FINITE(joint=joint, what="positions"))
+        check_limits(found, self._model)
         if velocities:
-            fast = np.abs(np.array(velocities, dtype=np.float64)[order])
+            fast = np.abs(np.array(velocities, dtype=np.float64)[places])
             if not (fast <= self._fastest).all():
                 joint_at = int((~(fast <= self._fastest)).argmax())
                 raise BadInput(
-                    f"the joint command moves {known[joint_at]} at {fast[joint_at]:.3g} rad/s; "
-                    f"expected {self._fastest[joint_at]:.3g} at most"
+                    COMMAND_TOO_FAST(
+                        joint=known[joint_at],
+                        value=float(fast[joint_at]),
+                        limit=float(self._fastest[joint_at]),
+                    )
                 )
         return found
 
@@ -125,10 +129,13 @@ class SetPoints:
             if jump.max() > passed + JITTER:
                 joint = int(jump.argmax())
                 raise BadInput(
-                    f"the joint command jumps: {self._model.joint_names[joint]} by "
-                    f"{goal[joint] - self._last[joint]:.3g} rad in {passed:.3g} s; expected "
-                    f"{self._fastest[joint]:.3g} rad/s at most. Move there in smaller steps, or "
-                    f"pause the stream for {SILENCE:g} s"
+                    COMMAND_JUMPS(
+                        joint=self._model.joint_names[joint],
+                        value=float(goal[joint] - self._last[joint]),
+                        passed=passed,
+                        limit=float(self._fastest[joint]),
+                        silence=SILENCE,
+                    )
                 )
             self._mean += NEWEST_SHARE * (passed - self._mean) if self._mean else passed
             start, _ = self._line.at(now_ns)

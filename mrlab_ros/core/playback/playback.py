@@ -10,9 +10,11 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import NamedTuple
 
+from mrlab_ros.core.base.diagnostic import Diagnostic
 from mrlab_ros.core.clock import SECOND, PlaybackClock, checked_position, checked_rate
 from mrlab_ros.core.errors import LabError, Misuse
 from mrlab_ros.core.geometry import Array
+from mrlab_ros.core.playback import diagnostics as say
 from mrlab_ros.core.playback import goal as goals
 from mrlab_ros.core.playback import live
 from mrlab_ros.core.playback.planner import MotionPlanner
@@ -23,18 +25,16 @@ from mrlab_ros.core.state_machine import Machine
 from mrlab_ros.core.trajectory.fit import check_fits
 from mrlab_ros.core.trajectory.trajectory import Trajectory
 
-# Of a playback that follows a stream of joint commands.
-LIVE_MESSAGE = "follows joint commands"
 # A refused joint command is named in the status this often, ns.
 REFUSAL_NS = SECOND
 
 
 @dataclass(frozen=True)
 class PlaybackStatus:
-    """The state of a playback at one instant, as it is published."""
+    """The state of a playback at one instant, as it is published; message: why it is in it."""
 
     state: State
-    message: str
+    message: Diagnostic | None
     trajectory: Trajectory | None
     clock: PlaybackClock
     frame: int
@@ -79,7 +79,7 @@ class Playback:
         self._planner = planner
         self._machine = Machine(TABLE)
         self._stream = Stream(model.home, standing_rate)
-        self._message = ""
+        self._message: Diagnostic | None = None
         # None: physics has said nothing yet.
         self._touching: bool | None = None
         self._play_on_arrival = False
@@ -88,7 +88,7 @@ class Playback:
         self._commanded_ns: int | None = None
         self._refused_ns = 0
         self._statuses: list[PlaybackStatus] = []
-        self._announce("")
+        self._announce(None)
 
     # what it is -----------------------------------------------------------------------------
 
@@ -156,14 +156,19 @@ class Playback:
         self._machine.check(Event.LOAD)
         self._check_fits(trajectory)
         self._stream.trajectory = trajectory
-        self._stand(now_ns, Event.LOAD, self._stream.begin, f"loaded {trajectory.id}")
+        loaded = say.LOADED(
+            trajectory=trajectory.id,
+            frames=trajectory.frame_count,
+            duration=trajectory.duration,
+        )
+        self._stand(now_ns, Event.LOAD, self._stream.begin, loaded)
 
     def stand_at(self, now_ns: int, arm: Array) -> None:
         """Stand at `arm`, (J,) rad, where the arm stood before its process was restarted."""
         self._machine.check(Event.RETURNED_PAUSED)
         self._stream.stand_at(now_ns, arm)
 
-    def come_back(self, now_ns: int, trajectory: Trajectory, kept: Kept, why: str) -> None:
+    def come_back(self, now_ns: int, trajectory: Trajectory, kept: Kept) -> None:
         """Stand where the arm stood before its process was restarted.
 
         PAUSED, or READY where it had not begun; in COLLISION_HALT where it was halted, unless
@@ -185,7 +190,7 @@ class Playback:
             self._stream.stand(now_ns, self._stream.begin)
         else:
             self._stream.come_back(now_ns, position, kept.arm)
-        self._announce(why)
+        self._announce(say.PLAYBACK_RESTARTED())
 
     def kept(self) -> Kept | None:
         """Return what a restart has to know again; None without a trajectory."""
@@ -207,7 +212,7 @@ class Playback:
         self._require_owner(by)
         self._machine.check(Event.UNLOAD)
         self._stream.trajectory = None
-        self._stand(now_ns, Event.UNLOAD, 0.0, "unloaded")
+        self._stand(now_ns, Event.UNLOAD, 0.0, say.UNLOADED())
 
     def play(
         self,
@@ -236,7 +241,7 @@ class Playback:
         rate = self.rate if rate is None else checked_rate(rate)
         there = self._stream.is_at(position)
         if by and not there:
-            raise Misuse(f"does not stand at {position:g} s of its trajectory; stage it first")
+            raise Misuse(say.NOT_IN_PLACE(position=position))
         self._stream.rate = rate
         if there:
             self._stream.until = until
@@ -288,11 +293,11 @@ class Playback:
             # A stream of thousands is not refused a thousand times.
             if now_ns - self._refused_ns > REFUSAL_NS:
                 self._refused_ns = now_ns
-                self._announce(f"refused: {error}")
+                self._announce(say.COMMAND_REFUSED(why=error))
             raise
         if self._refused_ns and now_ns - self._refused_ns > REFUSAL_NS:
             self._refused_ns = 0
-            self._announce(LIVE_MESSAGE)
+            self._announce(say.FOLLOWS_COMMANDS())
         return begins
 
     def _take_command(
@@ -310,10 +315,7 @@ class Playback:
             return False
         self._machine.check(Event.LOAD)
         if self.is_live and not silent:
-            raise Misuse(
-                f"is in {self.state.name} and ignores the joint commands: play goes on with them, "
-                f"and so does a stream that begins again after {live.SILENCE:g} s"
-            )
+            raise Misuse(say.COMMANDS_IGNORED(state=self.state.name, silence=live.SILENCE))
         self._replace(now_ns, self._set_points.place(self.arm))
         self._go_live(now_ns)
         self._set_points.go_to(now_ns, target)
@@ -342,7 +344,7 @@ class Playback:
         self._machine.fire(Event.PLAY)
         self._stream.stand(now_ns, 0.0)
         self._set_points.rest(now_ns)
-        self._announce(LIVE_MESSAGE)
+        self._announce(say.FOLLOWS_COMMANDS())
 
     def stage(self, now_ns: int, position: float, by: str = "") -> float:
         """Move to `position` (s) and wait there in PAUSED; return how long that takes, s.
@@ -361,7 +363,7 @@ class Playback:
     def pause(self, now_ns: int, by: str = "") -> None:
         """Stand still where the last joint state left the arm."""
         self._require_owner(by)
-        self._halt(now_ns, Event.PAUSE, "paused")
+        self._halt(now_ns, Event.PAUSE, say.PAUSED(position=self._stream.position))
 
     def stop(self, now_ns: int, by: str = "") -> None:
         """End the run: READY to play from the first frame, the arm stays where it is.
@@ -371,11 +373,10 @@ class Playback:
         """
         self._require_owner(by)
         if self._machine.check(Event.STOP) is State.COLLISION_HALT:
-            message = "back where it began, waits until it is clear"
-            self._jump(now_ns, Event.STOP, self._stream.begin, message)
+            self._jump(now_ns, Event.STOP, self._stream.begin, say.BACK_AT_BEGIN())
         else:
             begin = 0.0 if self.trajectory is None else self._stream.begin
-            self._stand(now_ns, Event.STOP, begin, "stopped")
+            self._stand(now_ns, Event.STOP, begin, say.STOPPED())
 
     def seek(self, now_ns: int, position: float, by: str = "") -> None:
         """Go to `position` (s) at once; PLAYING plays on from there, the rest stand there."""
@@ -385,7 +386,7 @@ class Playback:
         if target is State.PLAYING:
             self._follow(now_ns, position, Event.SEEK)
         else:
-            self._jump(now_ns, Event.SEEK, position, f"stands at {position:g} s")
+            self._jump(now_ns, Event.SEEK, position, say.AT_POSITION(position=position))
 
     def set_rate(
         self, now_ns: int, rate: float, since_ns: int | None = None, by: str = ""
@@ -401,7 +402,7 @@ class Playback:
         self._stream.set_rate(now_ns if since_ns is None else since_ns, rate)
         if turns and self.state is State.READY:
             self._stream.stand(now_ns, self._stream.begin)
-        self._announce(f"rate {rate:g}")
+        self._announce(say.RATE_SET(rate=rate))
 
     def set_standing_rate(self, now_ns: int, rate: float) -> None:
         """Repeat the joint state of a robot that does not move at `rate` Hz (0: never)."""
@@ -414,24 +415,21 @@ class Playback:
             checked_position(until, self._loaded().duration)
             streamed = self._stream.streamed
             if streamed is not None and until <= streamed:
-                raise Misuse(f"has passed {until:g} s already; pause, then seek back")
+                raise Misuse(say.PASSED_ALREADY(until=until))
         self._stream.end_at(until)
 
     def set_loop(self, loop: bool, by: str = "") -> None:
         """Set whether the trajectory starts over after its last frame."""
         self._require_owner(by)
         self.loop = loop
-        self._announce("loops" if loop else "plays once")
+        self._announce(say.LOOPS() if loop else say.PLAYS_ONCE())
 
     def clear_halt(self, now_ns: int) -> None:
         """End a halt by command; raise Misuse while physics still reports a collision."""
         self._machine.check(Event.CLEAR_HALT)
         if self._touching:
-            raise Misuse(
-                "the arm still touches something; place the robot elsewhere, move what it "
-                "touches away, or seek back"
-            )
-        self._halt(now_ns, Event.CLEAR_HALT, "clear again")
+            raise Misuse(say.STILL_TOUCHES())
+        self._halt(now_ns, Event.CLEAR_HALT, say.CLEAR_AGAIN())
 
     # membership -----------------------------------------------------------------------------
 
@@ -441,26 +439,26 @@ class Playback:
         Raises Misuse where another system has the robot, or where the robot moves by itself.
         """
         if self.system not in ("", system):
-            raise Misuse(f"is a member of system '{self.system}' already; dissolve that one first")
+            raise Misuse(say.MEMBER_OF_SYSTEM(system=self.system))
         if self.moving:
             if not self.system:
-                raise Misuse(f"is in {self.state.name}; stop it first")
+                raise Misuse(say.NOT_STANDING(state=self.state.name))
             # The system was restarted, and knows nothing of what its member does.
-            self._halt(now_ns, Event.RELEASED, "")
+            self._halt(now_ns, Event.RELEASED, None)
         self.system = system
-        self._announce(f"driven by system {system}")
+        self._announce(say.DRIVEN_BY(system=system))
 
     def release(self, now_ns: int, by: str) -> None:
         """Leave the system, paused where the arm is; no effect for another system's robot."""
         if self.system != by:
             return
-        self._report(now_ns, Event.RELEASED, "")
+        self._report(now_ns, Event.RELEASED, None)
         self.system = ""
-        self._announce(f"released by system {by}")
+        self._announce(say.RELEASED_BY(system=by))
 
     # reports of physics ---------------------------------------------------------------------
 
-    def collide(self, now_ns: int, why: str) -> bool:
+    def collide(self, now_ns: int, why: Diagnostic) -> bool:
         """Take that the arm collides: halt where it is.
 
         Returns False where the arm did not move anyway; then the state stays.
@@ -474,7 +472,7 @@ class Playback:
         Returns False where there was no halt.
         """
         self._touching = False
-        return self._report(now_ns, Event.CLEARED, "clear again")
+        return self._report(now_ns, Event.CLEARED, say.CLEAR_AGAIN())
 
     # time -----------------------------------------------------------------------------------
 
@@ -494,7 +492,7 @@ class Playback:
             if stream.ended:
                 self._finish(sample.due_ns)
             elif stream.held:
-                self._halt(now_ns, Event.HELD, "waits for its signal")
+                self._halt(now_ns, Event.HELD, say.HELD_BY_WAIT())
             return sample
         if state is State.ADJUSTING:
             sample = stream.approach_sample(now_ns)
@@ -508,7 +506,7 @@ class Playback:
         came_ns = self._commanded_ns
         silent = came_ns is None or now_ns - came_ns > live.SILENCE * SECOND
         if silent:
-            self._halt(now_ns, Event.HELD, "no joint command comes any more")
+            self._halt(now_ns, Event.HELD, say.COMMANDS_ENDED())
         return sample
 
     def shift(self, by_ns: int) -> None:
@@ -531,15 +529,14 @@ class Playback:
     def _require_owner(self, by: str) -> None:
         if by != self.system:
             raise Misuse(
-                f"is driven by system '{self.system}'; command that (mrlab system --help), or set "
-                f"the robot free with: mrlab system dissolve {self.system}"
+                say.DRIVEN_BY_SYSTEM(system=self.system)
                 if self.system
-                else f"is not a member of system '{by}'; create the system again"
+                else say.NOT_DRIVEN_BY(system=by)
             )
 
     def _loaded(self) -> Trajectory:
         if self.trajectory is None:
-            raise Misuse(f"cannot move in {self.state.name}: load a trajectory first")
+            raise Misuse(say.NOTHING_LOADED(state=self.state.name))
         return self.trajectory
 
     def _check_fits(self, trajectory: Trajectory) -> None:
@@ -550,25 +547,25 @@ class Playback:
             (self.model.id, self.model.joint_names, self.end_effector),
         )
 
-    def _announce(self, message: str) -> None:
+    def _announce(self, message: Diagnostic | None) -> None:
         self._message = message
         self._statuses.append(self.status())
 
     # Each of these fires an event, has the arm do what the new state says, and announces it.
 
-    def _stand(self, now_ns: int, event: Event, position: float, message: str) -> None:
+    def _stand(self, now_ns: int, event: Event, position: float, message: Diagnostic) -> None:
         """Stand still; the next play begins at `position` (s)."""
         self._machine.fire(event)
         self._stream.stand(now_ns, position)
         self._announce(message)
 
-    def _jump(self, now_ns: int, event: Event, position: float, message: str) -> None:
+    def _jump(self, now_ns: int, event: Event, position: float, message: Diagnostic) -> None:
         """Put the arm at `position` (s) of the trajectory at once."""
         self._machine.fire(event)
         self._stream.jump(now_ns, position)
         self._announce(message)
 
-    def _halt(self, now_ns: int, event: Event, message: str) -> None:
+    def _halt(self, now_ns: int, event: Event, message: Diagnostic | None) -> None:
         """Stand still exactly where the last joint state left the arm."""
         self._machine.fire(event)
         self._stream.halt(now_ns)
@@ -583,16 +580,16 @@ class Playback:
         self._machine.fire(event)
         self._play_on_arrival = play_on_arrival
         self._stream.approach(now_ns, motion, position)
-        self._announce("moves to the start")
+        self._announce(say.MOVES_TO_START())
         return motion.duration
 
     def _follow(self, start_ns: int, position: float, event: Event) -> None:
         """Follow the trajectory from `position` (s) on."""
         self._machine.fire(event)
         self._stream.follow(start_ns, position)
-        self._announce("")
+        self._announce(None)
 
-    def _report(self, now_ns: int, event: Event, message: str) -> bool:
+    def _report(self, now_ns: int, event: Event, message: Diagnostic | None) -> bool:
         """Take an event from outside; halt the arm unless the state ignores the event."""
         if self._machine.ignores(event):
             self._machine.fire(event)
@@ -607,7 +604,7 @@ class Playback:
             assert next_ns is not None
             self._follow(next_ns, position, Event.ARRIVED)
         else:
-            self._stand(due_ns, Event.STAGED, position, "at the start")
+            self._stand(due_ns, Event.STAGED, position, say.AT_START())
 
     def _finish(self, end_ns: int) -> None:
         """End the run, or start over: its last joint state left at `end_ns`."""
@@ -615,7 +612,7 @@ class Playback:
         # A member's own loop would keep its system from ending.
         if self.system or not self.loop:
             # COMPLETE lasts no longer than its announcement.
-            message = "played back to the first frame" if self.rate < 0 else "played to the end"
+            message = say.PLAYED_BACK() if self.rate < 0 else say.PLAYED_TO_END()
             self._stand(end_ns, Event.FINISHED, self._stream.end, message)
             self._machine.fire(Event.REARMED)
             self._stream.stand(end_ns, begin, sent=True)

@@ -4,11 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
+from typing import Any
 
 import numpy as np
 
+from mrlab_ros.core.base.diagnostic import Diagnostic
 from mrlab_ros.core.clock import SECOND
 from mrlab_ros.core.geometry import Array
+from mrlab_ros.core.playback import diagnostics as say
 from mrlab_ros.core.playback.goal import Code, WrongGoal
 from mrlab_ros.core.playback.playback import PlaybackStatus
 from mrlab_ros.core.playback.states import State
@@ -32,14 +35,10 @@ class Bounds:
         """Raise WrongGoal where a tolerance names no joint or is no number."""
         for name, value in (*self.path.items(), *self.goal.items()):
             if name not in joint_names:
-                raise WrongGoal(
-                    Code.INVALID_JOINTS,
-                    f"a tolerance is for {name}; expected one of {', '.join(joint_names)}",
-                )
+                unknown = say.TOLERANCE_OF_NO_JOINT(found=name, expected=joint_names)
+                raise WrongGoal(unknown, Code.INVALID_JOINTS)
             if not np.isfinite(value):
-                raise WrongGoal(
-                    Code.INVALID_GOAL, f"the tolerance for {name} is {value}; expected a number"
-                )
+                raise WrongGoal(say.TOLERANCE_NO_NUMBER(joint=name, tolerance=value))
 
 
 @dataclass(frozen=True)
@@ -47,7 +46,7 @@ class Outcome:
     """How a goal ended."""
 
     code: Code
-    text: str
+    said: Diagnostic
 
 
 @dataclass(frozen=True)
@@ -69,23 +68,22 @@ class Pursuit:
         self._bounds = bounds
         self._complete = False
         self._outcome: Outcome | None = None
-        self._paused = ""
+        self._paused = False
 
     def note(self, status: PlaybackStatus) -> None:
         """Take a change of the playback's state."""
         if self._outcome is not None:
             return
         if status.trajectory is not self.trajectory:
-            self._outcome = Outcome(Code.INVALID_GOAL, "another trajectory was loaded meanwhile")
+            self._outcome = Outcome(Code.INVALID_GOAL, say.OTHER_TRAJECTORY())
         elif status.state is State.COMPLETE:
             self._complete = True
         elif status.state is State.COLLISION_HALT:
-            self._outcome = Outcome(
-                Code.PATH_TOLERANCE_VIOLATED, f"the arm halted: {status.message}"
-            )
+            halted = say.GOAL_HALTED(why=status.message)
+            self._outcome = Outcome(Code.PATH_TOLERANCE_VIOLATED, halted)
         elif status.state in (State.READY, State.IDLE) and not self._complete:
-            self._outcome = Outcome(Code.INVALID_GOAL, "the robot was stopped")
-        self._paused = ", since the robot was paused" if status.state is State.PAUSED else ""
+            self._outcome = Outcome(Code.INVALID_GOAL, say.GOAL_STOPPED())
+        self._paused = status.state is State.PAUSED
 
     def instant(self, now_ns: int, sent_ns: int, arm: Array) -> Instant:
         """Return where the arm should be and is; sent_ns: the stamp of its last joint state."""
@@ -99,26 +97,24 @@ class Pursuit:
         if self._outcome is not None:
             return self._outcome
         last = self.trajectory.positions[-1]
+        state = State.PAUSED.name if self._paused else None
         if self._complete:
             off = self._off(self._bounds.goal, last - instant.actual)
             if off:
-                return Outcome(Code.GOAL_TOLERANCE_VIOLATED, f"{off} off the goal")
-            return Outcome(Code.SUCCESSFUL, "Goal successfully reached!")
+                return Outcome(Code.GOAL_TOLERANCE_VIOLATED, say.OFF_GOAL(**off))
+            return Outcome(Code.SUCCESSFUL, say.GOAL_REACHED())
         off = self._off(self._bounds.path, instant.desired - instant.actual)
         if off:
-            return Outcome(Code.PATH_TOLERANCE_VIOLATED, f"{off} off the path{self._paused}")
+            return Outcome(Code.PATH_TOLERANCE_VIOLATED, say.OFF_PATH(state=state, **off))
         late = (now_ns - self._start_ns) / SECOND - self.trajectory.duration
         if 0 < self._bounds.time < late:
-            return Outcome(
-                Code.GOAL_TOLERANCE_VIOLATED,
-                f"the goal was not reached {late:.2f} s after its time{self._paused}",
-            )
+            return Outcome(Code.GOAL_TOLERANCE_VIOLATED, say.GOAL_LATE(late=late, state=state))
         return None
 
-    def _off(self, tolerances: Tolerances, errors: Array) -> str:
-        """Return which joint is off by more than it may, and by how much; empty: none."""
+    def _off(self, tolerances: Tolerances, errors: Array) -> dict[str, Any]:
+        """Return the joint that is off by more than it may, with value and limit; or nothing."""
         for joint, error in zip(self.trajectory.joint_names, errors.tolist(), strict=True):
             allowed = tolerances.get(joint, 0.0)
             if 0 < allowed < abs(error):
-                return f"{joint} is {error:.4g} rad (allowed: {allowed:.4g})"
-        return ""
+                return {"joint": joint, "value": error, "limit": allowed}
+        return {}

@@ -43,8 +43,10 @@ from mrlab_ros.core.records import (
     alternatives,
     at_least,
     between,
+    entry_place,
     every,
 )
+from mrlab_ros.core.systems import diagnostics as say
 from mrlab_ros.core.systems.robot_system import Policy
 from mrlab_ros.core.systems.timeline import Mode
 from mrlab_ros.core.systems.waits import parse
@@ -104,7 +106,7 @@ def read_system(value: object, place: Words) -> SystemEntry:
     record = Record(value, place, SYSTEM_FIELDS)
     entries = record.entries("members")
     if not entries:
-        raise record.error("members is empty; expected a list of at least one robot")
+        raise record.error(say.NO_MEMBERS_IN_FILE())
     members = every(lambda numbered: _member(place, *numbered), enumerate(entries, 1), place)
     return SystemEntry(
         name=record.value("name", TEXT, ""),
@@ -134,18 +136,15 @@ def plain_system(system: SystemEntry) -> dict[str, Any]:
 
 
 def _member(place: Words, number: int, value: object) -> MemberEntry:
-    entry = Record(value, f"{place}, member {number}", MEMBER_FIELDS)
+    entry = Record(value, entry_place(place, "member", number), MEMBER_FIELDS)
     robot = entry.required("robot", FILLED_TEXT)
-    entry.place = f"{place}, member {robot}"
+    entry.place = say.MEMBER_PLACE(place=place, robot=robot)
     waits = _waits(entry, 0)
     for hold in entry.records("holds", HOLD_FIELDS, "hold"):
         frame = hold.required("frame", FRAME)
         conditions = _waits(hold, frame)
         if not conditions:
-            raise hold.error(
-                f"nothing says until when it holds frame {frame}; add wait, such as 'object "
-                "cube_1 free', or after, such as 'kr6_1.frame 120'"
-            )
+            raise hold.error(say.ENDLESS_HOLD(frame=frame))
         waits += conditions
     waits += _parsed(entry, entry.value("waits", TEXTS, ()))
     return MemberEntry(
@@ -167,4 +166,4 @@ def _parsed(entry: Record, texts: Any) -> list[str]:
     try:
         return [parse(text).text for text in texts]
     except BadInput as error:
-        raise entry.error(str(error)) from None
+        raise entry.error(error.diagnostic) from None

@@ -7,6 +7,8 @@ from collections.abc import Sequence
 from graphlib import CycleError, TopologicalSorter
 from typing import Protocol
 
+from mrlab_ros.core.base.diagnostic import Diagnostic
+from mrlab_ros.core.systems.diagnostics import ENDS_FIRST, WAITS_AT
 from mrlab_ros.core.systems.waits import AfterFrame, Wait
 
 # A wait of a member, or with None the member's end.
@@ -23,7 +25,7 @@ class Waiting(Protocol):
     def waits(self) -> tuple[Wait, ...]: ...
 
 
-def waiting_circle(members: Sequence[Waiting], *, sequential: bool) -> list[str]:
+def waiting_circle(members: Sequence[Waiting], *, sequential: bool) -> list[Diagnostic]:
     """Return the steps of a circle in which each waits for the next one; empty: there is none.
 
     sequential: a member begins when the one before it has ended. Waits for objects depend on
@@ -56,10 +58,8 @@ def waiting_circle(members: Sequence[Waiting], *, sequential: bool) -> list[str]
     except CycleError as error:
         # The sorter names a step after the one that needs it, and the first one twice.
         circle: list[Step] = error.args[1][:0:-1]
-        return [_words(step) for step in circle]
+        return [
+            ENDS_FIRST(robot=robot) if wait is None else WAITS_AT(robot=robot, wait=wait.text)
+            for robot, wait in circle
+        ]
     return []
-
-
-def _words(step: Step) -> str:
-    robot, wait = step
-    return f"{robot} has to end first" if wait is None else f"{robot} waits at {wait.text}"

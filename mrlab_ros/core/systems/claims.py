@@ -6,6 +6,7 @@ from collections.abc import Iterable, Mapping, Sequence
 
 from mrlab_ros.core.errors import LabError, Misuse
 from mrlab_ros.core.playback.states import State
+from mrlab_ros.core.systems.diagnostics import NO_TRAJECTORY_LOADED, NOT_TAKEN_BACK
 from mrlab_ros.core.systems.members import Command, Fleet, Loaded, Order
 from mrlab_ros.core.systems.timeline import Member, Timeline
 
@@ -63,9 +64,7 @@ class Claims:
         for member in members:
             found = loaded[member.robot]
             if not found.trajectory_id:
-                raise Misuse(
-                    f"{member.robot} has no trajectory; load one, or name one for the system"
-                )
+                raise Misuse(NO_TRAJECTORY_LOADED(robot=member.robot))
             member.trajectory_id = found.trajectory_id
             member.duration, member.frame_rate = found.duration, found.frame_rate
             member.replied_ns = found.stamp_ns
@@ -95,10 +94,8 @@ class Claims:
                 self._fleet.drive(places)
                 self._fleet.release(moved)
         except LabError as error:
-            changed = ", ".join(loads) or ", ".join(robots)
-            raise Misuse(
-                f"{why}. What was changed could not be taken back: {error}; load {changed} again"
-            ) from error
+            changed = list(loads) or robots
+            raise Misuse(NOT_TAKEN_BACK(why=why, error=error, robots=changed)) from error
 
 
 def _other_trajectories(members: Iterable[Member], loaded: Mapping[str, Loaded]) -> dict[str, str]:

@@ -9,9 +9,6 @@ from typing import Protocol
 
 from mrlab_ros.core.playback.states import State
 
-# What a host says of a robot that it does not play. A host that was just started may not yet.
-NOT_PLAYED = "has no playback here; is it still in the scene?"
-
 
 class Command(Enum):
     """The values are those of mrlab_msgs/DriveOrder."""

@@ -4,8 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 
+from mrlab_ros.core.base.diagnostics import NO_ROBOT_IN_SCENE
 from mrlab_ros.core.errors import BadInput, Misuse
-from mrlab_ros.core.naming import checked_name, did_you_mean
+from mrlab_ros.core.naming import checked_name, close_to
+from mrlab_ros.core.playback.diagnostics import MEMBER_OF_SYSTEM
+from mrlab_ros.core.systems import diagnostics as say
 from mrlab_ros.core.systems.robot_system import RobotSystem
 
 
@@ -23,9 +26,9 @@ class Systems:
         try:
             return self._systems[name]
         except KeyError:
-            known = ", ".join(self._systems) or "none"
-            close = did_you_mean(name, self._systems)
-            raise Misuse(f"there is no system '{name}'; there are: {known}{close}") from None
+            close = close_to(name, self._systems)
+            missing = say.NO_SYSTEM(system=name, known=list(self._systems), close=close)
+            raise Misuse(missing) from None
 
     def of(self, robot: str) -> RobotSystem | None:
         """Return the system that `robot` is a member of; None where it is independent."""
@@ -38,19 +41,16 @@ class Systems:
         taken, Misuse where a robot is a member of another system.
         """
         if not robots:
-            raise BadInput("a system needs at least one member; name the robots it drives")
+            raise BadInput(say.NO_MEMBERS())
         for robot in robots:
             if robot not in scene:
-                raise BadInput(
-                    f"no robot '{robot}' is in the scene; there are: "
-                    f"{', '.join(sorted(scene)) or 'none'}{did_you_mean(robot, sorted(scene))}"
-                )
+                known = sorted(scene)
+                close = close_to(robot, known)
+                raise BadInput(NO_ROBOT_IN_SCENE(robot=robot, known=known, close=close))
             if robots.count(robot) > 1:
-                raise BadInput(f"'{robot}' is named {robots.count(robot)} times; name it once")
+                raise BadInput(say.ROBOT_REPEATED(robot=robot, count=robots.count(robot)))
             if (other := self.of(robot)) is not None:
-                raise Misuse(
-                    f"'{robot}' is a member of system '{other.name}' already; dissolve that first"
-                )
+                raise Misuse(MEMBER_OF_SYSTEM(robot=robot, system=other.name))
         number = 1
         while not name and f"system_{number}" in self._systems:
             number += 1

@@ -12,10 +12,13 @@ from contextlib import contextmanager
 from dataclasses import replace
 from enum import Enum
 
+from mrlab_ros.core.base.diagnostic import Diagnostic
 from mrlab_ros.core.clock import SECOND, PlaybackClock, checked_position, checked_rate
 from mrlab_ros.core.errors import LabError, Misuse, Unreached
+from mrlab_ros.core.playback import diagnostics as playback
 from mrlab_ros.core.playback.states import MOVING, State
 from mrlab_ros.core.state_machine import Machine
+from mrlab_ros.core.systems import diagnostics as say
 from mrlab_ros.core.systems.claims import Claims
 from mrlab_ros.core.systems.members import Command, Fleet, Order, Reply
 from mrlab_ros.core.systems.states import ACTIVE, TABLE, SystemEvent, SystemState, reason
@@ -49,7 +52,7 @@ COLLISIONS = {
 class RobotSystem:
     """A robot system. A refused command raises Misuse or BadInput and changes nothing.
 
-    message: why the system is in its state, for a person; may be empty.
+    message: why the system is in its state; None: nothing is to say.
     clock: the position on the timeline at any time. rate: the speed it plays at, negative: from
     the end of the timeline to its start, with no member waiting for anything.
     loop: whether it starts over after its end.
@@ -73,7 +76,7 @@ class RobotSystem:
         self.name = name
         self.policy = policy
         self.loop = loop
-        self.message = ""
+        self.message: Diagnostic | None = None
         self.clock = PlaybackClock()
         self.rate = 1.0
         self._timeline = Timeline(members, mode)
@@ -83,8 +86,9 @@ class RobotSystem:
         self._machine = Machine(TABLE, reason)
         self._staged_by_ns = 0
         self._retry_ns = 0
-        # Members that did not answer when they were to stop.
+        # Members that did not answer when they were to stop, and robots that were lost last.
         self._stranded: list[Member] = []
+        self._silent: list[str] = []
 
     # what it is -----------------------------------------------------------------------------
 
@@ -138,26 +142,29 @@ class RobotSystem:
         self._timeline.turn(backwards=rate < 0)
         self._timeline.place(position)
         self.clock = PlaybackClock(now_ns, min(position, self.duration), 0.0)
-        self.message = "the coordinator was restarted; play goes on from here"
+        self.message = say.COORDINATOR_RESTARTED()
 
     def play(self, now_ns: int) -> float:
         """Bring every member to its place, then play; return how long the staging takes, s."""
         return self._stage(now_ns, SystemEvent.STAGE)
 
-    def pause(self, now_ns: int) -> str:
+    def pause(self, now_ns: int) -> Diagnostic:
         """Pause all members; play continues from there.
 
-        Returns which one does not answer, a sentence, or an empty text. It is lost until it does.
+        Returns where, and which one does not answer: it is lost until it does.
         """
         self._machine.check(SystemEvent.PAUSE)
-        lost = ""
+        silent: list[str] = []
         try:
             self._freeze(now_ns)
         except Unreached:
-            lost = self.message
+            silent = self._silent
         self._machine.fire(SystemEvent.PAUSE)
-        self.message = f"paused; {lost}" if lost else "paused"
-        return lost
+        at = self.clock.position
+        self.message = playback.PAUSED(position=at)
+        if silent:
+            self.message = say.PAUSED_WITHOUT(position=at, robots=silent)
+        return self.message
 
     def stop(self, now_ns: int) -> None:
         """End the run; the next play begins at the start of the timeline.
@@ -169,7 +176,7 @@ class RobotSystem:
             m for m in self._timeline if m.playback_state is not State.IDLE or m in self._stranded
         ]
         self._machine.fire(SystemEvent.STOP)
-        self.message = "stopped"
+        self.message = playback.STOPPED()
         self._stop_members(now_ns, there)
         self._rewind(now_ns)
 
@@ -214,9 +221,7 @@ class RobotSystem:
     def _turn(self, now_ns: int, rate: float) -> None:
         """Go on in the other direction."""
         if self.state is SystemState.STAGING:
-            raise Misuse(
-                "the members move to their places; pause, then change the direction and play"
-            )
+            raise Misuse(say.MEMBERS_MOVE_TO_PLACES())
         playing = self.state is SystemState.PLAYING
         if playing:
             self._freeze(now_ns)
@@ -325,7 +330,7 @@ class RobotSystem:
         if self.state is not SystemState.PAUSED:
             self._rewind(now_ns)
         self._machine.fire(event)
-        self.message = "members move to their places"
+        self.message = say.STAGES()
         orders = [
             Order(m.robot, Command.STAGE, position=m.position)
             for m in self._timeline
@@ -333,6 +338,7 @@ class RobotSystem:
         ]
         replies = self._drive(now_ns, orders)
         longest = max((reply.duration for reply in replies), default=0.0)
+        self.message = say.STAGES(duration=longest or None)
         # Members that were loaded first got their orders later than now.
         ordered_ns = max([now_ns, *(reply.stamp_ns for reply in replies)])
         self._staged_by_ns = ordered_ns + round((longest + STAGING_TIMEOUT_S) * SECOND)
@@ -348,7 +354,7 @@ class RobotSystem:
         self._start(now_ns)
 
     def _start(self, now_ns: int) -> None:
-        self.message = ""
+        self.message = None
         start_ns = now_ns + round(START_LEAD_S * SECOND)
         self.clock = PlaybackClock(start_ns, self.clock.position, self.rate)
         self._order_due(now_ns)
@@ -370,7 +376,7 @@ class RobotSystem:
             raise
         self.clock = PlaybackClock(now_ns, position, 0.0)
         self._machine.fire(event)
-        self.message = f"at {position:g} s"
+        self.message = playback.AT_POSITION(position=position)
         if target is SystemState.PLAYING:
             self._start(now_ns)
 
@@ -381,10 +387,10 @@ class RobotSystem:
         if self._machine.ignores(event):
             return
         if self._machine.fire(event) is SystemState.COLLISION_HALT:
-            self.message = f"{member.robot} collided"
+            self.message = say.MEMBER_COLLIDED(robot=member.robot)
             self._freeze(now_ns)
             return
-        self.message = f"{member.robot} collided; the others go on"
+        self.message = say.OTHERS_GO_ON(robot=member.robot)
         if self.mode is Mode.SEQUENTIAL:
             self._withdraw(now_ns, self._split_ordered(self.clock.at(now_ns))[1])
 
@@ -394,7 +400,7 @@ class RobotSystem:
         if halted or self._machine.ignores(SystemEvent.CLEAR):
             return
         self._machine.fire(SystemEvent.CLEAR)
-        self.message = "clear again"
+        self.message = playback.CLEAR_AGAIN()
 
     def _lose(self, now_ns: int, member: Member) -> None:
         """Let all stand where they are: the member has no trajectory, or obeys another."""
@@ -405,10 +411,10 @@ class RobotSystem:
         complete = self.state is SystemState.COMPLETE
         self._machine.fire(SystemEvent.LOSE)
         if complete:
-            self.message = f"{member.robot} lost its playback; play again to start over"
+            self.message = say.MEMBER_LOST_AT_END(robot=member.robot)
             self._rewind(now_ns)
             return
-        self.message = f"{member.robot} lost its playback; play goes on from here"
+        self.message = say.MEMBER_LOST(robot=member.robot)
         self._stand(now_ns)
 
     def _miss(self, now_ns: int, orders: Sequence[Order]) -> None:
@@ -416,8 +422,8 @@ class RobotSystem:
         self._machine.fire(SystemEvent.LOSE)
         setting_out = {o.robot for o in orders if o.command in (Command.STAGE, Command.PLAY)}
         lost = self._stand(now_ns, setting_out, RETRY_TIMEOUT_S)
-        names = f"{', '.join(m.robot for m in lost)} did not answer; " if lost else ""
-        self.message = f"{names}play goes on from here"
+        self._silent = [m.robot for m in lost]
+        self.message = say.MEMBERS_SILENT(robots=self._silent)
 
     def _stand(
         self, now_ns: int, setting_out: Collection[str] = (), timeout: float | None = None
@@ -451,9 +457,9 @@ class RobotSystem:
         state = self._claims.take_back(member)
         if state is State.COLLISION_HALT and self._machine.can(SystemEvent.RETURN_HALTED):
             self._machine.fire(SystemEvent.RETURN_HALTED)
-            self.message = f"{member.robot} still collides"
+            self.message = say.STILL_COLLIDES(robot=member.robot)
 
-    def _come_to_rest(self, now_ns: int, event: SystemEvent, why: str) -> None:
+    def _come_to_rest(self, now_ns: int, event: SystemEvent, why: Diagnostic) -> None:
         """Stop every member after something failed; the next play begins at the start."""
         self._machine.fire(event)
         self.message = why
@@ -472,8 +478,8 @@ class RobotSystem:
             # In a collision halt the system waits for its members anyway.
             if self._machine.can(SystemEvent.STRAND):
                 self._machine.fire(SystemEvent.STRAND)
-            names = ", ".join(m.robot for m in self._stranded)
-            self.message = f"{self.message}; {names} did not answer and may still move"
+            names = [m.robot for m in self._stranded]
+            self.message = say.MAY_STILL_MOVE(why=self.message, robots=names)
             self._retry_ns = now_ns + round(RETRY_PERIOD_S * SECOND)
         elif not self._machine.ignores(SystemEvent.REST):
             self._machine.fire(SystemEvent.REST)
@@ -501,13 +507,13 @@ class RobotSystem:
         self._stranded = self._reach_to_stop(self._stranded, RETRY_TIMEOUT_S)
         if not self._stranded:
             self._machine.fire(SystemEvent.REST)
-            self.message = "all members stand; play starts over"
+            self.message = say.ALL_STAND()
 
     def _finish(self, now_ns: int) -> None:
         """End the run: READY, or the next round where it loops."""
         self.clock = PlaybackClock(now_ns, self._timeline.last, 0.0)
         self._machine.fire(SystemEvent.FINISH)
-        self.message = "played back to the start" if self.rate < 0 else "played to the end"
+        self.message = playback.PLAYED_BACK() if self.rate < 0 else playback.PLAYED_TO_END()
         # COMPLETE lasts no longer than its announcement.
         self._announce()
         if not self.loop:
@@ -519,7 +525,7 @@ class RobotSystem:
         except LabError as error:
             if self.state is SystemState.COMPLETE:
                 # No member was reached; otherwise all were brought to rest already.
-                self._come_to_rest(now_ns, SystemEvent.ABORT, str(error))
+                self._come_to_rest(now_ns, SystemEvent.ABORT, error.diagnostic)
             raise
 
     # inside: members ------------------------------------------------------------------------
@@ -545,7 +551,7 @@ class RobotSystem:
             if isinstance(error, Unreached) and not self._machine.ignores(SystemEvent.LOSE):
                 self._miss(now_ns, orders)
                 raise
-            self._come_to_rest(now_ns, SystemEvent.ABORT, str(error))
+            self._come_to_rest(now_ns, SystemEvent.ABORT, error.diagnostic)
             raise
         self._take(replies, [self.members[order.robot] for order in orders])
         return replies
@@ -587,8 +593,7 @@ class RobotSystem:
             return
         if self.state is SystemState.STAGING and now_ns > self._staged_by_ns:
             late = [m.robot for m in self._timeline if m.playback_state is State.ADJUSTING]
-            why = f"{', '.join(late)} did not arrive at the start in time"
-            self._come_to_rest(now_ns, SystemEvent.ABORT, why)
+            self._come_to_rest(now_ns, SystemEvent.ABORT, say.LATE_AT_START(robots=late))
         if self.state is not SystemState.PLAYING:
             return
         changed = self._timeline.meet_waits(self.clock.at(now_ns))

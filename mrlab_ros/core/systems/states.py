@@ -8,7 +8,9 @@ from __future__ import annotations
 
 from enum import Enum
 
+from mrlab_ros.core.base.diagnostic import Diagnostic
 from mrlab_ros.core.state_machine import Table
+from mrlab_ros.core.systems import diagnostics as say
 
 
 class SystemState(Enum):
@@ -115,17 +117,15 @@ ACTIVE = (S.STAGING, S.PLAYING, S.STOPPING)
 del S, E
 
 
-def reason(state: SystemState, event: SystemEvent) -> str:
-    """Return what a refused command needs first, for the text of the error; may be empty."""
+def reason(state: SystemState, event: SystemEvent) -> Diagnostic | str:
+    """Return what a refused command needs first, for the error; may be empty."""
     if state is SystemState.STOPPING:
-        return "wait until all members were reached, or dissolve the system"
+        return say.REACH_MEMBERS_FIRST()
     if event is SystemEvent.STEP and state in ACTIVE:
-        return "pause first"
-    if state is SystemState.COLLISION_HALT and event in (SystemEvent.STAGE, SystemEvent.PAUSE):
-        return (
-            "stop it, which takes its arms back to where they began, then play once all are clear"
-        )
+        return say.PAUSE_FIRST()
+    halted = state is SystemState.COLLISION_HALT
+    if halted and event in (SystemEvent.STAGE, SystemEvent.PAUSE):
+        return say.STOP_AND_CLEAR_FIRST()
     if event is SystemEvent.SET_MODE:
-        halted = state is SystemState.COLLISION_HALT
-        return "wait until all members are clear, then stop" if halted else "stop first"
+        return say.CLEAR_AND_STOP_FIRST() if halted else say.STOP_FIRST()
     return ""

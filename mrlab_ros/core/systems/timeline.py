@@ -13,6 +13,7 @@ from enum import Enum
 
 from mrlab_ros.core.errors import BadInput
 from mrlab_ros.core.playback.states import State
+from mrlab_ros.core.systems import diagnostics as say
 from mrlab_ros.core.systems.circles import waiting_circle
 from mrlab_ros.core.systems.waits import AfterFrame, Held, Wait
 
@@ -59,7 +60,7 @@ class Member:
 
     def __post_init__(self) -> None:
         if not 0 <= self.dwell < MAX_DWELL:
-            raise BadInput(f"the dwell is {self.dwell} s; expected 0 to {MAX_DWELL:g} s")
+            raise BadInput(say.BAD_DWELL(dwell=self.dwell, longest=MAX_DWELL))
 
     @property
     def end(self) -> float:
@@ -155,31 +156,28 @@ class Timeline:
             for wait in member.waits:
                 if wait.frame >= frames:
                     raise BadInput(
-                        f"{member.robot} waits at frame {wait.frame}, its trajectory has frames 0 "
-                        f"to {frames - 1}"
+                        say.WAIT_BEYOND_END(
+                            robot=member.robot, frame=wait.frame, last_frame=frames - 1
+                        )
                     )
                 condition = wait.condition
                 if not isinstance(condition, AfterFrame):
                     continue
                 if condition.robot not in self.members:
                     raise BadInput(
-                        f"'{wait.text}' names {condition.robot}; expected a member of the system: "
-                        f"{', '.join(self.members)}"
+                        say.WAIT_FOR_STRANGER(
+                            wait=wait.text, robot=condition.robot, members=list(self.members)
+                        )
                     )
                 if condition.robot == member.robot:
-                    raise BadInput(
-                        f"{member.robot} waits for itself: '{wait.text}'; name another member"
-                    )
+                    raise BadInput(say.WAIT_FOR_ITSELF(robot=member.robot, wait=wait.text))
         self.check_circles(self.mode)
 
     def check_circles(self, mode: Mode) -> None:
         """Raise BadInput where members would wait for each other without end in `mode`."""
         circle = waiting_circle(list(self), sequential=mode is Mode.SEQUENTIAL)
         if circle:
-            raise BadInput(
-                f"the members would wait for each other without end: {'; '.join(circle)}. Leave "
-                "one of these waits out"
-            )
+            raise BadInput(say.WAITING_CIRCLE(steps=circle))
 
     # shares ---------------------------------------------------------------------------------
 

@@ -10,6 +10,7 @@ import re
 from dataclasses import dataclass
 
 from mrlab_ros.core.errors import BadInput
+from mrlab_ros.core.systems.diagnostics import BAD_WAIT
 
 GRAMMAR = re.compile(
     r"frame (?P<frame>\d+): (?:"
@@ -49,10 +50,7 @@ def parse(text: str) -> Wait:
     """Parse the text of a wait; raise BadInput where it does not follow the grammar."""
     match = GRAMMAR.fullmatch(" ".join(text.split()))
     if match is None:
-        raise BadInput(
-            f"'{text}' is no wait; expected 'frame 0: after kr6_1.frame 120', 'frame 200: object "
-            "cube_1 held by ur5e_1' or 'frame 310: object cube_1 free'"
-        )
+        raise BadInput(BAD_WAIT(wait=text))
     condition: AfterFrame | Held
     if match["other"]:
         condition = AfterFrame(match["other"], int(match["number"]))

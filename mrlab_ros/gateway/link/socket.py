@@ -5,7 +5,7 @@ from __future__ import annotations
 import asyncio
 import logging
 import time
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from contextlib import suppress
 from typing import Any
 
@@ -16,7 +16,7 @@ from starlette.websockets import WebSocketDisconnect
 from mrlab_ros.core.base.diagnostic import Diagnostic
 from mrlab_ros.core.bridge.policy import Policy, Verb
 from mrlab_ros.core.errors import BadInput, LabError
-from mrlab_ros.core.freezes import LOOK_PERIOD_S, Freezes, harmless
+from mrlab_ros.core.freezes import LOOK_PERIOD_S, Freezes
 from mrlab_ros.gateway.diagnostics import GATEWAY_WITHOUT_LAB
 from mrlab_ros.gateway.errors import SOCKET_REFUSED, NotAllowed, TooMany, close
 from mrlab_ros.gateway.lab.connection import CALL_TIMEOUT_S, LabConnection, NoAnswer, TimedOut
@@ -66,10 +66,13 @@ router = APIRouter()
 class LinkPort:
     """What the sockets of one gateway share."""
 
-    def __init__(self, sessions: Sessions, may: May, limits: LinkLimits) -> None:
+    def __init__(
+        self, sessions: Sessions, may: May, limits: LinkLimits, moves: Callable[[str], bool]
+    ) -> None:
         self.sessions = sessions
         self.limits = limits
         self.may = may
+        self.moves = moves
         self.clock = LabClock(sessions.lab)
         self.freezes = Freezes("web", time.process_time)
         self.calls: set[asyncio.Task[None]] = set()
@@ -81,7 +84,7 @@ def link_port(lab: LabConnection, policy: Policy, limits: LinkLimits) -> LinkPor
     def may(person: Person, verb: Verb, key: str) -> bool:
         return policy.may(person.role, verb, key)
 
-    return LinkPort(Sessions(lab, policy.rules, may, limits), may, limits)
+    return LinkPort(Sessions(lab, policy.rules, may, limits), may, limits, policy.moves)
 
 
 @router.websocket("/link")
@@ -268,8 +271,8 @@ class _Socket:
         if not self._port.may(session.person, Verb.CALL, frame.key):
             may_not = MAY_NOT_CALL(role=session.person.role.value, key=frame.key)
             session.fail(frame.request, "not_allowed", may_not)
-        elif not harmless(frame.key) and (why := self._port.freezes.why_doubtful(now)):
-            session.fail(frame.request, "refused", LabError(why).diagnostic)
+        elif self._port.moves(frame.key) and (why := self._port.freezes.why_doubtful(now)):
+            session.fail(frame.request, "refused", why)
         elif self._waiting >= self._limits.calls_waiting or not self._calls.take(1, now):
             session.fail(frame.request, "too_many", CALLS_FULL())
         else:

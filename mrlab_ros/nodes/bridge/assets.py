@@ -21,6 +21,7 @@ from mrlab_ros.core.bridge.assets import (
     path_of_key,
     span,
 )
+from mrlab_ros.core.bridge.diagnostics import ASSETS_BUSY
 from mrlab_ros.core.errors import BadInput
 from mrlab_ros.messages.schema import schema
 from mrlab_ros.nodes.bridge.context import BridgeContext, Count
@@ -77,7 +78,7 @@ class AssetRoutes:
                 return
             if not self._free.acquire(blocking=False):
                 count.refused += 1
-                query.refuse(f"{WAITING} queries for assets wait already; ask again later")
+                query.refuse(ASSETS_BUSY(waiting=WAITING))
                 return
             try:
                 self._threads.submit(self._reply, query, count)
@@ -99,7 +100,7 @@ class AssetRoutes:
             piece = self._assets.read(self._path(query), _part(query))
         except BadInput as error:
             count.refused += 1
-            query.refuse(str(error))
+            query.refuse(error.diagnostic)
             return
         whole = piece.whole
         query.reply_asset(piece.data, whole.media_type, whole.attachment(piece.offset))

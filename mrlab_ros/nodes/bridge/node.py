@@ -20,7 +20,9 @@ from rclpy.parameter import Parameter
 from mrlab_ros.adapters.yaml_files import Loader
 from mrlab_ros.adapters.zenoh.port import Query, Session
 from mrlab_ros.adapters.zenoh.session import ZenohSession
+from mrlab_ros.core.base.diagnostic import Diagnostic, of_text
 from mrlab_ros.core.bridge import rules
+from mrlab_ros.core.bridge.diagnostics import ALLOW_LIST_NOT_READ
 from mrlab_ros.core.bridge.latency import Ledger, clock_answer
 from mrlab_ros.core.bridge.pace import Pace
 from mrlab_ros.core.bridge.rules import Direction, ServiceRule, TopicRule
@@ -183,7 +185,7 @@ class BridgeNode(ParameterNode[BridgeParameters]):
         self._servers = servers
         self._service_routes.keep(called)
 
-    def _why_not(self, service: str) -> str:
+    def _why_not(self, service: str) -> Diagnostic | None:
         """Return why a service is not called now: another lab would carry out the call, too."""
         servers = self._servers.get(service, 0)
         return self._neighbours.why_not(service, servers, time.monotonic())
@@ -261,8 +263,6 @@ def _rules(path: Path) -> rules.Rules:
     try:
         document = yaml.load(path.read_text(), Loader=Loader)
     except (OSError, yaml.YAMLError) as error:
-        raise BadInput(
-            f"the bridge cannot read its allow-list {path}: {error}; name a YAML file with the "
-            "parameter allow_list"
-        ) from error
+        why = of_text(str(error))
+        raise BadInput(ALLOW_LIST_NOT_READ(path=str(path), why=why)) from error
     return rules.parse(document)

@@ -19,9 +19,10 @@ from rclpy.serialization import deserialize_message, serialize_message
 from rclpy.task import Future
 
 from mrlab_ros.adapters.zenoh.port import Declared, Query
+from mrlab_ros.core.base.diagnostic import Diagnostic
+from mrlab_ros.core.bridge import diagnostics as say
 from mrlab_ros.core.bridge import rules
 from mrlab_ros.core.bridge.rules import ServiceRule
-from mrlab_ros.core.freezes import harmless
 from mrlab_ros.messages import qos
 from mrlab_ros.nodes.bridge.context import BridgeContext, Count
 from mrlab_ros.nodes.bridge.sender import Sender
@@ -61,11 +62,13 @@ class ServiceRoute:
 class Services:
     """The routes of services.
 
-    why_not: gets a service and returns why it is not called now, empty where it is.
+    why_not: gets a service that moves something and returns why it is not called now; None: it is.
     """
 
     def __init__(
-        self, bridge: BridgeContext, why_not: Callable[[str], str] = lambda _: ""
+        self,
+        bridge: BridgeContext,
+        why_not: Callable[[str], Diagnostic | None] = lambda service: None,
     ) -> None:
         self._bridge = bridge
         self._why_not = why_not
@@ -116,11 +119,7 @@ class Services:
             route.waiting.clear()
             self._bridge.streams.destroy_client(route.client)
         for call in calls:
-            self._refuse(
-                route,
-                call.query,
-                f"the service {name} has gone; check which nodes run, then call again",
-            )
+            self._refuse(route, call.query, say.SERVICE_GONE(service=name))
 
     def _on_query(self, route: ServiceRoute) -> Callable[[Query], None]:
         read = _reader(route)
@@ -129,32 +128,29 @@ class Services:
         def on_query(query: Query) -> None:
             if query.key != key:
                 # A query for ** must not call every service.
-                words = f"the service {route.name} is called by its key {key}, not as {query.key}"
-                self._refuse(route, query, words)
+                other = say.CALLED_BY_ANOTHER_KEY(service=route.name, key=key, found=query.key)
+                self._refuse(route, query, other)
                 return
-            if query.size > route.rule.max_size:
-                words = (
-                    f"a request of {route.name} has {query.size} bytes; expected at most "
-                    f"{route.rule.max_size} (max_size in the allow-list)"
-                )
-                self._refuse(route, query, words)
+            largest = route.rule.max_size
+            if query.size > largest:
+                large = say.REQUEST_TOO_LARGE(service=route.name, size=query.size, largest=largest)
+                self._refuse(route, query, large)
                 return
             request, why_not = read(query.payload)
-            why_not = why_not or self._why_not(route.name)
-            if not why_not and not harmless(route.name):
-                why_not = freezes.why_doubtful()
-                if why_not:
+            if why_not is None and route.rule.moves:
+                why_not = self._why_not(route.name)
+                if why_not is None and (why_not := freezes.why_doubtful()):
                     self._bridge.warn_once(f"{route.name}: {why_not}")
-            if why_not:
+            if why_not is not None:
                 self._refuse(route, query, why_not)
                 return
             timeout = round(route.rule.timeout * rules.SECOND)
             with self._lock:
                 why_not = self._why_full(route)
-                if not why_not:
+                if why_not is None:
                     route.waiting.append(Call(query, request, time.monotonic_ns() + timeout))
                     self._send(route)
-            if why_not:
+            if why_not is not None:
                 self._refuse(route, query, why_not)
                 return
             route.count.messages += 1
@@ -162,15 +158,12 @@ class Services:
 
         return on_query
 
-    def _why_full(self, route: ServiceRoute) -> str:
+    def _why_full(self, route: ServiceRoute) -> Diagnostic | None:
         if self._routes.get(route.name) is not route:
-            return f"the service {route.name} has gone; check which nodes run, then call again"
+            return say.SERVICE_GONE(service=route.name)
         if len(route.waiting) >= route.rule.waiting:
-            return (
-                f"the service {route.name} has {route.rule.waiting} calls waiting and accepts no "
-                "more; wait for a response, then call again"
-            )
-        return ""
+            return say.CALLS_WAIT(service=route.name, waiting=route.rule.waiting)
+        return None
 
     def _send(self, route: ServiceRoute) -> None:
         """Send waiting calls while fewer than IN_FLIGHT are open. The lock must be held."""
@@ -205,39 +198,30 @@ class Services:
             for call in late:
                 if call.future is not None:
                     route.client.remove_pending_request(call.future)
-                self._refuse(
-                    route,
-                    call.query,
-                    f"the service {route.name} did not answer within {route.rule.timeout:g} s; "
-                    "check whether its node runs, then call again",
-                )
+                silent = say.SERVER_SILENT(service=route.name, timeout=route.rule.timeout)
+                self._refuse(route, call.query, silent)
 
-    def _refuse(self, route: ServiceRoute, query: Query, reason: str) -> None:
+    def _refuse(self, route: ServiceRoute, query: Query, reason: Diagnostic) -> None:
         """Reply to a query with an error that says the reason."""
         route.count.refused += 1
-        self._replies.send(partial(query.refuse, reason), len(reason))
+        self._replies.send(partial(query.refuse, reason), len(str(reason)))
 
 
-def _reader(route: ServiceRoute) -> Callable[[bytes | None], tuple[Any, str]]:
-    """Return a function that decodes a request: the request and "", or None and the reason."""
+def _reader(route: ServiceRoute) -> Callable[[bytes | None], tuple[Any, Diagnostic | None]]:
+    """Return a function that decodes a request: the request, or None and why it cannot."""
     service: Any = route.client.srv_type
     kind = service.Request
     empty = not kind.get_fields_and_field_types()
 
-    def read(payload: bytes | None) -> tuple[Any, str]:
+    def read(payload: bytes | None) -> tuple[Any, Diagnostic | None]:
         if not payload or len(payload) <= 4:
             if empty:
-                return kind(), ""
-            return None, (
-                f"the service {route.name} was called without a request; send the CDR of "
-                f"{route.type}'s request as the query's payload"
-            )
+                return kind(), None
+            return None, say.REQUEST_MISSING(service=route.name, type=route.type)
         try:
-            return deserialize_message(payload, kind), ""
+            return deserialize_message(payload, kind), None
         except Exception:
-            return None, (
-                f"the service {route.name} got {len(payload)} bytes that are not a request of "
-                f"{route.type}; send its CDR, with the 4-byte header"
-            )
+            size = len(payload)
+            return None, say.REQUEST_NOT_CDR(service=route.name, size=size, type=route.type)
 
     return read

@@ -7,6 +7,7 @@ from typing import Any
 
 from mrlab_ros.adapters.zenoh.configuration import LOOPBACK, configuration, log_logins
 from mrlab_ros.core.bridge.access import bounds
+from mrlab_ros.core.bridge.diagnostics import CLIENT_WITHOUT_ROUTER, CONFIG_AND_KEYS
 from mrlab_ros.core.bridge.guests import Guests, Share
 from mrlab_ros.core.bridge.links import EVERYWHERE, check_endpoints, check_router, local_endpoint
 from mrlab_ros.core.bridge.rules import Rules
@@ -30,15 +31,9 @@ def zenoh_settings(values: BridgeParameters, rules: Rules) -> tuple[Any, Guests 
     if AUTOMATIC in listen:
         listen = () if folder and connect else EVERYWHERE if folder else LOOPBACK
     if file and folder:
-        raise BadInput(
-            f"the bridge has both zenoh_config ({file}) and keys ({folder}); expected "
-            "one, as each decides who may connect"
-        )
+        raise BadInput(CONFIG_AND_KEYS(file=file, folder=folder))
     if folder and mode == "client" and not connect:
-        raise BadInput(
-            f"the bridge has keys ({folder}) and mode client; name the router to connect to "
-            "with the parameter connect, or leave mode out"
-        )
+        raise BadInput(CLIENT_WITHOUT_ROUTER(folder=folder))
     if file:
         return configuration(Path(file)), None
     check_endpoints(listen, values.insecure, bool(folder))

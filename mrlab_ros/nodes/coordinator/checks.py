@@ -9,8 +9,11 @@ from typing import Any
 from mrlab_msgs import msg, srv
 from rclpy.node import Node
 
+from mrlab_ros.core.base.diagnostic import Diagnostic, heard
 from mrlab_ros.core.errors import BadInput, Misuse
+from mrlab_ros.core.playback.diagnostics import MEMBER_OF_SYSTEM, NOT_STANDING
 from mrlab_ros.core.playback.states import State
+from mrlab_ros.core.systems.diagnostics import NO_TRAJECTORY_LOADED
 from mrlab_ros.core.systems.robot_system import RobotSystem
 from mrlab_ros.core.trajectory.fit import check_fits
 from mrlab_ros.messages import qos
@@ -51,7 +54,7 @@ class MemberChecks:
             while True:
                 state = client.wait(deadline)
                 why = _not_free(robot, state, system.name, member.trajectory_id)
-                if not why:
+                if why is None:
                     break
                 if not client.wait_for_newer(state, SETTLED_S):
                     raise Misuse(why)
@@ -79,23 +82,25 @@ class MemberChecks:
         answers = call_all([(self._get, request) for request in requests], CATALOGUE_TIMEOUT_S)
         for request, answer in zip(requests, answers, strict=True):
             if not answer.success:
-                raise BadInput(answer.message)
+                raise BadInput(heard(answer))
             found[request.id] = answer.trajectory
         return found
 
 
-def _not_free(robot: str, state: msg.PlaybackState, system: str, trajectory: str) -> str:
-    """Return why a robot cannot become a member of `system`; empty: it can.
+def _not_free(
+    robot: str, state: msg.PlaybackState, system: str, trajectory: str
+) -> Diagnostic | None:
+    """Return why a robot cannot become a member of `system`; None: it can.
 
     trajectory: what it shall load; empty: it plays what it has.
     """
     if not (trajectory or state.trajectory_id):
-        return f"{robot} has no trajectory; load one, or name one for the system"
+        return NO_TRAJECTORY_LOADED(robot=robot)
     if state.system == system:
         # This coordinator has no system of that name: it died, and its claim has not run out yet.
-        return ""
+        return None
     if state.system:
-        return f"'{robot}' is a member of system '{state.system}' already; dissolve that one first"
+        return MEMBER_OF_SYSTEM(robot=robot, system=state.system)
     if State(state.state) not in FREE:
-        return f"'{robot}' is in {state.label}; stop it first, then create the system"
-    return ""
+        return NOT_STANDING(robot=robot, state=state.label)
+    return None

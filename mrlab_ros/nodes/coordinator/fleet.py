@@ -11,9 +11,12 @@ from mrlab_msgs import msg, srv
 from rclpy.client import Client
 from rclpy.node import Node
 
+from mrlab_ros.core.base.diagnostic import heard
 from mrlab_ros.core.errors import Misuse
+from mrlab_ros.core.playback.diagnostics import NOT_PLAYED, OF_ROBOT
 from mrlab_ros.core.playback.states import State
-from mrlab_ros.core.systems.members import NOT_PLAYED, Command, Loaded, Order, Reply
+from mrlab_ros.core.systems.diagnostics import NO_STATE_OF_ROBOT, PLAYBACK_SILENT
+from mrlab_ros.core.systems.members import Command, Loaded, Order, Reply
 from mrlab_ros.messages import qos
 from mrlab_ros.messages.systems import (
     loaded_from_message,
@@ -68,9 +71,7 @@ class MemberClient:
             left = max(deadline - time.monotonic(), 0.0)
             self._changed.wait_for(lambda: self.state is not None, left)
         if self.state is None:
-            raise NoAnswer(
-                f"no playback publishes the state of {self.robot}; is the playback running?"
-            )
+            raise NoAnswer(NO_STATE_OF_ROBOT(robot=self.robot))
         return self.state
 
     def wait_for_newer(self, known: msg.PlaybackState, timeout: float) -> bool:
@@ -122,7 +123,7 @@ class RosFleet:
                 sent = self._send(orders)
                 break
             except Misuse as error:
-                if NOT_PLAYED not in str(error) or time.monotonic() > deadline:
+                if error.diagnostic.code != NOT_PLAYED.code or time.monotonic() > deadline:
                     raise
             time.sleep(RETRY_PERIOD_S)
         return [loaded_from_message(reply, stamp_ns) for reply, stamp_ns in sent]
@@ -140,7 +141,7 @@ class RosFleet:
         answers = call_all(calls, LOAD_TIMEOUT_S)
         for robot, answer in zip(trajectories, answers, strict=True):
             if not answer.success:
-                raise Misuse(f"{robot}: {answer.message}")
+                raise Misuse(OF_ROBOT(robot=robot, why=heard(answer)))
 
     def drive(self, orders: Sequence[Order]) -> list[Reply]:
         return [reply_from_message(reply, stamp_ns) for reply, stamp_ns in self._send(orders)]
@@ -176,13 +177,11 @@ class RosFleet:
         replies = {}
         for part, answer in zip(by_host.values(), answers, strict=True):
             if isinstance(answer, NoAnswer):
-                robots = ", ".join(order.robot for order in part)
-                raise NoAnswer(
-                    f"the playback of {robots} did not answer within {ORDER_TIMEOUT_S:g} s; try "
-                    "again, mrlab status says how it is"
-                ) from answer
+                robots = [order.robot for order in part]
+                silent = PLAYBACK_SILENT(robots=robots, timeout=ORDER_TIMEOUT_S)
+                raise NoAnswer(silent) from answer
             if not answer.success:
-                raise Misuse(answer.message)
+                raise Misuse(heard(answer))
             stamp_ns = time_from_message(answer.stamp)
             replies.update({reply.robot: (reply, stamp_ns) for reply in answer.replies})
         return [replies[order.robot] for order in orders]

@@ -16,9 +16,12 @@ from rclpy.parameter import Parameter
 from rclpy.service import Service
 
 from mrlab_ros.adapters.journal import Journal
+from mrlab_ros.core.base.diagnostic import Diagnostic
 from mrlab_ros.core.errors import BadInput, LabError
 from mrlab_ros.core.identity import Identity
+from mrlab_ros.core.playback import diagnostics as playback
 from mrlab_ros.core.playback.states import State
+from mrlab_ros.core.systems import diagnostics as say
 from mrlab_ros.core.systems import journal as entries
 from mrlab_ros.core.systems.members import Command, Order
 from mrlab_ros.core.systems.registry import Systems
@@ -81,8 +84,8 @@ class CoordinatorNode(ParameterNode[CoordinatorParameters]):
         self._members: dict[str, MemberClient] = {}
         self._fleets: dict[str, RosFleet] = {}
         self._publishing = threading.Lock()
-        # What could not be brought back, a sentence each.
-        self.lost: list[str] = []
+        # What could not be brought back.
+        self.lost: list[Diagnostic] = []
         self._offered: dict[str, list[Service]] = {}
         self._robots: dict[str, msg.Robot] = {}
         self._checks = MemberChecks(self.caller.node)
@@ -108,14 +111,12 @@ class CoordinatorNode(ParameterNode[CoordinatorParameters]):
 
     # services -------------------------------------------------------------------------------
 
-    def _create(self, request: Any, response: Any) -> str:
+    def _create(self, request: Any, response: Any) -> Diagnostic:
+        mode = _mode(request.mode)
         try:
-            mode, policy = Mode(request.mode), Policy(request.policy)
+            policy = Policy(request.policy)
         except ValueError:
-            raise BadInput(
-                f"mode {request.mode} with policy {request.policy} is unknown; expected 0 "
-                "(parallel) or 1 (sequential), and 0 (halt all) or 1 (halt member)"
-            ) from None
+            raise BadInput(say.BAD_POLICY(policy=request.policy)) from None
         members = [member_from_message(member) for member in request.members]
         robots = [member.robot for member in members]
         name = self._systems.check(request.name, robots, frozenset(self._robots))
@@ -133,9 +134,11 @@ class CoordinatorNode(ParameterNode[CoordinatorParameters]):
         self._adopt(system, clients, fleet)
         self._publish()
         response.system = system_to_message(system)
-        return f"{name} drives {', '.join(robots)}: {system.duration:g} s, {mode.name.lower()}"
+        return say.SYSTEM_CREATED(
+            system=name, robots=robots, duration=system.duration, mode=mode.name.lower()
+        )
 
-    def _dissolve(self, request: Any, response: Any) -> str:
+    def _dissolve(self, request: Any, response: Any) -> Diagnostic:
         return self._do_dissolve(request.name, "dissolved")
 
     def _adopt(
@@ -161,9 +164,9 @@ class CoordinatorNode(ParameterNode[CoordinatorParameters]):
         ]
 
     def _callback(
-        self, name: str, action: Callable[[RobotSystem, Any], str]
-    ) -> Callable[[Any, Any], str]:
-        def callback(request: Any, response: Any) -> str:
+        self, name: str, action: Callable[[RobotSystem, Any], Diagnostic]
+    ) -> Callable[[Any, Any], Diagnostic]:
+        def callback(request: Any, response: Any) -> Diagnostic:
             try:
                 return action(self._systems.get(name), request)
             finally:
@@ -171,7 +174,7 @@ class CoordinatorNode(ParameterNode[CoordinatorParameters]):
 
         return callback
 
-    def _do_dissolve(self, name: str, why: str) -> str:
+    def _do_dissolve(self, name: str, why: str) -> Diagnostic:
         system = self._systems.dissolve(name)
         fleet = self._fleets.pop(name)
         there = [robot for robot in system.members if robot in self._robots]
@@ -185,51 +188,45 @@ class CoordinatorNode(ParameterNode[CoordinatorParameters]):
         for robot in system.members:
             self._members.pop(robot).close()
         for service in self._offered.pop(name, []):
-            self._turns.end(service, f"the system {name} is dissolved")
+            self._turns.end(service, say.SYSTEM_GONE(system=name))
         self._publish()
         if why:
             self.get_logger().info(f"system {name}: {why}")
-        return f"{name} is dissolved"
+        return say.DISSOLVED(system=name)
 
-    def _play(self, system: RobotSystem, request: Any) -> str:
+    def _play(self, system: RobotSystem, request: Any) -> Diagnostic:
         staging = system.play(self._now_ns())
-        return f"stages for {staging:.1f} s, then plays" if staging else "plays"
+        return say.STAGES(duration=staging) if staging else playback.PLAYS()
 
-    def _pause(self, system: RobotSystem, request: Any) -> str:
-        lost = system.pause(self._now_ns())
-        said = f"paused at {system.clock.position:.3f} s"
-        return f"{said}; {lost}" if lost else said
+    def _pause(self, system: RobotSystem, request: Any) -> Diagnostic:
+        return system.pause(self._now_ns())
 
-    def _stop(self, system: RobotSystem, request: Any) -> str:
+    def _stop(self, system: RobotSystem, request: Any) -> Diagnostic:
         system.stop(self._now_ns())
-        if system.state is SystemState.STOPPING:
+        if system.state is SystemState.STOPPING and system.message is not None:
             raise NoAnswer(system.message)
-        return "stopped"
+        return playback.STOPPED()
 
-    def _seek(self, system: RobotSystem, request: Any) -> str:
+    def _seek(self, system: RobotSystem, request: Any) -> Diagnostic:
         system.seek(self._now_ns(), request.position)
-        return f"at {request.position:g} s"
+        return playback.AT_POSITION(position=request.position)
 
-    def _step(self, system: RobotSystem, request: Any) -> str:
-        return f"at {system.step(self._now_ns(), request.frames):g} s"
+    def _step(self, system: RobotSystem, request: Any) -> Diagnostic:
+        position = system.step(self._now_ns(), request.frames)
+        return playback.AT_POSITION(position=position)
 
-    def _set_rate(self, system: RobotSystem, request: Any) -> str:
+    def _set_rate(self, system: RobotSystem, request: Any) -> Diagnostic:
         system.set_rate(self._now_ns(), request.rate)
-        return f"rate {request.rate:g}"
+        return playback.RATE_SET(rate=request.rate)
 
-    def _set_mode(self, system: RobotSystem, request: Any) -> str:
-        try:
-            mode = Mode(request.mode)
-        except ValueError:
-            raise BadInput(
-                f"mode {request.mode} is unknown; expected 0 (parallel) or 1 (sequential)"
-            ) from None
+    def _set_mode(self, system: RobotSystem, request: Any) -> Diagnostic:
+        mode = _mode(request.mode)
         system.set_mode(mode)
-        return f"{mode.name.lower()}, {system.duration:g} s"
+        return say.MODE_SET(mode=mode.name.lower(), duration=system.duration)
 
-    def _set_loop(self, system: RobotSystem, request: Any) -> str:
+    def _set_loop(self, system: RobotSystem, request: Any) -> Diagnostic:
         system.loop = request.loop
-        return "loops" if request.loop else "plays once"
+        return playback.LOOPS() if request.loop else playback.PLAYS_ONCE()
 
     # reports --------------------------------------------------------------------------------
 
@@ -318,8 +315,8 @@ class CoordinatorNode(ParameterNode[CoordinatorParameters]):
             fleet = RosFleet(name, clients, self._hosts)
             system = entries.restore(entry, fleet, self._publish, self._now_ns())
             if system is None:
-                self.lost.append(f"the system {name}: its entry in the journal is damaged")
-                self.get_logger().error(self.lost[-1])
+                self.lost.append(say.SYSTEM_LOST(system=name))
+                self.get_logger().error(str(self.lost[-1]))
                 for client in clients.values():
                     client.close()
                 continue
@@ -335,3 +332,10 @@ class CoordinatorNode(ParameterNode[CoordinatorParameters]):
                 systems_to_message(now_ns, self._systems, self._identity.lab, self._holder)
             )
             self._journal.save(entries.plain(self._systems, now_ns))
+
+
+def _mode(number: int) -> Mode:
+    try:
+        return Mode(number)
+    except ValueError:
+        raise BadInput(say.BAD_MODE(mode=number)) from None

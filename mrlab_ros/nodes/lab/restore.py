@@ -13,7 +13,7 @@ from mrlab_msgs.srv import SetLoop
 from rclpy.client import Client
 from rclpy.node import Node
 
-from mrlab_ros.core.base.diagnostic import Code, Diagnostic
+from mrlab_ros.core.base.diagnostic import Code, Diagnostic, heard
 from mrlab_ros.core.errors import LabError, Misuse
 from mrlab_ros.core.physics.surfaces import Surface
 from mrlab_ros.core.scene.diagnostics import STEP_FAILED
@@ -33,7 +33,6 @@ from mrlab_ros.core.scene.restore import (
 from mrlab_ros.messages import qos
 from mrlab_ros.messages.physics import surface_to_message
 from mrlab_ros.messages.scenes import create_system_request, placement_to_message
-from mrlab_ros.messages.texts import heard
 from mrlab_ros.nodes.lab.diagnostics import (
     GRASPS_MISSING,
     NOT_AS_BEFORE,

@@ -16,6 +16,7 @@ from sensor_msgs.msg import JointState
 from trajectory_msgs.msg import JointTrajectory
 
 from mrlab_ros.core.errors import LabError, Misuse
+from mrlab_ros.core.playback import diagnostics as say
 from mrlab_ros.core.playback.goal import Code, WrongGoal
 from mrlab_ros.core.playback.playback import Playback, PlaybackStatus
 from mrlab_ros.core.playback.pursuit import Bounds, Outcome, Pursuit
@@ -86,7 +87,7 @@ class Commanders:
 
     def close(self) -> None:
         """End the goal that is followed; call it before the node is destroyed."""
-        self._end(Outcome(Code.INVALID_GOAL, f"{self._robot} was removed"), "abort")
+        self._end(Outcome(Code.INVALID_GOAL, say.ROBOT_GONE(robot=self._robot)), "abort")
         self._server.close()
 
     def note(self, status: PlaybackStatus) -> None:
@@ -104,8 +105,8 @@ class Commanders:
             self._statuses.clear()
             replaced, self._pursuit = self._pursuit, Pursuit(trajectory, start_ns, bounds)
         if replaced is not None and self._goal is not None:
-            text = "a new goal came: this one is given up"
-            self._finish(self._goal, Outcome(Code.INVALID_GOAL, text), "abort")
+            given_up = Outcome(Code.INVALID_GOAL, say.GOAL_REPLACED())
+            self._finish(self._goal, given_up, "abort")
         self._goal = None
         self._loaded(now_ns, trajectory)
 
@@ -113,15 +114,13 @@ class Commanders:
         request = goal.request
         try:
             if request.multi_dof_trajectory.points:
-                raise WrongGoal(
-                    Code.INVALID_GOAL, "the goal has a multi_dof_trajectory; expected none"
-                )
+                raise WrongGoal(say.HAS_MULTI_DOF())
             _refuse_doubtful()
             self._pursue(request.trajectory, bounds_from_goal(request))
         except LabError as error:
             code = error.code if isinstance(error, WrongGoal) else Code.INVALID_GOAL
             self._warn_seldom("goal", f"{self._robot} refuses a goal: {error}")
-            self._finish(goal, Outcome(code, str(error)), "abort")
+            self._finish(goal, Outcome(code, error.diagnostic), "abort")
             return
         self._goal = goal
         if self._timer is None:
@@ -145,7 +144,7 @@ class Commanders:
             self._warn_seldom("joint_trajectory", said)
 
     def _on_set_point(self, message: JointState) -> None:
-        begins, refused = False, ""
+        begins, refused = False, None
         with self._command() as now_ns:
             try:
                 _refuse_doubtful()
@@ -154,17 +153,16 @@ class Commanders:
                 )
                 trajectory = self._playback.trajectory
             except LabError as error:
-                refused = str(error)
+                refused = error.diagnostic
         if begins:
             self._loaded(now_ns, trajectory)
         # The same refusal comes with every set-point; its numbers differ.
-        kind = refused.split(":")[0]
-        if not refused:
+        if refused is None:
             self._last_warning = ""
-        elif kind != self._last_warning and self._warn_seldom(
+        elif refused.code != self._last_warning and self._warn_seldom(
             "joint_command", f"{self._robot}: {refused}"
         ):
-            self._last_warning = kind
+            self._last_warning = refused.code
 
     def _warn_seldom(self, what: str, said: str) -> bool:
         """Warn, unless the same was refused a moment ago; return whether it was said."""
@@ -181,7 +179,7 @@ class Commanders:
             self._stop_watching()
             return
         if goal.is_cancel_requested:
-            self._end(Outcome(Code.SUCCESSFUL, "cancelled: the arm holds where it is"), "canceled")
+            self._end(Outcome(Code.SUCCESSFUL, say.GOAL_CANCELLED()), "canceled")
             return
         while self._statuses:
             pursuit.note(self._statuses.popleft())

@@ -16,12 +16,14 @@ from rclpy.parameter import Parameter
 from mrlab_ros.adapters.journal import Journal
 from mrlab_ros.adapters.robots.library import RobotLibrary
 from mrlab_ros.adapters.robots.ruckig_planner import RuckigPlanner, StagingLimits
+from mrlab_ros.core.base.diagnostic import Diagnostic
 from mrlab_ros.core.errors import LabError, Misuse
 from mrlab_ros.core.identity import Identity
 from mrlab_ros.core.playback import journal as entries
+from mrlab_ros.core.playback.diagnostics import NOT_PLAYED, OF_ROBOT
 from mrlab_ros.core.playback.playback import Kept
 from mrlab_ros.core.systems.leases import Leases
-from mrlab_ros.core.systems.members import HALTING, NOT_PLAYED
+from mrlab_ros.core.systems.members import HALTING
 from mrlab_ros.core.trajectory.trajectory import Trajectory
 from mrlab_ros.messages import qos
 from mrlab_ros.messages.systems import order_from_message, reply_to_message
@@ -114,8 +116,8 @@ class PlaybackHostNode(ParameterNode[PlaybackParameters]):
         self._kept: dict[str, tuple[str, Kept]] = entries.read(self._journal.load())
         # By robot what is in the journal.
         self._written: dict[str, dict[str, Any]] = {}
-        # What could not be brought back, a sentence each.
-        self.lost: list[str] = []
+        # What could not be brought back.
+        self.lost: list[Diagnostic] = []
         self._leases = Leases()
         orders = Node(
             "_playback_host_orders",
@@ -200,9 +202,9 @@ class PlaybackHostNode(ParameterNode[PlaybackParameters]):
         # The list is the lab's own from now on: what it does not name is gone.
         self._kept.clear()
 
-    def _came_back(self, lost: str) -> None:
-        if lost and self.context.ok():
-            self.get_logger().warning(lost)
+    def _came_back(self, lost: Diagnostic | None) -> None:
+        if lost is not None and self.context.ok():
+            self.get_logger().warning(str(lost))
             self.lost.append(lost)
 
     # after a restart ------------------------------------------------------------------------
@@ -276,20 +278,19 @@ class PlaybackHostNode(ParameterNode[PlaybackParameters]):
         node.close()
 
     @answered
-    def _command_members(self, request: Any, response: Any) -> str:
+    def _command_members(self, request: Any, response: Any) -> None:
         with self.scheduler.command() as now_ns:
             response.stamp = time_to_message(now_ns)
             for order in request.orders:
                 node = self.nodes.get(order.robot)
                 if node is None:
-                    raise Misuse(f"{order.robot}: {NOT_PLAYED}")
+                    raise Misuse(NOT_PLAYED(robot=order.robot))
                 try:
                     duration = node.drive(now_ns, request.system, order_from_message(order))
                 except LabError as error:
-                    raise Misuse(f"{order.robot}: {error}") from error
+                    raise Misuse(OF_ROBOT(robot=order.robot, why=error)) from error
                 reply = reply_to_message(order.robot, node.playback, duration)
                 response.replies.append(reply)
-        return "done"
 
     def _telemetry(self) -> None:
         now_ns = self.scheduler.clock.now_ns()

@@ -14,7 +14,9 @@ from rclpy.context import Context
 from rclpy.node import Node
 from sensor_msgs.msg import JointState
 
+from mrlab_ros.core.base.diagnostic import Diagnostic
 from mrlab_ros.core.errors import LabError, Misuse
+from mrlab_ros.core.playback import diagnostics as say
 from mrlab_ros.core.playback.planner import MotionPlanner
 from mrlab_ros.core.playback.playback import Kept, Playback, PlaybackStatus
 from mrlab_ros.core.playback.states import State
@@ -133,10 +135,10 @@ class PlaybackNode(Node):
             self, self.robot, self.playback, self.player, self._command, self._driven, warn
         )
 
-    def come_back(self, done: Callable[[str], None]) -> None:
+    def come_back(self, done: Callable[[Diagnostic | None], None]) -> None:
         """Load what the robot had before the restart, in its own thread, and stand there.
 
-        done: gets what was lost, in words; empty: nothing. A command that came before wins.
+        done: gets what was lost; None: nothing. A command that came before wins.
         """
         kept = self._back
         if kept is not None:
@@ -160,14 +162,11 @@ class PlaybackNode(Node):
         announced, self._announced = self._announced, False
         return announced or self.playback.moving
 
-    def _do_come_back(self, kept: Kept) -> str:
+    def _do_come_back(self, kept: Kept) -> Diagnostic | None:
         if not kept.version:
             # It was in no catalogue.
             self._back = None
-            return (
-                f"{self.robot} stands where it was: the goal or the stream of joint commands that "
-                "it followed ended with its process; send it again"
-            )
+            return say.GOAL_LOST(robot=self.robot)
         deadline = time.monotonic() + RETURN_TIMEOUT_S
         while True:
             try:
@@ -176,18 +175,21 @@ class PlaybackNode(Node):
                     trajectory = self._fetch(f"{kept.trajectory_id}@{kept.version}")
                 with self._command() as now_ns:
                     if self.playback.state is State.IDLE:
-                        why = "its process was restarted; play goes on from here"
-                        self.playback.come_back(now_ns, trajectory, kept, why)
+                        self.playback.come_back(now_ns, trajectory, kept)
                 self._back = None
                 self._announce_targets(now_ns, trajectory)
-                return ""
+                return None
             except NoAnswer as error:
                 # The converter may be starting too.
                 if time.monotonic() > deadline or self._loads.ended:
-                    return f"{self.robot} has lost {kept.trajectory_id}: {error}"
+                    return self._lost(kept, error)
             except LabError as error:
                 self._back = None
-                return f"{self.robot} has lost {kept.trajectory_id}: {error}"
+                return self._lost(kept, error)
+
+    def _lost(self, kept: Kept, why: LabError) -> Diagnostic:
+        lost = kept.trajectory_id
+        return say.TRAJECTORY_LOST(robot=self.robot, trajectory=lost, why=why)
 
     def _command(self) -> Command:
         return self._scheduler.command(self.player)
@@ -272,65 +274,61 @@ class PlaybackNode(Node):
         return answer
 
     @answered
-    def _load(self, request: Any, response: Any) -> str:
+    def _load(self, request: Any, response: Any) -> Diagnostic | None:
         trajectory = self._fetch(request.id) if request.id else None
         if self._loads.ended:
-            raise Misuse(f"{self.robot} was removed while it loaded")
+            raise Misuse(say.ROBOT_GONE(robot=self.robot))
         with self._command() as now_ns:
             if trajectory is None:
                 self.playback.unload(now_ns)
             else:
                 self.playback.load(now_ns, trajectory)
             self._back = None
+            done = self.playback.status().message
         self._announce_targets(now_ns, trajectory)
-        if trajectory is None:
-            return "unloaded"
-        return (
-            f"loaded {trajectory.id}: {trajectory.frame_count} frames, {trajectory.duration:g} s"
-        )
+        return done
 
     @answered
-    def _play(self, request: Any, response: Any) -> str:
+    def _play(self, request: Any, response: Any) -> Diagnostic:
         with self._command() as now_ns:
             self.playback.play(now_ns)
-            moves = self.playback.state is State.ADJUSTING
-        return "moves to the start, then plays" if moves else "plays"
+            return self.playback.status().message or say.PLAYS()
 
     @answered
-    def _pause(self, request: Any, response: Any) -> str:
+    def _pause(self, request: Any, response: Any) -> Diagnostic | None:
         with self._command() as now_ns:
             self.playback.pause(now_ns)
-            return f"paused at {self.playback.clock.position:.3f} s"
+            return self.playback.status().message
 
     @answered
-    def _stop(self, request: Any, response: Any) -> str:
+    def _stop(self, request: Any, response: Any) -> Diagnostic | None:
         with self._command() as now_ns:
             self.playback.stop(now_ns)
-        return "stopped"
+            return self.playback.status().message
 
     @answered
-    def _seek(self, request: Any, response: Any) -> str:
+    def _seek(self, request: Any, response: Any) -> Diagnostic:
         with self._command() as now_ns:
             self.playback.seek(now_ns, request.position)
-        return f"at {request.position:g} s"
+        return say.AT_POSITION(position=request.position)
 
     @answered
-    def _set_rate(self, request: Any, response: Any) -> str:
+    def _set_rate(self, request: Any, response: Any) -> Diagnostic | None:
         with self._command() as now_ns:
             self.playback.set_rate(now_ns, request.rate)
-        return f"rate {request.rate:g}"
+            return self.playback.status().message
 
     @answered
-    def _set_loop(self, request: Any, response: Any) -> str:
+    def _set_loop(self, request: Any, response: Any) -> Diagnostic | None:
         with self._command():
             self.playback.set_loop(request.loop)
-        return "loops" if request.loop else "plays once"
+            return self.playback.status().message
 
     @answered
-    def _clear_halt(self, request: Any, response: Any) -> str:
+    def _clear_halt(self, request: Any, response: Any) -> Diagnostic | None:
         with self._command() as now_ns:
             self.playback.clear_halt(now_ns)
-        return "clear; play resumes in place"
+            return self.playback.status().message
 
     def drive(self, now_ns: int, by: str, order: Order) -> float:
         """Carry out an order of the system `by`; call it inside `scheduler.command()`.
@@ -362,8 +360,9 @@ class PlaybackNode(Node):
         with self._command() as now_ns:
             if message.colliding:
                 contact = message.contact
-                what = f"the held {contact.held}" if contact.held else contact.link
-                self.playback.collide(now_ns, f"{what} touches {contact.other}")
+                link = None if contact.held else contact.link
+                touches = say.HALTED_BY_CONTACT(held=contact.held, link=link, other=contact.other)
+                self.playback.collide(now_ns, touches)
             else:
                 self.playback.clear(now_ns)
 

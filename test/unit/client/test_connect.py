@@ -5,12 +5,15 @@ from __future__ import annotations
 from pathlib import Path
 
 import pytest
+from refusals import refused
 
 from mrlab_ros.client import connect
 from mrlab_ros.commands.open import running_web
 from mrlab_ros.core.errors import Misuse
+from mrlab_ros.processes.diagnostics import LABS_ELSEWHERE
 from mrlab_ros.processes.run_file import RunFile, domains
 from mrlab_ros.ros.calls import NoAnswer
+from mrlab_ros.ros.diagnostics import NO_LAB
 
 
 class Lone:
@@ -42,7 +45,7 @@ def test_a_domain_of_tools_alone_has_no_lab(
 ) -> None:
     lone = Lone(*tools)
     monkeypatch.setattr(connect, "_node", lambda: lone)
-    with pytest.raises(NoAnswer, match=r"no lab answers on ROS domain 7; start one .*mrlab up"):
+    with refused(NO_LAB, NoAnswer, domain=7):
         connect.open_graph()
     assert lone.closed
 
@@ -50,7 +53,7 @@ def test_a_domain_of_tools_alone_has_no_lab(
 def test_pages_are_looked_for_on_the_domain_of_a_lab() -> None:
     elsewhere = RunFile(9)
     elsewhere.claim()
-    with pytest.raises(Misuse, match=r"domain 7; yours runs on domain 9: .*ROS_DOMAIN_ID=9"):
+    with refused(LABS_ELSEWHERE, Misuse, domain=7, labs=[9]):
         running_web()
     elsewhere.release()
 
@@ -74,11 +77,11 @@ def test_the_domain_of_the_lab_that_runs_is_named(monkeypatch: pytest.MonkeyPatc
     monkeypatch.setattr(connect, "_node", lambda: Lone("_mrlab_command"))
     one, other = RunFile(12), RunFile(3)
     one.claim()
-    with pytest.raises(NoAnswer, match="yours runs on domain 12: export ROS_DOMAIN_ID=12"):
+    with refused(LABS_ELSEWHERE, NoAnswer, labs=[12]):
         connect.open_graph()
     other.claim()
     assert domains() == [3, 12]
-    with pytest.raises(NoAnswer, match="yours run on domains 3, 12: export ROS_DOMAIN_ID=3"):
+    with refused(LABS_ELSEWHERE, NoAnswer, labs=[3, 12]):
         connect.open_graph()
     one.release()
     assert domains() == [3]

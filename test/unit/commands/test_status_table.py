@@ -9,17 +9,18 @@ import pytest
 from rich.console import Console
 
 from mrlab_ros.commands.status.table import overview
-from mrlab_ros.core.watch import Freeze, Sign
+from mrlab_ros.core.base.diagnostic import Diagnostic, of_text, plain
+from mrlab_ros.core.runtime.diagnostics import PROCESS_SILENT
+from mrlab_ros.core.watch import Freeze, Sign, joined
 
-RESTARTED = Sign("playback", 1, "SIGKILL").sentence(3.0)
-FROZEN = Sign("playback", freeze=Freeze(17.0, 5.0)).sentence(900.0)
-SILENT = "no sign of life for 4 s: it died or hangs"
+RESTARTED = Sign("playback", 1, "SIGKILL").trouble(3.0)
+FROZEN = Sign("playback", freeze=Freeze(17.0, 5.0)).trouble(900.0)
+SILENT = PROCESS_SILENT(silent=4)
+FULL_DISK = of_text("the recording class ended: no space left on the disk")
+BOTH = joined([FULL_DISK, RESTARTED])
 
 
-FULL_DISK = "the recording class ended: no space left on the disk"
-
-
-def shown(trouble: str, phase: str) -> str:
+def shown(trouble: Diagnostic | None, phase: str) -> str:
     """Return the overview of a lab whose playback was restarted 3 s ago, and says it or not."""
     process = {
         "name": "playback",
@@ -38,8 +39,8 @@ def shown(trouble: str, phase: str) -> str:
         "systems": [],
         "latency": [],
         "recorder": None,
-        "trouble": {"playback": trouble} if trouble else {},
-        "restarted": ["playback"] if RESTARTED in trouble else [],
+        "trouble": {"playback": plain(trouble)} if trouble else {},
+        "restarted": ["playback"] if trouble in (RESTARTED, BOTH) else [],
     }
     return printed(facts)
 
@@ -55,9 +56,9 @@ def printed(facts: dict[str, Any]) -> str:
     ("trouble", "phase", "says"),
     [
         (RESTARTED, "running", "nothing was lost"),
-        (f"the disk is full; {RESTARTED}", "running", "the disk is full"),
+        (BOTH, "running", str(FULL_DISK)),
         (SILENT, "waiting", "waiting for 3 s, restarts: 1"),
-        ("", "running", "running for 3 s, restarts: 1"),
+        (None, "running", "running for 3 s, restarts: 1"),
     ],
 )
 def test_a_death_is_said_once(trouble, phase, says):
@@ -70,24 +71,24 @@ def test_a_death_is_said_once(trouble, phase, says):
 def test_what_else_is_amiss_with_a_process_that_died_before_is_said_too(trouble):
     text = shown(trouble, "running")
     assert "playback died (SIGKILL); running for 3 s" in text
-    assert trouble in text
+    assert str(trouble) in text
 
 
 @pytest.mark.parametrize(
     ("trouble", "says"),
     [
         ({"recorder": FULL_DISK}, f"recorder: {FULL_DISK}"),
-        ({}, FULL_DISK),
-        ({"playback": SILENT}, FULL_DISK),
+        ({}, str(FULL_DISK)),
+        ({"playback": SILENT}, str(FULL_DISK)),
     ],
 )
-def test_why_a_recording_ended_is_said_once(trouble: dict[str, str], says: str) -> None:
+def test_why_a_recording_ended_is_said_once(trouble: dict[str, Diagnostic], says: str) -> None:
     facts = {
         **dict.fromkeys(("robots", "trajectories", "systems", "latency"), ()),
         **dict.fromkeys(("supervisor", "web")),
         "domain": 3,
-        "trouble": trouble,
-        "recorder": {"state": "STOPPED", "message": FULL_DISK},
+        "trouble": plain(trouble),
+        "recorder": {"state": "STOPPED", "message": str(FULL_DISK)},
     }
-    lines = [line.strip() for line in printed(facts).splitlines() if FULL_DISK in line]
+    lines = [line.strip() for line in printed(facts).splitlines() if str(FULL_DISK) in line]
     assert lines == [says]

@@ -2,7 +2,11 @@
 
 from __future__ import annotations
 
+from mrlab_ros.core.base.diagnostic import Severity, of_text
+from mrlab_ros.core.systems.diagnostics import SYSTEM_LOST
 from mrlab_ros.core.watch import Sign, Watch
+
+LOST, FULL = SYSTEM_LOST(system="cell"), of_text("the disk is full")
 
 
 def heard(watch: Watch, **ages: float) -> Watch:
@@ -28,25 +32,30 @@ def test_what_is_long_gone_is_forgotten():
 
 
 def test_a_restarted_process_says_how_it_ended_and_what_was_lost():
-    assert Sign("lab").sentence(5.0) == ""
+    assert Sign("lab").trouble(5.0) is None
     sign = Sign("lab", 1, "SIGKILL")
-    assert sign.sentence(5.0) == ("it died (SIGKILL) and was restarted 5 s ago; nothing was lost")
-    assert sign.sentence(61.0) == ""
-    sign = Sign("lab", 1, "SIGKILL", ("the system cell",))
-    assert sign.sentence(5.0).endswith("lost: the system cell")
-    assert sign.sentence(61.0) == "the system cell"
+    died = sign.trouble(5.0)
+    assert (died.code, dict(died.values)) == ("died", {"last_exit": "SIGKILL", "ago": 5})
+    assert sign.trouble(61.0) is None
+    sign = Sign("lab", 1, "SIGKILL", (LOST,))
+    died = sign.trouble(5.0)
+    assert (died.code, died.values["lost"]) == ("died_and_lost", LOST)
+    assert sign.trouble(61.0) == LOST
 
 
 def test_nothing_is_called_unlost_before_it_is_known():
     sign = Sign("recorder", 1, "SIGKILL", None)
-    assert sign.sentence(5.0).endswith("5 s ago; what was lost is being determined")
-    assert Sign("recorder", lost=None).sentence(5.0) == ""
+    assert sign.trouble(5.0).code == "died_and_looks"
+    assert Sign("recorder", lost=None).trouble(5.0) is None
 
 
 def test_what_failed_since_comes_before_what_was_lost():
-    sign = Sign("recorder", 1, "SIGKILL", ("2 s of class",), ("the disk is full",))
-    assert sign.sentence(61.0) == "the disk is full; 2 s of class"
-    assert sign.sentence(5.0).startswith("the disk is full; it died (SIGKILL)")
+    sign = Sign("recorder", 1, "SIGKILL", (LOST,), (FULL,))
+    both = sign.trouble(61.0)
+    assert (both.code, both.severity) == ("and_also", Severity.ERROR)
+    assert (both.values["first"], both.values["then"]) == (FULL, LOST)
+    both = sign.trouble(5.0)
+    assert (both.values["first"], both.values["then"].code) == (FULL, "died_and_lost")
 
 
 def test_a_process_that_did_not_run_blames_nobody_for_what_it_missed_and_says_so():
@@ -60,7 +69,8 @@ def test_a_process_that_did_not_run_blames_nobody_for_what_it_missed_and_says_so
     freeze = watch.freeze(102.8)
     assert freeze is not None
     sign = Sign("lab", freeze=freeze)
-    assert sign.sentence(500.0) == "it did not run for about 4 s, until 3 s ago"
+    frozen = sign.trouble(500.0)
+    assert (frozen.code, dict(frozen.values)) == ("did_not_run", {"frozen": 4, "ago": 3})
     # One that is silent still is reported as ever.
     for now in (100.8, 101.8, 102.8, 103.8):
         watch.look(now)

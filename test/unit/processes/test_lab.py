@@ -14,6 +14,7 @@ from typing import Any
 
 import mrlab_msgs.msg
 import pytest
+from refusals import refused
 
 from mrlab_ros.adapters import python_process
 from mrlab_ros.adapters.keys.folder import Keys, now
@@ -21,10 +22,12 @@ from mrlab_ros.commands.demo.lab import free_port
 from mrlab_ros.commands.up.speaker import COLOURS
 from mrlab_ros.commands.up.surroundings import DISCOVERY, folder_for_state
 from mrlab_ros.core.bridge.access import Login
+from mrlab_ros.core.bridge.diagnostics import BAD_ENDPOINT, OPEN_ENDPOINT, TLS_NEEDS_KEYS
 from mrlab_ros.core.errors import BadInput
 from mrlab_ros.gateway.__main__ import settings_of
 from mrlab_ros.processes import physics_support
 from mrlab_ros.processes.child import WRONG_CONFIGURATION
+from mrlab_ros.processes.diagnostics import NO_PARAMETER_FILE, NO_PHYSICS
 from mrlab_ros.processes.lab import (
     NODES,
     PROCESSES,
@@ -362,9 +365,16 @@ def test_the_launch_file_warns_of_a_name_that_is_nearly_an_argument(launched: La
     assert warning.endswith("did you mean 'robots'?")
 
 
-@pytest.mark.parametrize("listen", ["0.0.0.0", "tcp/0.0.0.0:7447", "tls/0.0.0.0:7447"])
-def test_the_launch_file_refuses_to_listen_where_the_bridge_would(launched, listen: str) -> None:
-    with pytest.raises(BadInput, match="the bridge is to listen on"):
+@pytest.mark.parametrize(
+    ("listen", "code"),
+    [
+        ("0.0.0.0", BAD_ENDPOINT),
+        ("tcp/0.0.0.0:7447", OPEN_ENDPOINT),
+        ("tls/0.0.0.0:7447", TLS_NEEDS_KEYS),
+    ],
+)
+def test_the_launch_file_refuses_to_listen_where_the_bridge_would(launched, listen, code) -> None:
+    with refused(code, BadInput, endpoint=listen):
         launched(web="false", listen=listen)
 
 
@@ -446,10 +456,10 @@ def test_the_launch_file_leaves_out_and_refuses_what_it_is_told_to(
     assert [node.kwargs["exec_name"] for node in hosts(less)] == ["lab", "playback", "recorder"]
     with pytest.raises(BadInput, match="no robot 'ur6'"):
         launched(robots="ur6", web="false")
-    with pytest.raises(BadInput, match="no parameter file"):
+    with refused(NO_PARAMETER_FILE, BadInput, path="/nowhere.yaml"):
         launched(config="/nowhere.yaml", web="false")
     monkeypatch.setattr(physics_support, "missing", lambda: "pybullet is not installed")
-    with pytest.raises(BadInput, match="there is no physics"):
+    with refused(NO_PHYSICS, BadInput):
         launched(physics="true", web="false")
 
 

@@ -62,7 +62,7 @@ def test_what_ros_takes_is_taken(tmp_path: Path, text: str) -> None:
         ("lab: 5", "lab is 5; expected a mapping with the fields ros__parameters"),
         ("lab: {robots: [ur5e]}", "lab: 'robots' is unknown; expected ros__parameters"),
         ("lab: {ros__parameters: 5}", "lab: ros__parameters is 5; expected a mapping"),
-        ("labb: {ros__parameters: {}}", "no such node in the lab; .* did you mean 'lab'"),
+        ("labb: {ros__parameters: {}}", "no such node in the lab; .* Did you mean 'lab'"),
         ("lab: {ros__parameters: {robot: [ur5e]}}", "Did you mean 'robots'"),
         ("lab: {ros__parameters: {split_size: 5}}", "lab: 'split_size' is unknown; expected"),
         ("/**: {ros__parameters: {split_sise: 5}}", "Did you mean 'split_size'"),

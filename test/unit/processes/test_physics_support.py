@@ -8,11 +8,13 @@ import subprocess
 import sys
 
 import pytest
+from refusals import refused
 
 from mrlab_ros.adapters.bullet import support
 from mrlab_ros.core.errors import BadInput
 from mrlab_ros.processes import physics_support
 from mrlab_ros.processes.child import WRONG_CONFIGURATION
+from mrlab_ros.processes.diagnostics import NO_PHYSICS
 
 # An interpreter that finds everything but pybullet.
 WITHOUT = """
@@ -26,19 +28,19 @@ machinery.PathFinder.find_spec = lambda name, *rest: None if name == "pybullet" 
 
 def test_physics_is_what_was_chosen_where_it_is_installed():
     assert support.missing() is None
-    assert physics_support.wanted(True) == (True, "")
-    assert physics_support.wanted(False) == (False, "")
-    assert physics_support.wanted(None) == (True, "")
+    assert physics_support.wanted(True) == (True, None)
+    assert physics_support.wanted(False) == (False, None)
+    assert physics_support.wanted(None) == (True, None)
 
 
 def test_without_pybullet_physics_is_refused_or_left_out_in_words(monkeypatch):
     monkeypatch.setattr(importlib.util, "find_spec", lambda name: None)
-    with pytest.raises(BadInput, match="there is no physics: pybullet is not installed"):
+    with refused(NO_PHYSICS, BadInput):
         physics_support.wanted(True)
-    assert physics_support.wanted(False) == (False, "")
+    assert physics_support.wanted(False) == (False, None)
     on, why = physics_support.wanted(None)
     assert not on
-    assert why.startswith("runs without physics: pybullet")
+    assert why.code == "runs_without_physics"
 
 
 @pytest.mark.slow

@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import pytest
+from refusals import refused
 
+from mrlab_ros.core.bridge import diagnostics as say
 from mrlab_ros.core.bridge import links
 from mrlab_ros.core.errors import BadInput
 
@@ -17,23 +19,23 @@ def test_endpoints_of_this_machine_need_no_flag(endpoint):
 
 @pytest.mark.parametrize("endpoint", ["tcp/0.0.0.0:7447", "udp/10.0.0.2:1", "tcp/[::]:7447"])
 def test_an_open_endpoint_needs_the_flag(endpoint):
-    with pytest.raises(BadInput, match="insecure"):
+    with refused(say.OPEN_ENDPOINT, BadInput, endpoint=endpoint):
         links.check_endpoints((endpoint,), insecure=False)
     links.check_endpoints((endpoint,), insecure=True)
 
 
 @pytest.mark.parametrize("keys", [True, False])
 def test_links_that_cannot_be_bounded_are_refused(keys):
-    with pytest.raises(BadInput, match=r"quic/\[::\]:7447.* listen on tls/\[::\]:7447"):
+    with refused(say.QUIC_UNBOUNDED, BadInput, better="tls/[::]:7447"):
         links.check_endpoints(("quic/[::]:7447",), insecure=True, keys=keys)
 
 
 @pytest.mark.parametrize("endpoint", ["tls/0.0.0.0:7447", "tls/[::]:7447"])
 def test_encryption_and_keys_go_together(endpoint):
     links.check_endpoints((endpoint,), insecure=False, keys=True)
-    with pytest.raises(BadInput, match="needs keys"):
+    with refused(say.TLS_NEEDS_KEYS, BadInput, protocol="tls"):
         links.check_endpoints((endpoint,), insecure=True)
-    with pytest.raises(BadInput, match="where nobody can show one"):
+    with refused(say.KEYS_NEED_TLS, BadInput, better="tls/127.0.0.1:7447"):
         links.check_endpoints(("tcp/127.0.0.1:7447",), insecure=True, keys=True)
 
 

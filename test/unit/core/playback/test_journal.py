@@ -49,7 +49,7 @@ def test_a_restarted_playback_goes_on_with_the_next_frame():
     kept = again(before.kept())
     after = make()
     after.stand_at(START, kept.arm)
-    after.come_back(START, before.trajectory, kept, "restarted")
+    after.come_back(START, before.trajectory, kept)
     assert (after.state, after.rate, after.loop) == (State.PAUSED, 1.0, True)
     assert after.clock.position == before.clock.at(START) or after.frame == before.frame
     assert np.array_equal(after.arm, before.arm)
@@ -69,7 +69,7 @@ def test_a_halt_comes_back_unless_the_arm_was_cleared_meanwhile(reported, state)
     after = make()
     if reported is not None:
         (after.collide if reported else after.clear)(START, *["touches"] * reported)
-    after.come_back(START, before.trajectory, again(before.kept()), "restarted")
+    after.come_back(START, before.trajectory, again(before.kept()))
     assert after.state is state
 
 
@@ -77,7 +77,7 @@ def test_one_that_had_not_begun_is_ready_for_the_first_frame():
     before = make()
     before.load(START, make_trajectory())
     after = make()
-    after.come_back(START, before.trajectory, again(before.kept()), "restarted")
+    after.come_back(START, before.trajectory, again(before.kept()))
     assert after.state is State.READY
     assert np.array_equal(after.arm, before.arm)
 

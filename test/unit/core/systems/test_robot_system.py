@@ -11,10 +11,12 @@ from hypothesis import example, given, settings
 from hypothesis import strategies as st
 from refusals import refused
 
-from mrlab_ros.core.base.diagnostics import ILLEGAL_EVENT
+from mrlab_ros.core.base.diagnostics import ILLEGAL_EVENT, NAME_TAKEN, NO_ROBOT_IN_SCENE
 from mrlab_ros.core.errors import BadInput, IllegalEvent, LabError, Misuse, Unreached
+from mrlab_ros.core.playback import diagnostics as playback_codes
 from mrlab_ros.core.playback.playback import Playback
 from mrlab_ros.core.playback.states import State
+from mrlab_ros.core.systems import diagnostics as say
 from mrlab_ros.core.systems.members import (
     Command,
     Loaded,
@@ -30,6 +32,7 @@ from mrlab_ros.core.trajectory.trajectory import Trajectory
 
 MS = SECOND // 1000
 PERIOD = 10 * MS
+TOUCHES = playback_codes.HALTED_BY_CONTACT(link="link_5", other="cube_1")
 
 
 class World:
@@ -77,7 +80,7 @@ class World:
         for robot, trajectory_id in trajectories.items():
             playback = self.playbacks[robot]
             if trajectory_id not in self.catalogue:
-                raise BadInput(f"there is no trajectory '{trajectory_id}'")
+                raise BadInput(say.NO_SYSTEM(system=trajectory_id))
             playback.load(self.now, self.catalogue[trajectory_id])
             playback.take_statuses()
 
@@ -94,14 +97,14 @@ class World:
 
     def _answer(self, robot: str) -> None:
         if robot in self.frozen:
-            raise Unreached(f"{robot} did not answer")
+            raise Unreached(say.PLAYBACK_SILENT(robots=[robot], timeout=2.0))
 
     def drive(self, orders: Sequence[Order]) -> list[Reply]:
         replies = []
         for order in orders:
             self._answer(order.robot)
             if order.robot in self.refusing:
-                raise Misuse(f"{order.robot} refuses")
+                raise Misuse(playback_codes.ROBOT_GONE(robot=order.robot))
             playback, duration = self.playbacks[order.robot], 0.0
             if order.command is Command.STAGE:
                 duration = playback.stage(self.now, order.position, by="cell")
@@ -194,7 +197,7 @@ def test_parallel_members_begin_at_one_stamp_after_all_have_arrived():
     assert world.first_due("a") == world.first_due("b")
     assert world.frames("a") == list(range(101))
     assert world.frames("b") == list(range(51))
-    assert world.system.message == "played to the end"
+    assert world.system.message.code == "played_to_end"
 
 
 def test_sequential_members_follow_each_other_with_dwell_to_the_nanosecond():
@@ -263,7 +266,7 @@ def test_step_goes_frame_by_frame_and_stops_at_the_ends():
     assert world.system.step(world.now, -1000) == 0.0
     world.system.play(world.now)
     world.run_until(SystemState.PLAYING)
-    with pytest.raises(Misuse, match="cannot step in PLAYING"):
+    with refused(ILLEGAL_EVENT, Misuse, event="step", state="PLAYING"):
         world.system.step(world.now, 1)
 
 
@@ -297,12 +300,12 @@ def test_a_collision_halts_all_in_one_step_and_all_clear_resumes_in_place():
     world.system.play(world.now)
     world.run_until(SystemState.PLAYING)
     world.advance(0.5)
-    world.playbacks["a"].collide(world.now, "touches")
+    world.playbacks["a"].collide(world.now, TOUCHES)
     world.report()
     assert world.system.state is SystemState.COLLISION_HALT
     assert world.playbacks["b"].state is State.PAUSED
     counts = [len(s) for s in world.sent.values()]
-    with pytest.raises(Misuse, match="cannot play in COLLISION_HALT"):
+    with refused(ILLEGAL_EVENT, Misuse, event="play", state="COLLISION_HALT"):
         world.system.play(world.now)
     world.advance(1.0)
     assert [len(s) for s in world.sent.values()] == counts
@@ -320,7 +323,7 @@ def test_a_collision_of_a_member_alone_lets_the_others_go_on(mode):
     world.system.play(world.now)
     world.run_until(SystemState.PLAYING)
     world.advance(0.5)
-    world.playbacks["a"].collide(world.now, "touches")
+    world.playbacks["a"].collide(world.now, TOUCHES)
     world.advance(3.0)
     assert world.system.state is SystemState.PLAYING
     assert world.frames("b") == ([] if mode is Mode.SEQUENTIAL else list(range(201)))
@@ -335,7 +338,7 @@ def test_a_collision_while_staging_stops_all_and_nothing_starts():
     world = make(TWO)
     world.system.play(world.now)
     world.advance(0.1)
-    world.playbacks["b"].collide(world.now, "touches")
+    world.playbacks["b"].collide(world.now, TOUCHES)
     world.advance(2.0)
     assert world.system.state is SystemState.COLLISION_HALT
     assert world.sent == {"a": [], "b": []}
@@ -349,7 +352,7 @@ def test_a_collision_while_staging_stops_all_and_nothing_starts():
 def test_a_member_that_refuses_brings_all_to_rest():
     world = make(TWO)
     world.refusing = {"b"}
-    with pytest.raises(Misuse, match="b refuses"):
+    with refused(playback_codes.ROBOT_GONE, Misuse, robot="b"):
         world.system.play(world.now)
     assert world.system.state is SystemState.READY
     assert world.playbacks["a"].state is State.READY
@@ -364,8 +367,12 @@ def test_a_staging_that_never_ends_is_given_up():
     world.system.play(world.now)
     world.playbacks["b"].due_ns = lambda: None
     world.run_until(SystemState.READY, 20.0)
-    assert "b did not arrive" in world.system.message
+    assert said(world) == ("late_at_start", {"robots": ["b"]})
     assert world.sent == {"a": [], "b": []}
+
+
+def said(world: World) -> tuple[str, dict]:
+    return world.system.message.code, dict(world.system.message.values)
 
 
 def lose(world: World, robot: str) -> None:
@@ -384,7 +391,7 @@ def test_a_system_whose_member_lost_its_playback_stands_in_place_and_plays_on():
     world.advance(0.3)
     lose(world, "a")
     assert world.system.state is SystemState.PAUSED
-    assert "a lost its playback; play goes on from here" in world.system.message
+    assert said(world) == ("member_lost", {"robot": "a"})
     assert world.playbacks["b"].state is State.PAUSED
     place = world.system.clock.position
     assert 0.1 < place < 0.3
@@ -453,7 +460,7 @@ def test_a_member_that_comes_back_in_a_halt_halts_the_system():
     world.system.play(world.now)
     world.run_until(SystemState.PLAYING)
     world.advance(0.3)
-    world.playbacks["a"].collide(world.now, "touches")
+    world.playbacks["a"].collide(world.now, TOUCHES)
     world.playbacks["a"].take_statuses()
     world.system.members["a"].playback_state = State.IDLE
     world.system.pause(world.now)
@@ -461,7 +468,7 @@ def test_a_member_that_comes_back_in_a_halt_halts_the_system():
         world.now, "a", State.COLLISION_HALT, 0.3, owner="", trajectory_id="a"
     )
     assert world.system.state is SystemState.COLLISION_HALT
-    assert "a still collides" in world.system.message
+    assert said(world) == ("still_collides", {"robot": "a"})
     world.playbacks["a"].clear(world.now)
     world.report()
     assert world.system.state is SystemState.PAUSED
@@ -474,9 +481,10 @@ def test_a_stop_that_does_not_reach_a_member_is_repeated_until_it_does():
     world.frozen = {"b"}
     world.system.stop(world.now)
     assert world.system.state is SystemState.STOPPING
-    assert "b did not answer and may still move" in world.system.message
+    assert world.system.message.code == "may_still_move"
+    assert world.system.message.values["robots"] == ["b"]
     assert world.playbacks["a"].state is State.READY
-    with pytest.raises(Misuse, match="cannot play in STOPPING"):
+    with refused(ILLEGAL_EVENT, Misuse, event="play", state="STOPPING"):
         world.system.play(world.now)
     world.now += 5 * SECOND
     world.system.poll(world.now)
@@ -515,7 +523,8 @@ def test_a_pause_that_does_not_reach_a_member_pauses_in_place(killed):
     place = freeze(world)
     world.system.pause(world.now)
     assert world.system.state is SystemState.PAUSED
-    assert world.system.message == "paused; b did not answer; play goes on from here"
+    assert world.system.message.code == "paused_without"
+    assert world.system.message.values["robots"] == ["b"]
     assert world.system.clock.position == pytest.approx(place)
     assert world.playbacks["a"].state is State.PAUSED
     world.now += 5 * SECOND
@@ -532,7 +541,7 @@ def test_a_pause_that_does_not_reach_a_member_pauses_in_place(killed):
     world.sent = {"a": [], "b": []}
     world.system.play(world.now)
     world.run_until(SystemState.READY)
-    assert world.system.message == "played to the end"
+    assert world.system.message.code == "played_to_end"
     assert world.frames("a")[0] == pytest.approx(place * 100, abs=1)
     assert world.frames("b")[-1] == 50
 
@@ -562,7 +571,7 @@ def test_a_member_that_does_not_answer_its_start_pauses_the_system():
     assert world.system.state is SystemState.PAUSED
     assert world.playbacks["a"].state is State.PAUSED
     assert world.system.clock.position > 0.5
-    assert "b did not answer; play goes on from here" in world.system.message
+    assert said(world) == ("members_silent", {"robots": ["b"]})
 
 
 def test_a_member_that_loops_by_itself_does_not_keep_the_system_from_ending():
@@ -627,16 +636,16 @@ def test_in_sequential_mode_those_behind_a_wait_follow_it():
 
 
 @pytest.mark.parametrize(
-    ("wait", "says"),
+    ("wait", "code", "values"),
     [
-        ("frame 0: after x.frame 1", "expected a member of the system: a, b"),
-        ("frame 10: after b.frame 20", "b waits for itself"),
-        ("frame 51: after a.frame 1", "its trajectory has frames 0 to 50"),
-        ("when ready", "is no wait; expected"),
+        ("frame 0: after x.frame 1", say.WAIT_FOR_STRANGER, {"robot": "x", "members": ["a", "b"]}),
+        ("frame 10: after b.frame 20", say.WAIT_FOR_ITSELF, {"robot": "b"}),
+        ("frame 51: after a.frame 1", say.WAIT_BEYOND_END, {"frame": 51, "last_frame": 50}),
+        ("when ready", say.BAD_WAIT, {"wait": "when ready"}),
     ],
 )
-def test_a_wait_that_cannot_be_is_refused(wait, says):
-    with pytest.raises(BadInput, match=says):
+def test_a_wait_that_cannot_be_is_refused(wait, code, values):
+    with refused(code, BadInput, **values):
         make(TWO, waits={"b": [wait]})
 
 
@@ -645,7 +654,7 @@ def test_the_mode_changes_only_while_nothing_is_under_way():
     world.system.set_mode(Mode.SEQUENTIAL)
     assert world.system.duration == 1.5
     world.system.play(world.now)
-    with pytest.raises(Misuse, match="cannot set the mode in STAGING; stop first"):
+    with refused(say.STOP_FIRST, IllegalEvent):
         world.system.set_mode(Mode.PARALLEL)
 
 
@@ -700,7 +709,7 @@ def test_whatever_happens_no_member_moves_while_the_system_stands_and_play_recov
             elif name == "rate":
                 system.set_rate(world.now, (0.1 + 3.9 * x) * (-1 if round(16 * x) % 2 else 1))
             elif name == "collide":
-                playback.collide(world.now, "touches")
+                playback.collide(world.now, TOUCHES)
             elif name == "clear":
                 playback.clear(world.now)
             elif name == "lose":
@@ -732,7 +741,7 @@ def test_whatever_happens_no_member_moves_while_the_system_stands_and_play_recov
     world.sent = {robot: [] for robot in world.sent}
     system.play(world.now)
     world.run_until(SystemState.READY)
-    assert system.message == "played to the end"
+    assert system.message.code == "played_to_end"
     assert [world.frames(r) for r in "abc"] == [list(range(n)) for n in (31, 21, 11)]
 
 
@@ -749,7 +758,7 @@ def in_state(state: SystemState) -> World:
         world.run_until(SystemState.PLAYING)
         world.advance(0.3)
     if state is SystemState.COLLISION_HALT:
-        world.playbacks["a"].collide(world.now, "touches")
+        world.playbacks["a"].collide(world.now, TOUCHES)
         world.report()
     if state is SystemState.COMPLETE:
         # COMPLETE lasts no longer than its announcement, so no command leads to it.
@@ -832,13 +841,13 @@ def test_a_loop_whose_members_cannot_be_claimed_again_ends_with_the_reason():
     world.system.members["a"].playback_state = State.IDLE
 
     def gone(robots: Sequence[str]) -> list[Loaded]:
-        raise Misuse(f"{robots[0]}: is not played here")
+        raise Misuse(playback_codes.NOT_PLAYED(robot=robots[0]))
 
     world.claim = gone
-    with pytest.raises(Misuse, match="a: is not played here"):
+    with refused(playback_codes.NOT_PLAYED, Misuse, robot="a"):
         world.system.poll(world.now)
     assert world.system.state is SystemState.READY
-    assert "a: is not played here" in world.system.message
+    assert said(world) == ("not_played", {"robot": "a"})
 
 
 def test_a_state_from_before_the_last_reply_is_out_of_date():
@@ -876,7 +885,7 @@ def test_a_system_that_cannot_be_leaves_every_robot_as_it_was():
     world.playbacks["a"].seek(world.now, 0.5)
     arm = world.playbacks["a"].arm
     members = [Member("a", "other"), Member("b", waits=(parse("frame 60: after a.frame 1"),))]
-    with pytest.raises(BadInput, match="b waits at frame 60"):
+    with refused(say.WAIT_BEYOND_END, BadInput, robot="b", frame=60):
         RobotSystem("cell", members, world).prepare()
     a, b = world.playbacks["a"], world.playbacks["b"]
     assert (a.system, b.system) == ("", "")
@@ -888,7 +897,7 @@ def test_a_system_that_cannot_be_leaves_every_robot_as_it_was():
 
 def test_a_load_that_fails_leaves_every_robot_as_it_was():
     world = World({"a": 11, "b": 11})
-    with pytest.raises(BadInput, match="no trajectory 'ghost'"):
+    with refused(say.NO_SYSTEM, BadInput, system="ghost"):
         RobotSystem("cell", [Member("a"), Member("b", "ghost")], world).prepare()
     assert [p.system for p in world.playbacks.values()] == ["", ""]
 
@@ -897,7 +906,7 @@ def test_a_robot_that_moves_by_itself_is_not_claimed():
     world = World({"a": 101})
     world.playbacks["a"].seek(world.now, 0.0)
     world.playbacks["a"].play(world.now)
-    with pytest.raises(Misuse, match="is in PLAYING; stop it first"):
+    with refused(playback_codes.NOT_STANDING, Misuse, state="PLAYING"):
         RobotSystem("cell", [Member("a")], world).prepare()
     assert world.playbacks["a"].state is State.PLAYING
 
@@ -906,7 +915,7 @@ def test_a_member_without_a_trajectory_is_refused():
     world = World({})
     world.playbacks["a"] = Playback(make_model(), StraightPlanner(), 0.0)
     system = RobotSystem("cell", [Member("a")], world)
-    with pytest.raises(Misuse, match="a has no trajectory; load one"):
+    with refused(say.NO_TRAJECTORY_LOADED, Misuse, robot="a"):
         system.prepare()
 
 
@@ -920,7 +929,7 @@ def test_a_robot_is_in_one_system_at_a_time():
     systems.add(cell)
     assert systems.of("a") is cell
     assert systems.of("c") is None
-    with pytest.raises(Misuse, match="'b' is a member of system 'cell'"):
+    with refused(playback_codes.MEMBER_OF_SYSTEM, Misuse, robot="b", system="cell"):
         systems.check("other", ["c", "b"], SCENE)
     assert [s.name for s in systems] == ["cell"]
     systems.dissolve("cell")
@@ -942,25 +951,25 @@ def test_names_are_given_and_checked():
     systems.add(RobotSystem(systems.check("", ["a"], SCENE), [Member("a")], World({})))
     assert systems.check("", ["b"], SCENE) == "system_2"
     for taken in ("system_1", "a"):
-        with pytest.raises(BadInput, match=f"'{taken}' is taken"):
+        with refused(NAME_TAKEN, BadInput, name=taken):
             systems.check(taken, ["c"], SCENE)
 
 
 @pytest.mark.parametrize(
-    ("robots", "says"),
+    ("robots", "code", "values"),
     [
-        ([], "at least one member"),
-        (["x"], "no robot 'x' is in the scene; there are: a, b, c"),
-        (["a", "a"], "named 2 times"),
+        ([], say.NO_MEMBERS, {}),
+        (["x"], NO_ROBOT_IN_SCENE, {"robot": "x", "known": ["a", "b", "c"]}),
+        (["a", "a"], say.ROBOT_REPEATED, {"robot": "a", "count": 2}),
     ],
 )
-def test_members_that_cannot_be_are_refused(robots, says):
-    with pytest.raises(BadInput, match=says):
+def test_members_that_cannot_be_are_refused(robots, code, values):
+    with refused(code, BadInput, **values):
         Systems().check("cell", robots, SCENE)
 
 
 def test_an_unknown_system_is_named_with_those_that_are_there():
-    with pytest.raises(Misuse, match="no system 'cell'; there are: none"):
+    with refused(say.NO_SYSTEM, Misuse, system="cell", known=[]):
         Systems().get("cell")
 
 
@@ -984,7 +993,7 @@ def test_a_clock_that_is_set_parts_no_members(mode, by):
     world.advance(0.4)
     set_clock()
     world.run_until(SystemState.READY)
-    assert world.system.message == "played to the end"
+    assert world.system.message.code == "played_to_end"
     assert world.frames("a") == list(range(101))
     assert world.frames("b") == list(range(51))
     # In sequential mode b begins the moment a has ended.
@@ -1001,7 +1010,7 @@ def test_backwards_the_same_run_is_played_from_its_end_to_its_start(mode, rate):
     assert system.clock.position == system.duration
     system.play(world.now)
     world.run_until(SystemState.READY)
-    assert system.message == "played back to the start"
+    assert system.message.code == "played_back"
     step = round(-rate)
     assert world.frames("a") == list(range(100, -1, -step))
     assert world.frames("b") == list(range(50, -1, -step))
@@ -1037,7 +1046,7 @@ def test_backwards_nothing_waits_and_forwards_again_it_does():
 def test_a_direction_is_not_changed_while_members_move_to_their_places():
     world = make(TWO)
     world.system.play(world.now)
-    with pytest.raises(Misuse, match="move to their places"):
+    with refused(say.MEMBERS_MOVE_TO_PLACES, Misuse):
         world.system.set_rate(world.now, -1.0)
     assert world.system.rate == 1.0
     world.run_until(SystemState.PLAYING)
