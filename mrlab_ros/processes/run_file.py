@@ -18,7 +18,7 @@ from mrlab_ros.core.base.diagnostic import Diagnostic, Fix
 from mrlab_ros.core.errors import Misuse, Unavailable
 from mrlab_ros.processes.child import ProcessState
 from mrlab_ros.processes.diagnostics import DOMAIN_TAKEN, LABS_ELSEWHERE, NO_PRIVATE_FOLDER
-from mrlab_ros.ros.diagnostics import NO_LAB
+from mrlab_ros.ros.diagnostics import NO_LAB_ANSWERS
 
 # `mrlab status` holds the lock for a moment; a claim retries for this long, s.
 CLAIM_TIMEOUT_S = 0.2
@@ -130,7 +130,7 @@ def nobody(domain: int, labs: Sequence[int]) -> Diagnostic:
     """Return what to say of an empty domain; labs: the domains on which this user runs labs."""
     if labs:
         return LABS_ELSEWHERE(domain=domain, labs=list(labs))
-    return NO_LAB(domain=domain, fixes=(Fix(command="up"),))
+    return NO_LAB_ANSWERS(domain=domain, fixes=(Fix(command="up"),))
 
 
 def _locked(file: IO[bytes], kind: int) -> bool:

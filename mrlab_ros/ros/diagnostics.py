@@ -45,8 +45,8 @@ NOT_AS_AWAITED = Code(
     meaning="A topic was waited for until it says something.",
     commands=("status",),
 )
-NO_LAB = Code(
-    "no_lab",
+NO_LAB_ANSWERS = Code(
+    "no_lab_answers",
     "No lab answers on ROS domain {domain:integer}.",
     "Start one, or set ROS_DOMAIN_ID to the domain of a running one.",
     meaning="A client found no lab.",

@@ -18,7 +18,7 @@ from mrlab_ros.core.errors import Misuse
 from mrlab_ros.core.naming import close_to
 from mrlab_ros.messages import qos
 from mrlab_ros.ros.calls import NoAnswer
-from mrlab_ros.ros.diagnostics import NO_LAB, NOT_AS_AWAITED, NOTHING_CAME
+from mrlab_ros.ros.diagnostics import NO_LAB_ANSWERS, NOT_AS_AWAITED, NOTHING_CAME
 
 T = TypeVar("T")
 C = TypeVar("C", bound="GraphClient")
@@ -137,7 +137,7 @@ class GraphClient(ABC):
         try:
             robots: list[Any] = watch.wait(lambda _: True, timeout).robots
         except NoAnswer:
-            raise NoAnswer(NO_LAB(domain=self.domain, fixes=self.advice())) from None
+            raise NoAnswer(NO_LAB_ANSWERS(domain=self.domain, fixes=self.advice())) from None
         return robots
 
     def robot(self, name: str) -> Any:

@@ -13,7 +13,7 @@ from mrlab_ros.core.errors import Misuse
 from mrlab_ros.processes.diagnostics import LABS_ELSEWHERE
 from mrlab_ros.processes.run_file import RunFile, domains
 from mrlab_ros.ros.calls import NoAnswer
-from mrlab_ros.ros.diagnostics import NO_LAB
+from mrlab_ros.ros.diagnostics import NO_LAB_ANSWERS
 
 
 class Lone:
@@ -45,7 +45,7 @@ def test_a_domain_of_tools_alone_has_no_lab(
 ) -> None:
     lone = Lone(*tools)
     monkeypatch.setattr(connect, "_node", lambda: lone)
-    with refused(NO_LAB, NoAnswer, domain=7):
+    with refused(NO_LAB_ANSWERS, NoAnswer, domain=7):
         connect.open_graph()
     assert lone.closed
 
