@@ -47,13 +47,13 @@ YAML_MAPPING = Code(
 )
 KEY_TWICE = Code(
     "key_twice",
-    "[{file}:]line {line:integer}: '{key}' is there twice.",
+    "'{key}' is there twice, the second time in line {line:integer}[ of {file}].",
     "Write it once.",
     meaning="A mapping in a file holds a key twice.",
 )
 YAML_ALIAS = Code(
     "yaml_alias",
-    "line {line:integer}: *{alias} is an alias, which ROS does not read.",
+    "*{alias} in line {line:integer} is an alias, which ROS does not read.",
     "Write the values out.",
     meaning="A ROS parameter file has no aliases.",
 )

@@ -124,7 +124,7 @@ TRAJECTORY_NOT_FITTING = Code(
 POSITION_BEYOND = Code(
     "position_beyond",
     "The scene wants {robot} at {position:time} of '{trajectory}', which lasts {duration:time}.",
-    "Set at to {most:exact} at most.",
+    "Set 'at' to {most:exact} at most.",
     meaning="A scene sets a robot to a position that its trajectory does not have.",
 )
 NO_TRAJECTORY_NAMED = Code(
