@@ -207,7 +207,7 @@ def test_whoever_may_connect_draws_and_decodes_the_lab(keys, start, connect, pre
         assert json.loads(ask(session, f"{prefix}schema")[0][0])["messages"]
         foreign, why = ask(session, f"{prefix}assets/mrlab_ros/config/bridge.yaml")
         assert foreign == []
-        assert "there is no asset" in why[0]
+        assert "no asset" in why[0]
 
 
 @pytest.mark.parametrize("prefix", ["", "campus/lab_1/"])

@@ -5,9 +5,10 @@ from __future__ import annotations
 from dataclasses import asdict
 from pathlib import Path
 
-import pytest
 import yaml
+from refusals import refused
 
+from mrlab_ros.core.base.diagnostics import AN_INTEGER
 from mrlab_ros.core.errors import BadInput
 from mrlab_ros.core.physics.settings import Settings
 
@@ -21,5 +22,5 @@ def test_the_shipped_file_names_every_figure_with_its_default():
 
 
 def test_figures_that_were_set_in_code_are_checked_too():
-    with pytest.raises(BadInput, match="max_objects is 0; expected a whole number from 1"):
+    with refused(AN_INTEGER, BadInput):
         Settings(max_objects=0)
