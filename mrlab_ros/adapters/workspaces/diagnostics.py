@@ -30,29 +30,29 @@ UNSUPPORTED_FORMAT = Code(
     "sqlite=an SQLite database but no whole rosbag2 bag|"
     "html=a web page (was the download page saved instead of the file?)|text=a text file|"
     "unknown=a file of an unknown kind}[ ({detail})], not a MATLAB workspace.",
-    "In MATLAB: save('traj.mat', 'q') and convert traj.mat.",
+    "Save the joint positions in MATLAB, and convert that file.",
     meaning="The file is not a MATLAB workspace, and what it is instead.",
     fixes=SAVE_AGAIN,
 )
 UNREADABLE = Code(
     "unreadable",
     "'{file}' is damaged: {why:problem}.",
-    "Copy the file again, or save it again in MATLAB: save('traj.mat', 'q').",
+    "Copy the file again, or save it again in MATLAB.",
     meaning="The file is a workspace but damaged or cut short; nothing of it is taken.",
     fixes=SAVE_AGAIN,
 )
 BAD_TABLE = Code(
     "bad_table",
     "'{file}' cannot be read as a table: {why:problem}.",
-    "Write numbers with a decimal point, one row a sample, under one row of headings; in MATLAB: "
-    "writematrix([[t q]], 'traj.csv'), or save('traj.mat', 'q', 't').",
+    "Write numbers with a decimal point, one row a sample, under one row of headings; or save a "
+    ".mat file in MATLAB.",
     meaning="A text file is no table of numbers with one row a sample.",
     fixes=(("", "", "writematrix([t q], 'traj.csv')"),),
 )
 CONVERTER_FAILED = Code(
     "converter_failed",
     "The converter failed on '{file}' ({error}); this is a fault of the converter.",
-    "Save only the trajectory: save('traj.mat', 'q'), and report the fault with the file.",
+    "Save only the trajectory, and report the fault with the file.",
     meaning="The converter itself failed on the file; nothing of it is taken, and the next file "
     "is.",
     fixes=SAVE_AGAIN,
@@ -60,16 +60,16 @@ CONVERTER_FAILED = Code(
 READER_DIED = Code(
     "reader_died",
     "'{file}' brought the file reader down" + ENDED + "; the file is damaged or made to do so.",
-    "Save it again in MATLAB: save('traj.mat', 'q').",
+    "Save it again in MATLAB.",
     meaning="The process that reads files ended while reading this one; the lab goes on.",
     fixes=SAVE_AGAIN,
 )
 READERS_DISAGREE = Code(
     "readers_disagree",
     "'{variable}' of '{file}' cannot be trusted, as two readers disagree: {why:problem}.",
-    "Save it again in MATLAB and send the new file: save('traj.mat', 'q', '-v7').",
+    "Save it again in MATLAB and send the new file.",
     meaning="Two independent readers do not find the same numbers: the file is damaged.",
-    fixes=SAVE_AGAIN,
+    fixes=(("", "", "save('traj.mat', 'q', '-v7')"),),
 )
 SECOND_READER_CRASHED = Code("second_reader_crashed", "the second reader crashed on it" + ENDED)
 TOO_LARGE = Code(
@@ -77,14 +77,14 @@ TOO_LARGE = Code(
     "'{file}' is too large: {part:choice file=it has|bag=the bag has|numbers=its matrices hold|"
     "variable=one of its variables holds|inflated=it inflates to|reading=reading it needs|"
     "converting=converting it needs} more than {limit:bytes}[, namely {size:bytes}].",
-    "Save only the trajectory: save('traj.mat', 'q').",
+    "Save only the trajectory.",
     meaning="The file, or what it inflates to, passes the limit on size or memory.",
     fixes=SAVE_AGAIN,
 )
 TOO_SLOW = Code(
     "too_slow",
     "'{file}' could not be read within {limit:time} and was stopped.",
-    "Save only the trajectory: save('traj.mat', 'q').",
+    "Save only the trajectory.",
     meaning="Reading the file passed the time limit and was stopped.",
     fixes=SAVE_AGAIN,
 )
@@ -149,3 +149,73 @@ TOO_MANY_PARTS = Code("too_many_parts", "it has more than {most:integer} parts")
 NUMBERS_DIFFER = Code("numbers_differ", "two readers find different numbers in it")
 ENUMERATION = Code("enumeration", "an enumeration: {names:list}")
 CATEGORIES = Code("categories", "one of {names:either}")
+
+# what is damaged in the bytes of a workspace
+BAD_DIMENSIONS = Code(
+    "bad_dimensions",
+    "an array has the dimensions {size}; expected {least:integer} to {most:integer} of them, none "
+    "negative",
+)
+BAD_NAME_BYTES = Code("bad_name_bytes", "a name is written as {found}, which MATLAB never writes")
+NO_NAME = Code("no_name", "a variable or an object has no name")
+SAME_NAME = Code("same_name", "two variables have the name '{variable}'")
+ENDS_EARLY = Code("ends_early", "it ends inside an element's tag")
+TOO_FEW_BYTES = Code(
+    "too_few_bytes",
+    "[the numbers of '{variable}' have][the text '{text}' has][{element:choice any=an element "
+    "has}] {left:integer} bytes where {needed:integer} are needed",
+)
+TOO_MANY_BYTES = Code(
+    "too_many_bytes",
+    "{count:count byte follows|bytes follow} [the contents of '{variable}']"
+    "[{behind:choice checksum=the checksum of a compressed variable}]",
+)
+ODD_BYTES = Code(
+    "odd_bytes",
+    "{part:choice variable=a variable has|fields=the field names of a struct have} "
+    "{count:integer} bytes, which is no multiple of {unit_size:integer}",
+)
+WRONG_TYPE = Code(
+    "wrong_type",
+    "{part:choice name=a name has|dimensions=dimensions have|flags=a variable's flags have|"
+    "fields=field names have|indices=sparse indices have|numbers=numbers have|text=a text has|"
+    "variable=what should be a variable has} the element type {found}"
+    "[ (in '{variable}')]",
+)
+NO_VARIABLE_HERE = Code(
+    "no_variable_here",
+    "no variable begins where one should[, at byte {byte:integer}]",
+)
+UNKNOWN_CLASS_NUMBER = Code(
+    "unknown_class_number",
+    "'{variable}' has the class number {found:integer}, which MATLAB never writes",
+)
+EMPTY_SUBSYSTEM = Code("empty_subsystem", "the part that holds the contents of objects is empty")
+WRONG_INFLATED_SIZE = Code(
+    "wrong_inflated_size",
+    "a compressed variable inflates to {found:choice less=less|more=more} than the "
+    "{declared:integer} bytes that it declares",
+)
+CUT_BEFORE_CHECKSUM = Code(
+    "cut_before_checksum", "a compressed variable is cut off before its checksum"
+)
+NESTED_TOO_DEEP = Code(
+    "nested_too_deep", "'{variable}' is nested deeper than {most:integer} levels"
+)
+VALUES_ELSEWHERE = Code(
+    "values_elsewhere", "'{variable}' takes its values from elsewhere; that is not followed"
+)
+BAD_ATTRIBUTE = Code("bad_attribute", "the attribute {attribute} of '{variable}' is too large")
+NO_REFERENCES = Code("no_references", "'{variable}' holds no references to its elements")
+POINTS_NOWHERE = Code("points_nowhere", "'{variable}' points nowhere")
+LIBRARY_FAILED = Code(
+    "library_failed",
+    "{part:choice hdf5=the HDF5 library|bag=the reader of bags|npz=the reader of npz archives|"
+    "json=the reader of JSON|variable=zlib|message=the reader of messages} cannot read it "
+    "({error})",
+)
+NO_JSON_OBJECT = Code(
+    "no_json_object",
+    'it is no JSON object; expected one such as {{"q": [[[[...]], ...]], "fs": 100}}',
+)
+NO_MATRIX_Q = Code("no_matrix_q", "its frames hold no matrix q; convert the workspace again")

@@ -16,6 +16,7 @@ from typing import Any
 import numpy as np
 
 from mrlab_ros.adapters.inflate import ZSTD, inflate_zstd
+from mrlab_ros.adapters.workspaces.diagnostics import LIBRARY_FAILED
 from mrlab_ros.adapters.workspaces.mat5 import (
     Damaged,
     NotAWorkspace,
@@ -85,7 +86,7 @@ def read_bag(data: memoryview, form: str, sink: Sink, limit: int) -> None:
         # what damage makes the reader raise has no common base
         if form == "sqlite3":
             raise NotAWorkspace("sqlite", str(error)) from None
-        raise Damaged(f"the bag cannot be read ({error})") from None
+        raise Damaged(LIBRARY_FAILED(part="bag", error=str(error))) from None
     for topic, messages in found.items():
         if not messages:
             sink.add(Found(topic, JOINT_TRAJECTORY, ()))
@@ -116,7 +117,7 @@ def _hand_over(path: str, data: bytes, types: Any, sink: Sink) -> None:
     except MemoryError:
         raise
     except Exception as error:
-        raise Damaged(f"'{path}' is no serialized JointTrajectory ({error})") from None
+        raise Damaged(LIBRARY_FAILED(part="message", error=str(error))) from None
     names, points = tuple(message.joint_names), message.points
     shape = (len(points), len(names))
     for number, point in enumerate(points, 1):

@@ -10,11 +10,29 @@ import math
 import struct
 import zlib
 
+from mrlab_ros.adapters.workspaces.diagnostics import (
+    BAD_DIMENSIONS,
+    BAD_NAME_BYTES,
+    CUT_BEFORE_CHECKSUM,
+    EMPTY_SUBSYSTEM,
+    ENDS_EARLY,
+    LIBRARY_FAILED,
+    NESTED_TOO_DEEP,
+    NO_NAME,
+    NO_VARIABLE_HERE,
+    ODD_BYTES,
+    SAME_NAME,
+    TOO_FEW_BYTES,
+    TOO_MANY_BYTES,
+    UNKNOWN_CLASS_NUMBER,
+    WRONG_INFLATED_SIZE,
+    WRONG_TYPE,
+)
 from mrlab_ros.adapters.workspaces.sink import Found, Sink
 
 
 class Damaged(Exception):
-    """The bytes contradict the format; the text completes 'the file is damaged: ...'."""
+    """The bytes contradict the format; its argument is the diagnostic that says why."""
 
 
 class NotATable(Damaged):
@@ -95,16 +113,21 @@ def index(shape: tuple[int, ...], number: int) -> str:
 def product(shape: tuple[int, ...]) -> int:
     """Return the number of elements of an array of this shape; raise Damaged where it is none."""
     if len(shape) > MOST_AXES:
-        raise Damaged(f"an array has {len(shape)} dimensions; at most {MOST_AXES} are read")
+        raise _misshapen(shape)
     if any(n < 0 for n in shape):
-        raise Damaged(f"an array has the dimensions {shape}")
+        raise _misshapen(shape)
     return math.prod(shape)
+
+
+def _misshapen(shape: tuple[int, ...]) -> Damaged:
+    size = "x".join(map(str, shape))
+    return Damaged(BAD_DIMENSIONS(size=size, least=2, most=MOST_AXES))
 
 
 def name_of(text: bytes) -> str:
     """Return the name of a variable, field or class; raise Damaged where it is not ASCII text."""
     if not all(32 <= character < 127 for character in text):
-        raise Damaged(f"a name is written as {text[:40]!r}, which MATLAB never writes")
+        raise Damaged(BAD_NAME_BYTES(found=repr(text[:40])))
     return text.decode("ascii")
 
 
@@ -122,18 +145,18 @@ class Cursor:
     def next(self) -> tuple[int, memoryview]:
         """Return the next element's data type and bytes, and step over it and its padding."""
         if len(self.data) - self.at < 8:
-            raise Damaged("it ends inside an element's tag")
+            raise Damaged(ENDS_EARLY())
         kind, size = struct.unpack_from(self.order + "II", self.data, self.at)
         if kind >> 16:
             kind, size = kind & 0xFFFF, kind >> 16
             if size > 4:
-                raise Damaged(f"a small element claims {size} bytes where 4 fit")
+                raise Damaged(TOO_FEW_BYTES(element="any", left=4, needed=size))
             begin, self.at = self.at + 4, self.at + 8
         else:
             begin = self.at + 8
             left = len(self.data) - begin
             if size > left:
-                raise Damaged(f"an element claims {size} bytes where {left} are left")
+                raise Damaged(TOO_FEW_BYTES(element="any", left=left, needed=size))
             self.at = begin + size
             if kind != MI_COMPRESSED:
                 self.at = min(self.at + -size % 8, len(self.data))
@@ -142,13 +165,13 @@ class Cursor:
     def text(self) -> str:
         kind, data = self.next()
         if kind not in (MI_INT8, MI_UTF8):
-            raise Damaged(f"a name has the element type {kind}, which is not text")
+            raise Damaged(WRONG_TYPE(part="name", found=kind))
         return name_of(bytes(data).rstrip(b"\0"))
 
     def integers(self) -> tuple[int, ...]:
         kind, data = self.next()
         if kind not in (MI_INT32, MI_UINT32):
-            raise Damaged(f"dimensions have the element type {kind}, which is not int32")
+            raise Damaged(WRONG_TYPE(part="dimensions", found=kind))
         letter = "i" if kind == MI_INT32 else "I"
         return struct.unpack(f"{self.order}{len(data) // 4}{letter}", data[: len(data) // 4 * 4])
 
@@ -170,7 +193,7 @@ class Mat5Reader:
     def read(self, data: memoryview) -> None:
         """Hand every variable of the file to the sink; raise Damaged or TooLarge."""
         if len(data) < 128:
-            raise Damaged(f"it has {len(data)} bytes where the header alone has 128")
+            raise Damaged(TOO_FEW_BYTES(element="any", left=len(data), needed=128))
         self.order = ">" if bytes(data[126:128]) == b"MI" else "<"
         (subsystem,) = struct.unpack_from(self.order + "Q", data, 116)
         cursor = Cursor(data, self.order)
@@ -179,16 +202,16 @@ class Mat5Reader:
         while cursor:
             if not any(data[cursor.at : cursor.at + 8]):
                 if any(data[cursor.at :]):
-                    raise Damaged("zeros stand where a variable should begin")
+                    raise Damaged(NO_VARIABLE_HERE())
                 return
             begin = cursor.at
             kind, body = cursor.next()
             if kind == MI_COMPRESSED:
                 kind, body = self._inflate(body)
             if kind != MI_MATRIX:
-                raise Damaged(f"element type {kind} stands where a variable should begin")
+                raise Damaged(WRONG_TYPE(part="variable", found=kind))
             if len(body) % 8:
-                raise Damaged(f"a variable has {len(body)} bytes, which is no multiple of 8")
+                raise Damaged(ODD_BYTES(part="variable", count=len(body), unit_size=8))
             # objects keep their contents in one nameless variable, which `objects` reads
             if begin == subsystem:
                 if self.inside_objects:
@@ -196,7 +219,7 @@ class Mat5Reader:
             else:
                 name = self._matrix(body, "", 0)
                 if name in names:
-                    raise Damaged(f"two variables have the name '{name}'")
+                    raise Damaged(SAME_NAME(variable=name))
                 names.add(name)
 
     def _subsystem(self, body: memoryview) -> None:
@@ -209,7 +232,7 @@ class Mat5Reader:
             cursor.next()
         _, inner = cursor.next()
         if len(inner) < 8:
-            raise Damaged("the part that holds the contents of objects is empty")
+            raise Damaged(EMPTY_SUBSYSTEM())
         reader = Mat5Reader(self.sink, self.limit, inside_objects=True)
         reader.order = ">" if bytes(inner[2:4]) == b"MI" else "<"
         cursor = Cursor(inner[8:], reader.order)
@@ -231,61 +254,56 @@ class Mat5Reader:
         try:
             head = inflater.decompress(body, 8)
             if len(head) < 8:
-                raise Damaged("a compressed variable ends inside its tag")
+                raise Damaged(ENDS_EARLY())
             kind, size = struct.unpack(self.order + "II", head)
             if size > self.limit:
                 raise TooLarge("variable", self.limit, size)
             inflated = inflater.decompress(inflater.unconsumed_tail, size) if size else b""
             if len(inflated) < size:
-                raise Damaged(
-                    f"a compressed variable inflates to {len(inflated)} bytes, it declares {size}"
-                )
+                raise Damaged(WRONG_INFLATED_SIZE(found="less", declared=size))
             more = b"" if inflater.eof else inflater.decompress(inflater.unconsumed_tail, 1)
         except zlib.error as error:
-            if "data check" in str(error):
-                raise Damaged("a compressed variable does not match its checksum") from None
-            raise Damaged(f"a compressed variable cannot be inflated ({error})") from error
+            raise Damaged(LIBRARY_FAILED(part="variable", error=str(error))) from error
         if more:
-            raise Damaged(f"a compressed variable inflates to more than the {size} bytes declared")
+            raise Damaged(WRONG_INFLATED_SIZE(found="more", declared=size))
         if not inflater.eof:
-            raise Damaged("a compressed variable is cut off before its checksum")
+            raise Damaged(CUT_BEFORE_CHECKSUM())
         if inflater.unused_data:
-            raise Damaged(
-                f"{len(inflater.unused_data)} bytes follow the checksum of a compressed variable"
-            )
+            count = len(inflater.unused_data)
+            raise Damaged(TOO_MANY_BYTES(count=count, behind="checksum"))
         return kind, memoryview(inflated)
 
     def _matrix(self, body: memoryview, path: str, depth: int) -> str:
         """Hand one matrix element to the sink and return its path."""
         if depth > DEEPEST:
-            raise Damaged(f"'{path}' is nested deeper than {DEEPEST} levels")
+            raise Damaged(NESTED_TOO_DEEP(variable=path, most=DEEPEST))
         if not len(body):
             if not path:
-                raise Damaged("a variable has no name")
+                raise Damaged(NO_NAME())
             self.sink.add(Found(path, "double", (0, 0)))
             return path
         cursor = Cursor(body, self.order)
         kind, data = cursor.next()
         if kind != MI_UINT32 or len(data) < 8:
-            raise Damaged(f"a variable's flags have the element type {kind}, not uint32")
+            raise Damaged(WRONG_TYPE(part="flags", found=kind))
         (flags,) = struct.unpack_from(self.order + "I", data)
         array_class, flags = flags & 0xFF, flags >> 8 & 0xFF
         if array_class == OPAQUE:
             name, _, class_name = cursor.text(), cursor.text(), cursor.text()
             path = path or name
             if not path:
-                raise Damaged("an object has no name")
+                raise Damaged(NO_NAME())
             self.sink.add(Found(path, class_name or "object", is_object=True, shape=()))
             if self.inside_objects:
                 self._child(cursor, path, depth)
             return path
         shape = cursor.integers()
         if len(shape) < 2:
-            raise Damaged(f"a variable has {len(shape)} dimensions, expected at least 2")
+            raise _misshapen(shape)
         name = cursor.text()
         path = path or name
         if not path:
-            raise Damaged("a variable has no name")
+            raise Damaged(NO_NAME())
         count = product(shape)
         if array_class == CELL:
             self.sink.add(Found(path, "cell", shape))
@@ -296,17 +314,15 @@ class Mat5Reader:
         elif array_class in CLASSES:
             self._numbers(cursor, array_class, flags, path, shape)
         else:
-            raise Damaged(
-                f"'{path}' has the class number {array_class}, which MATLAB never writes"
-            )
+            raise Damaged(UNKNOWN_CLASS_NUMBER(variable=path, found=array_class))
         if array_class not in UNREAD and any(body[cursor.at :]):
-            raise Damaged(f"{len(body) - cursor.at} bytes follow the contents of '{path}'")
+            raise Damaged(TOO_MANY_BYTES(count=len(body) - cursor.at, variable=path))
         return path
 
     def _child(self, cursor: Cursor, path: str, depth: int) -> None:
         kind, body = cursor.next()
         if kind != MI_MATRIX:
-            raise Damaged(f"element type {kind} stands where '{path}' should be")
+            raise Damaged(WRONG_TYPE(part="variable", found=kind, variable=path))
         self._matrix(body, path, depth + 1)
 
     def _struct(
@@ -321,11 +337,9 @@ class Mat5Reader:
         length = lengths[0] if lengths else 0
         kind, names = cursor.next()
         if kind != MI_INT8:
-            raise Damaged(f"the field names of '{path}' have the element type {kind}, not int8")
+            raise Damaged(WRONG_TYPE(part="fields", found=kind, variable=path))
         if len(names) and (length < 1 or len(names) % length):
-            raise Damaged(
-                f"the field names of '{path}' have {len(names)} bytes in pieces of {length}"
-            )
+            raise Damaged(ODD_BYTES(part="fields", count=len(names), unit_size=length))
         fields = [
             name_of(bytes(names[i : i + length]).split(b"\0")[0])
             for i in range(0, len(names), length or 1)
@@ -346,7 +360,9 @@ class Mat5Reader:
         if array_class == SPARSE:
             rows, columns = self._element(cursor, path), self._element(cursor, path)
             if {rows[0], columns[0]} - {"i4", "u4"}:
-                raise Damaged(f"the sparse '{path}' has indices of another type than int32")
+                raise Damaged(
+                    WRONG_TYPE(part="indices", found=f"{rows[0]}, {columns[0]}", variable=path)
+                )
             self.sink.add(Found(path, "sparse", shape))
             return
         if array_class == CHAR:
@@ -380,13 +396,11 @@ class Mat5Reader:
         """
         element, data = cursor.next()
         if element not in ELEMENTS:
-            raise Damaged(f"the numbers of '{path}' have the element type {element}, unknown")
+            raise Damaged(WRONG_TYPE(part="numbers", found=element, variable=path))
         dtype = ELEMENTS[element]
         if shape is not None and len(data) != product(shape) * int(dtype[-1]):
-            raise Damaged(
-                f"'{path}' has {len(data)} bytes of numbers where its dimensions "
-                f"{'x'.join(map(str, shape))} need {product(shape) * int(dtype[-1])}"
-            )
+            needed = product(shape) * int(dtype[-1])
+            raise Damaged(TOO_FEW_BYTES(variable=path, left=len(data), needed=needed))
         return dtype, data
 
     def _text(self, cursor: Cursor, path: str, shape: tuple[int, ...]) -> str:
@@ -399,11 +413,11 @@ class Mat5Reader:
             return ""
         element, data = cursor.next()
         if element not in TEXT_SIZES:
-            raise Damaged(f"the text '{path}' has the element type {element}, which is not text")
+            raise Damaged(WRONG_TYPE(part="text", found=element, variable=path))
         size = TEXT_SIZES[element]
         enough = len(data) >= count if element == MI_UTF8 else len(data) == count * size
         if not enough:
-            raise Damaged(f"the text '{path}' has {len(data)} bytes for {count} characters")
+            raise Damaged(TOO_FEW_BYTES(text=path, left=len(data), needed=count * size))
         if shape[0] != 1 or count > LONGEST_TEXT:
             return ""
         suffix = "" if size == 1 else "-le" if self.order == "<" else "-be"
@@ -451,18 +465,19 @@ def read_mat4(data: memoryview, sink: Sink) -> None:
     while at < len(data):
         order = mat4_order(data[at:])
         if order is None:
-            raise Damaged(f"no variable begins at byte {at}, where one should")
+            raise Damaged(NO_VARIABLE_HERE(byte=at))
         kind, rows, columns, imaginary, length = struct.unpack_from(order + "5i", data, at)
         name = bytes(data[at + 20 : at + 20 + length]).rstrip(b"\0").decode("latin-1")
         if name in names:
-            raise Damaged(f"two variables have the name '{name}'")
+            raise Damaged(SAME_NAME(variable=name))
         names.add(name)
         number, size = MAT4_NUMBERS[kind // 10 % 10]
         begin = at + 20 + length
         one = rows * columns * size
         at = begin + one * (1 + imaginary)
         if at > len(data):
-            raise Damaged(f"'{name}' needs {at - begin} bytes where {len(data) - begin} are left")
+            left = len(data) - begin
+            raise Damaged(TOO_FEW_BYTES(variable=name, left=left, needed=at - begin))
         if kind % 10 == 1:
             text = ""
             if rows == 1 and columns <= LONGEST_TEXT:

@@ -15,6 +15,14 @@ from typing import Any
 import h5py
 import numpy as np
 
+from mrlab_ros.adapters.workspaces.diagnostics import (
+    BAD_ATTRIBUTE,
+    LIBRARY_FAILED,
+    NESTED_TOO_DEEP,
+    NO_REFERENCES,
+    POINTS_NOWHERE,
+    VALUES_ELSEWHERE,
+)
 from mrlab_ros.adapters.workspaces.mat5 import (
     DEEPEST,
     INTEGERS,
@@ -58,7 +66,7 @@ def values_of(item: Any, path: str, limit: int) -> Any:
     Raises Damaged or TooLarge before anything of it is read.
     """
     if not isinstance(item, h5py.Dataset) or item.is_virtual or item.external:
-        raise Damaged(f"'{path}' takes its values from elsewhere; that is not followed")
+        raise Damaged(VALUES_ELSEWHERE(variable=path))
     if item.nbytes > limit:
         raise TooLarge("variable", limit, item.nbytes)
     return item[()]
@@ -69,7 +77,7 @@ def attribute(item: Any, name: str) -> Any:
     if name not in item.attrs:
         return None
     if item.attrs.get_id(name).get_storage_size() > MOST_ATTRIBUTE:
-        raise Damaged(f"the attribute {name} of '{item.name}' is too large")
+        raise Damaged(BAD_ATTRIBUTE(attribute=name, variable=item.name))
     return item.attrs[name]
 
 
@@ -83,7 +91,7 @@ def _opened(file: Any) -> Iterator[Any]:
         raise
     except Exception as error:
         # what damage makes h5py raise goes from OSError to OverflowError, wherever it is met
-        raise Damaged(f"the HDF5 library cannot read it ({error})") from error
+        raise Damaged(LIBRARY_FAILED(part="hdf5", error=str(error))) from error
 
 
 def _word(value: Any) -> str:
@@ -112,7 +120,7 @@ class _Reader:
 
     def item(self, item: Any, path: str, depth: int) -> None:
         if depth > DEEPEST:
-            raise Damaged(f"'{path}' is nested deeper than {DEEPEST} levels")
+            raise Damaged(NESTED_TOO_DEEP(variable=path, most=DEEPEST))
         kind = _word(attribute(item, "MATLAB_class") or "")
         if "MATLAB_object_decode" in item.attrs:
             self.sink.add(Found(path, kind or "object", is_object=True, shape=()))
@@ -154,7 +162,7 @@ class _Reader:
 
     def _references(self, item: Any, path: str) -> Any:
         if not _holds_references(item):
-            raise Damaged(f"'{path}' holds no references to its elements")
+            raise Damaged(NO_REFERENCES(variable=path))
         return values_of(item, path, self.limit).reshape(-1)
 
     def cell(self, item: Any, path: str, depth: int) -> None:
@@ -167,7 +175,7 @@ class _Reader:
 
     def _follow(self, reference: Any, path: str, depth: int) -> None:
         if not reference:
-            raise Damaged(f"'{path}' points nowhere")
+            raise Damaged(POINTS_NOWHERE(variable=path))
         self.item(self.root[reference], path, depth + 1)
 
     def _text(self, item: Any, path: str, shape: tuple[int, ...]) -> str:

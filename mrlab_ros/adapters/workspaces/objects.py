@@ -66,7 +66,7 @@ def open_objects(
     except MemoryError:
         raise
     except Damaged as error:
-        _leave_closed(found, opener.opened if opener else set(), str(error))
+        _leave_closed(found, opener.opened if opener else set(), error.args[0])
         return
     except Exception as error:
         # what damage makes mat-io raise has no common base

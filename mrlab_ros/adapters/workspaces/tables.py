@@ -10,6 +10,7 @@ import numpy as np
 import orjson
 
 from mrlab_ros.adapters.workspaces import table_text
+from mrlab_ros.adapters.workspaces.diagnostics import LIBRARY_FAILED, NO_JSON_OBJECT, NO_MATRIX_Q
 from mrlab_ros.adapters.workspaces.mat5 import INTEGERS, Damaged, TooLarge, is_vector
 from mrlab_ros.adapters.workspaces.sink import Found, Sink
 from mrlab_ros.adapters.workspaces.view import View
@@ -66,9 +67,9 @@ def read_json(data: memoryview, sink: Sink) -> None:
     try:
         document = orjson.loads(data)
     except orjson.JSONDecodeError as error:
-        raise Damaged(f"it is no JSON ({error})") from None
+        raise Damaged(LIBRARY_FAILED(part="json", error=str(error))) from None
     if not isinstance(document, dict):
-        raise Damaged('it is no JSON object; expected one such as {"q": [[...], ...], "fs": 100}')
+        raise Damaged(NO_JSON_OBJECT())
     frames = document.get("frames")
     if "schema_version" in document and isinstance(frames, dict):
         _add_frames(document, frames, sink)
@@ -81,7 +82,7 @@ def read_json(data: memoryview, sink: Sink) -> None:
 def _add_frames(document: dict[str, Any], frames: dict[str, Any], sink: Sink) -> None:
     degrees, gripper = _numbers(frames.get("q")), _numbers(frames.get("gripper"))
     if degrees is None or degrees.ndim != 2:
-        raise Damaged("its frames hold no matrix q; convert the workspace again")
+        raise Damaged(NO_MATRIX_Q())
     values, names = np.radians(degrees), document.get("joint_names")
     headings = [str(name) for name in names] if isinstance(names, list) else []
     if gripper is not None and gripper.shape == values.shape[:1]:
@@ -117,4 +118,4 @@ def read_npz(data: memoryview, sink: Sink, limit: int) -> None:
         raise
     except Exception as error:
         # damage, encryption and foreign kinds of compression each raise another error
-        raise Damaged(f"the npz archive cannot be read ({error})") from error
+        raise Damaged(LIBRARY_FAILED(part="npz", error=str(error))) from error

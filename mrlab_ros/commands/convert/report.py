@@ -84,7 +84,7 @@ def show_findings(
     words: list[str] | None = None,
     options: Options | None = None,
 ) -> None:
-    """Print findings with their remedies, and with `words` the commands that mend them."""
+    """Print findings with their remedies and a line of MATLAB, with `words` commands as well."""
     for d, following in zip_longest(findings, findings[1:]):
         severity = d.severity.name.lower()
         label, style = f"  {severity} {d.code}: ", SEVERITY_STYLES[severity]
@@ -99,6 +99,9 @@ def show_findings(
             if fix.option:
                 command = command_with(words or [], options or Options(), fix.option, fix.value)
                 _say_next(console, command)
+        line = next((fix.matlab for fix in d.fixes if fix.matlab), "")
+        if line:
+            console.print(f"      in MATLAB: {visible(line)}", soft_wrap=True)
 
 
 def _advice(d: Diagnostic) -> tuple[str, str, list[tuple[str, str]]]:

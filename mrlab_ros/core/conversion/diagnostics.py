@@ -47,15 +47,14 @@ NO_TRAJECTORY = Code(
     "no_trajectory",
     "No variable of '{file}' looks like the joint positions of {robot}, an N x {joints:integer} "
     "matrix of radians with N >= 2." + CONTENTS + "[{looks:problems}]",
-    "Save the joint positions, one row a sample: save('traj.mat', 'q'). If one of the variables "
-    "is what you want, name it.",
+    "Save the joint positions, one row a sample. If one of the variables is what you want, name "
+    "it.",
     meaning="No variable looks like joint positions of the robot; what they look like instead.",
 )
 LOOKS_LIKE = Code(
     "looks_like",
     "'{variable}' ({size}) was not taken as joint positions: {why:problem}.",
-    "Save the joint positions, one row a sample: save('traj.mat', 'q'). If it is what you want "
-    "all the same, name it.",
+    "Save the joint positions, one row a sample. If it is what you want all the same, name it.",
     meaning="A matrix has the right size, but its numbers are no joint positions.",
 )
 CANDIDATE = Code(
@@ -82,7 +81,7 @@ ROWS_NOT_FILLED = Code(
 AMBIGUOUS = Code(
     "ambiguous",
     "{count:count matrix|matrices} in '{file}' could be the trajectory:{candidates:problems}",
-    "Say which one it is, or save only that one: save('traj.mat', 'q').",
+    "Say which one it is, or save only that one.",
     meaning="More than one matrix could be the trajectory, or the only one is doubtful: choose "
     "one.",
 )
@@ -96,14 +95,13 @@ UNSUPPORTED_OBJECT = Code(
     "unsupported_object",
     "{objects:list} could not be opened: {why:problem}. No other matrix of '{file}' is the "
     "trajectory.",
-    "In MATLAB, save the numbers in it: {line}",
+    "Save the numbers in it in MATLAB.",
     meaning="The values sit in a MATLAB object that could not be opened.",
-    fixes=(("", "", "{line}"),),
 )
 OBJECT_IGNORED = Code(
     "object_ignored",
     "{objects:list} could not be opened and was left out: {why:problem}.",
-    "Nothing to do, unless the trajectory is in there: {line}",
+    "Nothing to do, unless the trajectory is in there: then save the numbers in it in MATLAB.",
     severity=INFO,
     meaning="An object in the file could not be opened; the trajectory is a matrix beside it.",
     data=("file",),
@@ -115,7 +113,7 @@ INSIDE_CONTAINER = Code(
     "The trajectory is not one matrix: {pieces:choice joints=each joint is a variable of its own|"
     "segments=it is kept in segments|samples=it is kept in samples, one by one}, '{variable}' to "
     "'{last}'[, and {more:integer} more that are too many to list].",
-    "Join them; in MATLAB: {line}",
+    "Join them.",
     meaning="The trajectory is kept in pieces: a variable for each joint, sample or segment.",
 )
 WRONG_SHAPE = Code(
@@ -124,7 +122,7 @@ WRONG_SHAPE = Code(
     "{more:integer} with the gripper last.[ Columns 1 to {dates:integer} are dates.]"
     "[ Column {time_column:integer} looks like time, beside {beside:integer} others.]"
     "[ A robot of {meant:integer} joints may be meant.][ Columns {columns} may be the joints.]"
-    "[ It has {dimensions:integer} dimensions: in MATLAB {line}]",
+    "[ It has {dimensions:integer} dimensions.]",
     "Save one row a sample and one column a joint[, or take the columns {columns}].",
     meaning="The matrix has the wrong number of columns or dimensions for the robot.",
     fixes=(("", "", "size({name:matlab})"),),
@@ -153,7 +151,7 @@ EMPTY = Code(
 SINGLE_SAMPLE = Code(
     "single_sample",
     "'{variable}' is {size}, a single configuration; a trajectory has at least 2 rows.",
-    "Save a motion, for example q = jtraj(qStart, qEnd, 100).",
+    "Save a motion of two rows or more.",
     meaning="The matrix holds one configuration, not a motion.",
     fixes=(("", "", "q = jtraj({name:matlab}(:).', qEnd, 100);"),),
 )
@@ -272,9 +270,8 @@ PIECES_DIFFER = Code(
     "The joints from '{variable}' on differ in length: most have {usual:count sample|samples}, "
     "but not {others:list}.",
     "Find out which samples are missing and save all of them again. If all begin together, cut "
-    "them to the first {rows:integer} in MATLAB: {line}",
+    "them to the first {rows:integer}.",
     meaning="The vectors that hold a joint each differ in length, so they cannot be joined.",
-    fixes=(("", "", "{line}"),),
 )
 BAD_RATE = Code(
     "bad_rate",
@@ -462,7 +459,7 @@ TWIN = Code(
 RATE_DEFAULT = Code(
     "rate_default",
     "'{file}' does not say how many rows make a second; {rate:number} was taken.",
-    "Save it with the trajectory: fs = 100; save('traj.mat', 'q', 'fs'), or set the frame rate.",
+    "Save it with the trajectory as fs, or set the frame rate.",
     severity=INFO,
     meaning="The file does not say how many rows make a second; the lab's default was taken.",
     fixes=SAVE_RATE,
@@ -471,8 +468,7 @@ RATE_UNUSED = Code(
     "rate_unused",
     "'{variable}' is named as times or a rate of the rows, but was not used: {why:problem}; "
     "{rate:number} rows a second were taken.",
-    "Save one rising time in seconds for each row, or the rate as a number: fs = 100; "
-    "save('traj.mat', 'q', 'fs').",
+    "Save one rising time in seconds for each row, or the rate as the number fs.",
     severity=WARNING,
     meaning="Times, a step or a rate of the file could not be used; the lab's default was taken.",
     fixes=SAVE_RATE,
@@ -482,9 +478,7 @@ NO_NUMBER = Code(
     "it is {found:problem} where a real number is expected",
     severity=INFO,
 )
-TIMES_OF_CLASS = Code(
-    "times_of_class", "its class is {found:problem}[ (in MATLAB {line})]", severity=INFO
-)
+TIMES_OF_CLASS = Code("times_of_class", "its class is {found:problem}", severity=INFO)
 NO_RATE = Code("no_rate", "{value:number} is no rate or step of the rows", severity=INFO)
 NO_COLUMN = Code("no_column", "it is {size} where one column is expected", severity=INFO)
 TIME_NOT_FINITE = Code(
@@ -509,8 +503,7 @@ WAYPOINTS = Code(
     "waypoints",
     "The rows of '{variable}' come at {rate:rate} and are up to {value:angle} apart, the most "
     "before row {first_row:integer}: they are waypoints, between which the robot jumps.",
-    "Join them by straight lines; this needs their times, saved as t. In MATLAB: "
-    "q = interp1(t, q, (t(1):0.01:t(end))').",
+    "Resample them: straight lines join them. This needs their times, saved as t.",
     severity=WARNING,
     meaning="The rows are as far apart as waypoints, in time and in angle; the robot would jump.",
     fixes=(("resample", "true", "q = interp1(t, q, (t(1):0.01:t(end))'); fs = 100;"),),
@@ -542,7 +535,7 @@ RATE_UNCLEAR = Code(
     "rate_unclear",
     "A rate or a step may be in {found:list}, but as well something else; {rate:number} rows a "
     "second were taken.",
-    "Save the rate as fs: fs = 100; save('traj.mat', 'q', 'fs'), or set the frame rate.",
+    "Save the rate as fs, or set the frame rate.",
     severity=WARNING,
     meaning="Numbers of the file may say the frame rate, but none does so for certain.",
 )
@@ -599,8 +592,7 @@ TIME_ROUNDED = Code(
 NO_TIMES = Code(
     "no_times",
     "Resampling needs the times of the rows of '{variable}', and the file has none.",
-    "Save a time in s for each row, for example 2 s from row to row: "
-    "t = 2 * (0:size(q, 1) - 1)'; save('traj.mat', 'q', 't')",
+    "Save a time in s for each row, for example 2 s from row to row.",
     meaning="Rows are to be made even, but the file does not say when each of them is reached.",
 )
 TIME_REPEATED = Code(

@@ -93,7 +93,8 @@ def object_finding(code: Code, objects: list[Variable], file: str) -> Diagnostic
     )
     is_function = first.kind == "function_handle"
     why = first.note or (FUNCTION_HANDLE() if is_function else UNKNOWN_CLASS())
-    return code(variable=first.path, file=file, objects=listed, line=line, why=why)
+    fixes = (Fix(matlab=line),)
+    return code(variable=first.path, file=file, objects=listed, why=why, fixes=fixes)
 
 
 def refusal(survey: Survey, file: str) -> Diagnostic:
@@ -347,7 +348,7 @@ def _many_dimensions(variable: Variable, robot: RobotModel) -> Diagnostic | None
         return None
     line = page_line(shape, name, joints) if len(long) > 2 else f"q = squeeze({name}){flip};"
     fixes = (Fix(matlab=line),)
-    return wrong_shape(variable, robot, dimensions=len(shape), line=line, fixes=fixes)
+    return wrong_shape(variable, robot, dimensions=len(shape), fixes=fixes)
 
 
 def _transforms(variable: Variable) -> Diagnostic:
@@ -445,7 +446,6 @@ def _in_pieces(found: Series, workspace: Workspace) -> Diagnostic:
         last=paths[-1],
         pieces=pieces,
         more=workspace.omitted or None,
-        line=code,
         value=float(len(paths)),
         fixes=fixes,
     )

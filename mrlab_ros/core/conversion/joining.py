@@ -137,9 +137,9 @@ def unequal(pieces: list[Variable]) -> Diagnostic:
         usual=usual,
         others=shortened(others),
         rows=rows,
-        line=line,
         value=float(rows),
         limit=float(max(lengths.values())),
+        fixes=(Fix(matlab=line),),
     )
 
 

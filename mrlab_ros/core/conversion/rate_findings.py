@@ -181,7 +181,7 @@ def unused_times(
             continue
         of_rate = whole in RATE_NAMES | STEP_NAMES or words_of[0] in RATE_NAMES | STEP_NAMES
         count = int(np.prod([float(n) for n in v.shape]))
-        why = None
+        why, line = None, ""
         if v.values is None:
             single = count == 1 or v.kind in ("char", "string", "cell")
             if of_rate and single and not v.is_object and v.kind != "struct":
@@ -190,14 +190,15 @@ def unused_times(
             elif is_time_name(v.path) and rows in v.shape and v.kind != "struct":
                 texts = v.kind in ("char", "string", "cell")
                 line = f"{v.path} = str2double(string({v.path}))" if texts else ""
-                why = TIMES_OF_CLASS(found=v.note or v.kind, line=line)
+                why = TIMES_OF_CLASS(found=v.note or v.kind)
         elif count == 1:
             if of_rate:
                 why = NO_RATE(value=float(v.values.reshape(-1)[0]))
         elif of_rate or is_time_name(v.path):
             why = _why_unused(v, rows)
         if why is not None:
-            return RATE_UNUSED(variable=v.path, why=why, rate=default)
+            fixes = (rate_fix(default), *([Fix(matlab=line)] if line else ()))
+            return RATE_UNUSED(variable=v.path, why=why, rate=default, fixes=fixes)
     return None
 
 

@@ -256,7 +256,7 @@ def test_degrees_that_the_file_names_are_converted(label):
 def test_samples_kept_one_by_one_come_with_the_line_that_joins_them():
     result = convert(*(var(f"path({i}).pos", motion()[i : i + 1]) for i in range(1, 9)))
     assert result.diagnostics[0].code == "inside_container"
-    assert result.diagnostics[0].values["line"].startswith("q = vertcat(path.pos)")
+    assert result.diagnostics[0].fixes[0].matlab.startswith("q = vertcat(path.pos)")
 
 
 def test_an_empty_workspace_says_so():
@@ -424,12 +424,12 @@ def test_a_closed_object_says_why_it_is_closed():
     assert found.code == "unsupported_object"
     assert found.values["objects"] == ["q (timeseries)"]
     assert found.values["why"] == "mat-io is missing"
-    assert found.values["line"].startswith("q = q.Data")
+    assert found.fixes[0].matlab.startswith("q = q.Data")
     handle = var("q", kind="function_handle", shape=(1, 1), is_object=True)
     found = convert(handle).diagnostics[0]
     assert found.code == "unsupported_object"
     assert found.values["why"].code == "function_handle"
-    assert "arrayfun(@(s) reshape(q(s), 1, []), t(:)" in found.values["line"]
+    assert "arrayfun(@(s) reshape(q(s), 1, []), t(:)" in found.fixes[0].matlab
     beside = var("f", kind="function_handle", shape=(1, 1), is_object=True)
     assert "object_ignored" not in codes(convert(var("q", motion()), beside))
 
