@@ -8,12 +8,12 @@ from __future__ import annotations
 
 import json
 import sys
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
 from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from mrlab_ros.core.base.diagnostic import Diagnostic, plain
+from mrlab_ros.core.base.diagnostic import Diagnostic, Fix, plain
 from mrlab_ros.core.foreign_text import visible, visible_lines
 
 if TYPE_CHECKING:
@@ -53,7 +53,20 @@ def with_fixes(found: Diagnostic) -> str:
 
 def _tries(found: Diagnostic) -> list[str]:
     # A name of a file in a command may have a line end.
-    return [f"  try: mrlab {visible(fix.command)}" for fix in found.fixes if fix.command]
+    commands = dict.fromkeys(fix.command for fix in all_fixes(found) if fix.command)
+    return [f"  try: mrlab {visible(command)}" for command in commands]
+
+
+def all_fixes(found: object) -> Iterator[Fix]:
+    """Yield the fixes of a diagnostic and of those among its values."""
+    found = getattr(found, "diagnostic", found)
+    if isinstance(found, Diagnostic):
+        yield from found.fixes
+        for value in found.values.values():
+            yield from all_fixes(value)
+    elif isinstance(found, list | tuple):
+        for each in found:
+            yield from all_fixes(each)
 
 
 def console(*, stderr: bool = False, width: int | None = None) -> Console:

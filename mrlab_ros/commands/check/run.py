@@ -112,7 +112,7 @@ def _finish(
     if request.as_json:
         print(json.dumps(document if marks is None else {**document, "marks": marks.plain()}))
     else:
-        words.show(report, document)
+        words.show(report, document, _given(request), request.options)
     if request.out is not None and found.played is not None:
         size = write_page(request.out, found, setting.stage, folder, marks)
         if not request.as_json:
@@ -138,13 +138,18 @@ def _say_refused(request: Request, result: ConversionResult) -> None:
     if request.as_json:
         print(json.dumps(conversion_report.record(str(request.file), result, None)))
         return
+    conversion_report.show(result, None, _given(request), request.options)
+
+
+def _given(request: Request) -> list[str]:
+    """Return the words of the command, without the options of a conversion."""
     given = ["mrlab", "check", str(request.file)]
     if request.rubric is not None:
         given += ["--rubric", str(request.rubric)]
     given += ["--robot", request.robot] if request.robot else []
     given += ["--tool", request.tool] if request.tool else []
     given += ["--scene", request.scene] if request.scene else []
-    conversion_report.show(result, None, given, request.options)
+    return given
 
 
 def write_page(

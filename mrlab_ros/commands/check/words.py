@@ -10,11 +10,13 @@ from rich.table import Table
 from rich.text import Text
 
 from mrlab_ros.commands import output
+from mrlab_ros.commands.convert.options import command_with
 from mrlab_ros.core.base.diagnostic import Diagnostic
 from mrlab_ros.core.base.phrase import phrase
 from mrlab_ros.core.checking.diagnostics import CLAIM
 from mrlab_ros.core.checking.hardware import State
 from mrlab_ros.core.checking.report import CheckReport, RobotReport
+from mrlab_ros.core.conversion.options import Options
 from mrlab_ros.core.design import OUTCOME_STYLES, SEVERITY_STYLES
 
 MARKS = {State.OK: "ok", State.NOT: "NOT", State.UNKNOWN: "unknown"}
@@ -26,14 +28,20 @@ STYLES = {
 MOST_FINDINGS, MOST_CLEARANCES, MOST_PAIRS = 40, 8, 10
 
 
-def show(report: CheckReport, document: Mapping[str, Any]) -> None:
-    """Print the report."""
+def show(
+    report: CheckReport, document: Mapping[str, Any], given: list[str], options: Options
+) -> None:
+    """Print the report. given: the words of the command, without its `options`."""
     console = output.console(width=output.REPORT_WIDTH)
     style = OUTCOME_STYLES["rejected" if report.refusing else "accepted"]
     console.print(str(report.summary), style=style, soft_wrap=True)
     if report.findings:
         console.print()
         _findings(console, report)
+        for fix in dict.fromkeys(fix for found in report.refusing for fix in found.fixes):
+            if fix.option:
+                command = command_with(given, options, fix.option, fix.value)
+                console.print(f"  try: {command}", soft_wrap=True)
     for robot in report.robots:
         _robot(console, robot, several=len(report.robots) > 1)
     _distances(console, report)
@@ -120,7 +128,7 @@ def _pairs(console: Console, pairs: Sequence[Mapping[str, Any]]) -> None:
         if pair["distance"] is None:
             near, when = "over 500 mm", ""
         else:
-            near, when = f"{1e3 * max(pair['distance'], 0.0):.0f} mm", f"{pair['time']:.2f} s"
+            near, when = _number(max(pair["distance"], 0.0), "m"), f"{pair['time']:.2f} s"
         conflict = ""
         if pair["conflict"] is not None:
             conflict = (

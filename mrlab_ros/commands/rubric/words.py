@@ -67,7 +67,7 @@ def flaws(rubric: Rubric, found: Sequence[Flaw], reference: Marks | None) -> Non
         test = f"test '{flaw.test}': " if flaw.test else ""
         console.print(f"{where}: ", end="", soft_wrap=True)
         console.print(severity, style=SEVERITY_STYLES[severity], end="")
-        console.print(f": {test}{flaw.found}", soft_wrap=True)
+        console.print(f": {test}{output.with_fixes(flaw.found)}", soft_wrap=True)
     errors = sum(flaw.found.refuses for flaw in found)
     tests = phrase("{count:count test|tests}").fill({"count": len(rubric.tests)})
     style = NOT if errors else OK

@@ -270,7 +270,7 @@ CHECK_READY = Code(
 CHECK_NOT_READY = Code(
     "check_not_ready",
     "not ready: {count:count blocking finding|blocking findings}[, the first at {time:time}]: "
-    "{first:problem}",
+    "{first:problem}.",
 )
 CLAIM = Code(
     "claim",
