@@ -643,35 +643,1003 @@ const ROLE = 'display=eine Anzeige|student=Studierende|operator=Betrieb|instruct
 
 /** What the lab says, by code; the placeholders are those of the English text. */
 export const diagnostics: Templates = {
-  not_signed_in: ['Niemand ist angemeldet, oder die Anmeldung ist beendet.', 'Melde dich an.'],
-  role_too_low: [
-    `{person} hat die Rolle {role:choice ${ROLE}}; nötig ist {needed:choice ${ROLE}}.`,
-    'Frag deine Lehrkraft.',
+  a_filled_text: ['ein Text, der nicht leer ist'],
+  a_list: ['eine Liste'],
+  a_mapping: ['eine Zuordnung mit den Feldern {fields:list}'],
+  a_name: [
+    'ein Name aus Kleinbuchstaben, Ziffern und Unterstrichen, der mit einem Buchstaben beginnt, etwa cube_1',
   ],
-  nothing_at: ['Unter {path} gibt es nichts.'],
-  wrong_password: ['Name und Passwort passen nicht zusammen.', 'Versuche es noch einmal.'],
-  password_length: [
-    'Das Passwort hat {count:count Zeichen|Zeichen}; nötig sind {least:integer} bis {most:integer}.',
-    'Mehrere Wörter merkt man sich leicht.',
+  a_number: [
+    'eine Zahl[ {limits:problem}][ ({unit})][{sign:choice either=, auch mit negativem Vorzeichen}]',
   ],
-  upload_too_large: [
-    'Die Datei hat mehr als {most:bytes}, die Grenze.',
-    "Sichere nur die Trajektorie: save('file.mat', 'q', 't').",
+  a_text: ['ein Text'],
+  a_urdf: ['eine URDF'],
+  acceleration_limit: [
+    '{joint} beschleunigt mit {value:measure}; der Hersteller nennt {limit:measure}.',
+    'Plane mit einem glatten Zeitgesetz wie einem Polynom fünften Grades, oder gib der Bewegung mehr Zeit.',
   ],
-  quota_full: [
-    'Deine Dateien belegen {used:bytes} von {most:bytes}, und diese passt nicht mehr dazu.',
-    'Hochgeladenes wird nach einigen Tagen entfernt.',
+  accelerations_in_limits: ['Beschleunigungen unter ihren Grenzen'],
+  all_held: [
+    'Alle {count:integer} Gegenstände werden gehalten; für einen neuen ist kein Platz.',
+    'Lass erst einen los oder entferne einen.',
   ],
-  other_ending: [
-    "'{file}' gehört zu keiner Art von Datei, die gelesen wird.",
-    'Der Name muss auf {endings:either} enden.',
+  all_hidden: ['Jeder Test ist verborgen; Studierende sehen keinen davon.'],
+  all_joints_turn: ['alle Gelenke von {robot} drehen sich: möglich sind rad, deg oder counts:N'],
+  all_stand: ['alle Mitglieder stehen; Abspielen beginnt von vorn'],
+  allow_list_not_read: [
+    'Die Bridge kann ihre Liste der Erlaubten, {path}, nicht lesen: {why:problem}.',
+    'Nenne eine YAML-Datei mit dem Parameter allow_list.',
   ],
-  store_failed: [
-    'Die Ablage {store} hat versagt ({why:problem}); nichts wurde geändert.',
-    'Versuche es noch einmal, wenn sie wieder geht.',
+  allow_list_unreadable: ['Die Liste der Erlaubten, {path}, ist nicht lesbar: {why:problem}.'],
+  already_in_world: ['{name} ist schon in der Welt.', 'Entferne es zuerst.'],
+  ambiguous: [
+    "{count:count Matrix|Matrizen} in '{file}' könnten die Trajektorie sein:{candidates:problems}",
+    'Sag, welche es ist, oder sichere nur diese.',
+  ],
+  an_integer: ['eine ganze Zahl[ {limits:problem}][ ({unit})]'],
+  and_also: ['{first:problem}; {then:problem}'],
+  another_count: [
+    'sie hat {count:count Element|Elemente} und die Trajektorie {rows:count Zeile|Zeilen}',
+  ],
+  appeared: ['{name} ist hinzugekommen'],
+  arm_mimics: [
+    "{file}: Das Gelenk '{joint}' des Arms folgt '{other}' (mimic); jedes Gelenk eines Arms braucht eine eigene Spalte der Bewegung.",
+    'Mach es angetrieben oder fest.',
+  ],
+  arms_branch: [
+    "{file}: Am Glied '{link}' beginnen Ketten von {first:integer} und {second:integer} Gelenken; das Labor bewegt nur einen Arm.",
+    'Nenne das letzte Glied des Arms, etwa {tip}.',
+  ],
+  asset_changed: ['{asset} wurde während des Sendens geändert.', 'Lade die Datei noch einmal.'],
+  asset_in_pieces: [
+    '{key} hat {size:integer} Bytes, und eine Antwort fasst höchstens {largest:integer}.',
+    'Hole die Datei in Stücken: {key}?offset=0;length={largest:integer}, dann mit dem nächsten offset.',
+  ],
+  asset_offset_beyond: [
+    '{key} hat {size:integer} Bytes; offset ist {offset:integer}.',
+    'Nimm einen offset, der höchstens so groß ist.',
+  ],
+  asset_too_large: ['{asset} hat {size:bytes}; das ist zu groß für einen Roboter.'],
+  asset_unanswered: [
+    'Das Labor antwortet auf die Frage nach {asset} nicht.',
+    'Prüfe, ob das Labor läuft, und versuche es noch einmal.',
+  ],
+  asset_unsteady: [
+    '{asset} ändert sich immer wieder.',
+    'Versuche es noch einmal, wenn die Datei vollständig ist.',
+  ],
+  assets_busy: [
+    '{waiting:integer} Anfragen nach Dateien warten schon.',
+    'Frag später noch einmal.',
+  ],
+  at_position: ['bei {position:time}'],
+  at_rest: ['{instant:choice start=Die Bewegung beginnt|end=Die Bewegung endet} in Ruhe.'],
+  at_start: ['am Start'],
+  back_at_begin: ['wieder am Anfang; wartet, bis es frei ist'],
+  backend_not_installed: [
+    'Das Backend {backend} braucht Pakete, die nicht installiert sind ({missing}).',
+    'Führe aus: pip install {packages}',
+  ],
+  bad_asset_attachment: [
+    'Der Anhang {found} gehört nicht zu einer Datei des Labors; erwartet wird JSON mit size, sha256, media_type und offset.',
+  ],
+  bad_asset_parameter: [
+    "Der Parameter {parameter} ist '{found}'; erwartet wird eine Zahl von Bytes, wie in ?offset=0;length=65536.",
+  ],
+  bad_attachment_name: [
+    "Der Anhang '{attachment}' {problem:choice unprintable=kann keine Datei benennen|outside=würde außerhalb des Ordners geschrieben|hidden=wäre eine versteckte Datei|within=läge in einem anderen Anhang statt in einem Ordner}; es wurde nichts geschrieben.",
+    'Das Bag ist von Hand gemacht: Ein Labor nennt seine Anhänge zum Beispiel robots/ur5e_1.urdf.',
+  ],
+  bad_attribute: ["das Attribut {attribute} von '{variable}' ist zu groß"],
+  bad_bag_message: [
+    'eine Nachricht ist nicht vom Typ {type} ({problem})',
+    'Hole eine Kopie des Bags zurück.',
+  ],
+  bad_base_place: ['at ist {found}; erwartet werden x und y in m, etwa (1.0, 0.5).'],
+  bad_body: [
+    'Ein Körper hat die Masse {mass:mass} und {parts:count Teil|Teile}; erwartet werden eine Masse von mindestens 0 und mindestens ein Teil.',
+  ],
+  bad_closest: ['closest ist {text}; erwartet wird 0 bis {limit:length}, so weit wird gemessen.'],
+  bad_columns: [
+    "Die Spalten '{columns}' lassen sich nicht aus '{variable}' ({size}) nehmen: {why:problem}.",
+    'Schreibe Spalten wie in MATLAB: 2:7, oder 1,3,5, oder 2:end.',
+  ],
+  bad_command: [
+    'Der Befehl {command:integer} ist unbekannt; erwartet wird einer aus mrlab_msgs/DriveOrder.',
+  ],
+  bad_dimensions: [
+    'ein Feld hat die Abmessungen {size}; erwartet werden {least:integer} bis {most:integer}, keine davon negativ',
+  ],
+  bad_display_id: [
+    "Die Anzeige hat die Kennung '{id}'.",
+    'Erwartet werden 1 bis {most:integer} druckbare Zeichen.',
+  ],
+  bad_domain: ["ROS_DOMAIN_ID ist '{found}'; erwartet wird eine Zahl von 0 bis 232."],
+  bad_dwell: ['Die Haltezeit ist {dwell:time}; erwartet wird 0 bis {longest:time}.'],
+  bad_endpoint: [
+    "Die Bridge soll an '{endpoint}' erreichbar sein; erwartet wird Protokoll/Adresse:Port, etwa tcp/127.0.0.1:7447.",
+  ],
+  bad_fingers: [
+    'Die Finger von {robot} erhielten die Geschwindigkeiten {found:list}; erwartet: {count:integer} endliche Zahlen.',
+  ],
+  bad_first_time: ['Der erste Punkt liegt bei {time:time}; erwartet wird 0 oder später.'],
+  bad_frame_number: ['{field} ist {found}; erwartet wird eine Zahl von 0 bis 2^32 - 1.'],
+  bad_key_name: [
+    "'{name}' ist kein Name für einen Schlüssel.",
+    "Erwartet werden höchstens 41 Buchstaben, Ziffern, '_', '-' und '.', beginnend mit einem Buchstaben oder einer Ziffer, und nicht {reserved:either}.",
+  ],
+  bad_listen_address: [
+    "'{address}' ist keine Adresse, an der das Gateway erreichbar sein kann.",
+    'Erwartet wird HOST:PORT, etwa 127.0.0.1:8080 oder 0.0.0.0:8080.',
+  ],
+  bad_mesh: ['Ein Netz hat weniger als drei endliche Eckpunkte.'],
+  bad_mesh_address: ["Die Adresse des Netzes, '{uri}', beginnt nicht mit {expected}."],
+  bad_message: [
+    "'{variable}' ist eine JointTrajectory, die sich nicht abspielen lässt: {why:problem}.",
+    'Jeder Punkt braucht für jedes Gelenk eine Position und ein time_from_start, das später ist als das des Punkts davor.',
+  ],
+  bad_mode: [
+    'Der Modus {mode:integer} ist unbekannt; erwartet wird 0 (alle zugleich) oder 1 (einer nach dem anderen).',
+  ],
+  bad_name: [
+    "'{name}' kann nicht der Name {what:choice robot=eines Roboters|object=eines Gegenstands|system=eines Systems} sein; erwartet werden Kleinbuchstaben, Ziffern und einzelne Unterstriche, beginnend mit einem Buchstaben, etwa ur5e_1.",
+  ],
+  bad_name_bytes: ['ein Name ist als {found} geschrieben; so schreibt ihn MATLAB nie'],
+  bad_op: ["'{op}' gehört nicht zu den Operationen (op) von {protocol}.", 'Siehe docs/link.md.'],
+  bad_option: [
+    "Die Option {option} ist '{found}': {why:problem}.",
+    'Berichtige die Option oder lass sie weg.',
+  ],
+  bad_part: [
+    "'{variable}' lässt sich nicht aus '{other}' ({size}) nehmen: {why:problem}.",
+    'Schreibe Zeilen und Spalten wie in MATLAB: q(1:200, :), oder q(201:end, 1:6).',
+  ],
+  bad_person_name: [
+    "'{name}' ist kein Name für eine Person.",
+    "Erwartet werden höchstens 41 Buchstaben, Ziffern, '_', '-' und '.', beginnend mit einem Buchstaben oder einer Ziffer, und nicht {reserved:either}.",
+  ],
+  bad_policy: [
+    'Die Regel {policy:integer} ist unbekannt; erwartet wird 0 (alle halten an) oder 1 (nur das Mitglied hält an).',
+  ],
+  bad_pose: [
+    '{place:problem} ist {found}; erwartet wird [[x, y, z]] in m, oder position: [[x, y, z]] mit rpy_deg: [[roll, pitch, yaw]].',
+  ],
+  bad_position: [
+    'Die Position ist {position:time}; erwartet wird 0 bis {duration:time}, die Länge der Zeitachse.',
+  ],
+  bad_public_url: [
+    '{url} ist keine Adresse einer Website.',
+    'Erwartet wird zum Beispiel https://lab.example.org.',
+  ],
+  bad_quaternion: [
+    'Die Orientierung {found:list} hat die Länge {length:number}; erwartet wird ein Einheitsquaternion (x, y, z, w), etwa 0, 0, 0, 1.',
+  ],
+  bad_rate: [
+    'Die Rate ist {value:number}; erwartet werden {least:number} bis {most:number} Zeilen pro Sekunde.',
+    'Sag, wie viele Zeilen pro Sekunde du aufgenommen hast, etwa 100.',
+  ],
+  bad_replay_rate: [
+    'Das Tempo ist {rate:number}; erwartet wird {low:number} bis {high:number}, 1 ist wie aufgenommen.',
+  ],
+  bad_request: [
+    'Die Anfrage ist nicht so, wie /api/openapi.json sie beschreibt: {mistakes:list}.',
+  ],
+  bad_robot_id: [
+    "Die Kennung ist '{robot}'; erwartet werden Kleinbuchstaben, Ziffern und _, etwa my_robot.",
+  ],
+  bad_ros_arguments: [
+    "ROS nimmt die Befehlszeile nicht an: {why}. Erwartet werden Argumente, wie ROS sie hat, etwa eine Parameterdatei oder ein Parameter lab:robots:='[[ur5e]]'.",
+  ],
+  bad_scene_name: [
+    "'{name}' kann nicht der Name einer Szene sein; erwartet werden Kleinbuchstaben, Ziffern und Unterstriche, etwa class_3.",
+  ],
+  bad_size: [
+    'Die Form {shape:choice box=Quader|cylinder=Zylinder|sphere=Kugel|hull=konvexe Hülle|mesh=Netz} hat die Größe {size:list} m; erwartet: {count:count Zahl|Zahlen} von 0,0001 bis 1000.',
+  ],
+  bad_source: [
+    'Die Quelle {source} hat {count:integer} Zeichen; erwartet werden höchstens {most:integer} druckbare, etwa eine Kennung des Headsets.',
+  ],
+  bad_speed: [
+    'Das Tempo ist {rate:exact}; erwartet wird {low:exact} bis {high:exact}, rückwärts -{low:exact} bis -{high:exact}; 1 ist das vorgesehene Tempo.',
+  ],
+  bad_split_duration: [
+    'Die Dateien sollen nach {duration:time} geteilt werden; erwartet wird 1 s oder mehr, oder 0 für nie.',
+  ],
+  bad_split_size: [
+    'Die Dateien sollen bei {size:bytes} geteilt werden; erwartet wird 0 oder mehr.',
+  ],
+  bad_step: ['Der Schritt ist {step:exact} s lang; erwartet wird 0,00001 bis 0,1 s.'],
+  bad_subscriptions: [
+    'Die Abonnements eines hello müssen eine Zuordnung von Nummern zu Schlüsselausdrücken sein.',
+  ],
+  bad_table: [
+    "'{file}' lässt sich nicht als Tabelle lesen: {why:problem}.",
+    'Schreibe Zahlen mit Dezimalpunkt, eine Zeile je Messpunkt, unter eine Zeile mit Überschriften; oder sichere in MATLAB eine .mat-Datei.',
+  ],
+  bad_topic_pattern: [
+    "'{pattern}' ist kein Name für Topics; erwartet wird ein Name wie /robots oder /*/joint_states, in dem * für einen Teil steht und ** für beliebig viele.",
+  ],
+  bad_trajectory_id: [
+    "'{id}' kann nicht die Kennung einer Trajektorie sein.",
+    "Schreibe NAME oder PERSON/NAME, mit Buchstaben, Ziffern, '.', '_' und '-' in NAME, etwa quintic, anna/quintic oder quintic@3.",
+  ],
+  bad_trajectory_name: [
+    "Der Name '{name}' geht nicht.",
+    "Nimm Buchstaben, Ziffern, '.', '_' und '-', höchstens {most:integer}, beginnend mit einem Buchstaben oder einer Ziffer.",
+  ],
+  bad_upload_number: [
+    "'{number}' bezeichnet nichts, was gesendet wurde; erwartet werden 32 Hexadezimalziffern.",
+  ],
+  bad_value: ['{what:problem} ist {found}; erwartet: {expected:problem}.', '[{hint:problem}.]'],
+  bad_vector: [
+    '{what:choice position=Die Position|velocity=Die Geschwindigkeit|angular_velocity=Die Winkelgeschwindigkeit} ist {found:list}; erwartet werden drei endliche Zahlen innerhalb von ±{limit:exact}.',
+  ],
+  bad_wait: [
+    "'{wait}' ist keine Wartebedingung; erwartet wird 'frame 0: after kr6_1.frame 120', 'frame 200: object cube_1 held by ur5e_1' oder 'frame 310: object cube_1 free'.",
+  ],
+  bad_xacro_argument: [
+    "Das Argument ist '{argument}'; erwartet wird NAME:=WERT, wie xacro es nimmt.",
+  ],
+  bad_zenoh_file: [
+    'Zenoh nimmt {file} nicht an: {why:problem}.',
+    'Beispiele stehen in docs/bridge.md.',
+  ],
+  bad_zenoh_settings: [
+    'Zenoh nimmt mode {mode}[, listen {listen:list}][, connect {connect:list}] nicht an: {why:problem}.',
+    'Beispiele stehen in docs/bridge.md.',
+  ],
+  bag_being_recorded: [
+    'Das Bag {path} wird gerade aufgenommen und braucht keine Reparatur.',
+    'Beende zuerst die Aufnahme.',
+  ],
+  bag_compressed: [
+    '{path} ist als Ganzes komprimiert.',
+    'Importiere es; das macht ein gewöhnliches Bag daraus.',
+  ],
+  bag_cut_short: [
+    '{file} endet bei Byte {offset:integer} mitten in einem Eintrag; was davor steht, wird gelesen',
+  ],
+  bag_damaged: [
+    '{file} ist bei Byte {offset:integer} beschädigt[ ({problem})].',
+    'Hole eine Kopie der Datei zurück oder repariere das Bag; dabei fällt dieser Teil weg.',
+  ],
+  bag_disk_full: [
+    'Das Bag {folder} kann nicht geschrieben werden: {cause:choice disk=Der Datenträger ist voll|quota=Dein Kontingent dort ist aufgebraucht}[ ({free:bytes} von {size:bytes} sind frei)]; eine Aufnahme braucht {needed:bytes}. Was aufgenommen wurde, bleibt lesbar.',
+    'Mach dort Platz oder nimm einen Ordner auf einem anderen Datenträger, dann beginne eine neue Aufnahme.',
+  ],
+  bag_empty_file: [
+    '{path} ist leer oder nach den ersten Bytes abgeschnitten: Darin ist nichts zu lesen oder zu retten.',
+    'Hole eine Kopie zurück.',
+  ],
+  bag_exists: [
+    '{folder} gibt es schon; ein Bag braucht einen neuen Ordner.',
+    'Nimm einen anderen.',
+  ],
+  bag_folder_not_made: [
+    'Der Ordner {folder} kann nicht angelegt werden ({problem}).',
+    'Nimm einen Ort, an dem du schreiben darfst.',
+  ],
+  bag_gone: [
+    '{path} ist nicht mehr lesbar ({problem}).',
+    'Wurde das Bag umbenannt, entfernt oder sein Datenträger abgezogen? Nenne den Ort, an dem es jetzt ist.',
+  ],
+  bag_imported: ['{bag} enthält {messages:count Nachricht|Nachrichten}[:{notes:problems}]'],
+  bag_lacks_files: [
+    'In {path} fehlen {files:list}; die metadata.yaml dort führt sie auf.',
+    'Hole die Dateien zurück, gib ihnen wieder diese Namen oder lies einzeln, was noch da ist.',
+  ],
+  bag_live: ['das Bag wird gerade aufgenommen; dies ist der Stand bis jetzt'],
+  bag_moved: [
+    'Das Bag {folder} wurde während der Aufnahme umbenannt oder entfernt; das Aufgenommene ist an seinem neuen Ort vollständig.',
+    'Beginne eine neue Aufnahme.',
+  ],
+  bag_no_index: ['{file} hat keinen Index: Die Aufnahme brach ab oder verlor ihren Datenträger'],
+  bag_not_begun: ['{file} endet vor dem ersten Eintrag: Die Aufnahme brach ab'],
+  bag_not_repaired: [
+    'Das Bag {path} lässt sich nicht reparieren ({problem}).',
+    'Mach dort Platz, oder kopiere das Bag dorthin, wo du schreiben darfst, und repariere die Kopie.',
+  ],
+  bag_not_written: [
+    'Das Bag {folder} kann nicht geschrieben werden ({problem}); was aufgenommen wurde, bleibt lesbar.',
+    'Prüfe diesen Ordner, dann beginne eine neue Aufnahme.',
+  ],
+  bag_trajectory: ['{trajectory} aus {bag}'],
+  bag_unreadable: ['{path} ist nicht lesbar ({problem}).', 'Prüfe die Zugriffsrechte.'],
+  bag_without_files: [
+    '{path} enthält keine MCAP-Datei.',
+    'Nenne den Ordner eines Bags; ein Bag anderer Art wird durch einen Import zu einem des Labors.',
+  ],
+  bag_without_model: [
+    '{path} nennt keinen Roboter; nichts darin lässt sich mit einer Datei vergleichen.',
+  ],
+  bag_without_robots: [
+    'Kein Roboter eines Labors ist darin, sondern {topics:list}[ und {more:integer} weitere]',
+  ],
+  begins_at_rest: ['beginnt in Ruhe'],
+  begins_inside: [
+    'Der Arm beginnt innerhalb der Fläche {other}.',
+    'Berichtige die erste Zeile oder den Platz des Roboters in der Szene.',
+  ],
+  beyond_measure: [
+    'Abstände werden bis {most:length} gemessen; {limit:length} lässt sich von mehr nicht unterscheiden. Nimm weniger.',
+  ],
+  beyond_most: ["'{text}' liegt jenseits von {limit:measure}; erwartet: {expected:problem}."],
+  body_stopped: [
+    "Von '{file}' kam {wait:time} lang nichts; nichts wurde behalten.",
+    'Sende die Datei noch einmal.',
+  ],
+  bytes_not_of_type: [
+    '{size:bytes} sind keine Nachricht vom Typ {type}: {why:problem}.',
+    'Prüfe, ob beide Seiten dieselben Nachrichtentypen haben.',
   ],
   call_timed_out: [
     '{key} hat nicht innerhalb von {timeout:time} geantwortet.',
     'Prüfe, ob der Knoten läuft, und versuche es noch einmal.',
   ],
+  called_by_another_key: [
+    'Der Dienst {service} wird über seinen Schlüssel {key} aufgerufen und nicht als {found}.',
+  ],
+  calls_full: ['Zu viele Aufrufe auf einmal.', 'Warte auf ihre Antworten.'],
+  calls_wait: [
+    'Beim Dienst {service} warten schon {waiting:integer} Aufrufe; er nimmt keine weiteren an.',
+    'Warte auf eine Antwort, dann rufe noch einmal auf.',
+  ],
+  came_as_form: [
+    "'{file}' kam als Formular.",
+    'Sende die Datei selbst als Inhalt der Anfrage, wie curl -T es tut.',
+  ],
+  came_off_cup: [
+    '{object} hat sich vom Sauger gelöst: {mass:mass}, Reibung {friction:number}, nötig {friction_needed:number}.',
+  ],
+  candidate: ["'{variable}' ({size}): {reasons:reasons}"],
+  cannot_hold_fixed: ['{robot} kann {object} nicht halten: Es steht fest im Raum.'],
+  categories: ['eines von {names:either}'],
+  cell_not_scene: [
+    '{place:problem} ist eine Zelle und keine Szene.',
+    'Erstelle ein System daraus.',
+  ],
+  cells_unreadable: ['ihre Zellen sind nicht lesbar ({error})'],
+  certificate_early: [
+    'Das Zertifikat {path} gilt ab {begin} UTC; nach der Uhr dieses Rechners ist es {now}.',
+    'Stelle die Uhr.',
+  ],
+  certificate_expired: ['Das Zertifikat {path} ist am {end} UTC abgelaufen.'],
+  certificate_without_key: [
+    'HTTPS braucht ein Zertifikat und seinen Schlüssel; eines von beiden fehlt.',
+    'Nenne beide.',
+  ],
+  channel_shape: [
+    "{channel:choice gripper=Die Greiferzustände|derived=Die abgeleiteten Kanäle} von '{id}' sind {size}; erwartet wird {expected}, eine Zeile je Zeile der Trajektorie.",
+  ],
+  check_ended_early: [
+    'Die Prüfung endete vorzeitig (Status {status:integer}), wie es bei zu viel Speicher oder Zeit geschieht.',
+    'Prüfe eine kürzere Bewegung, oder prüfe sie auf deinem eigenen Rechner.',
+  ],
+  check_failed: [
+    'Die Prüfung ist gescheitert; das Protokoll des Gateways auf dem Rechner des Labors sagt, warum.',
+  ],
+  check_not_ready: [
+    'nicht bereit: {count:count Befund spricht|Befunde sprechen} dagegen[, der erste bei {time:time}]: {first:problem}',
+  ],
+  check_out_of_memory: ['Die Prüfung braucht mehr als {most:bytes} Speicher.'],
+  check_ready: [
+    'bereit: nichts spricht dagegen[; {warnings:count Warnung|Warnungen}][; {unknown:count Bedingung|Bedingungen} nicht bekannt]',
+  ],
+  check_too_slow: [
+    'Die Prüfung dauerte länger als {limit:time}, weil dieser Rechner beschäftigt oder die Bewegung lang ist.',
+    'Halte an, was läuft, und prüfe noch einmal.',
+  ],
+  claim: [
+    'Das sagt nur, was das Modell zeigt: nominelle Kinematik, konvexe Hüllen der Glieder, starre Körper, die Gegenstände der Szene und vorgegebene Gelenkwinkel. Es kennt keine Momente, keine eigenen Grenzen der Steuerung, keine Bremsen, keine Kabel, keine Menschen und nicht den Weg des Arms zur ersten Zeile. Fahre zuerst langsam, mit der Hand am Not-Halt.',
+  ],
+  class_file_too_large: ['{file} hat mehr als {most:bytes}; das ist keine Datei einer Klasse.'],
+  class_no_json: ['{file} ist kein JSON: {why:problem}.', 'Bewerte die Klasse noch einmal.'],
+  class_not_read: [
+    'Die Klasse ist nicht lesbar: {why:problem}.',
+    'Bewerte die Klasse noch einmal.',
+  ],
+  clear_again: ['wieder frei; Abspielen macht hier weiter'],
+  clear_and_stop_first: ['warte, bis alle Mitglieder frei sind, dann stoppe'],
+  client_closed: ['Dieser Client des Labors ist geschlossen.', 'Öffne einen neuen: Lab().'],
+  client_without_router: [
+    'Die Bridge hat Schlüssel ({folder}) und mode client, aber keinen Router.',
+    'Nenne mit dem Parameter connect den Router, oder lass mode weg.',
+  ],
+  clock: [
+    "[ihre Überschrift '{heading}' bedeutet Zeit][sie verläuft wie '{other}'][{rises:choice far=sie steigt gleichmäßig, weiter als sich ein Gelenk dreht|round=sie steigt gleichmäßig in runden Schritten|irregular=sie steigt in ungleichen Schritten wie aufgezeichnete Zeiten|even=sie steigt durchgehend in gleichen Schritten}]",
+  ],
+  clock_set_back: [
+    'Bei {time:time} wurde die Uhr um {by:time} zurückgestellt; {then:choice even=die Zeiten dieses Berichts laufen gleichmäßig weiter|piled=was bis zum Einholen aufgenommen wurde, steht an diesem Zeitpunkt}',
+  ],
+  coarse_times: [
+    'einfache Genauigkeit (single) kennt solche Zeiten nur in Schritten von {value:number}; sichere sie als double',
+  ],
+  codes_wrong: [
+    '{count:count Code war|Codes waren} falsch.',
+    'Warte, bis das Gerät einen neuen zeigt.',
+  ],
+  collides_at_start: [
+    '{link}[ (hält {held})] berührt schon in der ersten Zeile {kind:choice self=das eigene Glied|robot=den Roboter|object=den Gegenstand|surface=die Fläche} {other}[ ({other_link})], bei {point:position}, {value:length} tief.',
+    'Beginne die Bewegung anderswo, oder verschiebe, was dort steht.[ {advice:problem}.]',
+  ],
+  collision: [
+    '{link}[ (hält {held})] berührt {kind:choice self=das eigene Glied|robot=den Roboter|object=den Gegenstand|surface=die Fläche} {other}[ ({other_link})] bei {point:position}, {value:length} tief.',
+    '{kind:choice self=Beuge den Arm dort weniger, oder nimm eine andere Konfiguration.|robot=Lass einen der beiden warten, oder gib ihnen Wege, die sich nicht kreuzen.|surface=Führe den Weg dort höher, oder füge einen Punkt darüber ein.|object=Führe den Weg um den Gegenstand herum, oder verschiebe ihn.}[ {advice:problem}.]',
+  ],
+  column_not_finite: [
+    "'{column}' der Trajektoriendatei enthält NaN oder Inf.",
+    'Wandle den Workspace noch einmal um.',
+  ],
+  column_of_time: [
+    "'t' der Trajektoriendatei zählt nicht i / {rate:number}.",
+    'Wandle den Workspace noch einmal um.',
+  ],
+  column_shape: [
+    "'{column}' der Trajektoriendatei ist {size}; nach frame_count und joint_names wird {expected} erwartet.",
+    'Wandle den Workspace noch einmal um.',
+  ],
+  columns_applied: ["Wie gewünscht wurden die Spalten {columns} von '{variable}' genommen."],
+  command_jumps: [
+    'Der Gelenkbefehl springt: {joint} um {value:angle} in {passed:time}; erwartet: höchstens {limit:turn_rate}.',
+    'Fahre in kleineren Schritten dorthin, oder unterbrich den Strom für {silence:time}.',
+  ],
+  command_refused: ['Ein Gelenkbefehl wurde nicht angenommen: {why:problem}'],
+  command_too_fast: [
+    'Der Gelenkbefehl bewegt {joint} mit {value:turn_rate}; erwartet: höchstens {limit:turn_rate}.',
+  ],
+  commands_ended: ['es kommt kein Gelenkbefehl mehr'],
+  commands_ignored: [
+    'Der Roboter ist im Zustand {state} und beachtet die Gelenkbefehle nicht.',
+    'Abspielen setzt sie fort, ebenso ein Strom, der nach {silence:time} neu beginnt.',
+  ],
+  commas_twice: [
+    'Kommas sind Dezimalzeichen und trennen zugleich die Spalten: Jede Zeile hat {count:integer} Werte[ unter {headings:count Überschrift|Überschriften}]; exportiere die Tabelle mit Semikolons zwischen den Spalten',
+  ],
+  compressed_cut_short: ['ihr Ende fehlt'],
+  compressed_damaged: ['die komprimierten Daten sind beschädigt: {problem}'],
+  config_and_keys: [
+    'Die Bridge hat zenoh_config ({file}) und keys ({folder}); erwartet wird nur eines, denn jedes legt fest, wer sich verbinden darf.',
+  ],
+  contents_fit: [
+    '{objects:count Gegenstand|Gegenstände} und {surfaces:count Fläche|Flächen} passen.',
+  ],
+  contents_left_out: [
+    '{objects:count Gegenstand|Gegenstände} und {surfaces:count Fläche|Flächen} bleiben weg: Es läuft keine Physik.',
+  ],
+  contents_not_back: ['Vom letzten Lauf bleibt weg:{all:problems}'],
+  contents_set: [
+    'Gesetzt: {objects:count Gegenstand|Gegenstände} und {surfaces:count Fläche|Flächen}.',
+  ],
+  continuous: ['stetig'],
+  converted_unit: [
+    "Die Datei nennt für '{variable}' die Einheit Grad; die Werte wurden in Radiant umgerechnet.",
+  ],
+  converter_failed: [
+    "Der Konverter ist an '{file}' gescheitert ({error}); das ist ein Fehler des Konverters.",
+    'Sichere nur die Trajektorie, und melde den Fehler mit der Datei.',
+  ],
+  coordinator_restarted: ['der Koordinator wurde neu gestartet; Abspielen macht hier weiter'],
+  copies: ["'{variable}' wurde genommen; dieselben Zahlen stehen in {others:list}."],
+  copy_kept: ['Eine Kopie bleibt als {file}'],
+  counted_numbers: ['eine Liste mit {count:count Zahl|Zahlen}[ {limits:problem}][ ({unit})]'],
+  counts: [
+    "'{variable}' ist nicht in Radiant: {why:problem}.",
+    'Sag, wie viele Zählschritte eine Umdrehung sind, {counts:integer} oder eine andere Zahl.',
+  ],
+  counts_down: ["'{term}' zählt nicht von einer Zahl zu einer größeren"],
+  counts_of_what: ['counts braucht die Zählschritte einer Umdrehung, etwa counts:4096'],
+  create_system: ['das System {system} erstellen'],
+  cut_before_checksum: ['eine komprimierte Variable ist vor ihrer Prüfsumme abgeschnitten'],
+  cycle_time: ['Der Zyklus dauert {value:time}; erwartet: höchstens {limit:time}.'],
+  damaged_trajectory: [
+    "'{file}' ist beschädigt ({error}).",
+    'Wandle den Workspace noch einmal um.',
+  ],
+  damaged_version: [
+    "Version {version:integer} von '{id}' wurde nach {folder} verschoben: {why:problem}.",
+  ],
+  database_damaged: [
+    '{path} ist beschädigt ({problem}).',
+    'Hole eine Kopie zurück oder lies weiter, was noch da ist: {rescue}',
+  ],
+  degrees: [
+    "'{variable}' ist anscheinend in Grad[{percent:choice percent= oder in Prozent, da mehrere Spalten von 0 bis 100 laufen}]: {why:problem}; erwartet wird Radiant.",
+    'Rechne mit deg2rad in Radiant um, oder nenne die Einheit, wenn alles in Grad ist. Ist es doch in Radiant, nenne diese Einheit.',
+  ],
+  deleted_already: [
+    "'{id}' ist schon gelöscht.",
+    'Hole eine Version zurück, wenn du sie wieder brauchst.',
+  ],
+  derivative_of: [
+    "sie enthält die {order:choice first=Geschwindigkeiten|second=Beschleunigungen} von '{other}'",
+  ],
+  devices_full: [
+    'Zu viele Geräte warten darauf, gekoppelt zu werden.',
+    'Versuche es später noch einmal.',
+  ],
+  did_not_run: ['stand etwa {frozen:integer} s lang still, bis vor {ago:integer} s'],
+  died: [
+    'brach ab[ ({last_exit})] und wurde vor {ago:integer} s neu gestartet; nichts ging verloren',
+  ],
+  died_and_looks: [
+    'brach ab[ ({last_exit})] und wurde vor {ago:integer} s neu gestartet; was verloren ging, wird noch ermittelt',
+  ],
+  died_and_lost: [
+    'brach ab[ ({last_exit})] und wurde vor {ago:integer} s neu gestartet; verloren: {lost:problem}',
+  ],
+  disappeared: ['{name} ist nicht mehr da'],
+  discontinuity: [
+    '{joint} springt um {value:measure} von Zeile {first_row:integer} zur nächsten ({time:time}); seine übrigen Schritte bleiben unter {usual:measure}.',
+    'Suche nach einem Stück, das fehlt oder an der falschen Stelle angefügt wurde.',
+  ],
+  display_taken: ["Die Anzeige '{id}' gehört einer anderen Seite.", 'Wähle eine eigene Kennung.'],
+  display_too_far: [
+    "Die Anzeige '{id}' ist bei {at:length}; erwartet werden endliche Zahlen bis {most:length}.",
+  ],
+  dissolve_systems: ['{systems:list} auflösen'],
+  dissolved: ['{system} ist aufgelöst'],
+  document_type: [
+    '{file} legt einen Dokumenttyp fest, den eine URDF nicht braucht.',
+    'Entferne die Zeilen <!DOCTYPE ...> und <!ENTITY ...>.',
+  ],
+  does_not_move: [
+    '{robot} hat das Abspielen angenommen, bewegt sich aber auch nach {timeout:time} nicht.',
+  ],
+  domain_taken: [
+    'In der ROS-Domain {domain:integer} läuft schon ein Labor[ (Prozess {pid:integer})].',
+    'Nimm dieses, beende es, oder setze ROS_DOMAIN_ID auf eine andere Zahl.',
+  ],
+  doubtful_name: [
+    "'{variable}' wurde als Gelenkwinkel genommen, aber {why:problem}.",
+    'Prüfe, ob du das meinst; Gelenkwinkel heißen meist q.',
+  ],
+  doubtful_values: [
+    "'{variable}' wurde als Gelenkwinkel genommen, aber {why:reasons}.",
+    'Sieh dir die Bewegung an, bevor du ihr traust, und sichere die Gelenkwinkel als q.',
+  ],
+  draft_of_another: [
+    'Der Entwurf gehört nicht {owner}.',
+    'Veröffentliche ihn unter dem Namen, unter dem er hochgeladen wurde.',
+  ],
+  driven_by: ['gesteuert vom System {system}'],
+  driven_by_system: [
+    "Der Roboter wird vom System '{system}' gesteuert.",
+    'Befiehl dem System, oder löse es auf, um den Roboter freizugeben.',
+  ],
+  element_lacks: [
+    "{file}: <{element} name='{name}'> hat kein <{tag} {attribute}=...>.",
+    'Ergänze es.',
+  ],
+  element_unnamed: [
+    "{file}: Ein <{element}>[ von '{parent}' zu '{child}'] hat keinen Namen.",
+    'Gib ihm einen.',
+  ],
+  empty: [
+    "'{variable}' ist leer ({size}).",
+    'Führe das Programm aus, das sie füllt, bevor du sie sicherst.',
+  ],
+  empty_cells: ['in Zeile {line:integer} sind Zellen leer, in denen Zahlen erwartet werden'],
+  empty_store_name: ['Ein Name in der Ablage ist leer; erwartet wird mindestens ein Zeichen.'],
+  empty_subsystem: ['der Teil mit dem Inhalt der Objekte ist leer'],
+  empty_upload: ["'{file}' ist leer.", 'Sichere die Datei noch einmal und sende sie.'],
+  empty_value: ['{what:problem} ist leer; erwartet: {expected:problem}.'],
+  encrypted_file: ['Die Datei ist verschlüsselt; bitte um eine offene.'],
+  end_effector_removed: ['{robot} trägt keinen Endeffektor mehr.'],
+  end_effector_set: ['{robot} trägt jetzt {end_effector}.'],
+  ended_early: ['{robot} endete vor seiner letzten Zeile[: {why:problem}].'],
+  endless_hold: [
+    "nichts sagt, bis wann bei frame {frame:integer} gewartet wird; ergänze wait, etwa 'object cube_1 free', oder after, etwa 'kr6_1.frame 120'",
+  ],
+  endpoint_taken: [
+    'Die Bridge kann {endpoints:list} nicht benutzen: Ein anderes Programm hat diesen Port, vielleicht ein Labor, das noch läuft.',
+    'Beende es, oder wähle mit dem Parameter listen einen anderen Port.',
+  ],
+  ends_at_rest: ['endet in Ruhe'],
+  ends_early: ['sie endet mitten in der Kennung eines Elements'],
+  ends_first: ['{robot} muss vorher enden'],
+  ends_moving: [
+    '{joint} hat am letzten Punkt die Geschwindigkeit {value:turn_rate}; erwartet wird 0, denn dort steht der Arm.',
+  ],
+  entry: [
+    '{place:problem}, {one:choice part=Teil|hold=Halt|member=Mitglied|robot=Roboter|object=Gegenstand|surface=Fläche|system=System} {number:integer}',
+  ],
+  enumeration: ['eine Aufzählung: {names:list}'],
+  fault: ['Das Labor ist an {service} gescheitert ({error}); Näheres steht in seinem Protokoll.'],
+  few_rows: ['sie hat nur {rows:count Zeile|Zeilen}'],
+  field: ['{place:problem}: {key}'],
+  field_below: ['{place:problem}, {key}'],
+  field_changed: [
+    'Das Feld {field} von {type} ist im Bag von anderer Art als hier.',
+    'Spiele es mit dem Labor ab, das es aufgenommen hat.',
+  ],
+  file_changed_meanwhile: [
+    'sie wurde während des Lesens geändert; sichere sie vollständig und versuche es noch einmal',
+  ],
+  file_missing: ['Die Datei {file} gibt es nicht.', "[Meinst du '{close}'?]"],
+  file_name_length: [
+    'Der Name der Datei hat {count:count Zeichen|Zeichen}; die Grenze ist {most:integer}.',
+    'Gib ihr einen kürzeren.',
+  ],
+  file_name_signs: [
+    'Der Name der Datei, {file}, enthält Zeichen, die sich nicht darstellen lassen.',
+    'Gib ihr einen anderen, aus Buchstaben, Ziffern und Satzzeichen.',
+  ],
+  file_reader_failed: ['das Leseprogramm ist an ihr gescheitert ({error})'],
+  file_unreadable: ['{file} ist nicht lesbar: {why:problem}.'],
+  file_unwritable: ['{file} kann nicht geschrieben werden: {why:problem}.'],
+  finger_beyond: [
+    'Der Finger {finger} soll auf {position:number}; erwartet wird {low:number} bis {high:number}.',
+  ],
+  finite_count: ['{count:count endliche Zahl|endliche Zahlen}'],
+  finite_numbers: ['Jede Zahl muss endlich sein'],
+  fixed_object: [
+    '{object} steht fest im Raum.',
+    'Wähle einen Gegenstand, der sich bewegen lässt.',
+  ],
+  fixed_with_mass: [
+    'fixed ist true, und dazu ist eine Masse angegeben.',
+    'Lass eines von beiden weg.',
+  ],
+  folder_in_use: ['{folder} enthält schon etwas.', 'Nimm einen neuen Ordner.'],
+  folder_of_another: ['{path} gehört jemand anderem; erwartet wird ein Ordner, der dir gehört.'],
+  folder_unusable: [
+    '{path} ist nicht verwendbar: {problem}; erwartet wird ein Ordner oder ein Pfad, an dem einer angelegt werden kann.',
+  ],
+  follows_commands: ['folgt Gelenkbefehlen'],
+  for_another_model: [
+    "'{trajectory}' ist für {found}, und {robot} ist {model}; lade sie in einen Roboter {found}.",
+  ],
+  frame_kind: [
+    'Ein Paket beginnt mit {frame:integer}; erwartet wird 1 bis 4.',
+    'Siehe docs/link.md.',
+  ],
+  frame_length: [
+    'Ein Paket der Art {frame:integer} hat {size:count Byte|Bytes}; erwartet: {expected:integer}.',
+  ],
+  frame_rate_not_positive: [
+    "Die Rate von '{id}' ist {value:number}; erwartet wird eine Zahl von Zeilen pro Sekunde über 0.",
+  ],
+  frame_short: [
+    'Ein Paket der Art {frame:integer} hat {size:count Byte|Bytes}; erwartet: {least:integer} oder mehr.',
+  ],
+  from_reference: [
+    '{what:choice tool=Das Werkzeug|joint=Ein Gelenk} ist {how:choice rms=im Mittel (RMS)|most=bis zu} {value:measure} von der Musterlösung entfernt; erwartet: höchstens {limit:measure}.',
+  ],
+  function_handle: ['eine Funktion enthält keine Werte, bevor sie aufgerufen wird'],
+  gateway_disk_full: [
+    "Das Gateway hat keinen Platz für '{file}' ({why:problem}); nichts wurde behalten.",
+    'Bitte den Betrieb, dort Platz zu schaffen, und versuche es dann noch einmal.',
+  ],
+  gateway_fault: [
+    'Das Gateway ist an dieser Anfrage gescheitert.',
+    'Sein Protokoll auf dem Rechner des Labors sagt, warum.',
+  ],
+  gateway_without_lab: [
+    'Dieses Gateway hat kein Labor.',
+    'Starte es mit dem Endpunkt eines Labors.',
+  ],
+  geometry_empty: ['{place:problem}: Eine <geometry> ist leer; erwartet: {known:either}.'],
+  geometry_unknown: [
+    '{place:problem}: Eine <geometry> enthält <{tag}>; erwartet: {known:either}.',
+  ],
+  goal_cancelled: ['abgebrochen: Der Arm bleibt, wo er ist'],
+  goal_halted: ['Der Arm hielt an[: {why:problem}].'],
+  goal_late: [
+    'Das Ziel war {late:time} nach seiner Zeit noch nicht erreicht[; der Roboter ist im Zustand {state}].',
+  ],
+  goal_lost: [
+    '{robot} steht, wo er war: Das Ziel oder der Strom von Gelenkbefehlen, dem er folgte, endete mit seinem Prozess.',
+    'Sende es noch einmal.',
+  ],
+  goal_over: [
+    'Das Ziel endete vor {ago:time}.',
+    'Setze header.stamp auf eine spätere Zeit, oder auf 0 für einen Beginn sofort.',
+  ],
+  goal_reached: ['Das Ziel ist erreicht.'],
+  goal_replaced: ['Ein neues Ziel kam; dieses wurde aufgegeben.'],
+  goal_stopped: ['Der Roboter wurde gestoppt.'],
+  goal_too_fast: [
+    '{joint} bewegt sich bei {time:time} mit {value:turn_rate}; erwartet: höchstens {limit:turn_rate}.',
+    'Gib diesem Weg mehr Zeit. Die Bewegung beginnt, wo der Arm ist, und mit der Geschwindigkeit, die er hat.',
+  ],
+  goal_too_long: ['Das Ziel endet in {duration:time}; erwartet: höchstens {longest:time}.'],
+  grasped: [
+    '{robot} greift {object} bei {value:time}[; erwartet: nach {since:time}][; erwartet: vor {until:time}].',
+  ],
+  grasped_late: ['{object} wird bei {value:time} gegriffen; erwartet: vor {limit:time}.'],
+  grasps_missing: ['Nach {limit:time} Warten halten {robots:list} noch nicht {objects:list}.'],
+  grasps_nothing: [
+    'Der Greifer schließt um nichts[: {why:problem}].',
+    'Schließ ihn dort, wo ein Gegenstand ist; die Abstände zeigen, wie weit er entfernt war.',
+  ],
+  grip_objects: ['{robots:list} nach {objects:list} greifen lassen'],
+  gripper_applied: ["Wie gewünscht wurde der Greifer aus '{gripper}' genommen."],
+  gripper_beside: [
+    "'{variable}' ({size}) könnte die Zustände des Greifers enthalten; sie wurde nicht genommen.",
+    'Nimm sie als Greifer, oder sichere sie als letzte Spalte.',
+  ],
+  gripper_between: [
+    '{count:integer} von {rows:integer} Werten in der Spalte des Greifers liegen zwischen ihren Enden {first:number} und {last:number}; {side:choice above=über|below=unter} {threshold:number} gilt der Greifer als geschlossen.',
+    'Sichere 0 für offen und 1 für geschlossen, ohne Rampen. Ist die Spalte ein Gelenk, nimm nur die Gelenke.',
+  ],
+  gripper_constant: [
+    'Die Spalte des Greifers ist durchweg {value:number}; der Greifer bleibt offen.',
+  ],
+  gripper_range: [
+    'Die Spalte des Greifers geht von {first:number} bis {last:number}.[ Das ist {meaning:choice states=0 für offen und 1 für geschlossen|position=eine Stellung von 0 (offen) bis 255 (geschlossen), wie bei Robotiq|width_m=eine Öffnungsweite in m, größer heißt offen|percent=Prozent|width_mm=eine Öffnungsweite in mm, größer heißt offen}.] {side:choice above=Über|below=Unter} {threshold:number} gilt der Greifer als geschlossen.',
+    'Sichere 0 für offen und 1 für geschlossen, oder sag, dass größer offen heißt.',
+  ],
+  gripper_unmoved: [
+    'Die Spalte des Greifers ist durchweg {value:number}; das heißt weder offen noch geschlossen, und der Greifer bleibt offen.',
+    'Sichere 0 für offen und 1 für geschlossen. Ist die Spalte ein Gelenk, wähle einen Roboter, der es hat, oder nimm nur die Gelenke.',
+  ],
+  halted: [
+    '{robot} wurde durch eine Kollision angehalten[: {why:problem}].',
+    'Stoppe ihn; das bringt den Arm zur ersten Zeile zurück. Damit es nicht wieder geschieht, stell den Roboter anders auf, oder nimm weg, was er berührt. Dann spiele weiter.',
+  ],
+  halted_by_contact: ['[{held} in seiner Hand][{link}] berührt {other}'],
+  hand_limits: [
+    "{file}: Das Gelenk '{joint}' der Hand hat die Grenzen {lower:number} bis {upper:number}; erwartet wird ein Bereich zwischen offen und geschlossen.",
+    'Ergänze <limit lower= upper=>, oder mach das Gelenk fest.',
+  ],
+  hand_mimics: [
+    "{file}: Das Gelenk '{joint}' folgt '{other}' (mimic), das zu keinem angetriebenen Gelenk der Hand führt; erwartet wird eines, das selbst keinem folgt.",
+  ],
+  hand_of_its_own: [
+    "Der Roboter '{robot}' hat eine eigene Hand.",
+    'Lass den Endeffektor leer, oder importiere den Roboter noch einmal ohne seine Hand.',
+  ],
+  has_derivative: ["'{other}' ist ihre Ableitung"],
+  has_efforts: [
+    'Die Punkte enthalten efforts; eine Lageregelung kann ihnen nicht folgen.',
+    'Lass sie weg.',
+  ],
+  has_key: [
+    '{name} hat schon einen Schlüssel, mit der Rolle {role}.',
+    'Nimm diesen zuerst zurück.',
+  ],
+  has_multi_dof: ['Das Ziel enthält eine multi_dof_trajectory; erwartet wird keine.'],
+  has_no_key: ['{name} hat in {folder} keinen Schlüssel[; einen haben: {known:list}].'],
+  held: ['{object} wird von {since:time} bis {until:time} gehalten.'],
+  held_by_another: ['{name} wird von einem anderen Roboter gehalten'],
+  held_by_wait: ['wartet auf sein System'],
+  held_for: ['{object} wird {value:time} lang gehalten; erwartet: {limit:time}.'],
+  held_in_part: ['held_by und in_hand gehören zusammen.', 'Gib beide an oder keines.'],
+  hidden_without_hint: [
+    'Der Test ist verborgen und hat keinen Hinweis; Studierende erfahren nichts daraus. Ergänze hint:',
+  ],
+  holds_already: ['{robot} hält schon {object}.', 'Löse das zuerst.'],
+  holds_nothing: ['{robot} hält nichts.'],
+  holds_two: ['{place:problem}: {robot} hält zwei Gegenstände.', 'Lass einen weg.'],
+  hollow_mesh: [
+    'Ein hohles Netz kann sich nicht bewegen.',
+    'Setze es aus konvexen Teilen zusammen.',
+  ],
+  home_size: [
+    '{file}: home_deg hat {count:count Wert|Werte}; erwartet: {joints:integer}, einer je beweglichem Gelenk.',
+  ],
+  http_error: ['Die Anfrage wurde nicht angenommen: {detail:problem}.'],
+  https_unusable: [
+    '{certificate} und {key} taugen nicht für HTTPS: {why:problem}.',
+    'Erwartet wird ein Zertifikat mit seinem Schlüssel ohne Passwort (PEM).',
+  ],
+  illegal_event: [
+    '„{event}“ geht im Zustand {state} nicht[: {reason:problem}][; möglich ist jetzt: {possible:list}]',
+  ],
+  in_brackets: ['Schreibe [[{text}]]'],
+  in_cell: ['in einer Zelle mit {robots:count Roboter|Robotern}'],
+  in_empty_room: ['in einem leeren Raum mit Boden'],
+  in_lab: [
+    'im Labor, wie es war, mit {objects:count Gegenstand|Gegenständen} und {robots:count Roboter|Robotern}',
+  ],
+  in_place: ['{place:problem}: {why:problem}.'],
+  in_quotes: ['Schreibe "{text}" in Anführungszeichen'],
+  in_scene: ['in der Szene {scene} mit {objects:count Gegenstand|Gegenständen}'],
+  index_out_of_range: [
+    'es gibt die {axis:choice row=Zeilen|column=Spalten} 1 bis {count:integer}',
+  ],
+  inflates_too_far: ['{file} ist entpackt größer als {most:bytes}.'],
+  inflates_too_much: ['entpackt ist sie größer als {limit:bytes}'],
+  insecure_with_keys: [
+    'Die Seiten können nicht zugleich für alle offen sein und Schlüssel haben.',
+    'Lass eines von beiden weg.',
+  ],
+  inside_container: [
+    "Die Trajektorie ist nicht eine Matrix: {pieces:choice joints=Jedes Gelenk ist eine eigene Variable|segments=Sie liegt in Abschnitten|samples=Sie liegt in einzelnen Messpunkten}, '{variable}' bis '{last}'[, dazu {more:integer} weitere, zu viele zum Aufzählen].",
+    'Füge sie zusammen.',
+  ],
+  invert_applied: ['Wie gewünscht heißen größere Werte des Greifers offen.'],
+  jerk_limit: [
+    '{joint} hat einen Ruck von {value:measure}; der Hersteller nennt {limit:measure}.',
+    'Plane mit einem glatten Zeitgesetz wie einem Polynom fünften Grades, oder gib der Bewegung mehr Zeit.',
+  ],
+  jerks_in_limits: ['Ruck unter seinen Grenzen'],
+  joint_axis: ["{place:problem}: Die Achse ist '{axis}'; erwartet wird eine Richtung wie 0 0 1."],
+  joint_from: [
+    '{joint} ist {instant:choice start=am Anfang|end=am Ende} {value:angle} {origin:choice home=von der Grundstellung|start=von seinem Anfang} entfernt; erwartet: höchstens {limit:angle}.',
+  ],
+  joint_limit: [
+    '{joint} geht in Zeile {row:integer} ({time:time}) auf {value:measure}; sein Bereich ist {lower:measure} bis {upper:measure}; außerhalb ist es in {count:count Zeile|Zeilen}.',
+    'Plane die Bewegung innerhalb des Bereichs, oder wähle den Roboter, für den sie gemacht wurde.',
+  ],
+  joint_names: [
+    "Die Gelenke von '{variable}' sind nicht die von {robot}.[ Es fehlen: {missing:list}.][ {robot} hat kein {unknown:list}.][ Mehrmals vorhanden: {repeated:list}.]",
+    'Wähle den Roboter, für den die Bewegung gemacht wurde, oder nenne die Spalten wie der Roboter seine Gelenke: {joints:list}. Spalten einer Tabelle lassen sich auch über ihre Nummern nehmen.',
+  ],
+  joint_no_velocity: [
+    '{place:problem} hat kein <limit> mit einer Geschwindigkeit; erwartet werden lower, upper und velocity (rad, rad/s) aus dem Datenblatt des Roboters.',
+  ],
+  joint_out_of_range: [
+    '{joint} ist {value:angle}[ an Punkt {point:integer}][ bei {time:time}, zwischen zwei Punkten]; erwartet: {lower:angle} bis {upper:angle}.',
+  ],
+  joint_state_beyond: [
+    'Ein Gelenkzustand enthält NaN oder unendlich[ oder eine Zahl jenseits von {most:exact}]; der Arm bleibt, wo er ist.',
+  ],
+  joint_state_size: [
+    'Ein Gelenkzustand hat {positions:integer} Positionen und {velocities:integer} Geschwindigkeiten; erwartet: je {joints:integer}.',
+  ],
+  joint_type: ["{place:problem} ist vom Typ '{type}'; erwartet: {known:either}."],
+  joints_matched: [
+    "Die Spalten von '{variable}' wurden {robot} nach den Namen der Gelenke zugeordnet: Spalten {order:list}, in dieser Reihenfolge.[ Weggelassen: {left_out:list}.]",
+  ],
+  joints_move: ['die Gelenke bewegen {robot} ({model})'],
+  joints_of_topic: ['{topic}: {joints:list}'],
+  jump_2pi: [
+    '{joint} springt um eine volle Drehung ({value:measure}) von Zeile {first_row:integer} zur nächsten ({time:time}).',
+    'Entferne den Sprung mit unwrap.',
+  ],
+  key_file_open: [
+    '{path} ist für andere auf diesem Rechner lesbar (Rechte {mode}).',
+    'Ändere das mit: chmod 600 {path}',
+  ],
+  key_file_unreadable: ['{path} ist nicht lesbar: {why:problem}.'],
+  key_not_text: ['Ein Schlüssel ist kein UTF-8: {why:problem}.'],
+  key_too_long: [
+    'Ein Schlüssel von {length:count Byte|Bytes} passt nicht in ein Paket von {size:count Byte|Bytes}.',
+  ],
+  key_twice: [
+    "'{key}' steht zweimal da, zum zweiten Mal in Zeile {line:integer}[ von {file}].",
+    'Schreibe es nur einmal.',
+  ],
+  keys_damaged: [
+    '{path} ist beschädigt: {why:problem}.',
+    'Spiele eine Kopie zurück, oder mach neue Schlüssel.',
+  ],
+  keys_folder_not_empty: [
+    '{folder} gibt es schon, und der Ordner ist nicht leer; nichts wurde geändert.',
+    'Nimm einen anderen Ordner, oder entferne diesen: Wer Schlüssel daraus hat, braucht dann neue.',
+  ],
+  keys_need_tls: [
+    'Das Labor hat Schlüssel, und die Bridge soll an {endpoint} erreichbar sein, wo niemand einen zeigen kann.',
+    'Nimm {better}, oder lass die Schlüssel weg.',
+  ],
+  kinematics_agree: [
+    "Der Roboter '{variable}'[ ({title})] in der Datei stimmt mit {robot} auf {distance:length} überein.",
+  ],
+  kinematics_differ: [
+    "Der Roboter '{variable}'[ ({title})] in der Datei ist nicht {robot}:[ Bei gleichen Gelenkwinkeln liegt sein Flansch bis zu {distance:length} und {angle:angle} daneben.][ Er hat {count:count Gelenk|Gelenke} und {robot} {joints:integer}.] Die Bewegung kann für einen anderen Roboter gemacht sein, oder mit anderen Nullstellungen der Gelenke.",
+    'Wähle den Roboter, für den die Datei gemacht wurde; oder vergleiche die Nullstellungen und die Drehrichtungen der Gelenke mit denen von {robot}.',
+  ],
+  lab_unconnected: [
+    'Das Gateway hat keine Verbindung zum Labor.',
+    'Prüfe, ob das Labor läuft, und den Endpunkt des Gateways.',
+  ],
+  lab_without_id: [
+    'In dieser ROS-Domain ist ein Labor-Knoten ohne Kennung; dieses Labor, {lab}, beachtet die Roboter nicht, die er aufführt.',
+    'Beende diesen Knoten, oder starte ihn mit einer anderen ROS_DOMAIN_ID.',
+  ],
+  labs_elsewhere: [
+    'In der ROS-Domain {domain:integer} antwortet kein Labor; deine sind in {labs:list}.',
+    'Setze ROS_DOMAIN_ID auf die Domain von einem davon.',
+  ],
+  labs_own: ["'{trajectory}' gehört dem Labor; {person} kann sie nur ansehen."],
+  labview_segments: [
+    'ihr LabVIEW-Kopf endet {count:count Mal|Mal}, bei einer Datei mit nur einem Abschnitt sind es 2; exportiere einen Abschnitt',
+  ],
+  larger_than_needed: ['{file} ist größer als {most:bytes}; so viel braucht keine Klasse.'],
+  largest_of_joint: ['höchstens {value:measure}, {joint}'],
+  largest_share: ['höchstens {value:share} der Grenze, {joint} bei {time:time}'],
+  largest_step: [
+    'größte Änderung der Geschwindigkeit von Zeile zu Zeile {value:measure}, {joint} bei {time:time}',
+  ],
+  late_at_start: ['{robots:list} kamen nicht rechtzeitig am Start an'],
+  late_point: ['Punkt {point:integer} ({time:time}) liegt nicht nach dem Punkt davor'],
+  least_distance: [
+    '{link}[ (hält {held})][ von {robot}] kommt {kind:choice self=dem eigenen Glied|robot=dem Roboter|object=dem Gegenstand|surface=der Fläche} {other}[ ({other_link})] bei {time:time} auf {value:length} nah; erwartet: mindestens {limit:length}.',
+  ],
+  least_room: ['mindestens {value:measure} Spielraum, {joint} bei {time:time}'],
+  left_out: ['{topic} weggelassen: {why:problem}'],
+  left_room: ['Der Gegenstand ist aus dem Raum gefallen.'],
+  left_the_room: [
+    '{other} ist aus dem Raum gefallen und wurde entfernt.',
+    'Sieh nach, was diesen Gegenstand gestoßen oder fallen gelassen hat.',
+  ],
+  let_go: ['{object} wurde losgelassen: {robot} bekam einen anderen Endeffektor.'],
+  library_failed: [
+    '{part:choice hdf5=die HDF5-Bibliothek|bag=das Leseprogramm für Bags|npz=das Leseprogramm für npz-Archive|json=das Leseprogramm für JSON|variable=zlib|message=das Leseprogramm für Nachrichten} kann sie nicht lesen ({error})',
+  ],
+  lies_elsewhere: [
+    '{object} liegt bei {point:position} und nicht {side:choice in=in|on=auf} {other}.',
+  ],
+  lies_from_object: [
+    '{object} liegt {value:length} von {other} entfernt; erwartet: höchstens {limit:length}.',
+  ],
+  lies_from_place: [
+    '{object} liegt {value:length} von {place:position} entfernt; erwartet: höchstens {limit:length}.',
+  ],
+  lies_in_place: ['{object} liegt {side:choice in=in|on=auf} {other}.'],
+  lies_on_itself: ["'{object}' kann nicht {side:choice in=in|on=auf} sich selbst liegen."],
+  like_percent: ['sie läuft in mehreren Spalten von 0 bis 100 wie Prozent'],
+  like_poses: ['sie sieht aus wie Posen des Werkzeugs: {why:problem}'],
+  limit_not_stated: [
+    '{model} nennt für {joints:list} keine Grenze {of:choice acceleration=der Beschleunigung|jerk=des Rucks}; sie lässt sich nicht messen.',
+    'Miss Geschwindigkeiten, oder trage die Grenze in robot.yaml ein.',
+  ],
+  limit_used: [
+    '{joint} nutzt {value:share} {of:choice ranges=seines Bereichs|speeds=seiner größten Geschwindigkeit|acceleration=seiner Beschleunigungsgrenze|jerk=seiner Ruckgrenze}; erwartet: höchstens {limit:share}.',
+  ],
+  limits_above: ['über {low:exact}[ und höchstens {high:exact}][ und unter {below:exact}]'],
+  limits_below: ['unter {below:exact}'],
+  limits_between: ['von {low:exact} bis {high:exact}'],
+  limits_from: ['von mindestens {low:exact}[ und unter {below:exact}]'],
+  limits_not_stated: [
+    'höchstens {value:measure}, {joint}; das Modell nennt keine Grenze[ für {missing:list}]',
+  ],
+  limits_to: ['von höchstens {high:exact}'],
+  lines_differ: [
+    'Zeile {line:integer} hat {count:count Wert|Werte} und die erste {first:integer}',
+  ],
+  link_circle: [
+    "Das Glied '{link}' hängt unter sich selbst; erwartet wird ein Baum von Gliedern.",
+  ],
+  link_not_followed: ['Das ist ein Verweis (Link); ihm wird nicht gefolgt.'],
+  link_used: [
+    'Dieser Link wurde schon benutzt oder ist zu alt.',
+    'Bitte deine Lehrkraft um einen neuen.',
+  ],
+  little_in_degrees: [
+    'in Grad bewegen sich die Spalten {columns} je um weniger als 2 Grad; sie könnten schon in Radiant sein, während andere in Grad sind',
+  ],
+  load_trajectory: ['{trajectory} in {robot} laden'],
+  loaded: ['geladen: {trajectory}, {frames:count Zeile|Zeilen}, {duration:time}'],
+  loaded_in_part: [
+    'Die Szene ist nur zum Teil geladen: {why:problem}. Lade sie noch einmal.[\nErledigt:{done:problems}][\nNicht versucht:{rest:problems}]',
+  ],
+  looks_like: [
+    "'{variable}' ({size}) wurde nicht als Gelenkwinkel genommen: {why:problem}.",
+    'Sichere die Gelenkwinkel, eine Zeile je Messpunkt. Ist es doch das Gewünschte, nenne die Variable beim Namen.',
+  ],
+  loops: ['läuft in Schleife'],
+  loses_object: [
+    'Der Greifer verliert {other}[: {why:problem}].',
+    'Greif näher am Schwerpunkt, bewege sanfter, oder nimm einen stärkeren Greifer.',
+  ],
+  lost_points: ['{test}: {found:problem}.', '[{hint}]'],
+  not_signed_in: ['Niemand ist angemeldet, oder die Anmeldung ist beendet.', 'Melde dich an.'],
+  nothing_at: ['Unter {path} gibt es nichts.'],
+  other_ending: [
+    "'{file}' gehört zu keiner Art von Datei, die gelesen wird.",
+    'Der Name muss auf {endings:either} enden.',
+  ],
+  password_length: [
+    'Das Passwort hat {count:count Zeichen|Zeichen}; nötig sind {least:integer} bis {most:integer}.',
+    'Mehrere Wörter merkt man sich leicht.',
+  ],
+  quota_full: [
+    'Deine Dateien belegen {used:bytes} von {most:bytes}, und diese passt nicht mehr dazu.',
+    'Hochgeladenes wird nach einigen Tagen entfernt.',
+  ],
+  role_too_low: [
+    `{person} hat die Rolle {role:choice ${ROLE}}; nötig ist {needed:choice ${ROLE}}.`,
+    'Frag deine Lehrkraft.',
+  ],
+  store_failed: [
+    'Die Ablage {store} hat versagt ({why:problem}); nichts wurde geändert.',
+    'Versuche es noch einmal, wenn sie wieder geht.',
+  ],
+  upload_too_large: [
+    'Die Datei hat mehr als {most:bytes}, die Grenze.',
+    "Sichere nur die Trajektorie: save('file.mat', 'q', 't').",
+  ],
+  wrong_password: ['Name und Passwort passen nicht zusammen.', 'Versuche es noch einmal.'],
 }
