@@ -22,7 +22,7 @@ from mrlab_ros.adapters.robots.diagnostics import (
     URDF_LINK,
 )
 from mrlab_ros.adapters.robots.mesh_files import Look
-from mrlab_ros.core.base.diagnostic import Code, Diagnostic, Severity
+from mrlab_ros.core.base.diagnostic import Code, Diagnostic, Severity, from_plain
 from mrlab_ros.core.base.diagnostics import FIELD
 from mrlab_ros.core.errors import BadInput
 from mrlab_ros.core.foreign_text import for_table
@@ -268,8 +268,8 @@ def check_sizes(root: ET.Element, looks: Mapping[str, Look]) -> tuple[Diagnostic
         for mesh in meshes(root)
     }
     for uri, look in looks.items():
-        if look.problem:
-            why = look.problem
+        if look.problem is not None:
+            why = from_plain(look.problem)
             found.append(diagnostics.ROBOT_MESH_UNREADABLE(where=uri, uri=uri, why=why))
             continue
         found += [

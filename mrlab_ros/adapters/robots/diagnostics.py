@@ -117,6 +117,12 @@ ROBOT_MESH_UNREADABLE = Code(
     "Export it again from the program that made it.",
     meaning="A mesh of a robot cannot be read.",
 )
+MESH_WITHOUT_TRIANGLES = Code(
+    "mesh_without_triangles", "it holds no triangles", meaning="A mesh file holds nothing."
+)
+MESH_VERTEX_NOWHERE = Code(
+    "mesh_vertex_nowhere", "a vertex is not finite", meaning="A mesh file holds NaN or infinity."
+)
 ROBOT_NO_TEXTURE = Code(
     "robot_no_texture",
     "Mesh {uri} names {file}, which is missing.",

@@ -20,6 +20,9 @@ import numpy as np
 import trimesh
 
 from mrlab_ros.adapters import walled
+from mrlab_ros.adapters.robots.diagnostics import MESH_VERTEX_NOWHERE, MESH_WITHOUT_TRIANGLES
+from mrlab_ros.core.base.diagnostic import of_text, plain
+from mrlab_ros.core.errors import BadInput
 from mrlab_ros.core.geometry import Array
 
 COLLISION = "collision"
@@ -41,12 +44,13 @@ SOLID = re.compile(rb"^(?:v(?:\s+[-+.\deE]+){3,}|f(?:\s+-?\d+(?:/-?\d*){0,2}){3,
 class Look:
     """What was found in a mesh file.
 
-    size: its longest side in the file's unit. problem: why it cannot be read. missing: files that
-    it names and that were not found, or not taken. visual, solid: names of its copies.
+    size: its longest side in the file's unit. problem: why it cannot be read, as `plain` has it.
+    missing: files that it names and that were not found, or not taken. visual, solid: names of
+    its copies.
     """
 
     size: float = 0.0
-    problem: str = ""
+    problem: Mapping[str, Any] | None = None
     missing: Sequence[str] = ()
     visual: str = ""
     solid: str = ""
@@ -120,19 +124,20 @@ def _copied(
     except MemoryError:
         raise
     except Exception as error:  # every mesh reader has errors of its own
-        return Look(problem=str(error) or type(error).__name__)
-    return Look(size, "", beside.missing, seen, solid)
+        said = of_text(str(error) or type(error).__name__)
+        return Look(problem=plain(getattr(error, "diagnostic", said)))
+    return Look(size, None, beside.missing, seen, solid)
 
 
 def _size(scene: trimesh.Scene) -> float:
-    """Return the longest side of a mesh in its file's unit; raise ValueError where it is none.
+    """Return the longest side of a mesh in its file's unit; raise BadInput where it is none.
 
     Unprocessed: trimesh leaves a vertex that is nowhere out, and Bullet ends the process on it.
     """
     if scene.bounds is None:
-        raise ValueError("it holds no triangles")
+        raise BadInput(MESH_WITHOUT_TRIANGLES())
     if not all(np.isfinite(mesh.vertices).all() for mesh in scene.geometry.values()):
-        raise ValueError("a vertex is not finite")
+        raise BadInput(MESH_VERTEX_NOWHERE())
     return float(np.ptp(scene.bounds, axis=0).max())
 
 
