@@ -39,7 +39,7 @@ class GatewayError(LabError):
     status: ClassVar[int] = 500
     kind: ClassVar[str] = "fault"
 
-    def __init__(self, what: Diagnostic | str, headers: Mapping[str, str] | None = None) -> None:
+    def __init__(self, what: Diagnostic, headers: Mapping[str, str] | None = None) -> None:
         super().__init__(what)
         self.headers = dict(headers or {})
 
@@ -92,7 +92,7 @@ class TooMany(GatewayError):
     status = 429
     kind = "too_many"
 
-    def __init__(self, what: Diagnostic | str, retry_after: float) -> None:
+    def __init__(self, what: Diagnostic, retry_after: float) -> None:
         """retry_after: s until it may work again."""
         super().__init__(what, {"Retry-After": str(max(1, round(retry_after)))})
 

@@ -385,7 +385,7 @@ export const words: Words = {
       count === 1 ? '1 Befund spricht dagegen' : `${count} Befunde sprechen dagegen`,
     warnings: (count) => (count === 1 ? '1 Warnung' : `${count} Warnungen`),
     nothing: 'nichts spricht dagegen',
-    stale: (what) => `Von einer früheren Szene: seitdem ${what}. Neu prüfen.`,
+    stale: (what) => `Von einer früheren Szene (${what}). Neu prüfen.`,
     findings: 'Was die Prüfung fand',
     at: (time) => `bei ${time} s`,
     more: (count) => (count === 1 ? 'Einen weiteren zeigen' : `${count} weitere zeigen`),
