@@ -8,6 +8,7 @@ from collections.abc import Callable
 
 import pytest
 from own_port import free_endpoint
+from refusals import refused
 
 from mrlab_ros.adapters.zenoh.configuration import configuration
 from mrlab_ros.adapters.zenoh.port import Publisher, Query
@@ -23,7 +24,9 @@ from mrlab_ros.core.bridge.rules import (
 )
 from mrlab_ros.gateway.lab.connection import NoAnswer, Phase, Refused, Sample
 from mrlab_ros.gateway.lab.definitions import Definitions, installed_definitions
+from mrlab_ros.gateway.lab.diagnostics import NOBODY_ANSWERS, UNKNOWN_TYPE
 from mrlab_ros.gateway.lab.zenoh_lab import ZenohLab
+from mrlab_ros.gateway.link.diagnostics import CALLS_FULL
 
 TRIGGER = "mrlab_msgs/srv/Trigger"
 TRIGGER_TEXT = "---\nbool success\nstring message\n"
@@ -90,15 +93,21 @@ def test_topics_services_and_presence() -> None:
             robots = bridge.topic("robots", "mrlab_msgs/msg/Robots")
             done = definitions.encode(f"{TRIGGER}_Response", {"success": True})
             bridge.service("a/play", TRIGGER, lambda query: query.reply(done))
-            bridge.service("b/play", TRIGGER, lambda query: query.refuse("not now"))
+            bridge.service("b/play", TRIGGER, lambda query: query.refuse(CALLS_FULL()))
             await until(lambda: lab.phase is Phase.OPEN and "b/play" in lab.keys.services)
             await until(lambda: lab.keys.latched == {"robots"})
             await until(lambda: "mrlab_msgs/msg/Fix" in lab.definitions.store.fielddefs)
 
             assert (await lab.call("a/play", TRIGGER)).success
-            with pytest.raises(Refused, match="not now"):
+            full = UNKNOWN_TYPE(type="é/x")
+            bridge.service("d/play", TRIGGER, lambda query: query.refuse(full))
+            with refused(CALLS_FULL, Refused):
                 await lab.call("b/play", TRIGGER)
-            with pytest.raises(NoAnswer, match="nobody answers c/play"):
+            await until(lambda: "d/play" in lab.keys.services)
+            with refused(UNKNOWN_TYPE, Refused, type="é/x") as caught:
+                await lab.call("d/play", TRIGGER)
+            assert str(caught.value) == str(full)
+            with refused(NOBODY_ANSWERS, NoAnswer, key="c/play"):
                 await lab.call("c/play", TRIGGER, timeout_s=2.0)
 
             robots.put(definitions.encode("mrlab_msgs/msg/Robots", {}), attachment(7, 8, 9))

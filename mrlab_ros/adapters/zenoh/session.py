@@ -16,7 +16,7 @@ from zenoh import ext
 from mrlab_ros.adapters.zenoh.configuration import first_line
 from mrlab_ros.adapters.zenoh.diagnostics import ENDPOINT_TAKEN, ZENOH_NOT_OPEN
 from mrlab_ros.adapters.zenoh.port import Declared, Publisher, Query
-from mrlab_ros.core.base.diagnostic import Diagnostic, of_text
+from mrlab_ros.core.base.diagnostic import Diagnostic, of_text, plain
 from mrlab_ros.core.bridge.guests import Link
 from mrlab_ros.core.bridge.rules import Congestion, Reliability, TopicRule
 from mrlab_ros.core.errors import Unavailable
@@ -276,7 +276,9 @@ class _Query:
         self._query.drop()
 
     def refuse(self, reason: Diagnostic) -> None:
-        encoding = zenoh.Encoding.TEXT_PLAIN.with_schema(reason.code)
+        # The text for whoever prints it; code and values for whoever words it.
+        told = json.dumps({"code": reason.code, "values": plain(reason.values)})
+        encoding = zenoh.Encoding.TEXT_PLAIN.with_schema(told)
         self._query.reply_err(str(reason).encode(), encoding=encoding)
         self._query.drop()
 

@@ -15,7 +15,7 @@ from typing import Any
 import zenoh
 
 from mrlab_ros.adapters.zenoh.configuration import LOOPBACK, configuration
-from mrlab_ros.core.base.diagnostic import Fix
+from mrlab_ros.core.base.diagnostic import Diagnostic, Fix, Severity, of_text
 from mrlab_ros.core.bridge.latency import stamps
 from mrlab_ros.core.errors import LabError
 from mrlab_ros.gateway.lab.connection import (
@@ -39,6 +39,8 @@ SCHEMA = "schema"
 TOKENS = "@/*/@ros2_lv/**"
 # s between two attempts to open the session.
 RETRY_S = 0.5
+# What zenoh itself answers where nobody did in time.
+ZENOH_TIMEOUT = "Timeout"
 log = logging.getLogger(__name__)
 
 
@@ -236,14 +238,14 @@ class ZenohLab:
         session, loop = self._connection()
         done = asyncio.Event()
         answers: list[Sample] = []
-        refusals: list[str] = []
+        refusals: list[Diagnostic | None] = []
         root = len(self._root)
 
         def on_reply(reply: zenoh.Reply) -> None:
             if reply.ok is not None:
                 answers.append(_read(reply.ok, root))
             elif reply.err is not None:
-                refusals.append(reply.err.payload.to_string())
+                refusals.append(_refusal(reply.err))
 
         def on_end() -> None:
             with suppress(RuntimeError):  # the loop is closed
@@ -259,7 +261,7 @@ class ZenohLab:
         )
         await done.wait()
         if refusals and not answers:
-            if refusals[0] == "Timeout":
+            if refusals[0] is None:
                 fixes = (Fix(command="status"),)
                 raise TimedOut(CALL_TIMED_OUT(key=key, timeout=timeout_s, fixes=fixes))
             raise Refused(refusals[0])
@@ -284,6 +286,21 @@ class ZenohLab:
         arrived = self._arrived
         for _ in range(len(arrived)):
             arrived.popleft()()
+
+
+def _refusal(error: zenoh.ReplyError) -> Diagnostic | None:
+    """Return why a query is refused: a text, and in its encoding code and values as JSON.
+
+    None: nobody answered in time.
+    """
+    text = error.payload.to_string()
+    if text == ZENOH_TIMEOUT:
+        return None
+    try:
+        told = json.loads(str(error.encoding).partition(";")[2])
+        return Diagnostic(told["code"], Severity.ERROR, text, values=dict(told["values"]))
+    except (ValueError, KeyError, TypeError):
+        return of_text(text)
 
 
 def _read(sample: zenoh.Sample, root: int) -> Sample:
