@@ -173,11 +173,11 @@ def test_a_service_that_does_not_answer_is_given_up(graph, listed, endpoint):
         wait_for(lambda: any("SS/slow/" in t for t in tokens(session)), "the service")
         _, reason = ask(session, "slow")
     released.set()
-    assert "/slow did not answer within 0.1 s" in reason
+    assert "/slow did not answer" in reason
 
 
 def test_what_two_labs_offer_is_not_called_for_either(graph, listed, endpoint):
-    listed({"services": [{"name": "/*/play"}, {"name": "/*/pause"}]}, lab_id="a1")
+    listed({"services": [{"name": "/*/play"}, {"name": "/*/pause", "moves": False}]}, lab_id="a1")
     asked = []
 
     def answer(request, response):
