@@ -673,7 +673,7 @@ export const diagnostics: Templates = {
   allow_list_unreadable: ['Die Liste der Erlaubten, {path}, ist nicht lesbar: {why:problem}.'],
   already_in_world: ['{name} ist schon in der Welt.', 'Entferne es zuerst.'],
   ambiguous: [
-    "{count:count Matrix|Matrizen} in '{file}' könnten die Trajektorie sein:{candidates:problems}",
+    "{count:count Matrix kommt|Matrizen kommen} in '{file}' als Trajektorie infrage:{candidates:problems}",
     'Sag, welche es ist, oder sichere nur diese.',
   ],
   an_integer: ['eine ganze Zahl[ {limits:problem}][ ({unit})]'],
@@ -925,7 +925,7 @@ export const diagnostics: Templates = {
   ],
   bag_imported: ['{bag} enthält {messages:count Nachricht|Nachrichten}[:{notes:problems}]'],
   bag_lacks_files: [
-    'In {path} fehlen {files:list}; die metadata.yaml dort führt sie auf.',
+    'In {path} fehlt, was die metadata.yaml dort aufführt: {files:list}.',
     'Hole die Dateien zurück, gib ihnen wieder diese Namen oder lies einzeln, was noch da ist.',
   ],
   bag_live: ['das Bag wird gerade aufgenommen; dies ist der Stand bis jetzt'],
@@ -1009,7 +1009,7 @@ export const diagnostics: Templates = {
     'Nenne beide.',
   ],
   channel_shape: [
-    "{channel:choice gripper=Die Greiferzustände|derived=Die abgeleiteten Kanäle} von '{id}' sind {size}; erwartet wird {expected}, eine Zeile je Zeile der Trajektorie.",
+    "{channel:choice gripper=Die Greiferzustände|derived=Die abgeleiteten Kanäle} von '{id}' sind {size}; erwartet wird {expected}, mit einer Zeile für jede Zeile der Trajektorie.",
   ],
   check_ended_early: [
     'Die Prüfung endete vorzeitig (Status {status:integer}), wie es bei zu viel Speicher oder Zeit geschieht.',
@@ -1019,7 +1019,7 @@ export const diagnostics: Templates = {
     'Die Prüfung ist gescheitert; das Protokoll des Gateways auf dem Rechner des Labors sagt, warum.',
   ],
   check_not_ready: [
-    'nicht bereit: {count:count Befund spricht|Befunde sprechen} dagegen[, der erste bei {time:time}]: {first:problem}',
+    'nicht bereit: {count:count Befund spricht|Befunde sprechen} dagegen[, der erste bei {time:time}]: {first:problem}.',
   ],
   check_out_of_memory: ['Die Prüfung braucht mehr als {most:bytes} Speicher.'],
   check_ready: [
@@ -1347,7 +1347,9 @@ export const diagnostics: Templates = {
     '{robot} greift {object} bei {value:time}[; erwartet: nach {since:time}][; erwartet: vor {until:time}].',
   ],
   grasped_late: ['{object} wird bei {value:time} gegriffen; erwartet: vor {limit:time}.'],
-  grasps_missing: ['Nach {limit:time} Warten halten {robots:list} noch nicht {objects:list}.'],
+  grasps_missing: [
+    'Nach {limit:time} fehlen noch Griffe: {objects:list} in der Hand von {robots:list}.',
+  ],
   grasps_nothing: [
     'Der Greifer schließt um nichts[: {why:problem}].',
     'Schließ ihn dort, wo ein Gegenstand ist; die Abstände zeigen, wie weit er entfernt war.',
@@ -1359,7 +1361,7 @@ export const diagnostics: Templates = {
     'Nimm sie als Greifer, oder sichere sie als letzte Spalte.',
   ],
   gripper_between: [
-    '{count:integer} von {rows:integer} Werten in der Spalte des Greifers liegen zwischen ihren Enden {first:number} und {last:number}; {side:choice above=über|below=unter} {threshold:number} gilt der Greifer als geschlossen.',
+    'In der Spalte des Greifers liegen Werte zwischen ihren Enden {first:number} und {last:number}, nämlich {count:integer} von {rows:integer}; {side:choice above=über|below=unter} {threshold:number} gilt der Greifer als geschlossen.',
     'Sichere 0 für offen und 1 für geschlossen, ohne Rampen. Ist die Spalte ein Gelenk, nimm nur die Gelenke.',
   ],
   gripper_constant: [
@@ -1377,7 +1379,7 @@ export const diagnostics: Templates = {
     '{robot} wurde durch eine Kollision angehalten[: {why:problem}].',
     'Stoppe ihn; das bringt den Arm zur ersten Zeile zurück. Damit es nicht wieder geschieht, stell den Roboter anders auf, oder nimm weg, was er berührt. Dann spiele weiter.',
   ],
-  halted_by_contact: ['[{held} in seiner Hand][{link}] berührt {other}'],
+  halted_by_contact: ['[{held} in der Hand des Roboters][{link}] berührt {other}'],
   hand_limits: [
     "{file}: Das Gelenk '{joint}' der Hand hat die Grenzen {lower:number} bis {upper:number}; erwartet wird ein Bereich zwischen offen und geschlossen.",
     'Ergänze <limit lower= upper=>, oder mach das Gelenk fest.',
@@ -1408,7 +1410,7 @@ export const diagnostics: Templates = {
   hidden_without_hint: [
     'Der Test ist verborgen und hat keinen Hinweis; Studierende erfahren nichts daraus. Ergänze hint:',
   ],
-  holds_already: ['{robot} hält schon {object}.', 'Löse das zuerst.'],
+  holds_already: ['{robot} hält schon {object}.', 'Lass das zuerst los.'],
   holds_nothing: ['{robot} hält nichts.'],
   holds_two: ['{place:problem}: {robot} hält zwei Gegenstände.', 'Lass einen weg.'],
   hollow_mesh: [
@@ -1463,7 +1465,7 @@ export const diagnostics: Templates = {
     'Plane die Bewegung innerhalb des Bereichs, oder wähle den Roboter, für den sie gemacht wurde.',
   ],
   joint_names: [
-    "Die Gelenke von '{variable}' sind nicht die von {robot}.[ Es fehlen: {missing:list}.][ {robot} hat kein {unknown:list}.][ Mehrmals vorhanden: {repeated:list}.]",
+    "Die Gelenke von '{variable}' sind nicht die von {robot}.[ Es fehlt: {missing:list}.][ {robot} hat kein {unknown:list}.][ Mehrmals vorhanden: {repeated:list}.]",
     'Wähle den Roboter, für den die Bewegung gemacht wurde, oder nenne die Spalten wie der Roboter seine Gelenke: {joints:list}. Spalten einer Tabelle lassen sich auch über ihre Nummern nehmen.',
   ],
   joint_no_velocity: [
@@ -1542,7 +1544,7 @@ export const diagnostics: Templates = {
   largest_step: [
     'größte Änderung der Geschwindigkeit von Zeile zu Zeile {value:measure}, {joint} bei {time:time}',
   ],
-  late_at_start: ['{robots:list} kamen nicht rechtzeitig am Start an'],
+  late_at_start: ['nicht rechtzeitig am Start: {robots:list}'],
   late_point: ['Punkt {point:integer} ({time:time}) liegt nicht nach dem Punkt davor'],
   least_distance: [
     '{link}[ (hält {held})][ von {robot}] kommt {kind:choice self=dem eigenen Glied|robot=dem Roboter|object=dem Gegenstand|surface=der Fläche} {other}[ ({other_link})] bei {time:time} auf {value:length} nah; erwartet: mindestens {limit:length}.',
