@@ -7,6 +7,7 @@ import math
 import os
 import sys
 import tempfile
+from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
@@ -24,8 +25,9 @@ from mrlab_ros.commands.diagnostics import (
     ROBOTS_HAVE_ERRORS,
 )
 from mrlab_ros.commands.output import AsJson, say
-from mrlab_ros.core.base.diagnostic import Diagnostic, Severity, plain
+from mrlab_ros.core.base.diagnostic import Diagnostic, Fix, Severity, plain
 from mrlab_ros.core.errors import BadInput
+from mrlab_ros.core.foreign_text import for_shell
 from mrlab_ros.ros import share
 
 if TYPE_CHECKING:
@@ -285,6 +287,7 @@ def import_robot(
     column opens and closes the hand. The sheet that is printed says what was understood.
     """
     from mrlab_ros.adapters.robots import checks, importing
+    from mrlab_ros.adapters.robots.diagnostics import ARMS_BRANCH
     from mrlab_ros.adapters.robots.sheet import checked_format
     from mrlab_ros.adapters.robots.source import find_description
 
@@ -293,16 +296,24 @@ def import_robot(
     path = find_description(source[0])
     library = _library()
     wanted = robot_id or path.name.split(".")[0].lower().replace("-", "_")
-    imported = importing.import_robot(
-        path,
-        wanted,
-        library,
-        _folders(package),
-        arguments=source[1:],
-        tip=tip,
-        srdf=srdf,
-        speed=speed,
-    )
+    try:
+        imported = importing.import_robot(
+            path,
+            wanted,
+            library,
+            _folders(package),
+            arguments=source[1:],
+            tip=tip,
+            srdf=srdf,
+            speed=speed,
+        )
+    except BadInput as error:
+        found = error.diagnostic
+        if found.code != ARMS_BRANCH.code:
+            raise
+        again = for_shell([*source, "--tip", str(found.values["tip"])])
+        fix = Fix(command=f"robots import {again}")
+        raise BadInput(replace(found, fixes=(fix,))) from None
     if not as_json:
         _print(imported.findings)
     wrong = checks.errors(imported.findings)
