@@ -12,7 +12,7 @@ export default mergeConfig(
       emptyOutDir: true,
       cssCodeSplit: false,
       lib: {
-        entry: 'src/pages/show/page.ts',
+        entry: 'src/report/main.tsx',
         formats: ['iife'],
         name: 'mrlab',
         fileName: () => 'show.js',

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable, Iterator
 from pathlib import Path
 
@@ -20,9 +21,9 @@ from mrlab_ros.core.conversion.preview import Preview
 from mrlab_ros.core.recording.report import Contact, ReportedState, SessionReport
 from mrlab_ros.core.recording.run_finding import runs_of
 from mrlab_ros.core.recording.runs import Course, RunJoint
+from mrlab_ros.core.show import static
 from mrlab_ros.core.show.page import page
 from mrlab_ros.core.show.session import RecordedMotion, RecordedObject, session
-from mrlab_ros.core.show.session_body import session_body
 from mrlab_ros.core.trajectory.channels import ProxyCoefficients, derive
 from mrlab_ros.core.trajectory.trajectory import Source, Trajectory
 
@@ -142,9 +143,9 @@ def test_a_refused_file_stands_at_its_fault_with_the_link_painted(shown: Open) -
     slider.fill("0")
     expect(slider).to_have_attribute("aria-valuetext", "0.00 s, row 1")
     assert at_fault > red(pixels(page.locator("canvas"))) + 200
-    page.get_by_role("button", name="error row 201-240").click()
+    page.get_by_role("button", name="rows 201 to 240").click()
     expect(slider).to_have_attribute("aria-valuetext", "2.00 s, row 201")
-    assert page.locator(".strip .mark").count() == 1
+    assert page.locator(".plot .mark").count() == 1
     assert watched.errors == []
 
 
@@ -173,20 +174,29 @@ def test_without_webgl_a_picture_and_a_sentence_stand_there(shown: Open) -> None
     expect(watched.page.get_by_text("cannot draw in 3D")).to_be_visible()
     assert watched.page.locator("#view img").is_visible()
     watched.page.get_by_role("slider").fill("2")
-    cursor = watched.page.locator(".strip .cursor").first
-    expect(cursor).to_have_attribute("x1", "300")
+    # 2 s of 4 s, in the middle of the plot
+    expect(watched.page.locator(".plot .playhead").first).to_have_attribute("x1", "318")
+    expect(watched.page.locator(".strip-value").first).to_have_text(re.compile(r"^[-\d.]+°$"))
 
 
-def test_without_scripts_plots_and_picture_stand_there(shown: Open) -> None:
-    watched = shown(accepted(), java_script_enabled=False)
-    assert watched.page.locator(".poster img").is_visible()
-    assert watched.page.locator("svg.strip").first.is_visible()
-    assert watched.page.get_by_text("Accepted").is_visible()
+def test_without_scripts_the_picture_findings_and_tables_stand_there(shown: Open) -> None:
+    page = shown(refused(), java_script_enabled=False).page
+    assert page.locator(".poster img").is_visible()
+    assert page.get_by_text("refused").is_visible()
+    assert page.get_by_role("listitem").get_by_text("elbow_joint goes to 5 rad.").is_visible()
+    assert page.get_by_role("cell", name="elbow_joint").is_visible()
+
+
+def test_a_german_reader_reads_german(shown: Open) -> None:
+    watched = shown(accepted(), locale="de-DE")
+    expect(watched.page.get_by_role("heading", name="Geschwindigkeiten")).to_be_visible()
+    expect(watched.page.get_by_text("4,00 s, 401 Zeilen mit 100 Hz")).to_be_visible()
+    assert watched.page.locator("html").get_attribute("lang") == "de"
 
 
 def test_nothing_added_to_the_page_runs(shown: Open) -> None:
     evil = "<script>document.title = 'evil'</script><img src=x onerror=\"document.title='evil'\">"
-    watched = shown(accepted(), change=lambda text: text.replace("<header", f"{evil}<header"))
+    watched = shown(accepted(), change=lambda text: text.replace("<div id", f"{evil}<div id"))
     expect(watched.page.locator("canvas")).to_be_visible(timeout=DEADLINE_MS)
     assert watched.page.title() != "evil"
 
@@ -226,8 +236,7 @@ def recorded() -> str:
     cube.track.add(0.0, [0.5, -0.3, 0.1, 0, 0, 0, 1])
     document = session("class", report, motion)
     meshes = ingredients.meshes_of([robot.urdf], LIBRARY.mesh_path)
-    body = session_body("class", document, report, "2026-01-01 08:00:00")
-    return page("class", body, document, meshes, ingredients.code(ROOT))
+    return page("class", static.session(document), document, meshes, ingredients.code(ROOT))
 
 
 def test_a_session_is_drawn_and_its_events_lead_there(shown: Open) -> None:
@@ -242,7 +251,7 @@ def test_a_session_is_drawn_and_its_events_lead_there(shown: Open) -> None:
     slider = watched.page.get_by_role("slider")
     expect(slider).to_have_attribute("aria-valuetext", "3.00 s, row 301")
     assert difference(first, pixels(canvas)) > 0.01
-    row = watched.page.get_by_role("row", name="wave")
+    row = watched.page.get_by_role("table").first.get_by_role("row", name="wave")
     expect(row).to_contain_text("halted by a collision")
     row.get_by_role("button", name="go to its beginning").click()
     expect(slider).to_have_attribute("aria-valuetext", "0.00 s, row 1")
@@ -254,6 +263,7 @@ def test_a_session_is_drawn_and_its_events_lead_there(shown: Open) -> None:
     assert folded.count() == 0
     assert watched.page.locator(".film img").count() == 2
     watched.page.evaluate("dispatchEvent(new Event('afterprint'))")
-    assert (folded.count(), watched.page.locator(".film").count()) == (before, 0)
+    expect(watched.page.locator(".film")).to_have_count(0)
+    expect(folded).to_have_count(before)
     assert watched.errors == []
     assert watched.foreign() == []

@@ -13,7 +13,8 @@ from mrlab_ros.core.checking.recording import Rehearsed
 from mrlab_ros.core.checking.report import CheckReport
 from mrlab_ros.core.physics.catalogue import ObjectType
 from mrlab_ros.core.rubrics.marking import Marks
-from mrlab_ros.core.show.check import PlayedRobot, check_body, check_document
+from mrlab_ros.core.show import static
+from mrlab_ros.core.show.check import PlayedRobot, check_document
 from mrlab_ros.core.show.page import page
 
 PREFIX = "package://mrlab_ros/"
@@ -37,7 +38,7 @@ def check_page(
     share: folder with the built pages. marks: by a rubric, None where there is none.
     with_film: draw pictures for where nothing draws in 3D, which takes seconds.
     """
-    document = check_document(report, recorded, robots, objects)
+    document = check_document(report, recorded, robots, objects, digest, marks)
 
     def resolve(uri: str) -> Path:
         return library.mesh_path(uri) if "/robots/" in uri else share / uri.removeprefix(PREFIX)
@@ -46,9 +47,8 @@ def check_page(
     things = {thing["mesh"] for thing in document["objects"] if thing["mesh"]}
     meshes |= ingredients.small(things, resolve)
     film = _film(recorded, robots, library) if with_film else []
-    body = check_body(report, digest, recorded, robots, film, marks)
-    title = f"{report.title}: {report.verdict.replace('_', ' ')}"
-    return page(title, body, document, meshes, ingredients.code(share))
+    body = static.check(document, film)
+    return page(report.title, body, document, meshes, ingredients.code(share))
 
 
 def _film(

@@ -12,8 +12,7 @@ from mrlab_ros.adapters.robots.library import RobotLibrary
 from mrlab_ros.adapters.robots.shown import from_library
 from mrlab_ros.core.conversion.convert import ConversionResult
 from mrlab_ros.core.errors import BadInput
-from mrlab_ros.core.show import document
-from mrlab_ros.core.show.motion_body import motion_body
+from mrlab_ros.core.show import document, static
 from mrlab_ros.core.show.packed import unpacked
 from mrlab_ros.core.show.page import page
 
@@ -40,7 +39,7 @@ def motion_page(
     meshes = ingredients.meshes_of([robot.urdf], library.mesh_path)
     return page(
         f"{shown['title']} on {robot_model}",
-        motion_body(shown, picture),
+        static.motion(shown, picture),
         shown,
         meshes,
         ingredients.code(share),

@@ -1,6 +1,7 @@
 """One HTML file that shows something in 3D: code, data and meshes in it, and nothing from outside.
 
-What must be readable without a script (verdict, findings, plots, a picture) is plain HTML and SVG.
+What must be readable without a script (verdict, findings, tables, a picture) is plain HTML, which
+the report takes the place of.
 """
 
 from __future__ import annotations
@@ -16,8 +17,11 @@ from functools import lru_cache
 from typing import Any
 
 from mrlab_ros.core.foreign_text import for_html as escape
+from mrlab_ros.core.foreign_text import visible_lines
 
 LEVEL = 9  # of compression
+# Texts of a document that nobody reads: arrays, descriptions of robots.
+UNSHOWN = ("data", "urdf")
 # Unpacks code and data, and starts the code: the only script that the page trusts by itself.
 LOADER = """
 (async () => {
@@ -59,7 +63,7 @@ def page(
     code: Code,
     language: str = "en",
 ) -> str:
-    """Return the page. body: HTML that is there from the start, with an element #view.
+    """Return the page. body: HTML that is there until the report is drawn.
 
     document: what the code reads, JSON. meshes: GLB files by their URIs; equal ones are stored
     once.
@@ -89,9 +93,9 @@ def page(
             f"<style>{style}</style>",
             "</head>",
             "<body>",
-            body,
-            '<p id="old-browser" hidden>This browser is too old to show the motion in 3D; the '
-            "plots and findings on this page are complete.</p>",
+            f'<div id="report">{body}</div>',
+            '<p id="old-browser" hidden>This browser is too old to draw this report; its findings '
+            "and tables are complete.</p>",
             f'<script type="text/plain" id="data">{packed(_data(document, meshes))}</script>',
             f'<script type="text/plain" id="code">{packed(code.script)}</script>',
             f"<script>{LOADER}</script>",
@@ -115,8 +119,18 @@ def _data(document: Mapping[str, Any], meshes: Mapping[str, bytes]) -> bytes:
             content.append(mesh)
             size += len(mesh)
         places[uri] = [stored[digest], len(mesh)]
-    head = json.dumps({"document": document, "meshes": places}, separators=(",", ":")).encode()
+    shown = _visible(document)
+    head = json.dumps({"document": shown, "meshes": places}, separators=(",", ":")).encode()
     return struct.pack("<I", len(head)) + head + b"".join(content)
+
+
+def _visible(value: Any, name: str = "") -> Any:
+    """Return a document in whose texts nothing acts on what shows them; its arrays stay."""
+    if isinstance(value, Mapping):
+        return {key: _visible(each, key) for key, each in value.items()}
+    if isinstance(value, str) and name not in UNSHOWN:
+        return visible_lines(value)
+    return [_visible(each) for each in value] if isinstance(value, list | tuple) else value
 
 
 @lru_cache(maxsize=2)

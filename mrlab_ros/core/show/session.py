@@ -8,16 +8,24 @@ from __future__ import annotations
 
 from collections.abc import Collection
 from dataclasses import dataclass, field
+from itertools import pairwise
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
-from mrlab_ros.core.recording.report import SessionReport
+from mrlab_ros.core.geometry import Array
+from mrlab_ros.core.recording.report import Hop, Series, SessionReport
+from mrlab_ros.core.recording.runs import Run
 from mrlab_ros.core.show.packed import packed
 
 SCHEMA = "mrlab.session.1"
 # Of one robot or object; of more samples every k-th is taken.
 MOST_SAMPLES = 6000
+# Of more runs only the first ones are drawn: a page that opens at once is worth more.
+MOST_RUNS, MOST_SERIES = 40, 16
+# Of a curve about so many samples are kept, its peaks among them.
+CURVE = 600
 
 
 @dataclass
@@ -108,7 +116,8 @@ class RecordedMotion:
 
 
 def session(title: str, report: SessionReport, motion: RecordedMotion) -> dict[str, Any]:
-    """Return the document of a session: its robots, objects and events."""
+    """Return the document of a session: what moved, what is said of it, and its curves."""
+    facts = report.facts()
     return {
         "schema": SCHEMA,
         "title": title,
@@ -141,7 +150,18 @@ def session(title: str, report: SessionReport, motion: RecordedMotion) -> dict[s
             for name, thing in motion.objects.items()
         ],
         "surfaces": [],
-        "events": events(report),
+        "events": facts["events"],
+        "report": {
+            "start_ns": report.start_ns,
+            "summary": facts["summary"],
+            "troubles": facts["troubles"],
+            "runs": [
+                {**told, "curves": _curves(run) if number < MOST_RUNS else None}
+                for number, (told, run) in enumerate(zip(facts["runs"], report.runs, strict=True))
+            ],
+            "robots": facts["robots"],
+            "series": _series(report),
+        },
     }
 
 
@@ -155,14 +175,61 @@ def _collisions(report: SessionReport, name: str) -> list[list[Any]]:
     return [] if known is None else [[each.time, each.link] for each in known.collisions]
 
 
-def events(report: SessionReport) -> list[dict[str, Any]]:
-    """Return what happened, in order: when runs began and ended, and what was done in them."""
+def _curves(run: Run) -> dict[str, Any] | None:
+    """Return the recorded curves of a run, and of its reference where there is one."""
+    course = run.course
+    if course is None:
+        return None
+    columns = (course.joints, course.expected, course.tool, course.expected_tool)
+    kept = drawn(np.column_stack([each for each in columns if each is not None]))
+    return {"times": packed(course.times[kept], "float64")} | {
+        name: None if each is None or np.isnan(each).all() else packed(each[kept], "float32")
+        for name, each in zip(
+            ("joints", "expected", "tool", "expected_tool"), columns, strict=True
+        )
+    }
+
+
+def _series(report: SessionReport) -> list[dict[str, Any]]:
+    """Return what was measured of the lab itself, s or rad, by robot; empty: of all topics."""
+    found: list[tuple[str, str, Hop | None, Series]] = []
+    for robot in report.robots.values():
+        found.append((robot.name, "deadline", None, robot.deadline))
+        found.append((robot.name, "tracking", None, robot.tracking))
+        found += [(robot.name, "latency", hop, series) for hop, series in robot.latency.items()]
+    found += [("", "latency", hop, series) for hop, series in report.latency.items()]
+    measured = [each for each in found if each[3].values]
     return [
         {
-            "time": event.time,
-            "robot": event.robot,
-            "severity": event.said.severity.name.lower(),
-            "text": str(event.said),
+            "robot": robot,
+            "quantity": quantity,
+            "hop": None if hop is None else hop._asdict(),
+            **series.summary(),
+            "curve": _curve(series) if number < MOST_SERIES else None,
         }
-        for event in report.events()
+        for number, (robot, quantity, hop, series) in enumerate(measured)
     ]
+
+
+def _curve(series: Series) -> dict[str, Any]:
+    values = np.array(series.values)
+    kept = drawn(values[:, None])
+    return {
+        "times": packed(np.array(series.times)[kept], "float64"),
+        "values": packed(values[kept], "float32"),
+    }
+
+
+def drawn(values: Array) -> NDArray[np.int64]:
+    """Return which rows of (N, C) are drawn: all, or of each block the peaks of each column."""
+    count, columns = values.shape
+    if count <= CURVE:
+        return np.arange(count)
+    edges = np.linspace(0, count, max(CURVE // (2 * columns), 50) + 1).astype(int)
+    low, high = (np.nan_to_num(values, nan=worst) for worst in (np.inf, -np.inf))
+    peaks = [
+        begin + of[begin:end].argmin(axis=0)
+        for begin, end in pairwise(edges.tolist())
+        for of in (low, -high)
+    ]
+    return np.unique(np.concatenate([[0, count - 1], *peaks]))

@@ -1,3 +1,4 @@
+import type { Diagnostic } from '../words/diagnostic'
 import type { PackedArray } from './motion'
 
 /** A recorded session; `mrlab_ros/core/show/session.py` writes it. Times are s from the first
@@ -11,6 +12,8 @@ export interface SessionDocument {
   /** Of the room; a recording has none. */
   readonly surfaces: readonly SessionSurface[]
   readonly events: readonly SessionEvent[]
+  /** What is said of a recording; absent where something else is, such as a check. */
+  readonly report?: SessionFacts
 }
 
 /** The fields of mrlab_msgs/msg/Surface. */
@@ -70,8 +73,115 @@ export interface SessionObject {
 export interface SessionEvent {
   readonly time: number
   readonly robot: string
-  readonly severity: 'info' | 'warning' | 'error'
-  readonly text: string
+  /** Number of the run, from 1. */
+  readonly run: number
+  readonly said: Diagnostic
+}
+
+/** The facts of `SessionReport.facts()` that a page shows, and the curves. */
+export interface SessionFacts {
+  /** ns since the epoch; 0: nothing was recorded */
+  readonly start_ns: number
+  readonly summary: Diagnostic
+  readonly troubles: readonly Diagnostic[]
+  readonly runs: readonly SessionRun[]
+  readonly robots: readonly RobotFacts[]
+  readonly series: readonly MeasuredSeries[]
+}
+
+export interface SessionRun {
+  readonly number: number
+  readonly robot: string
+  readonly system: string
+  readonly trajectory: string
+  readonly start: number
+  readonly end: number
+  readonly result: 'completed' | 'stopped' | 'halted' | 'open'
+  readonly outcome: Diagnostic
+  /** s of the trajectory that were played, and its length; 0: not known */
+  readonly position: number
+  readonly length: number
+  readonly speeds: readonly number[]
+  readonly actions: readonly { readonly time: number; readonly said: Diagnostic }[]
+  readonly deviation: RunDeviation | null
+  readonly joints: readonly RunJoint[]
+  readonly figures: RunFigures | null
+  /** null: not recorded, or left out of many runs */
+  readonly curves: RunCurves | null
+}
+
+export interface RunJoint {
+  readonly name: string
+  readonly prismatic: boolean
+  /** rad or m; null: not known */
+  readonly lower: number | null
+  readonly upper: number | null
+}
+
+/** rad or m; the tool's in m */
+export interface RunDeviation {
+  readonly reference: string
+  readonly most: number
+  readonly joint: string
+  readonly time: number
+  readonly tool: number | null
+  readonly prismatic: boolean
+  readonly said: Diagnostic
+}
+
+/** m and m/s of the tool; null: not known */
+export interface RunFigures {
+  readonly way: number | null
+  readonly fastest: number | null
+  readonly fastest_at: number | null
+  readonly near: {
+    readonly joint: string
+    readonly prismatic: boolean
+    readonly room: number
+    readonly time: number
+  } | null
+}
+
+/** (N) s; (N, joints) rad or m; (N, 3) m in world. null: not known */
+export interface RunCurves {
+  readonly times: PackedArray
+  readonly joints: PackedArray
+  readonly expected: PackedArray | null
+  readonly tool: PackedArray | null
+  readonly expected_tool: PackedArray | null
+}
+
+export interface Span {
+  readonly start: number
+  readonly end: number
+  readonly label: string
+  readonly detail: string
+}
+
+export interface RobotFacts {
+  readonly name: string
+  readonly model: string
+  readonly states: readonly Span[]
+  readonly grasps: readonly Span[]
+  readonly collisions: readonly {
+    readonly time: number
+    readonly link: string
+    readonly other: string
+  }[]
+  readonly contacts: number
+  readonly joint_states: number
+  readonly frames_lost: number
+}
+
+/** A quantity of the lab itself over time: s, tracking rad. robot: empty: of all topics. */
+export interface MeasuredSeries {
+  readonly robot: string
+  readonly quantity: 'deadline' | 'tracking' | 'latency'
+  readonly hop: { readonly ends: string; readonly observer: string } | null
+  readonly p50: number
+  readonly p95: number
+  readonly max: number
+  readonly curve: { readonly times: PackedArray; readonly values: PackedArray } | null
 }
 
 export interface SessionTrack {

@@ -5,12 +5,11 @@ from __future__ import annotations
 import csv
 import io
 import json
-from dataclasses import replace
 
 import pytest
 from refusals import refused
 
-from mrlab_ros.core.base.diagnostic import of_text, plain
+from mrlab_ros.core.base.diagnostic import plain
 from mrlab_ros.core.classroom import gradebook
 from mrlab_ros.core.classroom.diagnostics import NO_FILE_HANDED_IN, NO_WORKSHEET
 from mrlab_ros.core.classroom.exports import Entry, recognise
@@ -20,7 +19,6 @@ from mrlab_ros.core.classroom.result import MARKED, NO_FILE, Result, without_mar
 from mrlab_ros.core.rubrics.diagnostics import NOTHING_TOUCHED
 from mrlab_ros.core.rubrics.marking import Mark, Marks
 from mrlab_ros.core.rubrics.rubric import Outcome, Rubric, Test
-from mrlab_ros.core.show.class_body import class_body
 
 FOUND = NOTHING_TOUCHED()
 
@@ -70,21 +68,6 @@ def test_another_maximum_of_moodle_is_said_once():
     assert len(problems) == 1
     assert problems[0].code == "maximum_differs"
     assert problems[0].values == {"found": "100", "points": 10.0}
-
-
-def test_a_name_that_turns_the_direction_of_writing_turns_nothing_else():
-    some = graded()
-    turned = replace(some.students[0].submission, name="\u202etxet")
-    page = class_body(replace(some, students=(Student(turned, some.students[0].result),)))
-    assert "<bdi>\\u202etxet</bdi>" in page
-    assert "\u202e" not in page
-
-
-def test_a_row_without_a_motion_says_why():
-    some = graded()
-    refused = replace(some.students[0].result, found=plain(of_text("'q' is in degrees")), path=())
-    page = class_body(replace(some, students=(Student(some.students[0].submission, refused),)))
-    assert '<small class="note">&#x27;q&#x27; is in degrees</small>' in page
 
 
 @pytest.mark.parametrize(
@@ -143,14 +126,6 @@ def test_the_document_of_a_class_is_json_and_its_figures_are_right():
     assert found["statistics"]["bins"] == [1, 0, 0, 0, 0, 0, 1, 0, 0, 0]
     assert [t["name"] for t in found["statistics"]["tests"]] == ["secret", "no collision"]
     assert found["students"][1]["outcome"] == NO_FILE
-
-
-def test_the_page_of_a_class_has_a_row_a_student_and_runs_no_name():
-    page = class_body(graded())
-    assert page.count("<tr data-key=") == 2
-    assert "Task &lt;1&gt;" in page
-    assert str(NO_FILE_HANDED_IN()) in page
-    assert 'data-outcome="no_file" data-late' not in page
 
 
 def test_pseudonyms_are_stable_and_say_nothing():

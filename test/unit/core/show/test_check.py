@@ -1,25 +1,28 @@
-"""The curves of a checked motion: each carries the marks of its own findings."""
+"""What a page shows of a check beside its scene."""
 
 from __future__ import annotations
 
-from mrlab_ros.core.checking.diagnostics import COLLISION
+import numpy as np
+
 from mrlab_ros.core.checking.recording import Distances, Rehearsed
 from mrlab_ros.core.physics.engine import Kind, Near
 from mrlab_ros.core.show.check import _distances
+from mrlab_ros.core.show.packed import unpacked
 
 
-def test_a_collision_marks_the_curve_of_what_is_touched() -> None:
+def test_the_least_distance_comes_first_and_what_is_far_is_a_gap() -> None:
     recorded = Rehearsed(times=[0.0, 1.0])
-    for other in ("can_1", "can_10"):
+    for other, last in (("can_1", 0.1), ("can_10", 0.0)):
         series = recorded.distances[("ur5e", (Kind.OBJECT, other))] = Distances()
-        for distance in (0.2, 0.0):
-            series.add(Near(distance, "wrist"))
-    found = COLLISION(
-        robot="ur5e", link="wrist", time=1.0, kind="object", other="can_10",
-        point=(0.0, 0.0, 0.0), value=0.0,
-    )  # fmt: skip
-    strips = [strip for strip, _ in _distances([found], recorded, several=False)]
-    assert {strip.name: len(strip.marks) for strip in strips} == {
-        "wrist to can_1": 0,
-        "wrist to can_10": 1,
-    }
+        series.add_far(1, 0.5)
+        series.add(Near(last, "wrist"))
+    far = recorded.distances[("ur5e", (Kind.OBJECT, "bin_1"))] = Distances()
+    far.add_far(2, 0.5)
+    found = _distances(recorded)
+    assert [(each["part"], each["kind"], each["other"]) for each in found] == [
+        ("wrist", "object", "can_10"),
+        ("wrist", "object", "can_1"),
+    ]
+    values = unpacked(found[1]["values"])
+    assert np.isnan(values[0])
+    assert values[1] == np.float32(0.1)

@@ -9,7 +9,7 @@ import zlib
 
 import numpy as np
 
-from mrlab_ros.core.show.motion_body import motion_body
+from mrlab_ros.core.show import static
 from mrlab_ros.core.show.packed import packed
 from mrlab_ros.core.show.page import Code, page
 
@@ -66,11 +66,22 @@ def test_what_a_file_says_cannot_become_markup():
             {
                 "severity": "error", "code": "c", "message": evil, "remedy": evil,
                 "variable": evil, "first_row": 2, "last_row": 3, "joint": evil, "value": None,
-                "limit": None, "unit": "", "fixes": [{"option": "", "value": "", "matlab": evil}],
+                "limit": None, "unit": "", "link": evil,
+                "fixes": [{"option": "", "value": "", "matlab": evil}],
             }
         ],
         "source": {"file": evil, "variable": evil, "sha256": ""},
     }  # fmt: skip
-    text = page(evil, motion_body(document, "data:,"), document, {}, CODE)
+    text = page(evil, static.motion(document, "data:,"), document, {}, CODE)
     assert "<script>alert" not in text
     assert text.count("<script") == 3
+
+
+def test_no_text_of_the_document_turns_the_direction_of_writing_and_arrays_stay():
+    document = {"title": "\u202etxet", "findings": [{"message": "a\u200b"}], "data": "\u202e"}
+    data = block(page("t", "", document, {}, CODE), "data")
+    (length,) = struct.unpack_from("<I", data)
+    shown = json.loads(data[4 : 4 + length])["document"]
+    assert shown["title"] == "\\u202etxet"
+    assert shown["findings"][0]["message"] == "a\\u200b"
+    assert shown["data"] == "\u202e"

@@ -1,4 +1,4 @@
-"""A recorded session as a document, and what its page says without a script."""
+"""A recorded session as a document of the page."""
 
 import re
 from pathlib import Path
@@ -9,17 +9,14 @@ import orjson
 from mrlab_ros.core.clock import PlaybackClock
 from mrlab_ros.core.geometry import Pose
 from mrlab_ros.core.recording.moves import ObjectTrack, Placed
-from mrlab_ros.core.recording.report import Contact, ReportedState, SessionReport
+from mrlab_ros.core.recording.report import Contact, Hop, ReportedState, Series, SessionReport
 from mrlab_ros.core.recording.run_finding import runs_of
 from mrlab_ros.core.recording.runs import Course, RunJoint
 from mrlab_ros.core.show import session as module
 from mrlab_ros.core.show.packed import unpacked
 from mrlab_ros.core.show.session import RecordedMotion, RecordedObject, Track, session
-from mrlab_ros.core.show.session_body import session_body
-from mrlab_ros.core.show.timeline_body import timeline
 
 CONTRACT = Path(__file__).parents[4] / "web" / "src" / "playback" / "session.ts"
-BEGAN = "2026-01-01 23:59:58"
 SHAPE = {
     "mesh": "",
     "size": {"x": 1.0, "y": 1.0, "z": 1.0},
@@ -77,6 +74,14 @@ def test_the_fields_are_those_of_the_contract():
     assert set(found["objects"][0]) == fields_of("SessionObject")
     assert set(found["events"][0]) == fields_of("SessionEvent")
     assert set(found["robots"][0]["track"]) == fields_of("SessionTrack")
+    told = found["report"]
+    assert set(told) == fields_of("SessionFacts")
+    (run,), (robot,) = told["runs"], told["robots"]
+    assert fields_of("SessionRun") <= set(run)
+    assert set(run["curves"]) == fields_of("RunCurves")
+    assert fields_of("RunFigures") <= set(run["figures"])
+    assert fields_of("RobotFacts") <= set(robot)
+    assert fields_of("Span") <= set(robot["states"][0])
     assert found["schema"] in CONTRACT.read_text()
 
 
@@ -91,7 +96,7 @@ def test_events_are_in_order_and_say_what_happened():
         (10.0, "info", "run_ended"),
     ]
     events = session("c", report, motion)["events"]
-    assert [(e["time"], e["severity"]) for e in events] == [each[:2] for each in told]
+    assert [(e["time"], e["said"]["severity"], e["said"]["code"]) for e in events] == told
 
 
 def test_a_robot_without_description_cannot_be_drawn():
@@ -122,32 +127,6 @@ def test_an_empty_track_is_empty():
     assert Track().document()["times"]["shape"] == [0]
 
 
-def test_the_page_says_it_without_a_script():
-    report, motion = recorded()
-    text = session_body("class", session("class", report, motion), report, BEGAN)
-    assert "1 robot" in text
-    wide = re.search(r'<svg class="strip states wide".*?</svg>', text, re.S).group(0)
-    assert wide.count('<rect class="state ') == 3
-    assert wide.count('class="hit"') == 1
-    assert "1 · pick" in wide
-    assert "00:00:00" in text  # 2 s after the session began
-    assert "holds &lt;cube&gt;" in text
-    assert "<cube>" not in text
-    assert 'data-time="6.000"' in text
-    assert 'class="result halted"' in text
-    assert text.count('class="path"') == 3
-    assert "limit 28.65 deg" in text  # 0.5 rad of the first joint, which comes near
-    assert "Technical" in text
-
-
-def test_a_session_in_which_nothing_was_played_says_so():
-    text = session_body(
-        "class", session("class", SessionReport(1.0, 0), RecordedMotion()),
-        SessionReport(1.0, 0), BEGAN,
-    )  # fmt: skip
-    assert "No robot played." in text
-
-
 def test_a_robot_is_drawn_while_the_scene_has_it():
     motion = RecordedMotion()
     for time, names in ((0.6, ["a"]), (5.0, ["a", "b"]), (7.0, ["b"]), (9.0, ["a", "b"])):
@@ -162,29 +141,39 @@ def test_the_link_that_touched_is_painted():
     assert robot["collisions"] == [[6.0, "forearm_link"]]
 
 
-def test_states_that_differ_in_what_is_loaded_alone_are_one_bar():
-    report = SessionReport(100.0, 0)
-    robot = report.robot("ur5e_1")
-    for time, label, loaded in (
-        (0.0, "IDLE", ""), (10.0, "READY", "a"), (20.0, "READY", "b"),
-        (30.0, "PLAYING", "b"), (30.01, "COMPLETE", "b"), (60.0, "PLAYING", "b"),
-    ):  # fmt: skip
-        robot.states.add(time, label, loaded)
-    report.robot("silent <1>")
-    text = timeline(report)
-    wide = re.search(r'<svg class="strip states wide".*?</svg>', text, re.S).group(0)
-    assert re.findall(r'class="state ([a-z-]+)"', wide) == [
-        "idle", "ready", "playing", "complete", "playing",
-    ]  # fmt: skip
-    assert "Without a run</span>: silent &lt;1&gt;" in text
-    assert "1:00" in text  # the axis of what lasts longer than 100 s, or as long, shows minutes
-    assert timeline(SessionReport(1.0, 0)) == ""
-
-
-def test_the_figures_of_a_run_stand_beside_the_way_of_its_tool():
+def test_the_curves_of_a_run_are_thinned_and_keep_their_peaks():
     report, motion = recorded()
-    text = session_body("class", session("class", report, motion), report, BEGAN)
-    figures = re.search(r'<dl class="run-figures">.*?</dl>', text, re.S).group(0)
-    assert "4.00 / 8.00 s, 1\N{MULTIPLICATION SIGN}" in figures
-    assert "(a)" in figures  # the joint that came nearest to its limit
-    assert "Reference" not in figures
+    (run,) = report.runs
+    count = 20 * module.CURVE
+    times = np.linspace(2.0, 9.0, count)
+    joints = np.column_stack([np.sin(times), np.cos(times)])
+    joints[count // 3, 1] = 7.0
+    joints[count // 2, 0] = np.nan
+    unknown = np.full((count, 2), np.nan)
+    run.course = Course(times, times - 2, joints, unknown, None)
+    (told,) = session("c", report, motion)["report"]["runs"]
+    curves = told["curves"]
+    shown = unpacked(curves["joints"])
+    assert len(shown) < 2 * module.CURVE
+    assert shown[:, 1].max() == 7.0
+    assert unpacked(curves["times"])[[0, -1]].tolist() == [2.0, 9.0]
+    assert (curves["expected"], curves["tool"]) == (None, None)
+
+
+def test_what_was_measured_of_the_lab_is_told_by_robot():
+    report, motion = recorded()
+    report.robot("ur5e_1").deadline.add(1.0, 0.002)
+    report.latency[Hop("published_to_bridged")] = Series([1.0, 2.0], [0.01, 0.03])
+    deadline, latency = session("c", report, motion)["report"]["series"]
+    assert (deadline["robot"], deadline["quantity"], deadline["max"]) == (
+        "ur5e_1", "deadline", 0.002,
+    )  # fmt: skip
+    assert latency["hop"] == {"ends": "published_to_bridged", "observer": ""}
+    assert unpacked(latency["curve"]["times"]).tolist() == [1.0, 2.0]
+
+
+def test_of_many_runs_the_first_are_drawn(monkeypatch):
+    monkeypatch.setattr(module, "MOST_RUNS", 0)
+    (run,) = session("c", *recorded())["report"]["runs"]
+    assert run["curves"] is None
+    assert run["outcome"]["code"] == "run_halted"

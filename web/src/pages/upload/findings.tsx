@@ -1,6 +1,6 @@
 import type { Diagnostic, Fix } from '../../api/types'
 import { Button } from '../../design/button'
-import { Icon } from '../../design/icons'
+import { FindingItem } from '../../design/finding'
 import { showToast } from '../../design/toast'
 import { say } from '../../words/diagnostic'
 import { words } from '../../words/words'
@@ -55,54 +55,39 @@ function Finding(props: FindingsProps & { finding: Diagnostic; number: number })
   const { finding, number, selected, onSelect, onFix, busy = false, chosenElsewhere } = props
   const w = words.value
   const where = place(finding)
-  const { message, remedy } = say(finding)
   const fixes = finding.fixes.filter((fix) => !chosenElsewhere || fix.option !== 'variable')
   // The same line of MATLAB comes with several options at times.
   const lines = [...new Set(fixes.map((fix) => fix.matlab).filter(Boolean))]
   return (
-    <li
-      class={`finding finding-${finding.severity}`}
-      data-code={finding.code}
-      aria-current={selected === number ? 'true' : undefined}
+    <FindingItem
+      number={number}
+      severity={finding.severity}
+      code={finding.code}
+      where={where}
+      {...say(finding)}
+      onShow={finding.first_row > 0 ? () => onSelect(number) : undefined}
+      shown={selected === number}
     >
-      <span class="finding-number">{number}</span>
-      <div class="finding-body">
-        <p class="finding-head">
-          <span class="finding-severity">
-            <Icon name={finding.severity} />
-            {w.severities[finding.severity]}
-          </span>
-          {finding.first_row > 0 ? (
-            <button type="button" class="finding-place" onClick={() => onSelect(number)}>
-              {where}
-            </button>
-          ) : (
-            <span class="second">{where}</span>
-          )}
-        </p>
-        <p>{message}</p>
-        {remedy && <p class="second small">{remedy}</p>}
-        {onFix && (
-          <div class="finding-fixes">
-            {fixes
-              .filter((fix) => applied({}, fix) !== null)
-              .map((fix) => (
-                <Button
-                  key={`${fix.option}=${fix.value}`}
-                  icon="wrench"
-                  disabled={busy}
-                  onClick={() => onFix(fix)}
-                >
-                  {fixLabel(fix, w)}
-                </Button>
-              ))}
-          </div>
-        )}
-        {lines.map((line) => (
-          <Matlab key={line} line={line} />
-        ))}
-      </div>
-    </li>
+      {onFix && (
+        <div class="finding-fixes">
+          {fixes
+            .filter((fix) => applied({}, fix) !== null)
+            .map((fix) => (
+              <Button
+                key={`${fix.option}=${fix.value}`}
+                icon="wrench"
+                disabled={busy}
+                onClick={() => onFix(fix)}
+              >
+                {fixLabel(fix, w)}
+              </Button>
+            ))}
+        </div>
+      )}
+      {lines.map((line) => (
+        <Matlab key={line} line={line} />
+      ))}
+    </FindingItem>
   )
 }
 

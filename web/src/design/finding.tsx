@@ -1,0 +1,51 @@
+import type { ComponentChildren } from 'preact'
+import { words } from '../words/words'
+import { Icon } from './icons'
+import './finding.css'
+
+interface FindingItemProps {
+  readonly number: number
+  readonly severity: 'info' | 'warning' | 'error'
+  readonly code: string
+  /** Where it applies, such as a joint and rows. */
+  readonly where: string
+  readonly message: string
+  readonly remedy: string
+  /** Absent where it has no place to go to. */
+  readonly onShow?: (() => void) | undefined
+  /** It is the one that is shown. */
+  readonly shown: boolean
+  readonly children?: ComponentChildren
+}
+
+/** A finding in a list, with the number that it has in plots and in 3D. */
+export function FindingItem(props: FindingItemProps) {
+  const { number, severity, code, where, message, remedy, onShow, shown, children } = props
+  return (
+    <li
+      class={`finding finding-${severity}`}
+      data-code={code}
+      aria-current={shown ? 'true' : undefined}
+    >
+      <span class="finding-number">{number}</span>
+      <div class="finding-body">
+        <p class="finding-head">
+          <span class="finding-severity">
+            <Icon name={severity} />
+            {words.value.severities[severity]}
+          </span>
+          {onShow ? (
+            <button type="button" class="finding-place" onClick={onShow}>
+              {where}
+            </button>
+          ) : (
+            <span class="second">{where}</span>
+          )}
+        </p>
+        <p>{message}</p>
+        {remedy && <p class="second small">{remedy}</p>}
+        {children}
+      </div>
+    </li>
+  )
+}

@@ -1,0 +1,412 @@
+import { createContext } from 'preact'
+import { useContext, useEffect, useMemo, useRef, useState } from 'preact/hooks'
+import { Icon } from '../design/icons'
+import { Notice } from '../design/notice'
+import { say } from '../words/diagnostic'
+import { number, words } from '../words/words'
+import type { ClassDocument, ClassMark, ClassResult, ClassStudent } from './class_document'
+import { type Column, FILTERS, type Filter, isShown, sorted } from './class_rows'
+import { printing } from './fold'
+import { Page } from './page'
+import { type Scale, scaleOf, Thumbnail, type Way } from './plot/thumbnail'
+
+// Rows that are drawn at once; more come when they are asked for.
+const ROWS = 300
+const MOST_GROUPS = 60
+const MOST_MEMBERS = 12
+const HISTOGRAM = { width: 480, height: 150, base: 128 }
+const STATES = {
+  passed: ['complete', 'good'],
+  partly: ['warning', 'part'],
+  lost: ['error', 'bad'],
+  none: ['circle', 'none'],
+} as const
+type State = keyof typeof STATES
+
+/** In what the ways of the class are drawn. */
+const Drawn = createContext<{ readonly scale: Scale; readonly reference: Way }>({
+  scale: scaleOf([]),
+  reference: [],
+})
+
+/** A graded class: what is common, a row a student, and who is alike. */
+export function ClassReport({ graded }: { graded: ClassDocument }) {
+  const w = words.value.report.class
+  const { students, reference, statistics } = graded
+  const drawn = useMemo(
+    () => ({
+      scale: scaleOf([...students.map(({ path }) => path), reference?.path ?? []]),
+      reference: reference?.path ?? [],
+    }),
+    [students, reference],
+  )
+  useEffect(() => {
+    document.documentElement.dataset.ready = 'true'
+  }, [])
+  const marked = students.filter((one) => one.marked).length
+  const all = number(graded.points)
+  return (
+    <Drawn.Provider value={drawn}>
+      <Page
+        title={graded.title}
+        facts={[
+          graded.robot,
+          graded.scene,
+          w.checked(marked, students.length),
+          w.average(number(statistics.mean), number(statistics.median), all),
+          w.full(statistics.full),
+          graded.form === 'folder' ? w.fromFolder : w.fromExport(graded.form),
+        ]}
+        notes={
+          reference &&
+          reference.points < reference.of && (
+            <Notice severity="warning">
+              {w.referenceGets(number(reference.points), number(reference.of))}
+            </Notice>
+          )
+        }
+        foot={[w.claim]}
+      >
+        <div class="class-cards">
+          <Histogram graded={graded} />
+          <Lost graded={graded} />
+          <Common graded={graded} />
+        </div>
+        <Students graded={graded} />
+        <Alike graded={graded} />
+        {graded.left_out_count > 0 && (
+          <details class="card report-fold">
+            <summary>
+              <h2>{w.leftOut(graded.left_out_count)}</h2>
+            </summary>
+            <ul class="small">
+              {graded.left_out.map(({ file, why }) => (
+                <li key={file}>
+                  <code>{file}</code> {say(why).message}
+                </li>
+              ))}
+            </ul>
+          </details>
+        )}
+      </Page>
+    </Drawn.Provider>
+  )
+}
+
+function Histogram({ graded }: { graded: ClassDocument }) {
+  const w = words.value.report
+  const { bins } = graded.statistics
+  const { width, height, base } = HISTOGRAM
+  const most = Math.max(...bins, 1)
+  const step = width / bins.length
+  return (
+    <section class="card">
+      <h2>{w.pointsHead}</h2>
+      <svg
+        class="histogram"
+        viewBox={`0 0 ${width} ${height}`}
+        role="img"
+        aria-label={w.class.histogram(bins.join(', '))}
+      >
+        <line x1="0" x2={width} y1={base} y2={base} />
+        {bins.map((count, i) => {
+          const tall = ((base - 20) * count) / most
+          return (
+            <g key={i}>
+              <rect x={i * step + 3} y={base - tall} width={step - 6} height={tall} rx="2" />
+              {count > 0 && (
+                <text x={(i + 0.5) * step} y={base - tall - 5}>
+                  {count}
+                </text>
+              )}
+              {i % 2 === 0 && (
+                <text class="tick" x={i * step} y={height - 6}>
+                  {number((graded.points * i) / bins.length)}
+                </text>
+              )}
+            </g>
+          )
+        })}
+        <text class="tick end" x={width} y={height - 6}>
+          {number(graded.points)}
+        </text>
+      </svg>
+    </section>
+  )
+}
+
+function Lost({ graded }: { graded: ClassDocument }) {
+  const w = words.value.report.class
+  const { tests } = graded.statistics
+  return (
+    <section class="card">
+      <h2>{w.lost}</h2>
+      {tests.length === 0 && <p class="small">{w.nobodyLost}</p>}
+      <ol class="counts">
+        {tests.map(({ name, students }) => (
+          <li key={name}>
+            <meter min={0} max={graded.students.length} value={students} />
+            <b>{students}</b>
+            <span>{name}</span>
+          </li>
+        ))}
+      </ol>
+    </section>
+  )
+}
+
+function Common({ graded }: { graded: ClassDocument }) {
+  const w = words.value.report.class
+  const { findings } = graded.statistics
+  return (
+    <section class="card">
+      <h2>{w.commonest}</h2>
+      {findings.length === 0 && <p class="small">{w.nothingFound}</p>}
+      <ol class="counts messages">
+        {findings.map(({ severity, students, said }) => (
+          <li key={said.code + said.message} class={`tone-${severity}`}>
+            <b>{students}</b>
+            <span>{say(said).message}</span>
+          </li>
+        ))}
+      </ol>
+    </section>
+  )
+}
+
+function Students({ graded }: { graded: ClassDocument }) {
+  const w = words.value.report
+  const { students, reference, tests, similar } = graded
+  const [text, setText] = useState('')
+  const [filter, setFilter] = useState<Filter>('')
+  const [order, setOrder] = useState<{ column: Column; descending: boolean } | null>(null)
+  const [count, setCount] = useState(ROWS)
+  const search = useRef<HTMLInputElement>(null)
+  const alike = useMemo(() => new Set(similar.groups.flatMap(({ keys }) => keys)), [similar])
+  useEffect(() => {
+    const key = (event: KeyboardEvent) => {
+      if (event.key !== '/' || event.target instanceof HTMLInputElement) return
+      event.preventDefault()
+      search.current?.focus()
+    }
+    document.addEventListener('keydown', key)
+    return () => document.removeEventListener('keydown', key)
+  }, [])
+  const found = students.filter((row) => isShown(row, text, filter, alike))
+  const rows = order === null ? found : sorted(found, order.column, order.descending)
+  const drawn = printing.value ? rows : rows.slice(0, count)
+  // names from A, points from the most; once more turns it round
+  const sortBy = (column: Column) => {
+    const descending = order?.column === column ? !order.descending : column !== 'name'
+    setOrder({ column, descending })
+  }
+  const head = (column: Column, title: string, more: readonly string[] = []) => (
+    <th
+      scope="col"
+      key={column}
+      class={typeof column === 'number' ? 'test' : column}
+      aria-sort={order?.column !== column ? 'none' : order.descending ? 'descending' : 'ascending'}
+    >
+      <button type="button" onClick={() => sortBy(column)}>
+        {title}
+      </button>
+      {more.map((each) => (
+        <small key={each}>{each}</small>
+      ))}
+    </th>
+  )
+  return (
+    <section class="card students" aria-label={w.class.students}>
+      <div class="tools">
+        <label>
+          {w.class.search}{' '}
+          <input
+            type="search"
+            ref={search}
+            value={text}
+            onInput={(event) => setText(event.currentTarget.value)}
+          />
+        </label>
+        <label>
+          {w.class.show}{' '}
+          <select
+            value={filter}
+            onChange={(event) => setFilter(event.currentTarget.value as Filter)}
+          >
+            {FILTERS.map((each) => (
+              <option key={each} value={each}>
+                {w.class.filters[each]}
+              </option>
+            ))}
+          </select>
+        </label>
+        <span class="legend">
+          {(Object.keys(STATES) as State[]).map((state) => (
+            <span key={state} class={`result result-${STATES[state][1]}`}>
+              <Icon name={STATES[state][0]} />
+              {w.class.states[state]}
+            </span>
+          ))}
+        </span>
+        <output aria-live="polite">{w.class.shown(rows.length, students.length)}</output>
+      </div>
+      {/* biome-ignore lint/a11y/noNoninteractiveTabindex: what scrolls is reached by keyboard */}
+      <div class="scroll" tabIndex={0}>
+        <table>
+          <thead>
+            <tr>
+              {head('name', w.class.student)}
+              <th scope="col">{w.class.motion}</th>
+              {head('points', w.pointsHead, [number(graded.points)])}
+              {tests.map((test, place) =>
+                head(place, test.name, [number(test.points), ...(test.hidden ? [w.hidden] : [])]),
+              )}
+            </tr>
+          </thead>
+          <tbody>
+            {drawn.map((row) => (
+              <Row key={row.key} result={row} student={row} />
+            ))}
+          </tbody>
+          {reference && (
+            <tfoot>
+              <Row result={reference} student={null} />
+            </tfoot>
+          )}
+        </table>
+      </div>
+      {drawn.length < rows.length && (
+        <p>
+          <button type="button" class="button" onClick={() => setCount(count + ROWS)}>
+            {w.class.more(rows.length - drawn.length)}
+          </button>
+        </p>
+      )}
+    </section>
+  )
+}
+
+function Linked({ to, children }: { to: string | null; children: preact.ComponentChildren }) {
+  return to === null ? <span>{children}</span> : <a href={to}>{children}</a>
+}
+
+function Row({ result, student }: { result: ClassResult; student: ClassStudent | null }) {
+  const w = words.value.report
+  const { marked, path, page } = result
+  const notes = student?.notes ?? []
+  // a row without a motion says why
+  const why = !marked || (path.length === 0 && page === null) ? [result.said, ...notes] : notes
+  return (
+    <tr data-key={result.key}>
+      <th scope="row">
+        <Linked to={page}>
+          {student === null ? w.class.reference : <bdi>{student.name}</bdi>}
+        </Linked>
+        {student?.identifier && <small>{student.identifier}</small>}
+        {student?.late && <small class="late">{w.class.late}</small>}
+        {student && result.file && (
+          <small>
+            <bdi>{result.file}</bdi>
+          </small>
+        )}
+        {why.map((note) => (
+          <small key={note.message} class="why" title={say(note).message}>
+            {say(note).message}
+          </small>
+        ))}
+      </th>
+      <td>
+        <Picture result={result} />
+      </td>
+      <td class="points">
+        <b>{number(result.points)}</b>
+        {student && <meter min={0} max={result.of || 1} value={result.points} />}
+      </td>
+      {result.marks.map((mark, place) => (
+        <Cell key={place} mark={mark} marked={marked} page={page} />
+      ))}
+    </tr>
+  )
+}
+
+function Cell({ mark, marked, page }: { mark: ClassMark; marked: boolean; page: string | null }) {
+  const state: State = !marked
+    ? 'none'
+    : mark.passed
+      ? 'passed'
+      : mark.points > 0
+        ? 'partly'
+        : 'lost'
+  const [icon, kind] = STATES[state]
+  const at = mark.time === null ? '' : `#t=${mark.time.toFixed(2)}`
+  const when = mark.time === null ? '' : `${number(mark.time, 2, 2)} s: `
+  return (
+    <td title={`${when}${say(mark.found).message}`}>
+      <Linked to={page === null ? null : page + at}>
+        <span class={`result result-${kind}`}>
+          <Icon name={icon} />
+          <span class="spoken">{words.value.report.class.states[state]}</span>
+          {number(mark.points)}
+        </span>
+      </Linked>
+    </td>
+  )
+}
+
+function Picture({ result, spots = true }: { result: ClassResult; spots?: boolean }) {
+  const { scale, reference } = useContext(Drawn)
+  const { path, marks, duration, page } = result
+  if (path.length === 0) return null
+  const lost = marks.flatMap(({ time, passed }) =>
+    spots && time !== null && !passed && duration ? [time / duration] : [],
+  )
+  return (
+    <Linked to={page}>
+      <Thumbnail way={path} reference={reference} scale={scale} lost={lost} />
+    </Linked>
+  )
+}
+
+function Alike({ graded }: { graded: ClassDocument }) {
+  const w = words.value.report.class
+  const { groups, threshold, usual, as_reference } = graded.similar
+  const byKey = useMemo(
+    () => new Map(graded.students.map((student) => [student.key, student])),
+    [graded],
+  )
+  const more = groups.length - MOST_GROUPS
+  return (
+    <section class="card alike">
+      <h2>{w.alike}</h2>
+      {groups.length === 0 && <p class="small">{w.nobodyAlike}</p>}
+      <ol class="groups">
+        {groups.slice(0, MOST_GROUPS).map(({ keys, equal, apart }) => (
+          <li key={keys.join()}>
+            <p class="second small">{equal ? w.sameFile : w.apart(number(apart, 2))}</p>
+            <ul>
+              {keys.slice(0, MOST_MEMBERS).map((key) => {
+                const student = byKey.get(key)
+                return (
+                  student && (
+                    <li key={key} data-alike={key}>
+                      <Picture result={student} spots={false} />
+                      <Linked to={student.page}>
+                        <bdi>{student.name}</bdi>
+                      </Linked>
+                    </li>
+                  )
+                )
+              })}
+              {keys.length > MOST_MEMBERS && <li>{w.andMore(keys.length - MOST_MEMBERS)}</li>}
+            </ul>
+          </li>
+        ))}
+        {more > 0 && <li>{w.andMoreGroups(more)}</li>}
+      </ol>
+      <p class="second small">
+        {w.howAlike(number(threshold), usual === null ? null : number(usual))}
+        {as_reference > 0 && ` ${w.asReference(as_reference)}`}
+      </p>
+    </section>
+  )
+}

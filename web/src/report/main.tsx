@@ -1,0 +1,61 @@
+import '../design/styles'
+import '../design/plot/plot.css'
+import '../scene/scene.css'
+import './report.css'
+import { render, type VNode } from 'preact'
+import type { MotionDocument } from '../playback/motion'
+import type { SessionDocument, SessionFacts } from '../playback/session'
+import { languages, setLanguage } from '../words/words'
+import { type CheckFacts, CheckReport } from './check'
+import type { ClassDocument } from './class_document'
+import { ClassReport } from './classroom'
+import type { Picture } from './findings'
+import { MotionReport } from './motion'
+import { type ShownData, unpackData } from './packed_data'
+import { followPrinting } from './page'
+import { SessionReport } from './session'
+
+declare global {
+  /** What the page's first script unpacked. */
+  var mrlabData: ArrayBuffer | undefined
+}
+
+function reportOf({ document: data, meshes }: ShownData, pictures: Picture[]): VNode {
+  const shown = data as
+    | MotionDocument
+    | (SessionDocument & { readonly check?: CheckFacts })
+    | ClassDocument
+  if (shown.schema === 'mrlab.motion.1') {
+    return <MotionReport motion={shown} meshes={meshes} pictures={pictures} />
+  }
+  if (shown.schema === 'mrlab.class.1') return <ClassReport graded={shown} />
+  if (shown.check) {
+    return <CheckReport session={shown} check={shown.check} meshes={meshes} pictures={pictures} />
+  }
+  return <SessionReport session={shown} report={shown.report as SessionFacts} meshes={meshes} />
+}
+
+/** Return the first of the reader's languages that there is; a file keeps no choice. */
+function preferred(): string {
+  const known = languages()
+  return (
+    navigator.languages.map((tag) => tag.slice(0, 2)).find((tag) => known.includes(tag)) ?? 'en'
+  )
+}
+
+/** Put the report in the place of what stands there without a script. */
+async function start(data: ShownData): Promise<void> {
+  const root = document.getElementById('report')
+  if (root === null) return
+  await setLanguage(preferred(), false)
+  const pictures = [...root.querySelectorAll<HTMLImageElement>('.poster img')].map((picture) => ({
+    source: picture.src,
+    text: picture.alt,
+  }))
+  root.replaceChildren()
+  document.documentElement.dataset.shown = 'true'
+  followPrinting()
+  render(reportOf(data, pictures), root)
+}
+
+if (globalThis.mrlabData !== undefined) void start(unpackData(globalThis.mrlabData))

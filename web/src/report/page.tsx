@@ -1,0 +1,60 @@
+import { effect } from '@preact/signals'
+import type { ComponentChildren } from 'preact'
+import { words } from '../words/words'
+import { printing } from './fold'
+import { Hatch } from './plot/strip_plot'
+
+interface PageProps {
+  readonly chip?: ComponentChildren
+  /** What was found, or the name of what is shown. */
+  readonly title: string
+  /** Parts of the line below it; empty ones are left out. */
+  readonly facts: readonly ComponentChildren[]
+  readonly notes?: ComponentChildren
+  /** Parts of the last line. */
+  readonly foot: readonly ComponentChildren[]
+  readonly children: ComponentChildren
+}
+
+/** Put a dot between the parts that are there. */
+export function dotted(parts: readonly ComponentChildren[]): ComponentChildren[] {
+  return parts.filter(Boolean).flatMap((part, i) => (i > 0 ? [' · ', part] : [part]))
+}
+
+/** A report: its head, what it shows, its foot. */
+export function Page({ chip, title, facts, notes, foot, children }: PageProps) {
+  return (
+    <>
+      <Hatch />
+      <header class="report-head">
+        {chip && <p class="row">{chip}</p>}
+        <h1>{title}</h1>
+        <p class="facts">{dotted(facts)}</p>
+        {notes}
+      </header>
+      <main class="report-main">{children}</main>
+      <footer class="report-foot">{dotted([...foot, words.value.report.madeBy])}</footer>
+    </>
+  )
+}
+
+/** Let paper show all of the page, dark on white. Return what ends it. */
+export function followPrinting(): () => void {
+  const begin = () => {
+    printing.value = true
+  }
+  const end = () => {
+    printing.value = false
+  }
+  addEventListener('beforeprint', begin)
+  addEventListener('afterprint', end)
+  const light = effect(() => {
+    if (printing.value) document.documentElement.dataset.theme = 'light'
+    else delete document.documentElement.dataset.theme
+  })
+  return () => {
+    removeEventListener('beforeprint', begin)
+    removeEventListener('afterprint', end)
+    light()
+  }
+}
